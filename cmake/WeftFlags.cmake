@@ -1,0 +1,23 @@
+# One set of flags for all code that feeds a result: the same bits on every x86-64 processor.
+# No fused multiply-add, no fast-math, no -march: see docs/decisions/0001-one-result-everywhere.md.
+add_library(weft_flags INTERFACE)
+target_compile_features(weft_flags INTERFACE cxx_std_20)
+target_compile_options(weft_flags INTERFACE
+  -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd)
+target_include_directories(weft_flags INTERFACE
+  "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>")
+
+# Warnings stay private to this project's own targets.
+add_library(weft_warnings INTERFACE)
+target_compile_options(weft_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wcast-align -Wunused
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>)
+if(WEFT_WARNINGS_AS_ERRORS)
+  target_compile_options(weft_warnings INTERFACE -Werror)
+endif()
+
+if(WEFT_SANITIZE)
+  target_compile_options(weft_flags INTERFACE -fsanitize=${WEFT_SANITIZE} -fno-omit-frame-pointer
+    -fno-sanitize-recover=all)
+  target_link_options(weft_flags INTERFACE -fsanitize=${WEFT_SANITIZE})
+endif()

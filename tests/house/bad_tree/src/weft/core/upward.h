@@ -1,0 +1,2 @@
+#pragma once
+#include "weft/mesh/triangle_mesh.h"

@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""Checks who includes whom: lower modules never see higher ones; app-level code sees all.
+
+Usage: check_includes.py SOURCE_FOLDER   (exit 1 and one line a violation)
+"""
+import pathlib
+import re
+import sys
+
+# What each module may include besides itself (docs/architecture.md draws the same).
+ALLOWED = {
+    "core": set(),
+    "mesh": {"core"},
+    "cut": {"core", "mesh"},
+    "param": {"core", "mesh", "cut"},
+    "image": {"core", "mesh", "cut", "param"},
+    "cloth": {"core", "image"},
+    "collide": {"core", "mesh", "image"},
+    "sim": {"core", "mesh", "cut", "param", "image", "cloth", "collide"},
+    "view": {"core", "mesh", "cut", "param", "image"},
+}
+EIGEN_MODULES = {"cut", "param", "cloth"}  # and only in .cpp files
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
+
+
+def violations(root: pathlib.Path):
+    for path in sorted((root / "src/weft").rglob("*")):
+        if path.suffix not in (".h", ".cpp"):
+            continue
+        module = path.relative_to(root / "src/weft").parts[0]
+        if module not in ALLOWED:
+            yield f"{path}: folder '{module}' is no module; known: {', '.join(ALLOWED)}"
+            continue
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            kind, name = match.groups()
+            where = f"{path}:{number}"
+            if name.startswith("Eigen/") and (path.suffix == ".h" or module not in EIGEN_MODULES):
+                yield f"{where}: Eigen belongs into .cpp files of {', '.join(sorted(EIGEN_MODULES))}"
+            if kind == '"' and not name.startswith("weft/"):
+                yield f"{where}: '{name}' is not a full path; write \"weft/...\""
+            if name.startswith("weft/"):
+                other = name.split("/")[1]
+                if other != module and other not in ALLOWED[module]:
+                    yield f"{where}: {module} must not include {other}"
+
+
+def main() -> int:
+    found = list(violations(pathlib.Path(sys.argv[1])))
+    print("\n".join(found) if found else "includes are in order")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
