@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft {
+
+/// How many letters must be put in, taken out or replaced to turn one word into the other
+/// (Levenshtein 1966).
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate with the least edit distance to `name`, the first of several; empty when there is
+/// no candidate. For errors that say what was probably meant.
+std::string nearest_name(std::string_view name, const std::vector<std::string_view>& candidates);
+
+}  // namespace weft

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string_view>
+
+namespace weft {
+
+/// Told how far long work has come. An implementation throws Interrupted from `update` when its
+/// user asked to stop: work that calls it must be safe to unwind there.
+class Progress {
+ public:
+  Progress() = default;
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  virtual ~Progress() = default;
+  /// @param stage     what is being done, a few words
+  /// @param fraction  of that stage, in [0, 1]
+  virtual void update(std::string_view stage, double fraction) = 0;
+};
+
+/// For callers that do not watch.
+inline void update(Progress* progress, std::string_view stage, double fraction) {
+  if (progress != nullptr) progress->update(stage, fraction);
+}
+
+}  // namespace weft

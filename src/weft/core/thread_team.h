@@ -1,0 +1,86 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+namespace weft {
+
+/// A half-open range of rows, samples or the like.
+struct Range {
+  int first = 0, last = 0;
+};
+
+class ThreadTeam;
+
+/// One member of a team inside a parallel region.
+class Worker {
+ public:
+  /// The part of 0 .. count - 1 that is this worker's: contiguous, fixed by rank and team size.
+  /// What is computed must not depend on it, so that any team gives the same bits.
+  [[nodiscard]] Range share(int count) const {
+    const auto part = [&](int r) { return static_cast<int>(std::int64_t{count} * r / size_); };
+    return {part(rank_), part(rank_ + 1)};
+  }
+  [[nodiscard]] int rank() const { return rank_; }
+  /// Waits until every worker of the team is here.
+  void barrier();
+
+ private:
+  friend class ThreadTeam;
+  Worker(ThreadTeam& team, int rank, int size) : team_(&team), rank_(rank), size_(size) {}
+  ThreadTeam* team_;
+  int rank_, size_;
+};
+
+/// A fixed team of threads that runs parallel regions; whole algorithms with many barriers stay
+/// inside one region. `run` allocates nothing. The caller is worker 0, so a team of one starts no
+/// thread.
+class ThreadTeam {
+ public:
+  /// @param size  threads, >= 1
+  explicit ThreadTeam(int size);
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+  ~ThreadTeam();
+
+  [[nodiscard]] int size() const { return size_; }
+
+  /// Calls body(worker) on every worker and returns when all are done. The body must not throw.
+  template <class Body>
+  void run(Body&& body) {
+    using Plain = std::remove_reference_t<Body>;
+    run_task({[](void* context, Worker& worker) { (*static_cast<Plain*>(context))(worker); },
+              const_cast<void*>(static_cast<const void*>(&body))});
+  }
+
+ private:
+  friend class Worker;
+  struct Task {
+    void (*call)(void*, Worker&) = nullptr;
+    void* context = nullptr;
+  };
+  void run_task(Task task);
+  void serve(int rank);
+  void wait_for_all();
+
+  int size_;
+  Task task_;
+  // Workers sleep between regions and spin briefly, then yield, at barriers inside one.
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::uint64_t region_ = 0;
+  bool stop_ = false;
+  std::atomic<int> arrived_{0};
+  std::atomic<std::uint64_t> phase_{0};
+  std::vector<std::thread> threads_;
+};
+
+inline void Worker::barrier() { team_->wait_for_all(); }
+
+}  // namespace weft

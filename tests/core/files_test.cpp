@@ -1,0 +1,91 @@
+#include "weft/core/files.h"
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "weft/core/error.h"
+
+namespace weft {
+namespace {
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder = fs::path(testing::TempDir()) /
+             (std::string("weft_files_") +
+              testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  [[nodiscard]] int entries() const {
+    int count = 0;
+    for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder)) ++count;
+    return count;
+  }
+  fs::path folder;
+};
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::input);
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST_F(Files, WrittenFileReadsBackTheSame) {
+  const std::string bytes("a\0b\n\xff", 5);
+  write_file(folder / "f.bin", [&](std::ostream& out) { out << bytes; });
+  EXPECT_EQ(read_file(folder / "f.bin"), bytes);
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(Files, FailedWriteLeavesTheOldFileAndNothingElse) {
+  write_file(folder / "f.txt", [](std::ostream& out) { out << "old"; });
+  EXPECT_THROW(write_file(folder / "f.txt",
+                          [](std::ostream& out) {
+                            out << "half";
+                            throw Interrupted();
+                          }),
+               Interrupted);
+  EXPECT_EQ(read_file(folder / "f.txt"), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(Files, FullDiskIsAnErrorAndLeavesNothing) {
+  rlimit old{};
+  getrlimit(RLIMIT_FSIZE, &old);
+  const rlimit small{4096, old.rlim_max};
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string message = message_of([&] {
+    write_file(folder / "big.bin", [](std::ostream& out) { out << std::string(100000, 'x'); });
+  });
+  setrlimit(RLIMIT_FSIZE, &old);
+  (void)std::signal(SIGXFSZ, old_handler);
+  EXPECT_NE(message.find("big.bin: cannot be written"), std::string::npos) << message;
+  EXPECT_EQ(entries(), 0);
+}
+
+TEST_F(Files, ErrorsNameThePathAndTheReason) {
+  const auto read = [](const fs::path& path) { return message_of([&] { (void)read_file(path); }); };
+  const auto write = [](const fs::path& path) {
+    return message_of([&] { write_file(path, [](std::ostream&) {}); });
+  };
+  EXPECT_NE(read(folder / "none").find("none: cannot be opened: No such file"), std::string::npos);
+  EXPECT_NE(read(folder).find("is a folder"), std::string::npos);
+  EXPECT_NE(write(folder / "no" / "f").find("cannot be written: No such file"), std::string::npos);
+  EXPECT_NE(write(folder).find("is a folder"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace weft

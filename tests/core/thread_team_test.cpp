@@ -1,0 +1,86 @@
+#include "weft/core/thread_team.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "weft/core/ordered_sum.h"
+#include "weft/core/random.h"
+
+namespace weft {
+namespace {
+
+constexpr std::array team_sizes{1, 2, 3, 7};
+
+TEST(ThreadTeam, SharesCoverEveryIndexOnce) {
+  for (const int size : team_sizes) {
+    ThreadTeam team(size);
+    std::vector<int> touched(1001, 0);
+    team.run([&](Worker& worker) {
+      const Range mine = worker.share(1001);
+      for (int i = mine.first; i < mine.last; ++i) ++touched[i];
+    });
+    EXPECT_EQ(std::accumulate(touched.begin(), touched.end(), 0), 1001) << size;
+    EXPECT_EQ(*std::max_element(touched.begin(), touched.end()), 1) << size;
+  }
+}
+
+TEST(ThreadTeam, BarrierMakesEarlierWritesVisible) {
+  for (const int size : team_sizes) {
+    ThreadTeam team(size);
+    std::vector<int> values(64, 0), neighbours(64, 0);
+    team.run([&](Worker& worker) {
+      const Range mine = worker.share(64);
+      for (int round = 1; round <= 50; ++round) {
+        for (int i = mine.first; i < mine.last; ++i) values[i] = round * (i + 1);
+        worker.barrier();
+        for (int i = mine.first; i < mine.last; ++i) neighbours[i] = values[(i + 17) % 64];
+        worker.barrier();
+        for (int i = mine.first; i < mine.last; ++i)
+          if (neighbours[i] != round * ((i + 17) % 64 + 1)) values[i] = -1;
+      }
+    });
+    for (const int value : values) EXPECT_GT(value, 0) << size;
+  }
+}
+
+TEST(ThreadTeam, RunsManyRegionsInTurn) {
+  ThreadTeam team(3);
+  std::array<int, 3> counts{};
+  for (int i = 0; i < 2000; ++i) team.run([&](Worker& worker) { ++counts[worker.rank()]; });
+  EXPECT_EQ(counts, (std::array{2000, 2000, 2000}));
+}
+
+TEST(OrderedSum, GivesTheSameBitsForAnyTeam) {
+  constexpr int rows = 37, cols = 501;
+  Random random(7);
+  std::vector<double> values(rows * cols);
+  for (double& value : values) value = random.uniform(-1, 1) * (random.index(5) == 0 ? 1e12 : 1e-6);
+  std::vector<double> totals;
+  for (const int size : team_sizes) {
+    ThreadTeam team(size);
+    RowSums sums(rows);
+    double total = 0;
+    team.run([&](Worker& worker) {
+      const auto row_sum = [&](int r) {
+        return lane_sum(cols, [&](int c) { return values[r * cols + c]; });
+      };
+      double mine = 0;
+      for (int repeat = 0; repeat < 20; ++repeat) mine = sums.sum(worker, row_sum);
+      if (worker.rank() == 0) total = mine;
+    });
+    totals.push_back(total);
+  }
+  for (const double total : totals) EXPECT_EQ(total, totals.front());
+}
+
+TEST(OrderedSum, LaneSumAddsEveryTermOnce) {
+  for (int count = 0; count < 40; ++count)
+    EXPECT_EQ(lane_sum(count, [](int i) { return i + 1.0; }), count * (count + 1) / 2.0);
+}
+
+}  // namespace
+}  // namespace weft
