@@ -1,0 +1,87 @@
+#include "weft/mesh/distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "weft/core/assert.h"
+#include "weft/core/random.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+namespace {
+
+struct OneSided {
+  double mean_square = 0, largest_square = 0;
+};
+
+Vec3d random_point(const TriangleMesh& mesh, int triangle, Random& random) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  // The square root makes the pair of weights uniform over the triangle.
+  const double s = std::sqrt(random.uniform()), t = random.uniform();
+  return (1 - s) * mesh.positions[a] + (s * (1 - t)) * mesh.positions[b] +
+         (s * t) * mesh.positions[c];
+}
+
+/// From samples to their closest points: squared distances, each worked out from its sample alone.
+std::vector<double> squared_distances(const std::vector<Vec3d>& samples,
+                                      const ClosestPointQuery& query, int threads) {
+  std::vector<double> squared(samples.size());
+  ThreadTeam team(threads);
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(static_cast<int>(samples.size()));
+    int hint = 0;
+    for (int i = mine.first; i < mine.last; ++i) {
+      const ClosestPoint found = query.closest(samples[i], hint);
+      squared[i] = found.squared_distance;
+      hint = found.triangle;
+    }
+  });
+  return squared;
+}
+
+OneSided one_sided(const TriangleMesh& from, const TriangleMesh& to,
+                   const DistanceOptions& options) {
+  const std::vector<double> squared = squared_distances(
+      sample_surface(from, options.samples, options.seed), ClosestPointQuery(to), options.threads);
+  OneSided result;
+  for (const double d : squared) {
+    result.mean_square += d;
+    result.largest_square = std::max(result.largest_square, d);
+  }
+  result.mean_square /= static_cast<double>(squared.size());
+  return result;
+}
+
+}  // namespace
+
+std::vector<Vec3d> sample_surface(const TriangleMesh& mesh, int count, std::uint64_t seed) {
+  WEFT_ASSERT(!mesh.triangles.empty());
+  std::vector<double> area_up_to(mesh.triangles.size());
+  double total = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    total += 0.5 * length(cross(mesh.positions[b] - mesh.positions[a],
+                                mesh.positions[c] - mesh.positions[a]));
+    area_up_to[t] = total;
+  }
+  Random random(seed);
+  std::vector<Vec3d> samples(count);
+  std::size_t triangle = 0;
+  for (int i = 0; i < count; ++i) {
+    const double area = total * ((i + random.uniform()) / count);
+    while (triangle + 1 < area_up_to.size() && area_up_to[triangle] <= area) ++triangle;
+    samples[i] = random_point(mesh, static_cast<int>(triangle), random);
+  }
+  return samples;
+}
+
+SurfaceDistance surface_distance(const TriangleMesh& a, const TriangleMesh& b,
+                                 const DistanceOptions& options) {
+  WEFT_ASSERT(options.samples > 0 && options.threads > 0);
+  const OneSided there = one_sided(a, b, options), back = one_sided(b, a, options);
+  return {.rms = std::sqrt(std::max(there.mean_square, back.mean_square)),
+          .hausdorff = std::sqrt(std::max(there.largest_square, back.largest_square))};
+}
+
+}  // namespace weft

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "weft/mesh/triangle_mesh.h"
+
+namespace weft {
+
+/// Every undirected edge with the half-edges (3 t + k, as in weft/mesh/topology.h) that run along
+/// it, of any mesh: nothing is asked of its manifoldness or orientation.
+struct EdgeUses {
+  std::vector<int> half_edges;  ///< [3F] edge after edge, ascending inside one edge
+  std::vector<int> first;       ///< [E+1] where each edge begins in half_edges
+
+  [[nodiscard]] int edge_count() const { return static_cast<int>(first.size()) - 1; }
+  [[nodiscard]] std::span<const int> of(int edge) const {
+    return std::span(half_edges).subspan(first[edge], first[edge + 1] - first[edge]);
+  }
+};
+
+/// Edges in ascending order of their lesser, then their larger vertex.
+/// @pre indices in [0, vertex_count)
+EdgeUses edge_uses(int vertex_count, std::span<const Triangle> triangles);
+
+/// An edge as errors name it: "vertices 3 and 7 (counted from 0)".
+std::string edge_name(std::span<const Triangle> triangles, const EdgeUses& edges, int edge);
+
+}  // namespace weft

@@ -1,0 +1,72 @@
+#include "weft/mesh/io/line_reader.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/mesh/io/number.h"
+
+namespace weft {
+
+bool LineReader::next_line() {
+  line_ = {};
+  if (position_ >= bytes_.size()) return false;
+  const std::size_t end = std::min(bytes_.find_first_of("\r\n", position_), bytes_.size());
+  line_ = bytes_.substr(position_, end - position_);
+  position_ = std::min(end + (bytes_.substr(end, 2) == "\r\n" ? 2 : 1), bytes_.size());
+  ++number_;
+  return true;
+}
+
+bool LineReader::next_filled_line() {
+  while (next_line()) {
+    const std::size_t start = line_.find_first_not_of(" \t");
+    if (start != line_.npos && line_[start] != '#') return true;
+  }
+  return false;
+}
+
+std::string_view LineReader::next_field() {
+  const std::size_t start = line_.find_first_not_of(" \t");
+  if (start == line_.npos || line_[start] == '#') return line_ = {};
+  const std::size_t end = std::min(line_.find_first_of(" \t", start), line_.size());
+  const std::string_view field = line_.substr(start, end - start);
+  line_.remove_prefix(end);
+  return field;
+}
+
+double LineReader::coordinate() {
+  const std::string_view field = next_field();
+  if (field.empty()) fail("the line ends before three coordinates", "x y z are wanted");
+  const std::optional<double> value = to_number(field);
+  if (!value) fail(in_quotes(field) + " is not a number", "a coordinate is wanted");
+  const std::string_view fault = coordinate_fault(*value);
+  if (!fault.empty())
+    fail(fmt::format("coordinate {} {}", in_quotes(field), fault), "a finite number is wanted");
+  return *value;
+}
+
+std::int64_t LineReader::integer(std::string_view what, std::int64_t least, std::int64_t most) {
+  const std::string_view field = next_field();
+  if (field.empty()) fail(fmt::format("the line ends before {}", what), "an integer is wanted");
+  const std::optional<std::int64_t> value = to_integer(field);
+  if (!value || *value < least || *value > most)
+    fail(fmt::format("{} is {}", what, in_quotes(field)),
+         fmt::format("an integer from {} to {} is wanted", least, most));
+  return *value;
+}
+
+void LineReader::fail(std::string_view found, std::string_view wanted) const {
+  throw InputError(fmt::format("{}:{}", name_, number_), found, wanted);
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t most = 32;
+  std::string shown(text.substr(0, most));
+  for (char& c : shown)
+    if (c < ' ' || c > '~') c = '?';
+  return "'" + shown + (text.size() > most ? "...'" : "'");
+}
+
+}  // namespace weft

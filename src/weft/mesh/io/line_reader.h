@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace weft {
+
+/// Walks the lines of a text file and the blank-separated fields of a line, and throws InputErrors
+/// that name FILE:LINE. Lines end in \n, \r\n or \r; a field that begins with # ends its line.
+class LineReader {
+ public:
+  /// @param bytes  the file, kept as a view
+  /// @param name   what errors call it, kept as a view
+  LineReader(std::string_view bytes, std::string_view name) : bytes_(bytes), name_(name) {}
+
+  /// Goes to the next line; false after the last.
+  bool next_line();
+  /// Goes to the next line that has a field; false when there is none.
+  bool next_filled_line();
+  /// The next field of the line; empty at its end.
+  std::string_view next_field();
+  /// Everything behind the current line and its end.
+  [[nodiscard]] std::string_view remaining() const { return bytes_.substr(position_); }
+
+  /// The next field as a finite coordinate. @throws InputError
+  double coordinate();
+  /// The next field as an integer in [least, most]. @param what  names it in errors @throws
+  /// InputError
+  std::int64_t integer(std::string_view what, std::int64_t least, std::int64_t most);
+
+  [[nodiscard]] int line_number() const { return number_; }
+  /// @throws InputError at the current line
+  [[noreturn]] void fail(std::string_view found, std::string_view wanted) const;
+
+ private:
+  std::string_view bytes_, name_;
+  std::string_view line_;
+  std::size_t position_ = 0;
+  int number_ = 0;
+};
+
+/// A piece of a file as errors may show it: in quotes, short, only printable ASCII.
+std::string in_quotes(std::string_view text);
+
+}  // namespace weft

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <tiny_obj_loader.h>
+
+#include "weft/core/error.h"
+#include "weft/mesh/io/line_reader.h"
+#include "weft/mesh/io/number.h"
+#include "weft/mesh/io/polygon.h"
+#include "weft/mesh/io/read_mesh.h"
+
+// tinyobjloader splits the face lines. It accepts whatever it meets (cut lines, words as zeros,
+// indices out of range), does not round decimals correctly, and knows no lines, so every vertex and
+// face line is checked here first, and the positions are read here.
+
+namespace weft {
+namespace {
+
+/// A face corner that names a vertex which had not come yet.
+struct ForwardReference {
+  std::int64_t index = 0;
+  int line = 0;
+};
+
+struct ObjScan {
+  std::vector<Vec3d> positions;
+  std::vector<ForwardReference> forward;
+  std::size_t faces = 0;
+};
+
+void scan_vertex(LineReader& reader, ObjScan& scan) {
+  const double x = reader.coordinate();
+  const double y = reader.coordinate();
+  const double z = reader.coordinate();
+  scan.positions.push_back({x, y, z});
+  // What follows is a weight or a colour, which are not kept.
+  for (std::string_view field = reader.next_field(); !field.empty(); field = reader.next_field())
+    if (!to_number(field)) reader.fail(in_quotes(field) + " is not a number", "v x y z is wanted");
+}
+
+/// Checks one corner: v, v/t, v//n or v/t/n.
+/// @return which of the parts are there, as bits; all corners of a face have the same
+int scan_corner(LineReader& reader, std::string_view corner, ObjScan& scan) {
+  int form = 0;
+  std::string_view rest = corner;
+  for (int part = 0; part < 3; ++part) {
+    const std::size_t slash = rest.find('/');
+    const std::string_view text = rest.substr(0, slash);
+    const std::optional<std::int64_t> index = to_integer(text);
+    if ((part == 0 || !text.empty()) && (!index || *index == 0))
+      reader.fail("face corner " + in_quotes(corner),
+                  "indices from 1, or negative ones, are wanted");
+    if (part == 0) {
+      const auto count = static_cast<std::int64_t>(scan.positions.size());
+      if (*index < -count)
+        reader.fail(fmt::format("face corner {} goes back beyond the first of {} vertices",
+                                in_quotes(corner), count),
+                    "an existing vertex is wanted");
+      if (*index > count) scan.forward.push_back({*index, reader.line_number()});
+    }
+    form |= (text.empty() ? 1 : 2) << (2 * part);
+    if (slash == rest.npos) return form;
+    rest.remove_prefix(slash + 1);
+  }
+  reader.fail("face corner " + in_quotes(corner) + " has more than two slashes", "v/t/n is wanted");
+}
+
+void scan_face(LineReader& reader, ObjScan& scan) {
+  int corners = 0, form = 0;
+  for (std::string_view field = reader.next_field(); !field.empty(); field = reader.next_field()) {
+    const int this_form = scan_corner(reader, field, scan);
+    if (corners++ > 0 && this_form != form)
+      reader.fail("face corner " + in_quotes(field) + " has other parts than the one before",
+                  "the same form in all corners of a face is wanted");
+    form = this_form;
+  }
+  if (corners < 3)
+    reader.fail(fmt::format("a face with {} corners", corners), "at least 3 are wanted");
+  ++scan.faces;
+}
+
+ObjScan scan_obj(std::string_view bytes, std::string_view name) {
+  ObjScan scan;
+  LineReader reader(bytes, name);
+  while (reader.next_line()) {
+    const std::string_view keyword = reader.next_field();
+    if (keyword == "v") scan_vertex(reader, scan);
+    if (keyword == "f") scan_face(reader, scan);
+  }
+  for (const ForwardReference& reference : scan.forward)
+    if (reference.index > static_cast<std::int64_t>(scan.positions.size()))
+      throw InputError(
+          fmt::format("{}:{}", name, reference.line),
+          fmt::format("a face uses vertex {} of {}", reference.index, scan.positions.size()),
+          "an existing vertex is wanted");
+  return scan;
+}
+
+/// Long lines may go on in the next one behind a backslash, which tinyobjloader does not know. The
+/// line ends that are taken out come back behind the whole line, so that the lines keep their
+/// numbers.
+std::string join_continued_lines(std::string_view bytes) {
+  std::string joined;
+  joined.reserve(bytes.size());
+  std::size_t taken = 0;
+  while (!bytes.empty()) {
+    const std::size_t end = bytes.find('\n');
+    std::string_view line = bytes.substr(0, end);
+    bytes.remove_prefix(end == bytes.npos ? bytes.size() : end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    // Not behind a comment or a name: a path may end like that.
+    const std::size_t start = std::min(line.find_first_not_of(" \t"), line.size());
+    const bool may_go_on =
+        taken > 0 || line.substr(start, 1) == "f" || line.substr(start, 1) == "v";
+    const bool goes_on = may_go_on && line.ends_with('\\');
+    joined.append(line.substr(0, line.size() - (goes_on ? 1 : 0)));
+    joined.append(goes_on ? " " : "\n");
+    taken += goes_on ? 1 : 0;
+    if (goes_on) continue;
+    joined.append(taken, '\n');
+    taken = 0;
+  }
+  return joined;
+}
+
+/// Gathers what tinyobjloader calls back with.
+struct FaceSink {
+  TriangleMesh* mesh = nullptr;
+  int vertices = 0;  ///< so far, which negative indices count back from
+  std::vector<int> polygon;
+
+  void add(std::span<const tinyobj::index_t> corners) {
+    polygon.clear();
+    for (const tinyobj::index_t& corner : corners) {
+      // No checked index is zero: what reads as zero begins a comment behind the face.
+      if (corner.vertex_index == 0) break;
+      polygon.push_back(corner.vertex_index > 0 ? corner.vertex_index - 1
+                                                : vertices + corner.vertex_index);
+    }
+    add_polygon(*mesh, polygon);
+  }
+};
+
+void load_faces(const std::string& text, TriangleMesh& mesh) {
+  FaceSink sink{&mesh, 0, {}};
+  tinyobj::callback_t callback;
+  callback.vertex_cb = [](void* user, float, float, float, float) {
+    ++static_cast<FaceSink*>(user)->vertices;
+  };
+  callback.index_cb = [](void* user, tinyobj::index_t* corners, int count) {
+    static_cast<FaceSink*>(user)->add({corners, static_cast<std::size_t>(count)});
+  };
+  std::istringstream stream(text);
+  tinyobj::LoadObjWithCallback(stream, callback, &sink);
+}
+
+}  // namespace
+
+TriangleMesh parse_obj(std::string_view bytes, std::string_view name) {
+  require_text(bytes, name, "an OBJ text file");
+  const std::string text = join_continued_lines(without_mark(bytes));
+  ObjScan scan = scan_obj(text, name);
+  if (scan.positions.empty())
+    throw InputError(name, "has no vertex lines (v x y z)", "an OBJ mesh is wanted");
+  TriangleMesh mesh{std::move(scan.positions), {}};
+  mesh.triangles.reserve(scan.faces);
+  load_faces(text, mesh);
+  require_surface(mesh, name);
+  return mesh;
+}
+
+}  // namespace weft

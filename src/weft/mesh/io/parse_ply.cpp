@@ -1,0 +1,122 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/mesh/io/number.h"
+#include "weft/mesh/io/ply_values.h"
+#include "weft/mesh/io/polygon.h"
+#include "weft/mesh/io/read_mesh.h"
+
+namespace weft {
+namespace {
+
+/// A list's values; at most as many as the file holds, whatever its count says.
+void read_list(PlyValues& values, const PlyProperty& property, std::vector<double>& list) {
+  const double count = values.next(property.count_type);
+  if (count < 0) values.fail("a list of negative length", "a count is wanted");
+  list.clear();
+  for (double i = 0; i < count; ++i) list.push_back(values.next(property.type));
+}
+
+const PlyElement* find_element(const PlyHeader& header, std::string_view name) {
+  for (const PlyElement& element : header.elements)
+    if (element.name == name) return &element;
+  return nullptr;
+}
+
+bool is_face_list(const PlyProperty& property) {
+  return property.is_list() &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+void check_layout(const PlyHeader& header, std::string_view name) {
+  const PlyElement* vertex = find_element(header, "vertex");
+  if (vertex == nullptr) throw InputError(name, "has no element vertex", "a mesh is wanted");
+  int found = 0;
+  for (const PlyProperty& p : vertex->properties)
+    found += !p.is_list() && (p.name == "x" || p.name == "y" || p.name == "z") ? 1 : 0;
+  if (found != 3) throw InputError(name, "its vertices lack x, y or z", "all three are wanted");
+  const PlyElement* face = find_element(header, "face");
+  if (face == nullptr) return;
+  found = 0;
+  for (const PlyProperty& p : face->properties) found += is_face_list(p) ? 1 : 0;
+  if (found != 1)
+    throw InputError(name, fmt::format("its faces have {} lists of vertices", found),
+                     "one list vertex_indices is wanted");
+}
+
+void read_vertex(PlyValues& values, const PlyElement& element, TriangleMesh& mesh) {
+  Vec3d p;
+  std::vector<double> ignored;
+  for (const PlyProperty& property : element.properties) {
+    if (property.is_list()) {
+      read_list(values, property, ignored);
+      continue;
+    }
+    const double value = values.next(property.type);
+    if (property.name != "x" && property.name != "y" && property.name != "z") continue;
+    const std::string_view fault = coordinate_fault(value);
+    if (!fault.empty())
+      values.fail(fmt::format("coordinate {} {}", property.name, fault),
+                  "a finite number is wanted");
+    (property.name == "x" ? p.x : property.name == "y" ? p.y : p.z) = value;
+  }
+  mesh.positions.push_back(p);
+}
+
+void add_face(const PlyValues& values, std::span<const double> list, std::int64_t vertices,
+              TriangleMesh& mesh) {
+  if (list.size() < 3)
+    values.fail(fmt::format("a face with {} corners", list.size()), "at least 3 are wanted");
+  std::vector<int> polygon;
+  polygon.reserve(list.size());
+  for (const double index : list) {
+    if (!(index >= 0 && index < static_cast<double>(vertices) && index == std::floor(index)))
+      values.fail(fmt::format("a face uses vertex {} of {}", index, vertices),
+                  "an existing vertex, counted from 0, is wanted");
+    polygon.push_back(static_cast<int>(index));
+  }
+  add_polygon(mesh, polygon);
+}
+
+/// A face, or an item of an element that has no part in the surface and is stepped over.
+void read_other(PlyValues& values, const PlyElement& element, std::int64_t vertices,
+                TriangleMesh& mesh) {
+  std::vector<double> list;
+  for (const PlyProperty& property : element.properties) {
+    if (!property.is_list()) {
+      values.next(property.type);
+      continue;
+    }
+    read_list(values, property, list);
+    if (element.name == "face" && is_face_list(property)) add_face(values, list, vertices, mesh);
+  }
+}
+
+}  // namespace
+
+TriangleMesh parse_ply(std::string_view bytes, std::string_view name) {
+  if (bytes.empty()) throw InputError(name, "is empty", "a PLY mesh is wanted");
+  LineReader reader(bytes, name);
+  const PlyHeader header = read_ply_header(reader);
+  check_layout(header, name);
+  const std::int64_t vertices = find_element(header, "vertex")->count;
+  TriangleMesh mesh;
+  mesh.positions.reserve(vertices);
+  PlyValues values(reader, header.format, name);
+  for (const PlyElement& element : header.elements)
+    for (std::int64_t i = 0; i < element.count; ++i) {
+      values.begin_item(element, i);
+      if (element.name == "vertex")
+        read_vertex(values, element, mesh);
+      else
+        read_other(values, element, vertices, mesh);
+      values.end_item();
+    }
+  values.expect_end();
+  require_surface(mesh, name);
+  return mesh;
+}
+
+}  // namespace weft

@@ -1,0 +1,37 @@
+#include "weft/mesh/io/polygon.h"
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+
+namespace weft {
+
+void add_polygon(TriangleMesh& mesh, std::span<const int> corners) {
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+}
+
+void require_surface(const TriangleMesh& mesh, std::string_view name) {
+  if (mesh.positions.empty()) throw InputError(name, "has no vertices", "a mesh is wanted");
+  if (mesh.triangles.empty())
+    throw InputError(name, fmt::format("has {} vertices but no faces", mesh.positions.size()),
+                     "a surface is wanted");
+  if (mesh.positions.size() > most_elements || mesh.triangles.size() > most_elements)
+    throw InputError(name,
+                     fmt::format("has {} vertices and {} triangles", mesh.positions.size(),
+                                 mesh.triangles.size()),
+                     fmt::format("at most {} of each are wanted", most_elements));
+}
+
+void require_text(std::string_view bytes, std::string_view name, std::string_view format) {
+  if (bytes.empty()) throw InputError(name, "is empty", fmt::format("{} is wanted", format));
+  if (bytes.find('\0') != bytes.npos)
+    throw InputError(name, "holds binary data", fmt::format("{} is wanted", format));
+}
+
+std::string_view without_mark(std::string_view bytes) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return bytes.starts_with(mark) ? bytes.substr(mark.size()) : bytes;
+}
+
+}  // namespace weft

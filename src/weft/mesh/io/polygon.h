@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "weft/mesh/triangle_mesh.h"
+
+namespace weft {
+
+/// Most triangles and vertices of a mesh: half-edges are counted in int.
+inline constexpr std::int64_t most_elements = 700'000'000;
+
+/// Appends a polygon as a fan of triangles from its first corner. @pre at least three corners
+void add_polygon(TriangleMesh& mesh, std::span<const int> corners);
+
+/// @throws InputError when there is no vertex, no triangle, or too many of either
+void require_surface(const TriangleMesh& mesh, std::string_view name);
+
+/// @throws InputError when a file that should be text holds a zero byte, as binary files do
+/// @param format  what is wanted, for example "an OBJ text file"
+void require_text(std::string_view bytes, std::string_view name, std::string_view format);
+
+/// The file without the byte-order mark that some editors put before text.
+std::string_view without_mark(std::string_view bytes);
+
+}  // namespace weft

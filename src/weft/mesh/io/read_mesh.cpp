@@ -1,0 +1,35 @@
+#include "weft/mesh/io/read_mesh.h"
+
+#include <array>
+#include <cctype>
+#include <string>
+#include <utility>
+
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+
+namespace weft {
+namespace {
+
+using Parser = TriangleMesh (*)(std::string_view, std::string_view);
+
+Parser parser_for(const std::filesystem::path& path) {
+  constexpr std::array<std::pair<std::string_view, Parser>, 4> parsers{
+      {{".obj", parse_obj}, {".off", parse_off}, {".ply", parse_ply}, {".stl", parse_stl}}};
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const auto& [known, parser] : parsers)
+    if (known == ending) return parser;
+  throw InputError(path.string(), "the ending '" + ending + "' is not that of a mesh",
+                   ".obj, .off, .ply or .stl is wanted");
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const std::filesystem::path& path) {
+  // What is missing or a folder is told before what has a wrong ending.
+  const std::string bytes = read_file(path);
+  return parser_for(path)(bytes, path.string());
+}
+
+}  // namespace weft

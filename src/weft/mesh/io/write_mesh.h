@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "weft/mesh/triangle_mesh.h"
+
+namespace weft {
+
+/// Writes OBJ or PLY (binary, double precision) by the ending of the name. Numbers are written so
+/// that reading them back gives the same bits. @throws OutputError; UsageError on another ending
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+
+}  // namespace weft

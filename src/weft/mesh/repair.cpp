@@ -1,0 +1,241 @@
+#include "weft/mesh/repair.h"
+
+#include <algorithm>
+#include <climits>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/core/hash.h"
+#include "weft/mesh/orient_triangles.h"
+#include "weft/mesh/split_fans.h"
+#include "weft/mesh/surface_parts.h"
+
+namespace weft {
+namespace {
+
+void check_values(const TriangleMesh& mesh, const std::string& name) {
+  if (mesh.positions.empty()) throw InputError(name, "has no vertices", "a mesh is wanted");
+  if (mesh.triangles.empty()) throw InputError(name, "has no triangles", "a surface is wanted");
+  if (mesh.triangles.size() > INT_MAX / 3 || mesh.positions.size() > INT_MAX / 3)
+    throw InputError(name, "has too many vertices or triangles",
+                     fmt::format("at most {} of each are wanted", INT_MAX / 3));
+  // Beyond 1e30 areas and volumes would overflow.
+  const auto fits = [](double x) { return std::fabs(x) <= 1e30; };
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3d p = mesh.positions[v];
+    if (!fits(p.x) || !fits(p.y) || !fits(p.z))
+      throw InputError(name, fmt::format("vertex {} is at ({}, {}, {})", v, p.x, p.y, p.z),
+                       "finite coordinates up to 1e30 are wanted");
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int v : mesh.triangles[t])
+      if (v < 0 || std::cmp_greater_equal(v, mesh.positions.size()))
+        throw InputError(
+            name, fmt::format("triangle {} uses vertex {} of {}", t, v, mesh.positions.size()),
+            "an existing vertex is wanted");
+}
+
+/// "1 triangle", "2 triangles"; for words whose plural is an s.
+std::string counted(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+std::string vertices(std::size_t count) {
+  return fmt::format("{} {}", count, count == 1 ? "vertex" : "vertices");
+}
+
+bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+/// Removes what `keep(index)` does not want; the order stays. @return how many were removed
+template <class Keep>
+std::size_t keep_triangles(std::vector<Triangle>& triangles, const Keep& keep) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (keep(t)) triangles[kept++] = triangles[t];
+  const std::size_t dropped = triangles.size() - kept;
+  triangles.resize(kept);
+  return dropped;
+}
+
+/// Six times the volume that the triangles enclose, positive when they face outward.
+double signed_volume(const TriangleMesh& mesh) {
+  const Vec3d origin = mesh.positions[mesh.triangles[0][0]];
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3d a = mesh.positions[t[0]] - origin;
+    const Vec3d b = mesh.positions[t[1]] - origin;
+    sum += dot(mesh.positions[t[2]] - origin, cross(a, b));
+  }
+  return sum;
+}
+
+/// The repair of one mesh, step by step; each says what it did.
+class Repair {
+ public:
+  Repair(const TriangleMesh& mesh, const RepairOptions& options) : mesh_(mesh), options_(options) {
+    check_values(mesh, options.name);
+    result_.source_vertex.resize(mesh.positions.size());
+    std::iota(result_.source_vertex.begin(), result_.source_vertex.end(), 0);
+  }
+
+  RepairedMesh run() {
+    drop_triangles();
+    note_unreferenced();
+    choose_component();
+    orient();
+    split_vertices();
+    drop_unused_vertices();
+    result_.counts = count_topology(static_cast<int>(mesh_.positions.size()), mesh_.triangles);
+    result_.mesh = std::move(mesh_);
+    return std::move(result_);
+  }
+
+ private:
+  void report(std::string sentence) { result_.repairs.push_back(std::move(sentence)); }
+  void find_edges() {
+    edges_ = edge_uses(static_cast<int>(mesh_.positions.size()), mesh_.triangles);
+  }
+
+  void drop_triangles() {
+    const std::size_t repeated = std::erase_if(mesh_.triangles, repeats_a_vertex);
+    if (repeated > 0)
+      report(fmt::format("dropped {} with a repeated vertex", counted(repeated, "triangle")));
+    if (mesh_.triangles.empty())
+      throw InputError(options_.name, "every triangle has a repeated vertex",
+                       "a surface is wanted");
+    find_edges();
+    const std::vector<bool> duplicate = duplicate_triangles(mesh_.triangles, edges_);
+    const std::size_t duplicates =
+        keep_triangles(mesh_.triangles, [&](std::size_t t) { return !duplicate[t]; });
+    if (duplicates == 0) return;
+    report(fmt::format("dropped {} with the same vertices as another",
+                       counted(duplicates, "triangle")));
+    find_edges();
+  }
+
+  /// What the input leaves unreferenced, not what the choice of a component will.
+  void note_unreferenced() {
+    const std::vector<bool> used = used_vertices();
+    const auto unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+    if (unused > 0) report(fmt::format("dropped {} without triangles", vertices(unused)));
+  }
+
+  void choose_component() {
+    const SurfaceParts parts = surface_parts(mesh_, edges_);
+    result_.components_found = parts.count;
+    const ComponentChoice& choice = options_.component;
+    if (choice.kind == ComponentChoice::Kind::only) {
+      // Edges first: choosing a component might not help against them.
+      require_manifold_edges(mesh_.triangles, edges_, options_.name);
+      if (parts.count > 1)
+        throw TopologyError(options_.name, fmt::format("{} components", parts.count),
+                            "one is wanted, or --component K, largest or all");
+      return;
+    }
+    const int wanted = choice.kind == ComponentChoice::Kind::largest ? 0 : choice.index;
+    if (wanted < 0 || wanted >= parts.count)
+      throw TopologyError(options_.name,
+                          fmt::format("component {} of {} was asked for", wanted, parts.count),
+                          fmt::format("0 to {} is wanted", parts.count - 1));
+    if (parts.count > 1) keep_part(parts, wanted);
+    require_manifold_edges(mesh_.triangles, edges_, options_.name);
+  }
+
+  void keep_part(const SurfaceParts& parts, int wanted) {
+    const std::size_t before = mesh_.triangles.size();
+    keep_triangles(mesh_.triangles, [&](std::size_t t) { return parts.part_of[t] == wanted; });
+    report(fmt::format("kept component {} of {} with {} of {} triangles", wanted, parts.count,
+                       mesh_.triangles.size(), before));
+    find_edges();
+  }
+
+  void orient() {
+    const int turned = orient_triangles(mesh_.triangles, edges_, options_.name);
+    if (turned > 0) report(fmt::format("oriented {}", counted(turned, "triangle")));
+    bool closed = true;
+    for (int e = 0; e < edges_.edge_count(); ++e) closed &= edges_.of(e).size() == 2;
+    if (!closed || signed_volume(mesh_) >= 0) return;
+    for (Triangle& t : mesh_.triangles) std::swap(t[1], t[2]);
+    report(fmt::format("turned the closed surface outward, {}",
+                       counted(mesh_.triangles.size(), "triangle")));
+  }
+
+  void split_vertices() {
+    const VertexSplit split = split_fans(static_cast<int>(mesh_.positions.size()), mesh_.triangles);
+    if (split.split_vertices == 0) return;
+    for (std::size_t v = mesh_.positions.size(); v < split.source_vertex.size(); ++v) {
+      const int source = split.source_vertex[v];
+      mesh_.positions.push_back(mesh_.positions[source]);
+      result_.source_vertex.push_back(result_.source_vertex[source]);
+    }
+    report(fmt::format("split {} non-manifold {} into {} fans", split.split_vertices,
+                       split.split_vertices == 1 ? "vertex" : "vertices", split.fans));
+  }
+
+  void drop_unused_vertices() {
+    const std::vector<bool> used = used_vertices();
+    std::vector<int> place(used.size(), -1);
+    int kept = 0;
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (!used[v]) continue;
+      mesh_.positions[kept] = mesh_.positions[v];
+      result_.source_vertex[kept] = result_.source_vertex[v];
+      place[v] = kept++;
+    }
+    mesh_.positions.resize(kept);
+    result_.source_vertex.resize(kept);
+    for (Triangle& t : mesh_.triangles)
+      for (int& v : t) v = place[v];
+  }
+
+  [[nodiscard]] std::vector<bool> used_vertices() const {
+    std::vector<bool> used(mesh_.positions.size(), false);
+    for (const Triangle& t : mesh_.triangles)
+      for (const int v : t) used[v] = true;
+    return used;
+  }
+
+  TriangleMesh mesh_;
+  const RepairOptions& options_;
+  EdgeUses edges_;  ///< of mesh_, until triangles are turned
+  RepairedMesh result_;
+};
+
+struct PositionHash {
+  std::size_t operator()(Vec3d p) const {
+    Hash hash;
+    // Adding zero makes one of the two zeros, which are equal.
+    const std::array<double, 3> values{p.x + 0.0, p.y + 0.0, p.z + 0.0};
+    hash.add(std::span<const double>(values));
+    return hash.value();
+  }
+};
+
+}  // namespace
+
+RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
+  return Repair(mesh, options).run();
+}
+
+TriangleMesh weld_exact(const TriangleMesh& mesh) {
+  TriangleMesh welded;
+  welded.triangles = mesh.triangles;
+  std::unordered_map<Vec3d, int, PositionHash> first;
+  first.reserve(mesh.positions.size());
+  std::vector<int> joined;
+  joined.reserve(mesh.positions.size());
+  for (const Vec3d p : mesh.positions) {
+    const auto [entry, is_new] = first.try_emplace(p, static_cast<int>(welded.positions.size()));
+    if (is_new) welded.positions.push_back(p);
+    joined.push_back(entry->second);
+  }
+  for (Triangle& t : welded.triangles)
+    for (int& v : t) v = joined[v];
+  return welded;
+}
+
+}  // namespace weft

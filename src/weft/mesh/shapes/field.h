@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "weft/core/vec.h"
+
+namespace weft {
+
+/// A shape as a function of space [m]: negative inside, positive outside, and near the surface
+/// about the distance from it.
+using Field = std::function<double(Vec3d)>;
+
+/// The union of all balls whose centre runs from a to b and whose radius changes linearly [m].
+struct RoundCone {
+  Vec3d a, b;
+  double radius_a = 0, radius_b = 0;
+};
+/// Exact signed distance. @pre |radius_a - radius_b| < |b - a|
+double distance_to(const RoundCone& cone, Vec3d point);
+
+/// With axes along the coordinates [m].
+struct Ellipsoid {
+  Vec3d centre, radii;
+};
+/// Signed distance to first order: exact on the surface with unit gradient there.
+double distance_to(const Ellipsoid& ellipsoid, Vec3d point);
+
+/// The lesser of two fields where they differ by more than `blend`, and smoothly less in between
+/// (by at most blend / 4): the union of two shapes with a fillet. Once continuously differentiable.
+double smooth_min(double a, double b, double blend);
+/// The greater, smoothly more: the intersection of two shapes with a rounded edge.
+double smooth_max(double a, double b, double blend);
+
+/// A chain of round cones through these points, along a smooth curve (Catmull-Rom), as a union:
+/// with the radii changing smoothly too, a limb without rings at its joints.
+struct Limb {
+  struct Joint {
+    Vec3d centre;
+    double radius;
+  };
+  explicit Limb(std::span<const Joint> joints);
+  std::vector<RoundCone> cones;
+  Box3d box;  ///< holds all of it
+};
+double distance_to(const Limb& limb, Vec3d point);
+
+/// The least distance to a box's points, 0 inside.
+double distance_to(const Box3d& box, Vec3d point);
+
+/// By central differences.
+Vec3d gradient(const Field& field, Vec3d point);
+
+/// Moves a nearby point onto the surface field = 0 along the gradient.
+Vec3d project_to_surface(const Field& field, Vec3d point);
+/// Moves a nearby point onto the curve where both fields vanish.
+Vec3d project_to_curve(const Field& first, const Field& second, Vec3d point);
+
+}  // namespace weft

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "weft/mesh/shapes/field.h"
+#include "weft/mesh/triangle_mesh.h"
+
+namespace weft {
+
+struct RemeshOptions {
+  Field surface;      ///< the mesh lies on surface = 0
+  Field cut;          ///< border vertices lie on cut = 0 too; may be empty for a closed mesh
+  Field edge_length;  ///< wanted, by place [m], > 0
+  int passes = 8;
+};
+
+/// Makes triangles even: splits long edges, merges short ones, flips, and slides vertices along the
+/// surface, with every vertex on it all the time. The topology stays. After Botsch and Kobbelt
+/// 2004, with a length that varies over space as in Dunyach et al. 2013; flips go by triangle
+/// quality rather than by valence.
+TriangleMesh remesh(TriangleMesh mesh, const RemeshOptions& options);
+
+}  // namespace weft

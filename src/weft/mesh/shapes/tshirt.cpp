@@ -1,0 +1,79 @@
+#include "weft/mesh/shapes/tshirt.h"
+
+#include <array>
+#include <cmath>
+
+#include "weft/mesh/shapes/clip.h"
+#include "weft/mesh/shapes/field.h"
+#include "weft/mesh/shapes/mannequin.h"
+#include "weft/mesh/shapes/polygonise.h"
+#include "weft/mesh/shapes/remesh.h"
+#include "weft/mesh/shapes/torso_profile.h"
+
+namespace weft {
+namespace {
+
+constexpr double clearance = 0.014;  // from the body, where the cloth is closest [m]
+
+/// How the cloth hangs around the trunk; where these are within the body, the body decides.
+constexpr std::array loose_sections{
+    Section{0.780, 0.190, 0.116, -0.134}, Section{0.900, 0.185, 0.118, -0.134},
+    Section{1.000, 0.175, 0.118, -0.122}, Section{1.100, 0.163, 0.118, -0.108},
+    Section{1.200, 0.162, 0.122, -0.110}, Section{1.300, 0.164, 0.120, -0.116},
+    Section{1.380, 0.146, 0.086, -0.108}, Section{1.430, 0.100, 0.045, -0.090},
+    Section{1.470, 0.055, 0.025, -0.062}, Section{1.500, 0.020, 0.010, -0.040}};
+
+/// Along the arm, where the cut of the sleeve ends.
+constexpr double sleeve_length = 0.185, hem_height = 0.865;
+
+Vec3d mirrored(Vec3d p) { return {std::abs(p.x), p.y, p.z}; }
+
+Vec3d arm_direction() {
+  const UpperArm arm = mannequin_upper_arm();
+  return normalized(arm.elbow - arm.shoulder);
+}
+
+const Limb& sleeve() {
+  static const Limb limb = [] {
+    const UpperArm arm = mannequin_upper_arm();
+    const std::array<Limb::Joint, 2> joints{{{arm.shoulder, 0.056}, {arm.elbow, 0.076}}};
+    return Limb(joints);
+  }();
+  return limb;
+}
+
+double tshirt_field(Vec3d p) {
+  constexpr double drape = 0.045;
+  const double trunk = smooth_min(mannequin_body_field(p) - clearance,
+                                  distance_to_sections(loose_sections, p), drape);
+  return smooth_min(trunk, distance_to(sleeve(), mirrored(p)), drape);
+}
+
+/// What is cut away around the neck.
+constexpr Ellipsoid neck_opening{{0, 1.492, -0.002}, {0.098, 0.075, 0.098}};
+
+/// Negative where there is cloth. Near each opening it is the smooth function of that opening
+/// alone.
+double tshirt_cut(Vec3d p) {
+  constexpr double beyond_trunk = 0.22, below_neck = 1.38;
+  const Vec3d half = mirrored(p);
+  if (half.x > beyond_trunk)
+    return dot(half - mannequin_upper_arm().shoulder, arm_direction()) - sleeve_length;
+  return p.y < below_neck ? hem_height - p.y : -distance_to(neck_opening, p);
+}
+
+double edge_length(Vec3d /*place*/) { return 0.0165; }
+
+}  // namespace
+
+TriangleMesh tshirt_mesh() {
+  // The box ends outside the openings: what it cuts off would be clipped anyway.
+  Box3d box;
+  box.add({-0.42, 0.840, -0.20});
+  box.add({0.42, 1.515, 0.20});
+  constexpr double cell = 0.015;
+  return remesh(clip(polygonise(tshirt_field, box, cell), tshirt_cut),
+                {.surface = tshirt_field, .cut = tshirt_cut, .edge_length = edge_length});
+}
+
+}  // namespace weft

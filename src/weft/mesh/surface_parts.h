@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "weft/mesh/edge_uses.h"
+#include "weft/mesh/triangle_mesh.h"
+
+namespace weft {
+
+/// [F] whether an earlier triangle has the same three vertices, in whatever order.
+/// @pre no triangle has a repeated vertex
+std::vector<bool> duplicate_triangles(std::span<const Triangle> triangles, const EdgeUses& edges);
+
+/// Parts of a mesh whose triangles hang together by edges, the largest area first; of equal areas
+/// the one with the least vertex first.
+struct SurfaceParts {
+  std::vector<int> part_of;  ///< [F]
+  int count = 0;
+};
+SurfaceParts surface_parts(const TriangleMesh& mesh, const EdgeUses& edges);
+
+/// @param mesh_name  what the error calls the mesh
+/// @throws TopologyError with the number of edges that have more than two triangles, and the
+///         vertices of the first
+void require_manifold_edges(std::span<const Triangle> triangles, const EdgeUses& edges,
+                            std::string_view mesh_name);
+
+}  // namespace weft

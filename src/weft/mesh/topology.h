@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "weft/mesh/triangle_mesh.h"
+
+namespace weft {
+
+/// The half-edge view of a manifold, consistently oriented mesh. Half-edge 3 t + k runs from corner
+/// k of triangle t to its next corner.
+struct HalfEdges {
+  /// [3F] the opposite half-edge, -1 on the border
+  std::vector<int> twin;
+  /// [V] one half-edge that leaves the vertex, -1 if none; at the border the one whose twin is
+  /// missing, so that turning from it meets all triangles there
+  std::vector<int> outgoing;
+
+  static int triangle_of(int half_edge) { return half_edge / 3; }
+  static int next(int half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
+  static int previous(int half_edge) { return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1; }
+};
+
+/// The vertex that a half-edge leaves.
+inline int from_vertex(std::span<const Triangle> triangles, int half_edge) {
+  return triangles[half_edge / 3][half_edge % 3];
+}
+/// The vertex that a half-edge points at.
+inline int to_vertex(std::span<const Triangle> triangles, int half_edge) {
+  return from_vertex(triangles, HalfEdges::next(half_edge));
+}
+
+/// @throws TopologyError naming the vertices of an edge that has more than two triangles, or
+///         two that run along it in the same direction; or a triangle with a repeated vertex
+/// @pre indices in [0, vertex_count)
+HalfEdges half_edges(int vertex_count, std::span<const Triangle> triangles);
+
+/// Every border loop as its vertices, each loop in the direction of its triangles' half-edges (the
+/// surface lies to the left); loops ordered by their least half-edge, beginning there.
+std::vector<std::vector<int>> border_loops(std::span<const Triangle> triangles,
+                                           const HalfEdges& edges);
+
+/// Counts that fix a surface up to deformation.
+struct TopologyCounts {
+  int vertices = 0;  ///< referenced ones
+  int edges = 0;
+  int triangles = 0;
+  int components = 0;  ///< joined through shared vertices
+  int boundaries = 0;  ///< border loops
+  int euler = 0;       ///< V - E + F
+  int genus = 0;       ///< of all components together: (2 components - boundaries - euler) / 2
+};
+/// For a manifold, oriented mesh. @throws TopologyError as half_edges
+TopologyCounts count_topology(int vertex_count, std::span<const Triangle> triangles);
+
+}  // namespace weft

@@ -1,0 +1,148 @@
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "tests/mesh/small_meshes.h"
+#include "weft/mesh/io/read_mesh.h"
+
+namespace weft {
+namespace {
+
+using Triangles = std::vector<Triangle>;
+
+TriangleMesh parse(const std::string& bytes) { return parse_ply(bytes, "a.ply"); }
+
+std::string refusal(const std::string& bytes) {
+  return testing::message_of<InputError>([&] { parse(bytes); });
+}
+
+std::string header(const std::string& format, int vertices, int faces,
+                   const std::string& real = "float") {
+  return "ply\nformat " + format + " 1.0\ncomment made by hand\nelement vertex " +
+         std::to_string(vertices) + "\nproperty " + real + " x\nproperty " + real +
+         " y\nproperty " + real + " z\nproperty uchar red\nelement face " + std::to_string(faces) +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+const std::string text_square =
+    header("ascii", 4, 2) + "0 0 0 255\n1 0 0 255\n1 1 0 255\n0 1 0.5 255\n3 0 1 2\n3 0 2 3\n";
+
+/// Appends a value in either byte order.
+template <class T>
+void put(std::string& bytes, T value, bool big) {
+  std::string piece(sizeof(T), '\0');
+  std::memcpy(piece.data(), &value, sizeof(T));
+  if (big) piece.assign(piece.rbegin(), piece.rend());
+  bytes += piece;
+}
+
+template <class Real>
+std::string binary_square(bool big) {
+  std::string bytes = header(big ? "binary_big_endian" : "binary_little_endian", 4, 2,
+                             sizeof(Real) == 4 ? "float32" : "double");
+  for (const Vec3d p : {Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{1, 1, 0}, Vec3d{0, 1, 0.5}}) {
+    for (const double x : {p.x, p.y, p.z}) put(bytes, static_cast<Real>(x), big);
+    put(bytes, std::uint8_t{255}, big);
+  }
+  for (const Triangle& t : Triangles{{0, 1, 2}, {0, 2, 3}}) {
+    put(bytes, std::uint8_t{3}, big);
+    for (const int v : t) put(bytes, std::int32_t{v}, big);
+  }
+  return bytes;
+}
+
+TEST(ReadPly, TextAndBothByteOrdersGiveTheSameMesh) {
+  const TriangleMesh mesh = parse(text_square);
+  EXPECT_EQ(mesh.positions, (std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5}}));
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  for (const bool big : {false, true}) {
+    for (const std::string& bytes : {binary_square<float>(big), binary_square<double>(big)}) {
+      EXPECT_EQ(parse(bytes).positions, mesh.positions);
+      EXPECT_EQ(parse(bytes).triangles, mesh.triangles);
+    }
+  }
+}
+
+TEST(ReadPly, OtherElementsAndListsAreSteppedOver) {
+  const std::string text =
+      "ply\r\nformat ascii 1.0\r\nelement camera 1\r\nproperty float fov\r\n"
+      "property list int float lens\r\nelement face 1\r\nproperty uchar flags\r\n"
+      "property list uchar uint vertex_index\r\nelement vertex 4\r\nproperty double z\r\n"
+      "property double x\r\nproperty list uchar int seen\r\nproperty double y\r\nend_header\r\n"
+      "45 2 1.5 2.5\r\n7 4 0 1 2 3\r\n9 0 0 0\r\n9 1 1 5 0\r\n9 1 2 5 6 1\r\n9 0 0 1\r\n";
+  const TriangleMesh mesh = parse(text);
+  EXPECT_EQ(mesh.positions, (std::vector<Vec3d>{{0, 0, 9}, {1, 0, 9}, {1, 1, 9}, {0, 1, 9}}));
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(ReadPly, BadHeadersAreRefusedWithTheirLine) {
+  const auto expect = [](const std::string& text, const std::string& wanted) {
+    EXPECT_EQ(refusal(text).substr(0, wanted.size()), wanted);
+  };
+  expect("", "a.ply: is empty");
+  expect("Dear reader,\n", "a.ply:1: begins with 'Dear'");
+  expect("\x89PNG\r\n\x1a\n", "a.ply:1: begins with '?PNG'");
+  expect("ply\nformat ascii 1.0\nelement vertex 3\n", "a.ply:3: the file ends inside the header");
+  expect("ply\nformat binary 1.0\n", "a.ply:2: format 'binary'");
+  expect("ply\nproperty float x\n", "a.ply:2: a property before any element");
+  expect("ply\nelement vertex many\n", "a.ply:2: the number of 'vertex' is 'many'");
+  expect("ply\nelement vertex -1\n", "a.ply:2: the number of 'vertex' is '-1'");
+  expect("ply\nelement vertex 4000000000\n", "a.ply:2: the number of 'vertex' is '4000000000'");
+  expect("ply\nelement vertex 1\nproperty half x\n", "a.ply:3: property type 'half'");
+  expect("ply\nelement vertex 1\nproperty list float int x\n", "a.ply:3: a list whose length");
+  expect("ply\nsurprise\n", "a.ply:2: header line 'surprise'");
+  expect("ply\nelement vertex 5\nend_header\n", "a.ply:3: element 'vertex' has no properties");
+  expect("ply\nformat ascii 1.0\nend_header\n", "a.ply: has no element vertex");
+  expect("ply\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n",
+         "a.ply: its vertices lack x, y or z");
+  expect(header("ascii", 600000000, 2) + "0 0 0 0\n",
+         "a.ply:11: 600000000 of 'vertex' cannot fit into the 8 bytes that follow");
+  expect(header("binary_little_endian", 3, 600000000) + std::string(100, '\0'),
+         "a.ply:11: 600000000 of 'face' cannot fit into the 100 bytes that follow");
+}
+
+TEST(ReadPly, BadTextLinesAreRefusedWithTheirNumber) {
+  const auto expect = [](const std::string& body, const std::string& wanted) {
+    const std::string message = refusal(header("ascii", 3, 1) + body);
+    EXPECT_EQ(message.substr(0, wanted.size()), wanted);
+  };
+  const std::string points = "0 0 0 1\n1 0 0 1\n0 1 0 1\n";
+  expect("0 0 0 1\n1 0 0\n0 1 0 1\n3 0 1 2\n", "a.ply:13: the line ends before all properties");
+  expect("0 0 0 1\n1 0 0 1 1\n0 1 0 1\n3 0 1 2\n", "a.ply:13: more values in the line");
+  expect("0 0 0 1\n1 0 up 1\n0 1 0 1\n3 0 1 2\n", "a.ply:13: 'up' is not a number");
+  expect("0 0 0 1\n1 0 nan 1\n0 1 0 1\n3 0 1 2\n", "a.ply:13: coordinate z is not finite");
+  expect("0 0 0 1\n1 0 1e31 1\n0 1 0 1\n3 0 1 2\n", "a.ply:13: coordinate z is larger");
+  expect(points + "3 0 1 3\n", "a.ply:15: a face uses vertex 3 of 3");
+  expect(points + "3 0 1 -1\n", "a.ply:15: a face uses vertex -1 of 3");
+  expect(points + "3 0 1 0.5\n", "a.ply:15: '0.5' is not a number of the announced type");
+  expect(points + "2 0 1\n", "a.ply:15: a face with 2 corners");
+  expect(points + "-1 0 1\n", "a.ply:15: a list of negative length");
+  expect(points + "255 0 1 2\n", "a.ply:15: the line ends before all properties");
+  expect(points + "3 0 1 2\n3 0 1 2\n", "a.ply:16: content behind the last element");
+  expect(points + "# nothing\n", "a.ply:15: the file ends after 0 of 1 of 'face'");
+}
+
+TEST(ReadPly, EveryCutIsNoticed) {
+  for (const std::string& whole : {text_square.substr(0, text_square.size() - 1),
+                                   binary_square<float>(false), binary_square<double>(true)}) {
+    ASSERT_EQ(parse(whole).triangles.size(), 2U);
+    for (std::size_t size = 0; size < whole.size(); ++size)
+      EXPECT_FALSE(refusal(whole.substr(0, size)).empty()) << "cut after " << size << " bytes";
+  }
+}
+
+TEST(ReadPly, BinaryErrorsNameTheItem) {
+  std::string bytes = binary_square<float>(false);
+  bytes[bytes.size() - 4] = 9;
+  EXPECT_NE(refusal(bytes).find("element 'face' 1: a face uses vertex 9 of 4"), std::string::npos);
+  EXPECT_NE(refusal(binary_square<float>(false) + "more").find("content behind"),
+            std::string::npos);
+}
+
+TEST(ReadPly, CloudOfPointsIsNoSurface) {
+  EXPECT_EQ(refusal(header("ascii", 2, 0) + "0 0 0 0\n1 1 1 1\n"),
+            "a.ply: has 2 vertices but no faces; a surface is wanted");
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,225 @@
+#include "weft/mesh/repair.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/mesh/small_meshes.h"
+#include "weft/core/random.h"
+
+namespace weft {
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+RepairOptions named(ComponentChoice choice = {}) { return {"thing.obj", choice}; }
+
+RepairedMesh repaired(const TriangleMesh& mesh, ComponentChoice choice = {}) {
+  return repair_mesh(mesh, named(choice));
+}
+
+template <class Wanted>
+std::string refusal(const TriangleMesh& mesh, ComponentChoice choice = {}) {
+  return testing::message_of<Wanted>([&] { repaired(mesh, choice); });
+}
+
+void turn(Triangle& t) { std::swap(t[1], t[2]); }
+
+/// Two tetrahedra of different size; the larger one comes last.
+TriangleMesh two_tetrahedra() {
+  TriangleMesh large = testing::tetrahedron();
+  for (Vec3d& p : large.positions) p = 3.0 * p + Vec3d{5, 0, 0};
+  return testing::together(testing::tetrahedron(), large);
+}
+
+TEST(Repair, SoundMeshIsLeftAlone) {
+  const TriangleMesh mesh = testing::torus(5, 7);
+  const RepairedMesh result = repaired(mesh);
+  EXPECT_EQ(result.mesh.positions, mesh.positions);
+  EXPECT_EQ(result.mesh.triangles, mesh.triangles);
+  EXPECT_TRUE(result.repairs.empty());
+  EXPECT_EQ(result.counts.genus, 1);
+}
+
+TEST(Repair, FewWrongTrianglesAreTurnedToTheMajority) {
+  const TriangleMesh good = testing::torus(9, 11);
+  TriangleMesh mesh = good;
+  for (const int t : {0, 17, 18, 101}) turn(mesh.triangles[t]);
+  const RepairedMesh result = repaired(mesh);
+  EXPECT_EQ(result.mesh.triangles, good.triangles);
+  EXPECT_EQ(result.repairs, Sentences{"oriented 4 triangles"});
+}
+
+TEST(Repair, AnyMixOfOrientationsOfAClosedSurfaceEndsOutward) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    TriangleMesh mesh = testing::torus(6, 8);
+    const double volume = testing::signed_volume(mesh);
+    for (Triangle& t : mesh.triangles)
+      if (random.uniform() < 0.5) turn(t);
+    const RepairedMesh result = repaired(mesh);
+    EXPECT_NEAR(testing::signed_volume(result.mesh), volume, 1e-9);
+    EXPECT_EQ(result.counts.genus, 1);
+  }
+}
+
+TEST(Repair, InsideOutClosedSurfaceIsTurnedAndSaysSo) {
+  TriangleMesh mesh = testing::tetrahedron();
+  for (Triangle& t : mesh.triangles) turn(t);
+  const RepairedMesh result = repaired(mesh);
+  EXPECT_GT(testing::signed_volume(result.mesh), 0);
+  EXPECT_EQ(result.repairs, Sentences{"turned the closed surface outward, 4 triangles"});
+}
+
+TEST(Repair, OpenSurfaceKeepsItsMajorityEvenWhenItFacesDown) {
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 2, 1}, {0, 3, 2}}};
+  EXPECT_EQ(repaired(mesh).mesh.triangles, mesh.triangles);
+  EXPECT_TRUE(repaired(mesh).repairs.empty());
+}
+
+TEST(Repair, SingleTriangleIsADisk) {
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{1, 0, 2}}};
+  const RepairedMesh result = repaired(mesh);
+  EXPECT_EQ(result.counts.boundaries, 1);
+  EXPECT_EQ(result.counts.euler, 1);
+  EXPECT_TRUE(result.repairs.empty());
+}
+
+TEST(Repair, MoebiusStripIsRefusedWithAnEdge) {
+  EXPECT_EQ(repaired(testing::ring(7, false)).counts.boundaries, 2);
+  const std::string message = refusal<TopologyError>(testing::ring(7, true));
+  EXPECT_NE(message.find("thing.obj: the surface is not orientable"), std::string::npos) << message;
+  EXPECT_NE(message.find("edge between vertices"), std::string::npos) << message;
+}
+
+TEST(Repair, TrianglesWithARepeatedVertexGoAndLeaveTheRest) {
+  TriangleMesh mesh = testing::tetrahedron();
+  mesh.triangles.insert(mesh.triangles.begin() + 1, {2, 2, 3});
+  mesh.triangles.push_back({1, 0, 1});
+  const RepairedMesh result = repaired(mesh);
+  EXPECT_EQ(result.mesh.triangles, testing::tetrahedron().triangles);
+  EXPECT_EQ(result.repairs, Sentences{"dropped 2 triangles with a repeated vertex"});
+}
+
+TEST(Repair, DuplicatesInAnyOrderOfCornersGo) {
+  TriangleMesh mesh = testing::tetrahedron();
+  mesh.triangles.push_back({2, 1, 0});
+  mesh.triangles.push_back({3, 0, 2});
+  mesh.triangles.push_back({3, 0, 2});
+  const RepairedMesh result = repaired(mesh);
+  EXPECT_EQ(result.mesh.triangles, testing::tetrahedron().triangles);
+  EXPECT_EQ(result.repairs, Sentences{"dropped 3 triangles with the same vertices as another"});
+}
+
+TEST(Repair, UnreferencedVerticesGoAndTheRestKnowTheirSource) {
+  TriangleMesh mesh = testing::tetrahedron();
+  mesh.positions.insert(mesh.positions.begin(), {7, 7, 7});
+  mesh.positions.push_back({8, 8, 8});
+  for (Triangle& t : mesh.triangles)
+    for (int& v : t) ++v;
+  const RepairedMesh result = repaired(mesh);
+  EXPECT_EQ(result.mesh.positions, testing::tetrahedron().positions);
+  EXPECT_EQ(result.source_vertex, (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(result.repairs, Sentences{"dropped 2 vertices without triangles"});
+}
+
+TEST(Repair, PinchedVertexIsSplitIntoItsFans) {
+  // A ring whose two borders are pinched together at one vertex.
+  TriangleMesh mesh = testing::ring(8, false);
+  for (Triangle& t : mesh.triangles)
+    for (int& v : t)
+      if (v == 9) v = 0;
+  const RepairedMesh result = repaired(mesh);
+  EXPECT_EQ(result.repairs, (Sentences{"dropped 1 vertex without triangles",
+                                       "split 1 non-manifold vertex into 2 fans"}));
+  EXPECT_EQ(result.counts.vertices, 16);
+  EXPECT_EQ(result.counts.boundaries, 2);
+  EXPECT_EQ(result.source_vertex.back(), 0);
+  EXPECT_EQ(result.mesh.positions.back(), mesh.positions[0]);
+}
+
+TEST(Repair, NonManifoldEdgesAreCountedAndTheFirstIsNamed) {
+  TriangleMesh mesh = testing::torus(5, 7);
+  mesh.positions.push_back({0, 9, 0});
+  mesh.triangles.push_back({10, 9, 35});
+  mesh.triangles.push_back({2, 3, 35});
+  const std::string message = refusal<TopologyError>(mesh);
+  EXPECT_EQ(
+      message,
+      "thing.obj: 2 non-manifold edges, the first between vertices 2 and 3 (counted from 0) with "
+      "3 triangles; at most two triangles at an edge are wanted");
+}
+
+TEST(Repair, SeveralComponentsAreRefusedUnlessOneIsChosen) {
+  const std::string message = refusal<TopologyError>(two_tetrahedra());
+  EXPECT_NE(message.find("2 components"), std::string::npos) << message;
+  EXPECT_NE(message.find("--component"), std::string::npos) << message;
+}
+
+TEST(Repair, ComponentsAreNumberedByArea) {
+  const RepairedMesh largest = repaired(two_tetrahedra(), {ComponentChoice::Kind::largest, 0});
+  EXPECT_EQ(largest.source_vertex, (std::vector<int>{4, 5, 6, 7}));
+  EXPECT_EQ(largest.components_found, 2);
+  EXPECT_EQ(largest.repairs, Sentences{"kept component 0 of 2 with 4 of 8 triangles"});
+  const RepairedMesh second = repaired(two_tetrahedra(), {ComponentChoice::Kind::index, 1});
+  EXPECT_EQ(second.source_vertex, (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(Repair, ComponentsOfEqualAreaAreNumberedByLeastVertex) {
+  TriangleMesh mesh = testing::together(testing::tetrahedron(), testing::tetrahedron());
+  std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+  const RepairedMesh result = repaired(mesh, {ComponentChoice::Kind::index, 0});
+  EXPECT_EQ(result.source_vertex, (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(Repair, ComponentThatIsNotThereIsRefused) {
+  const std::string message =
+      refusal<TopologyError>(two_tetrahedra(), {ComponentChoice::Kind::index, 2});
+  EXPECT_NE(message.find("component 2 of 2"), std::string::npos) << message;
+}
+
+TEST(Repair, SoundComponentIsKeptBesideABrokenOne) {
+  const TriangleMesh book{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}},
+                          {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
+  const TriangleMesh mesh = testing::together(testing::torus(5, 7), book);
+  EXPECT_NE(refusal<TopologyError>(mesh).find("non-manifold edge"), std::string::npos);
+  EXPECT_EQ(repaired(mesh, {ComponentChoice::Kind::largest, 0}).counts.genus, 1);
+  EXPECT_NE(refusal<TopologyError>(mesh, {ComponentChoice::Kind::index, 1}).find("non-manifold"),
+            std::string::npos);
+}
+
+TEST(Repair, TrianglesWithoutAreaStay) {
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 2, 3}, {0, 1, 2}}};
+  const RepairedMesh result = repaired(mesh);
+  EXPECT_EQ(result.mesh.triangles.size(), 2U);
+  EXPECT_TRUE(result.repairs.empty());
+}
+
+TEST(Repair, BadValuesAreInputErrors) {
+  TriangleMesh mesh = testing::tetrahedron();
+  mesh.positions[2].y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refusal<InputError>(mesh).find("vertex 2"), std::string::npos);
+  mesh.positions[2].y = 1e200;
+  EXPECT_NE(refusal<InputError>(mesh).find("1e30"), std::string::npos);
+  mesh = testing::tetrahedron();
+  mesh.triangles[1][2] = 4;
+  EXPECT_NE(refusal<InputError>(mesh).find("triangle 1 uses vertex 4 of 4"), std::string::npos);
+  mesh.triangles[1][2] = -1;
+  EXPECT_NE(refusal<InputError>(mesh).find("vertex -1"), std::string::npos);
+  EXPECT_NE(refusal<InputError>({}).find("no vertices"), std::string::npos);
+  EXPECT_NE(refusal<InputError>({mesh.positions, {}}).find("no triangles"), std::string::npos);
+  EXPECT_NE(refusal<InputError>({mesh.positions, {{1, 1, 2}}}).find("repeated vertex"),
+            std::string::npos);
+}
+
+TEST(Repair, WeldJoinsEqualPositionsInOrderOfFirstOccurrence) {
+  const TriangleMesh soup{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 0}, {-0.0, 0, 1}, {2, 2, 2}},
+                          {{0, 1, 2}, {3, 4, 5}}};
+  const TriangleMesh welded = weld_exact(soup);
+  EXPECT_EQ(welded.positions, (std::vector<Vec3d>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 2, 2}}));
+  EXPECT_EQ(welded.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 2, 3}}));
+}
+
+}  // namespace
+}  // namespace weft
