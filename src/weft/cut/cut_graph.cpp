@@ -1,0 +1,127 @@
+#include "weft/cut/cut_graph.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+
+namespace weft {
+namespace {
+
+int find_edge(const CutSurface& surface, int a, int b) {
+  int found = -1;
+  if (a >= 0 && a < surface.vertex_count())
+    surface.for_each_edge(a, [&](int h) {
+      if (surface.other_end(h, a) == b) found = h;
+    });
+  if (found < 0)
+    throw TopologyError("cut", fmt::format("vertices {} and {} share no edge", a, b),
+                        "a cut along edges of the mesh");
+  return found;
+}
+
+}  // namespace
+
+CutGraph::CutGraph(const CutSurface& surface)
+    : surface_(surface), open_(surface.half_edge_count(), 0), valence_(surface.vertex_count(), 0) {
+  for (int h = 0; h < surface.half_edge_count(); ++h) {
+    if (surface.twin(h) >= 0) continue;
+    open_[h] = 1;
+    ++valence_[surface.from(h)];
+    ++valence_[surface.to(h)];
+  }
+}
+
+CutGraph::CutGraph(const CutSurface& surface, const Cut& cut) : CutGraph(surface) {
+  for (const auto& [a, b] : cut.edges) add(find_edge(surface, a, b));
+}
+
+void CutGraph::set(int half_edge, bool open) {
+  const int twin = surface_.twin(half_edge);
+  if (twin < 0 || contains(half_edge) == open) return;
+  open_[half_edge] = open_[twin] = open ? 1 : 0;
+  const int change = open ? 1 : -1;
+  valence_[surface_.from(half_edge)] += change;
+  valence_[surface_.to(half_edge)] += change;
+}
+
+void CutGraph::add_all() {
+  for (int h = 0; h < surface_.half_edge_count(); ++h) add(h);
+}
+
+void CutGraph::prune() {
+  for (int v = 0; v < surface_.vertex_count(); ++v) {
+    for (int leaf = v; leaf >= 0 && valence(leaf) == 1;) {
+      int edge = -1;
+      surface_.for_each_edge(leaf, [&](int h) {
+        if (contains(h)) edge = h;
+      });
+      remove(edge);
+      leaf = surface_.other_end(edge, leaf);
+    }
+  }
+}
+
+int CutGraph::first_open(int half_edge) const {
+  int h = half_edge;
+  while (!contains(h)) {
+    h = HalfEdges::next(surface_.twin(h));
+    if (h == half_edge) return -1;
+  }
+  return h;
+}
+
+void CutGraph::extend(std::vector<int>& path) const {
+  const int start = surface_.from(path.front());
+  for (;;) {
+    const int last = path.back();
+    const int end = surface_.to(last);
+    if (valence(end) != 2 || end == start) return;
+    int onward = -1;
+    surface_.for_each_edge(end, [&](int h) {
+      if (contains(h) && h != surface_.twin(last)) onward = h;
+    });
+    path.push_back(onward);
+  }
+}
+
+std::vector<int> CutGraph::path_through(int half_edge) const {
+  std::vector<int> path{surface_.twin(half_edge)};
+  extend(path);
+  // Turned round, it ends with the given half-edge and can grow at its other end.
+  std::reverse(path.begin(), path.end());
+  for (int& h : path) h = surface_.twin(h);
+  if (surface_.to(path.back()) != surface_.from(path.front())) extend(path);
+  return path;
+}
+
+std::vector<std::vector<int>> CutGraph::paths() const {
+  std::vector<char> seen(open_.size(), 0);
+  std::vector<std::vector<int>> all;
+  for (int h = 0; h < surface_.half_edge_count(); ++h) {
+    if (!contains(h) || surface_.twin(h) < 0 || seen[h]) continue;
+    all.push_back(path_through(h));
+    for (const int g : all.back()) seen[g] = seen[surface_.twin(g)] = 1;
+  }
+  return all;
+}
+
+double CutGraph::length() const {
+  double total = 0;
+  for (int h = 0; h < surface_.half_edge_count(); ++h)
+    if (contains(h) && h < surface_.twin(h)) total += surface_.length(h);
+  return total;
+}
+
+Cut CutGraph::cut() const {
+  Cut cut;
+  for (int h = 0; h < surface_.half_edge_count(); ++h)
+    if (contains(h) && h < surface_.twin(h))
+      cut.edges.push_back(
+          {std::min(surface_.from(h), surface_.to(h)), std::max(surface_.from(h), surface_.to(h))});
+  std::sort(cut.edges.begin(), cut.edges.end());
+  return cut;
+}
+
+}  // namespace weft

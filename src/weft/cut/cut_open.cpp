@@ -1,0 +1,181 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/cut/cut_graph.h"
+#include "weft/cut/split_border_edge.h"
+
+namespace weft {
+namespace {
+
+/// Fewer border vertices than this would give two edges of the disk the same ends.
+constexpr int least_border = 3;
+
+/// The open half-edges in the order of the border, beginning at a node where there is one.
+std::vector<int> walk_border(const CutGraph& graph) {
+  const CutSurface& surface = graph.surface();
+  int start = -1;
+  for (int h = 0; h < surface.half_edge_count(); ++h) {
+    if (!graph.contains(h)) continue;
+    if (start < 0) start = h;
+    if (graph.valence(surface.from(h)) == 2) continue;
+    start = h;
+    break;
+  }
+  std::vector<int> border;
+  if (start < 0) return border;
+  int h = start;
+  do {
+    border.push_back(h);
+    h = graph.next_open(h);
+  } while (h != start);
+  return border;
+}
+
+/// Gives every corner its disk vertex: corners of one surface vertex share one unless an open edge
+/// parts them. A surface vertex's first is itself, further ones come after all surface vertices.
+class WedgeNumbers {
+ public:
+  explicit WedgeNumbers(const CutGraph& graph)
+      : graph_(graph), surface_(graph.surface()), corner_(surface_.half_edge_count(), -1) {
+    const int vertices = surface_.vertex_count();
+    std::vector<char> used(vertices, 0);
+    for (int v = 0; v < vertices; ++v) surface_vertex_.push_back(v);
+    for (int h = 0; h < surface_.half_edge_count(); ++h) {
+      if (corner_[h] >= 0) continue;
+      const int v = surface_.from(h);
+      int name = v;
+      if (used[v]) {
+        name = static_cast<int>(surface_vertex_.size());
+        surface_vertex_.push_back(v);
+      }
+      used[v] = 1;
+      fill(h, name);
+    }
+  }
+  /// [3F] disk vertex at the start of a half-edge, in its triangle.
+  [[nodiscard]] const std::vector<int>& corners() const { return corner_; }
+  [[nodiscard]] const std::vector<int>& surface_vertices() const { return surface_vertex_; }
+
+ private:
+  void fill(int h, int name) {
+    for (int g = h; g >= 0 && corner_[g] < 0;) {
+      corner_[g] = name;
+      g = graph_.contains(g) ? -1 : HalfEdges::next(surface_.twin(g));
+    }
+    for (int g = h; g >= 0;) {
+      const int arriving = HalfEdges::previous(g);
+      g = graph_.contains(arriving) ? -1 : surface_.twin(arriving);
+      if (g >= 0 && corner_[g] >= 0) return;
+      if (g >= 0) corner_[g] = name;
+    }
+  }
+
+  const CutGraph& graph_;
+  const CutSurface& surface_;
+  std::vector<int> corner_, surface_vertex_;
+};
+
+/// How many pieces the opened surface has.
+int count_pieces(const CutGraph& graph) {
+  const CutSurface& surface = graph.surface();
+  std::vector<char> seen(surface.triangle_count(), 0);
+  std::vector<int> stack;
+  int pieces = 0;
+  for (int t = 0; t < surface.triangle_count(); ++t) {
+    if (seen[t]) continue;
+    ++pieces;
+    seen[t] = 1;
+    stack.push_back(t);
+    while (!stack.empty()) {
+      const int first = 3 * stack.back();
+      stack.pop_back();
+      for (int h = first; h < first + 3; ++h) {
+        if (graph.contains(h) || seen[surface.twin(h) / 3]) continue;
+        seen[surface.twin(h) / 3] = 1;
+        stack.push_back(surface.twin(h) / 3);
+      }
+    }
+  }
+  return pieces;
+}
+
+/// A connected surface is a disk when its Euler characteristic is 1: one border loop, no handle.
+void check_disk(const CutGraph& graph, std::size_t disk_vertices) {
+  const CutSurface& surface = graph.surface();
+  int open = 0;
+  for (int h = 0; h < surface.half_edge_count(); ++h) open += graph.contains(h) ? 1 : 0;
+  const int edges = (surface.half_edge_count() + open) / 2;
+  const int euler = static_cast<int>(disk_vertices) - edges + surface.triangle_count();
+  const int pieces = count_pieces(graph);
+  if (pieces != 1 || euler != 1 || open == 0)
+    throw TopologyError("cut",
+                        fmt::format("the mesh opens to {} pieces with {} border edges and Euler "
+                                    "characteristic {}",
+                                    pieces, open, euler),
+                        "one disk (1 piece, Euler characteristic 1)");
+}
+
+DiskMesh opened_mesh(const CutGraph& graph, const std::vector<int>& border) {
+  const CutSurface& surface = graph.surface();
+  const WedgeNumbers wedges(graph);
+  check_disk(graph, wedges.surface_vertices().size());
+  DiskMesh disk;
+  disk.surface_vertex = wedges.surface_vertices();
+  for (const int v : disk.surface_vertex) disk.positions.push_back(surface.mesh().positions[v]);
+  for (int t = 0; t < surface.triangle_count(); ++t)
+    disk.triangles.push_back(
+        {wedges.corners()[3 * t], wedges.corners()[3 * t + 1], wedges.corners()[3 * t + 2]});
+  for (const int h : border) disk.border.push_back(wedges.corners()[h]);
+  return disk;
+}
+
+/// [3F] the border loop of the surface that a half-edge lies on, -1 inside.
+std::vector<int> loops_of_half_edges(const CutSurface& surface) {
+  std::vector<int> loop_of_vertex(surface.vertex_count(), -1);
+  const auto loops = border_loops(surface.mesh().triangles, surface.edges());
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    for (const int v : loops[i]) loop_of_vertex[v] = static_cast<int>(i);
+  std::vector<int> loop_of(surface.half_edge_count(), -1);
+  for (int h = 0; h < surface.half_edge_count(); ++h)
+    if (surface.twin(h) < 0) loop_of[h] = loop_of_vertex[surface.from(h)];
+  return loop_of;
+}
+
+std::vector<BorderPath> divide(const CutGraph& graph, const std::vector<int>& border) {
+  const CutSurface& surface = graph.surface();
+  const std::vector<int> loop_of = loops_of_half_edges(surface);
+  std::vector<int> path_of(surface.half_edge_count(), -1);
+  std::vector<BorderPath> paths;
+  for (std::size_t i = 0; i < border.size(); ++i) {
+    if (i == 0 || graph.valence(surface.from(border[i])) != 2)
+      paths.push_back({.first = static_cast<int>(i),
+                       .edges = 0,
+                       .mate = -1,
+                       .border_loop = loop_of[border[i]]});
+    ++paths.back().edges;
+    path_of[border[i]] = static_cast<int>(paths.size()) - 1;
+  }
+  for (BorderPath& path : paths) {
+    const int twin = surface.twin(border[path.first]);
+    if (twin >= 0) path.mate = path_of[twin];
+  }
+  return paths;
+}
+
+}  // namespace
+
+CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut) {
+  const CutSurface surface(mesh);
+  const CutGraph graph(surface, cut);
+  const std::vector<int> border = walk_border(graph);
+  CutDisk opened;
+  opened.disk = opened_mesh(graph, border);
+  opened.paths = divide(graph, border);
+  while (static_cast<int>(opened.disk.border.size()) < least_border)
+    split_border_edge(opened, 0, 0.5);
+  return opened;
+}
+
+}  // namespace weft

@@ -1,0 +1,67 @@
+#include "weft/cut/open_to_disk.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/cut/seed_cut.h"
+#include "weft/cut/shortest_paths.h"
+#include "weft/cut/straighten.h"
+
+namespace weft {
+namespace {
+
+/// Another seed gains a few percent at best, so large meshes, on which it takes long, get fewer.
+constexpr int most_seeds = 4;
+constexpr int triangles_for_all_seeds = 80000;
+
+int seed_count(int triangles) {
+  return std::clamp(triangles_for_all_seeds / triangles, 1, most_seeds);
+}
+
+Cut open_sphere(const CutSurface& surface, int seed_triangle) {
+  CutGraph graph(surface);
+  for (const int h : far_path(surface, surface.mesh().triangles[seed_triangle][0])) graph.add(h);
+  return graph.cut();
+}
+
+CutGraph open_from(const CutSurface& surface, int seed_triangle, bool straightened) {
+  CutGraph graph = cut_from_seed(surface, seed_triangle);
+  if (straightened) straighten(graph);
+  return graph;
+}
+
+/// The shortest of the cuts from a few seeds; of equal ones the first.
+Cut shortest_cut(const CutSurface& surface, bool straightened) {
+  std::optional<Cut> best;
+  double best_length = 0;
+  for (const int seed : spread_triangles(surface, 0, seed_count(surface.triangle_count()))) {
+    const CutGraph graph = open_from(surface, seed, straightened);
+    const double length = graph.length();
+    if (best && length >= best_length) continue;
+    best = graph.cut();
+    best_length = length;
+  }
+  return *best;
+}
+
+}  // namespace
+
+Cut open_to_disk(const TriangleMesh& mesh, const CutOptions& options) {
+  const int triangles = static_cast<int>(mesh.triangles.size());
+  if (options.seed_triangle < -1 || options.seed_triangle >= triangles)
+    throw TopologyError("seed triangle", fmt::format("{}", options.seed_triangle),
+                        fmt::format("0 to {}, or -1 to choose", triangles - 1));
+  const TopologyCounts counts =
+      count_topology(static_cast<int>(mesh.positions.size()), mesh.triangles);
+  if (counts.genus == 0 && counts.boundaries == 1) return {};
+  const CutSurface surface(mesh);
+  if (counts.genus == 0 && counts.boundaries == 0)
+    return open_sphere(surface, options.seed_triangle < 0 ? 0 : options.seed_triangle);
+  if (options.seed_triangle < 0) return shortest_cut(surface, options.straighten);
+  return open_from(surface, options.seed_triangle, options.straighten).cut();
+}
+
+}  // namespace weft

@@ -1,0 +1,164 @@
+#include "weft/cut/straighten.h"
+
+#include <algorithm>
+
+#include "weft/cut/shortest_paths.h"
+
+namespace weft {
+namespace {
+
+constexpr int most_rounds = 16;
+
+double path_length(const CutSurface& surface, std::span<const int> path) {
+  double total = 0;
+  for (const int h : path) total += surface.length(h);
+  return total;
+}
+
+/// Finds the shortest way between the two borders of an annulus, which are those of the surface
+/// opened along a graph.
+class AnnulusSearch {
+ public:
+  explicit AnnulusSearch(const CutGraph& graph)
+      : graph_(graph),
+        surface_(graph.surface()),
+        side_(surface_.half_edge_count(), 0),
+        distance_(surface_.vertex_count(), HUGE_VAL),
+        arrival_(surface_.vertex_count(), -1) {}
+
+  /// Half-edges from the border through `start` to the border through `end`, both open half-edges;
+  /// empty when these are one border.
+  std::vector<int> shortest(int start, int end) {
+    std::vector<int> leaving = mark(start, 1);
+    std::vector<int> path;
+    if (side_[end] == 0) {
+      std::vector<int> arriving = mark(end, 2);
+      // The search spreads from one whole border, so the smaller one is cheaper.
+      if (arriving.size() < leaving.size()) {
+        path = search(arriving, 1);
+        clear(arriving);
+      } else {
+        path = search(leaving, 2);
+        clear(arriving);
+      }
+    }
+    clear(leaving);
+    return path;
+  }
+
+ private:
+  /// Marks the half-edges that leave the border's vertices into its side of the surface, and the
+  /// border's own.
+  std::vector<int> mark(int start, char side) {
+    std::vector<int> marked;
+    int h = start;
+    do {
+      marked.push_back(h);
+      for (h = HalfEdges::next(h); !graph_.contains(h); h = HalfEdges::next(surface_.twin(h)))
+        marked.push_back(h);
+    } while (h != start);
+    for (const int g : marked) side_[g] = side;
+    return marked;
+  }
+
+  void clear(std::span<const int> marked) {
+    for (const int h : marked) side_[h] = 0;
+  }
+
+  /// Dijkstra's search over the vertices that no open edge touches.
+  std::vector<int> search(std::span<const int> leaving, char goal) {
+    best_ = HUGE_VAL;
+    best_last_ = -1;
+    for (const int h : leaving)
+      if (!graph_.contains(h)) reach(h, 0, goal);
+    while (!queue_.empty() && queue_.top().first < best_) {
+      const auto [here, v] = queue_.top();
+      queue_.pop();
+      if (here > distance_[v]) continue;
+      surface_.for_each_edge(v, [&, from_here = here](int h) { reach(h, from_here, goal); });
+    }
+    queue_ = {};
+    std::vector<int> path = trace();
+    for (const int v : touched_) {
+      distance_[v] = HUGE_VAL;
+      arrival_[v] = -1;
+    }
+    touched_.clear();
+    return path;
+  }
+
+  void reach(int h, double here, char goal) {
+    const int w = surface_.to(h);
+    const double there = here + surface_.length(h);
+    if (graph_.valence(w) > 0) {
+      if (side_[surface_.twin(h)] != goal || there >= best_) return;
+      best_ = there;
+      best_last_ = h;
+    } else if (there < distance_[w]) {
+      if (arrival_[w] < 0) touched_.push_back(w);
+      distance_[w] = there;
+      arrival_[w] = h;
+      queue_.emplace(there, w);
+    }
+  }
+
+  [[nodiscard]] std::vector<int> trace() const {
+    std::vector<int> path;
+    for (int h = best_last_; h >= 0;) {
+      path.push_back(h);
+      const int v = surface_.from(h);
+      h = graph_.valence(v) > 0 ? -1 : arrival_[v];
+    }
+    return path;
+  }
+
+  const CutGraph& graph_;
+  const CutSurface& surface_;
+  std::vector<char> side_;  // [3F] of the wedge that a half-edge leaves into: 0 unknown
+  std::vector<double> distance_;
+  std::vector<int> arrival_, touched_;
+  ReachQueue queue_;
+  double best_ = HUGE_VAL;
+  int best_last_ = -1;
+};
+
+/// Replaces the path through an open edge by a shorter one. @return the length gained [m]
+double shorten(CutGraph& graph, AnnulusSearch& search, int half_edge) {
+  const CutSurface& surface = graph.surface();
+  const std::vector<int> path = graph.path_through(half_edge);
+  for (const int h : path) graph.remove(h);
+  const int start = graph.first_open(path.front());
+  const int end = graph.first_open(surface.twin(path.back()));
+  const std::vector<int> shorter =
+      start >= 0 && end >= 0 ? search.shortest(start, end) : std::vector<int>{};
+  const double gain = path_length(surface, path) - path_length(surface, shorter);
+  const bool better = !shorter.empty() && gain > 0;
+  for (const int h : better ? shorter : path) graph.add(h);
+  return better ? gain : 0;
+}
+
+/// An edge in the middle of every path, longest path first.
+std::vector<int> representatives(const CutGraph& graph) {
+  std::vector<Reach> ranked;
+  for (const std::vector<int>& path : graph.paths())
+    ranked.emplace_back(-path_length(graph.surface(), path), path[path.size() / 2]);
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<int> edges;
+  edges.reserve(ranked.size());
+  for (const auto& [_, h] : ranked) edges.push_back(h);
+  return edges;
+}
+
+}  // namespace
+
+void straighten(CutGraph& graph, double least_gain) {
+  AnnulusSearch search(graph);
+  for (int round = 0; round < most_rounds; ++round) {
+    double gain = 0;
+    for (const int h : representatives(graph))
+      if (graph.contains(h)) gain += shorten(graph, search, h);
+    if (gain <= least_gain * graph.length()) return;
+  }
+}
+
+}  // namespace weft

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/cut/voxel_mesh.h"
+
+namespace weft::test {
+
+inline TriangleMesh tetrahedron() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+}
+
+inline TriangleMesh one_triangle() { return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}; }
+
+/// Small surfaces of many topologies, each with a name for messages.
+inline std::vector<std::pair<std::string, TriangleMesh>> cut_cases() {
+  return {{"tetrahedron", tetrahedron()},
+          {"cube", slab_surface({"#"})},
+          {"slab", slab_surface({"##", "##"}, 1.3)},
+          {"torus", slab_surface({"####", "#..#", "####"}, 3.1)},
+          {"double torus", slab_surface({"#####", "#.#.#", "#####"})},
+          {"genus 4", slab_surface({"#####", "#.#.#", "#####", "#.#.#", "#####"}, 1.7)},
+          {"triangle", one_triangle()},
+          {"disk", slab_surface({"o"})},
+          {"annulus", slab_surface({"o#o"})},
+          {"four holes", slab_surface({"o#o", "###", "o#o"}, 0.7)},
+          {"torus with two holes", slab_surface({"o##", "#.#", "##o"})},
+          {"double torus with three holes", slab_surface({"o#o#o", "#.#.#", "#####"})}};
+}
+
+}  // namespace weft::test
