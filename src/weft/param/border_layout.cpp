@@ -1,0 +1,144 @@
+#include "weft/param/border_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/param/border_curves.h"
+
+namespace weft {
+namespace {
+
+/// Smallest side of a geometry image.
+constexpr int least_side = 5;
+
+int least_total(const std::vector<BorderCurve>& curves) {
+  int total = 0;
+  for (const BorderCurve& curve : curves) total += curve.weight * curve.least;
+  return total;
+}
+
+/// Real shares of `total` in proportion to length, none below its least: curves that would get less
+/// are held at their least and the rest is shared again among the others.
+std::vector<double> shares(const std::vector<BorderCurve>& curves, int total) {
+  double whole = 0;
+  for (const BorderCurve& curve : curves) whole += curve.length;
+  // A curve of no length still has to have a share of its own.
+  const auto size = [&](const BorderCurve& c) { return whole > 0 ? c.length + 1e-9 * whole : 1.0; };
+  std::vector<char> held(curves.size(), 0);
+  std::vector<double> share(curves.size());
+  for (bool changed = true; changed;) {
+    changed = false;
+    double free_total = total, free_size = 0;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      if (held[i]) free_total -= curves[i].weight * curves[i].least;
+      if (!held[i]) free_size += curves[i].weight * size(curves[i]);
+    }
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      share[i] = held[i] ? curves[i].least : free_total * size(curves[i]) / free_size;
+      if (held[i] || share[i] >= curves[i].least) continue;
+      held[i] = 1;
+      changed = true;
+    }
+  }
+  return share;
+}
+
+/// Largest remainder: whole parts first, then one more each in order of what was cut off. A curve
+/// with a mate takes two units at a time, so a last single unit goes to a true border path.
+std::vector<int> apportion(const std::vector<BorderCurve>& curves, int total) {
+  const std::vector<double> share = shares(curves, total);
+  std::vector<int> counts(curves.size()), order(curves.size());
+  int left = total;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    counts[i] = std::max(curves[i].least, static_cast<int>(std::floor(share[i])));
+    left -= curves[i].weight * counts[i];
+    order[i] = static_cast<int>(i);
+  }
+  const auto rank = [&](int i) { return std::tuple(counts[i] - share[i], -curves[i].length, i); };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) < rank(b); });
+  while (left > 0)
+    for (const int i : order) {
+      if (curves[i].weight > left) continue;
+      ++counts[i];
+      left -= curves[i].weight;
+    }
+  return counts;
+}
+
+/// True when rounding to multiples of `step` takes no curve further than a thirty-second from its
+/// share.
+bool near_enough(const std::vector<BorderCurve>& curves, const std::vector<double>& share,
+                 const std::vector<int>& counts, int step) {
+  constexpr double tolerance = 1.0 / 32;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const int intervals = step * counts[i];
+    if (intervals < curves[i].least) return false;
+    if (std::abs(intervals - share[i]) > tolerance * share[i]) return false;
+  }
+  return true;
+}
+
+/// Counts in multiples of the largest power of two that divides the side and is near enough to the
+/// shares.
+std::vector<int> aligned_counts(const std::vector<BorderCurve>& curves, int size) {
+  const int total = 4 * (size - 1);
+  const std::vector<double> share = shares(curves, total);
+  int step = 1;
+  while ((size - 1) % (2 * step) == 0) step *= 2;
+  for (; step > 1; step /= 2) {
+    if (least_total(curves) > total / step) continue;
+    std::vector<int> counts = apportion(curves, total / step);
+    if (!near_enough(curves, share, counts, step)) continue;
+    for (int& count : counts) count *= step;
+    return counts;
+  }
+  return apportion(curves, total);
+}
+
+}  // namespace
+
+Vec2d border_point(int size, double t) {
+  const double side = size - 1;
+  if (t <= side) return {t, 0};
+  if (t <= 2 * side) return {side, t - side};
+  if (t <= 3 * side) return {3 * side - t, side};
+  return {0, 4 * side - t};
+}
+
+int least_size(const CutDisk& cut) {
+  const int total = least_total(border_curves(cut));
+  return std::max(least_side, (total + 3) / 4 + 1);
+}
+
+BorderLayout lay_out_border(const CutDisk& cut, const LayoutOptions& options) {
+  const int least = least_size(cut);
+  if (options.size < least)
+    throw TopologyError("",
+                        fmt::format("size {} is too small for the cut's {} border paths",
+                                    options.size, cut.paths.size()),
+                        fmt::format("size {} or more", least));
+  const int total = 4 * (options.size - 1);
+  const std::vector<BorderCurve> curves = border_curves(cut);
+  const std::vector<int> counts =
+      options.align ? aligned_counts(curves, options.size) : apportion(curves, total);
+  BorderLayout layout;
+  layout.size = options.size;
+  layout.intervals.resize(cut.paths.size());
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const int mate = cut.paths[curves[i].path].mate;
+    layout.intervals[curves[i].path] = counts[i];
+    if (mate >= 0) layout.intervals[mate] = counts[i];
+  }
+  int position = (options.rotation % total + total) % total;
+  for (const int intervals : layout.intervals) {
+    layout.first.push_back(position);
+    position = (position + intervals) % total;
+  }
+  return layout;
+}
+
+}  // namespace weft

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "weft/core/vec.h"
+#include "weft/cut/disk_mesh.h"
+
+namespace weft {
+
+/// How the paths of a cut are laid around the square, in whole sample intervals. Border positions t
+/// run counter-clockwise from 0 at (u, v) = (0, 0) to 4 (n - 1), first along v = 0.
+struct BorderLayout {
+  int size = 0;                ///< n
+  std::vector<int> first;      ///< [P] border position of each path's first node, in [0, 4 (n - 1))
+  std::vector<int> intervals;  ///< [P] sample intervals of each path, >= 1; mates have the same
+};
+
+/// The corner of border position t (any t in [0, 4 (n - 1)]): (u, v) in [0, n - 1]^2, exact for
+/// whole t.
+Vec2d border_point(int size, double t);
+
+struct LayoutOptions {
+  int size = 257;
+  int rotation = 0;  ///< border position of the first path's first node
+  /// Counts in multiples of a power of two, the largest that divides n - 1 and takes no path
+  /// further than a thirty-second from its share: with a rotation that is a multiple too, mates
+  /// then match on coarser levels of the image.
+  bool align = true;
+};
+
+/// Stage 5: gives every path a count of intervals in proportion to its length, by largest
+/// remainder, so that mates match, no loop collapses, and the counts fill 4 (n - 1) exactly.
+/// @throws TopologyError when n is too small for the cut, naming the least n that works
+BorderLayout lay_out_border(const CutDisk& cut, const LayoutOptions& options);
+
+/// The least n for which lay_out_border succeeds.
+int least_size(const CutDisk& cut);
+
+/// Splits the edges (and their mates) in which a corner of the square falls, so that every corner
+/// is a border vertex. Mates stay mates. Path and border indices are renewed.
+void split_at_corners(CutDisk& cut, const BorderLayout& layout);
+
+/// The border position t of every border vertex, by arc length along its path; nodes are whole
+/// numbers, mated vertices lie at exactly corresponding positions. [border.size()]
+std::vector<double> border_positions(const CutDisk& cut, const BorderLayout& layout);
+
+}  // namespace weft

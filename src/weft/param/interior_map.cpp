@@ -1,0 +1,59 @@
+#include "weft/param/interior_map.h"
+
+#include "weft/param/disk_geometry.h"
+#include "weft/param/interior_solver.h"
+#include "weft/param/reweighting.h"
+#include "weft/param/stretch_newton.h"
+#include "weft/param/weights.h"
+
+namespace weft {
+namespace {
+
+constexpr int most_cures = 6;
+
+/// Floater's map as it is; where doubles do not hold it, the neighbours' stretch divides the
+/// weights, which spreads the places where the map has collapsed.
+bool map_by_floater(const DiskGeometry& geometry, const InteriorSolver& solver,
+                    std::span<Vec2d> uv) {
+  std::vector<double> weights =
+      shape_preserving_weights(geometry.disk, geometry.edges, geometry.sides);
+  for (int cure = 0; cure <= most_cures; ++cure) {
+    if (cure > 0) reweight(geometry, uv, weights);
+    if (!solver.solve_general(weights, uv)) return false;
+    if (is_valid_map(geometry.disk.triangles, uv)) return true;
+  }
+  return false;
+}
+
+bool map_with_least_stretch(const DiskGeometry& geometry, InteriorSolver& solver,
+                            std::span<Vec2d> uv, const StretchOptions& options) {
+  std::vector<double> weights = symmetric_weights(geometry.disk, geometry.edges, geometry.sides);
+  ReweightingOptions reweighting{.iterations = options.iterations, .cures = most_cures};
+  // A Newton step gains more than the last of these would.
+  if (options.newton_steps > 0) reweighting.least_gain = 0.01;
+  bool found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
+  if (!found) {
+    // Equal weights do not see slivers at all.
+    weights.assign(weights.size(), 1.0);
+    found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
+  }
+  if (found && options.newton_steps > 0)
+    minimise_by_newton(geometry, uv, {.steps = options.newton_steps});
+  return found;
+}
+
+}  // namespace
+
+bool map_interior(const DiskMesh& disk, std::span<Vec2d> uv, const Parameterizer& parameterizer,
+                  Progress* progress) {
+  update(progress, "map", 0.5);
+  const DiskGeometry geometry(disk);
+  InteriorSolver solver(disk, geometry.edges);
+  if (const auto* stretch = std::get_if<StretchOptions>(&parameterizer))
+    return map_with_least_stretch(geometry, solver, uv, *stretch);
+  // A valid map that is not Floater's is better than none.
+  return map_by_floater(geometry, solver, uv) ||
+         map_with_least_stretch(geometry, solver, uv, {.iterations = 0, .newton_steps = 0});
+}
+
+}  // namespace weft

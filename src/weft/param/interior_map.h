@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+
+#include "weft/core/progress.h"
+#include "weft/param/square_map.h"
+
+namespace weft {
+
+/// Stages 7 and 8: maps the inside of a disk into a convex border that is given, without a flipped
+/// or degenerate triangle.
+/// @param uv  [D] positions of the border vertices given, counter-clockwise; the rest is
+/// overwritten
+/// @pre no chords (weft/param/chords.h); border positions distinct
+/// @return whether a valid map was found; if not, uv holds the last attempt
+bool map_interior(const DiskMesh& disk, std::span<Vec2d> uv, const Parameterizer& parameterizer,
+                  Progress* progress);
+
+}  // namespace weft

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "weft/param/disk_geometry.h"
+
+namespace weft {
+
+/// The projected Newton system of the stretch energy (see weft/param/stretch_newton.h): two
+/// unknowns for each interior vertex; one pattern and one symbolic factorization for all steps.
+///
+/// Solved by conjugate gradients, preconditioned with the Cholesky factors of the two diagonal
+/// blocks (all u, all v): together they have a quarter of the fill of the whole, and a Newton step
+/// needs no more than a digit.
+class NewtonSystem {
+ public:
+  /// Keeps a reference to the geometry, which must outlive it.
+  explicit NewtonSystem(const DiskGeometry& geometry);
+  NewtonSystem(const NewtonSystem&) = delete;
+  NewtonSystem& operator=(const NewtonSystem&) = delete;
+  ~NewtonSystem();
+
+  struct Step {
+    std::vector<Vec2d> move;  ///< [D], zero on the border; empty when the system broke down
+    double slope = 0;         ///< derivative of the energy along `move`, negative
+  };
+  /// @param uv  [D] a valid map
+  [[nodiscard]] Step solve(std::span<const Vec2d> uv);
+
+ private:
+  struct Blocks;
+  std::unique_ptr<Blocks> blocks_;
+};
+
+}  // namespace weft

@@ -1,0 +1,50 @@
+#include "weft/param/square_map.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/param/chords.h"
+#include "weft/param/interior_map.h"
+#include "weft/param/rotation.h"
+
+namespace weft {
+namespace {
+
+/// Border vertices placed, all others at the origin.
+std::vector<Vec2d> place_border(const CutDisk& cut, const BorderLayout& layout) {
+  std::vector<Vec2d> uv(cut.disk.positions.size());
+  const std::vector<double> t = border_positions(cut, layout);
+  for (std::size_t b = 0; b < t.size(); ++b)
+    uv[cut.disk.border[b]] = border_point(layout.size, t[b]);
+  return uv;
+}
+
+}  // namespace
+
+MappedDisk map_to_square(const CutDisk& cut, const MapOptions& options) {
+  MappedDisk mapped{.cut = cut, .layout = {}, .map = {}, .quality = {}, .parameterizer = "stretch"};
+  if (std::holds_alternative<FloaterOptions>(options.parameterizer))
+    mapped.parameterizer = "floater";
+  update(options.progress, "map", 0.0);
+  const LayoutOptions layout{options.size, choose_rotation(cut, options.size, options.rotations)};
+  mapped.layout = lay_out_border(cut, layout);
+  split_at_corners(mapped.cut, mapped.layout);
+  split_chords(mapped.cut.disk);
+
+  mapped.map.size = options.size;
+  mapped.map.uv = place_border(mapped.cut, mapped.layout);
+  const bool found =
+      map_interior(mapped.cut.disk, mapped.map.uv, options.parameterizer, options.progress);
+  mapped.quality = measure_map(mapped.cut.disk, mapped.map);
+  if (!found)
+    throw TopologyError(options.name,
+                        fmt::format("no valid map was found: {} triangles flipped, {} without area",
+                                    mapped.quality.flipped, mapped.quality.degenerate),
+                        "a mesh with fewer or better shaped triangles");
+  update(options.progress, "map", 1.0);
+  return mapped;
+}
+
+}  // namespace weft

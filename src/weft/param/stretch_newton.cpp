@@ -1,0 +1,82 @@
+#include "weft/param/stretch_newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "weft/param/newton_system.h"
+
+namespace weft {
+namespace {
+
+/// The least positive s at which d + b s + c s^2 vanishes; infinity if there is none. @pre d > 0
+double first_root(double c, double b, double d) {
+  const double discriminant = b * b - 4 * c * d;
+  if (discriminant < 0 || (b >= 0 && c >= 0)) return std::numeric_limits<double>::infinity();
+  const double root = std::sqrt(discriminant);
+  // 2 d / (-b + root) is the least positive root whatever the sign of c, without cancellation for b
+  // < 0.
+  const double divisor = root - b;
+  return divisor > 0 ? 2 * d / divisor : std::numeric_limits<double>::infinity();
+}
+
+/// How far all vertices can go along their steps before the first triangle closes.
+double free_way(std::span<const Triangle> triangles, std::span<const Vec2d> uv,
+                std::span<const Vec2d> step) {
+  double way = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : triangles) {
+    const Vec2d p = uv[b] - uv[a];
+    const Vec2d q = uv[c] - uv[a];
+    const Vec2d dp = step[b] - step[a];
+    const Vec2d dq = step[c] - step[a];
+    way = std::min(way, first_root(cross(dp, dq), cross(p, dq) + cross(dp, q), cross(p, q)));
+  }
+  return way;
+}
+
+double energy_of(const DiskGeometry& geometry, std::span<const Vec2d> uv) {
+  double sum = 0;
+  for (std::size_t t = 0; t < geometry.surface.size(); ++t) {
+    if (geometry.surface[t].area <= 0) continue;
+    const auto& [a, b, c] = geometry.disk.triangles[t];
+    sum += geometry.surface[t].area *
+           triangle_stretch(geometry.surface[t], uv[a], uv[b], uv[c]).mean_square;
+  }
+  return sum;
+}
+
+/// Moves along the step as far as the energy falls enough. @return the energy reached; unchanged if
+/// none
+double line_search(const DiskGeometry& geometry, std::span<Vec2d> uv,
+                   const NewtonSystem::Step& step, double energy) {
+  double way = std::min(1.0, 0.9 * free_way(geometry.disk.triangles, uv, step.move));
+  std::vector<Vec2d> trial(uv.begin(), uv.end());
+  for (int halving = 0; halving < 12; ++halving, way *= 0.5) {
+    for (std::size_t v = 0; v < uv.size(); ++v) trial[v] = uv[v] + way * step.move[v];
+    const double reached = energy_of(geometry, trial);
+    if (reached > energy + 1e-4 * way * step.slope || !is_valid_map(geometry.disk.triangles, trial))
+      continue;
+    std::copy(trial.begin(), trial.end(), uv.begin());
+    return reached;
+  }
+  return energy;
+}
+
+}  // namespace
+
+void minimise_by_newton(const DiskGeometry& geometry, std::span<Vec2d> uv,
+                        const NewtonOptions& options) {
+  NewtonSystem system(geometry);
+  double energy = energy_of(geometry, uv);
+  for (int step = 0; step < options.steps; ++step) {
+    const NewtonSystem::Step newton = system.solve(uv);
+    if (newton.move.empty()) return;
+    const double reached = line_search(geometry, uv, newton, energy);
+    // The stretch is the root of the energy, so half its relative fall.
+    const bool enough = reached > energy * (1 - 2 * options.least_gain);
+    energy = reached;
+    if (enough) return;
+  }
+}
+
+}  // namespace weft

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+
+#include "weft/param/disk_geometry.h"
+
+namespace weft {
+
+struct NewtonOptions {
+  int steps = 24;            ///< at most
+  double least_gain = 2e-3;  ///< relative fall of the L2 stretch in a step below which it ends
+};
+
+/// Lowers the L2 stretch of a valid map by projected Newton steps over all interior vertices at
+/// once.
+///
+/// Under a displacement with gradient X (in the plane) a triangle's J becomes J (I + X)^-1, so with
+/// the metric G = J^T J its energy is, to second order,
+///   area / 2 * ( tr G - 2 tr(G X) + tr(X^T G X) + 2 tr(G X X) ).
+/// In the eigenvectors of G, g1 >= g2, the quadratic part is
+///   3 g1 x11^2 + 3 g2 x22^2 + g1 x12^2 + g2 x21^2 + 2 (g1 + g2) x12 x21,
+/// whose last three terms form a 2 x 2 block with one negative eigenvalue; without that one the
+/// system is positive definite. Energy grows without bound as a triangle closes and steps end
+/// before the first one does, so a valid map stays valid.
+/// @param uv  [D] a valid map; the border stays
+void minimise_by_newton(const DiskGeometry& geometry, std::span<Vec2d> uv,
+                        const NewtonOptions& options);
+
+}  // namespace weft
