@@ -1,0 +1,142 @@
+#include "weft/image/convert.h"
+
+#include <chrono>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/core/hash.h"
+#include "weft/image/sample.h"
+#include "weft/param/augment.h"
+
+namespace weft {
+namespace {
+
+class Stopwatch {
+ public:
+  /// Seconds since the last call, or since the beginning.
+  double lap() {
+    const Clock::time_point now = Clock::now();
+    const std::chrono::duration<double> passed = now - last_;
+    last_ = now;
+    return passed.count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
+void check_size(int size) {
+  if (size >= least_image_size && size <= largest_image_size) return;
+  throw UsageError("", fmt::format("a geometry image of side {}", size),
+                   fmt::format("a side of {} .. {}", least_image_size, largest_image_size));
+}
+
+std::string source_name(const std::string& name) {
+  return name.starts_with("builtin:") ? name : std::filesystem::path(name).filename().string();
+}
+
+std::string hash_of(const TriangleMesh& mesh) {
+  Hash hash;
+  hash.add(std::span<const Vec3d>(mesh.positions));
+  hash.add(std::span<const Triangle>(mesh.triangles));
+  return hash.text();
+}
+
+// The cut with the paths that lower the stretch, or, where no valid map of that comes out, the
+// plain one.
+void cut_and_map(Conversion& made, const std::string& name, const ConvertOptions& options) {
+  const TriangleMesh& mesh = made.input.mesh;
+  Stopwatch watch;
+  update(options.progress, "cut", 0);
+  const Cut cut = open_to_disk(mesh, {.seed_triangle = options.seed_triangle});
+  AugmentedCut augmented{cut, 0};
+  if (options.augment)
+    augmented = augment_cut(mesh, cut, {.size = options.size, .progress = options.progress});
+  made.seconds.cut = watch.lap();
+
+  MapOptions map;
+  map.size = options.size;
+  map.parameterizer = options.parameterizer;
+  map.name = name;
+  map.progress = options.progress;
+  const auto use = [&](const Cut& chosen, int rounds) {
+    const CutDisk disk = cut_open(mesh, chosen);
+    made.mapped = map_to_square(disk, map);
+    made.cut = summarise(disk);
+    made.rounds = rounds;
+  };
+  try {
+    use(augmented.cut, augmented.rounds);
+  } catch (const TopologyError&) {
+    if (augmented.rounds == 0) throw;
+    use(cut, 0);
+  }
+  made.seconds.map = watch.lap();
+}
+
+void require_topology(const Conversion& made, const std::string& name) {
+  const TopologyCounts& input = made.input.counts;
+  if (made.quality.euler == input.euler && made.quality.boundaries == input.boundaries) return;
+  const int n = made.image.size();
+  throw TopologyError(
+      name,
+      fmt::format(
+          "an image of {0} x {0} with Euler number {1} and {2} borders, the mesh has {3} and {4}",
+          n, made.quality.euler, made.quality.boundaries, input.euler, input.boundaries),
+      fmt::format("a larger size, for example {}", 2 * n - 1));
+}
+
+// Stages below know no file: what they refuse is told with the mesh's name in front.
+template <class Stage>
+void named(const std::string& name, const Stage& stage) {
+  try {
+    stage();
+  } catch (const TopologyError& error) {
+    if (std::string_view(error.what()).starts_with(name)) throw;
+    throw TopologyError(name, error.what(), "");
+  }
+}
+
+void sample(Conversion& made, const std::string& name, const ConvertOptions& options) {
+  Stopwatch watch;
+  update(options.progress, "sample", 0);
+  made.image = sample_image(made.mapped);
+  made.image.source = source_name(name);
+  made.image.source_hash = hash_of(made.input.mesh);
+  if (options.normal_map_size > 0)
+    made.normals = sample_normals(made.mapped, options.normal_map_size);
+  made.quality = measure_topology(made.image);
+  require_topology(made, name);
+  made.seconds.sample = watch.lap();
+}
+
+}  // namespace
+
+Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
+                        const ConvertOptions& options) {
+  check_size(options.size);
+  if (options.normal_map_size != 0) check_size(options.normal_map_size);
+  Stopwatch watch;
+  Conversion made;
+  update(options.progress, "repair", 0);
+  made.input = repair_mesh(mesh, {.name = name, .component = options.component});
+  made.seconds.load = watch.lap();
+  named(name, [&] {
+    cut_and_map(made, name, options);
+    sample(made, name, options);
+  });
+  watch.lap();
+  if (options.measure) {
+    update(options.progress, "measure", 0);
+    made.quality = measure_image(made.image, made.input.mesh, options.threads);
+    made.seconds.measure = watch.lap();
+  }
+  const StageSeconds& s = made.seconds;
+  made.seconds.total = s.load + s.cut + s.map + s.sample + s.measure;
+  return made;
+}
+
+}  // namespace weft

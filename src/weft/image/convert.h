@@ -1,0 +1,82 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "weft/core/progress.h"
+#include "weft/cut/open_to_disk.h"
+#include "weft/image/geometry_image.h"
+#include "weft/mesh/repair.h"
+#include "weft/param/square_map.h"
+
+namespace weft {
+
+struct ConvertOptions {
+  int size = 257;
+  Parameterizer parameterizer = StretchOptions{};
+  ComponentChoice component;
+  int seed_triangle = -1;  ///< -1: choose
+  bool augment = true;
+  int normal_map_size = 0;  ///< 0: none
+  bool measure = true;      ///< stage 11
+  int threads = 1;
+  Progress* progress = nullptr;
+};
+
+/// Distances and topology of an image against the mesh it came from.
+struct ImageQuality {
+  bool mates_bit_equal = false;
+  int euler = 0, boundaries = 0;  ///< of the rebuilt mesh
+  double psnr_db = 0;             ///< 20 log10(box diagonal / larger one-sided RMS distance)
+  double hausdorff_percent = 0;   ///< larger one-sided maximum, in percent of the diagonal
+};
+/// What psnr_db is where the surfaces are equal, so that reports hold a number.
+inline constexpr double best_psnr_db = 300;
+/// All of it. @throws TopologyError when the image's samples do not make a manifold
+ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh, int threads);
+/// Without the distances, which stay 0: fast.
+ImageQuality measure_topology(const GeometryImage& image);
+
+/// Wall-clock seconds of `convert_mesh`; `load` is checking and repairing (reading is the
+/// caller's).
+struct StageSeconds {
+  double load = 0, cut = 0, map = 0, sample = 0, measure = 0, total = 0;
+};
+
+/// Everything that a conversion made and found.
+struct Conversion {
+  RepairedMesh input;
+  CutSummary cut;
+  int rounds = 0;
+  MappedDisk mapped;
+  GeometryImage image;
+  std::optional<NormalMap> normals;
+  ImageQuality quality;
+  StageSeconds seconds;
+};
+
+/// The whole way from a mesh to its geometry image. The image's mates are bit-equal and the
+/// topology of the rebuilt mesh is the input's, or it throws.
+/// @param name  what errors and the image's metadata call the mesh: a path or builtin:NAME
+/// @throws InputError, TopologyError as the stages; UsageError for a size that no image may have
+Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
+                        const ConvertOptions& options);
+
+/// A surface as users name it: builtin:NAME, a geometry image (.exr, .png), or a mesh that is
+/// converted.
+struct LoadedSurface {
+  GeometryImage image;
+  std::optional<NormalMap> normals;  ///< where it came from a mesh
+  std::vector<std::string> notes;    ///< repairs and the like
+};
+/// @throws InputError, TopologyError, UsageError as the stages
+LoadedSurface load_surface(const std::string& name, const ConvertOptions& options);
+
+/// True when a name ends as geometry images do: .exr or .png.
+bool is_image_name(const std::string& name);
+
+/// Reads a mesh from a file or builtin:NAME. @throws InputError, UsageError
+TriangleMesh load_mesh(const std::string& name);
+
+}  // namespace weft

@@ -1,0 +1,95 @@
+#include "weft/image/diagonals.h"
+
+#include <algorithm>
+
+#include "weft/core/assert.h"
+
+namespace weft {
+namespace {
+
+Diagonal shorter(const GeometryImage& image, int row, int col) {
+  const auto at = [&](int r, int c) { return vec_cast<double>(image.cube.at(r, c)); };
+  const double rising = squared_length(at(row + 1, col + 1) - at(row, col));
+  const double falling = squared_length(at(row, col + 1) - at(row + 1, col));
+  if (rising != falling) return rising < falling ? Diagonal::rising : Diagonal::falling;
+  return (row + col) % 2 == 0 ? Diagonal::rising : Diagonal::falling;
+}
+
+// Sets the diagonals of the quads along the border, where joined mates could give two edges the
+// same ends. With paths laid out as they are (weft/param/border_layout.h), that is possible in
+// these places: the two quads at the tip of a cut (a leaf: its neighbours on both sides are mates),
+// and the quads around a corner of the square, whose inner sample is next to border samples of two
+// sides.
+class BorderDiagonals {
+ public:
+  BorderDiagonals(const GeometryImage& image, Grid<Diagonal>& diagonals)
+      : image_(image), n_(image.size()), side_(n_ - 1), diagonals_(diagonals) {}
+
+  void set_all() {
+    for (int t = 0; t < 4 * side_; ++t) {
+      const int along = t % side_;
+      if (along == 0) {
+        set_corner(t);
+      } else if (along < side_ - 1) {
+        set_side(t);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] int sample(int t) const { return border_sample(n_, (t + 4 * side_) % (4 * side_)); }
+  [[nodiscard]] int point(int t) const { return image_.mates.representative(sample(t)); }
+  [[nodiscard]] bool is_leaf(int t) const { return point(t - 1) == point(t + 1); }
+
+  // Splits the quad on the border edge from t to t + 1 by the diagonal that ends at border position
+  // `end`.
+  void split(int t, int end) {
+    const int a = sample(end);
+    const int b = sample(end == t ? t + 1 : t);
+    const int row_step = b / n_ - a / n_;
+    const int col_step = b % n_ - a % n_;
+    // The inner side is to the left of t -> t + 1, to the right when seen from t + 1.
+    const int turn = end == t ? 1 : -1;
+    const int row = a / n_ + row_step + turn * col_step;  // the diagonal's other end
+    const int col = a % n_ + col_step - turn * row_step;
+    const bool rising = (row > a / n_) == (col > a % n_);
+    diagonals_(std::min(row, a / n_), std::min(col, a % n_)) =
+        rising ? Diagonal::rising : Diagonal::falling;
+  }
+
+  // A corner quad is split through the corner, so that no triangle has three border samples. Where
+  // the corner is a leaf its quad is folded onto itself: split across, both triangles have two
+  // mates as corners and are left out.
+  void set_corner(int t) { split(t, is_leaf(t) ? t + 1 : t); }
+
+  // The other quads: along the side, t .. t + 1.
+  void set_side(int t) {
+    const int along = t % side_;
+    const bool starts = along == 1;        // next to the corner t - 1
+    const bool ends = along == side_ - 2;  // next to the corner t + 2
+    if (is_leaf(t)) return split(t, t);
+    if (is_leaf(t + 1)) return split(t, t + 1);
+    // The corner's inner sample is next to t - 2 already and may become so to t - 3.
+    if (starts && (point(t + 1) == point(t - 2) || point(t + 1) == point(t - 3)))
+      return split(t, t);
+    if (ends && point(t) == point(t + 3)) return split(t, t + 1);
+  }
+
+  const GeometryImage& image_;
+  int n_, side_;
+  Grid<Diagonal>& diagonals_;
+};
+
+}  // namespace
+
+Grid<Diagonal> choose_diagonals(const GeometryImage& image) {
+  const int n = image.size();
+  WEFT_ASSERT(n >= least_image_size);
+  Grid<Diagonal> diagonals(n - 1, n - 1);
+  for (int row = 0; row < n - 1; ++row)
+    for (int col = 0; col < n - 1; ++col) diagonals(row, col) = shorter(image, row, col);
+  BorderDiagonals(image, diagonals).set_all();
+  return diagonals;
+}
+
+}  // namespace weft

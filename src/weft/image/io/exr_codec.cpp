@@ -1,0 +1,130 @@
+#include "weft/image/io/exr_codec.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include "weft/core/error.h"
+#include "weft/image/io/exr_header.h"
+#include "weft/image/io/metadata.h"
+
+namespace weft {
+namespace {
+
+constexpr std::array<const char*, 3> channel_names{"R", "G", "B"};
+
+// OpenEXR writes a file's last table in a destructor, which swallows a full disk: so into memory
+// first.
+class MemoryOutput : public Imf::OStream {
+ public:
+  MemoryOutput() : Imf::OStream("memory") {}
+  void write(const char bytes[], int count) override {
+    const auto end = static_cast<std::size_t>(position_) + static_cast<std::size_t>(count);
+    if (bytes_.size() < end) bytes_.resize(end);
+    std::memcpy(bytes_.data() + position_, bytes, static_cast<std::size_t>(count));
+    position_ = end;
+  }
+  std::uint64_t tellp() override { return position_; }
+  void seekp(std::uint64_t position) override { position_ = position; }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+  std::uint64_t position_ = 0;
+};
+
+class MemoryInput : public Imf::IStream {
+ public:
+  explicit MemoryInput(std::string_view bytes) : Imf::IStream("memory"), bytes_(bytes) {}
+  bool read(char to[], int count) override {
+    if (count < 0 || position_ > bytes_.size() ||
+        bytes_.size() - position_ < static_cast<std::size_t>(count))
+      throw std::runtime_error("the file ends too early");
+    std::memcpy(to, bytes_.data() + position_, static_cast<std::size_t>(count));
+    position_ += static_cast<std::size_t>(count);
+    return position_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override { position_ = position; }
+
+ private:
+  std::string_view bytes_;
+  std::uint64_t position_ = 0;
+};
+
+// OpenEXR takes one plane type for reading and writing, so the view is of mutable samples.
+Imf::FrameBuffer frame_buffer(Planes3& planes) {
+  Imf::FrameBuffer buffer;
+  const std::array<Grid<float>*, 3> grids{&planes.x, &planes.y, &planes.z};
+  for (std::size_t k = 0; k < grids.size(); ++k)
+    buffer.insert(channel_names[k],
+                  Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(grids[k]->row(0)), sizeof(float),
+                             sizeof(float) * static_cast<std::size_t>(grids[k]->stride())));
+  return buffer;
+}
+
+void check_channels(const Imf::Header& header, std::string_view where) {
+  for (const char* name : channel_names) {
+    const Imf::Channel* channel = header.channels().findChannel(name);
+    if (channel == nullptr || channel->type != Imf::FLOAT || channel->xSampling != 1 ||
+        channel->ySampling != 1)
+      throw InputError(where, std::string("an EXR picture without a 32-bit float channel ") + name,
+                       "a geometry image");
+  }
+}
+
+DecodedImage decode(std::string_view bytes, std::string_view where) {
+  check_exr_header(bytes, where);
+  MemoryInput stream(bytes);
+  Imf::InputFile file(stream);
+  const Imf::Header& header = file.header();
+  const auto* text = header.findTypedAttribute<Imf::StringAttribute>(metadata_key);
+  if (text == nullptr)
+    throw InputError(where, "an EXR picture that is no geometry image", "one that weft wrote");
+  check_channels(header, where);
+  if (!file.isComplete()) throw InputError(where, "an EXR file that was cut short", "a whole file");
+  DecodedImage decoded{Planes3(header.dataWindow().max.x + 1), text->value()};
+  file.setFrameBuffer(frame_buffer(decoded.planes));
+  file.readPixels(0, decoded.planes.size() - 1);
+  return decoded;
+}
+
+}  // namespace
+
+std::string encode_exr(const Planes3& planes, const std::string& text) {
+  Planes3 copy = planes;
+  const int n = planes.size();
+  Imf::Header header(n, n);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  for (const char* name : channel_names) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  if (!text.empty()) header.insert(metadata_key, Imf::StringAttribute(text));
+  MemoryOutput stream;
+  {
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(frame_buffer(copy));
+    file.writePixels(n);
+  }
+  return stream.take();
+}
+
+DecodedImage decode_exr(std::string_view bytes, std::string_view where) {
+  try {
+    return decode(bytes, where);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(where, std::string("a damaged EXR file: ") + error.what(), "a geometry image");
+  }
+}
+
+}  // namespace weft

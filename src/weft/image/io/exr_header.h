@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+namespace weft {
+
+/// Walks the header of an EXR file before OpenEXR sees it, because OpenEXR sets memory aside for
+/// whatever sizes a header tells: the file must be a plain scan-line picture, each attribute must
+/// lie inside the file, and the data window must be a geometry image's.
+/// @param bytes  the whole file
+/// @param where  what errors call it
+/// @throws InputError
+void check_exr_header(std::string_view bytes, std::string_view where);
+
+}  // namespace weft

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "weft/image/geometry_image.h"
+
+namespace weft {
+
+/// Writes a geometry image by the ending of the name: .exr (float32, the same bits when read back)
+/// or .png (16 bits a channel: positions are rounded to 1 / 65535 of the cube's side). Mates, world
+/// map and source travel inside. @throws OutputError; UsageError on another ending
+void write_image(const std::filesystem::path& path, const GeometryImage& image);
+
+/// Reads one back, by what the file holds. Nothing in it is believed unchecked.
+/// @throws InputError for what is not a geometry image, cut short, of a wrong size or version,
+/// mates out of
+///         range or unequal, or not finite
+GeometryImage read_image(const std::filesystem::path& path);
+
+/// The same from memory; `where` is what errors call it.
+GeometryImage parse_image(std::string_view bytes, std::string_view where);
+
+/// A normal map as an 8-bit PNG (n * 127.5 + 127.5) or float EXR, by the ending of the name, for
+/// other programs. @throws OutputError; UsageError on another ending
+void write_normal_map(const std::filesystem::path& path, const NormalMap& normals);
+
+}  // namespace weft

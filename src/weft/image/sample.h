@@ -1,0 +1,24 @@
+#pragma once
+
+#include "weft/image/geometry_image.h"
+#include "weft/param/square_map.h"
+
+namespace weft {
+
+/// Stage 9: samples a mapped surface at the n x n whole points of the square. Interior samples come
+/// from the triangle that covers them, by exact orientation and a top-left rule; border samples are
+/// computed once a path and written to both mates.
+/// @post mates_bit_equal
+/// @throws TopologyError when an interior sample is not covered exactly once: the map is not valid
+GeometryImage sample_image(const MappedDisk& mapped);
+
+/// Unit normals of the surface (angle-weighted at its vertices, interpolated), sampled at size x
+/// size points of the same square, whatever the size of the image. Mates hold the same bits
+/// wherever both are samples, always when size - 1 is a multiple of n - 1.
+NormalMap sample_normals(const MappedDisk& mapped, int size);
+
+/// How often each interior sample is covered by a triangle under the top-left rule, [n x n], border
+/// samples 0: all ones when the map is valid. For tests and inspection.
+Grid<int> coverage(const MappedDisk& mapped);
+
+}  // namespace weft

@@ -1,0 +1,338 @@
+#include "weft/image/io/image_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/image/maps.h"
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/image/io/exr_codec.h"
+#include "weft/image/io/metadata.h"
+#include "weft/image/io/png_codec.h"
+#include "weft/image/sample.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of the test's own, removed with all that is in it.
+class Folder {
+ public:
+  Folder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = fs::path(testing::TempDir()) /
+            (std::string("weft_") + test->test_suite_name() + test->name());
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { fs::remove_all(path_); }
+  [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
+  [[nodiscard]] bool empty() const { return fs::is_empty(path_); }
+
+ private:
+  fs::path path_;
+};
+
+GeometryImage torus_image(int n) {
+  GeometryImage image = sample_image(maps::torus(n, 12));
+  image.world = {{0.1, -1e-30, 1e17 / 3}, 1.0 / 3};
+  image.source = "a \"torus\".obj";
+  image.source_hash = "0123456789abcdef";
+  return image;
+}
+
+void expect_same_samples(const GeometryImage& a, const GeometryImage& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (int sample = 0; sample < a.size() * a.size(); ++sample) {
+    const Vec3f p = a.cube.at(sample);
+    const Vec3f q = b.cube.at(sample);
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(q.x));
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(p.y), std::bit_cast<std::uint32_t>(q.y));
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(p.z), std::bit_cast<std::uint32_t>(q.z));
+  }
+}
+
+void expect_same_metadata(const GeometryImage& a, const GeometryImage& b) {
+  EXPECT_EQ(a.world.lower, b.world.lower);
+  EXPECT_EQ(a.world.scale, b.world.scale);
+  EXPECT_EQ(a.mates.intervals(), b.mates.intervals());
+  EXPECT_EQ(a.source, b.source);
+  EXPECT_EQ(a.source_hash, b.source_hash);
+}
+
+void write_bytes(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+// The line of the error that reading ends with; nothing when it was read.
+std::optional<std::string> refusal(const fs::path& path) {
+  try {
+    read_image(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> refusal_of_bytes(std::string_view bytes) {
+  try {
+    parse_image(bytes, "file");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+std::string refusal_of_metadata(const std::function<void(nlohmann::json&)>& change) {
+  const GeometryImage image = torus_image(9);
+  nlohmann::json json = nlohmann::json::parse(metadata_text(image));
+  json.erase("checksum");
+  change(json);
+  try {
+    assemble_image(image.cube, json.dump(), "file");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ImageFile, ExrComesBackBitForBit) {
+  const Folder folder;
+  const GeometryImage image = torus_image(17);
+  write_image(folder / "torus.exr", image);
+  const GeometryImage back = read_image(folder / "torus.exr");
+  expect_same_samples(image, back);
+  expect_same_metadata(image, back);
+}
+
+TEST(ImageFile, ExrKeepsTheSmallestAndTheLargestSamples) {
+  const Folder folder;
+  GeometryImage image{Planes3(5), BorderMates(5, {}), {}, "", ""};
+  image.cube.set(2, 2,
+                 {std::numeric_limits<float>::denorm_min(), 1.0F, std::nextafter(1.0F, 0.0F)});
+  write_image(folder / "small.exr", image);
+  expect_same_samples(image, read_image(folder / "small.exr"));
+}
+
+TEST(ImageFile, PngRoundsPositionsTo16BitsAndKeepsTheRest) {
+  const Folder folder;
+  const GeometryImage image = torus_image(17);
+  write_image(folder / "torus.PNG", image);
+  const GeometryImage back = read_image(folder / "torus.PNG");
+  expect_same_metadata(image, back);
+  EXPECT_TRUE(mates_bit_equal(back));
+  for (int sample = 0; sample < 17 * 17; ++sample) {
+    const Vec3f error = image.cube.at(sample) - back.cube.at(sample);
+    EXPECT_LE(std::max({std::abs(error.x), std::abs(error.y), std::abs(error.z)}), 0.5001F / 65535);
+  }
+}
+
+TEST(ImageFile, PngIsStableOnceRounded) {
+  const Folder folder;
+  write_image(folder / "a.png", torus_image(9));
+  const GeometryImage once = read_image(folder / "a.png");
+  write_image(folder / "b.png", once);
+  expect_same_samples(once, read_image(folder / "b.png"));
+}
+
+TEST(ImageFile, SameImageGivesTheSameBytes) {
+  const Folder folder;
+  for (const char* name : {"a.exr", "a.png"}) {
+    write_image(folder / name, torus_image(9));
+    const std::string first = read_file(folder / name);
+    write_image(folder / name, torus_image(9));
+    EXPECT_EQ(first, read_file(folder / name)) << name;
+  }
+}
+
+TEST(ImageFile, FileCutShortAnywhereIsRefused) {
+  const Folder folder;
+  for (const char* name : {"a.exr", "a.png"}) {
+    write_image(folder / name, torus_image(7));
+    const std::string whole = read_file(folder / name);
+    EXPECT_EQ(refusal_of_bytes(whole), std::nullopt);
+    for (std::size_t size = 0; size < whole.size(); ++size)
+      EXPECT_TRUE(refusal_of_bytes(whole.substr(0, size)).has_value())
+          << name << " cut to " << size;
+  }
+}
+
+TEST(ImageFile, FlippedBitsAreRefusedOrHarmless) {
+  const Folder folder;
+  Random random(11);
+  for (const char* name : {"a.exr", "a.png"}) {
+    write_image(folder / name, torus_image(7));
+    const std::string whole = read_file(folder / name);
+    const GeometryImage image = parse_image(whole, name);
+    int refused = 0;
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+      std::string damaged = whole;
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 << random.index(8)));
+      if (refusal_of_bytes(damaged)) {
+        ++refused;
+        continue;
+      }
+      const GeometryImage survivor = parse_image(damaged, name);
+      expect_same_samples(image, survivor);
+      expect_same_metadata(image, survivor);
+    }
+    EXPECT_GT(refused, static_cast<int>(whole.size()) / 2) << name;
+  }
+}
+
+TEST(ImageFile, ExrThatTellsOfMoreThanItHoldsIsRefusedAtItsHeader) {
+  const GeometryImage image = torus_image(7);
+  const auto told = [&](unsigned char low, unsigned char high) {
+    std::string bytes = encode_exr(image.cube, metadata_text(image));
+    const std::size_t right =
+        bytes.find("dataWindow") + std::string("dataWindow.box2i.").size() + 12;
+    for (const std::size_t place : {right, right + 4}) {  // right and bottom, little-endian
+      bytes[place] = static_cast<char>(low);
+      bytes[place + 1] = static_cast<char>(high);
+    }
+    return refusal_of_bytes(bytes).value_or("accepted");
+  };
+  EXPECT_EQ(told(6, 0), "accepted");
+  EXPECT_TRUE(told(0, 0x20).ends_with("bytes for a picture of 8193 x 8193; a whole file"));
+  EXPECT_EQ(told(0, 0x7f),
+            "file: a picture of 32513 x 32513; a square geometry image of side 5 .. 8193");
+}
+
+TEST(ImageFile, OtherPicturesAreNoGeometryImages) {
+  const Folder folder;
+  const NormalMap normals = sample_normals(maps::sheet(9, 5, maps::flat), 9);
+  write_normal_map(folder / "n.exr", normals);
+  write_normal_map(folder / "n.png", normals);
+  write_bytes(folder / "text.png", "a text\n");
+  EXPECT_EQ(refusal(folder / "n.exr"),
+            (folder / "n.exr").string() +
+                ": an EXR picture that is no geometry image; one that weft wrote");
+  EXPECT_EQ(refusal(folder / "n.png"),
+            (folder / "n.png").string() +
+                ": a PNG picture that is no geometry image; one that weft wrote");
+  EXPECT_EQ(refusal(folder / "text.png"),
+            (folder / "text.png").string() + ": neither an EXR nor a PNG file; a geometry image");
+  EXPECT_TRUE(refusal(folder / "missing.exr").has_value());
+  EXPECT_TRUE(refusal(folder / "").has_value());
+}
+
+TEST(ImageFile, OtherEndingsAreAUsageErrorAndNothingIsWritten) {
+  const Folder folder;
+  EXPECT_THROW(write_image(folder / "a.jpg", torus_image(7)), UsageError);
+  EXPECT_THROW(write_normal_map(folder / "a", {}), UsageError);
+  EXPECT_THROW(write_image(folder / "no/folder.exr", torus_image(7)), OutputError);
+  EXPECT_TRUE(folder.empty());
+}
+
+TEST(ImageFile, NormalsBecomeColours) {
+  const Folder folder;
+  const NormalMap normals = sample_normals(maps::sheet(9, 5, maps::flat), 5);
+  write_normal_map(folder / "n.exr", normals);
+  write_normal_map(folder / "n.png", normals);
+  EXPECT_GT(fs::file_size(folder / "n.exr"), 100U);
+  EXPECT_EQ(read_file(folder / "n.png").substr(16, 10),
+            std::string("\0\0\0\5\0\0\0\5\x08\x02", 10));  // width, height, 8 bits, RGB
+}
+
+TEST(ImageMetadata, WrongVersionIsNamed) {
+  EXPECT_EQ(refusal_of_metadata([](auto& json) { json["version"] = 2; }),
+            "file: geometry image of version 2; version 1");
+}
+
+TEST(ImageMetadata, EachMissingFieldIsNamed) {
+  for (const char* key : {"version", "size", "mates", "lower", "scale", "source", "source_hash"})
+    EXPECT_EQ(refusal_of_metadata([&](auto& json) { json.erase(key); }),
+              "file: metadata without \"" + std::string(key) + "\"; what weft wrote");
+}
+
+TEST(ImageMetadata, UnchangedMetadataAreAccepted) {
+  EXPECT_EQ(refusal_of_metadata([](auto&) {}), "accepted");
+}
+
+TEST(ImageMetadata, ValuesOutOfRangeAreRefused) {
+  using Json = nlohmann::json;
+  const auto refused = [](const char* key, const Json& value) {
+    return refusal_of_metadata([&](auto& json) { json[key] = value; }) != "accepted";
+  };
+  EXPECT_TRUE(refused("size", 17));
+  EXPECT_TRUE(refused("size", "9"));
+  EXPECT_TRUE(refused("version", 1.5));
+  EXPECT_TRUE(refused("version", 18446744073709551615U));
+  EXPECT_TRUE(refused("scale", 0));
+  EXPECT_TRUE(refused("scale", -1));
+  EXPECT_TRUE(refused("scale", nullptr));
+  EXPECT_TRUE(refused("lower", Json::array({0, 0})));
+  EXPECT_TRUE(refused("lower", Json::array({0, 0, "0"})));
+  EXPECT_TRUE(refused("source", 3));
+  EXPECT_TRUE(refused("source_hash", "xyz"));
+  EXPECT_TRUE(refused("mates", 0));
+  EXPECT_TRUE(refused("mates", Json::parse("[[0, 24]]")));
+  EXPECT_TRUE(refused("mates", Json::parse("[[0, 24, 80000]]")));
+  EXPECT_TRUE(refused("mates", Json::parse("[[-1, 24, 8]]")));
+  EXPECT_TRUE(refused("mates", Json::parse("[[0, 33, 8]]")));
+  EXPECT_TRUE(refused("mates", Json::parse("[[0, 24, 8], [0, 24, 8]]")));
+}
+
+TEST(ImageMetadata, MatesWithOtherPositionsAreRefused) {
+  EXPECT_EQ(refusal_of_metadata([](auto& json) {
+              json["mates"] = {{0, 16, 8}};
+            }),
+            "file: border mates with different positions; an image whose samples were not edited");
+}
+
+TEST(ImageMetadata, DeepNestingIsRefused) {
+  const std::string deep = "{\"mates\":" + std::string(1000000, '[');
+  EXPECT_THROW(assemble_image(Planes3(9), deep, "file"), InputError);
+  EXPECT_THROW(assemble_image(Planes3(9), "[]", "file"), InputError);
+  EXPECT_THROW(assemble_image(Planes3(9), "", "file"), InputError);
+}
+
+TEST(ImageMetadata, SamplesOutsideTheCubeAreRefused) {
+  GeometryImage image = torus_image(9);
+  const std::string text = metadata_text(image);
+  for (const float bad : {-0.001F, 1.001F, std::numeric_limits<float>::quiet_NaN(),
+                          std::numeric_limits<float>::infinity()}) {
+    Planes3 cube = image.cube;
+    cube.set(4, 3, {0.5F, bad, 0.5F});
+    try {
+      assemble_image(cube, text, "file");
+      FAIL() << "accepted " << bad;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("in row 4, column 3"), std::string::npos);
+    }
+  }
+}
+
+TEST(ImageMetadata, EditedSamplesDoNotMatchTheChecksum) {
+  GeometryImage image = torus_image(9);
+  const std::string text = metadata_text(image);
+  image.cube.set(4, 3, {0.5F, 0.5F, 0.5F});
+  EXPECT_THROW(assemble_image(image.cube, text, "file"), InputError);
+}
+
+TEST(ImageFile, PicturesOfAWrongShapeAreRefused) {
+  const std::string text = metadata_text(torus_image(9));
+  const auto png = [&](int width, int height, int bits) {
+    PngPicture picture{width, height, bits, {}, text};
+    picture.bytes.resize(picture.row_bytes() * static_cast<std::size_t>(height));
+    return encode_png(picture);
+  };
+  for (const std::string& bytes : {png(9, 8, 16), png(9, 9, 8), png(4, 4, 16), png(17, 17, 16),
+                                   encode_exr(Planes3(17), text), encode_exr(Planes3(4), text)})
+    EXPECT_TRUE(refusal_of_bytes(bytes).has_value());
+}
+
+}  // namespace
+}  // namespace weft
