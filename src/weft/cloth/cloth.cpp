@@ -1,0 +1,194 @@
+#include "weft/cloth/cloth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "weft/cloth/neighbours.h"
+#include "weft/cloth/rest_shape.h"
+#include "weft/core/error.h"
+
+namespace weft {
+namespace {
+
+void require(bool good, const char* key, double value, const char* wanted) {
+  if (!good) throw SceneError(fmt::format("material.{}", key), fmt::format("{}", value), wanted);
+}
+
+void check_material(const Material& m) {
+  const auto positive = [](double v) { return std::isfinite(v) && v > 0; };
+  const auto not_negative = [](double v) { return std::isfinite(v) && v >= 0; };
+  require(positive(m.density), "density", m.density, "a density above 0 kg/m^2");
+  require(not_negative(m.stretch), "stretch", m.stretch, "a stiffness of at least 0 N/m");
+  require(not_negative(m.shear), "shear", m.shear, "a stiffness of at least 0 N/m");
+  require(not_negative(m.bend_springs), "bend_springs", m.bend_springs,
+          "a stiffness of at least 0 N/m");
+  require(not_negative(m.damping), "damping", m.damping, "a rate of at least 0 1/s");
+  require(not_negative(m.strain_limit) && m.strain_limit < 1, "strain_limit", m.strain_limit,
+          "an elongation in [0, 1)");
+  require(positive(m.thickness), "thickness", m.thickness, "a thickness above 0 m");
+}
+
+void check_rest(const Planes3& rest, const BorderMates& mates) {
+  const int n = rest.size();
+  if (n < 2 || mates.size() != n)
+    throw SceneError(
+        "cloth", fmt::format("an image of {} samples a side with mates for {}", n, mates.size()),
+        "at least 2, and mates of the same size");
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const Vec3f p = rest.at(r, c);
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        throw SceneError("cloth",
+                         fmt::format("a position that is not finite at row {}, col {}", r, c),
+                         "finite rest positions");
+    }
+}
+
+/// Marks the representatives and counts them.
+void count_particles(Cloth& cloth) {
+  const int n = cloth.size;
+  cloth.counted = Grid<float>(n, n, 1);
+  cloth.particles = n * n;
+  for (int index = 0; index < cloth.mates.class_count(); ++index)
+    for (const int sample : cloth.mates.mates(index).subspan(1)) {
+      cloth.counted(sample / n, sample % n) = 0;
+      --cloth.particles;
+    }
+}
+
+/// Lifts what is too light to its floor.
+/// @throws SceneError when the whole cloth has no mass
+void set_masses(Cloth& cloth, const RestShape& shape) {
+  const int n = cloth.size;
+  cloth.mass = make_masses(shape, cloth.material.density);
+  double total = 0;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) total += cloth.mass(r, c) * cloth.counted(r, c);
+  if (!(total > 0))
+    throw SceneError("cloth", "a rest shape without area: its samples carry no mass",
+                     "a surface, not a point or a curve");
+  const auto least = static_cast<float>(least_relative_mass * total / cloth.particles);
+  cloth.inverse_mass = Grid<float>(n, n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      cloth.mass(r, c) = std::max(cloth.mass(r, c), least);
+      cloth.inverse_mass(r, c) = 1 / cloth.mass(r, c);
+    }
+}
+
+bool on_border(int n, int r, int c) { return r == 0 || c == 0 || r == n - 1 || c == n - 1; }
+
+/// Calls visit(row, col, other_row, other_col) for the springs of a plane that join two particles.
+template <class Visit>
+void for_each_spring(const BorderMates& mates, const SpringPlane& plane, const Visit& visit) {
+  const int n = mates.size();
+  for (int r = 0; r + plane.down < n; ++r)
+    for (int c = std::max(0, -plane.right); c + std::max(0, plane.right) < n; ++c) {
+      const int r2 = r + plane.down, c2 = c + plane.right;
+      if (mates.representative(r * n + c) != mates.representative(r2 * n + c2)) visit(r, c, r2, c2);
+    }
+}
+
+/// A spring along the border is stored on both mates; it turns the relative motion of its ends with
+/// half the strength on each, as its stiffness does.
+void set_damping(Cloth& cloth, SpringPlane& plane) {
+  const int last = cloth.size - 1;
+  for_each_spring(cloth.mates, plane, [&](int r, int c, int r2, int c2) {
+    const double a = cloth.mass(r, c), b = cloth.mass(r2, c2);
+    const bool along = (r == r2 && (r == 0 || r == last)) || (c == c2 && (c == 0 || c == last));
+    const double share = along ? 0.5 : 1.0;
+    plane.damping(r, c) = static_cast<float>(share * cloth.material.damping * a * b / (a + b));
+  });
+}
+
+void collect_border_springs(Cloth& cloth, SpringDirection direction) {
+  const int n = cloth.size;
+  const bool stretch = direction == stretch_u || direction == stretch_v;
+  for_each_spring(cloth.mates, cloth.springs[direction], [&](int r, int c, int r2, int c2) {
+    if (!on_border(n, r, c) && !on_border(n, r2, c2)) return;
+    const int a = cloth.mates.representative(r * n + c);
+    const int b = cloth.mates.representative(r2 * n + c2);
+    const float rest = cloth.springs[direction].rest_length(r, c);
+    cloth.border_springs.push_back({std::min(a, b), std::max(a, b), rest, stretch});
+  });
+}
+
+/// Leaves the first of springs that join the same particles with the same rest length.
+void drop_copies(std::vector<BorderSpring>& springs) {
+  const auto key_less = [&](int i, int j) {
+    const BorderSpring &a = springs[i], &b = springs[j];
+    if (a.from != b.from) return a.from < b.from;
+    if (a.to != b.to) return a.to < b.to;
+    if (a.rest_length != b.rest_length) return a.rest_length < b.rest_length;
+    return i < j;
+  };
+  const auto same = [&](int i, int j) {
+    const BorderSpring &a = springs[i], &b = springs[j];
+    return a.from == b.from && a.to == b.to && a.rest_length == b.rest_length;
+  };
+  std::vector<int> order(springs.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  std::sort(order.begin(), order.end(), key_less);
+  order.erase(std::unique(order.begin(), order.end(), same), order.end());
+  std::sort(order.begin(), order.end());
+  std::vector<BorderSpring> kept;
+  kept.reserve(order.size());
+  for (const int i : order) kept.push_back(springs[i]);
+  springs = std::move(kept);
+}
+
+}  // namespace
+
+Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& material) {
+  check_material(material);
+  check_rest(rest, mates);
+  const RestShape shape(rest, mates);
+  Cloth cloth;
+  cloth.size = rest.size();
+  cloth.material = material;
+  cloth.mates = mates;
+  cloth.rest = rest;
+  count_particles(cloth);
+  set_masses(cloth, shape);
+  for (int d = 0; d < spring_directions; ++d) {
+    const auto direction = static_cast<SpringDirection>(d);
+    cloth.springs[d] = make_springs(shape, material, direction);
+    set_damping(cloth, cloth.springs[d]);
+    if (d < bend_u) collect_border_springs(cloth, direction);
+  }
+  drop_copies(cloth.border_springs);
+  cloth.rest_spacing = shape.mean_spacing;
+  return cloth;
+}
+
+void pin(Cloth& cloth, int sample, Vec3d target) {
+  const int n = cloth.size;
+  if (sample < 0 || sample >= n * n)
+    throw SceneError("pins", fmt::format("sample {}", sample),
+                     fmt::format("one of 0 to {}", n * n - 1));
+  const int representative = cloth.mates.representative(sample);
+  for (Pin& known : cloth.pins)
+    if (known.sample == representative) {
+      known.target = target;
+      return;
+    }
+  Pin added{representative, target, {representative}};
+  for (int index = 0; index < cloth.mates.class_count(); ++index) {
+    const std::span<const int> samples = cloth.mates.mates(index);
+    if (samples.front() == representative) added.copies.assign(samples.begin(), samples.end());
+  }
+  for (const int copy : added.copies) cloth.inverse_mass(copy / n, copy % n) = 0;
+  cloth.pins.push_back(std::move(added));
+}
+
+ClothState rest_state(const Cloth& cloth, Vec3f velocity) {
+  ClothState state{cloth.rest, Planes3(cloth.size)};
+  state.velocity.x.fill(velocity.x);
+  state.velocity.y.fill(velocity.y);
+  state.velocity.z.fill(velocity.z);
+  return state;
+}
+
+}  // namespace weft

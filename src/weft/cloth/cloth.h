@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "weft/cloth/material.h"
+#include "weft/core/planes.h"
+#include "weft/image/geometry_image.h"
+
+namespace weft {
+
+/// The springs of one direction (row + down, col + right) as planes: element (r, c) belongs to the
+/// spring from sample (r, c) to (r + down, c + right); where there is none its stiffness is 0 and
+/// its rest length 1.
+struct SpringPlane {
+  int down = 0, right = 0;
+  Grid<float> rest_length;  ///< [n x n] [m], > 0
+  Grid<float> stiffness;    ///< [n x n] [N/m], >= 0
+  Grid<float> damping;      ///< [n x n] along the spring [N s/m], >= 0
+};
+
+/// The six directions in their fixed order: two of stretch, two of shear, two of bending.
+enum SpringDirection { stretch_u, stretch_v, shear_1, shear_2, bend_u, bend_v, spring_directions };
+
+/// A pinned surface point: all samples of one class.
+struct Pin {
+  int sample = 0;             ///< representative
+  Vec3d target;               ///< where it is held [m]
+  std::vector<int> copies{};  ///< all samples of the class, ascending
+};
+
+/// A stretch or shear spring with an end on the border of the image, between the representatives of
+/// its ends; copies of one spring on both sides of a seam are one.
+struct BorderSpring {
+  int from = 0, to = 0;   ///< samples, from < to
+  float rest_length = 1;  ///< [m]
+  bool stretch = false;   ///< else shear
+};
+
+/// What of a cloth does not change while it moves. Mates are one particle stored in several places.
+struct Cloth {
+  int size = 0;
+  Material material;
+  BorderMates mates;
+  Planes3 rest;              ///< [n x n] rest positions [m]
+  Grid<float> mass;          ///< [n x n] of the particle: summed over its class [kg], > 0
+  Grid<float> inverse_mass;  ///< [n x n] 0 where pinned
+  Grid<float> counted;       ///< [n x n] 1 on representatives, 0 on their mates
+  std::array<SpringPlane, spring_directions> springs;
+  std::vector<BorderSpring>
+      border_springs;  ///< ordered by direction, then by the sample they start from
+  std::vector<Pin> pins;
+  int particles = 0;        ///< mates counted once
+  double rest_spacing = 0;  ///< mean rest length of the stretch springs [m]
+};
+
+/// What moves. Mates hold equal bits.
+struct ClothState {
+  Planes3 position;  ///< [m]
+  Planes3 velocity;  ///< [m/s]
+};
+
+/// No spring is shorter than this part of the mean stretch spring, no particle lighter than the
+/// next part of the mean particle: maps of real meshes have cells that round to nothing, which must
+/// not divide by it.
+inline constexpr double least_relative_length = 1e-3, least_relative_mass = 1e-4;
+
+/// Builds the cloth whose rest shape is the given positions. A stretch or shear spring of rest
+/// length l stands for a strip of rest width w = (its share of the area beside it) / l: half of
+/// each cell that a stretch spring borders on, the whole cell of a shear spring; its stiffness is Y
+/// w / l.
+/// @param rest  [n x n] world positions, mates equal
+/// @throws SceneError for a material value out of range, or samples that carry no mass
+Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& material);
+
+/// Pins the class of a sample at a place. Pinning twice changes the target.
+/// @throws SceneError for a sample outside the image
+void pin(Cloth& cloth, int sample, Vec3d target);
+
+/// At rest in the rest shape; velocity the same everywhere.
+ClothState rest_state(const Cloth& cloth, Vec3f velocity = {});
+
+}  // namespace weft

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "weft/cloth/cloth.h"
+#include "weft/cloth/integrate/spring_matrix.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// The coarse part of an additive multilevel preconditioner [bramble90]: the sum over the image's
+/// own mip pyramid of P_l D_l^-1 P_l^T, with P_l bilinear interpolation from every 2^l-th sample
+/// and D_l the 3 x 3 diagonal blocks of the level. Added to the block-Jacobi part of the finest
+/// level it keeps the iterations of conjugate gradients from growing with n. Levels go down as far
+/// as sizes halve and mates still match; without any the preconditioner is block-Jacobi alone.
+class CoarseLevels {
+ public:
+  explicit CoarseLevels(const Cloth& cloth);
+  [[nodiscard]] bool empty() const { return levels_.empty(); }
+
+  // To be called by every worker; each ends with a barrier.
+
+  /// Takes the diagonal blocks of the finest level, summed over mates.
+  void prepare(const Blocks& diagonal, Worker& worker);
+  /// Computes the corrections of all levels to a residual, summed over mates.
+  void solve(const Planes3& residual, Worker& worker);
+
+  /// Adds the corrections, interpolated, to a row of the finest level; nothing where pinned.
+  void add_row(Planes3& out, int row) const;
+
+ private:
+  struct Level {
+    BorderMates mates;
+    Grid<float> counted;  ///< 1 on representatives that move, else 0
+    Planes3 value;        ///< residual, then correction
+    Grid<float> mass;     ///< the particles' masses, shared out by bilinear weights [kg]
+    Blocks spring;        ///< mean of the finest level's blocks without mass [kg]
+    Blocks inverse;       ///< [1/kg]
+    Grid<float> line;     ///< scratch: a finer row for each row
+    [[nodiscard]] int size() const { return counted.rows(); }
+  };
+  static Level make_level(const BorderMates& mates);
+  static void invert_row(Level& level, int row);
+  static void correct_row(Level& level, const Level* below, int row);
+  static void restrict_row(const Level& fine, const Planes3& in, Level& coarse, int row);
+  void take_row(const Blocks& diagonal, int row);
+  void solve_below();
+
+  const Cloth& cloth_;
+  Level finest_;       ///< without values and inverses
+  Grid<float> moves_;  ///< finest level: 1 where not pinned
+  std::vector<Level> levels_;
+};
+
+}  // namespace weft

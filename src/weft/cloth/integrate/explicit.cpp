@@ -1,0 +1,82 @@
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "weft/cloth/forces.h"
+#include "weft/cloth/integrate/proposal.h"
+#include "weft/cloth/integrate/stable_step.h"
+#include "weft/cloth/mates.h"
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+namespace {
+
+/// Explicit Euler in its symplectic order, v += h a(x, v), then x += h v: free fall is then exactly
+/// that of implicit Euler, and springs keep their energy below the largest stable step [provot95].
+class Explicit final : public Integrator {
+ public:
+  Explicit(const Cloth& cloth, ThreadTeam& team)
+      : cloth_(cloth), team_(team), force_(cloth.size), next_(rest_state(cloth)) {}
+
+  void begin(const StepInput& input, const ClothState& state) noexcept override {
+    const Stopwatch watch;
+    time_step_ = input.time_step;
+    team_.run([&](Worker& worker) {
+      const Range mine = worker.share(cloth_.size);
+      for (int r = mine.first; r < mine.last; ++r) gather_damped(cloth_, r, state, force_);
+      worker.barrier();
+      sum_over_mates(cloth_.mates, worker, {&force_.x, &force_.y, &force_.z});
+      worker.barrier();
+      for (int r = mine.first; r < mine.last; ++r) advance_row(input, state, r);
+    });
+    set_pins(cloth_, state, time_step_, next_);
+    seconds_ = watch.seconds();
+  }
+
+  /// Contacts are left to what the collider does with the proposal.
+  ClothState& iterate(std::span<const Contact> /*contacts*/) noexcept override { return next_; }
+
+  StepReport end(ClothState& state) noexcept override {
+    accept(cloth_, next_, time_step_, state, team_);
+    return {0, 0, seconds_, 0};
+  }
+
+  [[nodiscard]] std::string stability_advice(double time_step) const override {
+    return fmt::format(
+        "the largest stable step of this cloth is about {:.3g} s, the step is {:.3g} s",
+        largest_stable_step(cloth_, team_), time_step);
+  }
+
+ private:
+  void advance_row(const StepInput& input, const ClothState& state, int row) {
+    const auto h = static_cast<float>(input.time_step);
+    const ConstRow3 x = row_of(state.position, row), v = row_of(state.velocity, row);
+    const ConstRow3 f = row_of(std::as_const(force_), row);
+    const Row3 x1 = row_of(next_.position, row), v1 = row_of(next_.velocity, row);
+    const float* inverse_mass = cloth_.inverse_mass.row(row);
+    const Vec3f g = input.gravity;
+#pragma omp simd
+    for (int c = 0; c < cloth_.size; ++c) {
+      v1.x[c] = v.x[c] + h * (f.x[c] * inverse_mass[c] + g.x);
+      v1.y[c] = v.y[c] + h * (f.y[c] * inverse_mass[c] + g.y);
+      v1.z[c] = v.z[c] + h * (f.z[c] * inverse_mass[c] + g.z);
+      x1.x[c] = x.x[c] + h * v1.x[c];
+      x1.y[c] = x.y[c] + h * v1.y[c];
+      x1.z[c] = x.z[c] + h * v1.z[c];
+    }
+  }
+
+  const Cloth& cloth_;
+  ThreadTeam& team_;
+  Planes3 force_;
+  ClothState next_;
+  double time_step_ = 1, seconds_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_explicit(const Cloth& cloth, ThreadTeam& team) {
+  return std::make_unique<Explicit>(cloth, team);
+}
+
+}  // namespace weft

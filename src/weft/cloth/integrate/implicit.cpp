@@ -1,0 +1,174 @@
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "weft/cloth/forces.h"
+#include "weft/cloth/integrate/conjugate_gradients.h"
+#include "weft/cloth/integrate/proposal.h"
+#include "weft/cloth/mates.h"
+#include "weft/cloth/neighbours.h"
+#include "weft/core/error.h"
+
+namespace weft {
+namespace {
+
+/// One linearised step of implicit Euler [baraff98],
+///   (M - h df/dv - h^2 df/dx) dv = h (f + h df/dx v).
+/// With S = -h df/dv - h^2 df/dx and v1 = v + dv it reads (M + S) v1 = M (v + h g) + h f, f the
+/// elastic forces alone: the damping force -C v of the right side and the part of S on v cancel. In
+/// this form a cloth in free fall needs no correction: v + h g is the solution, to the bit.
+class Implicit final : public Integrator {
+ public:
+  Implicit(const ImplicitOptions& options, const Cloth& cloth, ThreadTeam& team)
+      : options_(options),
+        cloth_(cloth),
+        team_(team),
+        start_(rest_state(cloth)),
+        next_(rest_state(cloth)),
+        force_(cloth.size),
+        right_(cloth.size),
+        springs_(cloth.size),
+        contacts_(cloth.size),
+        solver_(cloth) {
+    for (Grid<float>& plane : diagonal_) plane = Grid<float>(cloth.size, cloth.size);
+  }
+
+  void begin(const StepInput& input, const ClothState& state) noexcept override {
+    const Stopwatch watch;
+    input_ = input;
+    report_ = {};
+    contacts_.clear();
+    team_.run([&](Worker& worker) {
+      copy_rows(state, start_, worker);
+      const Range mine = worker.share(cloth_.size);
+      for (int r = mine.first; r < mine.last; ++r) {
+        springs_.linearise_row(cloth_, state.position, input.time_step, r);
+        gather_elastic(cloth_, r, state.position, force_);
+        fall_row(state, r);
+      }
+      worker.barrier();
+      for (int r = mine.first; r < mine.last; ++r) diagonal_row(r);
+      worker.barrier();
+      sum_over_mates(cloth_.mates, worker,
+                     {&diagonal_[0], &diagonal_[1], &diagonal_[2], &diagonal_[3], &diagonal_[4],
+                      &diagonal_[5]});
+    });
+    set_pins(cloth_, start_, input_.time_step, next_);
+    report_.forces_seconds = watch.seconds();
+  }
+
+  ClothState& iterate(std::span<const Contact> contacts) noexcept override {
+    const Stopwatch watch;
+    contacts_.choose(contacts, start_.position, next_.position, input_.time_step);
+    if (!contacts_.empty()) contacts_.scale(cloth_, diagonal_);
+    set_pins(cloth_, start_, input_.time_step, next_);
+    team_.run([&](Worker& worker) {
+      const Range mine = worker.share(cloth_.size);
+      for (int r = mine.first; r < mine.last; ++r) right_row(r);
+    });
+    const double to_residual = input_.time_step / cloth_.rest_spacing;
+    const SolveReport solved = solver_.solve(
+        {springs_, contacts_, diagonal_},
+        {options_.max_iterations, options_.tolerance / to_residual}, right_, next_.velocity, team_);
+    team_.run([&](Worker& worker) {
+      const Range mine = worker.share(cloth_.size);
+      for (int r = mine.first; r < mine.last; ++r) move_row(r);
+    });
+    set_pins(cloth_, start_, input_.time_step, next_);
+    report_.iterations += solved.iterations;
+    report_.residual = solved.correction * to_residual;
+    report_.solve_seconds += watch.seconds();
+    return next_;
+  }
+
+  StepReport end(ClothState& state) noexcept override {
+    accept(cloth_, next_, input_.time_step, state, team_);
+    return report_;
+  }
+
+  [[nodiscard]] std::string stability_advice(double /*time_step*/) const override { return {}; }
+
+ private:
+  /// The guess: v + h g, and where it leads.
+  void fall_row(const ClothState& state, int row) {
+    const auto h = static_cast<float>(input_.time_step);
+    const ConstRow3 v = row_of(state.velocity, row);
+    const Row3 v1 = row_of(next_.velocity, row);
+    const Vec3f g = input_.gravity;
+    for (int c = 0; c < cloth_.size; ++c) {
+      v1.x[c] = v.x[c] + h * g.x;
+      v1.y[c] = v.y[c] + h * g.y;
+      v1.z[c] = v.z[c] + h * g.z;
+    }
+    move_row(row);
+  }
+
+  /// Diagonal blocks of M + S, the mass once a class.
+  void diagonal_row(int row) {
+    const float* mass = cloth_.mass.row(row);
+    const float* counted = cloth_.counted.row(row);
+    for (int i = 0; i < 6; ++i) {
+      const bool on_diagonal = i == 0 || i == 3 || i == 5;
+      float* out = diagonal_[i].row(row);
+      for (int c = 0; c < cloth_.size; ++c) out[c] = on_diagonal ? mass[c] * counted[c] : 0.0F;
+    }
+    springs_.add_diagonal_row(diagonal_, row);
+  }
+
+  /// M (v + h g) + h f + contacts, each sample's own part.
+  void right_row(int row) {
+    const auto h = static_cast<float>(input_.time_step);
+    const Vec3f g = input_.gravity;
+    const ConstRow3 v = row_of(std::as_const(start_.velocity), row);
+    const ConstRow3 f = row_of(std::as_const(force_), row);
+    const ConstRow3 s = row_of(contacts_.axis(), row);
+    const float* target = contacts_.target().row(row);
+    const float *mass = cloth_.mass.row(row), *counted = cloth_.counted.row(row);
+    const Row3 b = row_of(right_, row);
+    for (int c = 0; c < cloth_.size; ++c) {
+      const float own = mass[c] * counted[c];
+      b.x[c] = own * (v.x[c] + h * g.x) + h * f.x[c] + target[c] * s.x[c];
+      b.y[c] = own * (v.y[c] + h * g.y) + h * f.y[c] + target[c] * s.y[c];
+      b.z[c] = own * (v.z[c] + h * g.z) + h * f.z[c] + target[c] * s.z[c];
+    }
+  }
+
+  void move_row(int row) {
+    const auto h = static_cast<float>(input_.time_step);
+    const ConstRow3 x = row_of(std::as_const(start_.position), row);
+    const ConstRow3 v1 = row_of(std::as_const(next_.velocity), row);
+    const Row3 x1 = row_of(next_.position, row);
+    for (int c = 0; c < cloth_.size; ++c) {
+      x1.x[c] = x.x[c] + h * v1.x[c];
+      x1.y[c] = x.y[c] + h * v1.y[c];
+      x1.z[c] = x.z[c] + h * v1.z[c];
+    }
+  }
+
+  ImplicitOptions options_;
+  const Cloth& cloth_;
+  ThreadTeam& team_;
+  StepInput input_;
+  ClothState start_, next_;
+  Planes3 force_, right_;
+  SpringMatrix springs_;
+  Blocks diagonal_;
+  ContactTerms contacts_;
+  ConjugateGradients solver_;
+  StepReport report_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_implicit(const ImplicitOptions& options, const Cloth& cloth,
+                                          ThreadTeam& team) {
+  if (options.max_iterations < 1)
+    throw SceneError("integrator.max_iterations", fmt::format("{}", options.max_iterations),
+                     "at least 1");
+  if (!std::isfinite(options.tolerance) || options.tolerance < 0)
+    throw SceneError("integrator.tolerance", fmt::format("{}", options.tolerance), "at least 0");
+  return std::make_unique<Implicit>(options, cloth, team);
+}
+
+}  // namespace weft

@@ -1,0 +1,35 @@
+#include "weft/cloth/integrate/integrator.h"
+
+#include "weft/cloth/integrate/proposal.h"
+
+namespace weft {
+namespace {
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
+
+}  // namespace
+
+std::string_view name_of(const IntegratorOptions& options) {
+  return std::visit(Overloaded{[](const ImplicitOptions&) { return "implicit"; },
+                               [](const ExplicitOptions&) { return "explicit"; },
+                               [](const TwoLevelOptions&) { return "two_level"; }},
+                    options);
+}
+
+std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Cloth& cloth,
+                                            const StepInput& typical, ThreadTeam& team) {
+  return std::visit(
+      Overloaded{[&](const ImplicitOptions& chosen) { return make_implicit(chosen, cloth, team); },
+                 [&](const ExplicitOptions&) { return make_explicit(cloth, team); },
+                 [&](const TwoLevelOptions& chosen) {
+                   return make_two_level(chosen, cloth, typical, team);
+                 }},
+      options);
+}
+
+}  // namespace weft

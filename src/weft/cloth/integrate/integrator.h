@@ -1,0 +1,82 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "weft/cloth/cloth.h"
+#include "weft/core/contact.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// What acts during one step.
+struct StepInput {
+  double time_step = 1.0 / 240;  ///< [s]
+  Vec3f gravity{0, -9.81F, 0};   ///< [m/s^2]
+};
+
+/// How one step went.
+struct StepReport {
+  int iterations = 0;  ///< of the linear solver, in all
+  double residual =
+      0;  ///< size of the last correction over the rest spacing, largest over particles
+  double forces_seconds = 0, solve_seconds = 0;
+};
+
+/// Explicit Euler with Provot's limit [provot95].
+struct ExplicitOptions {};
+/// Linearised implicit Euler, conjugate gradients without a matrix [baraff98].
+struct ImplicitOptions {
+  int max_iterations = 200;
+  /// Stop when the correction of an iteration falls below this times the rest spacing.
+  double tolerance = 1e-4;
+};
+/// The paper's local and global filters [zink07].
+struct TwoLevelOptions {
+  int local_size = 11;      ///< n_l, odd
+  int global_size = 0;      ///< n_g, n - 1 a multiple of n_g - 1; 0: the largest such up to 17
+  bool as_printed = false;  ///< f_l + interpolate(f_g), and the printed torque correction
+  /// k of the filter and of its soft springs [N/m]; 0: the largest known stable.
+  double filter_stiffness = 0;
+};
+using IntegratorOptions = std::variant<ImplicitOptions, ExplicitOptions, TwoLevelOptions>;
+
+/// The name in scene file and command line: implicit, explicit, two_level.
+std::string_view name_of(const IntegratorOptions& options);
+
+/// Advances one cloth by one step, in parts, so that a collider can work between them:
+///   begin(input, state); next = iterate(contacts) (once or more); ... next may be changed ...;
+///   end(state).
+/// Nothing here allocates once constructed; nothing throws.
+class Integrator {
+ public:
+  Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+  virtual ~Integrator() = default;
+
+  /// Takes the state at the start of the step and computes what does not depend on contacts.
+  virtual void begin(const StepInput& input, const ClothState& state) noexcept = 0;
+  /// Proposes the state at the end of the step; the caller may change it in place (limit strain,
+  /// truncate, push out of bodies) before the next iterate or end.
+  virtual ClothState& iterate(std::span<const Contact> contacts) noexcept = 0;
+  /// Makes the proposal the state (pins at their targets, mates equal).
+  virtual StepReport end(ClothState& state) noexcept = 0;
+
+  /// Largest stable time step for explicit methods, or largest stable stiffness for two_level, as a
+  /// sentence for the error that names an instability; empty where the method is unconditionally
+  /// stable.
+  [[nodiscard]] virtual std::string stability_advice(double time_step) const = 0;
+};
+
+/// @param cloth    kept by reference, as is the team; its pins may change between steps
+/// @param typical  the step that two_level's filters are made for
+/// @throws SceneError when options do not fit the cloth (even local_size, n - 1 not a multiple,
+/// ...)
+std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Cloth& cloth,
+                                            const StepInput& typical, ThreadTeam& team);
+
+}  // namespace weft

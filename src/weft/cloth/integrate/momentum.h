@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "weft/cloth/cloth.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// Sums over particles, each once, about the origin.
+struct Moments {
+  double mass = 0;                                        ///< [kg]
+  Vec3d first;                                            ///< sum m x [kg m]
+  Vec3d force, torque;                                    ///< sum m a [N], sum x cross m a [N m]
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  ///< sum m x x^T [kg m^2]
+};
+Moments& operator+=(Moments& a, const Moments& b);
+
+/// A rigid acceleration: linear + r cross turn, r from the centre.
+struct RigidAcceleration {
+  Vec3d centre, linear, turn;
+};
+
+/// Filters keep neither the net force nor the net torque of internal forces, both of which are
+/// zero; this is the rigid motion that takes back what they made:
+///   linear = -F / m,  turn = I^-1 T,  T = sum r x m a,  I = sum m (|r|^2 1 - r r^T)
+/// so that a + linear + r x turn has no net force and no net torque. (The printed formula lacks
+/// I^-1.)
+RigidAcceleration momentum_correction(const Moments& moments);
+
+/// The paper's torque correction as printed: x_i += (x_G - x_i) x (dT h) h^2 / m, dT = sum f x x,
+/// as the acceleration that moves x so.
+RigidAcceleration printed_correction(const Moments& moments, double time_step, double mass);
+
+/// Moments of accelerations `a` at positions `x`, to the same bits for any team.
+class MomentSums {
+ public:
+  explicit MomentSums(int size) : rows_(static_cast<std::size_t>(size)) {}
+  /// To be called by every worker; ends with a barrier, all get the same.
+  Moments sum(const Cloth& cloth, const Planes3& x, const Planes3& a, Worker& worker);
+
+ private:
+  std::vector<Moments> rows_;
+};
+
+}  // namespace weft

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+
+#include "weft/cloth/cloth.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// A symmetric 3 x 3 matrix a sample, upper triangle: xx, xy, xz, yy, yz, zz.
+using Blocks = std::array<Grid<float>, 6>;
+
+/// S = h^2 K + h C, the part of implicit Euler's matrix that springs make: K the stiffness matrix
+/// with its transverse part held non-negative, C the damping along the springs. For one spring of
+/// direction d, length l and rest r the block between its ends is a 1 + s s^T with
+///   a = h^2 k max(0, 1 - r / l),  a + |s|^2 = h^2 k + h c,  s along d.
+/// Stored as four planes a direction. Rows are computed apart; a sample of a class gets its own
+/// part.
+class SpringMatrix {
+ public:
+  explicit SpringMatrix(int size);
+
+  /// Computes the springs that start in a row. Let all rows be done before the next functions are
+  /// used.
+  void linearise_row(const Cloth& cloth, const Planes3& position, double time_step, int row);
+  /// Row `row` of out = S in. [in: m/s, out: kg m/s]
+  void multiply_row(const Planes3& in, Planes3& out, int row) const;
+  /// Adds the diagonal blocks of S to a row of blocks.
+  void add_diagonal_row(Blocks& blocks, int row) const;
+
+ private:
+  struct Direction {
+    Grid<float> transverse;  ///< a
+    Planes3 axial;           ///< s
+  };
+  int size_;
+  std::array<Direction, spring_directions> directions_;
+};
+
+}  // namespace weft

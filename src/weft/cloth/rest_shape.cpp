@@ -1,0 +1,135 @@
+#include "weft/cloth/rest_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+namespace {
+
+double triangle_area(Vec3d a, Vec3d b, Vec3d c) { return 0.5 * length(cross(b - a, c - a)); }
+
+/// Of both triangles beside the shorter diagonal, the one along which images are rebuilt.
+double cell_area_at(const Planes3& p, int r, int c) {
+  const auto at = [&](int row, int col) { return vec_cast<double>(p.at(row, col)); };
+  const Vec3d a = at(r, c), b = at(r, c + 1), d = at(r + 1, c), e = at(r + 1, c + 1);
+  if (squared_length(e - a) <= squared_length(d - b))
+    return triangle_area(a, b, e) + triangle_area(a, e, d);
+  return triangle_area(a, b, d) + triangle_area(b, e, d);
+}
+
+/// In the arithmetic of the forces, so that a cloth at rest feels exactly none.
+float spring_length(Vec3f a, Vec3f b) {
+  const Vec3f d = b - a;
+  return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+}
+
+double mean_spacing_of(const Planes3& p) {
+  const int n = p.size();
+  double sum = 0;
+  long count = 0;
+  const auto add = [&](double l) {
+    sum += l;
+    count += l > 0 ? 1 : 0;
+  };
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      if (c + 1 < n) add(spring_length(p.at(r, c), p.at(r, c + 1)));
+      if (r + 1 < n) add(spring_length(p.at(r, c), p.at(r + 1, c)));
+    }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+/// The area that a stretch or shear spring stands for [m^2].
+double strip_area(const RestShape& shape, SpringDirection direction, int r, int c) {
+  const int cells = shape.size() - 1;
+  const auto cell = [&](int row, int col) {
+    const bool inside = row >= 0 && row < cells && col >= 0 && col < cells;
+    return inside ? shape.cell_area(row, col) : 0.0;
+  };
+  switch (direction) {
+    case stretch_u:
+      return 0.5 * (cell(r - 1, c) + cell(r, c));
+    case stretch_v:
+      return 0.5 * (cell(r, c - 1) + cell(r, c));
+    case shear_1:
+      return cell(r, c);
+    default:
+      return cell(r, c - 1);
+  }
+}
+
+struct SpringPlace {
+  int row = 0, col = 0;
+  double rest_length = 0;
+};
+
+double stiffness_of(const RestShape& shape, const Material& material, SpringDirection direction,
+                    const SpringPlace& at) {
+  const int last = shape.size() - 1;
+  const double squared = at.rest_length * at.rest_length;
+  switch (direction) {
+    case stretch_u:
+    case stretch_v:
+      return material.stretch * strip_area(shape, direction, at.row, at.col) / squared;
+    case shear_1:
+    case shear_2:
+      return material.shear * strip_area(shape, direction, at.row, at.col) / squared;
+    case bend_u:
+      return material.bend_springs * (at.row == 0 || at.row == last ? 0.5 : 1.0);
+    default:
+      return material.bend_springs * (at.col == 0 || at.col == last ? 0.5 : 1.0);
+  }
+}
+
+}  // namespace
+
+RestShape::RestShape(const Planes3& rest, const BorderMates& border)
+    : position(rest),
+      mates(border),
+      cell_area(rest.size() - 1, rest.size() - 1),
+      mean_spacing(mean_spacing_of(rest)) {
+  for (int r = 0; r + 1 < size(); ++r)
+    for (int c = 0; c + 1 < size(); ++c) cell_area(r, c) = cell_area_at(rest, r, c);
+}
+
+SpringPlane make_springs(const RestShape& shape, const Material& material,
+                         SpringDirection direction) {
+  const int n = shape.size();
+  const auto [down, right] = spring_offsets[direction];
+  SpringPlane plane{down, right, Grid<float>(n, n, 1), Grid<float>(n, n), Grid<float>(n, n)};
+  const auto least = static_cast<float>(least_relative_length * shape.mean_spacing);
+  for (int r = 0; r + down < n; ++r)
+    for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c) {
+      const int from = r * n + c, to = (r + down) * n + c + right;
+      if (shape.mates.representative(from) == shape.mates.representative(to)) continue;
+      const float rest =
+          std::max(least, spring_length(shape.position.at(from), shape.position.at(to)));
+      plane.rest_length(r, c) = rest;
+      plane.stiffness(r, c) =
+          static_cast<float>(stiffness_of(shape, material, direction, {r, c, rest}));
+    }
+  return plane;
+}
+
+Grid<float> make_masses(const RestShape& shape, double density) {
+  const int n = shape.size();
+  Grid<double> mass(n, n);
+  for (int r = 0; r + 1 < n; ++r)
+    for (int c = 0; c + 1 < n; ++c) {
+      const double quarter = 0.25 * density * shape.cell_area(r, c);
+      for (const int corner : {0, 1, 2, 3}) mass(r + corner / 2, c + corner % 2) += quarter;
+    }
+  for (int index = 0; index < shape.mates.class_count(); ++index) {
+    double sum = 0;
+    for (const int s : shape.mates.mates(index)) sum += mass(s / n, s % n);
+    for (const int s : shape.mates.mates(index)) mass(s / n, s % n) = sum;
+  }
+  Grid<float> result(n, n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) result(r, c) = static_cast<float>(mass(r, c));
+  return result;
+}
+
+}  // namespace weft

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "weft/cloth/cloth.h"
+
+namespace weft {
+
+/// What springs and masses are made from.
+struct RestShape {
+  const Planes3& position;
+  const BorderMates& mates;
+  Grid<double> cell_area;   ///< [(n-1) x (n-1)] of both triangles of each quad [m^2]
+  double mean_spacing = 0;  ///< mean rest length of the stretch springs [m]
+
+  RestShape(const Planes3& rest, const BorderMates& border);
+  [[nodiscard]] int size() const { return position.size(); }
+};
+
+/// The springs of one direction.
+SpringPlane make_springs(const RestShape& shape, const Material& material,
+                         SpringDirection direction);
+
+/// A quarter of each adjacent cell for every sample, summed over mates, times the density [kg].
+Grid<float> make_masses(const RestShape& shape, double density);
+
+}  // namespace weft

@@ -1,0 +1,329 @@
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/cloth/sheets.h"
+#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrate/stable_step.h"
+#include "weft/cloth/measure.h"
+#include "weft/cloth/strain_limit.h"
+#include "weft/core/error.h"
+
+namespace weft {
+namespace {
+
+using namespace testing;
+
+const std::vector<IntegratorOptions> all_integrators{ImplicitOptions{}, ExplicitOptions{},
+                                                     TwoLevelOptions{.local_size = 5}};
+
+/// Steps without collisions. @return the last step's report
+StepReport run(Integrator& integrator, const StepInput& input, int steps, ClothState& state) {
+  StepReport report;
+  for (int i = 0; i < steps; ++i) {
+    integrator.begin(input, state);
+    integrator.iterate({});
+    report = integrator.end(state);
+  }
+  return report;
+}
+
+/// A step that explicit Euler bears on the small cloths here.
+constexpr double small_step = 1e-4;
+double step_for(const IntegratorOptions& options) {
+  return std::holds_alternative<ExplicitOptions>(options) ? small_step : 1.0 / 240;
+}
+
+TEST(Stepping, FreeFallIsExact) {
+  for (const IntegratorOptions& options : all_integrators) {
+    // Rounding wakes what explicit Euler cannot hold at this step, so its cloth is softer.
+    const bool soft = std::holds_alternative<ExplicitOptions>(options);
+    const Cloth cloth = sheet_cloth(17, soft ? Material{.stretch = 2, .shear = 0.5} : Material{});
+    ThreadTeam team(1);
+    const StepInput input;
+    const auto integrator = make_integrator(options, cloth, input, team);
+    ClothState state = rest_state(cloth, {0.5F, 1, 0});
+    const int steps = 120;
+    const StepReport report = run(*integrator, input, steps, state);
+    const double h = input.time_step, t = steps * h;
+    for (int s = 0; s < 17 * 17; ++s) {
+      const Vec3d fallen =
+          vec_cast<double>(state.position.at(s)) - vec_cast<double>(cloth.rest.at(s));
+      EXPECT_NEAR(fallen.x, 0.5 * t, 1e-5) << name_of(options);
+      EXPECT_NEAR(fallen.y, t - 9.81 * t * (t + h) / 2, 2e-5) << name_of(options);
+      EXPECT_NEAR(fallen.z, 0, 1e-6) << name_of(options);
+    }
+    EXPECT_LT(report.residual, 1e-5);
+  }
+}
+
+TEST(Stepping, ImplicitNeedsNoCorrectionInFreeFall) {
+  const Cloth cloth = sheet_cloth(17);
+  ThreadTeam team(1);
+  const auto integrator = make_integrator(ImplicitOptions{}, cloth, {}, team);
+  ClothState state = rest_state(cloth);
+  const StepReport report = run(*integrator, {}, 1, state);
+  EXPECT_EQ(report.iterations, 0);
+  EXPECT_EQ(report.residual, 0);
+}
+
+TEST(Stepping, MomentumIsKept) {
+  for (const IntegratorOptions& options : all_integrators)
+    for (const Cloth& cloth : {sheet_cloth(17), torus_cloth(17)}) {
+      ThreadTeam team(1);
+      const StepInput input{small_step, {}};
+      const auto integrator = make_integrator(options, cloth, input, team);
+      ClothState state = rest_state(cloth);
+      shake(cloth, 0.01, state.position);
+      const Vec3d centre = centre_of_mass(cloth, state);
+      run(*integrator, input, 100, state);
+      const double speed = std::sqrt(2 * kinetic_energy(cloth, state) / total_mass(cloth));
+      EXPECT_GT(speed, 1e-5) << name_of(options);
+      EXPECT_LT(length(momentum(cloth, state)), 1e-4 * speed * total_mass(cloth))
+          << name_of(options);
+      EXPECT_LT(length(centre_of_mass(cloth, state) - centre), 1e-5) << name_of(options);
+    }
+}
+
+TEST(Stepping, ExplicitBreaksOnlyAboveItsLargestStep) {
+  Material material;
+  material.damping = 0;
+  const Cloth cloth = sheet_cloth(9, material);
+  ThreadTeam team(1);
+  const double largest = largest_stable_step(cloth, team);
+  const auto energy_after = [&](double step) {
+    const StepInput input{step, {}};
+    const auto integrator = make_integrator(ExplicitOptions{}, cloth, input, team);
+    ClothState state = rest_state(cloth);
+    shake(cloth, 1e-5, state.position);
+    const double start = potential_energy(cloth, state, {});
+    run(*integrator, input, 400, state);
+    return kinetic_energy(cloth, state) / start;
+  };
+  EXPECT_FALSE(energy_after(1.1 * largest) < 1e3);  // or not a number any more
+  EXPECT_LT(energy_after(0.5 * largest), 2);
+  const auto integrator = make_integrator(ExplicitOptions{}, cloth, {}, team);
+  EXPECT_NE(integrator->stability_advice(1.0 / 240).find("largest stable step"), std::string::npos);
+}
+
+TEST(Stepping, LargestStepOfOneSpringIsTwoOverItsFrequency) {
+  Material material{.shear = 0, .bend_springs = 0, .damping = 0};
+  const Cloth cloth = make_cloth(flat_sheet(2), no_mates(2), material);
+  ThreadTeam team(1);
+  const double frequency = std::sqrt(2 * (material.stretch / 2) / cloth.mass(0, 0));
+  EXPECT_NEAR(largest_stable_step(cloth, team) * frequency, 2, 1e-3);
+}
+
+TEST(Stepping, ImplicitEulerDampsASpringByTheKnownFactor) {
+  // Two columns joined by two springs along x: w^2 = 2 k / m; a step takes 1 + w^2 h^2 off the
+  // energy.
+  Material material{.stretch = 50, .shear = 0, .bend_springs = 0, .damping = 0};
+  const Cloth cloth = make_cloth(flat_sheet(2), no_mates(2), material);
+  ThreadTeam team(1);
+  StepInput input{1.0 / 240, {}};
+  const auto integrator = make_integrator(ImplicitOptions{.tolerance = 1e-8}, cloth, input, team);
+  ClothState state = rest_state(cloth);
+  for (const int r : {0, 1})
+    for (const int c : {0, 1}) state.position.x(r, c) *= 1.02F;
+  const auto energy = [&] {
+    return kinetic_energy(cloth, state) + potential_energy(cloth, state, {});
+  };
+  const double w2 = 2 * (material.stretch / 2) / cloth.mass(0, 0);
+  const double factor = 1 + w2 * input.time_step * input.time_step;
+  for (int step = 0; step < 20; ++step) {
+    const double before = energy();
+    run(*integrator, input, 1, state);
+    EXPECT_NEAR(before / energy(), factor, 1e-3 * factor) << "step " << step;
+  }
+}
+
+TEST(Stepping, MatesStayBitEqualOnATorus) {
+  for (const IntegratorOptions& options : all_integrators) {
+    Cloth cloth = torus_cloth(17);
+    pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
+    ThreadTeam team(1);
+    const StepInput input{step_for(options), {0, -9.81F, 0}};
+    const auto integrator = make_integrator(options, cloth, input, team);
+    ClothState state = rest_state(cloth);
+    shake(cloth, 0.005, state.position);
+    run(*integrator, input, 50, state);
+    EXPECT_TRUE(mates_equal(cloth, state)) << name_of(options);
+    EXPECT_GT(kinetic_energy(cloth, state), 0);
+    EXPECT_EQ(state.position.at(0), cloth.rest.at(0));
+    EXPECT_EQ(state.velocity.at(0), (Vec3f{}));
+  }
+}
+
+TEST(Stepping, AnyTeamGivesTheSameBits) {
+  // Few iterations: teams larger than the machine wait long at every barrier.
+  for (const IntegratorOptions& options : {IntegratorOptions(ImplicitOptions{.max_iterations = 6}),
+                                           all_integrators[1], all_integrators[2]})
+    for (Cloth cloth : {sheet_cloth(21), torus_cloth(17)}) {
+      pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
+      std::string first;
+      for (const int threads : {1, 2, 3, 7}) {
+        ThreadTeam team(threads);
+        const StepInput input{step_for(options), {0, -9.81F, 0}};
+        const auto integrator = make_integrator(options, cloth, input, team);
+        ClothState state = rest_state(cloth);
+        shake(cloth, 0.005, state.position);
+        run(*integrator, input, 3, state);
+        if (first.empty()) first = hash_of(state);
+        EXPECT_EQ(hash_of(state), first) << name_of(options) << ", " << threads << " threads";
+      }
+    }
+}
+
+TEST(Stepping, PinFollowsItsTarget) {
+  for (const IntegratorOptions& options : all_integrators) {
+    Cloth cloth = sheet_cloth(9);
+    pin(cloth, 40, vec_cast<double>(cloth.rest.at(40)));
+    ThreadTeam team(1);
+    const StepInput input{small_step, {}};
+    const auto integrator = make_integrator(options, cloth, input, team);
+    ClothState state = rest_state(cloth);
+    pin(cloth, 40, {0, 1e-4, 0});
+    run(*integrator, input, 1, state);
+    EXPECT_FLOAT_EQ(state.position.y(4, 4), 1e-4F) << name_of(options);
+    EXPECT_NEAR(state.velocity.y(4, 4), 1, 1e-4) << name_of(options);
+  }
+}
+
+TEST(Stepping, HangingSheetFallsAsItShouldWithinItsLimit) {
+  const int n = 33;
+  Cloth cloth = sheet_cloth(n);
+  pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
+  pin(cloth, n - 1, vec_cast<double>(cloth.rest.at(n - 1)));
+  ThreadTeam team(1);
+  const StepInput input{1.0 / 120, {0, -9.81F, 0}};
+  const auto integrator = make_integrator(ImplicitOptions{}, cloth, input, team);
+  ClothState state = rest_state(cloth);
+  double highest_speed = 0;
+  for (int step = 0; step < 60; ++step) {
+    integrator->begin(input, state);
+    limit_strain(cloth, {}, input.time_step, integrator->iterate({}), team);
+    integrator->end(state);
+    for (const float v : {state.velocity.y(n - 1, 0), state.velocity.y(n - 1, n - 1)})
+      highest_speed = std::max(highest_speed, std::abs(double{v}));
+  }
+  // Converged small steps give -0.49 to -0.50 m after half a second; stiff cloth falls, it does not
+  // creep.
+  EXPECT_NEAR(centre_of_mass(cloth, state).y, -0.49, 0.025);
+  EXPECT_GT(highest_speed, 2);
+  EXPECT_LT(measure_strain(cloth, state).p99, 0.05);
+  EXPECT_LT(measure_strain(cloth, state).max, 0.08);
+}
+
+TEST(Stepping, ContactsHoldAParticleAtTheirSurface) {
+  for (const Cloth& cloth : {sheet_cloth(9), torus_cloth(9)}) {
+    ThreadTeam team(1);
+    const StepInput input{1.0 / 60, {0, -9.81F, 0}};
+    const auto integrator = make_integrator(ImplicitOptions{}, cloth, input, team);
+    ClothState state = rest_state(cloth, {0, -1, 0});
+    std::vector<Contact> contacts;
+    for (int s = 0; s < 81; ++s)
+      contacts.push_back({s, {0, 1, 0}, cloth.rest.at(s).y - 0.001F, 0, {}});
+    integrator->begin(input, state);
+    const ClothState& free = integrator->iterate({});
+    EXPECT_LT(free.position.y(4, 4), cloth.rest.y(4, 4) - 0.015F);
+    const ClothState& held = integrator->iterate(contacts);
+    for (int s = 0; s < 81; ++s) EXPECT_GT(held.position.at(s).y, cloth.rest.at(s).y - 0.004F);
+    integrator->end(state);
+    EXPECT_TRUE(mates_equal(cloth, state));
+  }
+}
+
+TEST(Stepping, VeryUnevenCellsStayFinite) {
+  const int n = 33;
+  Planes3 rest = flat_sheet(n);
+  for (int s = 0; s < n * n; ++s) {
+    const Vec3f p = rest.at(s);
+    rest.set(s, {p.x * p.x * p.x, 0, p.z * std::abs(p.z)});
+  }
+  Cloth cloth = make_cloth(rest, no_mates(n), {});
+  pin(cloth, 0, vec_cast<double>(rest.at(0)));
+  for (const IntegratorOptions& options : {all_integrators[0], all_integrators[2]}) {
+    ThreadTeam team(1);
+    const StepInput input;
+    const auto integrator = make_integrator(options, cloth, input, team);
+    ClothState state = rest_state(cloth);
+    for (int step = 0; step < 60; ++step) {
+      integrator->begin(input, state);
+      limit_strain(cloth, {}, input.time_step, integrator->iterate({}), team);
+      integrator->end(state);
+    }
+    EXPECT_FALSE(find_not_finite(state).has_value()) << name_of(options);
+    // No more than a free fall of that time gives.
+    EXPECT_LT(kinetic_energy(cloth, state), 0.5 * total_mass(cloth) * 2.5 * 2.5);
+  }
+}
+
+TEST(Stepping, ImplicitIterationsHardlyGrowWithTheImage) {
+  const auto iterations = [](int n) {
+    Cloth cloth = sheet_cloth(n);
+    pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
+    pin(cloth, n - 1, vec_cast<double>(cloth.rest.at(n - 1)));
+    ThreadTeam team(1);
+    const StepInput input;
+    const auto integrator = make_integrator(ImplicitOptions{.tolerance = 1e-4}, cloth, input, team);
+    ClothState state = rest_state(cloth);
+    int sum = 0;
+    for (int step = 0; step < 12; ++step) sum += run(*integrator, input, 1, state).iterations;
+    return sum;
+  };
+  const int coarse = iterations(17);
+  EXPECT_GT(coarse, 12);
+  // Without the coarse levels it takes four times as many and more, some 80 a step.
+  EXPECT_LT(iterations(65), 3 * coarse);
+  EXPECT_LT(iterations(65), 12 * 15);
+}
+
+TEST(Stepping, ImplicitReachesTheSameStepWithMatesThatDoNotHalve) {
+  // Mates around a corner; at odd places there is no mip pyramid, yet the physics is the same.
+  const int n = 17;
+  const auto height_after = [](const BorderMates& mates) {
+    Planes3 rest = flat_sheet(n);
+    for (int k = 0; k <= mates.intervals().front().count; ++k) {
+      const MateInterval& interval = mates.intervals().front();
+      rest.set(border_sample(n, interval.mate - k), rest.at(border_sample(n, interval.first + k)));
+    }
+    Cloth cloth = make_cloth(rest, mates, {});
+    pin(cloth, n * n / 2, vec_cast<double>(rest.at(n * n / 2)));
+    ThreadTeam team(1);
+    const StepInput input;
+    const auto integrator = make_integrator(ImplicitOptions{.tolerance = 1e-5}, cloth, input, team);
+    ClothState state = rest_state(cloth);
+    run(*integrator, input, 24, state);
+    EXPECT_TRUE(mates_equal(cloth, state));
+    return centre_of_mass(cloth, state).y;
+  };
+  const double whole = height_after(BorderMates(n, {{14, 18, 2}}));
+  EXPECT_NEAR(height_after(BorderMates(n, {{15, 17, 1}})), whole, 0.01 * std::abs(whole));
+}
+
+TEST(Stepping, OptionsThatDoNotFitNameTheirKey) {
+  const Cloth cloth = sheet_cloth(17);
+  ThreadTeam team(1);
+  const auto message = [&](const IntegratorOptions& options) -> std::string {
+    try {
+      make_integrator(options, cloth, {}, team);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message(TwoLevelOptions{.local_size = 4}).find("integrator.local_size"),
+            std::string::npos);
+  EXPECT_NE(message(TwoLevelOptions{.local_size = 19}).find("odd number from 3 to 17"),
+            std::string::npos);
+  EXPECT_NE(message(TwoLevelOptions{.global_size = 7}).find("integrator.global_size"),
+            std::string::npos);
+  EXPECT_NE(message(TwoLevelOptions{.filter_stiffness = -1}).find("integrator.filter_stiffness"),
+            std::string::npos);
+  EXPECT_NE(message(ImplicitOptions{.max_iterations = 0}).find("integrator.max_iterations"),
+            std::string::npos);
+  EXPECT_EQ(message(TwoLevelOptions{.local_size = 17, .global_size = 9}), "");
+}
+
+}  // namespace
+}  // namespace weft
