@@ -1,0 +1,177 @@
+#include "weft/collide/collider.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weft/collide/polar_map.h"
+#include "weft/collide/response.h"
+
+namespace weft {
+namespace {
+
+constexpr int no_sample = -1;
+/// Pushing out of one obstacle may push into the next (a crotch, a body on the ground): a few
+/// turns.
+constexpr int most_turns = 4;
+/// What is left of a push, in thicknesses, that counts as rounding.
+constexpr double settled = 1e-6;
+/// Farther from a contact's plane, in thicknesses, a particle is no longer pressed against it.
+constexpr double left_surface = 0.1;
+
+double pair_friction(double a, double b) { return std::sqrt(a * b); }
+
+class PushCollider final : public Collider {
+ public:
+  PushCollider(const PolarMapOptions& options, const Obstacles& obstacles, const Guarded& cloth)
+      : thickness_(cloth.thickness),
+        ground_(obstacles.ground),
+        ground_friction_(pair_friction(obstacles.ground_friction, cloth.friction)) {
+    for (const Body& body : obstacles.bodies)
+      bodies_.push_back({PolarMap(body, options), pair_friction(body.friction, cloth.friction)});
+  }
+
+  std::span<const Contact> detect(const MovingCloth& cloth, ThreadTeam& team) noexcept override {
+    const int n = cloth.position.size();
+    slots_.resize(static_cast<std::size_t>(n) * n);
+    contacts_.reserve(slots_.size());
+    detected_depth_.resize(slots_.size());
+    team.run([&](Worker& worker) {
+      const Range rows = worker.share(n);
+      for (int s = rows.first * n; s < rows.last * n; ++s) slots_[s] = contact_of(cloth, s);
+    });
+    detected_ = true;
+    contacts_.clear();
+    for (const Contact& contact : slots_)
+      if (contact.sample != no_sample) contacts_.push_back(contact);
+    return contacts_;
+  }
+
+  int correct(const MovingCloth& cloth, double time_step, ThreadTeam& team) noexcept override {
+    const int n = cloth.position.size();
+    touched_.resize(n);
+    team.run([&](Worker& worker) {
+      const Range rows = worker.share(n);
+      for (int r = rows.first; r < rows.last; ++r) {
+        touched_[r] = 0;
+        for (int c = 0; c < n; ++c) touched_[r] += correct_particle(cloth, r * n + c, time_step);
+      }
+    });
+    detected_ = false;
+    int total = 0;
+    for (const int count : touched_) total += count;
+    return total;
+  }
+
+  double smallest_gap(const Planes3& positions, ThreadTeam& team) noexcept override {
+    const int n = positions.size();
+    row_gaps_.resize(n);
+    team.run([&](Worker& worker) {
+      const Range rows = worker.share(n);
+      for (int r = rows.first; r < rows.last; ++r) {
+        row_gaps_[r] = HUGE_VAL;
+        for (int c = 0; c < n; ++c) {
+          const Vec3d point = vec_cast<double>(positions.at(r, c));
+          const auto found = deepest(point, point, 2 * thickness_);
+          if (found) row_gaps_[r] = std::min(row_gaps_[r], found->point.gap);
+        }
+      }
+    });
+    return n > 0 ? *std::min_element(row_gaps_.begin(), row_gaps_.end()) : HUGE_VAL;
+  }
+
+ private:
+  struct Guard {
+    PolarMap map;
+    double friction = 0;
+  };
+  struct Nearest {
+    SurfacePoint point;
+    double friction = 0;
+  };
+
+  /// The obstacle that is entered deepest, of those nearer than `reach`.
+  [[nodiscard]] std::optional<Nearest> deepest(Vec3d point, Vec3d start,
+                                               double reach) const noexcept {
+    std::optional<Nearest> found;
+    for (const Guard& body : bodies_) {
+      const auto contact = body.map.contact(point, start, reach);
+      if (contact && (!found || contact->gap < found->point.gap)) found = {*contact, body.friction};
+    }
+    const double gap = ground_ ? point.y - *ground_ : HUGE_VAL;
+    if (gap < reach && (!found || gap < found->point.gap))
+      found = {{{point.x, *ground_, point.z}, {0, 1, 0}, gap}, ground_friction_};
+    return found;
+  }
+
+  [[nodiscard]] Contact contact_of(const MovingCloth& cloth, int sample) noexcept {
+    Contact contact;
+    detected_depth_[sample] = 0;
+    contact.sample = no_sample;
+    const int n = cloth.position.size();
+    if (cloth.inverse_mass(sample / n, sample % n) <= 0) return contact;
+    const auto found = deepest(vec_cast<double>(cloth.position.at(sample)),
+                               vec_cast<double>(cloth.start.at(sample)), thickness_);
+    if (!found) return contact;
+    contact.sample = sample;
+    contact.normal = vec_cast<float>(found->point.normal);
+    contact.offset =
+        static_cast<float>(dot(found->point.normal, found->point.position) + thickness_);
+    contact.friction = static_cast<float>(found->friction);
+    detected_depth_[sample] = thickness_ - found->point.gap;
+    return contact;
+  }
+
+  /// The solve has lifted what detect found, so it was pressed by that much: friction is owed for
+  /// it, unless the particle has left the surface.
+  bool hold_pressed(int sample, double time_step, StruckParticle& particle) const noexcept {
+    const double pressed = detected_ ? detected_depth_[sample] : 0;
+    if (pressed <= 0) return false;
+    const Contact& contact = slots_[sample];
+    const Vec3d normal = vec_cast<double>(contact.normal);
+    if (dot(normal, particle.position) - contact.offset > left_surface * thickness_) return false;
+    respond({normal, 0, contact.friction * pressed}, time_step, particle);
+    return true;
+  }
+
+  [[nodiscard]] int correct_particle(const MovingCloth& cloth, int sample,
+                                     double time_step) const noexcept {
+    const int n = cloth.position.size();
+    if (cloth.inverse_mass(sample / n, sample % n) <= 0) return 0;
+    StruckParticle particle{vec_cast<double>(cloth.start.at(sample)),
+                            vec_cast<double>(cloth.position.at(sample)),
+                            vec_cast<double>(cloth.velocity.at(sample))};
+    int turns = hold_pressed(sample, time_step, particle) ? 1 : 0;
+    for (int turn = 0; turn < most_turns; ++turn) {
+      const auto found = deepest(particle.position, particle.start, thickness_);
+      const double depth = found ? thickness_ - found->point.gap : 0;
+      if (depth <= settled * thickness_) break;
+      respond({found->point.normal, depth, found->friction * depth}, time_step, particle);
+      ++turns;
+    }
+    if (turns == 0) return 0;
+    cloth.position.set(sample, vec_cast<float>(particle.position));
+    cloth.velocity.set(sample, vec_cast<float>(particle.velocity));
+    return 1;
+  }
+
+  double thickness_;
+  std::vector<Guard> bodies_;
+  std::optional<double> ground_;
+  double ground_friction_;
+  std::vector<Contact> slots_, contacts_;  // slots: [n * n], one a sample
+  std::vector<double> detected_depth_;     // [n * n] depth of the proposal that detect saw [m]
+  bool detected_ = false;                  // in this step
+  std::vector<int> touched_;               // [n] per row
+  std::vector<double> row_gaps_;           // [n]
+};
+
+}  // namespace
+
+std::string_view name_of(const ColliderOptions&) { return "polar_map"; }
+
+std::unique_ptr<Collider> make_collider(const ColliderOptions& options, const Obstacles& obstacles,
+                                        const Guarded& cloth) {
+  return std::make_unique<PushCollider>(std::get<PolarMapOptions>(options), obstacles, cloth);
+}
+
+}  // namespace weft

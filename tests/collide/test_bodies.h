@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+
+#include "weft/collide/collider.h"
+#include "weft/core/math.h"
+
+namespace weft::test {
+
+/// A sphere as an image: the square is an unfolded octahedron, its centre +y, its four corners -y;
+/// every side folds onto itself.
+inline Body octahedral_sphere(int n, double radius, Vec3d centre) {
+  Body body;
+  body.positions = Planes3(n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const double u = 2.0 * c / (n - 1) - 1, v = 2.0 * r / (n - 1) - 1;
+      const double height = 1 - std::abs(u) - std::abs(v);
+      // Outside the diamond the lower half is folded out; u to -z keeps dP/du x dP/dv pointing
+      // outwards.
+      const double x = height >= 0 ? u : (u < 0 ? -1 : 1) * (1 - std::abs(v));
+      const double z = height >= 0 ? v : (v < 0 ? -1 : 1) * (1 - std::abs(u));
+      const Vec3d direction = normalized(Vec3d{x, height, -z});
+      body.positions.set(r, c, vec_cast<float>(centre + radius * direction));
+    }
+  std::vector<MateInterval> folds;
+  for (int side = 0; side < 4; ++side)
+    folds.push_back({side * (n - 1), (side + 1) * (n - 1) % (4 * (n - 1)), (n - 1) / 2});
+  body.mates = BorderMates(n, folds);
+  for (int k = 0; k < body.mates.class_count(); ++k)
+    for (const int sample : body.mates.mates(k))
+      body.positions.set(sample, body.positions.at(body.mates.mates(k)[0]));
+  return body;
+}
+
+/// A torus around the y axis; rows and columns both wrap.
+inline Body torus(int n, double ring, double tube) {
+  Body body;
+  body.positions = Planes3(n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const double around = 2 * pi * (c % (n - 1)) / (n - 1), up = 2 * pi * (r % (n - 1)) / (n - 1);
+      const double out = ring + tube * cosine(up);
+      body.positions.set(
+          r, c, vec_cast<float>(Vec3d{out * cosine(around), tube * sine(up), -out * sine(around)}));
+    }
+  body.mates = BorderMates(n, {{0, 3 * (n - 1), n - 1}, {n - 1, 4 * (n - 1), n - 1}});
+  return body;
+}
+
+/// Four planes of a moving cloth that a test owns.
+struct TestCloth {
+  explicit TestCloth(int n) : start(n), position(n), velocity(n), inverse_mass(n, n, 1.0F) {}
+  void place(const std::function<Vec3d(int, int)>& at) {
+    for (int r = 0; r < position.size(); ++r)
+      for (int c = 0; c < position.size(); ++c) position.set(r, c, vec_cast<float>(at(r, c)));
+    start = position;
+  }
+  MovingCloth moving() { return {start, position, velocity, inverse_mass}; }
+
+  Planes3 start, position, velocity;
+  Grid<float> inverse_mass;
+};
+
+}  // namespace weft::test
