@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "weft/sim/detail/scene_parts.h"
+#include "weft/sim/scene_keys.h"
+
+namespace weft {
+namespace {
+
+constexpr int most_iterations = 1'000'000;
+constexpr int most_passes = 10'000;
+constexpr int largest_table = 8193;
+
+/// The `type` of a method, looked at before its other keys, which depend on it.
+std::string type_of(const nlohmann::json& value, const JsonPlace& place,
+                    std::string_view fallback) {
+  if (!value.is_object()) place.fail("no object", "an object with a \"type\" is wanted");
+  const auto at = value.find("type");
+  if (at == value.end()) return std::string(fallback);
+  if (!at->is_string()) place.key("type").fail("no string", "the name of a method is wanted");
+  return at->get<std::string>();
+}
+
+ImplicitOptions read_implicit(const JsonObject& object) {
+  ImplicitOptions options;
+  options.max_iterations =
+      object.integer("max_iterations", options.max_iterations, 1, most_iterations);
+  options.tolerance = object.number("tolerance", options.tolerance, positive);
+  return options;
+}
+
+TwoLevelOptions read_two_level(const JsonObject& object) {
+  TwoLevelOptions options;
+  options.local_size = object.integer("local_size", options.local_size, 3, largest_image_size);
+  if (options.local_size % 2 == 0)
+    object.place()
+        .key("local_size")
+        .fail(fmt::format("{}", options.local_size), "an odd number is wanted");
+  options.global_size = object.integer("global_size", options.global_size, 0, largest_image_size);
+  options.as_printed = object.boolean("as_printed", options.as_printed);
+  options.filter_stiffness =
+      object.number("filter_stiffness", options.filter_stiffness, not_negative);
+  return options;
+}
+
+int read_passes(const JsonObject& object, int fallback) {
+  return object.integer("limiter_passes", fallback, 0, most_passes);
+}
+
+}  // namespace
+
+IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& place,
+                                  LimitOptions& limiter) {
+  const std::string type = type_of(value, place, name_of(IntegratorOptions{}));
+  const auto read = [&](std::span<const std::string_view> keys,
+                        const auto& options_of) -> IntegratorOptions {
+    const JsonObject object(value, place, keys);
+    limiter.passes = read_passes(object, limiter.passes);
+    return options_of(object);
+  };
+  if (type == name_of(ImplicitOptions{}))
+    return read(scene_keys::implicit_integrator, read_implicit);
+  if (type == name_of(TwoLevelOptions{}))
+    return read(scene_keys::two_level_integrator, read_two_level);
+  if (type == name_of(ExplicitOptions{}))
+    return read(scene_keys::explicit_integrator,
+                [](const JsonObject&) { return ExplicitOptions{}; });
+  place.key("type").fail(fmt::format("unknown integrator '{}'", type),
+                         "known are: implicit, explicit, two_level");
+}
+
+ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place) {
+  const std::string type = type_of(value, place, name_of(ColliderOptions{}));
+  if (type != name_of(PolarMapOptions{}))
+    place.key("type").fail(fmt::format("unknown collider '{}'", type), "known is: polar_map");
+  const JsonObject object(value, place, scene_keys::collider);
+  PolarMapOptions options;
+  options.size = object.integer("size", options.size, 0, largest_table);
+  options.walk = object.boolean("walk", options.walk);
+  return options;
+}
+
+}  // namespace weft

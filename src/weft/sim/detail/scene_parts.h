@@ -1,0 +1,20 @@
+#pragma once
+
+#include "weft/sim/detail/json_object.h"
+#include "weft/sim/scene.h"
+
+namespace weft {
+
+// Readers of the parts of a scene file. All throw SceneError with FILE:KEY.
+
+IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& place,
+                                  LimitOptions& limiter);
+ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place);
+Material read_material(const nlohmann::json& value, const JsonPlace& place);
+/// @param folder  where relative surfaces are looked for
+SceneCloth read_cloth(const nlohmann::json& value, const JsonPlace& place,
+                      const std::filesystem::path& folder);
+SceneBody read_body(const nlohmann::json& value, const JsonPlace& place,
+                    const std::filesystem::path& folder);
+
+}  // namespace weft

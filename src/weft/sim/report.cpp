@@ -1,0 +1,88 @@
+#include "weft/sim/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace weft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The smallest value that a share of all values does not exceed; 0 of none.
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
+template <class Field>
+std::vector<double> column(const RunReport& report, Field FrameReport::*field) {
+  std::vector<double> values;
+  for (const FrameReport& frame : report.history) values.push_back(frame.*field);
+  return values;
+}
+
+Json milliseconds(const RunReport& report) {
+  const auto median = [&](double FrameReport::*field) {
+    return quantile(column(report, field), 0.5);
+  };
+  return {{"median", median(&FrameReport::milliseconds)},
+          {"p95", quantile(column(report, &FrameReport::milliseconds), 0.95)},
+          {"forces", median(&FrameReport::forces_ms)},
+          {"solve", median(&FrameReport::solve_ms)},
+          {"collide", median(&FrameReport::collide_ms)},
+          {"limit", median(&FrameReport::limit_ms)}};
+}
+
+}  // namespace
+
+std::string to_json(const RunReport& report) {
+  const std::vector<double> residuals = column(report, &FrameReport::residual);
+  Json json{
+      {"frames", report.frames},
+      {"particles", report.particles},
+      {"integrator", report.integrator},
+      {"threads", report.threads},
+      {"time_step", report.time_step},
+      {"substeps", report.substeps},
+      {"ms_per_frame", milliseconds(report)},
+      {"strain",
+       {{"mean", report.strain.mean}, {"p99", report.strain.p99}, {"max", report.strain.max}}},
+      {"residual", {{"median", quantile(residuals, 0.5)}, {"max", quantile(residuals, 1)}}},
+      {"contacts_max", report.contacts_max},
+      {"self_contacts_max", report.self_contacts_max},
+      {"intersections", report.intersections}};
+  json["centre_of_mass"] = Json::array();
+  for (const Vec3d& c : report.centre_of_mass) json["centre_of_mass"].push_back({c.x, c.y, c.z});
+  json["state_hash"] = report.state_hash;
+  json["outputs"] = Json::array();
+  for (const auto& path : report.outputs) json["outputs"].push_back(path.string());
+  return json.dump();
+}
+
+std::string frames_csv_header() {
+  return "frame,ms,forces_ms,solve_ms,collide_ms,limit_ms,iterations,residual,strain_mean,strain_"
+         "p99,strain_max,"
+         "kinetic_energy,potential_energy,contacts,smallest_gap,com_x,com_y,com_z\n";
+}
+
+std::string frames_csv_line(int frame, const FrameReport& f) {
+  // No gap is known when nothing is near: the field stays empty.
+  const std::string gap =
+      std::isfinite(f.smallest_gap) ? fmt::format("{:.6g}", f.smallest_gap) : "";
+  return fmt::format(
+             "{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{:.4g},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g},{}"
+             ",{},",
+             frame, f.milliseconds, f.forces_ms, f.solve_ms, f.collide_ms, f.limit_ms, f.iterations,
+             f.residual, f.strain.mean, f.strain.p99, f.strain.max, f.kinetic_energy,
+             f.potential_energy, f.contacts, gap) +
+         fmt::format("{:.9g},{:.9g},{:.9g}\n", f.centre_of_mass.x, f.centre_of_mass.y,
+                     f.centre_of_mass.z);
+}
+
+}  // namespace weft

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "weft/core/progress.h"
+#include "weft/sim/simulation.h"
+
+namespace weft {
+
+struct RunOptions {
+  std::filesystem::path folder;  ///< where everything is written
+  std::vector<std::string> exports{"obj", "pc2"};
+  bool unwelded = false;  ///< write every sample instead of joining mates
+  bool verify = false;    ///< count intersections in every frame, not in the last one only
+  int threads = 1;
+  Progress* progress = nullptr;
+};
+
+/// What `simulate` reports: the fields of its JSON, and more.
+struct RunReport {
+  int frames = 0, particles = 0, threads = 1, substeps = 1;
+  std::string scene, integrator;
+  double time_step = 0;              ///< [s]
+  std::vector<FrameReport> history;  ///< one a frame, from frame 1
+  StrainSummary strain;              ///< last frame
+  int contacts_max = 0, self_contacts_max = 0;
+  int intersections = 0;  ///< triangle pairs, last frame; with verify: of the worst frame
+  std::vector<Vec3d> centre_of_mass;  ///< frame 0 first
+  std::string state_hash;
+  std::vector<std::string> notes;
+  std::vector<std::filesystem::path> outputs;
+};
+
+/// Runs a whole scene into a folder, which is made when missing: for each cloth and body its
+/// geometry image NAME.exr (at rest, unplaced), NAME.obj and, for cloths, NAME.pc2; frames.csv;
+/// weft-run.json, by which open_run_folder finds them again. When the run stops early by error or
+/// interruption, what was finished is kept: files appear whole, with the frames there are.
+/// @throws UsageError for an export that is not known; OutputError; what Simulation throws;
+/// Interrupted
+RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options);
+
+}  // namespace weft

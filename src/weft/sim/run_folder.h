@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "weft/sim/run.h"
+
+namespace weft {
+
+/// One cloth of a finished run.
+struct RecordedCloth {
+  std::string name;
+  GeometryImage image;          ///< at rest, unplaced
+  std::vector<int> vertex_of;   ///< [n * n] point of the cache for each sample
+  std::filesystem::path cache;  ///< PC2
+  int points = 0, frames = 0;   ///< of the cache; frame 0 is the start
+};
+
+/// What run_scene left in a folder, for drawing it.
+struct RunFolder {
+  std::string scene;
+  double frame_rate = 60;        ///< [1/s]
+  int frames = 0;                ///< samples in the caches, frame 0 included
+  std::optional<double> ground;  ///< [m]
+  std::vector<RecordedCloth> cloths;
+  std::vector<PlacedBody> bodies;
+
+  /// Positions of a cloth at a frame. [n x n] world [m]
+  /// @throws InputError when the cache is cut short; UsageError when there is no such frame
+  [[nodiscard]] Planes3 positions(std::size_t cloth, int frame) const;
+};
+
+/// @throws InputError when the folder holds no run, or its files do not fit together
+RunFolder open_run_folder(const std::filesystem::path& folder);
+
+/// The manifest that open_run_folder reads. @param frames  samples in the caches
+void write_run_manifest(const std::filesystem::path& path, const Scene& scene,
+                        const RunReport& report, const RunOptions& options);
+
+/// A body's normal map as it was loaded, beside its image: so that drawing needs no mesh.
+std::filesystem::path normals_path(const std::filesystem::path& folder, const std::string& body);
+
+}  // namespace weft

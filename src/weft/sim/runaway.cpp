@@ -1,0 +1,72 @@
+#include "weft/sim/runaway.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+constexpr double generous = 100;
+/// What a cloth without gravity and speed may still do. [J/kg]
+constexpr double least_energy = 0.5;
+
+double squared_speed(const ClothState& state, int sample) {
+  return squared_length(vec_cast<double>(state.velocity.at(sample)));
+}
+
+struct Motion {
+  double kinetic = 0, mass = 0, fastest = 0;
+  int fastest_sample = 0;
+};
+
+/// Samples that are mates count once each: a bound needs no better.
+Motion motion_of(const Cloth& cloth, const ClothState& state) {
+  Motion motion;
+  for (int s = 0; s < cloth.size * cloth.size; ++s) {
+    const double mass = cloth.mass(s / cloth.size, s % cloth.size);
+    const double squared = squared_speed(state, s);
+    motion.mass += mass;
+    motion.kinetic += 0.5 * mass * squared;
+    if (squared > motion.fastest) {
+      motion.fastest = squared;
+      motion.fastest_sample = s;
+    }
+  }
+  return motion;
+}
+
+}  // namespace
+
+RunawayCheck::RunawayCheck(const Cloth& cloth, const ClothState& start, Vec3d gravity)
+    : gravity_(length(gravity)) {
+  const Motion motion = motion_of(cloth, start);
+  start_energy_ = motion.kinetic / motion.mass;
+  speed_ = std::sqrt(motion.fastest);
+  Box3d box;
+  for (int s = 0; s < cloth.size * cloth.size; ++s) box.add(vec_cast<double>(start.position.at(s)));
+  reach_ = box.diagonal();
+}
+
+double RunawayCheck::most_energy(double seconds) const {
+  const double fallen = reach_ + speed_ * seconds + 0.5 * gravity_ * seconds * seconds;
+  return generous * (least_energy + start_energy_ + gravity_ * fallen);
+}
+
+std::optional<BadParticle> RunawayCheck::find(const Cloth& cloth, const ClothState& state,
+                                              double seconds) const {
+  if (const auto bad = find_not_finite(state)) return bad;
+  const double bound = most_energy(seconds);
+  const Motion motion = motion_of(cloth, state);
+  // One particle of many carries little energy: it is judged by its speed.
+  const bool runaway =
+      motion.kinetic / motion.mass > bound || 0.5 * motion.fastest > generous * bound;
+  if (!runaway) return std::nullopt;
+  return BadParticle{motion.fastest_sample / cloth.size, motion.fastest_sample % cloth.size};
+}
+
+BadParticle fastest_particle(const Cloth& cloth, const ClothState& state) {
+  const int sample = motion_of(cloth, state).fastest_sample;
+  return {sample / cloth.size, sample % cloth.size};
+}
+
+}  // namespace weft

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "weft/cloth/cloth.h"
+#include "weft/cloth/measure.h"
+
+namespace weft {
+
+/// Tells motion that no physics explains: a bound on the energy per mass that a cloth can have come
+/// to.
+class RunawayCheck {
+ public:
+  RunawayCheck() = default;
+  /// @param start  the state that the run begins with
+  RunawayCheck(const Cloth& cloth, const ClothState& start, Vec3d gravity);
+
+  /// The first particle that is not finite, or the fastest one when the cloth has more kinetic
+  /// energy than `most_energy` or a single particle ten times the speed of that.
+  [[nodiscard]] std::optional<BadParticle> find(const Cloth& cloth, const ClothState& state,
+                                                double seconds) const;
+
+  /// A hundred times the energy per mass that falling for `seconds` and the cloth's own size
+  /// account for. [J/kg]
+  [[nodiscard]] double most_energy(double seconds) const;
+
+ private:
+  double start_energy_ = 0, speed_ = 0, gravity_ = 0, reach_ = 0;  // [J/kg], [m/s], [m/s^2], [m]
+};
+
+/// For naming somebody.
+BadParticle fastest_particle(const Cloth& cloth, const ClothState& state);
+
+}  // namespace weft

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/material.h"
+#include "weft/cloth/strain_limit.h"
+#include "weft/collide/collider.h"
+
+namespace weft {
+
+/// Where a surface stands: scaled, rotated about x, then y, then z [degrees], moved [m].
+struct Placement {
+  Vec3d scale{1, 1, 1};
+  Vec3d rotate;
+  Vec3d translate;
+};
+
+/// A pin as a scene names it.
+struct ImagePin {
+  Vec2d uv;  ///< in [0, 1]^2: the nearest sample
+};
+struct NearestPin {
+  Vec3d point;  ///< [m], after placement: the nearest sample
+};
+struct RegionPin {
+  Vec2d lower, upper;  ///< all samples within
+};
+using PinPlace = std::variant<ImagePin, NearestPin, RegionPin>;
+
+struct SceneCloth {
+  std::string name = "cloth";
+  std::string surface = "builtin:sheet";
+  int size = 257;
+  Placement placement;
+  Material material;
+  double friction = 0.4;
+  Vec3d velocity;  ///< at the start [m/s]
+  std::vector<PinPlace> pins;
+};
+
+struct SceneBody {
+  std::string name = "body";
+  std::string surface;
+  int size = 257;
+  Placement placement;
+  double friction = 0.4;
+};
+
+/// A scene file as a value; every default is the file's default.
+struct Scene {
+  Vec3d gravity{0, -9.81, 0};  ///< [m/s^2]
+  double frame_rate = 60;      ///< [1/s]
+  int substeps = 4;
+  int frames = 120;
+  std::optional<double> ground = 0.0;
+  IntegratorOptions integrator = ImplicitOptions{};
+  LimitOptions limiter;
+  ColliderOptions collider = PolarMapOptions{};
+  std::vector<SceneCloth> cloths;
+  std::vector<SceneBody> bodies;
+};
+
+}  // namespace weft

@@ -1,0 +1,114 @@
+#include "weft/sim/scene_file.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/sim/detail/scene_parts.h"
+#include "weft/sim/scene_keys.h"
+
+namespace weft {
+namespace {
+
+constexpr int most_substeps = 10'000;
+constexpr int most_frames = 10'000'000;
+
+nlohmann::json parse_json(std::string_view text, const std::string& name) {
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    const std::size_t end = std::min(text.size(), error.byte > 0 ? error.byte - 1 : 0);
+    const auto line =
+        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    throw SceneError(fmt::format("{}:{}", name, line), "is not JSON here",
+                     "a scene file is wanted");
+  } catch (const nlohmann::json::exception& error) {
+    throw SceneError(name, error.what(), "a scene file is wanted");
+  }
+}
+
+void check_version(const JsonObject& root) {
+  if (root.integer("version", 1, 0, 1'000'000) != 1)
+    root.place().key("version").fail("unknown version", "1 is wanted");
+}
+
+void check_wind(const JsonObject& root) {
+  const nlohmann::json* value = root.find("wind");
+  if (value == nullptr) return;
+  const JsonObject wind(*value, root.place().key("wind"), scene_keys::wind);
+  if (wind.vector("velocity", {}) != Vec3d{})
+    wind.place().key("velocity").fail("is not supported by this version", "[0, 0, 0] is wanted");
+}
+
+template <class Part, class Read>
+std::vector<Part> read_list(const JsonObject& root, std::string_view key, const Read& read) {
+  std::vector<Part> parts;
+  const nlohmann::json* list = root.find(key);
+  if (list == nullptr) return parts;
+  const JsonPlace place = root.place().key(key);
+  if (!list->is_array()) place.fail("no list", fmt::format("a list of {} is wanted", key));
+  for (std::size_t i = 0; i < list->size(); ++i)
+    parts.push_back(read((*list)[i], place.element(i)));
+  return parts;
+}
+
+/// Files are named by cloths and bodies: no two may share a name.
+void check_names(const Scene& scene, const JsonPlace& place) {
+  std::set<std::string> seen;
+  const auto check = [&](const std::string& name, std::string_view list, std::size_t index) {
+    if (!seen.insert(name).second)
+      place.key(list).element(index).key("name").fail(
+          fmt::format("'{}' is there twice", name),
+          "a name of its own for each cloth and body is wanted");
+  };
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) check(scene.cloths[i].name, "cloths", i);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) check(scene.bodies[i].name, "bodies", i);
+}
+
+void read_ground(const JsonObject& root, Scene& scene) {
+  const nlohmann::json* ground = root.find("ground");
+  if (ground != nullptr && ground->is_null()) {
+    scene.ground.reset();
+  } else {
+    scene.ground = root.number("ground", *scene.ground);
+  }
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder) {
+  const nlohmann::json json = parse_json(text, name);
+  const JsonObject root(json, {name, ""}, scene_keys::scene);
+  check_version(root);
+  check_wind(root);
+  Scene scene;
+  scene.gravity = root.vector("gravity", scene.gravity);
+  scene.frame_rate = root.number("frame_rate", scene.frame_rate, positive);
+  scene.substeps = root.integer("substeps", scene.substeps, 1, most_substeps);
+  scene.frames = root.integer("frames", scene.frames, 0, most_frames);
+  read_ground(root, scene);
+  if (const auto* value = root.find("integrator"))
+    scene.integrator = read_integrator(*value, root.place().key("integrator"), scene.limiter);
+  if (const auto* value = root.find("collider"))
+    scene.collider = read_collider(*value, root.place().key("collider"));
+  scene.cloths = read_list<SceneCloth>(root, "cloths", [&](const auto& value, const auto& place) {
+    return read_cloth(value, place, folder);
+  });
+  scene.bodies = read_list<SceneBody>(root, "bodies", [&](const auto& value, const auto& place) {
+    return read_body(value, place, folder);
+  });
+  if (scene.cloths.empty()) root.place().key("cloths").fail("no cloth", "at least one is wanted");
+  check_names(scene, root.place());
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& path) {
+  return parse_scene(read_file(path), path.string(), path.parent_path());
+}
+
+}  // namespace weft

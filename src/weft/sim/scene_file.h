@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "weft/sim/scene.h"
+
+namespace weft {
+
+/// Reads a scene. Surfaces given as relative paths are taken from the scene's folder.
+/// @throws SceneError  FILE:KEY for an unknown key (naming its nearest known neighbour), a wrong
+/// type, a value
+///                     out of range; FILE:LINE for what is not JSON
+Scene read_scene(const std::filesystem::path& path);
+Scene parse_scene(std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder);
+
+/// Writes a scene with every key, so that reading it back gives the same scene. @throws OutputError
+void write_scene(const std::filesystem::path& path, const Scene& scene);
+
+}  // namespace weft

@@ -1,0 +1,117 @@
+// The writing half of weft/sim/scene_file.h.
+#include <ostream>
+
+#include <nlohmann/json.hpp>
+
+#include "weft/core/files.h"
+#include "weft/sim/scene_file.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json to_json(Vec3d v) { return {v.x, v.y, v.z}; }
+Json to_json(Vec2d v) { return {v.x, v.y}; }
+
+/// Relative to the scene's folder, so that the folder can be moved together with what it holds.
+std::string surface_text(const std::string& surface, const fs::path& folder) {
+  if (surface.starts_with("builtin:")) return surface;
+  return fs::absolute(surface)
+      .lexically_normal()
+      .lexically_proximate(fs::absolute(folder).lexically_normal())
+      .string();
+}
+
+struct IntegratorWriter {
+  Json operator()(const ImplicitOptions& o) const {
+    return {{"type", name_of(o)}, {"max_iterations", o.max_iterations}, {"tolerance", o.tolerance}};
+  }
+  Json operator()(const ExplicitOptions& o) const { return {{"type", name_of(o)}}; }
+  Json operator()(const TwoLevelOptions& o) const {
+    return {{"type", name_of(o)},
+            {"local_size", o.local_size},
+            {"global_size", o.global_size},
+            {"as_printed", o.as_printed},
+            {"filter_stiffness", o.filter_stiffness}};
+  }
+};
+
+Json collider_json(const ColliderOptions& options) {
+  const auto& o = std::get<PolarMapOptions>(options);
+  return {{"type", name_of(options)}, {"size", o.size}, {"walk", o.walk}};
+}
+
+Json material_json(const Material& m) {
+  return {{"density", m.density},
+          {"stretch", m.stretch},
+          {"shear", m.shear},
+          {"bending", 0},
+          {"bend_springs", m.bend_springs},
+          {"damping", m.damping},
+          {"strain_limit", m.strain_limit},
+          {"thickness", m.thickness}};
+}
+
+struct PinWriter {
+  Json operator()(const ImagePin& pin) const { return {{"image", to_json(pin.uv)}}; }
+  Json operator()(const NearestPin& pin) const { return {{"nearest", to_json(pin.point)}}; }
+  Json operator()(const RegionPin& pin) const {
+    return {{"region", Json::array({to_json(pin.lower), to_json(pin.upper)})}};
+  }
+};
+
+void add_placement(Json& json, const Placement& placement) {
+  json["scale"] = to_json(placement.scale);
+  json["rotate"] = to_json(placement.rotate);
+  json["translate"] = to_json(placement.translate);
+}
+
+Json cloth_json(const SceneCloth& cloth, const fs::path& folder) {
+  Json json{
+      {"name", cloth.name}, {"surface", surface_text(cloth.surface, folder)}, {"size", cloth.size}};
+  add_placement(json, cloth.placement);
+  json["material"] = material_json(cloth.material);
+  json["self_collision"] = false;
+  json["friction"] = cloth.friction;
+  json["velocity"] = to_json(cloth.velocity);
+  json["pins"] = Json::array();
+  for (const PinPlace& pin : cloth.pins) json["pins"].push_back(std::visit(PinWriter{}, pin));
+  return json;
+}
+
+Json body_json(const SceneBody& body, const fs::path& folder) {
+  Json json{
+      {"name", body.name}, {"surface", surface_text(body.surface, folder)}, {"size", body.size}};
+  add_placement(json, body.placement);
+  json["friction"] = body.friction;
+  return json;
+}
+
+Json scene_json(const Scene& scene, const fs::path& folder) {
+  Json json{{"version", 1},
+            {"gravity", to_json(scene.gravity)},
+            {"frame_rate", scene.frame_rate},
+            {"substeps", scene.substeps},
+            {"frames", scene.frames}};
+  json["ground"] = scene.ground ? Json(*scene.ground) : Json();
+  json["wind"] = {{"velocity", to_json(Vec3d{})}};
+  json["integrator"] = std::visit(IntegratorWriter{}, scene.integrator);
+  json["integrator"]["limiter_passes"] = scene.limiter.passes;
+  json["collider"] = collider_json(scene.collider);
+  json["cloths"] = Json::array();
+  for (const SceneCloth& cloth : scene.cloths) json["cloths"].push_back(cloth_json(cloth, folder));
+  json["bodies"] = Json::array();
+  for (const SceneBody& body : scene.bodies) json["bodies"].push_back(body_json(body, folder));
+  return json;
+}
+
+}  // namespace
+
+void write_scene(const fs::path& path, const Scene& scene) {
+  const Json json = scene_json(scene, path.parent_path());
+  write_file(path, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
+}
+
+}  // namespace weft

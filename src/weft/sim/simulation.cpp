@@ -1,0 +1,288 @@
+#include "weft/sim/simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/core/hash.h"
+#include "weft/sim/pins.h"
+#include "weft/sim/placement.h"
+#include "weft/sim/runaway.h"
+
+namespace weft {
+namespace {
+
+constexpr int body_normal_map_size = 257;
+/// Only samples are pushed out of bodies, so a sharp edge between two of them would show: the gap
+/// that is kept grows from the fabric's thickness to this part of the cloth's rest spacing, but to
+/// no more than a few thicknesses, lest coarse cloths float.
+constexpr double gap_in_spacings = 1.0 / 3, most_gap_in_thicknesses = 3;
+
+double gap_of(const Cloth& cloth) {
+  const double thickness = cloth.material.thickness;
+  return std::clamp(gap_in_spacings * cloth.rest_spacing, thickness,
+                    most_gap_in_thicknesses * thickness);
+}
+
+/// Of the ground, which scenes do not name a coefficient for.
+constexpr double ground_friction = 0.5;
+
+class StageClock {
+ public:
+  /// Milliseconds since the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Mates counted once. [kg]
+double mass_of(const Cloth& cloth) {
+  double mass = 0;
+  for (int r = 0; r < cloth.size; ++r)
+    for (int c = 0; c < cloth.size; ++c) mass += cloth.counted(r, c) * cloth.mass(r, c);
+  return mass;
+}
+
+/// What moves one cloth.
+struct Mover {
+  std::unique_ptr<Integrator> integrator;
+  std::unique_ptr<Collider> collider;
+  RunawayCheck runaway;
+};
+
+}  // namespace
+
+struct Simulation::Parts {
+  Parts(const Scene& scene_, std::string name_, int threads)
+      : scene(scene_),
+        name(std::move(name_)),
+        team(threads),
+        time_step(1 / (scene.frame_rate * scene.substeps)) {}
+
+  LoadedSurface load(const std::string& surface, ConvertOptions options, const std::string& what);
+  void load_cloths(Progress* progress);
+  void load_bodies(Progress* progress);
+  void make_movers();
+  /// @return particles in contact
+  int step(std::size_t index, FrameReport& report);
+  [[noreturn]] void stop_unstable(std::size_t index, BadParticle particle) const;
+  void measure(FrameReport& report);
+  /// Springs that hold far more energy than the cloth can have gained ran away, though a limiter
+  /// may tame the motion.
+  void check_springs(std::size_t index, double kinetic, double springs) const;
+  [[nodiscard]] Vec3d centre() const;
+
+  Scene scene;
+  std::string name;
+  ThreadTeam team;
+  double time_step;  // [s]
+  std::vector<SimulatedCloth> cloths;
+  std::vector<PlacedBody> bodies;
+  std::vector<std::string> notes;
+  std::vector<Mover> movers;  // one a cloth
+  int frame = 0;
+};
+
+LoadedSurface Simulation::Parts::load(const std::string& surface, ConvertOptions options,
+                                      const std::string& what) {
+  update(options.progress, "load " + what, 0);
+  options.threads = team.size();
+  LoadedSurface loaded = load_surface(surface, options);
+  for (const std::string& note : loaded.notes) notes.push_back(fmt::format("{}: {}", what, note));
+  return loaded;
+}
+
+void Simulation::Parts::load_cloths(Progress* progress) {
+  for (const SceneCloth& wanted : scene.cloths) {
+    ConvertOptions options;
+    options.size = wanted.size;
+    options.progress = progress;
+    LoadedSurface loaded = load(wanted.surface, options, wanted.name);
+    const Planes3 rest = placed_positions(loaded.image, placement_map(wanted.placement));
+    Cloth cloth = make_cloth(rest, loaded.image.mates, wanted.material);
+    pin_places(cloth, wanted.pins);
+    ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
+    cloths.push_back({wanted.name, std::move(loaded.image), std::move(cloth), std::move(state)});
+  }
+}
+
+void Simulation::Parts::load_bodies(Progress* progress) {
+  for (const SceneBody& wanted : scene.bodies) {
+    ConvertOptions options;
+    options.size = wanted.size;
+    options.normal_map_size = body_normal_map_size;
+    options.progress = progress;
+    LoadedSurface loaded = load(wanted.surface, options, wanted.name);
+    const PlacementMap map = placement_map(wanted.placement);
+    PlacedBody body;
+    body.name = wanted.name;
+    if (loaded.normals) body.normals = placed_normals(*loaded.normals, map);
+    body.image_normals = std::move(loaded.normals);
+    body.positions = placed_positions(loaded.image, map);
+    body.image = std::move(loaded.image);
+    bodies.push_back(std::move(body));
+  }
+}
+
+void Simulation::Parts::make_movers() {
+  Obstacles obstacles;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    obstacles.bodies.push_back(
+        {bodies[i].positions, bodies[i].image.mates, scene.bodies[i].friction});
+  obstacles.ground = scene.ground;
+  obstacles.ground_friction = ground_friction;
+  const StepInput typical{time_step, vec_cast<float>(scene.gravity)};
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const SimulatedCloth& cloth = cloths[i];
+    const Guarded guarded{gap_of(cloth.cloth), scene.cloths[i].friction};
+    movers.push_back({make_integrator(scene.integrator, cloth.cloth, typical, team),
+                      make_collider(scene.collider, obstacles, guarded),
+                      RunawayCheck(cloth.cloth, cloth.state, scene.gravity)});
+  }
+}
+
+int Simulation::Parts::step(std::size_t index, FrameReport& report) {
+  SimulatedCloth& cloth = cloths[index];
+  Mover& mover = movers[index];
+  const StepInput input{time_step, vec_cast<float>(scene.gravity)};
+  const Planes3& start = cloth.state.position;
+  mover.integrator->begin(input, cloth.state);
+  ClothState* next = &mover.integrator->iterate({});
+
+  StageClock clock;
+  // Only the implicit method heeds contacts; the others are pushed out at the end of the step.
+  if (std::holds_alternative<ImplicitOptions>(scene.integrator)) {
+    const auto contacts = mover.collider->detect(
+        {start, next->position, next->velocity, cloth.cloth.inverse_mass}, team);
+    report.collide_ms += clock.lap();
+    if (!contacts.empty()) next = &mover.integrator->iterate(contacts);
+  }
+  clock.lap();
+  limit_strain(cloth.cloth, scene.limiter, time_step, *next, team);
+  report.limit_ms += clock.lap();
+  const int contacts = mover.collider->correct(
+      {start, next->position, next->velocity, cloth.cloth.inverse_mass}, time_step, team);
+  report.collide_ms += clock.lap();
+
+  const StepReport stepped = mover.integrator->end(cloth.state);
+  report.forces_ms += 1000 * stepped.forces_seconds;
+  report.solve_ms += 1000 * stepped.solve_seconds;
+  report.iterations += stepped.iterations;
+  report.residual = std::max(report.residual, stepped.residual);
+  return contacts;
+}
+
+void Simulation::Parts::stop_unstable(std::size_t index, BadParticle particle) const {
+  const std::string advice = movers[index].integrator->stability_advice(time_step);
+  throw SceneError(name,
+                   fmt::format("cloth '{}' ran away at frame {}, particle (row {}, col {})",
+                               cloths[index].name, frame + 1, particle.row, particle.col),
+                   advice.empty() ? "more substeps or a softer material are wanted" : advice);
+}
+
+Vec3d Simulation::Parts::centre() const {
+  Vec3d moment;
+  double total = 0;
+  for (const SimulatedCloth& cloth : cloths) {
+    const double mass = mass_of(cloth.cloth);
+    moment += mass * weft::centre_of_mass(cloth.cloth, cloth.state);
+    total += mass;
+  }
+  return (1 / total) * moment;
+}
+
+void Simulation::Parts::check_springs(std::size_t index, double kinetic, double springs) const {
+  // The two-level method has soft springs of its own: the fabric's say nothing about it.
+  if (std::holds_alternative<TwoLevelOptions>(scene.integrator)) return;
+  const SimulatedCloth& cloth = cloths[index];
+  const double seconds = (frame + 1) / scene.frame_rate;
+  if ((kinetic + springs) / mass_of(cloth.cloth) > movers[index].runaway.most_energy(seconds))
+    stop_unstable(index, fastest_particle(cloth.cloth, cloth.state));
+}
+
+void Simulation::Parts::measure(FrameReport& report) {
+  double weight = 0;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const SimulatedCloth& cloth = cloths[i];
+    const double kinetic = kinetic_energy(cloth.cloth, cloth.state);
+    const double potential = potential_energy(cloth.cloth, cloth.state, scene.gravity);
+    const Vec3d weight_force = mass_of(cloth.cloth) * scene.gravity;
+    check_springs(i, kinetic,
+                  potential + dot(weight_force, weft::centre_of_mass(cloth.cloth, cloth.state)));
+    report.kinetic_energy += kinetic;
+    report.potential_energy += potential;
+    report.smallest_gap =
+        std::min(report.smallest_gap, movers[i].collider->smallest_gap(cloth.state.position, team));
+    const StrainSummary strain = measure_strain(cloth.cloth, cloth.state);
+    report.strain.mean += strain.mean * cloth.cloth.particles;
+    report.strain.p99 = std::max(report.strain.p99, strain.p99);
+    report.strain.max = std::max(report.strain.max, strain.max);
+    weight += cloth.cloth.particles;
+  }
+  report.strain.mean /= weight;
+  report.centre_of_mass = centre();
+}
+
+Simulation::Simulation(const Scene& scene, const std::string& name, int threads, Progress* progress)
+    : parts_(std::make_unique<Parts>(scene, name, threads)) {
+  if (scene.cloths.empty()) throw SceneError(name, "no cloth", "at least one is wanted");
+  parts_->load_cloths(progress);
+  parts_->load_bodies(progress);
+  parts_->make_movers();
+}
+
+Simulation::~Simulation() = default;
+
+FrameReport Simulation::advance() {
+  FrameReport report;
+  StageClock clock;
+  for (int substep = 0; substep < parts_->scene.substeps; ++substep) {
+    int contacts = 0;
+    const double seconds =
+        parts_->time_step * (parts_->frame * parts_->scene.substeps + substep + 1);
+    for (std::size_t i = 0; i < parts_->cloths.size(); ++i) {
+      contacts += parts_->step(i, report);
+      const SimulatedCloth& cloth = parts_->cloths[i];
+      if (const auto bad = parts_->movers[i].runaway.find(cloth.cloth, cloth.state, seconds))
+        parts_->stop_unstable(i, *bad);
+    }
+    report.contacts = std::max(report.contacts, contacts);
+  }
+  report.milliseconds = clock.lap();
+  parts_->measure(report);
+  ++parts_->frame;
+  return report;
+}
+
+int Simulation::frame() const { return parts_->frame; }
+const std::vector<SimulatedCloth>& Simulation::cloths() const { return parts_->cloths; }
+const std::vector<PlacedBody>& Simulation::bodies() const { return parts_->bodies; }
+const std::vector<std::string>& Simulation::notes() const { return parts_->notes; }
+
+std::string Simulation::state_hash() const {
+  Hash hash;
+  for (const SimulatedCloth& cloth : parts_->cloths)
+    for (const Planes3* planes : {&cloth.state.position, &cloth.state.velocity})
+      for (const Grid<float>* plane : {&planes->x, &planes->y, &planes->z}) hash.add(*plane);
+  return hash.text();
+}
+
+int Simulation::particles() const {
+  int total = 0;
+  for (const SimulatedCloth& cloth : parts_->cloths) total += cloth.cloth.particles;
+  return total;
+}
+
+Vec3d Simulation::centre_of_mass() const { return parts_->centre(); }
+
+}  // namespace weft

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "weft/cloth/measure.h"
+#include "weft/core/progress.h"
+#include "weft/image/convert.h"
+#include "weft/sim/scene.h"
+
+namespace weft {
+
+/// What one frame cost and came to.
+struct FrameReport {
+  double milliseconds = 0, forces_ms = 0, solve_ms = 0, collide_ms = 0, limit_ms = 0;
+  int iterations = 0;
+  double residual = 0;  ///< largest of its steps
+  StrainSummary strain;
+  double kinetic_energy = 0, potential_energy = 0;  ///< [J]
+  int contacts = 0;                                 ///< largest of its steps
+  double smallest_gap = HUGE_VAL;                   ///< see Collider::smallest_gap [m]
+  Vec3d centre_of_mass;                             ///< all cloths together [m]
+};
+
+/// A cloth of a running simulation, for those who draw or export it.
+struct SimulatedCloth {
+  std::string name;
+  GeometryImage image;  ///< the rest shape as it was loaded
+  Cloth cloth;
+  ClothState state;
+};
+struct PlacedBody {
+  std::string name;
+  GeometryImage image;
+  std::optional<NormalMap> normals;  ///< rotated into the world, where the surface came from a mesh
+  std::optional<NormalMap> image_normals;  ///< the same as loaded
+  Planes3 positions;                       ///< world [m]
+};
+
+/// A scene brought to life.
+class Simulation {
+ public:
+  /// Loads every surface. @throws SceneError, InputError, TopologyError
+  Simulation(const Scene& scene, const std::string& name, int threads,
+             Progress* progress = nullptr);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+  ~Simulation();
+
+  /// Advances by one frame.
+  /// @throws SceneError naming frame, cloth and particle when a step yields a not-finite number or
+  /// runaway
+  ///         energy, with the integrator's advice
+  FrameReport advance();
+
+  [[nodiscard]] int frame() const;
+  [[nodiscard]] const std::vector<SimulatedCloth>& cloths() const;
+  [[nodiscard]] const std::vector<PlacedBody>& bodies() const;
+  [[nodiscard]] const std::vector<std::string>& notes() const;  ///< repairs made while loading
+  /// Of all positions and velocities, 16 hexadecimal digits.
+  [[nodiscard]] std::string state_hash() const;
+  [[nodiscard]] int particles() const;
+  [[nodiscard]] Vec3d centre_of_mass() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace weft

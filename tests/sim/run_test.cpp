@@ -1,0 +1,192 @@
+#include "weft/sim/run.h"
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/mesh/io/read_mesh.h"
+#include "weft/sim/export/pc2_writer.h"
+#include "weft/sim/report.h"
+#include "weft/sim/run_folder.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path empty_folder(const std::string& name) {
+  fs::path folder = fs::path(testing::TempDir()) / ("weft_" + name);
+  fs::remove_all(folder);
+  return folder;
+}
+
+Scene ring(int frames) {
+  Scene scene;
+  scene.frames = frames;
+  SceneCloth cloth;
+  cloth.name = "ring";
+  cloth.surface = "builtin:torus";
+  cloth.size = 17;
+  cloth.placement.translate = {0, 0.3, 0};
+  scene.cloths = {cloth};
+  SceneBody body;
+  body.name = "plate";
+  body.surface = "builtin:sheet";
+  body.size = 17;
+  body.placement.translate = {0, 0.01, 0};
+  scene.bodies = {body};
+  return scene;
+}
+
+/// Stops after a number of frames.
+class Stopper : public Progress {
+ public:
+  explicit Stopper(int frames) : left_(frames) {}
+  void update(std::string_view stage, double /*fraction*/) override {
+    if (stage == "simulate" && left_-- == 0) throw Interrupted();
+  }
+
+ private:
+  int left_;
+};
+
+template <class T>
+T value_at(const std::string& bytes, std::size_t offset) {
+  T value{};
+  std::memcpy(&value, bytes.data() + offset, sizeof(T));
+  return value;
+}
+
+TEST(Pc2, BytesAreTheFormats) {
+  const fs::path path = fs::path(testing::TempDir()) / "two.pc2";
+  Pc2Writer writer(path, 2);
+  writer.add(std::vector<Vec3f>{{1, 2, 3}, {4, 5, 6}});
+  writer.add(std::vector<Vec3f>{{7, 8, 9}, {10, 11, 12}});
+  writer.add(std::vector<Vec3f>{{0, 0, 0}, {0.5F, -1, 0}});
+  EXPECT_TRUE(!fs::exists(path) || fs::remove(path));
+  writer.finish();
+  const std::string bytes = read_file(path);
+  ASSERT_EQ(bytes.size(), 32 + 3 * 2 * 12);
+  EXPECT_EQ(bytes.substr(0, 12), std::string("POINTCACHE2\0", 12));
+  EXPECT_EQ(value_at<std::int32_t>(bytes, 12), 1);
+  EXPECT_EQ(value_at<std::int32_t>(bytes, 16), 2);
+  EXPECT_EQ(value_at<float>(bytes, 20), 0.0F);
+  EXPECT_EQ(value_at<float>(bytes, 24), 1.0F);
+  EXPECT_EQ(value_at<std::int32_t>(bytes, 28), 3);
+  EXPECT_EQ(value_at<float>(bytes, 32 + 24 + 12), 10.0F);
+  EXPECT_EQ(value_at<float>(bytes, 32 + 48 + 16), -1.0F);
+}
+
+TEST(Run, LeavesMeshAndCacheOfOneVertexOrder) {
+  const fs::path folder = empty_folder("order");
+  const RunReport report = run_scene(ring(3), "ring.json", {.folder = folder});
+  EXPECT_EQ(report.frames, 3);
+  EXPECT_EQ(report.centre_of_mass.size(), 4);
+  const TriangleMesh mesh = read_mesh(folder / "ring.obj");
+  const std::string cache = read_file(folder / "ring.pc2");
+  // Rows and columns of the torus wrap: 16 x 16 points.
+  ASSERT_EQ(mesh.positions.size(), 256);
+  EXPECT_EQ(mesh.triangles.size(), 512);
+  EXPECT_EQ(value_at<std::int32_t>(cache, 16), 256);
+  EXPECT_EQ(value_at<std::int32_t>(cache, 28), 4);
+  for (int v = 0; v < 256; ++v) {
+    EXPECT_EQ(value_at<float>(cache, 32 + 12 * v), static_cast<float>(mesh.positions[v].x));
+    EXPECT_EQ(value_at<float>(cache, 36 + 12 * v), static_cast<float>(mesh.positions[v].y));
+  }
+  for (const auto& path : report.outputs) EXPECT_TRUE(fs::exists(path)) << path;
+}
+
+TEST(Run, UnweldedKeepsEverySample) {
+  const fs::path folder = empty_folder("unwelded");
+  run_scene(ring(1), "ring.json", {.folder = folder, .unwelded = true});
+  EXPECT_EQ(read_mesh(folder / "ring.obj").positions.size(), 17 * 17);
+  EXPECT_EQ(value_at<std::int32_t>(read_file(folder / "ring.pc2"), 16), 17 * 17);
+}
+
+TEST(Run, FolderOpensAgainWithTheSamePositions) {
+  const fs::path folder = empty_folder("open");
+  const Scene scene = ring(2);
+  run_scene(scene, "ring.json", {.folder = folder});
+  Simulation again(scene, "ring.json", 1);
+  again.advance();
+  const RunFolder run = open_run_folder(folder);
+  EXPECT_EQ(run.frames, 3);
+  EXPECT_EQ(run.frame_rate, 60);
+  EXPECT_EQ(run.ground, 0.0);
+  const Planes3 positions = run.positions(0, 1);
+  for (int s = 0; s < 17 * 17; ++s)
+    EXPECT_EQ(positions.at(s), again.cloths()[0].state.position.at(s));
+  ASSERT_EQ(run.bodies.size(), 1);
+  EXPECT_EQ(run.bodies[0].positions.at(5, 5), again.bodies()[0].positions.at(5, 5));
+  EXPECT_THROW((void)run.positions(0, 3), UsageError);
+}
+
+TEST(Run, InterruptedRunKeepsItsFrames) {
+  const fs::path folder = empty_folder("interrupted");
+  Stopper stopper(2);
+  EXPECT_THROW(run_scene(ring(10), "ring.json", {.folder = folder, .progress = &stopper}),
+               Interrupted);
+  const std::string cache = read_file(folder / "ring.pc2");
+  EXPECT_EQ(value_at<std::int32_t>(cache, 28), 3);
+  EXPECT_EQ(cache.size(), 32 + 3 * 256 * 12);
+  EXPECT_EQ(open_run_folder(folder).frames, 3);
+  for (const auto& entry : fs::directory_iterator(folder))
+    EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
+}
+
+TEST(Run, CsvHasOneLineAFrameUnderItsHeader) {
+  const fs::path folder = empty_folder("csv");
+  run_scene(ring(3), "ring.json", {.folder = folder});
+  const std::string csv = read_file(folder / "frames.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
+  const auto commas = [](const std::string& line) {
+    return std::count(line.begin(), line.end(), ',');
+  };
+  const std::size_t end = csv.find('\n');
+  EXPECT_EQ(commas(csv.substr(0, end)), commas(csv.substr(end + 1, csv.find('\n', end + 1) - end)));
+}
+
+TEST(Run, CutCacheIsRefused) {
+  const fs::path folder = empty_folder("cut");
+  run_scene(ring(1), "ring.json", {.folder = folder});
+  fs::resize_file(folder / "ring.pc2", 1000);
+  EXPECT_THROW(open_run_folder(folder), InputError);
+  EXPECT_THROW(open_run_folder(folder / "nowhere"), InputError);
+}
+
+TEST(Run, UnknownExportIsRefused) {
+  EXPECT_THROW(
+      run_scene(ring(1), "ring.json", {.folder = empty_folder("export"), .exports = {"fbx"}}),
+      UsageError);
+}
+
+TEST(Report, JsonHoldsTheContractsFields) {
+  RunReport report;
+  report.frames = 3;
+  report.integrator = "implicit";
+  report.state_hash = "0123456789abcdef";
+  for (const double ms : {1.0, 9.0, 2.0}) {
+    FrameReport frame;
+    frame.milliseconds = ms;
+    frame.residual = ms / 1000;
+    report.history.push_back(frame);
+  }
+  report.centre_of_mass = {{1, 2, 3}};
+  const auto json = nlohmann::json::parse(to_json(report));
+  for (const char* key : {"frames", "particles", "integrator", "threads", "time_step", "substeps",
+                          "ms_per_frame", "strain", "residual", "contacts_max", "self_contacts_max",
+                          "intersections", "centre_of_mass", "state_hash", "outputs"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_EQ(json["ms_per_frame"]["median"], 2);
+  EXPECT_EQ(json["ms_per_frame"]["p95"], 9);
+  EXPECT_EQ(json["residual"]["max"], 0.009);
+  EXPECT_EQ(json["centre_of_mass"][0], nlohmann::json({1.0, 2.0, 3.0}));
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,265 @@
+#include "weft/sim/scene_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "weft/core/error.h"
+#include "weft/sim/materials.h"
+#include "weft/sim/scene_keys.h"
+
+namespace weft {
+namespace {
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_scene(text, "s.json", "");
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string with_cloth(const std::string& keys) { return R"({"cloths":[{)" + keys + "}]}"; }
+
+std::string temporary_file(const std::string& name) {
+  return (std::filesystem::path(testing::TempDir()) / name).string();
+}
+
+TEST(SceneFile, EmptyClothIsTheDefaults) {
+  const Scene scene = parse_scene(R"({"cloths":[{}]})", "s.json", "");
+  const Scene defaults;
+  EXPECT_EQ(scene.gravity, defaults.gravity);
+  EXPECT_EQ(scene.frame_rate, 60);
+  EXPECT_EQ(scene.substeps, 4);
+  EXPECT_EQ(scene.ground, 0.0);
+  EXPECT_TRUE(std::holds_alternative<ImplicitOptions>(scene.integrator));
+  ASSERT_EQ(scene.cloths.size(), 1);
+  EXPECT_EQ(scene.cloths[0].surface, "builtin:sheet");
+  EXPECT_EQ(scene.cloths[0].size, 257);
+}
+
+TEST(SceneFile, EveryKeyIsRead) {
+  const Scene scene = parse_scene(R"({
+    "version": 1, "gravity": [0, -1.6, 0], "frame_rate": 25, "substeps": 3, "frames": 7, "ground": null,
+    "wind": {"velocity": [0, 0, 0]},
+    "integrator": {"type": "two_level", "local_size": 7, "global_size": 9, "as_printed": true,
+                   "filter_stiffness": 12, "limiter_passes": 3},
+    "collider": {"type": "polar_map", "size": 99, "walk": false},
+    "cloths": [{"name": "a", "surface": "builtin:torus", "size": 33, "scale": [1, 2, 3], "rotate": [10, 20, 30],
+                "translate": [1, 0, -1], "material": {"density": 0.3, "stretch": 5, "shear": 6, "bending": 0,
+                "bend_springs": 7, "damping": 8, "strain_limit": 0.1, "thickness": 0.003},
+                "self_collision": false, "friction": 0.1, "velocity": [3, 2, 1],
+                "pins": [{"image": [0, 1]}, {"nearest": [1, 2, 3]}, {"region": [[0, 0], [1, 0.5]]}]}],
+    "bodies": [{"name": "b", "surface": "builtin:sphere", "size": 65, "scale": 2, "friction": 0.7}]})",
+                                  "s.json", "");
+  EXPECT_EQ(scene.gravity, (Vec3d{0, -1.6, 0}));
+  EXPECT_EQ(scene.frames, 7);
+  EXPECT_FALSE(scene.ground.has_value());
+  const auto& two_level = std::get<TwoLevelOptions>(scene.integrator);
+  EXPECT_EQ(two_level.local_size, 7);
+  EXPECT_EQ(two_level.global_size, 9);
+  EXPECT_TRUE(two_level.as_printed);
+  EXPECT_EQ(two_level.filter_stiffness, 12);
+  EXPECT_EQ(scene.limiter.passes, 3);
+  const auto& polar_map = std::get<PolarMapOptions>(scene.collider);
+  EXPECT_EQ(polar_map.size, 99);
+  EXPECT_FALSE(polar_map.walk);
+  const SceneCloth& cloth = scene.cloths.at(0);
+  EXPECT_EQ(cloth.placement.scale, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(cloth.placement.rotate, (Vec3d{10, 20, 30}));
+  EXPECT_EQ(cloth.material.bend_springs, 7);
+  EXPECT_EQ(cloth.velocity, (Vec3d{3, 2, 1}));
+  ASSERT_EQ(cloth.pins.size(), 3);
+  EXPECT_EQ(std::get<ImagePin>(cloth.pins[0]).uv, (Vec2d{0, 1}));
+  EXPECT_EQ(std::get<NearestPin>(cloth.pins[1]).point, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(std::get<RegionPin>(cloth.pins[2]).upper, (Vec2d{1, 0.5}));
+  EXPECT_EQ(scene.bodies.at(0).placement.scale, (Vec3d{2, 2, 2}));
+}
+
+TEST(SceneFile, UnknownKeyNamesItsPathAndTheNearestKey) {
+  EXPECT_EQ(error_of(with_cloth(R"("materail":"cotton")")),
+            "s.json:cloths[0].materail: unknown key; the nearest known key is 'material'");
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"bodies":[{"surface":"x","frictoin":1}]})"),
+            "s.json:bodies[0].frictoin: unknown key; the nearest known key is 'friction'");
+  EXPECT_EQ(error_of(with_cloth(R"("material":{"densty":1})")),
+            "s.json:cloths[0].material.densty: unknown key; the nearest known key is 'density'");
+}
+
+TEST(SceneFile, WrongTypesAndRangesNameTheKey) {
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"frame_rate":0})"),
+            "s.json:frame_rate: 0; a number > 0 is wanted");
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"substeps":0})"),
+            "s.json:substeps: 0; a whole number from 1 to 10000 is wanted");
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"substeps":1.5})"),
+            "s.json:substeps: 1.5; a whole number from 1 to 10000 is wanted");
+  EXPECT_EQ(error_of(with_cloth(R"("size":4)")),
+            "s.json:cloths[0].size: 4; a whole number from 5 to 8193 is wanted");
+  EXPECT_EQ(error_of(with_cloth(R"("material":{"stretch":-1})")),
+            "s.json:cloths[0].material.stretch: -1; a number >= 0 is wanted");
+  EXPECT_EQ(error_of(with_cloth(R"("translate":[0,1])")),
+            "s.json:cloths[0].translate: [0,1]; a list of 3 finite numbers is wanted");
+  EXPECT_EQ(error_of(with_cloth(R"("friction":"much")")),
+            "s.json:cloths[0].friction: \"much\"; a number from 0 to 10 is wanted");
+  EXPECT_EQ(error_of(with_cloth(R"("pins":[{"image":[0,2]}])")),
+            "s.json:cloths[0].pins[0].image: [0, 2]; u and v from 0 to 1 are wanted");
+  EXPECT_EQ(error_of(R"({"cloths":[]})"), "s.json:cloths: no cloth; at least one is wanted");
+  EXPECT_EQ(error_of(R"([1])"), "s.json: [1] is no object; an object {...} is wanted");
+}
+
+TEST(SceneFile, WhatIsNotJsonNamesTheLine) {
+  EXPECT_EQ(error_of("{\n\"cloths\": [{}],\n oops }"),
+            "s.json:3: is not JSON here; a scene file is wanted");
+  EXPECT_EQ(error_of(""), "s.json:1: is not JSON here; a scene file is wanted");
+}
+
+TEST(SceneFile, UnknownNamesListWhatIsKnown) {
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"integrator":{"type":"multigrid"}})"),
+            "s.json:integrator.type: unknown integrator 'multigrid'; known are: implicit, "
+            "explicit, two_level");
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"collider":{"type":"pyramid"}})"),
+            "s.json:collider.type: unknown collider 'pyramid'; known is: polar_map");
+  EXPECT_EQ(error_of(with_cloth(R"("material":"coton")")),
+            "s.json:cloths[0].material: unknown material 'coton'; the nearest known is 'cotton'");
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"version":2})"),
+            "s.json:version: unknown version; 1 is wanted");
+}
+
+TEST(SceneFile, WhatThisVersionLacksIsRefused) {
+  for (const std::string key : {"motion", "animation", "lead_in"})
+    EXPECT_NE(error_of(R"({"cloths":[{}],"bodies":[{"surface":"x",")" + key + R"(":1}]})")
+                  .find("s.json:bodies[0]." + key + ": is not supported by this version"),
+              std::string::npos);
+  EXPECT_EQ(error_of(with_cloth(R"("self_collision":true)")),
+            "s.json:cloths[0].self_collision: true is not available with collider polar_map; false "
+            "is wanted");
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"wind":{"velocity":[1,0,0]}})"),
+            "s.json:wind.velocity: is not supported by this version; [0, 0, 0] is wanted");
+  EXPECT_NE(
+      error_of(with_cloth(R"("material":{"bending":1e-5})")).find("cloths[0].material.bending"),
+      std::string::npos);
+}
+
+TEST(SceneFile, TwoThingsOfOneNameAreRefused) {
+  EXPECT_EQ(error_of(R"({"cloths":[{"name":"a"},{"name":"a"}]})"),
+            "s.json:cloths[1].name: 'a' is there twice; a name of its own for each cloth and body "
+            "is wanted");
+  EXPECT_NE(error_of(with_cloth(R"("name":"../x")")).find("files are named by it"),
+            std::string::npos);
+}
+
+TEST(SceneFile, NamedMaterialsAreTakenWhole) {
+  for (const NamedMaterial& named : named_materials()) {
+    const Scene scene =
+        parse_scene(with_cloth("\"material\":\"" + std::string(named.name) + "\""), "s.json", "");
+    EXPECT_EQ(scene.cloths[0].material.density, named.material.density);
+    EXPECT_GT(named.material.density, 0);
+  }
+}
+
+TEST(SceneFile, RelativeSurfacesAreTakenFromTheScenesFolder) {
+  const Scene scene =
+      parse_scene(R"({"cloths":[{"surface":"../m/a.obj"}]})", "s.json", "/data/scenes");
+  EXPECT_EQ(scene.cloths[0].surface, "/data/m/a.obj");
+}
+
+TEST(SceneFile, WrittenSceneReadsBackTheSame) {
+  Scene scene;
+  scene.gravity = {0.1, -9.7, 1.0 / 3};
+  scene.substeps = 9;
+  scene.ground.reset();
+  scene.integrator = TwoLevelOptions{
+      .local_size = 5, .global_size = 3, .as_printed = true, .filter_stiffness = 0.7};
+  scene.limiter.passes = 4;
+  scene.collider = PolarMapOptions{.size = 12, .walk = false};
+  SceneCloth cloth;
+  cloth.surface = temporary_file("mesh.obj");
+  cloth.placement = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+  cloth.material.density = 0.123;
+  cloth.velocity = {1, 2, 3};
+  cloth.pins = {ImagePin{{0, 1}}, NearestPin{{1, 2, 3}}, RegionPin{{0, 0.25}, {0.5, 1}}};
+  scene.cloths = {cloth};
+  scene.bodies.push_back(
+      {.name = "b", .surface = "builtin:sphere", .size = 65, .placement = {}, .friction = 0.2});
+
+  const std::string first = temporary_file("first.json"), second = temporary_file("second.json");
+  write_scene(first, scene);
+  const Scene back = read_scene(first);
+  EXPECT_EQ(back.gravity, scene.gravity);
+  EXPECT_EQ(back.cloths[0].surface, cloth.surface);
+  EXPECT_EQ(back.cloths[0].placement.rotate, cloth.placement.rotate);
+  EXPECT_EQ(back.cloths[0].material.density, 0.123);
+  EXPECT_EQ(std::get<TwoLevelOptions>(back.integrator).filter_stiffness, 0.7);
+  EXPECT_EQ(std::get<RegionPin>(back.cloths[0].pins[2]).lower, (Vec2d{0, 0.25}));
+  EXPECT_FALSE(back.ground.has_value());
+  write_scene(second, back);
+  const auto text = [](const std::string& path) {
+    std::ifstream in(path);
+    return nlohmann::json::parse(in);
+  };
+  EXPECT_EQ(text(first), text(second));
+}
+
+/// All keys below "properties" of a schema node, its alternatives included.
+std::set<std::string> properties_of(const nlohmann::json& node) {
+  std::set<std::string> keys;
+  if (node.contains("properties"))
+    for (const auto& [key, ignored] : node["properties"].items()) keys.insert(key);
+  for (const char* list : {"oneOf", "anyOf"})
+    if (node.contains(list))
+      for (const auto& one : node[list]) keys.merge(properties_of(one));
+  return keys;
+}
+
+template <class Keys>
+std::set<std::string> as_set(const Keys& keys) {
+  return {keys.begin(), keys.end()};
+}
+
+TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
+  std::ifstream in(std::string(WEFT_SOURCE_DIR) + "/docs/scene.schema.json");
+  const nlohmann::json schema = nlohmann::json::parse(in);
+  const auto& parts = schema["$defs"];
+  EXPECT_EQ(properties_of(schema), as_set(scene_keys::scene));
+  EXPECT_EQ(properties_of(parts["wind"]), as_set(scene_keys::wind));
+  EXPECT_EQ(properties_of(parts["implicit"]), as_set(scene_keys::implicit_integrator));
+  EXPECT_EQ(properties_of(parts["explicit"]), as_set(scene_keys::explicit_integrator));
+  EXPECT_EQ(properties_of(parts["two_level"]), as_set(scene_keys::two_level_integrator));
+  EXPECT_EQ(properties_of(parts["collider"]), as_set(scene_keys::collider));
+  EXPECT_EQ(properties_of(parts["cloth"]), as_set(scene_keys::cloth));
+  EXPECT_EQ(properties_of(parts["body"]), as_set(scene_keys::body));
+  EXPECT_EQ(properties_of(parts["material"]), as_set(scene_keys::material));
+  EXPECT_EQ(properties_of(parts["pin"]), as_set(scene_keys::pin));
+}
+
+TEST(SceneSchema, DefaultsAreTheReadersDefaults) {
+  std::ifstream in(std::string(WEFT_SOURCE_DIR) + "/docs/scene.schema.json");
+  const nlohmann::json schema = nlohmann::json::parse(in);
+  Scene scene;
+  scene.cloths.emplace_back();
+  const std::string path = temporary_file("defaults.json");
+  write_scene(path, scene);
+  std::ifstream written(path);
+  const nlohmann::json json = nlohmann::json::parse(written);
+  const auto check = [](const nlohmann::json& properties, const nlohmann::json& values) {
+    for (const auto& [key, property] : properties.items()) {
+      if (!property.contains("default") || !values.contains(key)) continue;
+      const auto& value = values[key];
+      // A scale may be one number for three.
+      const bool same = property["default"] == value ||
+                        (key == "scale" && value == nlohmann::json{1.0, 1.0, 1.0});
+      EXPECT_TRUE(same) << key << ": " << property["default"] << " against " << value;
+    }
+  };
+  check(schema["properties"], json);
+  check(schema["$defs"]["cloth"]["properties"], json["cloths"][0]);
+  check(schema["$defs"]["material"]["properties"], json["cloths"][0]["material"]);
+  check(schema["$defs"]["implicit"]["properties"], json["integrator"]);
+  check(schema["$defs"]["collider"]["properties"], json["collider"]);
+}
+
+}  // namespace
+}  // namespace weft

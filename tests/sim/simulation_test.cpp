@@ -1,0 +1,174 @@
+#include "weft/sim/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include "weft/core/error.h"
+#include "weft/core/math.h"
+
+namespace weft {
+namespace {
+
+SceneCloth sheet(int size, Vec3d translate) {
+  SceneCloth cloth;
+  cloth.size = size;
+  cloth.placement.translate = translate;
+  return cloth;
+}
+
+Scene free_fall(const IntegratorOptions& integrator) {
+  Scene scene;
+  scene.ground.reset();
+  scene.integrator = integrator;
+  scene.cloths = {sheet(17, {0, 2, 0})};
+  scene.cloths[0].velocity = {0.5, 1, 0};
+  return scene;
+}
+
+TEST(Simulation, FreeFallIsTheFormulaOfTheStep) {
+  for (const IntegratorOptions& integrator :
+       {IntegratorOptions{ImplicitOptions{}}, IntegratorOptions{ExplicitOptions{}}}) {
+    Scene scene = free_fall(integrator);
+    scene.substeps = 16;
+    scene.cloths[0].material.stretch = 50;  // so that the explicit method is stable
+    scene.cloths[0].material.shear = 10;
+    Simulation simulation(scene, "fall", 1);
+    const double h = 1.0 / (60 * 16);
+    for (int frame = 1; frame <= 20; ++frame) {
+      const FrameReport report = simulation.advance();
+      const double t = frame / 60.0;
+      EXPECT_NEAR(report.centre_of_mass.x, 0.5 * t, 2e-5);
+      EXPECT_NEAR(report.centre_of_mass.y, 2 + t - 9.81 * t * (t + h) / 2, 2e-5);
+      EXPECT_LT(report.strain.max, 1e-4);
+    }
+    EXPECT_EQ(simulation.frame(), 20);
+  }
+}
+
+TEST(Simulation, InstabilityThatTheLimiterTamesIsStillFound) {
+  // At this step explicit Euler shakes the sheet to pieces of twice their size, slowly.
+  Simulation simulation(free_fall(ExplicitOptions{}), "shake", 1);
+  EXPECT_THROW(
+      {
+        for (int frame = 0; frame < 30; ++frame) simulation.advance();
+      },
+      SceneError);
+}
+
+TEST(Simulation, PlacementScalesThenRotatesThenMoves) {
+  Scene scene = free_fall(ImplicitOptions{});
+  scene.cloths[0].placement = {{2, 1, 1}, {0, 0, 90}, {0, 3, 0}};
+  const Simulation simulation(scene, "placed", 1);
+  const Planes3& rest = simulation.cloths()[0].cloth.rest;
+  // Column 0 lies at x = -0.5: scaled to -1, turned about z onto y = -1, moved up by 3.
+  EXPECT_NEAR(rest.at(0, 0).x, 0, 1e-6);
+  EXPECT_NEAR(rest.at(0, 0).y, 2, 1e-6);
+  EXPECT_NEAR(rest.at(0, 16).y, 4, 1e-6);
+  EXPECT_NEAR(rest.at(0, 16).z, -0.5, 1e-6);
+}
+
+Scene torus_on_ground() {
+  Scene scene;
+  scene.cloths = {sheet(17, {0, 0.05, 0}), sheet(17, {0, 0.3, 0})};
+  scene.cloths[0].name = "low";
+  scene.cloths[1].name = "ring";
+  scene.cloths[1].surface = "builtin:torus";
+  return scene;
+}
+
+TEST(Simulation, AnyNumberOfThreadsGivesTheSameHash) {
+  for (const IntegratorOptions& integrator :
+       {IntegratorOptions{ImplicitOptions{}},
+        IntegratorOptions{TwoLevelOptions{.local_size = 5}}}) {
+    Scene scene = torus_on_ground();
+    scene.integrator = integrator;
+    const auto hash = [&](int threads) {
+      Simulation simulation(scene, "hash", threads);
+      for (int frame = 0; frame < 5; ++frame) simulation.advance();
+      return simulation.state_hash();
+    };
+    const std::string one = hash(1);
+    EXPECT_EQ(one.size(), 16);
+    EXPECT_EQ(hash(2), one);
+    EXPECT_EQ(hash(3), one);
+  }
+}
+
+TEST(Simulation, FrictionStopsASlidingSheet) {
+  Scene scene;
+  scene.cloths = {sheet(17, {0, 0.006, 0})};
+  scene.cloths[0].velocity = {0.5, 0, 0};
+  scene.cloths[0].friction = 0.5;
+  Simulation simulation(scene, "slide", 1);
+  FrameReport report;
+  for (int frame = 0; frame < 30; ++frame) report = simulation.advance();
+  // mu = 0.5 against the ground's 0.5: it stops after v^2 / (2 mu g) = 2.5 cm.
+  EXPECT_NEAR(report.centre_of_mass.x, 0.0255, 0.004);
+  EXPECT_LT(report.kinetic_energy, 1e-6);
+  EXPECT_EQ(report.contacts, 17 * 17);
+}
+
+/// A sheet on an inclined plane, as gravity turned by an angle; mu = 0.5. @return how far it slid
+/// in half a second
+double slide_down(double degrees) {
+  Scene scene;
+  const double angle = degrees * pi / 180;
+  scene.gravity = {9.81 * sine(angle), -9.81 * cosine(angle), 0};
+  scene.cloths = {sheet(17, {0, 0.006, 0})};  // the gap that is kept: three thicknesses
+  scene.cloths[0].friction = 0.5;
+  Simulation simulation(scene, "incline", 1);
+  for (int frame = 0; frame < 30; ++frame) simulation.advance();
+  return simulation.centre_of_mass().x;
+}
+
+TEST(Simulation, SheetSticksToAGentleInclineAndSlidesDownASteepOne) {
+  EXPECT_NEAR(slide_down(25), 0, 2e-4);
+  const double angle = 32 * pi / 180, acceleration = 9.81 * (sine(angle) - 0.5 * cosine(angle));
+  const double way = 0.5 * acceleration * 0.5 * (0.5 + 1.0 / 240);
+  EXPECT_NEAR(slide_down(32), way, 0.02 * way);
+}
+
+TEST(Simulation, NoParticleEndsUnderTheGround) {
+  Scene scene = torus_on_ground();
+  Simulation simulation(scene, "ground", 1);
+  for (int frame = 0; frame < 30; ++frame)
+    EXPECT_GE(simulation.advance().smallest_gap, 0.002 - 1e-5);
+}
+
+TEST(Simulation, PinsHold) {
+  Scene scene = free_fall(ImplicitOptions{});
+  scene.cloths[0].velocity = {};
+  scene.cloths[0].pins = {ImagePin{{0, 0}}, NearestPin{{0.5, 2, -0.5}}};
+  Simulation simulation(scene, "pins", 1);
+  for (int frame = 0; frame < 10; ++frame) simulation.advance();
+  const ClothState& state = simulation.cloths()[0].state;
+  EXPECT_EQ(state.position.at(0, 0), (Vec3f{-0.5F, 2, -0.5F}));
+  EXPECT_EQ(state.position.at(0, 16), (Vec3f{0.5F, 2, -0.5F}));
+  EXPECT_LT(state.position.at(16, 8).y, 1.9F);
+}
+
+TEST(Simulation, InstabilityNamesFrameClothParticleAndTheStableStep) {
+  Scene scene = free_fall(ExplicitOptions{});
+  scene.cloths[0].name = "stiff";
+  scene.cloths[0].material.stretch = 1e6;
+  scene.cloths[0].material.strain_limit = 0;
+  scene.cloths[0].pins = {ImagePin{{0, 0}}};
+  Simulation simulation(scene, "scene.json", 1);
+  try {
+    for (int frame = 0; frame < 60; ++frame) simulation.advance();
+    FAIL() << "did not run away";
+  } catch (const SceneError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("scene.json: cloth 'stiff' ran away at frame "), std::string::npos) << text;
+    EXPECT_NE(text.find("particle (row "), std::string::npos) << text;
+    EXPECT_NE(text.find("largest stable step"), std::string::npos) << text;
+  }
+}
+
+TEST(Simulation, RegionWithoutSamplesIsRefused) {
+  Scene scene = free_fall(ImplicitOptions{});
+  scene.cloths[0].pins = {RegionPin{{0.01, 0.01}, {0.02, 0.02}}};
+  EXPECT_THROW(Simulation(scene, "pins", 1), SceneError);
+}
+
+}  // namespace
+}  // namespace weft
