@@ -1,0 +1,81 @@
+#include "weft/view/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weft/core/math.h"
+
+namespace weft {
+namespace {
+
+bool is_finite(Vec3d p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+Box3d usable(const Box3d& box) {
+  if (!box.empty() && is_finite(box.lower) && is_finite(box.upper)) return box;
+  return {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
+}
+
+Vec3d corner(const Box3d& box, int i) {
+  return {(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
+          (i & 4) != 0 ? box.upper.z : box.lower.z};
+}
+
+/// Along one axis of the picture: how far to each side the sight lines through the corners reach at
+/// depth 0, for an opening of `slope`. The eye at (side, depth) sees all when side - slope depth >=
+/// high and -side - slope depth >= low.
+struct Reach {
+  double high = -HUGE_VAL, low = -HUGE_VAL, slope = 1;
+  void add(double side, double depth) {
+    high = std::max(high, side - slope * depth);
+    low = std::max(low, -side - slope * depth);
+  }
+  [[nodiscard]] double deepest_eye() const { return -(high + low) / (2 * slope); }
+  [[nodiscard]] double middle() const { return (high - low) / 2; }
+};
+
+}  // namespace
+
+Camera frame_box(const Box3d& box, double azimuth, double elevation, double aspect) {
+  const Box3d seen = usable(box);
+  const Vec3d right{cosine(azimuth), 0, -sine(azimuth)};
+  const Vec3d forward{-sine(azimuth) * cosine(elevation), -sine(elevation),
+                      -cosine(azimuth) * cosine(elevation)};
+  Camera camera;
+  camera.up = cross(right, forward);
+  const double slope = sine(camera.vertical_angle / 2) / cosine(camera.vertical_angle / 2);
+  Reach across;
+  Reach along;
+  along.slope = slope * (1 - frame_margin);
+  across.slope = along.slope * aspect;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3d p = corner(seen, i) - seen.centre();
+    across.add(dot(p, right), dot(p, forward));
+    along.add(dot(p, camera.up), dot(p, forward));
+  }
+  // A box that is one point has no depth to stand back from.
+  const double room = seen.diagonal() > 0 ? 0 : 1;
+  const double depth = std::min(across.deepest_eye(), along.deepest_eye()) - room;
+  camera.eye =
+      seen.centre() + across.middle() * right + along.middle() * camera.up + depth * forward;
+  camera.target = camera.eye - depth * forward;
+  return camera;
+}
+
+Box3d bounds(const Planes3& positions) {
+  Box3d box;
+  for (int r = 0; r < positions.size(); ++r)
+    for (int c = 0; c < positions.size(); ++c) {
+      const auto p = vec_cast<double>(positions.at(r, c));
+      if (is_finite(p)) box.add(p);
+    }
+  return box;
+}
+
+Box3d bounds(const TriangleMesh& mesh) {
+  Box3d box;
+  for (const Vec3d p : mesh.positions)
+    if (is_finite(p)) box.add(p);
+  return box;
+}
+
+}  // namespace weft

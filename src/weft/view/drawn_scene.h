@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "weft/core/planes.h"
+#include "weft/image/geometry_image.h"
+#include "weft/mesh/triangle_mesh.h"
+#include "weft/view/camera.h"
+
+namespace weft {
+
+/// fabric: two-sided, woven, with sheen. body: satin plaster.
+enum class Look { fabric, body };
+
+/// A surface to draw, straight from its grid of positions. Pointers must outlive the call to draw.
+/// Samples that are not finite are drawn at the sample before them.
+struct DrawnSurface {
+  const Planes3* positions = nullptr;  ///< [n x n] world [m], n >= 2
+  const BorderMates* mates = nullptr;  ///< so that normals are smooth across seams
+  const NormalMap* normals = nullptr;  ///< shading of bodies; null: made from the positions
+  Vec3f colour{0.42F, 0.05F, 0.07F};   ///< linear RGB
+  Look look = Look::fabric;
+  float threads = 150;  ///< of the weave along a side of the image, for fabric; 0: none
+};
+
+/// A plain mesh to draw as a body, some of its edges as lines. Pointers must outlive the call to
+/// draw.
+struct DrawnMesh {
+  const TriangleMesh* mesh = nullptr;
+  std::vector<std::array<int, 2>> marked_edges;  ///< pairs of vertices
+  Vec3f colour{0.62F, 0.60F, 0.57F};             ///< linear RGB
+  Vec3f mark_colour{0.75F, 0.05F, 0.03F};        ///< linear RGB
+};
+
+/// Where the one light that throws sharp shadows stands, seen from the scene [rad]; azimuth 0 is
+/// +z.
+struct KeyLight {
+  double azimuth = -0.75, elevation = 0.92;
+};
+
+struct DrawnScene {
+  std::vector<DrawnSurface> surfaces;
+  std::optional<double> ground;  ///< height, with soft shadow
+  Camera camera;
+  std::vector<DrawnMesh> meshes;
+  KeyLight light;
+};
+
+}  // namespace weft

@@ -1,0 +1,192 @@
+#include "weft/view/gl/surface_buffers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weft/core/assert.h"
+#include "weft/view/normals.h"
+
+namespace weft::gl {
+namespace {
+
+/// Samples along a side of the light map of a grid: twice the grid's own within these bounds.
+constexpr int least_light_samples = 129, most_light_samples = 257;
+constexpr int most_coarse_quads = 64;
+constexpr int mesh_columns = 1024;
+constexpr int ground_side = 65;
+
+bool is_finite(Vec3f p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+std::vector<Vec3f> packed(const Planes3& planes) {
+  const int n = planes.size();
+  std::vector<Vec3f> texels;
+  texels.reserve(static_cast<std::size_t>(n) * n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) texels.push_back(planes.at(r, c));
+  return texels;
+}
+
+/// Rows (or columns) of a grid that a coarser one keeps: every `step`, and always the last.
+std::vector<int> kept_lines(int side, int step) {
+  std::vector<int> lines;
+  for (int i = 0; i + 1 < side; i += step) lines.push_back(i);
+  lines.push_back(side - 1);
+  return lines;
+}
+
+/// Two triangles a quad, the diagonals in turn; the front is where du x dv points.
+std::vector<GLuint> quad_triangles(int side, int step) {
+  const std::vector<int> lines = kept_lines(side, step);
+  const int quads = static_cast<int>(lines.size()) - 1;
+  std::vector<GLuint> indices;
+  indices.reserve(static_cast<std::size_t>(quads) * quads * 6);
+  for (int i = 0; i < quads; ++i)
+    for (int j = 0; j < quads; ++j) {
+      const auto sample = [&](int row, int col) {
+        return static_cast<GLuint>(lines[row] * side + lines[col]);
+      };
+      const GLuint a = sample(i, j), b = sample(i, j + 1), c = sample(i + 1, j + 1),
+                   d = sample(i + 1, j);
+      if ((i + j) % 2 == 0)
+        indices.insert(indices.end(), {a, b, c, a, c, d});
+      else
+        indices.insert(indices.end(), {a, b, d, b, c, d});
+    }
+  return indices;
+}
+
+/// The same mesh without triangles whose indices do not exist; vertices that are not finite are 0.
+TriangleMesh usable(const TriangleMesh& mesh) {
+  TriangleMesh whole;
+  whole.positions = mesh.positions;
+  for (Vec3d& p : whole.positions)
+    if (!is_finite(vec_cast<float>(p))) p = {};
+  const int vertices = static_cast<int>(mesh.positions.size());
+  for (const Triangle& t : mesh.triangles)
+    if (std::all_of(t.begin(), t.end(), [&](int v) { return v >= 0 && v < vertices; }))
+      whole.triangles.push_back(t);
+  return whole;
+}
+
+void fit(Texture& texture, GLenum format, int width, int height) {
+  if (texture.width() != width || texture.height() != height)
+    texture = Texture(format, width, height);
+}
+
+/// Fills the last row up.
+void upload_folded(Texture& texture, std::vector<Vec3f> texels) {
+  const int rows =
+      std::max<int>(1, (static_cast<int>(texels.size()) + mesh_columns - 1) / mesh_columns);
+  texels.resize(static_cast<std::size_t>(rows) * mesh_columns);
+  fit(texture, GL_RGB32F, mesh_columns, rows);
+  texture.upload(texels);
+}
+
+}  // namespace
+
+Planes3 without_holes(const Planes3& planes) {
+  Planes3 whole = planes;
+  Vec3f last;
+  for (int r = 0; r < whole.size(); ++r)
+    for (int c = 0; c < whole.size(); ++c) {
+      const Vec3f p = whole.at(r, c);
+      if (is_finite(p))
+        last = p;
+      else
+        whole.set(r, c, last);
+    }
+  return whole;
+}
+
+IndexList::IndexList() : array_(make_vertex_array()), buffer_(make_buffer()) {}
+
+void IndexList::upload(std::span<const GLuint> indices) {
+  glBindVertexArray(array_.name());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer_.name());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size_bytes()),
+               indices.data(), GL_DYNAMIC_DRAW);
+  count_ = static_cast<GLsizei>(indices.size());
+}
+
+void IndexList::draw_triangles() const {
+  glBindVertexArray(array_.name());
+  glDrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr);
+}
+
+void SurfaceBuffers::load(const DrawnSurface& surface) {
+  WEFT_ASSERT(surface.positions != nullptr && surface.positions->size() >= 2);
+  const Planes3 positions = without_holes(*surface.positions);
+  upload_grid(positions, surface.normals != nullptr ? without_holes(surface.normals->normal)
+                                                    : grid_normals(positions, surface.mates));
+}
+
+void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normals) {
+  const int side = positions.size();
+  fit(positions_, GL_RGB32F, side, side);
+  fit(normals_, GL_RGB32F, normals.size(), normals.size());
+  positions_.upload(packed(positions));
+  normals_.upload(packed(normals));
+  if (grid_side_ != side) triangles_.clear();
+  grid_side_ = side;
+  const int light = std::clamp(2 * side - 1, least_light_samples, most_light_samples);
+  make_sky_target(light, light);
+}
+
+void SurfaceBuffers::load(const DrawnMesh& drawn) {
+  WEFT_ASSERT(drawn.mesh != nullptr);
+  ShadedMesh shaded = shade_mesh(usable(*drawn.mesh));
+  upload_folded(positions_, std::move(shaded.positions));
+  upload_folded(normals_, std::move(shaded.normals));
+  std::vector<GLuint> corners;
+  corners.reserve(shaded.triangles.size() * 3);
+  for (const Triangle& t : shaded.triangles)
+    for (const int v : t) corners.push_back(static_cast<GLuint>(v));
+  triangles_.clear();
+  triangles_[1].upload(corners);
+  grid_side_ = 0;
+  make_sky_target(positions_.width(), positions_.height());
+}
+
+void SurfaceBuffers::load_ground(Vec3d centre, double half_side) {
+  Planes3 positions(ground_side);
+  Planes3 normals(ground_side);
+  for (int r = 0; r < ground_side; ++r)
+    for (int c = 0; c < ground_side; ++c) {
+      const Vec3d across{2.0 * c / (ground_side - 1) - 1, 0, 1 - 2.0 * r / (ground_side - 1)};
+      positions.set(r, c, vec_cast<float>(centre + half_side * across));
+      normals.set(r, c, {0, 1, 0});
+    }
+  upload_grid(positions, normals);
+}
+
+void SurfaceBuffers::make_sky_target(int width, int height) {
+  if (sky_front_.width() == width && sky_front_.height() == height) return;
+  sky_front_ = Texture(GL_RGBA16F, width, height);
+  sky_back_ = Texture(GL_RGBA16F, width, height);
+  sky_target_ = make_framebuffer();
+  glBindFramebuffer(GL_FRAMEBUFFER, sky_target_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, sky_front_.name(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, sky_back_.name(), 0);
+  constexpr std::array<GLenum, 2> both{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  glDrawBuffers(2, both.data());
+}
+
+void SurfaceBuffers::draw(int step) {
+  const int lines = is_grid() ? std::clamp(step, 1, std::max(1, (grid_side_ - 1) / 4)) : 1;
+  const auto [list, is_new] = triangles_.try_emplace(lines);
+  if (is_new) list->second.upload(quad_triangles(grid_side_, lines));
+  list->second.draw_triangles();
+}
+
+void SurfaceBuffers::draw_coarse() { draw((grid_side_ - 1) / most_coarse_quads); }
+
+void SurfaceBuffers::bind(const Program& program) const {
+  positions_.bind(0);
+  normals_.bind(1);
+  program.set("positions", 0);
+  program.set("normals", 1);
+  program.set("columns", positions_.width());
+  program.set("rows", positions_.height());
+}
+
+}  // namespace weft::gl

@@ -1,0 +1,165 @@
+#pragma once
+
+#include <string_view>
+
+namespace weft::gl {
+
+/// The geometry image drawn as it is: a vertex is a number, its place in the grid is read off it.
+/// Of a grid, normals and light are read for every pixel, of a mesh (MESH) at the vertices; shadows
+/// are found anew for every pixel of a mesh, whose vertices may be far apart. Two programs, because
+/// software drivers walk both ways of every branch.
+inline constexpr std::string_view surface_vertex = R"(
+uniform sampler2D positions, normals, sky_front, sky_back;
+uniform int columns, rows;
+uniform mat4 to_clip;
+out vec3 world;
+out vec2 uv;
+#ifdef MESH
+out vec3 own_normal;
+out vec3 own_front;
+out vec3 own_back;
+#endif
+void main() {
+  ivec2 at = ivec2(gl_VertexID % columns, gl_VertexID / columns);
+  world = texelFetch(positions, at, 0).xyz;
+  uv = vec2(at) / vec2(max(columns - 1, 1), max(rows - 1, 1));
+#ifdef MESH
+  own_normal = texelFetch(normals, at, 0).xyz;
+  own_front = texelFetch(sky_front, at, 0).rgb;
+  own_back = texelFetch(sky_back, at, 0).rgb;
+#endif
+  gl_Position = to_clip * vec4(world, 1.0);
+}
+)";
+
+/// Fabric: wrapped diffuse, sheen of upright fibres [estevez17], a plain weave along the image's
+/// own coordinates that fades before it could alias. Body: diffuse with a broad highlight
+/// [walter07].
+inline constexpr std::string_view surface_fragment = R"(
+uniform bool fabric;
+uniform vec3 eye, colour, key_direction, key_light;
+uniform float threads;
+in vec3 world;
+in vec2 uv;
+out vec4 result;
+
+#ifdef MESH
+in vec3 own_normal;
+in vec3 own_front;
+in vec3 own_back;
+// The triangle's own normal, on the side of the vertices' one.
+vec3 flat_normal() {
+  vec3 n = cross(dFdx(world), dFdy(world));
+  n = dot(n, n) > 0.0 ? normalize(n) : vec3(0.0, 1.0, 0.0);
+  return dot(n, own_normal) < 0.0 ? -n : n;
+}
+vec3 outward() { return own_normal; }
+vec4 light_here(vec3 n) {
+  vec3 lit_side = dot(flat_normal(), key_direction) < 0.0 ? -flat_normal() : flat_normal();
+  return vec4(gl_FrontFacing ? own_front : own_back, key_visibility(world, lit_side, pixel_turn()));
+}
+#else
+uniform sampler2D normals, sky_front, sky_back;
+vec3 outward() { return texture(normals, aligned(uv, textureSize(normals, 0))).xyz; }
+vec4 light_here(vec3 n) {
+  vec2 at = aligned(uv, textureSize(sky_front, 0));
+  return gl_FrontFacing ? texture(sky_front, at) : texture(sky_back, at);
+}
+#endif
+// How bright a plain weave is at a point, 1 on average.
+float weave(vec2 at) {
+  vec2 q = at * threads;
+  float wide = max(length(dFdx(q)), length(dFdy(q)));
+  float seen = 1.0 - smoothstep(0.12, 0.42, wide);
+  if (seen <= 0.0 || threads <= 0.0) return 1.0;
+  vec2 across = abs(sin(3.14159265 * q));
+  bool warp = mod(floor(q.x) + floor(q.y), 2.0) < 0.5;
+  float height = warp ? across.x * (0.55 + 0.45 * across.y) : across.y * (0.55 + 0.45 * across.x);
+  return mix(1.0, (warp ? 0.70 : 0.62) + 0.62 * height, seen);
+}
+vec3 fabric_light(vec3 n, vec3 v, vec3 key, vec3 sky) {
+  vec3 albedo = colour * weave(uv);
+  float nl = dot(n, key_direction), nv = clamp(dot(n, v), 0.03, 1.0);
+  float wrapped = max((nl + 0.2) / 1.2, 0.0);
+  vec3 h = normalize(key_direction + v);
+  float along = sqrt(max(1.0 - dot(n, h) * dot(n, h), 0.0));
+  float fibres = (2.0 + 1.0 / 0.45) * pow(along, 1.0 / 0.45) / 6.2831853;
+  float lit = clamp(nl, 0.0, 1.0);
+  float sheen = fibres * lit / (4.0 * (lit + nv - lit * nv) + 0.05);
+  vec3 tint = mix(vec3(1.0), colour / max(max(colour.r, max(colour.g, colour.b)), 1e-3), 0.6);
+  float rim = pow(1.0 - nv, 3.0);
+  return albedo * (wrapped * key + sky) + 0.16 * tint * (sheen * key + rim * sky);
+}
+vec3 body_light(vec3 n, vec3 v, vec3 key, vec3 sky) {
+  float nl = max(dot(n, key_direction), 0.0), nv = clamp(dot(n, v), 0.03, 1.0);
+  vec3 h = normalize(key_direction + v);
+  float a2 = 0.045, nh = max(dot(n, h), 0.0);
+  float lobe = nh * nh * (a2 - 1.0) + 1.0;
+  float shine = a2 / (lobe * lobe) / (4.0 * mix(nl * nv, nl + nv, 0.5) + 0.1);
+  float mirror = 0.04 + 0.96 * pow(1.0 - max(dot(h, v), 0.0), 5.0);
+  float rim = 0.03 + 0.22 * pow(1.0 - nv, 4.0);
+  return colour * (nl * key + sky) + mirror * shine * nl * key + rim * sky;
+}
+void main() {
+  vec3 n = outward();
+  n = (gl_FrontFacing ? 1.0 : -1.0) * (dot(n, n) > 1e-12 ? normalize(n) : vec3(0.0, 1.0, 0.0));
+  vec4 light = light_here(n);
+  vec3 v = normalize(eye - world), key = key_light * light.a, sky = light.rgb;
+  result = shown(fabric ? fabric_light(n, v, key, sky) : body_light(n, v, key, sky));
+}
+)";
+
+inline constexpr std::string_view backdrop_fragment = R"(
+out vec4 result;
+void main() { result = dithered(shown(backdrop())); }
+)";
+
+/// The ground shows the backdrop, less the light that things keep from it: it has no end to be
+/// seen.
+inline constexpr std::string_view ground_fragment = R"(
+uniform sampler2D sky_front;
+uniform vec3 key_direction, key_light, open_sky;
+in vec3 world;
+in vec2 uv;
+out vec4 result;
+void main() {
+  vec3 sky = texture(sky_front, aligned(uv, textureSize(sky_front, 0))).rgb;
+  vec3 key = key_direction.y * key_light;
+  float seen = key_visibility(world, vec3(0.0, 1.0, 0.0), pixel_turn());
+  vec3 kept = (seen * key + sky) / (key + open_sky);
+  float outward = length(2.0 * uv - 1.0);
+  vec3 share = mix(kept, vec3(1.0), smoothstep(0.45, 1.0, outward));
+  result = dithered(shown(backdrop() * share));
+}
+)";
+
+/// Edges as strips of a width in pixels, both ends lengthened by half of it so that they join.
+inline constexpr std::string_view edge_vertex = R"(
+uniform sampler2D positions;
+uniform int columns;
+uniform mat4 to_clip;
+uniform vec2 picture_size;
+uniform float half_width;  // [pixels]
+layout(location = 0) in uvec2 ends;
+void main() {
+  int at[2] = int[2](int(ends.x), int(ends.y));
+  vec4 clip[2];
+  for (int i = 0; i < 2; ++i)
+    clip[i] = to_clip * vec4(texelFetch(positions, ivec2(at[i] % columns, at[i] / columns), 0).xyz, 1.0);
+  vec2 along = (clip[1].xy / clip[1].w - clip[0].xy / clip[0].w) * picture_size;
+  along = dot(along, along) > 1e-12 ? normalize(along) : vec2(1.0, 0.0);
+  int end = gl_VertexID / 2;
+  vec2 shift = (end == 0 ? -along : along) + (gl_VertexID % 2 == 0 ? 1.0 : -1.0) * vec2(-along.y, along.x);
+  vec4 place = clip[end];
+  place.xy += 2.0 * half_width * shift / picture_size * place.w;
+  place.z -= 2e-4 * abs(place.w);
+  gl_Position = place;
+}
+)";
+inline constexpr std::string_view edge_fragment = R"(
+uniform vec3 colour;
+out vec4 result;
+void main() { result = shown(colour); }
+)";
+
+}  // namespace weft::gl

@@ -1,0 +1,91 @@
+#include "weft/view/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "weft/core/math.h"
+#include "weft/core/random.h"
+
+namespace weft {
+namespace {
+
+/// How far the corners of a box reach to each side of the picture: 1 is its edge.
+struct Reach {
+  double left = -HUGE_VAL, right = -HUGE_VAL, bottom = -HUGE_VAL, top = -HUGE_VAL;
+  double nearest = HUGE_VAL;
+};
+
+Reach reach_of(const Camera& camera, const Box3d& box, double aspect) {
+  const Vec3d forward = normalized(camera.target - camera.eye);
+  const Vec3d right = normalized(cross(forward, camera.up));
+  const Vec3d up = cross(right, forward);
+  const double slope = sine(camera.vertical_angle / 2) / cosine(camera.vertical_angle / 2);
+  Reach reach;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3d p =
+        Vec3d{(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
+              (i & 4) != 0 ? box.upper.z : box.lower.z} -
+        camera.eye;
+    const double depth = dot(p, forward);
+    const double x = dot(p, right) / (depth * slope * aspect);
+    const double y = dot(p, up) / (depth * slope);
+    reach.left = std::max(reach.left, -x);
+    reach.right = std::max(reach.right, x);
+    reach.bottom = std::max(reach.bottom, -y);
+    reach.top = std::max(reach.top, y);
+    reach.nearest = std::min(reach.nearest, depth);
+  }
+  return reach;
+}
+
+TEST(Camera, FramesAnyBoxTightlyFromAnySide) {
+  Random random(7);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3d lower{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)};
+    const Vec3d extent{random.uniform(0, 3), random.uniform(0.01, 3), random.uniform(0, 3)};
+    const Box3d box{lower, lower + extent};
+    const double aspect = random.uniform(0.4, 2.5);
+    const Camera camera = frame_box(box, random.uniform(-4, 4), random.uniform(-1.5, 1.5), aspect);
+    const Reach reach = reach_of(camera, box, aspect);
+    const double frame = 1 - frame_margin;
+    ASSERT_GT(reach.nearest, 0);
+    ASSERT_LE(std::max({reach.left, reach.right, reach.bottom, reach.top}), frame + 1e-9);
+    const bool tight_across = std::min(reach.left, reach.right) > frame - 1e-9;
+    const bool tight_along = std::min(reach.bottom, reach.top) > frame - 1e-9;
+    ASSERT_TRUE(tight_across || tight_along) << "trial " << trial;
+  }
+}
+
+TEST(Camera, LooksFromTheAzimuthAskedFor) {
+  const Box3d box{{-1, -1, -1}, {1, 1, 1}};
+  const Camera front = frame_box(box, 0, 0, 1);
+  EXPECT_NEAR(front.eye.x, 0, 1e-12);
+  EXPECT_GT(front.eye.z, 1);
+  const Camera right = frame_box(box, pi / 2, 0, 1);
+  EXPECT_GT(right.eye.x, 1);
+  EXPECT_GT(frame_box(box, 0, 0.5, 1).eye.y, 0.5);
+}
+
+TEST(Camera, FramesTheUnitCubeWhenTheBoxIsEmptyOrNotFinite) {
+  const Camera wanted = frame_box({{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, 0.3, 0.4, 1.5);
+  const Camera empty = frame_box({}, 0.3, 0.4, 1.5);
+  const Camera broken = frame_box({{0, 0, 0}, {1, NAN, 1}}, 0.3, 0.4, 1.5);
+  EXPECT_EQ(empty.eye, wanted.eye);
+  EXPECT_EQ(broken.eye, wanted.eye);
+}
+
+TEST(Camera, BoundsLeaveOutSamplesThatAreNotFinite) {
+  Planes3 grid(2);
+  grid.set(0, 0, {1, 2, 3});
+  grid.set(0, 1, {NAN, 0, 0});
+  grid.set(1, 0, {0, HUGE_VALF, 0});
+  grid.set(1, 1, {-1, 4, 3});
+  const Box3d box = bounds(grid);
+  EXPECT_EQ(box.lower, (Vec3d{-1, 2, 3}));
+  EXPECT_EQ(box.upper, (Vec3d{1, 4, 3}));
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,117 @@
+#include "weft/view/movie_writer.h"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "weft/core/error.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a command prints, without its last line break.
+std::string output_of(const std::string& command) {
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  std::string text;
+  std::array<char, 256> part{};
+  while (pipe != nullptr && std::fgets(part.data(), part.size(), pipe) != nullptr)
+    text += part.data();
+  if (pipe != nullptr) ::pclose(pipe);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+class Movie : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (output_of("ffprobe -version 2>&1").rfind("ffprobe version", 0) != 0)
+      GTEST_SKIP() << "ffmpeg and ffprobe are not installed: movies are NOT tested";
+    folder_ = fs::path(testing::TempDir()) /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  static Picture frame(int width, int height, int index) {
+    Picture picture{width, height, {}};
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        for (const int channel : {x * 3, y * 5, index * 16})
+          picture.rgb.push_back(static_cast<std::uint8_t>(channel % 256));
+    return picture;
+  }
+  static std::string probed(const fs::path& path) {
+    return output_of(
+        "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
+        "stream=codec_name,width,height,nb_read_frames -of csv=p=0 '" +
+        path.string() + "'");
+  }
+  [[nodiscard]] std::size_t files() const {
+    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+  }
+  fs::path folder_;
+};
+
+TEST_F(Movie, Mp4HoldsEveryFrameAtAnEvenSize) {
+  MovieWriter writer(folder_ / "a.mp4", 65, 49, 30);
+  for (int i = 0; i < 12; ++i) writer.add(frame(65, 49, i));
+  EXPECT_FALSE(fs::exists(folder_ / "a.mp4"));
+  writer.finish();
+  EXPECT_EQ(probed(folder_ / "a.mp4"), "h264,64,48,12");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(Movie, GifHoldsEveryFrame) {
+  MovieWriter writer(folder_ / "a.gif", 64, 48, 25);
+  for (int i = 0; i < 7; ++i) writer.add(frame(64, 48, i));
+  writer.finish();
+  EXPECT_EQ(probed(folder_ / "a.gif"), "gif,64,48,7");
+}
+
+TEST_F(Movie, GivenUpLeavesNothingBehind) {
+  {
+    MovieWriter writer(folder_ / "a.mp4", 64, 48, 30);
+    for (int i = 0; i < 3; ++i) writer.add(frame(64, 48, i));
+  }
+  EXPECT_EQ(files(), 0U);
+}
+
+TEST_F(Movie, WithoutAFrameIsAnOutputErrorThatNamesTheMovie) {
+  MovieWriter writer(folder_ / "empty.mp4", 64, 48, 30);
+  try {
+    writer.finish();
+    FAIL() << "an empty movie was accepted";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("empty.mp4"), std::string::npos);
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "empty.mp4"));
+}
+
+TEST_F(Movie, PlacesAndEndingsThatCannotBeAreOutputErrors) {
+  EXPECT_THROW(MovieWriter(folder_ / "missing" / "a.mp4", 64, 48, 30), OutputError);
+  EXPECT_THROW(MovieWriter(folder_ / "a.avi", 64, 48, 30), OutputError);
+  EXPECT_THROW(MovieWriter(folder_ / "a.mp4", 64, 48, 0), OutputError);
+  MovieWriter writer(folder_ / "a.mp4", 64, 48, 30);
+  EXPECT_THROW(writer.add(frame(32, 48, 0)), OutputError);
+}
+
+TEST(MovieWithoutFfmpeg, IsAnOutputErrorThatSaysSo) {
+  const std::string path = ::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  std::string said;
+  try {
+    MovieWriter writer(fs::path(testing::TempDir()) / "b.mp4", 64, 48, 30);
+  } catch (const OutputError& error) {
+    said = error.what();
+  }
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(said.find("ffmpeg"), std::string::npos) << said;
+  EXPECT_FALSE(fs::exists(fs::path(testing::TempDir()) / "b.mp4"));
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,64 @@
+#include "weft/view/picture.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/core/random.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string path_of(const char* name) { return (fs::path(testing::TempDir()) / name).string(); }
+
+Picture noise(int width, int height) {
+  Random random(3);
+  Picture picture{width, height, {}};
+  for (int i = 0; i < 3 * width * height; ++i)
+    picture.rgb.push_back(static_cast<std::uint8_t>(random.index(256)));
+  return picture;
+}
+
+TEST(Picture, PngGivesBackEveryByte) {
+  const Picture written = noise(37, 23);
+  write_png(path_of("noise.png"), written);
+  const Picture read = read_png(path_of("noise.png"));
+  EXPECT_EQ(read.width, 37);
+  EXPECT_EQ(read.height, 23);
+  EXPECT_EQ(read.rgb, written.rgb);
+}
+
+TEST(Picture, PngThatIsCutShortIsAnInputErrorThatNamesTheFile) {
+  const std::string whole = path_of("whole.png");
+  const std::string part = path_of("part.png");
+  write_png(whole, noise(64, 64));
+  const std::string bytes = read_file(whole);
+  for (const std::size_t length :
+       {std::size_t{0}, std::size_t{7}, std::size_t{40}, bytes.size() / 2}) {
+    std::ofstream(part, std::ios::binary) << bytes.substr(0, length);
+    try {
+      read_png(part);
+      FAIL() << "no error at " << length << " bytes";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("part.png"), std::string::npos);
+    }
+  }
+}
+
+TEST(Picture, WritingIntoAMissingFolderIsAnOutputError) {
+  EXPECT_THROW(write_png(path_of("no/such/folder/a.png"), noise(4, 4)), OutputError);
+}
+
+TEST(Picture, APictureWhoseBytesDoNotFitItsSizeIsRefused) {
+  Picture picture = noise(4, 4);
+  picture.rgb.pop_back();
+  EXPECT_THROW(write_png(path_of("short.png"), picture), OutputError);
+}
+
+}  // namespace
+}  // namespace weft
