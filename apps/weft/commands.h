@@ -1,0 +1,22 @@
+#pragma once
+
+#include "apps/weft/context.h"
+
+namespace CLI {
+class App;
+}
+
+namespace weft::app {
+
+// One function a subcommand, each in a file of its name: adds its words and options to the program;
+// the context is filled when the command runs and must outlive the program's parsing.
+void add_convert(CLI::App& program, const Context& context);
+void add_rebuild(CLI::App& program, const Context& context);
+void add_inspect(CLI::App& program, const Context& context);
+void add_simulate(CLI::App& program, const Context& context);
+void add_drape(CLI::App& program, const Context& context);
+void add_render(CLI::App& program, const Context& context);
+void add_shapes(CLI::App& program, const Context& context);
+void add_demo(CLI::App& program, const Context& context);
+
+}  // namespace weft::app

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace weft::app {
+
+/// The global options, the same for every command.
+struct Context {
+  bool json = false;
+  bool quiet = false;
+  int threads = 1;
+  std::uint64_t seed = 1;
+};
+
+/// What a command found, for people, on stdout; nothing with --json or --quiet.
+void say(const Context& context, const std::string& line);
+
+/// A remark that is worth reading even with --json: on stderr; nothing with --quiet.
+void note(const Context& context, const std::string& line);
+
+/// The command's one JSON object on stdout, with --json only.
+void print_report(const Context& context, const nlohmann::ordered_json& report);
+
+}  // namespace weft::app

@@ -1,0 +1,118 @@
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/weft/commands.h"
+#include "apps/weft/drawing.h"
+#include "apps/weft/reports.h"
+#include "apps/weft/terminal_progress.h"
+#include "weft/core/files.h"
+#include "weft/image/io/image_file.h"
+#include "weft/sim/drape.h"
+#include "weft/sim/report.h"
+#include "weft/sim/scene_file.h"
+#include "weft/view/image_pictures.h"
+
+namespace weft::app {
+namespace {
+namespace fs = std::filesystem;
+
+/// What the demo has done so far.
+struct Demo {
+  fs::path folder;
+  const Context& context;
+  TerminalProgress progress;
+  Json report = Json::object();
+  std::vector<fs::path> outputs;
+
+  Demo(fs::path where, const Context& with)
+      : folder(std::move(where)), context(with), progress(with.quiet || with.json) {}
+
+  fs::path add(const fs::path& name) {
+    outputs.push_back(folder / name);
+    say(context, "wrote   " + outputs.back().string());
+    return outputs.back();
+  }
+};
+
+// The figure as a geometry image: both files, its normal map, and pictures of the image and of the
+// cut.
+void show_image(Demo& demo) {
+  const std::string name = "builtin:mannequin";
+  ConvertOptions options;
+  options.normal_map_size = 512;
+  options.threads = demo.context.threads;
+  options.progress = &demo.progress;
+  const Conversion conversion = convert_mesh(load_mesh(name), name, options);
+  for (const char* file : {"mannequin.exr", "mannequin.png"})
+    write_image(demo.add(file), conversion.image);
+  write_normal_map(demo.add("mannequin-normals.png"), *conversion.normals);
+  write_png(demo.add("mannequin-colours.png"), colours_of(conversion.image, 512));
+  write_png(demo.add("mannequin-map.png"),
+            draw_map(conversion.mapped.cut.disk, conversion.mapped.map));
+  demo.report["convert"] = conversion_json(name, conversion, {});
+  say(demo.context,
+      fmt::format(
+          "image   {0} x {0} of {1}: stretch {2:.2f}, PSNR {3:.1f} dB, {4} flipped triangles",
+          conversion.image.size(), name, conversion.mapped.quality.stretch_l2,
+          conversion.quality.psnr_db, conversion.mapped.quality.flipped));
+}
+
+// One cloth on the figure: its scene, caches, last frame and movie.
+void show_drape(Demo& demo, const std::string& name, const std::string& cloth,
+                const DrawingOptions& view) {
+  const fs::path run_folder = demo.folder / name;
+  fs::create_directories(run_folder);
+  const Scene scene = make_drape_scene(cloth, "builtin:mannequin", {});
+  write_scene(run_folder / "scene.json", scene);
+  RunOptions options;
+  options.folder = run_folder;
+  options.threads = demo.context.threads;
+  options.progress = &demo.progress;
+  const RunReport run = run_scene(scene, (run_folder / "scene.json").string(), options);
+  demo.report[name] = Json::parse(to_json(run));
+  for (const fs::path& path : run.outputs) demo.add(fs::relative(path, demo.folder));
+  const RunFolder recorded = open_run_folder(run_folder);
+  write_png(demo.add(name + ".png"), draw_run(recorded, -1, view));
+  film_run(recorded, demo.add(name + ".mp4"), view, &demo.progress);
+  say(demo.context,
+      fmt::format(
+          "cloth   {}: {} particles, {} frames, strain p99 {:.2f} %, {} intersections at the end",
+          name, run.particles, run.frames, 100 * run.strain.p99, run.intersections));
+}
+
+void run_demo(const fs::path& folder, const Context& context) {
+  const auto start = std::chrono::steady_clock::now();
+  fs::create_directories(folder);
+  Demo demo(folder, context);
+  show_image(demo);
+  show_drape(demo, "sheet", "builtin:sheet", {960, 720, 0.45, 0.2});
+  show_drape(demo, "tshirt", "builtin:tshirt", {960, 720, 0.45, 0.1});
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  demo.report["seconds"] = seconds.count();
+  demo.add("report.json");
+  demo.report["outputs"] = paths_json(demo.outputs);
+  write_file(folder / "report.json",
+             [&](std::ostream& out) { out << demo.report.dump(2) << "\n"; });
+  say(context, fmt::format("done    in {:.0f} s; look at {}", seconds.count(),
+                           (folder / "sheet.png").string()));
+  print_report(context, demo.report);
+}
+
+}  // namespace
+
+void add_demo(CLI::App& program, const Context& context) {
+  auto folder = std::make_shared<std::string>("out/demo");
+  CLI::App* command =
+      program.add_subcommand("demo", "Convert a figure, drape cloth over it, draw it all");
+  command->add_option("-o,--output", *folder, "Folder for everything that is written")
+      ->capture_default_str();
+  command->footer("Example: weft demo -o out/demo");
+  command->callback([folder, &context] { run_demo(*folder, context); });
+}
+
+}  // namespace weft::app

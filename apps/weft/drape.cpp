@@ -1,0 +1,49 @@
+#include "weft/sim/drape.h"
+
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/weft/commands.h"
+#include "apps/weft/run_words.h"
+#include "weft/image/geometry_image.h"
+#include "weft/sim/scene_file.h"
+
+namespace weft::app {
+namespace {
+
+struct DrapeWords {
+  std::string cloth, body;
+  DrapeOptions options;
+  RunWords run;
+};
+
+void drape(const DrapeWords& words, const Context& context) {
+  Scene scene = make_drape_scene(words.cloth, words.body, words.options);
+  apply_run_words(words.run, scene);
+  std::filesystem::create_directories(words.run.folder);
+  const auto path = std::filesystem::path(words.run.folder) / "scene.json";
+  write_scene(path, scene);
+  run_and_report(scene, path.string(), words.run, context);
+}
+
+}  // namespace
+
+void add_drape(CLI::App& program, const Context& context) {
+  auto words = std::make_shared<DrapeWords>();
+  CLI::App* command =
+      program.add_subcommand("drape", "Lay a cloth over a body: makes the scene, then runs it");
+  command->add_option("CLOTH", words->cloth, "Mesh, geometry image or builtin:NAME")->required();
+  command->add_option("BODY", words->body, "Mesh, geometry image or builtin:NAME")->required();
+  command->add_option("--size", words->options.cloth_size, "Samples a side of the cloth")
+      ->check(CLI::Range(least_image_size, largest_image_size))
+      ->capture_default_str();
+  command->add_flag("--as-is", words->options.as_is,
+                    "Keep the body's size instead of scaling it to 1 m");
+  add_run_options(*command, words->run);
+  command->footer("Example: weft drape builtin:sheet builtin:mannequin -o draped");
+  command->callback([words, &context] { drape(*words, context); });
+}
+
+}  // namespace weft::app

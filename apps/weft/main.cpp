@@ -1,0 +1,78 @@
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "apps/weft/commands.h"
+#include "apps/weft/terminal_progress.h"
+#include "weft/core/error.h"
+
+namespace weft::app {
+namespace {
+
+int fail(ExitCode code, std::string_view what) {
+  fmt::print(stderr, "weft: error: {}\n", what);
+  return static_cast<int>(code);
+}
+
+void add_globals(CLI::App& program, Context& context) {
+  program.add_flag("--json", context.json,
+                   "Print one JSON object on stdout and nothing else there");
+  program.add_flag("--quiet", context.quiet, "Print nothing but errors (and the JSON object)");
+  program.add_option("--threads", context.threads, "Threads; results do not depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  program.add_option("--seed", context.seed, "Of anything random")->capture_default_str();
+  program.set_version_flag("--version", "weft " WEFT_VERSION);
+  program.fallthrough();
+}
+
+// CLI11 words its errors over several lines; users get one.
+std::string one_line(const CLI::ParseError& error) {
+  std::string text = error.what();
+  for (char& c : text)
+    if (c == '\n' || c == '\r') c = ' ';
+  return text + "; see weft --help";
+}
+
+int run(int argc, char** argv) {
+  Context context;
+  context.threads =
+      static_cast<int>(std::max(1U, std::min(8U, std::thread::hardware_concurrency())));
+  CLI::App program{"Turns meshes into geometry images and simulates those as cloth.", "weft"};
+  add_globals(program, context);
+  add_convert(program, context);
+  add_rebuild(program, context);
+  add_inspect(program, context);
+  add_simulate(program, context);
+  add_drape(program, context);
+  add_render(program, context);
+  add_shapes(program, context);
+  add_demo(program, context);
+  program.require_subcommand(1);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& asked_for_help) {
+    return program.exit(asked_for_help);
+  } catch (const CLI::ParseError& error) {
+    return fail(ExitCode::usage, one_line(error));
+  }
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+}  // namespace weft::app
+
+int main(int argc, char** argv) {
+  using weft::ExitCode;
+  try {
+    weft::app::stop_on_signals();
+    return weft::app::run(argc, argv);
+  } catch (const weft::Error& error) {
+    return weft::app::fail(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return weft::app::fail(ExitCode::internal, "out of memory");
+  } catch (const std::exception& error) {
+    return weft::app::fail(ExitCode::internal, error.what());
+  }
+}

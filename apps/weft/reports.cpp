@@ -1,0 +1,103 @@
+#include "apps/weft/reports.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/image/rebuild.h"
+#include "weft/mesh/topology.h"
+
+namespace weft::app {
+namespace {
+
+Json seconds_json(const StageSeconds& s) {
+  return {{"load", s.load},     {"cut", s.cut},         {"map", s.map},
+          {"sample", s.sample}, {"measure", s.measure}, {"total", s.total}};
+}
+
+Json map_json(const MappedDisk& mapped) {
+  const MapQuality& q = mapped.quality;
+  return {{"parameterizer", mapped.parameterizer},
+          {"flipped", q.flipped},
+          {"degenerate", q.degenerate},
+          {"stretch_l2", q.stretch_l2},
+          {"stretch_linf", q.stretch_linf}};
+}
+
+}  // namespace
+
+Json paths_json(const std::vector<std::filesystem::path>& paths) {
+  Json list = Json::array();
+  for (const auto& path : paths) list.push_back(path.string());
+  return list;
+}
+
+Json input_json(const std::string& path, const RepairedMesh& input) {
+  const TopologyCounts& c = input.counts;
+  return {{"path", path},
+          {"vertices", c.vertices},
+          {"triangles", c.triangles},
+          {"components", input.components_found},
+          {"boundaries", c.boundaries},
+          {"genus", c.genus},
+          {"euler", c.euler},
+          {"repairs", input.repairs}};
+}
+
+Json conversion_json(const std::string& path, const Conversion& conversion,
+                     const std::vector<std::filesystem::path>& outputs) {
+  const ImageQuality& q = conversion.quality;
+  return {{"input", input_json(path, conversion.input)},
+          {"cut",
+           {{"paths", conversion.cut.paths},
+            {"nodes", conversion.cut.nodes},
+            {"length", conversion.cut.length},
+            {"rounds", conversion.rounds}}},
+          {"map", map_json(conversion.mapped)},
+          {"image",
+           {{"size", conversion.image.size()},
+            {"mates_bit_equal", q.mates_bit_equal},
+            {"euler", q.euler},
+            {"boundaries", q.boundaries},
+            {"psnr_db", q.psnr_db},
+            {"hausdorff_percent", q.hausdorff_percent}}},
+          {"seconds", seconds_json(conversion.seconds)},
+          {"outputs", paths_json(outputs)}};
+}
+
+Json image_json(const GeometryImage& image) {
+  const RebuiltMesh rebuilt = rebuild_mesh(image);
+  const auto vertices = static_cast<int>(rebuilt.mesh.positions.size());
+  const TopologyCounts counts = count_topology(vertices, rebuilt.mesh.triangles);
+  return {{"size", image.size()},
+          {"source", image.source},
+          {"source_hash", image.source_hash},
+          {"mates_bit_equal", mates_bit_equal(image)},
+          {"mate_classes", image.mates.class_count()},
+          {"vertices", counts.vertices},
+          {"triangles", counts.triangles},
+          {"euler", counts.euler},
+          {"boundaries", counts.boundaries},
+          {"genus", counts.genus}};
+}
+
+std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+void check_output(const std::filesystem::path& path,
+                  std::initializer_list<std::string_view> endings) {
+  if (std::find(endings.begin(), endings.end(), ending_of(path)) == endings.end())
+    throw UsageError(path.string(), "has no ending that can be written here",
+                     fmt::format("{} is wanted", fmt::join(endings, " or ")));
+  const NewFile probe(path);
+}
+
+}  // namespace weft::app

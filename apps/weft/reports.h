@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "weft/image/convert.h"
+
+namespace weft::app {
+
+using Json = nlohmann::ordered_json;
+
+/// The parts of the commands' JSON, named as documented in docs/commands.
+Json input_json(const std::string& path, const RepairedMesh& input);
+Json conversion_json(const std::string& path, const Conversion& conversion,
+                     const std::vector<std::filesystem::path>& outputs);
+Json image_json(const GeometryImage& image);
+Json paths_json(const std::vector<std::filesystem::path>& paths);
+
+/// Fails early when a file could not be written there in the end. @throws OutputError, UsageError
+void check_output(const std::filesystem::path& path,
+                  std::initializer_list<std::string_view> endings);
+
+/// The lower-case ending with its dot.
+std::string ending_of(const std::filesystem::path& path);
+
+}  // namespace weft::app

@@ -1,0 +1,96 @@
+#include "apps/weft/run_words.h"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/weft/terminal_progress.h"
+#include "weft/core/error.h"
+#include "weft/sim/report.h"
+
+namespace weft::app {
+namespace {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void print_summary(const Context& context, const RunReport& report) {
+  std::vector<double> milliseconds;
+  for (const FrameReport& frame : report.history) milliseconds.push_back(frame.milliseconds);
+  for (const std::string& line : report.notes) note(context, line);
+  say(context, fmt::format("ran     {} frames of {} particles, {} with {} substeps, {} thread(s)",
+                           report.frames, report.particles, report.integrator, report.substeps,
+                           report.threads));
+  say(context, fmt::format("time    {:.1f} ms a frame (median)", median(milliseconds)));
+  say(context,
+      fmt::format("strain  mean {:.2f} %, p99 {:.2f} %, largest {:.2f} %", 100 * report.strain.mean,
+                  100 * report.strain.p99, 100 * report.strain.max));
+  say(context, fmt::format("touch   {} contacts at most, {} intersecting triangle pairs",
+                           report.contacts_max, report.intersections));
+  say(context, "state   " + report.state_hash);
+  for (const auto& path : report.outputs) say(context, "wrote   " + path.string());
+}
+
+RunOptions options_of(const RunWords& words, const Context& context, Progress& progress) {
+  RunOptions options;
+  options.folder = words.folder;
+  options.exports = words.exports;
+  options.unwelded = words.unwelded;
+  options.verify = words.verify;
+  options.threads = context.threads;
+  options.progress = &progress;
+  return options;
+}
+
+}  // namespace
+
+void add_run_options(CLI::App& command, RunWords& words) {
+  command.add_option("-o,--output", words.folder, "Folder for everything that is written")
+      ->required();
+  command.add_option("--frames", words.frames, "Frames to run instead of the scene's")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--integrator", words.integrator, "Instead of the scene's, with default options")
+      ->check(CLI::IsMember({"implicit", "explicit", "two_level"}));
+  command.add_option("--collider", words.collider, "Instead of the scene's")
+      ->check(CLI::IsMember({"polar_map"}));
+  command.add_option("--export", words.exports, "What to write, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"obj", "pc2"}))
+      ->capture_default_str();
+  command.add_flag("--unwelded", words.unwelded,
+                   "Keep every sample apart instead of joining mates");
+  command.add_flag("--verify", words.verify,
+                   "Count intersections in every frame; exit 4 when there are any");
+}
+
+void apply_run_words(const RunWords& words, Scene& scene) {
+  if (words.frames > 0) scene.frames = words.frames;
+  if (words.integrator == "implicit") scene.integrator = ImplicitOptions{};
+  if (words.integrator == "explicit") scene.integrator = ExplicitOptions{};
+  if (words.integrator == "two_level") scene.integrator = TwoLevelOptions{};
+}
+
+void run_and_report(Scene scene, const std::string& name, const RunWords& words,
+                    const Context& context) {
+  apply_run_words(words, scene);
+  RunReport report;
+  {
+    TerminalProgress progress(context.quiet || context.json);
+    report = run_scene(scene, name, options_of(words, context, progress));
+  }
+  print_summary(context, report);
+  print_report(context, nlohmann::ordered_json::parse(to_json(report)));
+  if (words.verify && report.intersections > 0)
+    throw Error(ExitCode::check_failed, name,
+                fmt::format("{} triangle pairs intersect in the worst frame", report.intersections),
+                "none is wanted");
+}
+
+}  // namespace weft::app

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/weft/context.h"
+#include "weft/sim/run.h"
+
+namespace CLI {
+class App;
+}
+
+namespace weft::app {
+
+/// The options that simulate and drape share.
+struct RunWords {
+  std::string folder, integrator, collider;
+  int frames = 0;  ///< 0: as the scene says
+  std::vector<std::string> exports{"obj", "pc2"};
+  bool unwelded = false, verify = false;
+};
+void add_run_options(CLI::App& command, RunWords& words);
+
+/// Changes the scene as the options ask.
+void apply_run_words(const RunWords& words, Scene& scene);
+
+/// Runs the scene with the options applied and prints what it came to.
+/// @throws whatever the run throws; Error with ExitCode::check_failed when --verify finds
+/// intersections
+void run_and_report(Scene scene, const std::string& name, const RunWords& words,
+                    const Context& context);
+
+}  // namespace weft::app

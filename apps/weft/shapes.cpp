@@ -1,0 +1,64 @@
+#include "weft/mesh/shapes.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/weft/commands.h"
+#include "apps/weft/reports.h"
+#include "weft/core/error.h"
+#include "weft/mesh/io/write_mesh.h"
+#include "weft/mesh/repair.h"
+
+namespace weft::app {
+namespace {
+
+struct ShapesWords {
+  std::string name, output;
+};
+
+void list_shapes(const Context& context) {
+  Json list = Json::array();
+  for (const ShapeInfo& shape : built_in_shapes()) {
+    say(context, fmt::format("{:<12} {}", shape.name, shape.description));
+    list.push_back({{"name", shape.name}, {"description", shape.description}});
+  }
+  print_report(context, {{"shapes", list}});
+}
+
+void write_shape(const ShapesWords& words, const Context& context) {
+  check_output(words.output, {".obj", ".ply"});
+  const TriangleMesh mesh = make_shape(words.name);
+  write_mesh(words.output, mesh);
+  const std::string name = "builtin:" + words.name;
+  say(context, fmt::format("{}: {} vertices, {} triangles", name, mesh.positions.size(),
+                           mesh.triangles.size()));
+  say(context, "wrote   " + words.output);
+  const RepairedMesh checked = repair_mesh(mesh, {name, {}});
+  print_report(context, {{"input", input_json(name, checked)}, {"outputs", {words.output}}});
+}
+
+void shapes(const ShapesWords& words, const Context& context) {
+  if (words.name.empty() && words.output.empty()) return list_shapes(context);
+  if (words.name.empty())
+    throw UsageError("shapes", "-o without a name", "the name of a shape is wanted");
+  if (words.output.empty())
+    throw UsageError("shapes", "a name without -o", "-o MESH.obj or .ply is wanted");
+  write_shape(words, context);
+}
+
+}  // namespace
+
+void add_shapes(CLI::App& program, const Context& context) {
+  auto words = std::make_shared<ShapesWords>();
+  CLI::App* command =
+      program.add_subcommand("shapes", "List the built-in shapes, or write one as a mesh");
+  command->add_option("NAME", words->name, "Which shape");
+  command->add_option("-o,--output", words->output, "MESH.obj or MESH.ply");
+  command->footer("Example: weft shapes mannequin -o mannequin.obj");
+  command->callback([words, &context] { shapes(*words, context); });
+}
+
+}  // namespace weft::app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "weft/core/progress.h"
+
+namespace weft::app {
+
+/// From now on Ctrl-C (SIGINT) and SIGTERM ask for a stop at the next progress update; a second one
+/// kills.
+void stop_on_signals();
+
+/// A bar on stderr when that is a terminal (nothing otherwise); throws Interrupted when asked to
+/// stop.
+class TerminalProgress : public Progress {
+ public:
+  explicit TerminalProgress(bool quiet);
+  ~TerminalProgress() override;
+  void update(std::string_view stage, double fraction) override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void clear();
+
+  bool visible_;
+  std::string stage_;
+  std::size_t drawn_ = 0;
+  Clock::time_point last_;
+};
+
+}  // namespace weft::app

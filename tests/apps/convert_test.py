@@ -1,0 +1,171 @@
+"""The contract of convert, rebuild, inspect and shapes: fields, exit codes, errors, files."""
+import json
+import os
+import pathlib
+import shutil
+import struct
+import unittest
+
+from program import ProgramTest, SHARED
+
+INPUT_FIELDS = ["path", "vertices", "triangles", "components", "boundaries", "genus", "euler", "repairs"]
+TOP_FIELDS = {
+    "input": INPUT_FIELDS,
+    "cut": ["paths", "nodes", "length", "rounds"],
+    "map": ["parameterizer", "flipped", "degenerate", "stretch_l2", "stretch_linf"],
+    "image": ["size", "mates_bit_equal", "euler", "boundaries", "psnr_db", "hausdorff_percent"],
+    "seconds": ["load", "cut", "map", "sample", "measure", "total"],
+}
+
+
+class Convert(ProgramTest):
+    def check_promises(self, report):
+        for group, fields in TOP_FIELDS.items():
+            for field in fields:
+                self.assertIn(field, report[group], group)
+        self.assertEqual(report["map"]["flipped"], 0)
+        self.assertEqual(report["map"]["degenerate"], 0)
+        self.assertIs(report["image"]["mates_bit_equal"], True)
+        self.assertEqual(report["image"]["euler"], report["input"]["euler"])
+        self.assertEqual(report["image"]["boundaries"], report["input"]["boundaries"])
+        self.assertGreater(report["image"]["psnr_db"], 30)
+
+    def test_report_of_a_sphere_keeps_every_promise(self):
+        report = self.run_json("convert", "builtin:sphere", "-o", "s.exr", "--size", "65")
+        self.check_promises(report)
+        self.assertEqual(report["input"]["euler"], 2)
+        self.assertEqual(report["outputs"], ["s.exr"])
+        self.assertTrue((self.folder / "s.exr").stat().st_size > 1000)
+
+    def test_both_parameterizers_are_named_in_the_report(self):
+        for name in ("floater", "stretch"):
+            report = self.run_json("convert", "builtin:sphere", "-o", "s.exr", "--size", "33",
+                                   "--parameterizer", name)
+            self.assertEqual(report["map"]["parameterizer"], name)
+
+    def test_normal_map_is_written_beside(self):
+        report = self.run_json("convert", "builtin:sphere", "-o", "s.png", "--size", "33", "--normal-map", "64")
+        self.assertEqual(report["outputs"], ["s.png", "s-normals.png"])
+        for name in report["outputs"]:
+            self.assertEqual((self.folder / name).read_bytes()[:4], b"\x89PNG")
+
+    def test_shared_meshes_keep_topology(self):
+        for name in ("gpt_mannequin.off", "opt_cube.obj", "cgal_eight.off", "opt_torus_with_holes.obj"):
+            with self.subTest(name):
+                mesh = self.shared_mesh(name)
+                self.check_promises(self.run_json("convert", mesh, "-o", "m.exr", "--size", "65"))
+
+    def test_png_and_exr_rebuild_to_the_input_topology(self):
+        for ending in ("exr", "png"):
+            self.run_weft("convert", "builtin:torus", "-o", f"t.{ending}", "--size", "33")
+            rebuilt = self.run_json("rebuild", f"t.{ending}", "-o", "t.obj")
+            self.assertEqual(rebuilt["image"]["euler"], 0)
+            found = self.run_json("inspect", "t.obj")
+            self.assertEqual((found["input"]["genus"], found["input"]["boundaries"]), (1, 0))
+
+    def test_same_input_gives_the_same_bytes(self):
+        for name, threads in (("a.exr", 1), ("b.exr", 2)):
+            self.run_weft("convert", "builtin:sphere", "-o", name, "--size", "33", "--threads", threads)
+        self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+
+    def test_components_are_chosen_or_refused(self):
+        two = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 1 3 4\nf 5 6 7\n"
+        (self.folder / "two.obj").write_text(two)
+        line = self.error_of("convert", "two.obj", "-o", "m.exr", "--size", "9", code=3)
+        self.assertIn("2 components", line)
+        self.assertIn("--component", line)
+        chosen = self.run_json("convert", "two.obj", "-o", "m.exr", "--size", "9", "--component", "largest")
+        self.assertEqual((chosen["input"]["triangles"], chosen["input"]["components"]), (2, 2))
+        every = self.run_json("convert", "two.obj", "-o", "m.exr", "--size", "9", "--component", "all")
+        self.assertEqual([c["outputs"] for c in every["conversions"]], [["m-0.exr"], ["m-1.exr"]])
+
+
+class BadInput(ProgramTest):
+    def refuse(self, name, content, *fragments):
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        line = self.error_of("convert", name, "-o", "out.exr", code=3)
+        for fragment in (name, *fragments):
+            self.assertIn(fragment, line)
+        path.unlink()
+        self.assert_nothing_left()
+
+    def test_files_that_are_no_meshes(self):
+        self.refuse("empty.obj", "")
+        self.refuse("text.obj", "Dear reader,\nthis is not a mesh.\n")
+        self.refuse("text.off", "Dear reader,\nthis is not a mesh.\n")
+        self.refuse("text.ply", "Dear reader,\nthis is not a mesh.\n")
+        self.refuse("text.stl", "Dear reader,\nthis is not a mesh.\n")
+        self.refuse("mesh.xyz", "1 2 3\n")
+
+    def test_broken_numbers_and_indices_name_the_line(self):
+        self.refuse("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "range.obj:4")
+        self.refuse("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "nan.obj:2")
+        self.refuse("huge.off", "OFF\n3 1 0\n0 0 0\n1e300 0 0\n0 1 0\n3 0 1 2\n", "huge.off:4")
+        self.refuse("cut.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n")
+
+    def test_counts_that_lie_are_not_believed(self):
+        self.refuse("lie.stl", b"\0" * 80 + struct.pack("<I", 4_000_000_000) + b"\0" * 50)
+        self.refuse("lie.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\n"
+                    "property float x\nproperty float y\nproperty float z\n"
+                    "element face 1\nproperty list uchar int vertex_indices\nend_header\n")
+
+    def test_surfaces_that_cannot_be_images(self):
+        three_on_an_edge = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 2 1 5\n"
+        self.refuse("fan.obj", three_on_an_edge, "non-manifold", "0", "1")
+        moebius = "".join(f"v {x} {y} {z}\n" for x, y, z in
+                          ((1, 0, 0), (1, 0, 1), (-1, 1, 0), (-1, 1, 1), (-1, -1, 0), (-1, -1, 1)))
+        moebius += "f 1 3 2\nf 2 3 4\nf 3 5 4\nf 4 5 6\nf 5 2 6\nf 6 2 1\n"
+        self.refuse("moebius.obj", moebius, "orient")
+
+    def test_places_that_cannot_be_read_or_written(self):
+        self.assertIn("none.obj", self.error_of("convert", "none.obj", "-o", "m.exr", code=3))
+        self.assertIn("folder", self.error_of("convert", self.folder, "-o", "m.exr", code=3))
+        line = self.error_of("convert", "builtin:sphere", "-o", "no/such/m.exr", code=3)
+        self.assertIn("no/such/m.exr", line)
+        self.assert_nothing_left()
+
+    def test_size_too_small_for_the_cut_names_the_least(self):
+        mesh = self.shared_mesh("cgal_turbine.off")
+        line = self.error_of("convert", mesh, "-o", "m.exr", "--size", "9", code=3)
+        self.assertRegex(line, r"n = \d+|size \d+|at least \d+")
+
+    def test_usage_errors_are_one_line_with_exit_2(self):
+        self.assertIn("--sise", self.error_of("convert", "builtin:sphere", "-o", "m.exr", "--sise", "9", code=2))
+        self.error_of("convert", "builtin:sphere", code=2)
+        self.error_of("unknown", code=2)
+        self.assertIn("sphere", self.error_of("convert", "builtin:spher", "-o", "m.exr", code=2))
+        self.assertIn(".exr", self.error_of("convert", "builtin:sphere", "-o", "m.jpg", code=2))
+        self.assert_nothing_left()
+
+    def test_damaged_images_are_refused(self):
+        self.run_weft("convert", "builtin:torus", "-o", "t.exr", "--size", "17")
+        whole = (self.folder / "t.exr").read_bytes()
+        (self.folder / "cut.exr").write_bytes(whole[: len(whole) // 2])
+        self.assertIn("cut.exr", self.error_of("rebuild", "cut.exr", "-o", "t.obj", code=3))
+        self.assertFalse((self.folder / "t.obj").exists())
+
+    def test_truncated_shared_mesh(self):
+        whole = self.shared_mesh("ode_torus.obj").read_bytes()
+        (self.folder / "half.obj").write_bytes(whole[: len(whole) // 2])
+        self.error_of("convert", "half.obj", "-o", "m.exr", code=3)
+
+
+class Shapes(ProgramTest):
+    def test_every_shape_is_written_and_found_sound(self):
+        listed = [shape["name"] for shape in self.run_json("shapes")["shapes"]]
+        for name in ("sheet", "disk", "sphere", "torus", "mannequin", "tshirt"):
+            self.assertIn(name, listed)
+        for name in listed:
+            self.run_weft("shapes", name, "-o", f"{name}.ply")
+            found = self.run_json("inspect", f"{name}.ply")
+            self.assertEqual(found["nonmanifold_edges"], 0, name)
+            self.assertEqual(found["input"]["repairs"], [], name)
+
+    def test_help_of_every_command_shows_an_example(self):
+        for command in ("convert", "rebuild", "inspect", "simulate", "drape", "render", "shapes", "demo"):
+            self.assertIn("Example: weft " + command, self.run_weft(command, "--help").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,154 @@
+"""The contract of simulate, drape and render: fields, determinism, errors, files, interruption."""
+import json
+import pathlib
+import signal
+import struct
+import subprocess
+import time
+import unittest
+
+from program import PROGRAM, ProgramTest
+
+RUN_FIELDS = ["frames", "particles", "integrator", "threads", "time_step", "substeps", "ms_per_frame", "strain",
+              "residual", "contacts_max", "self_contacts_max", "intersections", "centre_of_mass", "state_hash",
+              "outputs"]
+
+
+def sheet_scene(**changes):
+    """A small sheet in the air above the ground."""
+    scene = {"version": 1, "frames": 5, "ground": None,
+             "integrator": {"type": "implicit"}, "collider": {"type": "polar_map"},
+             "cloths": [{"name": "sheet", "surface": "builtin:sheet", "size": 17, "translate": [0, 1, 0]}]}
+    scene.update(changes)
+    return scene
+
+
+class SceneTest(ProgramTest):
+    def write_scene(self, scene, name="scene.json"):
+        (self.folder / name).write_text(scene if isinstance(scene, str) else json.dumps(scene))
+        return name
+
+
+class Simulate(SceneTest):
+    def test_report_has_every_field_and_free_fall_is_exact(self):
+        report = self.run_json("simulate", self.write_scene(sheet_scene()), "-o", "run")
+        for field in RUN_FIELDS:
+            self.assertIn(field, report)
+        self.assertEqual((report["frames"], report["particles"], report["substeps"]), (5, 289, 4))
+        h = report["time_step"]
+        for frame, (_, y, _) in enumerate(report["centre_of_mass"]):
+            t = frame / 60
+            self.assertAlmostEqual(y, 1 - 9.81 * t * (t + h) / 2, delta=2e-6)
+
+    def test_every_integrator_gives_the_same_hash_on_one_and_two_threads(self):
+        hanging = sheet_scene(frames=10)
+        hanging["cloths"][0]["pins"] = [{"image": [0, 0]}, {"image": [1, 0]}]
+        hanging["cloths"][0]["material"] = {"stretch": 50, "shear": 10, "bend_springs": 0.1}
+        hanging["bodies"] = [{"name": "ball", "surface": "builtin:sphere", "size": 65, "translate": [0, 0.4, 0]}]
+        for integrator in ("implicit", "explicit", "two_level"):
+            scene = self.write_scene(dict(hanging, integrator={"type": integrator}, substeps=8))
+            hashes = {self.run_json("simulate", scene, "-o", f"run{threads}", "--threads", threads)["state_hash"]
+                      for threads in (1, 2, 3)}
+            self.assertEqual(len(hashes), 1, integrator)
+
+    def test_pc2_holds_the_frames_of_the_obj_vertices(self):
+        self.run_weft("simulate", self.write_scene(sheet_scene()), "-o", "run")
+        data = (self.folder / "run/sheet.pc2").read_bytes()
+        magic, version, points, start, rate, frames = struct.unpack("<12siiffi", data[:32])
+        self.assertEqual((magic, version, points, start, rate, frames), (b"POINTCACHE2\0", 1, 289, 0.0, 1.0, 6))
+        self.assertEqual(len(data), 32 + 12 * points * frames)
+        vertices = [line.split()[1:4] for line in (self.folder / "run/sheet.obj").read_text().splitlines()
+                    if line.startswith("v ")]
+        first = struct.unpack(f"<{3 * points}f", data[32 : 32 + 12 * points])
+        self.assertEqual(len(vertices), points)
+        for k, vertex in enumerate(vertices):
+            for axis in range(3):
+                self.assertAlmostEqual(float(vertex[axis]), first[3 * k + axis], places=6)
+
+    def test_frames_csv_has_one_line_a_frame(self):
+        self.run_weft("simulate", self.write_scene(sheet_scene()), "-o", "run")
+        lines = (self.folder / "run/frames.csv").read_text().splitlines()
+        self.assertGreaterEqual(len(lines), 6)
+        self.assertEqual(len({len(line.split(",")) for line in lines}), 1)
+
+    def test_interrupted_run_keeps_whole_frames_and_exits_130(self):
+        scene = sheet_scene(frames=100000)
+        scene["cloths"][0]["size"] = 33
+        process = subprocess.Popen([PROGRAM, "simulate", self.write_scene(scene), "-o", "run"], cwd=self.folder,
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(3)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        data = (self.folder / "run/sheet.pc2").read_bytes()
+        points, frames = struct.unpack("<12siiffi", data[:32])[2::3]
+        self.assertGreater(frames, 1)
+        self.assertEqual(len(data), 32 + 12 * points * frames)
+        self.assertEqual([p for p in (self.folder / "run").iterdir() if ".part" in p.name], [])
+
+
+class BadScenes(SceneTest):
+    def refuse(self, scene, *fragments):
+        line = self.error_of("simulate", self.write_scene(scene), "-o", "run", code=3)
+        for fragment in ("scene.json", *fragments):
+            self.assertIn(fragment, line)
+
+    def test_unknown_keys_name_their_neighbour(self):
+        self.refuse(sheet_scene(framez=3), "framez", "frames")
+        scene = sheet_scene()
+        scene["cloths"][0]["materail"] = "cotton"
+        self.refuse(scene, "materail", "material")
+
+    def test_wrong_types_and_ranges_name_the_key(self):
+        self.refuse(sheet_scene(frames="many"), "frames")
+        self.refuse(sheet_scene(substeps=0), "substeps")
+        self.refuse(sheet_scene(gravity=[0, 1]), "gravity")
+        self.refuse(sheet_scene(integrator={"type": "implicitt"}), "implicit")
+        self.refuse(sheet_scene(version=99), "version")
+
+    def test_what_is_not_json_names_the_line(self):
+        self.refuse('{ "version": 1,\n  "frames": }\n', "scene.json:2")
+        self.refuse("")
+
+    def test_missing_surfaces_are_named(self):
+        scene = sheet_scene()
+        scene["cloths"][0]["surface"] = "none.obj"
+        line = self.error_of("simulate", self.write_scene(scene), "-o", "run", code=3)
+        self.assertIn("none.obj", line)
+
+    def test_explicit_instability_names_frame_cloth_particle_and_a_step(self):
+        scene = sheet_scene(frames=60, integrator={"type": "explicit", "limiter_passes": 0}, substeps=1)
+        scene["cloths"][0].update(pins=[{"image": [0, 0]}], material={"stretch": 1e6, "strain_limit": 0})
+        line = self.error_of("simulate", self.write_scene(scene), "-o", "run", code=3)
+        for word in ("frame", "sheet", "particle", "step"):
+            self.assertIn(word, line)
+
+
+class DrapeAndRender(ProgramTest):
+    def test_drape_makes_a_scene_that_runs_again_to_the_same_hash(self):
+        draped = self.run_json("drape", "builtin:sheet", "builtin:sphere", "-o", "a", "--size", "33", "--frames", "20")
+        again = self.run_json("simulate", "a/scene.json", "-o", "b")
+        self.assertEqual(draped["state_hash"], again["state_hash"])
+        self.assertGreater(draped["contacts_max"], 0)
+
+    def test_closed_cloth_is_one_particle_a_surface_point(self):
+        draped = self.run_json("drape", "builtin:torus", "builtin:sphere", "-o", "t", "--size", "33", "--frames", "5")
+        self.assertEqual(draped["particles"], 32 * 32)
+
+    def test_run_becomes_picture_and_movie(self):
+        self.run_weft("drape", "builtin:sheet", "builtin:sphere", "-o", "a", "--size", "17", "--frames", "3")
+        self.run_weft("render", "a", "-o", "a.png", "--width", "160", "--height", "120")
+        self.assertEqual((self.folder / "a.png").read_bytes()[1:4], b"PNG")
+        self.run_weft("render", "a", "-o", "a.mp4", "--width", "160", "--height", "120")
+        probe = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames",
+                                "-of", "csv=p=0", self.folder / "a.mp4"], capture_output=True, text=True)
+        self.assertEqual(probe.stdout.strip(), "4")
+
+    def test_rendering_what_is_no_run_is_refused(self):
+        (self.folder / "empty").mkdir()
+        self.assertIn("empty", self.error_of("render", "empty", "-o", "a.png", code=3))
+        self.error_of("render", "builtin:sphere", "-o", "a.mp4", code=2)
+
+
+if __name__ == "__main__":
+    unittest.main()
