@@ -53,7 +53,7 @@ void show_image(Demo& demo) {
   write_normal_map(demo.add("mannequin-normals.png"), *conversion.normals);
   write_png(demo.add("mannequin-colours.png"), colours_of(conversion.image, 512));
   write_png(demo.add("mannequin-map.png"),
-            draw_map(conversion.mapped.cut.disk, conversion.mapped.map));
+            draw_map(conversion.mapped.cut.disk, conversion.mapped.map, {.side = 512}));
   demo.report["convert"] = conversion_json(name, conversion, {});
   say(demo.context,
       fmt::format(

@@ -22,7 +22,7 @@ def commands(path):
 
 class Documents(ProgramTest):
     def run_document(self, path, environment):
-        folder = self.folder / path.stem
+        folder = self.folder / "-".join(path.relative_to(SOURCE).with_suffix("").parts)
         folder.mkdir()
         words = subprocess.run([SOURCE / "dev"], capture_output=True, text=True).stdout
         for command in commands(path):

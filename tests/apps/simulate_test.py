@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from program import PROGRAM, ProgramTest
+from program import PROGRAM, ProgramTest, SOURCE
 
 RUN_FIELDS = ["frames", "particles", "integrator", "threads", "time_step", "substeps", "ms_per_frame", "strain",
               "residual", "contacts_max", "self_contacts_max", "intersections", "centre_of_mass", "state_hash",
@@ -148,6 +148,16 @@ class DrapeAndRender(ProgramTest):
         (self.folder / "empty").mkdir()
         self.assertIn("empty", self.error_of("render", "empty", "-o", "a.png", code=3))
         self.error_of("render", "builtin:sphere", "-o", "a.mp4", code=2)
+
+
+class Examples(ProgramTest):
+    def test_every_example_scene_runs_without_intersections(self):
+        scenes = sorted((SOURCE / "examples/scenes").glob("*.json"))
+        self.assertGreaterEqual(len(scenes), 4)
+        for scene in scenes:
+            with self.subTest(scene.name):
+                report = self.run_json("simulate", scene, "-o", scene.stem, "--frames", "8")
+                self.assertEqual((report["frames"], report["intersections"]), (8, 0))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/cloth/border_springs.h"
 #include "weft/cloth/neighbours.h"
 #include "weft/cloth/rest_shape.h"
 #include "weft/core/error.h"
@@ -78,19 +79,6 @@ void set_masses(Cloth& cloth, const RestShape& shape) {
     }
 }
 
-bool on_border(int n, int r, int c) { return r == 0 || c == 0 || r == n - 1 || c == n - 1; }
-
-/// Calls visit(row, col, other_row, other_col) for the springs of a plane that join two particles.
-template <class Visit>
-void for_each_spring(const BorderMates& mates, const SpringPlane& plane, const Visit& visit) {
-  const int n = mates.size();
-  for (int r = 0; r + plane.down < n; ++r)
-    for (int c = std::max(0, -plane.right); c + std::max(0, plane.right) < n; ++c) {
-      const int r2 = r + plane.down, c2 = c + plane.right;
-      if (mates.representative(r * n + c) != mates.representative(r2 * n + c2)) visit(r, c, r2, c2);
-    }
-}
-
 /// A spring along the border is stored on both mates; it turns the relative motion of its ends with
 /// half the strength on each, as its stiffness does.
 void set_damping(Cloth& cloth, SpringPlane& plane) {
@@ -101,42 +89,6 @@ void set_damping(Cloth& cloth, SpringPlane& plane) {
     const double share = along ? 0.5 : 1.0;
     plane.damping(r, c) = static_cast<float>(share * cloth.material.damping * a * b / (a + b));
   });
-}
-
-void collect_border_springs(Cloth& cloth, SpringDirection direction) {
-  const int n = cloth.size;
-  const bool stretch = direction == stretch_u || direction == stretch_v;
-  for_each_spring(cloth.mates, cloth.springs[direction], [&](int r, int c, int r2, int c2) {
-    if (!on_border(n, r, c) && !on_border(n, r2, c2)) return;
-    const int a = cloth.mates.representative(r * n + c);
-    const int b = cloth.mates.representative(r2 * n + c2);
-    const float rest = cloth.springs[direction].rest_length(r, c);
-    cloth.border_springs.push_back({std::min(a, b), std::max(a, b), rest, stretch});
-  });
-}
-
-/// Leaves the first of springs that join the same particles with the same rest length.
-void drop_copies(std::vector<BorderSpring>& springs) {
-  const auto key_less = [&](int i, int j) {
-    const BorderSpring &a = springs[i], &b = springs[j];
-    if (a.from != b.from) return a.from < b.from;
-    if (a.to != b.to) return a.to < b.to;
-    if (a.rest_length != b.rest_length) return a.rest_length < b.rest_length;
-    return i < j;
-  };
-  const auto same = [&](int i, int j) {
-    const BorderSpring &a = springs[i], &b = springs[j];
-    return a.from == b.from && a.to == b.to && a.rest_length == b.rest_length;
-  };
-  std::vector<int> order(springs.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  std::sort(order.begin(), order.end(), key_less);
-  order.erase(std::unique(order.begin(), order.end(), same), order.end());
-  std::sort(order.begin(), order.end());
-  std::vector<BorderSpring> kept;
-  kept.reserve(order.size());
-  for (const int i : order) kept.push_back(springs[i]);
-  springs = std::move(kept);
 }
 
 }  // namespace
@@ -156,9 +108,8 @@ Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& 
     const auto direction = static_cast<SpringDirection>(d);
     cloth.springs[d] = make_springs(shape, material, direction);
     set_damping(cloth, cloth.springs[d]);
-    if (d < bend_u) collect_border_springs(cloth, direction);
   }
-  drop_copies(cloth.border_springs);
+  cloth.border_springs = find_border_springs(cloth);
   cloth.rest_spacing = shape.mean_spacing;
   return cloth;
 }

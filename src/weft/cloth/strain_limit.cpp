@@ -13,15 +13,10 @@
 namespace weft {
 namespace {
 
-struct Limits {
-  float shortest = 1, longest = 1;  ///< of the rest length
-  float inverse_step = 0;           ///< [1/s]
-};
-
 /// How far the first end of a spring moves along (dx, dy, dz) per unit of its inverse mass.
-inline float correction(float squared, float rest, float inverse_masses, const Limits& limits) {
+inline float correction(float squared, float rest, float inverse_masses, const StrainBounds& bounds) {
   const float length = std::sqrt(squared);
-  const float low = rest * limits.shortest, high = rest * limits.longest;
+  const float low = rest * bounds.shortest, high = rest * bounds.longest;
   const float wanted = length > high ? high : (length < low ? low : length);
   const float shift = (length - wanted) / (length * inverse_masses);
   return squared > 0 && inverse_masses > 0 ? shift : 0.0F;
@@ -44,10 +39,10 @@ JoinedRows join(const Cloth& cloth, const SpringPlane& springs, ClothState& stat
           springs.right < 0 ? 2 : 1,    springs.right > 0 ? cloth.size - 2 : cloth.size - 1};
 }
 
-/// Limits every Step-th spring of a run from column `first` on: none shares a particle with
+/// StrainBounds every Step-th spring of a run from column `first` on: none shares a particle with
 /// another.
 template <int Step>
-void limit_run(const JoinedRows& rows, int first, const Limits& limits) {
+void limit_run(const JoinedRows& rows, int first, const StrainBounds& bounds) {
   const int shift = rows.shift;
 #pragma omp simd
   for (int c = first; c < rows.last; c += Step) {
@@ -56,9 +51,9 @@ void limit_run(const JoinedRows& rows, int first, const Limits& limits) {
     const float dy = rows.there.y[d] - rows.here.y[c];
     const float dz = rows.there.z[d] - rows.here.z[c];
     const float wi = rows.here_inverse_mass[c], wj = rows.there_inverse_mass[d];
-    const float s = correction(dx * dx + dy * dy + dz * dz, rows.rest[c], wi + wj, limits);
+    const float s = correction(dx * dx + dy * dy + dz * dz, rows.rest[c], wi + wj, bounds);
     const float si = s * wi, sj = s * wj;
-    const float vi = si * limits.inverse_step, vj = sj * limits.inverse_step;
+    const float vi = si * bounds.inverse_step, vj = sj * bounds.inverse_step;
     rows.here.x[c] += si * dx;
     rows.here.y[c] += si * dy;
     rows.here.z[c] += si * dz;
@@ -76,7 +71,7 @@ void limit_run(const JoinedRows& rows, int first, const Limits& limits) {
 
 /// One colour of the springs between interior samples: along rows by column parity, else by row
 /// parity.
-void limit_colour(const Cloth& cloth, SpringDirection direction, int parity, const Limits& limits,
+void limit_colour(const Cloth& cloth, SpringDirection direction, int parity, const StrainBounds& bounds,
                   ClothState& state, Worker& worker) {
   const SpringPlane& springs = cloth.springs[direction];
   const int interior = cloth.size - 2 - springs.down;
@@ -85,48 +80,49 @@ void limit_colour(const Cloth& cloth, SpringDirection direction, int parity, con
   for (int i = mine.first; i < mine.last; ++i) {
     const JoinedRows rows = join(cloth, springs, state, 1 + (by_column ? i : 2 * i + parity));
     if (by_column)
-      limit_run<2>(rows, rows.first + parity, limits);
+      limit_run<2>(rows, rows.first + parity, bounds);
     else
-      limit_run<1>(rows, rows.first, limits);
+      limit_run<1>(rows, rows.first, bounds);
   }
 }
 
-void limit_border(const Cloth& cloth, const Limits& limits, ClothState& state) {
+void limit_border(const Cloth& cloth, const StrainBounds& bounds, ClothState& state) {
   const int n = cloth.size;
   for (const BorderSpring& spring : cloth.border_springs) {
     const Vec3f xi = state.position.at(spring.from), xj = state.position.at(spring.to);
     const float wi = cloth.inverse_mass(spring.from / n, spring.from % n);
     const float wj = cloth.inverse_mass(spring.to / n, spring.to % n);
     const Vec3f d = xj - xi;
-    const float s = correction(dot(d, d), spring.rest_length, wi + wj, limits);
+    const float s = correction(dot(d, d), spring.rest_length, wi + wj, bounds);
     if (s == 0) continue;
     const Vec3f vi = state.velocity.at(spring.from), vj = state.velocity.at(spring.to);
     state.position.set(spring.from, xi + s * wi * d);
     state.position.set(spring.to, xj - s * wj * d);
-    state.velocity.set(spring.from, vi + s * wi * limits.inverse_step * d);
-    state.velocity.set(spring.to, vj - s * wj * limits.inverse_step * d);
+    state.velocity.set(spring.from, vi + s * wi * bounds.inverse_step * d);
+    state.velocity.set(spring.to, vj - s * wj * bounds.inverse_step * d);
   }
 }
 
-void limit_once(const Cloth& cloth, const Limits& limits, ClothState& state, Worker& worker) {
+}  // namespace
+
+void limit_pass(const Cloth& cloth, const StrainBounds& bounds, ClothState& state,
+                Worker& worker) noexcept {
   for (const SpringDirection direction : {stretch_u, stretch_v, shear_1, shear_2})
     for (const int parity : {0, 1}) {
-      limit_colour(cloth, direction, parity, limits, state, worker);
+      limit_colour(cloth, direction, parity, bounds, state, worker);
       worker.barrier();
     }
-  if (worker.rank() == 0) limit_border(cloth, limits, state);
+  if (worker.rank() == 0) limit_border(cloth, bounds, state);
   worker.barrier();
 }
-
-}  // namespace
 
 void limit_strain(const Cloth& cloth, const LimitOptions& options, double time_step,
                   ClothState& state, ThreadTeam& team) noexcept {
   if (cloth.material.strain_limit <= 0 || options.passes <= 0) return;
   const auto elongation = static_cast<float>(cloth.material.strain_limit);
-  const Limits limits{1 - elongation, 1 + elongation, static_cast<float>(1 / time_step)};
+  const StrainBounds bounds{1 - elongation, 1 + elongation, static_cast<float>(1 / time_step)};
   team.run([&](Worker& worker) {
-    for (int pass = 0; pass < options.passes; ++pass) limit_once(cloth, limits, state, worker);
+    for (int pass = 0; pass < options.passes; ++pass) limit_pass(cloth, bounds, state, worker);
     copy_to_mates(cloth.mates, worker,
                   {&state.position.x, &state.position.y, &state.position.z, &state.velocity.x,
                    &state.velocity.y, &state.velocity.z});

@@ -15,4 +15,14 @@ struct LimitOptions {
 void limit_strain(const Cloth& cloth, const LimitOptions& options, double time_step,
                   ClothState& state, ThreadTeam& team) noexcept;
 
+/// How long springs may be, in rest lengths.
+struct StrainBounds {
+  float shortest = 1, longest = 1;
+  float inverse_step = 0;  ///< velocities change by the corrections times this [1/s]
+};
+/// One pass over the stretch and shear springs, to be called by every worker. Ends with a barrier;
+/// mates are left behind their representatives.
+void limit_pass(const Cloth& cloth, const StrainBounds& bounds, ClothState& state,
+                Worker& worker) noexcept;
+
 }  // namespace weft

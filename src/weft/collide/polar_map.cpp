@@ -10,6 +10,10 @@ namespace {
 /// Deepest push of the walking method, in sides of the body's cube: what lies deeper did not get
 /// there in a step.
 constexpr double deepest_push = 0.1;
+/// An open surface has no inside: what lies behind it this far (in sides), besides what the
+/// particle moved in the step, counts as pressed through it. Particles farther behind hang there
+/// rightly.
+constexpr double open_depth = 0.02;
 /// Closer than this (in sides) the direction to the closest point is rounding, so the surface's
 /// normal serves.
 constexpr double touching = 1e-5;
@@ -120,7 +124,7 @@ std::optional<SurfacePoint> PolarMap::contact(Vec3d point, Vec3d start,
       walk_ ? walked(point, hits) : printed(offset, radius, hits);
   if (!found || found->gap >= reach) return std::nullopt;
   const double deepest =
-      surface_.closed() ? deepest_push * side_ : length(point - start) + 2 * reach;
+      surface_.closed() ? deepest_push * side_ : length(point - start) + open_depth * side_;
   if ((walk_ || !surface_.closed()) && found->gap < -deepest) return std::nullopt;
   return found;
 }

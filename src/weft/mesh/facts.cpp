@@ -1,7 +1,10 @@
 #include "weft/mesh/facts.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
+#include <span>
 
 namespace weft {
 namespace {
@@ -67,16 +70,18 @@ void examine_edges(const std::vector<Side>& sides, MeshFacts& facts) {
     while (last < sides.size() && sides[last].a == sides[first].a &&
            sides[last].b == sides[first].b)
       ++last;
-    const std::size_t count = last - first;
+    const std::span edge_sides = std::span(sides).subspan(first, last - first);
+    const std::size_t count = edge_sides.size();
+    const Side& one = edge_sides.front();
     if (count == 1) ++facts.border_edges;
     if (count > 2) {
       ++facts.nonmanifold_edges;
-      facts.nonmanifold_edge_list.push_back({sides[first].a, sides[first].b});
+      facts.nonmanifold_edge_list.push_back({one.a, one.b});
     }
-    const bool agree = count != 2 || sides[first].forward != sides[first + 1].forward;
+    const bool agree = count != 2 || one.forward != edge_sides.back().forward;
     if (!agree) ++facts.inconsistent_edges;
-    for (std::size_t k = first + 1; k < last; ++k)
-      if (!sets.join(sides[first].triangle, sides[k].triangle, agree ? 0 : 1) && count == 2)
+    for (const Side& other : edge_sides.subspan(1))
+      if (!sets.join(one.triangle, other.triangle, agree ? 0 : 1) && count == 2)
         facts.orientable = false;
   }
   facts.components = sets.count();

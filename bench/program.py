@@ -1,0 +1,29 @@
+"""Runs the release build for the benchmarks; writes tables into documents."""
+import json
+import pathlib
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = ROOT / "build/release/bin/weft"
+
+
+def run(*words):
+    """(report, None), or (None, the error in one line)."""
+    done = subprocess.run([PROGRAM, *map(str, words), "--json", "--quiet"], capture_output=True, text=True)
+    if done.returncode != 0:
+        return None, f"exit {done.returncode}: {done.stderr.strip().removeprefix('weft: error: ')}"
+    return json.loads(done.stdout), None
+
+
+def table(columns, rows):
+    """A Markdown table."""
+    lines = ["| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"]
+    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows]) + "\n"
+
+
+def write_between_marks(document, name, text):
+    """Replaces what stands between <!-- NAME --> and <!-- /NAME --> of a document."""
+    path = ROOT / document
+    before, rest = path.read_text().split(f"<!-- {name} -->\n", 1)
+    after = rest.split(f"<!-- /{name} -->", 1)[1]
+    path.write_text(f"{before}<!-- {name} -->\n{text}<!-- /{name} -->{after}")
