@@ -1,20 +1,40 @@
 #include "apps/weft/context.h"
 
+#include <system_error>
+
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "weft/core/error.h"
+
 namespace weft::app {
+namespace {
+
+void put(const std::string& text) {
+  try {
+    fmt::print("{}\n", text);
+  } catch (const std::system_error& error) {
+    throw OutputError("stdout", "cannot be written: " + error.code().message(), "");
+  }
+}
+
+}  // namespace
 
 void say(const Context& context, const std::string& line) {
-  if (!context.json && !context.quiet) fmt::print("{}\n", line);
+  if (!context.json && !context.quiet) put(line);
 }
 
 void note(const Context& context, const std::string& line) {
   if (!context.quiet) fmt::print(stderr, "weft: note: {}\n", line);
 }
 
+std::string text_of(const nlohmann::ordered_json& report) {
+  // A path may hold any bytes, JSON only UTF-8.
+  return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 void print_report(const Context& context, const nlohmann::ordered_json& report) {
-  if (context.json) fmt::print("{}\n", report.dump(2));
+  if (context.json) put(text_of(report));
 }
 
 }  // namespace weft::app

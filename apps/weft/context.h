@@ -21,6 +21,9 @@ void say(const Context& context, const std::string& line);
 /// A remark that is worth reading even with --json: on stderr; nothing with --quiet.
 void note(const Context& context, const std::string& line);
 
+/// JSON as text; bytes of paths that are not UTF-8 become U+FFFD.
+std::string text_of(const nlohmann::ordered_json& report);
+
 /// The command's one JSON object on stdout, with --json only.
 void print_report(const Context& context, const nlohmann::ordered_json& report);
 

@@ -1,6 +1,7 @@
 #include "weft/image/convert.h"
 
 #include <chrono>
+#include <climits>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -39,6 +40,7 @@ ConvertOptions options_of(const ConvertWords& words, const Context& context, Pro
   options.seed_triangle = words.seed_triangle;
   options.normal_map_size = words.normal_map;
   options.threads = context.threads;
+  options.seed = context.seed;
   options.progress = &progress;
   return options;
 }
@@ -130,13 +132,13 @@ void add_convert(CLI::App& program, const Context& context) {
   command
       ->add_option("--normal-map", words->normal_map,
                    "Write a normal map of this size beside the image")
-      ->check(CLI::Range(2, largest_image_size));
+      ->check(CLI::Range(least_image_size, largest_image_size));
   command->add_option("--component", words->component,
                       "Of several: a number (largest is 0), largest, or all");
   command
       ->add_option("--seed-triangle", words->seed_triangle,
                    "Where the cut begins; chosen when not given")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, INT_MAX));
   command->footer("Example: weft convert bunny.obj -o bunny.exr --size 257 --normal-map 512");
   command->callback([words, &context] { convert(*words, context); });
 }

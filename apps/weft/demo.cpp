@@ -32,10 +32,12 @@ struct Demo {
   Demo(fs::path where, const Context& with)
       : folder(std::move(where)), context(with), progress(with.quiet || with.json) {}
 
-  fs::path add(const fs::path& name) {
+  /// Has a file written and tells of it.
+  template <class Write>
+  void add(const fs::path& name, const Write& write) {
+    write(folder / name);
     outputs.push_back(folder / name);
     say(context, "wrote   " + outputs.back().string());
-    return outputs.back();
   }
 };
 
@@ -46,14 +48,18 @@ void show_image(Demo& demo) {
   ConvertOptions options;
   options.normal_map_size = 512;
   options.threads = demo.context.threads;
+  options.seed = demo.context.seed;
   options.progress = &demo.progress;
   const Conversion conversion = convert_mesh(load_mesh(name), name, options);
   for (const char* file : {"mannequin.exr", "mannequin.png"})
-    write_image(demo.add(file), conversion.image);
-  write_normal_map(demo.add("mannequin-normals.png"), *conversion.normals);
-  write_png(demo.add("mannequin-colours.png"), colours_of(conversion.image, 512));
-  write_png(demo.add("mannequin-map.png"),
-            draw_map(conversion.mapped.cut.disk, conversion.mapped.map, {.side = 512}));
+    demo.add(file, [&](const fs::path& path) { write_image(path, conversion.image); });
+  demo.add("mannequin-normals.png",
+           [&](const fs::path& path) { write_normal_map(path, *conversion.normals); });
+  demo.add("mannequin-colours.png",
+           [&](const fs::path& path) { write_png(path, colours_of(conversion.image, 512)); });
+  demo.add("mannequin-map.png", [&](const fs::path& path) {
+    write_png(path, draw_map(conversion.mapped.cut.disk, conversion.mapped.map, {.side = 512}));
+  });
   demo.report["convert"] = conversion_json(name, conversion, {});
   say(demo.context,
       fmt::format(
@@ -66,7 +72,7 @@ void show_image(Demo& demo) {
 void show_drape(Demo& demo, const std::string& name, const std::string& cloth,
                 const DrawingOptions& view) {
   const fs::path run_folder = demo.folder / name;
-  fs::create_directories(run_folder);
+  make_folder(run_folder);
   const Scene scene = make_drape_scene(cloth, "builtin:mannequin", {});
   write_scene(run_folder / "scene.json", scene);
   RunOptions options;
@@ -75,10 +81,13 @@ void show_drape(Demo& demo, const std::string& name, const std::string& cloth,
   options.progress = &demo.progress;
   const RunReport run = run_scene(scene, (run_folder / "scene.json").string(), options);
   demo.report[name] = Json::parse(to_json(run));
-  for (const fs::path& path : run.outputs) demo.add(fs::relative(path, demo.folder));
+  for (const fs::path& path : run.outputs)
+    demo.add(path.lexically_relative(demo.folder), [](const fs::path&) {});
   const RunFolder recorded = open_run_folder(run_folder);
-  write_png(demo.add(name + ".png"), draw_run(recorded, -1, view));
-  film_run(recorded, demo.add(name + ".mp4"), view, &demo.progress);
+  demo.add(name + ".png",
+           [&](const fs::path& path) { write_png(path, draw_run(recorded, -1, view)); });
+  demo.add(name + ".mp4",
+           [&](const fs::path& path) { film_run(recorded, path, view, &demo.progress); });
   say(demo.context,
       fmt::format(
           "cloth   {}: {} particles, {} frames, strain p99 {:.2f} %, {} intersections at the end",
@@ -87,17 +96,18 @@ void show_drape(Demo& demo, const std::string& name, const std::string& cloth,
 
 void run_demo(const fs::path& folder, const Context& context) {
   const auto start = std::chrono::steady_clock::now();
-  fs::create_directories(folder);
+  make_folder(folder);
   Demo demo(folder, context);
   show_image(demo);
   show_drape(demo, "sheet", "builtin:sheet", {960, 720, 0.45, 0.2});
   show_drape(demo, "tshirt", "builtin:tshirt", {960, 720, 0.45, 0.1});
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   demo.report["seconds"] = seconds.count();
-  demo.add("report.json");
   demo.report["outputs"] = paths_json(demo.outputs);
-  write_file(folder / "report.json",
-             [&](std::ostream& out) { out << demo.report.dump(2) << "\n"; });
+  demo.report["outputs"].push_back((folder / "report.json").string());
+  demo.add("report.json", [&](const fs::path& path) {
+    write_file(path, [&](std::ostream& out) { out << text_of(demo.report) << "\n"; });
+  });
   say(context, fmt::format("done    in {:.0f} s; look at {}", seconds.count(),
                            (folder / "sheet.png").string()));
   print_report(context, demo.report);

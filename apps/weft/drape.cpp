@@ -7,6 +7,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/run_words.h"
+#include "weft/core/files.h"
 #include "weft/image/geometry_image.h"
 #include "weft/sim/scene_file.h"
 
@@ -22,10 +23,12 @@ struct DrapeWords {
 void drape(const DrapeWords& words, const Context& context) {
   Scene scene = make_drape_scene(words.cloth, words.body, words.options);
   apply_run_words(words.run, scene);
-  std::filesystem::create_directories(words.run.folder);
+  make_folder(words.run.folder);
   const auto path = std::filesystem::path(words.run.folder) / "scene.json";
   write_scene(path, scene);
-  run_and_report(scene, path.string(), words.run, context);
+  RunWords run = words.run;
+  run.made.push_back(path);
+  run_and_report(scene, path.string(), run, context);
 }
 
 }  // namespace

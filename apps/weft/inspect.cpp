@@ -7,6 +7,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/reports.h"
+#include "apps/weft/terminal_progress.h"
 #include "weft/core/error.h"
 #include "weft/image/io/image_file.h"
 #include "weft/mesh/facts.h"
@@ -87,7 +88,9 @@ void inspect_mesh(const InspectWords& words, const Context& context) {
 
 void add_distances(const InspectWords& words, const Context& context, const GeometryImage& image,
                    Json& found) {
-  const ImageQuality quality = measure_image(image, load_mesh(words.against), context.threads);
+  TerminalProgress progress(context.quiet || context.json);
+  const ImageQuality quality =
+      measure_image(image, load_mesh(words.against), {context.threads, context.seed, &progress});
   found["psnr_db"] = quality.psnr_db;
   found["hausdorff_percent"] = quality.hausdorff_percent;
   say(context, fmt::format("against {}: PSNR {:.1f} dB, Hausdorff {:.2f} %", words.against,

@@ -1,7 +1,9 @@
+#include <cstdio>
+#include <string>
 #include <thread>
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "apps/weft/commands.h"
 #include "apps/weft/terminal_progress.h"
@@ -22,17 +24,46 @@ void add_globals(CLI::App& program, Context& context) {
   program.add_option("--threads", context.threads, "Threads; results do not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  program.add_option("--seed", context.seed, "Of anything random")->capture_default_str();
+  program
+      .add_option("--seed", context.seed,
+                  "Of anything random: the samples that distances are measured by")
+      ->check([](const std::string& word) {
+        return word.starts_with('-') ? "a number from 0 is wanted" : std::string();
+      })
+      ->capture_default_str();
   program.set_version_flag("--version", "weft " WEFT_VERSION);
   program.fallthrough();
 }
 
 // CLI11 words its errors over several lines; users get one.
-std::string one_line(const CLI::ParseError& error) {
-  std::string text = error.what();
+std::string one_line(std::string text) {
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';
   return text + "; see weft --help";
+}
+
+std::string command_names(const CLI::App& program) {
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands({}))
+    names.append(names.empty() ? "" : ", ").append(command->get_name());
+  return names;
+}
+
+// What a user did wrong. Without a command, the word that stands in its place is told.
+std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
+  if (!program.get_subcommands().empty()) return one_line(error.what());
+  for (const std::string& word : program.remaining())
+    if (!word.starts_with('-'))
+      return fmt::format("'{}' is no command; one of {} is wanted", word, command_names(program));
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+    return fmt::format("no command; one of {} is wanted", command_names(program));
+  return one_line(error.what());
+}
+
+// What was printed must have arrived.
+int finish() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return static_cast<int>(ExitCode::done);
+  return fail(ExitCode::input, "stdout: cannot be written whole");
 }
 
 int run(int argc, char** argv) {
@@ -55,9 +86,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked_for_help) {
     return program.exit(asked_for_help);
   } catch (const CLI::ParseError& error) {
-    return fail(ExitCode::usage, one_line(error));
+    return fail(ExitCode::usage, complaint(program, error));
   }
-  return static_cast<int>(ExitCode::done);
+  return finish();
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <climits>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -81,7 +82,7 @@ void add_render(CLI::App& program, const Context& context) {
   command->add_option("-o,--output", words->output, "PICTURE.png, or MOVIE.mp4 or .gif of a run")
       ->required();
   command->add_option("--frame", words->frame, "Of a run; the last when not given")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, INT_MAX));
   command->add_option("--width", words->width, "Pixels")
       ->check(CLI::Range(16, 8192))
       ->capture_default_str();

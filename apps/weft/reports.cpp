@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "weft/core/error.h"
@@ -94,9 +93,13 @@ std::string ending_of(const std::filesystem::path& path) {
 
 void check_output(const std::filesystem::path& path,
                   std::initializer_list<std::string_view> endings) {
-  if (std::find(endings.begin(), endings.end(), ending_of(path)) == endings.end())
+  if (std::find(endings.begin(), endings.end(), ending_of(path)) == endings.end()) {
+    std::string wanted;
+    for (const std::string_view ending : endings)
+      wanted.append(wanted.empty() ? "" : " or ").append(ending);
     throw UsageError(path.string(), "has no ending that can be written here",
-                     fmt::format("{} is wanted", fmt::join(endings, " or ")));
+                     wanted + " is wanted");
+  }
   const NewFile probe(path);
 }
 

@@ -1,6 +1,7 @@
 #include "apps/weft/run_words.h"
 
 #include <algorithm>
+#include <climits>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -54,7 +55,7 @@ void add_run_options(CLI::App& command, RunWords& words) {
   command.add_option("-o,--output", words.folder, "Folder for everything that is written")
       ->required();
   command.add_option("--frames", words.frames, "Frames to run instead of the scene's")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, INT_MAX));
   command
       .add_option("--integrator", words.integrator, "Instead of the scene's, with default options")
       ->check(CLI::IsMember({"implicit", "explicit", "two_level"}));
@@ -85,6 +86,7 @@ void run_and_report(Scene scene, const std::string& name, const RunWords& words,
     TerminalProgress progress(context.quiet || context.json);
     report = run_scene(scene, name, options_of(words, context, progress));
   }
+  report.outputs.insert(report.outputs.begin(), words.made.begin(), words.made.end());
   print_summary(context, report);
   print_report(context, nlohmann::ordered_json::parse(to_json(report)));
   if (words.verify && report.intersections > 0)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct RunWords {
   int frames = 0;  ///< 0: as the scene says
   std::vector<std::string> exports{"obj", "pc2"};
   bool unwelded = false, verify = false;
+  std::vector<std::filesystem::path> made;  ///< what was written before the run, reported with it
 };
 void add_run_options(CLI::App& command, RunWords& words);
 

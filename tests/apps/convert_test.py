@@ -2,11 +2,14 @@
 import json
 import os
 import pathlib
+import resource
 import shutil
+import signal
 import struct
+import subprocess
 import unittest
 
-from program import ProgramTest, SHARED
+from program import PROGRAM, ProgramTest, SHARED
 
 INPUT_FIELDS = ["path", "vertices", "triangles", "components", "boundaries", "genus", "euler", "repairs"]
 TOP_FIELDS = {
@@ -67,6 +70,12 @@ class Convert(ProgramTest):
         for name, threads in (("a.exr", 1), ("b.exr", 2)):
             self.run_weft("convert", "builtin:sphere", "-o", name, "--size", "33", "--threads", threads)
         self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+
+    def test_seed_moves_the_measuring_samples_only(self):
+        reports = [self.run_json("convert", "builtin:sphere", "-o", f"{seed}.exr", "--size", "33", "--seed", seed)
+                   for seed in (1, 2)]
+        self.assertNotEqual(reports[0]["image"]["psnr_db"], reports[1]["image"]["psnr_db"])
+        self.assertEqual((self.folder / "1.exr").read_bytes(), (self.folder / "2.exr").read_bytes())
 
     def test_components_are_chosen_or_refused(self):
         two = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 1 3 4\nf 5 6 7\n"
@@ -137,6 +146,42 @@ class BadInput(ProgramTest):
         self.assertIn("sphere", self.error_of("convert", "builtin:spher", "-o", "m.exr", code=2))
         self.assertIn(".exr", self.error_of("convert", "builtin:sphere", "-o", "m.jpg", code=2))
         self.assert_nothing_left()
+
+    def test_a_missing_or_unknown_command_is_named(self):
+        self.assertIn("'draw'", self.error_of("draw", "me", code=2))
+        self.assertIn("convert, rebuild", self.error_of(code=2))
+        self.error_of("shapes", "--seed", "-1", code=2)
+        line = self.error_of("convert", "builtin:sphere", "-o", "m.exr", "--seed-triangle", "-1", code=2)
+        self.assertLess(len(line), 120)
+
+    def test_options_of_later_versions_are_usage_errors(self):
+        for words in (["--cut", "a"], ["--keep-uv"], ["--unit", "m"], ["--up", "y"], ["--size", "auto"]):
+            self.error_of("convert", "builtin:sphere", "-o", "m.exr", *words, code=2)
+        self.error_of("table5", code=2)
+        self.assert_nothing_left()
+
+    def test_surfaces_without_area(self):
+        self.refuse("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "area")
+        self.refuse("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "area")
+
+    def test_a_full_disk_leaves_what_was_there(self):
+        def small_files():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+
+        for name in ("m.exr", "m.png", "m.obj"):
+            (self.folder / name).write_text("precious")
+            words = ["shapes", "sphere"] if name == "m.obj" else ["convert", "builtin:sphere", "--size", "65"]
+            done = self.run_weft(*words, "-o", name, code=3, preexec_fn=small_files)
+            self.assertIn(name, done.stderr)
+            self.assertEqual((self.folder / name).read_text(), "precious")
+        self.assertEqual(len(list(self.folder.iterdir())), 3)
+
+    def test_a_full_standard_output_is_an_error(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([PROGRAM, "shapes"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("stdout", done.stderr)
 
     def test_damaged_images_are_refused(self):
         self.run_weft("convert", "builtin:torus", "-o", "t.exr", "--size", "17")

@@ -1,6 +1,7 @@
 """The contract of simulate, drape and render: fields, determinism, errors, files, interruption."""
 import json
 import pathlib
+import resource
 import signal
 import struct
 import subprocess
@@ -116,6 +117,30 @@ class BadScenes(SceneTest):
         line = self.error_of("simulate", self.write_scene(scene), "-o", "run", code=3)
         self.assertIn("none.obj", line)
 
+    def test_builtin_shapes_that_do_not_exist_are_the_scenes_fault(self):
+        scene = sheet_scene()
+        scene["cloths"][0]["surface"] = "builtin:shet"
+        self.refuse(scene, "sheet", "builtin:shet")
+
+    def test_names_whose_files_would_meet_are_refused(self):
+        ball = {"name": "ball", "surface": "builtin:sphere", "size": 17}
+        scene = sheet_scene(bodies=[ball])
+        scene["cloths"][0]["name"] = "ball.normals"
+        self.refuse(scene, "ball.normals")
+        for name in ("ball", "../ball", "a/b", "..", ""):
+            scene["cloths"][0]["name"] = name
+            self.refuse(scene, "name")
+
+    def test_numbers_beyond_doubles_are_refused(self):
+        self.refuse('{"frame_rate": 1e999}', "number")
+
+    def test_folders_that_cannot_be_made(self):
+        (self.folder / "file").write_text("")
+        scene = self.write_scene(sheet_scene())
+        for words in (["simulate", scene], ["drape", "builtin:sheet", "builtin:sphere"], ["demo"]):
+            for folder in ("file", "file/below"):
+                self.assertIn(folder, self.error_of(*words, "-o", folder, code=3))
+
     def test_explicit_instability_names_frame_cloth_particle_and_a_step(self):
         scene = sheet_scene(frames=60, integrator={"type": "explicit", "limiter_passes": 0}, substeps=1)
         scene["cloths"][0].update(pins=[{"image": [0, 0]}], material={"stretch": 1e6, "strain_limit": 0})
@@ -127,6 +152,7 @@ class BadScenes(SceneTest):
 class DrapeAndRender(ProgramTest):
     def test_drape_makes_a_scene_that_runs_again_to_the_same_hash(self):
         draped = self.run_json("drape", "builtin:sheet", "builtin:sphere", "-o", "a", "--size", "33", "--frames", "20")
+        self.assertIn("a/scene.json", draped["outputs"])
         again = self.run_json("simulate", "a/scene.json", "-o", "b")
         self.assertEqual(draped["state_hash"], again["state_hash"])
         self.assertGreater(draped["contacts_max"], 0)
@@ -143,6 +169,17 @@ class DrapeAndRender(ProgramTest):
         probe = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames",
                                 "-of", "csv=p=0", self.folder / "a.mp4"], capture_output=True, text=True)
         self.assertEqual(probe.stdout.strip(), "4")
+
+    def test_a_movie_that_does_not_fit_is_refused(self):
+        def small_files():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+
+        self.run_weft("drape", "builtin:sheet", "builtin:sphere", "-o", "a", "--size", "17", "--frames", "3")
+        for ending in ("mp4", "gif", "png"):
+            done = self.run_weft("render", "a", "-o", f"a.{ending}", code=3, preexec_fn=small_files)
+            self.assertIn(f"a.{ending}", done.stderr)
+            self.assertFalse((self.folder / f"a.{ending}").exists())
 
     def test_rendering_what_is_no_run_is_refused(self):
         (self.folder / "empty").mkdir()

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
+#include "tests/support/errors.h"
 #include "weft/cloth/measure.h"
 #include "weft/core/error.h"
 
@@ -13,13 +14,8 @@ namespace {
 
 using namespace testing;
 
-std::string message_of(const Planes3& rest, const Material& material) {
-  try {
-    make_cloth(rest, no_mates(rest.size()), material);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "";
+std::string refusal(const Planes3& rest, const Material& material) {
+  return test::message_of<SceneError>([&] { make_cloth(rest, no_mates(rest.size()), material); });
 }
 
 TEST(Cloth, UniformGridHasTheStiffnessOfTheFabric) {
@@ -106,19 +102,19 @@ TEST(Cloth, TinyCellsKeepTheirFloors) {
 }
 
 TEST(Cloth, ShapeWithoutAreaIsRefused) {
-  EXPECT_NE(message_of(Planes3(9), {}).find("carry no mass"), std::string::npos);
+  EXPECT_NE(refusal(Planes3(9), {}).find("carry no mass"), std::string::npos);
 }
 
 TEST(Cloth, PositionThatIsNotFiniteIsNamed) {
   Planes3 rest = flat_sheet(9);
   rest.x(3, 4) = NAN;
-  EXPECT_NE(message_of(rest, {}).find("row 3, col 4"), std::string::npos);
+  EXPECT_NE(refusal(rest, {}).find("row 3, col 4"), std::string::npos);
 }
 
 TEST(Cloth, MaterialOutOfRangeNamesItsKey) {
-  EXPECT_NE(message_of(flat_sheet(5), {.density = 0}).find("material.density"), std::string::npos);
-  EXPECT_NE(message_of(flat_sheet(5), {.stretch = -1}).find("material.stretch"), std::string::npos);
-  EXPECT_NE(message_of(flat_sheet(5), {.strain_limit = 1}).find("material.strain_limit"),
+  EXPECT_NE(refusal(flat_sheet(5), {.density = 0}).find("material.density"), std::string::npos);
+  EXPECT_NE(refusal(flat_sheet(5), {.stretch = -1}).find("material.stretch"), std::string::npos);
+  EXPECT_NE(refusal(flat_sheet(5), {.strain_limit = 1}).find("material.strain_limit"),
             std::string::npos);
 }
 

@@ -301,6 +301,89 @@ TEST(Stepping, ImplicitReachesTheSameStepWithMatesThatDoNotHalve) {
   EXPECT_NEAR(height_after(BorderMates(n, {{15, 17, 1}})), whole, 0.01 * std::abs(whole));
 }
 
+TEST(Stepping, ImplicitSolvesWithManyContactsWellBelowItsCap) {
+  // A sheet pressed onto a floor: the coarse levels must know of the contacts, or they push whole
+  // patches through it.
+  const int n = 65;
+  const Cloth cloth = sheet_cloth(n);
+  ThreadTeam team(1);
+  const StepInput input;
+  const auto integrator = make_integrator(ImplicitOptions{}, cloth, input, team);
+  ClothState state = rest_state(cloth, {0, -1, 0});
+  shake(cloth, 0.001, state.position);
+  std::vector<Contact> contacts;
+  for (int s = 0; s < n * n / 2; ++s) contacts.push_back({s, {0, 1, 0}, 0, 0, {}});
+  integrator->begin(input, state);
+  const int free = (integrator->iterate({}), integrator->end(state).iterations);
+  state = rest_state(cloth, {0, -1, 0});
+  shake(cloth, 0.001, state.position);
+  integrator->begin(input, state);
+  integrator->iterate({});
+  integrator->iterate(contacts);
+  const StepReport report = integrator->end(state);
+  EXPECT_LT(report.iterations - free, 60);
+  EXPECT_LT(report.residual, 1e-4);
+}
+
+TEST(Stepping, AngularMomentumErrorFallsWithTheStep) {
+  // A torus that turns about its axis and breathes; linearised implicit Euler loses some turn.
+  const auto lost = [](double step) {
+    const Cloth cloth = torus_cloth(17, {.stretch = 50, .shear = 20, .damping = 0});
+    ThreadTeam team(1);
+    const StepInput input{step, {}};
+    const auto integrator = make_integrator(ImplicitOptions{.tolerance = 1e-7}, cloth, input, team);
+    ClothState state = rest_state(cloth);
+    for (int s = 0; s < 17 * 17; ++s)
+      state.velocity.set(s, cross(Vec3f{0, 3, 0}, state.position.at(s)));
+    const double before = angular_momentum(cloth, state).y;
+    run(*integrator, input, static_cast<int>(0.2 / step + 0.5), state);
+    return 1 - angular_momentum(cloth, state).y / before;
+  };
+  const double coarse = lost(1.0 / 120), fine = lost(1.0 / 480);
+  EXPECT_GT(coarse, 0);
+  EXPECT_LT(coarse, 0.05);
+  EXPECT_LT(fine, 0.35 * coarse);  // first order: a quarter
+}
+
+TEST(Stepping, HangingSheetIsTheSameAtEveryResolution) {
+  const auto tip_after = [](int n) {
+    Cloth cloth = sheet_cloth(n);
+    pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
+    pin(cloth, n - 1, vec_cast<double>(cloth.rest.at(n - 1)));
+    ThreadTeam team(1);
+    const StepInput input;
+    const auto integrator = make_integrator(ImplicitOptions{}, cloth, input, team);
+    ClothState state = rest_state(cloth);
+    run(*integrator, input, 80, state);
+    return state.position.at(n - 1, n / 2);
+  };
+  const Vec3f middle = tip_after(33);
+  EXPECT_LT(middle.y, -0.3F);
+  EXPECT_LT(length(tip_after(17) - middle), 0.03F);
+  EXPECT_LT(length(tip_after(65) - middle), 0.03F);
+}
+
+TEST(Stepping, ImplicitIterationsStayFewWhereMatesDoNotHalve) {
+  const auto iterations = [](const BorderMates& mates) {
+    const int n = mates.size();
+    Planes3 rest = flat_sheet(n);
+    const MateInterval interval = mates.intervals().front();
+    for (int k = 0; k <= interval.count; ++k)
+      rest.set(border_sample(n, interval.mate - k), rest.at(border_sample(n, interval.first + k)));
+    Cloth cloth = make_cloth(rest, mates, {});
+    pin(cloth, 0, vec_cast<double>(rest.at(0)));
+    ThreadTeam team(1);
+    const StepInput input;
+    const auto integrator = make_integrator(ImplicitOptions{}, cloth, input, team);
+    ClothState state = rest_state(cloth);
+    int sum = 0;
+    for (int step = 0; step < 12; ++step) sum += run(*integrator, input, 1, state).iterations;
+    return sum;
+  };
+  const int n = 65;
+  EXPECT_LT(iterations(BorderMates(n, {{n - 10, n + 8, 9}})), 12 * 25);
+}
+
 TEST(Stepping, OptionsThatDoNotFitNameTheirKey) {
   const Cloth cloth = sheet_cloth(17);
   ThreadTeam team(1);

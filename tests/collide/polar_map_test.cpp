@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/collide/test_bodies.h"
+#include "tests/support/random_points.h"
 #include "weft/core/random.h"
 #include "weft/mesh/distance.h"
 
@@ -10,12 +11,8 @@ namespace weft {
 namespace {
 
 using test::octahedral_sphere;
+using test::random_point;
 using test::TestCloth;
-
-Vec3d random_point(Random& random, double half) {
-  return {half * (2 * random.uniform() - 1), half * (2 * random.uniform() - 1),
-          half * (2 * random.uniform() - 1)};
-}
 
 /// Distance to the surface by looking at every triangle.
 double brute_distance(const GridSurface& surface, Vec3d point) {

@@ -8,29 +8,12 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "tests/support/temporary_folder.h"
 #include "weft/core/error.h"
 
 namespace weft {
 namespace {
 namespace fs = std::filesystem;
-
-class Files : public testing::Test {
- protected:
-  void SetUp() override {
-    folder = fs::path(testing::TempDir()) /
-             (std::string("weft_files_") +
-              testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-  [[nodiscard]] int entries() const {
-    int count = 0;
-    for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder)) ++count;
-    return count;
-  }
-  fs::path folder;
-};
 
 std::string message_of(const std::function<void()>& action) {
   try {
@@ -42,14 +25,16 @@ std::string message_of(const std::function<void()>& action) {
   return "no error";
 }
 
-TEST_F(Files, WrittenFileReadsBackTheSame) {
+TEST(Files, WrittenFileReadsBackTheSame) {
+  const test::TemporaryFolder folder;
   const std::string bytes("a\0b\n\xff", 5);
   write_file(folder / "f.bin", [&](std::ostream& out) { out << bytes; });
   EXPECT_EQ(read_file(folder / "f.bin"), bytes);
-  EXPECT_EQ(entries(), 1);
+  EXPECT_EQ(folder.entries(), 1);
 }
 
-TEST_F(Files, FailedWriteLeavesTheOldFileAndNothingElse) {
+TEST(Files, FailedWriteLeavesTheOldFileAndNothingElse) {
+  const test::TemporaryFolder folder;
   write_file(folder / "f.txt", [](std::ostream& out) { out << "old"; });
   EXPECT_THROW(write_file(folder / "f.txt",
                           [](std::ostream& out) {
@@ -58,10 +43,11 @@ TEST_F(Files, FailedWriteLeavesTheOldFileAndNothingElse) {
                           }),
                Interrupted);
   EXPECT_EQ(read_file(folder / "f.txt"), "old");
-  EXPECT_EQ(entries(), 1);
+  EXPECT_EQ(folder.entries(), 1);
 }
 
-TEST_F(Files, FullDiskIsAnErrorAndLeavesNothing) {
+TEST(Files, FullDiskIsAnErrorAndLeavesNothing) {
+  const test::TemporaryFolder folder;
   rlimit old{};
   getrlimit(RLIMIT_FSIZE, &old);
   const rlimit small{4096, old.rlim_max};
@@ -73,18 +59,19 @@ TEST_F(Files, FullDiskIsAnErrorAndLeavesNothing) {
   setrlimit(RLIMIT_FSIZE, &old);
   (void)std::signal(SIGXFSZ, old_handler);
   EXPECT_NE(message.find("big.bin: cannot be written"), std::string::npos) << message;
-  EXPECT_EQ(entries(), 0);
+  EXPECT_EQ(folder.entries(), 0);
 }
 
-TEST_F(Files, ErrorsNameThePathAndTheReason) {
+TEST(Files, ErrorsNameThePathAndTheReason) {
+  const test::TemporaryFolder folder;
   const auto read = [](const fs::path& path) { return message_of([&] { (void)read_file(path); }); };
   const auto write = [](const fs::path& path) {
     return message_of([&] { write_file(path, [](std::ostream&) {}); });
   };
   EXPECT_NE(read(folder / "none").find("none: cannot be opened: No such file"), std::string::npos);
-  EXPECT_NE(read(folder).find("is a folder"), std::string::npos);
-  EXPECT_NE(write(folder / "no" / "f").find("cannot be written: No such file"), std::string::npos);
-  EXPECT_NE(write(folder).find("is a folder"), std::string::npos);
+  EXPECT_NE(read(folder.path()).find("is a folder"), std::string::npos);
+  EXPECT_NE(write(folder / "no/f").find("cannot be written: No such file"), std::string::npos);
+  EXPECT_NE(write(folder.path()).find("is a folder"), std::string::npos);
 }
 
 }  // namespace

@@ -5,13 +5,10 @@
 #include <vector>
 
 #include "tests/cut/voxel_mesh.h"
+#include "tests/support/meshes.h"
+#include "weft/cut/disk_mesh.h"
 
 namespace weft::test {
-
-inline TriangleMesh tetrahedron() {
-  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-}
 
 inline TriangleMesh one_triangle() { return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}; }
 
@@ -30,5 +27,7 @@ inline std::vector<std::pair<std::string, TriangleMesh>> cut_cases() {
           {"torus with two holes", slab_surface({"o##", "#.#", "##o"})},
           {"double torus with three holes", slab_surface({"o#o#o", "#.#.#", "#####"})}};
 }
+
+inline int border_size(const CutDisk& cut) { return static_cast<int>(cut.disk.border.size()); }
 
 }  // namespace weft::test

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/cut/cut_cases.h"
+#include "tests/support/errors.h"
+#include "tests/support/meshes.h"
 #include "weft/core/error.h"
 #include "weft/cut/open_to_disk.h"
 #include "weft/cut/split_border_edge.h"
@@ -13,12 +15,11 @@
 namespace weft {
 namespace {
 
+using test::border_size;
 using test::cut_cases;
 using test::one_triangle;
 using test::slab_surface;
 using test::tetrahedron;
-
-int border_size(const CutDisk& cut) { return static_cast<int>(cut.disk.border.size()); }
 
 /// The surface vertices of a path, first node to last.
 std::vector<int> walk(const CutDisk& cut, const BorderPath& path) {
@@ -54,21 +55,10 @@ void expect_mates_are_reversed(const CutDisk& cut) {
   }
 }
 
-double area(const DiskMesh& disk) {
-  double total = 0;
-  for (const auto& [a, b, c] : disk.triangles)
-    total += 0.5 * length(cross(disk.positions[b] - disk.positions[a],
-                                disk.positions[c] - disk.positions[a]));
-  return total;
-}
+double area(const DiskMesh& disk) { return test::area_of({disk.positions, disk.triangles}); }
 
 std::string error_of(const TriangleMesh& mesh, const Cut& cut) {
-  try {
-    cut_open(mesh, cut);
-  } catch (const TopologyError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::message_of<TopologyError>([&] { cut_open(mesh, cut); });
 }
 
 TEST(CutOpen, TrianglesAndPositionsAreThoseOfTheMesh) {

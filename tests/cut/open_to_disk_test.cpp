@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/cut/cut_cases.h"
+#include "tests/support/errors.h"
+#include "tests/support/meshes.h"
 #include "weft/core/error.h"
 #include "weft/core/math.h"
 #include "weft/mesh/io/read_mesh.h"
@@ -18,13 +20,10 @@ namespace {
 using test::cut_cases;
 using test::one_triangle;
 using test::slab_surface;
-
-TopologyCounts topology(const TriangleMesh& mesh) {
-  return count_topology(static_cast<int>(mesh.positions.size()), mesh.triangles);
-}
+using test::topology_of;
 
 void expect_disk(const DiskMesh& disk) {
-  const TopologyCounts counts = topology({disk.positions, disk.triangles});
+  const TopologyCounts counts = topology_of({disk.positions, disk.triangles});
   EXPECT_EQ(counts.components, 1);
   EXPECT_EQ(counts.boundaries, 1);
   EXPECT_EQ(counts.euler, 1);
@@ -45,23 +44,6 @@ std::vector<std::vector<double>> all_distances(const TriangleMesh& mesh) {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) d[i][j] = std::min(d[i][j], d[i][k] + d[k][j]);
   return d;
-}
-
-/// A ring of `around` sections of `across` vertices each.
-TriangleMesh round_torus(int around, int across, double major, double minor) {
-  TriangleMesh mesh;
-  for (int i = 0; i < around; ++i)
-    for (int j = 0; j < across; ++j) {
-      const double u = 2 * pi * i / around;
-      const double v = 2 * pi * j / across;
-      const double r = major + minor * cosine(v);
-      mesh.positions.push_back({r * cosine(u), r * sine(u), minor * sine(v)});
-      const int i1 = (i + 1) % around;
-      const int j1 = (j + 1) % across;
-      mesh.triangles.push_back({i * across + j, i1 * across + j, i1 * across + j1});
-      mesh.triangles.push_back({i * across + j, i1 * across + j1, i * across + j1});
-    }
-  return mesh;
 }
 
 TEST(OpenToDisk, EverySurfaceOpensToOneDisk) {
@@ -105,7 +87,7 @@ TEST(OpenToDisk, StraighteningNeverLengthens) {
 TEST(OpenToDisk, RoundTorusIsCutAlongItsShortestLoops) {
   const double major = 2;
   const double minor = 0.5;
-  const TriangleMesh mesh = round_torus(60, 24, major, minor);
+  const TriangleMesh mesh = test::torus(60, 24, major, minor);
   const double meridian = 24 * 2 * minor * sine(pi / 24);
   const double inner_circle = 60 * 2 * (major - minor) * sine(pi / 60);
   const CutSummary summary = summarise(cut_open(mesh, open_to_disk(mesh)));
@@ -135,12 +117,8 @@ TEST(OpenToDisk, SphereIsCutBetweenTheFarthestPair) {
 
 TEST(OpenToDisk, SeedTriangleThatDoesNotExistIsRefused) {
   const TriangleMesh mesh = slab_surface({"#"});
-  try {
-    open_to_disk(mesh, {.seed_triangle = 12});
-    FAIL() << "seed 12 of 12 triangles was taken";
-  } catch (const TopologyError& error) {
-    EXPECT_STREQ(error.what(), "seed triangle: 12; 0 to 11, or -1 to choose");
-  }
+  EXPECT_EQ(test::message_of<TopologyError>([&] { open_to_disk(mesh, {.seed_triangle = 12}); }),
+            "seed triangle: 12; 0 to 11, or -1 to choose");
 }
 
 TEST(ExtendCut, JoinsAVertexByAShortestPathAndKeepsADisk) {
@@ -180,7 +158,7 @@ TEST(OpenToDisk, SharedMeshesOpenToOneDisk) {
     const CutDisk opened = cut_open(mesh, open_to_disk(mesh));
     expect_disk(opened.disk);
     const CutSummary summary = summarise(opened);
-    EXPECT_EQ(summary.nodes - summary.paths, topology(mesh).euler - 1);
+    EXPECT_EQ(summary.nodes - summary.paths, topology_of(mesh).euler - 1);
   }
 }
 

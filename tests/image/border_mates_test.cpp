@@ -4,18 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/errors.h"
 #include "weft/core/error.h"
 
 namespace weft {
 namespace {
 
 std::string refusal(int size, std::vector<MateInterval> intervals) {
-  try {
-    const BorderMates mates(size, std::move(intervals));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::message_of<InputError>([&] { BorderMates(size, std::move(intervals)); });
 }
 
 std::vector<int> members(const BorderMates& mates, int index) {
@@ -75,17 +71,17 @@ TEST(BorderMates, ImageWithoutMatesHasNoClass) {
 TEST(BorderMates, PositionsOutOfRangeAreNamed) {
   EXPECT_EQ(refusal(5, {{0, 17, 4}}),
             "mates 0 17 4; border positions in 0 .. 15 and a count in 1 .. 8");
-  EXPECT_NE(refusal(5, {{-1, 12, 4}}), "accepted");
-  EXPECT_NE(refusal(5, {{0, 12, 0}}), "accepted");
-  EXPECT_NE(refusal(5, {{0, 12, 9}}), "accepted");
-  EXPECT_NE(refusal(1, {}), "accepted");
-  EXPECT_NE(refusal(1 << 20, {}), "accepted");
+  EXPECT_NE(refusal(5, {{-1, 12, 4}}), "");
+  EXPECT_NE(refusal(5, {{0, 12, 0}}), "");
+  EXPECT_NE(refusal(5, {{0, 12, 9}}), "");
+  EXPECT_NE(refusal(1, {}), "");
+  EXPECT_NE(refusal(1 << 20, {}), "");
 }
 
 TEST(BorderMates, AnEdgeHasOneMate) {
   EXPECT_EQ(refusal(5, {{0, 12, 4}, {3, 15, 2}}),
             "mates 3 15 2 that meet other mates at 3; runs of border samples that do not overlap");
-  EXPECT_NE(refusal(5, {{0, 4, 4}}), "accepted");
+  EXPECT_NE(refusal(5, {{0, 4, 4}}), "");
 }
 
 }  // namespace

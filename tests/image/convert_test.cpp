@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/image/maps.h"
+#include "tests/support/meshes.h"
+#include "tests/support/temporary_folder.h"
 #include "weft/core/error.h"
 #include "weft/core/hash.h"
 #include "weft/image/builtin.h"
@@ -19,21 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The torus of the built-in image as a mesh of m x m quads, closed.
-TriangleMesh torus_mesh(int m) {
-  TriangleMesh mesh;
-  for (int row = 0; row < m; ++row)
-    for (int col = 0; col < m; ++col)
-      mesh.positions.push_back(maps::torus_point(col * 1.0 / m, row * 1.0 / m));
-  const auto at = [m](int row, int col) { return row % m * m + col % m; };
-  for (int row = 0; row < m; ++row)
-    for (int col = 0; col < m; ++col) {
-      mesh.triangles.push_back({at(row, col), at(row, col + 1), at(row + 1, col + 1)});
-      mesh.triangles.push_back({at(row, col), at(row + 1, col + 1), at(row + 1, col)});
-    }
-  return mesh;
-}
-
 TriangleMesh square_mesh(double height) {
   return {{{0, height, 0}, {1, height, 0}, {1, height, -1}, {0, height, -1}},
           {{0, 1, 2}, {0, 2, 3}}};
@@ -41,7 +28,7 @@ TriangleMesh square_mesh(double height) {
 
 // The torus with some triangles taken out: holes.
 TriangleMesh holed_torus() {
-  TriangleMesh mesh = torus_mesh(16);
+  TriangleMesh mesh = test::torus(16, 16, 1, 0.4);
   std::erase_if(mesh.triangles,
                 [](const Triangle& t) { return t[0] == 3 * 16 + 4 || t[0] == 9 * 16 + 9; });
   return mesh;
@@ -58,7 +45,7 @@ std::string hash_of(const GeometryImage& image) {
 TEST(Measure, DistanceOfParallelSquaresGivesTheFigures) {
   const GeometryImage image = sample_image(maps::sheet(9, 5, maps::flat));
   const double apart = 0.01;
-  const ImageQuality quality = measure_image(image, square_mesh(apart), 1);
+  const ImageQuality quality = measure_image(image, square_mesh(apart));
   EXPECT_NEAR(quality.psnr_db, 20 * std::log10(std::sqrt(2.0) / apart), 1e-6);
   EXPECT_NEAR(quality.hausdorff_percent, 100 * apart / std::sqrt(2.0), 1e-6);
   EXPECT_EQ(quality.euler, 1);
@@ -68,7 +55,7 @@ TEST(Measure, DistanceOfParallelSquaresGivesTheFigures) {
 
 TEST(Measure, EqualSurfacesHaveTheBestFigure) {
   const GeometryImage image = sample_image(maps::sheet(9, 5, maps::flat));
-  const ImageQuality quality = measure_image(image, square_mesh(0), 1);
+  const ImageQuality quality = measure_image(image, square_mesh(0));
   EXPECT_GT(quality.psnr_db, 200);
   EXPECT_LE(quality.psnr_db, best_psnr_db);
 }
@@ -84,7 +71,7 @@ TEST(Convert, TorusStaysATorus) {
   ConvertOptions options;
   options.size = 65;
   options.normal_map_size = 33;
-  const Conversion made = convert_mesh(torus_mesh(20), "folder/ring.obj", options);
+  const Conversion made = convert_mesh(test::torus(20, 20, 1, 0.4), "folder/ring.obj", options);
   EXPECT_EQ(made.mapped.quality.flipped, 0);
   EXPECT_EQ(made.mapped.quality.degenerate, 0);
   EXPECT_TRUE(made.quality.mates_bit_equal);
@@ -103,7 +90,7 @@ TEST(Convert, NormalsFaceAsTheSurfaceDoes) {
   options.size = 33;
   options.normal_map_size = 33;
   options.measure = false;
-  const Conversion made = convert_mesh(torus_mesh(20), "ring", options);
+  const Conversion made = convert_mesh(test::torus(20, 20, 1, 0.4), "ring", options);
   for (int row = 1; row < 32; ++row)
     for (int col = 1; col < 32; ++col) {
       const auto step = [&](int r, int c) {
@@ -165,7 +152,7 @@ TEST(Convert, SizesThatNoImageHasAreAUsageError) {
   ConvertOptions options;
   for (const int size : {-1, 0, 4, largest_image_size + 1}) {
     options.size = size;
-    EXPECT_THROW(convert_mesh(torus_mesh(8), "ring", options), UsageError) << size;
+    EXPECT_THROW(convert_mesh(test::torus(8, 8, 1, 0.4), "ring", options), UsageError) << size;
   }
 }
 
@@ -178,7 +165,7 @@ TEST(Convert, InterruptedWorkUnwinds) {
   ConvertOptions options;
   options.size = 33;
   options.progress = &stop;
-  EXPECT_THROW(convert_mesh(torus_mesh(8), "ring", options), Interrupted);
+  EXPECT_THROW(convert_mesh(test::torus(8, 8, 1, 0.4), "ring", options), Interrupted);
 }
 
 TEST(LoadSurface, ImagesByNatureAreSampledDirectly) {
@@ -190,8 +177,7 @@ TEST(LoadSurface, ImagesByNatureAreSampledDirectly) {
 }
 
 TEST(LoadSurface, ImageFilesAreReadAndMeshFilesConverted) {
-  const fs::path folder = fs::path(testing::TempDir()) / "weft_load_surface";
-  fs::create_directories(folder);
+  const test::TemporaryFolder folder;
   const std::string mesh = (folder / "ring.obj").string();
   const std::string file = (folder / "ring.exr").string();
   write_mesh(mesh, holed_torus());
@@ -205,7 +191,6 @@ TEST(LoadSurface, ImageFilesAreReadAndMeshFilesConverted) {
   EXPECT_EQ(hash_of(read.image), hash_of(converted.image));
   EXPECT_EQ(read.image.source, "ring.obj");
   EXPECT_FALSE(read.normals.has_value());
-  fs::remove_all(folder);
 }
 
 TEST(LoadSurface, UnknownNamesAreRefused) {

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/image/maps.h"
+#include "tests/support/temporary_folder.h"
 #include "weft/core/error.h"
 #include "weft/core/files.h"
 #include "weft/image/io/exr_codec.h"
@@ -24,26 +25,6 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder of the test's own, removed with all that is in it.
-class Folder {
- public:
-  Folder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = fs::path(testing::TempDir()) /
-            (std::string("weft_") + test->test_suite_name() + test->name());
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path_); }
-  [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
-  [[nodiscard]] bool empty() const { return fs::is_empty(path_); }
-
- private:
-  fs::path path_;
-};
 
 GeometryImage torus_image(int n) {
   GeometryImage image = sample_image(maps::torus(n, 12));
@@ -109,7 +90,7 @@ std::string refusal_of_metadata(const std::function<void(nlohmann::json&)>& chan
 }
 
 TEST(ImageFile, ExrComesBackBitForBit) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   const GeometryImage image = torus_image(17);
   write_image(folder / "torus.exr", image);
   const GeometryImage back = read_image(folder / "torus.exr");
@@ -118,7 +99,7 @@ TEST(ImageFile, ExrComesBackBitForBit) {
 }
 
 TEST(ImageFile, ExrKeepsTheSmallestAndTheLargestSamples) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   GeometryImage image{Planes3(5), BorderMates(5, {}), {}, "", ""};
   image.cube.set(2, 2,
                  {std::numeric_limits<float>::denorm_min(), 1.0F, std::nextafter(1.0F, 0.0F)});
@@ -127,7 +108,7 @@ TEST(ImageFile, ExrKeepsTheSmallestAndTheLargestSamples) {
 }
 
 TEST(ImageFile, PngRoundsPositionsTo16BitsAndKeepsTheRest) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   const GeometryImage image = torus_image(17);
   write_image(folder / "torus.PNG", image);
   const GeometryImage back = read_image(folder / "torus.PNG");
@@ -140,7 +121,7 @@ TEST(ImageFile, PngRoundsPositionsTo16BitsAndKeepsTheRest) {
 }
 
 TEST(ImageFile, PngIsStableOnceRounded) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   write_image(folder / "a.png", torus_image(9));
   const GeometryImage once = read_image(folder / "a.png");
   write_image(folder / "b.png", once);
@@ -148,7 +129,7 @@ TEST(ImageFile, PngIsStableOnceRounded) {
 }
 
 TEST(ImageFile, SameImageGivesTheSameBytes) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   for (const char* name : {"a.exr", "a.png"}) {
     write_image(folder / name, torus_image(9));
     const std::string first = read_file(folder / name);
@@ -158,7 +139,7 @@ TEST(ImageFile, SameImageGivesTheSameBytes) {
 }
 
 TEST(ImageFile, FileCutShortAnywhereIsRefused) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   for (const char* name : {"a.exr", "a.png"}) {
     write_image(folder / name, torus_image(7));
     const std::string whole = read_file(folder / name);
@@ -170,7 +151,7 @@ TEST(ImageFile, FileCutShortAnywhereIsRefused) {
 }
 
 TEST(ImageFile, FlippedBitsAreRefusedOrHarmless) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   Random random(11);
   for (const char* name : {"a.exr", "a.png"}) {
     write_image(folder / name, torus_image(7));
@@ -211,7 +192,7 @@ TEST(ImageFile, ExrThatTellsOfMoreThanItHoldsIsRefusedAtItsHeader) {
 }
 
 TEST(ImageFile, OtherPicturesAreNoGeometryImages) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   const NormalMap normals = sample_normals(maps::sheet(9, 5, maps::flat), 9);
   write_normal_map(folder / "n.exr", normals);
   write_normal_map(folder / "n.png", normals);
@@ -229,15 +210,15 @@ TEST(ImageFile, OtherPicturesAreNoGeometryImages) {
 }
 
 TEST(ImageFile, OtherEndingsAreAUsageErrorAndNothingIsWritten) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THROW(write_image(folder / "a.jpg", torus_image(7)), UsageError);
   EXPECT_THROW(write_normal_map(folder / "a", {}), UsageError);
   EXPECT_THROW(write_image(folder / "no/folder.exr", torus_image(7)), OutputError);
-  EXPECT_TRUE(folder.empty());
+  EXPECT_EQ(folder.entries(), 0);
 }
 
 TEST(ImageFile, NormalsBecomeColours) {
-  const Folder folder;
+  const test::TemporaryFolder folder;
   const NormalMap normals = sample_normals(maps::sheet(9, 5, maps::flat), 5);
   write_normal_map(folder / "n.exr", normals);
   write_normal_map(folder / "n.png", normals);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/meshes.h"
 #include "weft/core/error.h"
 #include "weft/core/random.h"
 #include "weft/mesh/topology.h"
@@ -27,9 +28,7 @@ GeometryImage random_image(int n, std::vector<MateInterval> intervals, std::uint
   return image;
 }
 
-TopologyCounts counts_of(const RebuiltMesh& rebuilt) {
-  return count_topology(static_cast<int>(rebuilt.mesh.positions.size()), rebuilt.mesh.triangles);
-}
+TopologyCounts counts_of(const RebuiltMesh& rebuilt) { return test::topology_of(rebuilt.mesh); }
 
 // The edges between neighbouring border samples, mated ones once, as pairs of points; and which of
 // them have no mate.

@@ -5,25 +5,24 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/random_points.h"
 #include "weft/core/random.h"
 #include "weft/mesh/shapes.h"
 
 namespace weft {
 namespace {
 
-Vec3d random_vector(Random& random) {
-  return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-}
+using test::random_point;
 
 /// Unconnected triangles of all sizes, some of them slivers.
 TriangleMesh random_soup(int count, std::uint64_t seed) {
   Random random(seed);
   TriangleMesh mesh;
   for (int t = 0; t < count; ++t) {
-    const Vec3d a = random_vector(random);
+    const Vec3d a = random_point(random);
     const double size = random.uniform() * random.uniform();
-    const Vec3d edge = size * random_vector(random);
-    const Vec3d c = t % 7 == 0 ? a + 0.5 * edge : a + size * random_vector(random);
+    const Vec3d edge = size * random_point(random);
+    const Vec3d c = t % 7 == 0 ? a + 0.5 * edge : a + size * random_point(random);
     const int first = static_cast<int>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), {a, a + edge, c});
     mesh.triangles.push_back({first, first + 1, first + 2});
@@ -63,7 +62,7 @@ TEST(ClosestPointQuery, AgreesWithBruteForce) {
   const ClosestPointQuery query(mesh);
   Random random(4);
   for (int i = 0; i < 500; ++i) {
-    const Vec3d point = 2.0 * random_vector(random);
+    const Vec3d point = 2.0 * random_point(random);
     ClosestPoint best;
     for (int t = 0; t < 300; ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
@@ -137,6 +136,18 @@ TEST(SurfaceDistance, LooksBothWays) {
   // Half of the area is missing and lies uniformly over heights up to h = sqrt(1/2) of its
   // triangle: mean square = 1/2 * h^2 / 6.
   EXPECT_NEAR(there.rms, std::sqrt(1.0 / 24), 0.002);
+}
+
+TEST(SurfaceDistance, CanBeStoppedOnTheWay) {
+  struct Stopped {};
+  struct Impatient : Progress {
+    int told = 0;
+    void update(std::string_view /*stage*/, double /*fraction*/) override {
+      if (++told == 4) throw Stopped();
+    }
+  } impatient;
+  const TriangleMesh mesh = make_shape("sphere");
+  EXPECT_THROW(surface_distance(mesh, mesh, {.threads = 2, .progress = &impatient}), Stopped);
 }
 
 TEST(SurfaceDistance, HasTheSameBitsOnAnyNumberOfThreads) {

@@ -2,35 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/mesh/small_meshes.h"
+
 namespace weft {
 namespace {
 
-// A strip of `count` quads bent to a band; with `twist` its ends are joined upside down.
-TriangleMesh band(int count, bool twist) {
-  TriangleMesh mesh;
-  for (int i = 0; i < count; ++i)
-    for (int side = 0; side < 2; ++side)
-      mesh.positions.push_back(
-          {std::cos(6.283 * i / count), 1.0 * side, std::sin(6.283 * i / count)});
-  for (int i = 0; i < count; ++i) {
-    const int a = 2 * i, b = 2 * i + 1;
-    int c = 2 * ((i + 1) % count), d = c + 1;
-    if (twist && i == count - 1) std::swap(c, d);
-    mesh.triangles.push_back({a, c, b});
-    mesh.triangles.push_back({b, c, d});
-  }
-  return mesh;
-}
-
 TEST(MeshFacts, BandIsOrientableMoebiusStripIsNot) {
-  EXPECT_TRUE(examine_mesh(band(8, false)).orientable);
-  EXPECT_FALSE(examine_mesh(band(8, true)).orientable);
-  EXPECT_EQ(examine_mesh(band(8, false)).border_edges, 16);
-  EXPECT_EQ(examine_mesh(band(8, false)).inconsistent_edges, 0);
+  EXPECT_TRUE(examine_mesh(test::ring(8, false)).orientable);
+  EXPECT_FALSE(examine_mesh(test::ring(8, true)).orientable);
+  EXPECT_EQ(examine_mesh(test::ring(8, false)).border_edges, 16);
+  EXPECT_EQ(examine_mesh(test::ring(8, false)).inconsistent_edges, 0);
 }
 
 TEST(MeshFacts, TurnedTriangleIsInconsistentButOrientable) {
-  TriangleMesh mesh = band(8, false);
+  TriangleMesh mesh = test::ring(8, false);
   std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
   const MeshFacts facts = examine_mesh(mesh);
   EXPECT_EQ(facts.inconsistent_edges, 2);

@@ -6,21 +6,20 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/random_points.h"
 #include "weft/core/random.h"
 #include "weft/mesh/shapes/torso_profile.h"
 
 namespace weft {
 namespace {
 
-Vec3d random_vector(Random& random) {
-  return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-}
+using test::random_point;
 
 TEST(Field, RoundConeIsTheUnionOfItsBalls) {
   const RoundCone cone{{-0.4, 0.1, 0}, {0.5, -0.2, 0.3}, 0.4, 0.15};
   Random random(1);
   for (int i = 0; i < 200; ++i) {
-    const Vec3d p = random_vector(random);
+    const Vec3d p = random_point(random);
     double least = HUGE_VAL;
     for (int k = 0; k <= 2000; ++k) {
       const double t = k / 2000.0;
@@ -37,7 +36,7 @@ TEST(Field, EllipsoidIsZeroWithUnitGradientOnItsSurface) {
   const Field field = [&](Vec3d p) { return distance_to(ellipsoid, p); };
   Random random(2);
   for (int i = 0; i < 50; ++i) {
-    const Vec3d d = normalized(random_vector(random));
+    const Vec3d d = normalized(random_point(random));
     const Vec3d p = ellipsoid.centre + Vec3d{0.5 * d.x, 0.3 * d.y, 0.2 * d.z};
     EXPECT_NEAR(field(p), 0, 1e-15);
     EXPECT_NEAR(length(gradient(field, p)), 1, 1e-5);
@@ -71,7 +70,7 @@ TEST(Field, LimbRunsThroughItsJointsWithTheirRadii) {
   EXPECT_NEAR(distance_to(limb, {0.5, 0, 1}), 0.8, 0.01);
   Random random(3);
   for (int i = 0; i < 100; ++i) {
-    const Vec3d p = 2.0 * random_vector(random);
+    const Vec3d p = 2.0 * random_point(random);
     EXPECT_GE(distance_to(limb, p), std::min(0.0, distance_to(limb.box, p)) - 0.2);
     if (distance_to(limb.box, p) > 0) {
       EXPECT_GE(distance_to(limb, p), distance_to(limb.box, p) - 1e-15);
@@ -84,7 +83,7 @@ TEST(Field, ProjectionsLandOnSurfaceAndCurve) {
   const Field plane = [](Vec3d p) { return p.y + 0.5 * p.x - 0.2; };
   Random random(4);
   for (int i = 0; i < 50; ++i) {
-    const Vec3d near = (1 + 0.2 * random.uniform(-1, 1)) * normalized(random_vector(random));
+    const Vec3d near = (1 + 0.2 * random.uniform(-1, 1)) * normalized(random_point(random));
     EXPECT_NEAR(ball(project_to_surface(ball, near)), 0, 1e-9);
     EXPECT_NEAR(length(cross(project_to_surface(ball, near), near)), 0, 1e-6) << "straight down";
     if (std::abs(plane(near)) > 0.3) continue;

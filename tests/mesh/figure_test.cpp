@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/meshes.h"
 #include "weft/mesh/distance.h"
 #include "weft/mesh/facts.h"
 #include "weft/mesh/shapes.h"
@@ -12,9 +13,8 @@
 namespace weft {
 namespace {
 
-TopologyCounts topology_of(const TriangleMesh& mesh) {
-  return count_topology(static_cast<int>(mesh.positions.size()), mesh.triangles);
-}
+using test::topology_of;
+using test::volume_of;
 
 Box3d box_of(const TriangleMesh& mesh) {
   Box3d box;
@@ -22,25 +22,15 @@ Box3d box_of(const TriangleMesh& mesh) {
   return box;
 }
 
-struct Quality {
+void expect_fat_triangles(const TriangleMesh& mesh) {
   double least = 1, mean = 0;
-};
-
-Quality quality_of(const TriangleMesh& mesh) {
-  Quality quality;
   for (const auto& [a, b, c] : mesh.triangles) {
     const double q = triangle_quality(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
-    quality.least = std::min(quality.least, q);
-    quality.mean += q / static_cast<double>(mesh.triangles.size());
+    least = std::min(least, q);
+    mean += q / static_cast<double>(mesh.triangles.size());
   }
-  return quality;
-}
-
-double volume_of(const TriangleMesh& mesh) {
-  double volume = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    volume += dot(mesh.positions[a], cross(mesh.positions[b], mesh.positions[c])) / 6;
-  return volume;
+  EXPECT_GT(least, 0.4);
+  EXPECT_GT(mean, 0.95);
 }
 
 TEST(Mannequin, IsOneClosedFigureOfGenusZeroWithFatTriangles) {
@@ -51,9 +41,7 @@ TEST(Mannequin, IsOneClosedFigureOfGenusZeroWithFatTriangles) {
   EXPECT_EQ(counts.euler, 2);
   EXPECT_GT(counts.triangles, 8000);
   EXPECT_LT(counts.triangles, 13000);
-  const Quality quality = quality_of(mesh);
-  EXPECT_GT(quality.least, 0.4);
-  EXPECT_GT(quality.mean, 0.95);
+  expect_fat_triangles(mesh);
   for (const Vec3d p : mesh.positions) EXPECT_NEAR(mannequin_field(p), 0, 1e-6);
 }
 
@@ -99,9 +87,7 @@ TEST(Tshirt, IsOneSurfaceWithFourSmoothOpenings) {
   EXPECT_EQ(counts.genus, 0);
   EXPECT_GT(counts.triangles, 5000);
   EXPECT_LT(counts.triangles, 8000);
-  const Quality quality = quality_of(mesh);
-  EXPECT_GT(quality.least, 0.4);
-  EXPECT_GT(quality.mean, 0.95);
+  expect_fat_triangles(mesh);
   const auto loops = border_loops(
       mesh.triangles, half_edges(static_cast<int>(mesh.positions.size()), mesh.triangles));
   for (const auto& loop : loops)

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/mesh/small_meshes.h"
+#include "weft/core/error.h"
 #include "weft/core/random.h"
 #include "weft/mesh/io/read_mesh.h"
 #include "weft/mesh/repair.h"

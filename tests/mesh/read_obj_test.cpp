@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/mesh/small_meshes.h"
+#include "tests/support/errors.h"
 #include "weft/mesh/io/read_mesh.h"
 
 namespace weft {
@@ -13,7 +13,7 @@ const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 TriangleMesh parse(const std::string& text) { return parse_obj(text, "a.obj"); }
 
 std::string refusal(const std::string& text) {
-  return testing::message_of<InputError>([&] { parse(text); });
+  return test::message_of<InputError>([&] { parse(text); });
 }
 
 TEST(ReadObj, KeepsSharedVerticesInTheirOrder) {
@@ -43,7 +43,7 @@ TEST(ReadObj, PolygonsBecomeFansHoweverManyCornersTheyHave) {
   std::string text, face = "f";
   for (int i = 0; i < 300; ++i) {
     text += "v " + std::to_string(i) + " 0 0\n";
-    face += " " + std::to_string(i + 1);
+    face.append(" ").append(std::to_string(i + 1));
   }
   const TriangleMesh mesh = parse(text + face + "\n");
   ASSERT_EQ(mesh.triangles.size(), 298U);

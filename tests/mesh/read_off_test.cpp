@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/mesh/small_meshes.h"
+#include "tests/support/errors.h"
 #include "weft/mesh/io/read_mesh.h"
 
 namespace weft {
@@ -11,7 +11,7 @@ using Triangles = std::vector<Triangle>;
 TriangleMesh parse(const std::string& text) { return parse_off(text, "a.off"); }
 
 std::string refusal(const std::string& text) {
-  return testing::message_of<InputError>([&] { parse(text); });
+  return test::message_of<InputError>([&] { parse(text); });
 }
 
 TEST(ReadOff, VerticesFacesCommentsAndBlankLines) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/mesh/small_meshes.h"
+#include "tests/support/errors.h"
 #include "weft/mesh/io/read_mesh.h"
 
 namespace weft {
@@ -13,7 +13,7 @@ using Triangles = std::vector<Triangle>;
 TriangleMesh parse(const std::string& bytes) { return parse_ply(bytes, "a.ply"); }
 
 std::string refusal(const std::string& bytes) {
-  return testing::message_of<InputError>([&] { parse(bytes); });
+  return test::message_of<InputError>([&] { parse(bytes); });
 }
 
 std::string header(const std::string& format, int vertices, int faces,

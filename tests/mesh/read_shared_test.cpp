@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/mesh/small_meshes.h"
+#include "tests/support/errors.h"
 #include "weft/mesh/io/read_mesh.h"
 #include "weft/mesh/repair.h"
 
@@ -70,14 +70,13 @@ TEST_F(ReadShared, InvertedTrianglesAreOriented) {
 }
 
 TEST_F(ReadShared, BeetleIsRefusedForItsNonManifoldEdges) {
-  const std::string message =
-      testing::message_of<TopologyError>([] { repaired("c3d_beetle.obj"); });
+  const std::string message = test::message_of<TopologyError>([] { repaired("c3d_beetle.obj"); });
   EXPECT_NE(message.find("c3d_beetle.obj: 47 non-manifold edges"), std::string::npos) << message;
 }
 
 TEST_F(ReadShared, ComponentsOfOneFileAddUpToItsGenus) {
   const std::string message =
-      testing::message_of<TopologyError>([] { repaired("opt_multiComp.obj"); });
+      test::message_of<TopologyError>([] { repaired("opt_multiComp.obj"); });
   EXPECT_NE(message.find("6 components"), std::string::npos) << message;
   int genus = 0, boundaries = 0, triangles = 0;
   for (int i = 0; i < 6; ++i) {

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/mesh/small_meshes.h"
+#include "tests/support/errors.h"
+#include "tests/support/meshes.h"
 #include "weft/mesh/io/read_mesh.h"
 
 namespace weft {
@@ -12,7 +13,7 @@ namespace {
 TriangleMesh parse(const std::string& bytes) { return parse_stl(bytes, "a.stl"); }
 
 std::string refusal(const std::string& bytes) {
-  return testing::message_of<InputError>([&] { parse(bytes); });
+  return test::message_of<InputError>([&] { parse(bytes); });
 }
 
 void put_float(std::string& bytes, float value) {
@@ -55,7 +56,7 @@ std::string text(const TriangleMesh& mesh) {
 }
 
 TEST(ReadStl, BinaryAndTextJoinTheSameVertices) {
-  const TriangleMesh wanted = testing::tetrahedron();
+  const TriangleMesh wanted = test::tetrahedron();
   for (const std::string& bytes :
        {binary(wanted, "a title"), binary(wanted, "solid is what many binary files begin with"),
         text(wanted)}) {
@@ -69,7 +70,7 @@ TEST(ReadStl, BinaryAndTextJoinTheSameVertices) {
 }
 
 TEST(ReadStl, CountThatDoesNotMatchTheSizeIsRefused) {
-  const std::string whole = binary(testing::tetrahedron(), "title");
+  const std::string whole = binary(test::tetrahedron(), "title");
   EXPECT_EQ(refusal(with_count(whole, 4000000000U)),
             "a.stl: is 284 bytes long where its facet count asks for 200000000084; a whole STL "
             "file, text (solid ...) "
@@ -78,9 +79,9 @@ TEST(ReadStl, CountThatDoesNotMatchTheSizeIsRefused) {
 }
 
 TEST(ReadStl, EveryCutIsNoticed) {
-  const std::string text_file = text(testing::tetrahedron());
-  for (const std::string& whole : {binary(testing::tetrahedron(), "title"),
-                                   text_file.substr(0, text_file.find(" by hand", 20))})
+  const std::string text_file = text(test::tetrahedron());
+  for (const std::string& whole :
+       {binary(test::tetrahedron(), "title"), text_file.substr(0, text_file.find(" by hand", 20))})
     for (std::size_t size = 0; size < whole.size(); ++size)
       EXPECT_FALSE(refusal(whole.substr(0, size)).empty()) << "cut after " << size << " bytes";
 }
@@ -104,7 +105,7 @@ TEST(ReadStl, WhatIsNoMeshIsRefusedInOneLine) {
   EXPECT_EQ(refusal(""), "a.stl: is empty; an STL mesh is wanted");
   EXPECT_NE(refusal("Dear reader,\nthis is a letter.\n").find("begins with 'Dear reader,'"),
             std::string::npos);
-  std::string bytes = binary(testing::tetrahedron(), "title");
+  std::string bytes = binary(test::tetrahedron(), "title");
   std::string nan;
   put_float(nan, std::numeric_limits<float>::quiet_NaN());
   bytes.replace(84 + 50 + 12, 4, nan);

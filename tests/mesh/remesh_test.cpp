@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/meshes.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
 #include "weft/mesh/facts.h"
@@ -18,9 +19,7 @@
 namespace weft {
 namespace {
 
-TopologyCounts topology_of(const TriangleMesh& mesh) {
-  return count_topology(static_cast<int>(mesh.positions.size()), mesh.triangles);
-}
+using test::topology_of;
 
 double unit_ball(Vec3d p) { return length(p) - 1; }
 double ring(Vec3d p) { return length(Vec3d{length(Vec3d{p.x, 0, p.z}) - 1, p.y, 0}) - 0.4; }
@@ -32,10 +31,7 @@ TEST(Polygonise, BallIsAClosedSphereOfItsArea) {
   const TopologyCounts counts = topology_of(mesh);
   EXPECT_EQ(counts.euler, 2);
   EXPECT_EQ(counts.boundaries, 0);
-  double volume = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    volume += dot(mesh.positions[a], cross(mesh.positions[b], mesh.positions[c])) / 6;
-  EXPECT_NEAR(volume, 4 * pi / 3, 0.02 * 4 * pi / 3);  // positive: outward
+  EXPECT_NEAR(test::volume_of(mesh), 4 * pi / 3, 0.02 * 4 * pi / 3);  // positive: outward
 }
 
 TEST(Polygonise, RandomFieldsGiveClosedManifolds) {
@@ -96,11 +92,7 @@ TEST(Clip, CutsTrianglesWhereTheFieldVanishes) {
   const TriangleMesh square{.positions = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}},
                             .triangles = {{0, 2, 1}, {0, 3, 2}}};
   const TriangleMesh part = clip(square, [](Vec3d p) { return p.x - 0.25; });
-  double area = 0;
-  for (const auto& [a, b, c] : part.triangles)
-    area += 0.5 * length(cross(part.positions[b] - part.positions[a],
-                               part.positions[c] - part.positions[a]));
-  EXPECT_NEAR(area, 0.25, 1e-15);
+  EXPECT_NEAR(test::area_of(part), 0.25, 1e-15);
   for (const Vec3d p : part.positions) EXPECT_LE(p.x, 0.25 + 1e-15);
   EXPECT_EQ(topology_of(part).euler, 1);
 }
@@ -121,8 +113,7 @@ TEST(EditableMesh, RefusesACollapseThatWouldChangeTheTopology) {
   EXPECT_FALSE(mesh.can_collapse(3, 4)) << "a ring in the middle";
   EXPECT_FALSE(mesh.can_collapse(0, 1)) << "a border loop of three";
   EXPECT_FALSE(mesh.can_collapse(0, 7)) << "not neighbours";
-  const EditableMesh tetrahedron({.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                                  .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}});
+  const EditableMesh tetrahedron(test::tetrahedron());
   EXPECT_FALSE(tetrahedron.can_collapse(0, 1));
 }
 

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/mesh/small_meshes.h"
+#include "tests/support/errors.h"
+#include "tests/support/meshes.h"
 #include "weft/core/random.h"
 
 namespace weft {
@@ -21,20 +23,20 @@ RepairedMesh repaired(const TriangleMesh& mesh, ComponentChoice choice = {}) {
 
 template <class Wanted>
 std::string refusal(const TriangleMesh& mesh, ComponentChoice choice = {}) {
-  return testing::message_of<Wanted>([&] { repaired(mesh, choice); });
+  return test::message_of<Wanted>([&] { repaired(mesh, choice); });
 }
 
 void turn(Triangle& t) { std::swap(t[1], t[2]); }
 
 /// Two tetrahedra of different size; the larger one comes last.
 TriangleMesh two_tetrahedra() {
-  TriangleMesh large = testing::tetrahedron();
+  TriangleMesh large = test::tetrahedron();
   for (Vec3d& p : large.positions) p = 3.0 * p + Vec3d{5, 0, 0};
-  return testing::together(testing::tetrahedron(), large);
+  return test::together(test::tetrahedron(), large);
 }
 
 TEST(Repair, SoundMeshIsLeftAlone) {
-  const TriangleMesh mesh = testing::torus(5, 7);
+  const TriangleMesh mesh = test::torus(5, 7);
   const RepairedMesh result = repaired(mesh);
   EXPECT_EQ(result.mesh.positions, mesh.positions);
   EXPECT_EQ(result.mesh.triangles, mesh.triangles);
@@ -43,7 +45,7 @@ TEST(Repair, SoundMeshIsLeftAlone) {
 }
 
 TEST(Repair, FewWrongTrianglesAreTurnedToTheMajority) {
-  const TriangleMesh good = testing::torus(9, 11);
+  const TriangleMesh good = test::torus(9, 11);
   TriangleMesh mesh = good;
   for (const int t : {0, 17, 18, 101}) turn(mesh.triangles[t]);
   const RepairedMesh result = repaired(mesh);
@@ -54,21 +56,21 @@ TEST(Repair, FewWrongTrianglesAreTurnedToTheMajority) {
 TEST(Repair, AnyMixOfOrientationsOfAClosedSurfaceEndsOutward) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
-    TriangleMesh mesh = testing::torus(6, 8);
-    const double volume = testing::signed_volume(mesh);
+    TriangleMesh mesh = test::torus(6, 8);
+    const double volume = test::volume_of(mesh);
     for (Triangle& t : mesh.triangles)
       if (random.uniform() < 0.5) turn(t);
     const RepairedMesh result = repaired(mesh);
-    EXPECT_NEAR(testing::signed_volume(result.mesh), volume, 1e-9);
+    EXPECT_NEAR(test::volume_of(result.mesh), volume, 1e-9);
     EXPECT_EQ(result.counts.genus, 1);
   }
 }
 
 TEST(Repair, InsideOutClosedSurfaceIsTurnedAndSaysSo) {
-  TriangleMesh mesh = testing::tetrahedron();
+  TriangleMesh mesh = test::tetrahedron();
   for (Triangle& t : mesh.triangles) turn(t);
   const RepairedMesh result = repaired(mesh);
-  EXPECT_GT(testing::signed_volume(result.mesh), 0);
+  EXPECT_GT(test::volume_of(result.mesh), 0);
   EXPECT_EQ(result.repairs, Sentences{"turned the closed surface outward, 4 triangles"});
 }
 
@@ -87,46 +89,46 @@ TEST(Repair, SingleTriangleIsADisk) {
 }
 
 TEST(Repair, MoebiusStripIsRefusedWithAnEdge) {
-  EXPECT_EQ(repaired(testing::ring(7, false)).counts.boundaries, 2);
-  const std::string message = refusal<TopologyError>(testing::ring(7, true));
+  EXPECT_EQ(repaired(test::ring(7, false)).counts.boundaries, 2);
+  const std::string message = refusal<TopologyError>(test::ring(7, true));
   EXPECT_NE(message.find("thing.obj: the surface is not orientable"), std::string::npos) << message;
   EXPECT_NE(message.find("edge between vertices"), std::string::npos) << message;
 }
 
 TEST(Repair, TrianglesWithARepeatedVertexGoAndLeaveTheRest) {
-  TriangleMesh mesh = testing::tetrahedron();
+  TriangleMesh mesh = test::tetrahedron();
   mesh.triangles.insert(mesh.triangles.begin() + 1, {2, 2, 3});
   mesh.triangles.push_back({1, 0, 1});
   const RepairedMesh result = repaired(mesh);
-  EXPECT_EQ(result.mesh.triangles, testing::tetrahedron().triangles);
+  EXPECT_EQ(result.mesh.triangles, test::tetrahedron().triangles);
   EXPECT_EQ(result.repairs, Sentences{"dropped 2 triangles with a repeated vertex"});
 }
 
 TEST(Repair, DuplicatesInAnyOrderOfCornersGo) {
-  TriangleMesh mesh = testing::tetrahedron();
+  TriangleMesh mesh = test::tetrahedron();
   mesh.triangles.push_back({2, 1, 0});
   mesh.triangles.push_back({3, 0, 2});
   mesh.triangles.push_back({3, 0, 2});
   const RepairedMesh result = repaired(mesh);
-  EXPECT_EQ(result.mesh.triangles, testing::tetrahedron().triangles);
+  EXPECT_EQ(result.mesh.triangles, test::tetrahedron().triangles);
   EXPECT_EQ(result.repairs, Sentences{"dropped 3 triangles with the same vertices as another"});
 }
 
 TEST(Repair, UnreferencedVerticesGoAndTheRestKnowTheirSource) {
-  TriangleMesh mesh = testing::tetrahedron();
+  TriangleMesh mesh = test::tetrahedron();
   mesh.positions.insert(mesh.positions.begin(), {7, 7, 7});
   mesh.positions.push_back({8, 8, 8});
   for (Triangle& t : mesh.triangles)
     for (int& v : t) ++v;
   const RepairedMesh result = repaired(mesh);
-  EXPECT_EQ(result.mesh.positions, testing::tetrahedron().positions);
+  EXPECT_EQ(result.mesh.positions, test::tetrahedron().positions);
   EXPECT_EQ(result.source_vertex, (std::vector<int>{1, 2, 3, 4}));
   EXPECT_EQ(result.repairs, Sentences{"dropped 2 vertices without triangles"});
 }
 
 TEST(Repair, PinchedVertexIsSplitIntoItsFans) {
   // A ring whose two borders are pinched together at one vertex.
-  TriangleMesh mesh = testing::ring(8, false);
+  TriangleMesh mesh = test::ring(8, false);
   for (Triangle& t : mesh.triangles)
     for (int& v : t)
       if (v == 9) v = 0;
@@ -140,7 +142,7 @@ TEST(Repair, PinchedVertexIsSplitIntoItsFans) {
 }
 
 TEST(Repair, NonManifoldEdgesAreCountedAndTheFirstIsNamed) {
-  TriangleMesh mesh = testing::torus(5, 7);
+  TriangleMesh mesh = test::torus(5, 7);
   mesh.positions.push_back({0, 9, 0});
   mesh.triangles.push_back({10, 9, 35});
   mesh.triangles.push_back({2, 3, 35});
@@ -167,7 +169,7 @@ TEST(Repair, ComponentsAreNumberedByArea) {
 }
 
 TEST(Repair, ComponentsOfEqualAreaAreNumberedByLeastVertex) {
-  TriangleMesh mesh = testing::together(testing::tetrahedron(), testing::tetrahedron());
+  TriangleMesh mesh = test::together(test::tetrahedron(), test::tetrahedron());
   std::reverse(mesh.triangles.begin(), mesh.triangles.end());
   const RepairedMesh result = repaired(mesh, {ComponentChoice::Kind::index, 0});
   EXPECT_EQ(result.source_vertex, (std::vector<int>{0, 1, 2, 3}));
@@ -182,7 +184,7 @@ TEST(Repair, ComponentThatIsNotThereIsRefused) {
 TEST(Repair, SoundComponentIsKeptBesideABrokenOne) {
   const TriangleMesh book{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}},
                           {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
-  const TriangleMesh mesh = testing::together(testing::torus(5, 7), book);
+  const TriangleMesh mesh = test::together(test::torus(5, 7), book);
   EXPECT_NE(refusal<TopologyError>(mesh).find("non-manifold edge"), std::string::npos);
   EXPECT_EQ(repaired(mesh, {ComponentChoice::Kind::largest, 0}).counts.genus, 1);
   EXPECT_NE(refusal<TopologyError>(mesh, {ComponentChoice::Kind::index, 1}).find("non-manifold"),
@@ -197,12 +199,12 @@ TEST(Repair, TrianglesWithoutAreaStay) {
 }
 
 TEST(Repair, BadValuesAreInputErrors) {
-  TriangleMesh mesh = testing::tetrahedron();
+  TriangleMesh mesh = test::tetrahedron();
   mesh.positions[2].y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(refusal<InputError>(mesh).find("vertex 2"), std::string::npos);
   mesh.positions[2].y = 1e200;
   EXPECT_NE(refusal<InputError>(mesh).find("1e30"), std::string::npos);
-  mesh = testing::tetrahedron();
+  mesh = test::tetrahedron();
   mesh.triangles[1][2] = 4;
   EXPECT_NE(refusal<InputError>(mesh).find("triangle 1 uses vertex 4 of 4"), std::string::npos);
   mesh.triangles[1][2] = -1;
@@ -219,6 +221,15 @@ TEST(Repair, WeldJoinsEqualPositionsInOrderOfFirstOccurrence) {
   const TriangleMesh welded = weld_exact(soup);
   EXPECT_EQ(welded.positions, (std::vector<Vec3d>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 2, 2}}));
   EXPECT_EQ(welded.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 2, 3}}));
+}
+
+TEST(Repair, RefusesWhatHasNoAreaAtAll) {
+  TriangleMesh line;
+  line.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  line.triangles = {{0, 1, 2}, {1, 2, 3}};
+  EXPECT_THROW(repair_mesh(line, {}), InputError);
+  line.positions[3].y = 1e-9;  // one triangle with an area is enough
+  EXPECT_EQ(repair_mesh(line, {}).counts.triangles, 2);
 }
 
 }  // namespace

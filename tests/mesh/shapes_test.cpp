@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/meshes.h"
 #include "weft/core/error.h"
 #include "weft/core/math.h"
 #include "weft/mesh/shapes/parametric.h"
@@ -14,24 +15,9 @@
 namespace weft {
 namespace {
 
-TopologyCounts topology_of(const TriangleMesh& mesh) {
-  return count_topology(static_cast<int>(mesh.positions.size()), mesh.triangles);
-}
-
-double signed_volume(const TriangleMesh& mesh) {
-  double volume = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    volume += dot(mesh.positions[a], cross(mesh.positions[b], mesh.positions[c])) / 6;
-  return volume;
-}
-
-double area(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    sum += 0.5 * length(cross(mesh.positions[b] - mesh.positions[a],
-                              mesh.positions[c] - mesh.positions[a]));
-  return sum;
-}
+using test::area_of;
+using test::topology_of;
+using test::volume_of;
 
 TEST(Shapes, ListsTheirNamesInOrder) {
   std::string names;
@@ -61,7 +47,7 @@ TEST(Shapes, UnknownNameIsAUsageErrorThatNamesTheNearest) {
 
 TEST(Shapes, SheetIsTheUnitSquareAroundTheOrigin) {
   const TriangleMesh mesh = make_shape("sheet");
-  EXPECT_NEAR(area(mesh), 1, 1e-12);
+  EXPECT_NEAR(area_of(mesh), 1, 1e-12);
   Box3d box;
   for (const Vec3d p : mesh.positions) box.add(p);
   EXPECT_EQ(box.lower, (Vec3d{-0.5, 0, -0.5}));
@@ -72,7 +58,7 @@ TEST(Shapes, SheetIsTheUnitSquareAroundTheOrigin) {
 
 TEST(Shapes, DiskHasTheAreaAndRimOfItsCircle) {
   const TriangleMesh mesh = make_shape("disk");
-  EXPECT_NEAR(area(mesh), pi / 4, 1e-3);
+  EXPECT_NEAR(area_of(mesh), pi / 4, 1e-3);
   EXPECT_EQ(topology_of(mesh).euler, 1);
   const auto loops = border_loops(
       mesh.triangles, half_edges(static_cast<int>(mesh.positions.size()), mesh.triangles));
@@ -103,7 +89,7 @@ TEST(Shapes, SphereIsClosedRoundAndOutward) {
   EXPECT_EQ(counts.boundaries, 0);
   EXPECT_EQ(counts.components, 1);
   for (const Vec3d p : mesh.positions) EXPECT_NEAR(length(p), 0.5, 1e-15);
-  EXPECT_NEAR(signed_volume(mesh), pi / 6, 3e-3 * pi / 6);
+  EXPECT_NEAR(volume_of(mesh), pi / 6, 3e-3 * pi / 6);
 }
 
 TEST(Shapes, TorusIsClosedOfGenusOneAndOutward) {
@@ -113,7 +99,7 @@ TEST(Shapes, TorusIsClosedOfGenusOneAndOutward) {
   EXPECT_EQ(counts.genus, 1);
   EXPECT_EQ(counts.boundaries, 0);
   const double volume = 2 * pi * pi * torus_major_radius * torus_minor_radius * torus_minor_radius;
-  EXPECT_NEAR(signed_volume(mesh), volume, 0.01 * volume);
+  EXPECT_NEAR(volume_of(mesh), volume, 0.01 * volume);
 }
 
 }  // namespace

@@ -5,16 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/mesh/small_meshes.h"
+#include "tests/support/errors.h"
+#include "tests/support/meshes.h"
 
 namespace weft {
 namespace {
 
-TopologyCounts counts_of(const TriangleMesh& mesh) {
-  return count_topology(static_cast<int>(mesh.positions.size()), mesh.triangles);
-}
-
 TEST(Topology, TetrahedronIsASphere) {
-  const TopologyCounts counts = counts_of(testing::tetrahedron());
+  const TopologyCounts counts = test::topology_of(test::tetrahedron());
   EXPECT_EQ(counts.vertices, 4);
   EXPECT_EQ(counts.edges, 6);
   EXPECT_EQ(counts.triangles, 4);
@@ -25,18 +23,18 @@ TEST(Topology, TetrahedronIsASphere) {
 }
 
 TEST(Topology, TorusHasGenusOne) {
-  const TopologyCounts counts = counts_of(testing::torus(5, 7));
+  const TopologyCounts counts = test::topology_of(test::torus(5, 7));
   EXPECT_EQ(counts.euler, 0);
   EXPECT_EQ(counts.genus, 1);
   EXPECT_EQ(counts.boundaries, 0);
 }
 
 TEST(Topology, GenusAddsOverComponentsAndHolesDoNotCountAsHandles) {
-  TriangleMesh mesh = testing::together(testing::torus(5, 7), testing::torus(4, 6));
+  TriangleMesh mesh = test::together(test::torus(5, 7), test::torus(4, 6));
   mesh.triangles.pop_back();
   mesh.triangles.erase(mesh.triangles.begin());
   mesh.positions.push_back({9, 9, 9});
-  const TopologyCounts counts = counts_of(mesh);
+  const TopologyCounts counts = test::topology_of(mesh);
   EXPECT_EQ(counts.vertices, 5 * 7 + 4 * 6);
   EXPECT_EQ(counts.components, 2);
   EXPECT_EQ(counts.boundaries, 2);
@@ -44,7 +42,7 @@ TEST(Topology, GenusAddsOverComponentsAndHolesDoNotCountAsHandles) {
 }
 
 TEST(Topology, TwinsRunOppositeAndOutgoingLeavesItsVertex) {
-  const TriangleMesh mesh = testing::ring(6, false);
+  const TriangleMesh mesh = test::ring(6, false);
   const HalfEdges edges = half_edges(static_cast<int>(mesh.positions.size()), mesh.triangles);
   for (int h = 0; h < static_cast<int>(edges.twin.size()); ++h) {
     if (edges.twin[h] < 0) continue;
@@ -82,7 +80,7 @@ TEST(Topology, BorderLoopFollowsTheTrianglesDirection) {
 }
 
 TEST(Topology, RingHasTwoBorderLoopsOfOneHeightEach) {
-  const TriangleMesh mesh = testing::ring(6, false);
+  const TriangleMesh mesh = test::ring(6, false);
   const auto loops = border_loops(
       mesh.triangles, half_edges(static_cast<int>(mesh.positions.size()), mesh.triangles));
   ASSERT_EQ(loops.size(), 2U);
@@ -99,20 +97,20 @@ TEST(Topology, BordersThatTouchAtAVertexStayTwoLoops) {
 
 TEST(Topology, ThirdTriangleOnAnEdgeIsRefusedByName) {
   const std::vector<Triangle> book{{4, 7, 0}, {7, 4, 1}, {4, 7, 2}};
-  const std::string message = testing::message_of<TopologyError>([&] { half_edges(8, book); });
+  const std::string message = test::message_of<TopologyError>([&] { half_edges(8, book); });
   EXPECT_NE(message.find("edge 4-7 has 3 triangles"), std::string::npos) << message;
 }
 
 TEST(Topology, SameDirectionAlongAnEdgeIsRefusedByName) {
   const std::vector<Triangle> clash{{4, 7, 0}, {4, 7, 1}};
-  const std::string message = testing::message_of<TopologyError>([&] { half_edges(8, clash); });
+  const std::string message = test::message_of<TopologyError>([&] { half_edges(8, clash); });
   EXPECT_NE(message.find("edge 4-7"), std::string::npos) << message;
   EXPECT_NE(message.find("same direction"), std::string::npos) << message;
 }
 
 TEST(Topology, TriangleWithARepeatedVertexIsRefused) {
   const std::vector<Triangle> line{{0, 1, 2}, {3, 3, 1}};
-  const std::string message = testing::message_of<TopologyError>([&] { half_edges(4, line); });
+  const std::string message = test::message_of<TopologyError>([&] { half_edges(4, line); });
   EXPECT_NE(message.find("triangle 1 has vertex 3 twice"), std::string::npos) << message;
 }
 

@@ -16,14 +16,24 @@ using test::layout_cases;
 using test::one_triangle;
 using test::slab_surface;
 
+struct LaidOut {
+  CutDisk cut;
+  BorderLayout layout;
+  std::vector<double> positions;
+};
+
+LaidOut laid_out(CutDisk cut, const LayoutOptions& options) {
+  BorderLayout layout = lay_out_border(cut, options);
+  split_at_corners(cut, layout);
+  std::vector<double> positions = border_positions(cut, layout);
+  return {std::move(cut), std::move(layout), std::move(positions)};
+}
+
 TEST(SplitAtCorners, EveryCornerIsABorderVertexAndTheDiskStaysOne) {
   for (const Case& c : layout_cases())
     for (int rotation = 0; rotation < 16; ++rotation) {
       SCOPED_TRACE(c.name + ", rotation " + std::to_string(rotation));
-      CutDisk cut = c.cut;
-      const BorderLayout layout = lay_out_border(cut, {17, rotation});
-      split_at_corners(cut, layout);
-      const std::vector<double> t = border_positions(cut, layout);
+      const auto [cut, layout, t] = laid_out(c.cut, {17, rotation});
       for (const int corner : {0, 16, 32, 48})
         EXPECT_EQ(std::count(t.begin(), t.end(), static_cast<double>(corner)), 1);
       const int vertices = static_cast<int>(cut.disk.positions.size());
@@ -50,10 +60,7 @@ TEST(SplitAtCorners, SplittingAgainChangesNothing) {
 TEST(BorderPositions, IncreaseAroundTheBorderWithNodesOnSamples) {
   for (const Case& c : layout_cases()) {
     SCOPED_TRACE(c.name);
-    CutDisk cut = c.cut;
-    const BorderLayout layout = lay_out_border(cut, {19, 7});
-    split_at_corners(cut, layout);
-    const std::vector<double> t = border_positions(cut, layout);
+    const auto [cut, layout, t] = laid_out(c.cut, {19, 7});
     const int first = cut.paths.front().first;
     int wraps = 0;
     for (int j = 0; j < border_size(cut); ++j) {
@@ -71,10 +78,7 @@ TEST(BorderPositions, IncreaseAroundTheBorderWithNodesOnSamples) {
 TEST(BorderPositions, MatesCorrespondExactly) {
   for (const Case& c : layout_cases()) {
     SCOPED_TRACE(c.name);
-    CutDisk cut = c.cut;
-    const BorderLayout layout = lay_out_border(cut, {19, 7});
-    split_at_corners(cut, layout);
-    const std::vector<double> t = border_positions(cut, layout);
+    const auto [cut, layout, t] = laid_out(c.cut, {19, 7});
     const double around = 4.0 * 18;
     for (std::size_t p = 0; p < cut.paths.size(); ++p) {
       const BorderPath& path = cut.paths[p];
@@ -117,10 +121,7 @@ TEST(BorderPositions, EdgesOfNoLengthStillAdvance) {
   const int a = before.disk.surface_vertex[before.disk.border[1]];
   const int b = before.disk.surface_vertex[before.disk.border[2]];
   mesh.positions[a] = mesh.positions[b];
-  CutDisk cut = cut_open(mesh, {});
-  const BorderLayout layout = lay_out_border(cut, {33, 0});
-  split_at_corners(cut, layout);
-  const std::vector<double> t = border_positions(cut, layout);
+  const std::vector<double> t = laid_out(cut_open(mesh, {}), {33, 0}).positions;
   for (std::size_t i = 0; i + 1 < t.size(); ++i) EXPECT_LT(t[i], t[i + 1]);
 }
 

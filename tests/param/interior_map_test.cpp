@@ -85,6 +85,23 @@ TEST(InteriorMap, LeavesTheBorderAlone) {
   for (const int v : disk.border) EXPECT_EQ(uv[v], border[v]);
 }
 
+/// Keeps every fraction that it is told.
+struct Listener : Progress {
+  std::vector<double> heard;
+  void update(std::string_view /*stage*/, double fraction) override { heard.push_back(fraction); }
+};
+
+TEST(InteriorMap, TellsOfEveryIterationSoThatItCanBeStopped) {
+  const DiskMesh disk = bump();
+  std::vector<Vec2d> uv = test::square_border(disk, 64);
+  Listener listener;
+  ASSERT_TRUE(
+      map_interior(disk, uv, StretchOptions{.iterations = 2, .newton_steps = 3}, &listener));
+  EXPECT_GE(listener.heard.size(), 5U);
+  EXPECT_TRUE(std::is_sorted(listener.heard.begin(), listener.heard.end()));
+  EXPECT_LE(listener.heard.back(), 1.0);
+}
+
 TEST(Reweighting, LowersTheStretchOfABump) {
   const DiskMesh disk = bump();
   const DiskGeometry geometry(disk);

@@ -32,6 +32,4 @@ inline std::vector<Case> layout_cases() {
   return cases;
 }
 
-inline int border_size(const CutDisk& cut) { return static_cast<int>(cut.disk.border.size()); }
-
 }  // namespace weft::test

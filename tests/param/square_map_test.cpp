@@ -8,6 +8,7 @@
 
 #include "tests/param/disks.h"
 #include "tests/param/surfaces.h"
+#include "tests/support/meshes.h"
 #include "weft/core/error.h"
 #include "weft/cut/open_to_disk.h"
 #include "weft/mesh/io/read_mesh.h"

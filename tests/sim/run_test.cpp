@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/temporary_folder.h"
 #include "weft/core/error.h"
 #include "weft/core/files.h"
 #include "weft/mesh/io/read_mesh.h"
@@ -18,12 +19,6 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path empty_folder(const std::string& name) {
-  fs::path folder = fs::path(testing::TempDir()) / ("weft_" + name);
-  fs::remove_all(folder);
-  return folder;
-}
 
 Scene ring(int frames) {
   Scene scene;
@@ -43,10 +38,10 @@ Scene ring(int frames) {
   return scene;
 }
 
-/// Stops after a number of frames.
+/// Stops after a number of substeps, each of which reports once.
 class Stopper : public Progress {
  public:
-  explicit Stopper(int frames) : left_(frames) {}
+  explicit Stopper(int substeps) : left_(substeps) {}
   void update(std::string_view stage, double /*fraction*/) override {
     if (stage == "simulate" && left_-- == 0) throw Interrupted();
   }
@@ -63,7 +58,8 @@ T value_at(const std::string& bytes, std::size_t offset) {
 }
 
 TEST(Pc2, BytesAreTheFormats) {
-  const fs::path path = fs::path(testing::TempDir()) / "two.pc2";
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "two.pc2";
   Pc2Writer writer(path, 2);
   writer.add(std::vector<Vec3f>{{1, 2, 3}, {4, 5, 6}});
   writer.add(std::vector<Vec3f>{{7, 8, 9}, {10, 11, 12}});
@@ -83,7 +79,8 @@ TEST(Pc2, BytesAreTheFormats) {
 }
 
 TEST(Run, LeavesMeshAndCacheOfOneVertexOrder) {
-  const fs::path folder = empty_folder("order");
+  const test::TemporaryFolder place;
+  const fs::path folder = place / "run";
   const RunReport report = run_scene(ring(3), "ring.json", {.folder = folder});
   EXPECT_EQ(report.frames, 3);
   EXPECT_EQ(report.centre_of_mass.size(), 4);
@@ -102,14 +99,16 @@ TEST(Run, LeavesMeshAndCacheOfOneVertexOrder) {
 }
 
 TEST(Run, UnweldedKeepsEverySample) {
-  const fs::path folder = empty_folder("unwelded");
+  const test::TemporaryFolder place;
+  const fs::path folder = place / "run";
   run_scene(ring(1), "ring.json", {.folder = folder, .unwelded = true});
   EXPECT_EQ(read_mesh(folder / "ring.obj").positions.size(), 17 * 17);
   EXPECT_EQ(value_at<std::int32_t>(read_file(folder / "ring.pc2"), 16), 17 * 17);
 }
 
 TEST(Run, FolderOpensAgainWithTheSamePositions) {
-  const fs::path folder = empty_folder("open");
+  const test::TemporaryFolder place;
+  const fs::path folder = place / "run";
   const Scene scene = ring(2);
   run_scene(scene, "ring.json", {.folder = folder});
   Simulation again(scene, "ring.json", 1);
@@ -127,9 +126,11 @@ TEST(Run, FolderOpensAgainWithTheSamePositions) {
 }
 
 TEST(Run, InterruptedRunKeepsItsFrames) {
-  const fs::path folder = empty_folder("interrupted");
-  Stopper stopper(2);
-  EXPECT_THROW(run_scene(ring(10), "ring.json", {.folder = folder, .progress = &stopper}),
+  const test::TemporaryFolder place;
+  const fs::path folder = place / "run";
+  const Scene scene = ring(10);
+  Stopper stopper(2 * scene.substeps + 1);  // within the third frame
+  EXPECT_THROW(run_scene(scene, "ring.json", {.folder = folder, .progress = &stopper}),
                Interrupted);
   const std::string cache = read_file(folder / "ring.pc2");
   EXPECT_EQ(value_at<std::int32_t>(cache, 28), 3);
@@ -140,7 +141,8 @@ TEST(Run, InterruptedRunKeepsItsFrames) {
 }
 
 TEST(Run, CsvHasOneLineAFrameUnderItsHeader) {
-  const fs::path folder = empty_folder("csv");
+  const test::TemporaryFolder place;
+  const fs::path folder = place / "run";
   run_scene(ring(3), "ring.json", {.folder = folder});
   const std::string csv = read_file(folder / "frames.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
@@ -152,7 +154,8 @@ TEST(Run, CsvHasOneLineAFrameUnderItsHeader) {
 }
 
 TEST(Run, CutCacheIsRefused) {
-  const fs::path folder = empty_folder("cut");
+  const test::TemporaryFolder place;
+  const fs::path folder = place / "run";
   run_scene(ring(1), "ring.json", {.folder = folder});
   fs::resize_file(folder / "ring.pc2", 1000);
   EXPECT_THROW(open_run_folder(folder), InputError);
@@ -160,9 +163,9 @@ TEST(Run, CutCacheIsRefused) {
 }
 
 TEST(Run, UnknownExportIsRefused) {
-  EXPECT_THROW(
-      run_scene(ring(1), "ring.json", {.folder = empty_folder("export"), .exports = {"fbx"}}),
-      UsageError);
+  const test::TemporaryFolder place;
+  EXPECT_THROW(run_scene(ring(1), "ring.json", {.folder = place / "run", .exports = {"fbx"}}),
+               UsageError);
 }
 
 TEST(Report, JsonHoldsTheContractsFields) {

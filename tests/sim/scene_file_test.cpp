@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/errors.h"
+#include "tests/support/temporary_folder.h"
 #include "weft/core/error.h"
 #include "weft/sim/materials.h"
 #include "weft/sim/scene_keys.h"
@@ -15,19 +17,10 @@ namespace weft {
 namespace {
 
 std::string error_of(const std::string& text) {
-  try {
-    parse_scene(text, "s.json", "");
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::message_of<SceneError>([&] { parse_scene(text, "s.json", ""); });
 }
 
 std::string with_cloth(const std::string& keys) { return R"({"cloths":[{)" + keys + "}]}"; }
-
-std::string temporary_file(const std::string& name) {
-  return (std::filesystem::path(testing::TempDir()) / name).string();
-}
 
 TEST(SceneFile, EmptyClothIsTheDefaults) {
   const Scene scene = parse_scene(R"({"cloths":[{}]})", "s.json", "");
@@ -176,7 +169,8 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   scene.limiter.passes = 4;
   scene.collider = PolarMapOptions{.size = 12, .walk = false};
   SceneCloth cloth;
-  cloth.surface = temporary_file("mesh.obj");
+  const test::TemporaryFolder folder;
+  cloth.surface = (folder / "mesh.obj").string();
   cloth.placement = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
   cloth.material.density = 0.123;
   cloth.velocity = {1, 2, 3};
@@ -185,7 +179,8 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   scene.bodies.push_back(
       {.name = "b", .surface = "builtin:sphere", .size = 65, .placement = {}, .friction = 0.2});
 
-  const std::string first = temporary_file("first.json"), second = temporary_file("second.json");
+  const std::string first = (folder / "first.json").string();
+  const std::string second = (folder / "second.json").string();
   write_scene(first, scene);
   const Scene back = read_scene(first);
   EXPECT_EQ(back.gravity, scene.gravity);
@@ -240,7 +235,8 @@ TEST(SceneSchema, DefaultsAreTheReadersDefaults) {
   const nlohmann::json schema = nlohmann::json::parse(in);
   Scene scene;
   scene.cloths.emplace_back();
-  const std::string path = temporary_file("defaults.json");
+  const test::TemporaryFolder folder;
+  const std::string path = (folder / "defaults.json").string();
   write_scene(path, scene);
   std::ifstream written(path);
   const nlohmann::json json = nlohmann::json::parse(written);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <string>
@@ -9,16 +11,18 @@
 
 namespace weft::test {
 
-/// An empty folder of the running test's own, removed with all that is in it. Tests run side by
-/// side as processes, so a fixed name in the system's folder would be written by several at once.
+/// An empty folder of the running test's own, removed with all that is in it. Its name is new every
+/// time: tests run side by side as processes, and builds side by side.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(::testing::TempDir()) /
-            (std::string("weft_") + test.test_suite_name() + '_' + test.name());
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+    std::string name = (std::filesystem::path(::testing::TempDir()) /
+                        (std::string("weft_") + test.test_suite_name() + test.name() + "_XXXXXX"))
+                           .string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw std::system_error(errno, std::generic_category(), name);
+    path_ = name;
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

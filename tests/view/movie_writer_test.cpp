@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_folder.h"
 #include "weft/core/error.h"
 
 namespace weft {
@@ -31,10 +32,6 @@ class Movie : public testing::Test {
   void SetUp() override {
     if (output_of("ffprobe -version 2>&1").rfind("ffprobe version", 0) != 0)
       GTEST_SKIP() << "ffmpeg and ffprobe are not installed: movies are NOT tested";
-    folder_ = fs::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
   }
   static Picture frame(int width, int height, int index) {
     Picture picture{width, height, {}};
@@ -50,10 +47,7 @@ class Movie : public testing::Test {
         "stream=codec_name,width,height,nb_read_frames -of csv=p=0 '" +
         path.string() + "'");
   }
-  [[nodiscard]] std::size_t files() const {
-    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
-  }
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Movie, Mp4HoldsEveryFrameAtAnEvenSize) {
@@ -62,7 +56,7 @@ TEST_F(Movie, Mp4HoldsEveryFrameAtAnEvenSize) {
   EXPECT_FALSE(fs::exists(folder_ / "a.mp4"));
   writer.finish();
   EXPECT_EQ(probed(folder_ / "a.mp4"), "h264,64,48,12");
-  EXPECT_EQ(files(), 1U);
+  EXPECT_EQ(folder_.entries(), 1);
 }
 
 TEST_F(Movie, GifHoldsEveryFrame) {
@@ -77,7 +71,7 @@ TEST_F(Movie, GivenUpLeavesNothingBehind) {
     MovieWriter writer(folder_ / "a.mp4", 64, 48, 30);
     for (int i = 0; i < 3; ++i) writer.add(frame(64, 48, i));
   }
-  EXPECT_EQ(files(), 0U);
+  EXPECT_EQ(folder_.entries(), 0);
 }
 
 TEST_F(Movie, WithoutAFrameIsAnOutputErrorThatNamesTheMovie) {
@@ -92,7 +86,7 @@ TEST_F(Movie, WithoutAFrameIsAnOutputErrorThatNamesTheMovie) {
 }
 
 TEST_F(Movie, PlacesAndEndingsThatCannotBeAreOutputErrors) {
-  EXPECT_THROW(MovieWriter(folder_ / "missing" / "a.mp4", 64, 48, 30), OutputError);
+  EXPECT_THROW(MovieWriter(folder_ / "missing/a.mp4", 64, 48, 30), OutputError);
   EXPECT_THROW(MovieWriter(folder_ / "a.avi", 64, 48, 30), OutputError);
   EXPECT_THROW(MovieWriter(folder_ / "a.mp4", 64, 48, 0), OutputError);
   MovieWriter writer(folder_ / "a.mp4", 64, 48, 30);
@@ -100,17 +94,18 @@ TEST_F(Movie, PlacesAndEndingsThatCannotBeAreOutputErrors) {
 }
 
 TEST(MovieWithoutFfmpeg, IsAnOutputErrorThatSaysSo) {
+  const test::TemporaryFolder folder;
   const std::string path = ::getenv("PATH");
   ::setenv("PATH", "/nowhere", 1);
   std::string said;
   try {
-    MovieWriter writer(fs::path(testing::TempDir()) / "b.mp4", 64, 48, 30);
+    MovieWriter writer(folder / "b.mp4", 64, 48, 30);
   } catch (const OutputError& error) {
     said = error.what();
   }
   ::setenv("PATH", path.c_str(), 1);
   EXPECT_NE(said.find("ffmpeg"), std::string::npos) << said;
-  EXPECT_FALSE(fs::exists(fs::path(testing::TempDir()) / "b.mp4"));
+  EXPECT_EQ(folder.entries(), 0);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_folder.h"
 #include "weft/core/error.h"
 #include "weft/core/files.h"
 #include "weft/core/random.h"
@@ -13,8 +14,6 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string path_of(const char* name) { return (fs::path(testing::TempDir()) / name).string(); }
 
 Picture noise(int width, int height) {
   Random random(3);
@@ -25,17 +24,19 @@ Picture noise(int width, int height) {
 }
 
 TEST(Picture, PngGivesBackEveryByte) {
+  const test::TemporaryFolder folder;
   const Picture written = noise(37, 23);
-  write_png(path_of("noise.png"), written);
-  const Picture read = read_png(path_of("noise.png"));
+  write_png(folder / "noise.png", written);
+  const Picture read = read_png(folder / "noise.png");
   EXPECT_EQ(read.width, 37);
   EXPECT_EQ(read.height, 23);
   EXPECT_EQ(read.rgb, written.rgb);
 }
 
 TEST(Picture, PngThatIsCutShortIsAnInputErrorThatNamesTheFile) {
-  const std::string whole = path_of("whole.png");
-  const std::string part = path_of("part.png");
+  const test::TemporaryFolder folder;
+  const fs::path whole = folder / "whole.png";
+  const fs::path part = folder / "part.png";
   write_png(whole, noise(64, 64));
   const std::string bytes = read_file(whole);
   for (const std::size_t length :
@@ -51,13 +52,15 @@ TEST(Picture, PngThatIsCutShortIsAnInputErrorThatNamesTheFile) {
 }
 
 TEST(Picture, WritingIntoAMissingFolderIsAnOutputError) {
-  EXPECT_THROW(write_png(path_of("no/such/folder/a.png"), noise(4, 4)), OutputError);
+  const test::TemporaryFolder folder;
+  EXPECT_THROW(write_png(folder / "no/such/folder/a.png", noise(4, 4)), OutputError);
 }
 
 TEST(Picture, APictureWhoseBytesDoNotFitItsSizeIsRefused) {
+  const test::TemporaryFolder folder;
   Picture picture = noise(4, 4);
   picture.rgb.pop_back();
-  EXPECT_THROW(write_png(path_of("short.png"), picture), OutputError);
+  EXPECT_THROW(write_png(folder / "short.png", picture), OutputError);
 }
 
 }  // namespace

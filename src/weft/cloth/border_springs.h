@@ -17,8 +17,8 @@ void for_each_spring(const BorderMates& mates, const SpringPlane& plane, const V
     }
 }
 
-/// The stretch and shear springs with an end on the border, each once. Needs the cloth's size, mates
-/// and rest lengths.
+/// The stretch and shear springs with an end on the border, each once. Needs the cloth's size,
+/// mates and rest lengths.
 std::vector<BorderSpring> find_border_springs(const Cloth& cloth);
 
 }  // namespace weft

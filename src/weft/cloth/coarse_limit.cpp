@@ -18,29 +18,140 @@ SpringPlane joined_springs(const SpringPlane& fine, int n) {
   SpringPlane plane{fine.down, fine.right, Grid<float>(n, n, 1), {}, {}};
   for (int r = 0; r + fine.down < n; ++r)
     for (int c = std::max(0, -fine.right); c + std::max(0, fine.right) < n; ++c)
-      plane.rest_length(r, c) = fine.rest_length(2 * r, 2 * c) +
-                                fine.rest_length(2 * r + fine.down, 2 * c + fine.right);
+      plane.rest_length(r, c) =
+          fine.rest_length(2 * r, 2 * c) + fine.rest_length(2 * r + fine.down, 2 * c + fine.right);
   return plane;
 }
 
-void restrict_masses(const Cloth& fine, Cloth& coarse) {
-  const int n = coarse.size;
-  coarse.mass = coarse.inverse_mass = coarse.counted = Grid<float>(n, n, 1);
-  for (int index = 0; index < coarse.mates.class_count(); ++index)
-    for (const int s : coarse.mates.mates(index).subspan(1)) coarse.counted(s / n, s % n) = 0;
-  std::vector<float> line(static_cast<std::size_t>(fine.size));
-  for (int r = 0; r < n; ++r)
-    restrict_plane_row(fine.mass, &fine.counted, r, line.data(), coarse.mass.row(r));
-  sum_over_mates(coarse.mates, {&coarse.mass});
+/// One over the number of samples that are the same particle.
+Grid<float> shares_of(const BorderMates& mates) {
+  const int n = mates.size();
+  Grid<float> shares(n, n, 1);
+  for (int index = 0; index < mates.class_count(); ++index)
+    for (const int s : mates.mates(index))
+      shares(s / n, s % n) = 1 / static_cast<float>(mates.mates(index).size());
+  return shares;
 }
 
-/// Adds the interpolation of a coarser level's corrections to a row, times `scale` where it moves.
-void add_correction(const ClothState& coarse, const Grid<float>& moves, int row, Planes3& out) {
+Grid<float> restricted_masses(const Cloth& fine, const BorderMates& mates) {
+  const Grid<float> shares = shares_of(fine.mates);
+  std::vector<float> line(static_cast<std::size_t>(fine.size));
+  Grid<float> mass(mates.size(), mates.size());
+  for (int r = 0; r < mates.size(); ++r)
+    restrict_plane_row(fine.mass, &shares, r, line.data(), mass.row(r));
+  sum_over_mates(mates, {&mass});
+  return mass;
+}
+
+void clear_row(Planes3& planes, int row) {
+  const Row3 out = row_of(planes, row);
+  for (float* values : {out.x, out.y, out.z}) std::fill(values, values + planes.size(), 0.0F);
+}
+
+/// Adds the corrections of a coarser level, interpolated to a row; none where pinned.
+void interpolate(const ClothState& coarse, const Grid<float>& moves, int row, Planes3& out) {
   const Row3 to = row_of(out, row);
   add_interpolated_row(coarse.velocity.x, row, moves.row(row), to.x);
   add_interpolated_row(coarse.velocity.y, row, moves.row(row), to.y);
   add_interpolated_row(coarse.velocity.z, row, moves.row(row), to.z);
 }
 
+void add_row(const Planes3& term, float factor, int row, Planes3& sum) {
+  const ConstRow3 from = row_of(term, row);
+  const Row3 to = row_of(sum, row);
+#pragma omp simd
+  for (int c = 0; c < term.size(); ++c) {
+    to.x[c] += factor * from.x[c];
+    to.y[c] += factor * from.y[c];
+    to.z[c] += factor * from.z[c];
+  }
+}
+
 }  // namespace
+
+CoarseLimit::Level CoarseLimit::coarsened(const Cloth& fine) {
+  Cloth coarse;
+  coarse.size = (fine.size - 1) / 2 + 1;
+  coarse.mates = halves(fine.mates) ? halved(fine.mates) : BorderMates(coarse.size, {});
+  coarse.mass = restricted_masses(fine, coarse.mates);
+  coarse.inverse_mass = Grid<float>(coarse.size, coarse.size);
+  for (int d = 0; d < bend_u; ++d) coarse.springs[d] = joined_springs(fine.springs[d], coarse.size);
+  coarse.border_springs = find_border_springs(coarse);
+  const int n = coarse.size;
+  return {std::move(coarse), {Planes3(n), Planes3(n)}, Grid<float>(n, n, 1)};
+}
+
+CoarseLimit::CoarseLimit(const Cloth& cloth)
+    : cloth_(cloth), moves_(cloth.size, cloth.size, 1), correction_(cloth.size) {
+  const Cloth* fine = &cloth;
+  while (fine->size % 2 == 1 && (fine->size - 1) / 2 + 1 >= least_level_size) {
+    levels_.push_back(coarsened(*fine));
+    fine = &levels_.back().cloth;
+  }
+}
+
+void CoarseLimit::sample(const ClothState& state) {
+  const Planes3* position = &state.position;
+  const Grid<float>* inverse_mass = &cloth_.inverse_mass;
+  for (Level& level : levels_) {
+    const int n = level.cloth.size;
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) {
+        const bool moves = (*inverse_mass)(2 * r, 2 * c) > 0;
+        level.moves(r, c) = moves ? 1.0F : 0.0F;
+        level.cloth.inverse_mass(r, c) = moves ? 1 / level.cloth.mass(r, c) : 0.0F;
+        level.state.position.set(r, c, position->at(2 * r, 2 * c));
+      }
+    position = &level.state.position;
+    inverse_mass = &level.cloth.inverse_mass;
+  }
+}
+
+/// Takes over what the level below found, and adds to it.
+void CoarseLimit::limit_level(std::size_t index, const Bounds& bounds, Worker& worker) {
+  Level& level = levels_[index];
+  Planes3 &x = level.state.position, &d = level.state.velocity;
+  const bool coarsest = index + 1 == levels_.size();
+  for (int r = 0; r < level.cloth.size; ++r) {
+    clear_row(d, r);
+    if (!coarsest) interpolate(levels_[index + 1].state, level.moves, r, d);
+  }
+  average_over_mates(level.cloth.mates, worker, {&d.x, &d.y, &d.z});
+  for (int r = 0; r < level.cloth.size; ++r) add_row(d, 1, r, x);
+  for (int pass = 0; pass < bounds.passes; ++pass)
+    limit_pass(level.cloth, {0, bounds.longest, 1}, level.state, worker);
+  copy_to_mates(level.cloth.mates, worker, {&x.x, &x.y, &x.z, &d.x, &d.y, &d.z});
+}
+
+/// Adds what the levels found to the cloth itself.
+void CoarseLimit::apply(double time_step, ClothState& state, Worker& worker) {
+  const auto inverse_step = static_cast<float>(1 / time_step);
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    for (int c = 0; c < cloth_.size; ++c)
+      moves_(r, c) = cloth_.inverse_mass(r, c) > 0 ? 1.0F : 0.0F;
+    clear_row(correction_, r);
+    interpolate(levels_.front().state, moves_, r, correction_);
+  }
+  worker.barrier();
+  average_over_mates(cloth_.mates, worker, {&correction_.x, &correction_.y, &correction_.z});
+  worker.barrier();
+  for (int r = mine.first; r < mine.last; ++r) {
+    add_row(correction_, 1, r, state.position);
+    add_row(correction_, inverse_step, r, state.velocity);
+  }
+}
+
+void CoarseLimit::limit(int passes, double time_step, ClothState& state,
+                        ThreadTeam& team) noexcept {
+  if (levels_.empty() || cloth_.material.strain_limit <= 0 || passes <= 0) return;
+  sample(state);
+  const Bounds bounds{passes, 1 + static_cast<float>(cloth_.material.strain_limit)};
+  ThreadTeam alone(1);
+  alone.run([&](Worker& worker) {
+    for (std::size_t i = levels_.size(); i-- > 0;) limit_level(i, bounds, worker);
+  });
+  team.run([&](Worker& worker) { apply(time_step, state, worker); });
+}
+
 }  // namespace weft

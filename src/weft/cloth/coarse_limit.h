@@ -7,33 +7,41 @@
 
 namespace weft {
 
-/// Provot's limit on the coarse levels of the image's mip pyramid, to be called before limit_strain.
-/// Passes over single springs carry a correction one spring a pass; what a whole hanging cloth is
-/// too long by needs as many passes as it has samples a side, or this [mueller08]. Between coarse
-/// samples runs a row, column or diagonal of springs: their rest lengths' sum times 1 + e bounds
-/// the distance, and folds in between only shorten it, so there is no lower bound. Corrections go
-/// by the masses that bilinear weights gather, and are interpolated bilinearly: momentum is kept.
-/// Levels reach down as far as sizes halve and mates still match.
+/// Provot's limit on the coarse levels of the image's mip pyramid, to be called before
+/// limit_strain. Passes over single springs carry a correction one spring a pass; what a whole
+/// hanging cloth is too long by needs as many passes as it has samples a side, or this [mueller08].
+/// Between coarse samples runs a row, column or diagonal of springs: their rest lengths' sum times
+/// 1 + e bounds the distance, and folds in between only shorten it, so there is no lower bound.
+/// Corrections go by the masses that bilinear weights gather, and are interpolated bilinearly, so
+/// momentum is kept. Levels reach down as far as sizes halve; where mates no longer match, coarser
+/// levels are cut along the seam, and what they find is averaged over the mates.
 class CoarseLimit {
  public:
   explicit CoarseLimit(const Cloth& cloth);
 
   /// @param passes  on each level
+  /// @param state   mates equal, before and after
   void limit(int passes, double time_step, ClothState& state, ThreadTeam& team) noexcept;
 
  private:
   struct Level {
-    Cloth cloth;       ///< as far as a limiter needs it
-    ClothState state;  ///< velocity: the correction of the positions [m]
+    Cloth cloth;        ///< as far as a limiter needs it
+    ClothState state;   ///< velocity: the correction of the positions [m]
+    Grid<float> moves;  ///< 1 where not pinned
+  };
+  struct Bounds {
+    int passes;
+    float longest;  ///< in rest lengths
   };
   static Level coarsened(const Cloth& fine);
   void sample(const ClothState& state);
-  void limit_level(std::size_t index, int passes, Worker& worker);
+  void limit_level(std::size_t index, const Bounds& bounds, Worker& worker);
+  void apply(double time_step, ClothState& state, Worker& worker);
 
   const Cloth& cloth_;
   std::vector<Level> levels_;  ///< from fine to coarse
   Grid<float> moves_;          ///< [n x n] 1 where not pinned
-  ThreadTeam alone_;           ///< the levels are small: not worth a team's barriers
+  Planes3 correction_;         ///< [n x n] [m]
 };
 
 }  // namespace weft

@@ -13,6 +13,10 @@ float sum_of(Grid<float>& plane, std::span<const int> samples) {
   return sum;
 }
 
+float mean_of(Grid<float>& plane, std::span<const int> samples) {
+  return sum_of(plane, samples) / static_cast<float>(samples.size());
+}
+
 /// Sets each class of each plane to value(plane, its samples).
 template <class Value>
 void set_classes(const BorderMates& mates, Range mine, std::initializer_list<Grid<float>*> planes,
@@ -39,10 +43,11 @@ void sum_over_mates(const BorderMates& mates, std::initializer_list<Grid<float>*
 
 void average_over_mates(const BorderMates& mates, Worker& worker,
                         std::initializer_list<Grid<float>*> planes) {
-  set_classes(mates, worker.share(mates.class_count()), planes,
-              [](Grid<float>& plane, std::span<const int> samples) {
-                return sum_of(plane, samples) / static_cast<float>(samples.size());
-              });
+  set_classes(mates, worker.share(mates.class_count()), planes, mean_of);
+}
+
+void average_over_mates(const BorderMates& mates, std::initializer_list<Grid<float>*> planes) {
+  set_classes(mates, {0, mates.class_count()}, planes, mean_of);
 }
 
 void copy_to_mates(const BorderMates& mates, Worker& worker,

@@ -22,6 +22,9 @@ void sum_over_mates(const BorderMates& mates, std::initializer_list<Grid<float>*
 void average_over_mates(const BorderMates& mates, Worker& worker,
                         std::initializer_list<Grid<float>*> planes);
 
+/// The same by one worker for all classes.
+void average_over_mates(const BorderMates& mates, std::initializer_list<Grid<float>*> planes);
+
 /// Every sample of a class gets the value of its representative.
 void copy_to_mates(const BorderMates& mates, Worker& worker,
                    std::initializer_list<Grid<float>*> planes);

@@ -14,7 +14,8 @@ namespace weft {
 namespace {
 
 /// How far the first end of a spring moves along (dx, dy, dz) per unit of its inverse mass.
-inline float correction(float squared, float rest, float inverse_masses, const StrainBounds& bounds) {
+inline float correction(float squared, float rest, float inverse_masses,
+                        const StrainBounds& bounds) {
   const float length = std::sqrt(squared);
   const float low = rest * bounds.shortest, high = rest * bounds.longest;
   const float wanted = length > high ? high : (length < low ? low : length);
@@ -71,8 +72,8 @@ void limit_run(const JoinedRows& rows, int first, const StrainBounds& bounds) {
 
 /// One colour of the springs between interior samples: along rows by column parity, else by row
 /// parity.
-void limit_colour(const Cloth& cloth, SpringDirection direction, int parity, const StrainBounds& bounds,
-                  ClothState& state, Worker& worker) {
+void limit_colour(const Cloth& cloth, SpringDirection direction, int parity,
+                  const StrainBounds& bounds, ClothState& state, Worker& worker) {
   const SpringPlane& springs = cloth.springs[direction];
   const int interior = cloth.size - 2 - springs.down;
   const bool by_column = springs.down == 0;

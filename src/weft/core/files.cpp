@@ -34,6 +34,14 @@ std::string read_file(const fs::path& path) {
   return bytes;
 }
 
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error)
+    throw OutputError(path.string(), "cannot be made: " + error.message(),
+                      "a writable place is wanted");
+}
+
 NewFile::NewFile(fs::path path) : path_(std::move(path)), temporary_(path_) {
   std::error_code ignored;
   if (fs::is_directory(path_, ignored))

@@ -11,6 +11,10 @@ namespace weft {
 /// @throws InputError when it is missing, a folder, or cannot be read
 std::string read_file(const std::filesystem::path& path);
 
+/// Makes a folder and those that it lies in; one that is there is left as it is.
+/// @throws OutputError when it cannot be made, or a file has its name
+void make_folder(const std::filesystem::path& path);
+
 /// A file that appears whole or not at all: written under a temporary name beside its place, then
 /// renamed. Unless `commit` was called, the destructor removes what was written.
 class NewFile {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace weft {
@@ -21,5 +22,22 @@ class Progress {
 inline void update(Progress* progress, std::string_view stage, double fraction) {
   if (progress != nullptr) progress->update(stage, fraction);
 }
+
+/// A part of a stage that reports as if it were whole: its fractions fall between two of the whole
+/// stage's, whose name is shown.
+class PartOfProgress : public Progress {
+ public:
+  /// @param whole  may be null
+  PartOfProgress(Progress* whole, std::string_view stage, double from, double to)
+      : whole_(whole), stage_(stage), from_(from), to_(to) {}
+  void update(std::string_view /*part*/, double fraction) override {
+    weft::update(whole_, stage_, from_ + fraction * (to_ - from_));
+  }
+
+ private:
+  Progress* whole_;
+  std::string stage_;
+  double from_, to_;
+};
 
 }  // namespace weft

@@ -131,7 +131,8 @@ Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
   watch.lap();
   if (options.measure) {
     update(options.progress, "measure", 0);
-    made.quality = measure_image(made.image, made.input.mesh, options.threads);
+    made.quality = measure_image(made.image, made.input.mesh,
+                                 {options.threads, options.seed, options.progress});
     made.seconds.measure = watch.lap();
   }
   const StageSeconds& s = made.seconds;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct ConvertOptions {
   bool augment = true;
   int normal_map_size = 0;  ///< 0: none
   bool measure = true;      ///< stage 11
+  std::uint64_t seed = 1;   ///< of the samples that stage 11 measures by
   int threads = 1;
   Progress* progress = nullptr;
 };
@@ -33,8 +35,14 @@ struct ImageQuality {
 };
 /// What psnr_db is where the surfaces are equal, so that reports hold a number.
 inline constexpr double best_psnr_db = 300;
+struct MeasureOptions {
+  int threads = 1;
+  std::uint64_t seed = 1;  ///< of the surface samples
+  Progress* progress = nullptr;
+};
 /// All of it. @throws TopologyError when the image's samples do not make a manifold
-ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh, int threads);
+ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
+                           const MeasureOptions& options = {});
 /// Without the distances, which stay 0: fast.
 ImageQuality measure_topology(const GeometryImage& image);
 

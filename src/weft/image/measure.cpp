@@ -32,11 +32,14 @@ ImageQuality measure_topology(const GeometryImage& image) {
   return quality;
 }
 
-ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh, int threads) {
+ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
+                           const MeasureOptions& options) {
   const TriangleMesh rebuilt = rebuild_mesh(image).mesh;
   ImageQuality quality;
   set_topology(quality, image, rebuilt);
-  const SurfaceDistance distance = surface_distance(mesh, rebuilt, {.threads = threads});
+  const SurfaceDistance distance = surface_distance(
+      mesh, rebuilt,
+      {.seed = options.seed, .threads = options.threads, .progress = options.progress});
   const double size = diagonal(mesh);
   quality.psnr_db = distance.rms > 0 ? 20 * std::log10(size / distance.rms) : best_psnr_db;
   quality.psnr_db = std::min(quality.psnr_db, best_psnr_db);

@@ -25,25 +25,31 @@ Vec3d random_point(const TriangleMesh& mesh, int triangle, Random& random) {
 
 /// From samples to their closest points: squared distances, each worked out from its sample alone.
 std::vector<double> squared_distances(const std::vector<Vec3d>& samples,
-                                      const ClosestPointQuery& query, int threads) {
+                                      const ClosestPointQuery& query,
+                                      const DistanceOptions& options) {
+  constexpr int block = 4096;  // between two words to whoever watches
+  const int count = static_cast<int>(samples.size());
   std::vector<double> squared(samples.size());
-  ThreadTeam team(threads);
-  team.run([&](Worker& worker) {
-    const Range mine = worker.share(static_cast<int>(samples.size()));
-    int hint = 0;
-    for (int i = mine.first; i < mine.last; ++i) {
-      const ClosestPoint found = query.closest(samples[i], hint);
-      squared[i] = found.squared_distance;
-      hint = found.triangle;
-    }
-  });
+  ThreadTeam team(options.threads);
+  for (int start = 0; start < count; start += block) {
+    update(options.progress, "measure", static_cast<double>(start) / count);
+    team.run([&](Worker& worker) {
+      const Range mine = worker.share(std::min(block, count - start));
+      int hint = 0;
+      for (int i = start + mine.first; i < start + mine.last; ++i) {
+        const ClosestPoint found = query.closest(samples[i], hint);
+        squared[i] = found.squared_distance;
+        hint = found.triangle;
+      }
+    });
+  }
   return squared;
 }
 
 OneSided one_sided(const TriangleMesh& from, const TriangleMesh& to,
                    const DistanceOptions& options) {
   const std::vector<double> squared = squared_distances(
-      sample_surface(from, options.samples, options.seed), ClosestPointQuery(to), options.threads);
+      sample_surface(from, options.samples, options.seed), ClosestPointQuery(to), options);
   OneSided result;
   for (const double d : squared) {
     result.mean_square += d;
@@ -79,7 +85,10 @@ std::vector<Vec3d> sample_surface(const TriangleMesh& mesh, int count, std::uint
 SurfaceDistance surface_distance(const TriangleMesh& a, const TriangleMesh& b,
                                  const DistanceOptions& options) {
   WEFT_ASSERT(options.samples > 0 && options.threads > 0);
-  const OneSided there = one_sided(a, b, options), back = one_sided(b, a, options);
+  PartOfProgress first(options.progress, "measure", 0, 0.5);
+  PartOfProgress second(options.progress, "measure", 0.5, 1);
+  const OneSided there = one_sided(a, b, {options.samples, options.seed, options.threads, &first});
+  const OneSided back = one_sided(b, a, {options.samples, options.seed, options.threads, &second});
   return {.rms = std::sqrt(std::max(there.mean_square, back.mean_square)),
           .hausdorff = std::sqrt(std::max(there.largest_square, back.largest_square))};
 }

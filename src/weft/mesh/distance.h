@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "weft/core/progress.h"
 #include "weft/mesh/triangle_mesh.h"
 
 namespace weft {
@@ -48,6 +49,7 @@ struct DistanceOptions {
   int samples = 40000;  ///< area-uniform samples on each surface
   std::uint64_t seed = 1;
   int threads = 1;
+  Progress* progress = nullptr;  ///< told every few thousand samples
 };
 /// How far two surfaces are apart, by area-uniform sampling each way.
 SurfaceDistance surface_distance(const TriangleMesh& a, const TriangleMesh& b,

@@ -73,6 +73,14 @@ double signed_volume(const TriangleMesh& mesh) {
   return sum;
 }
 
+/// Of any triangle, as far as doubles can tell.
+bool has_area(const TriangleMesh& mesh) {
+  const auto& p = mesh.positions;
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    return squared_length(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]])) > 0;
+  });
+}
+
 /// The repair of one mesh, step by step; each says what it did.
 class Repair {
  public:
@@ -86,6 +94,8 @@ class Repair {
     drop_triangles();
     note_unreferenced();
     choose_component();
+    if (!has_area(mesh_))
+      throw InputError(options_.name, "no triangle has an area", "a surface is wanted");
     orient();
     split_vertices();
     drop_unused_vertices();

@@ -33,7 +33,7 @@ struct RepairedMesh {
 /// Stage 1 of the conversion: checks, and repairs what can be repaired without changing the
 /// surface. Drops triangles with a repeated index and unreferenced vertices, orients consistently
 /// (breadth first), splits non-manifold vertices into fans, and picks the component.
-/// @throws InputError     empty mesh, not-finite coordinates, index out of range
+/// @throws InputError     empty mesh, not-finite coordinates, index out of range, no area at all
 /// @throws TopologyError  non-manifold edges (count, the first one's vertices), a component that
 ///                        cannot be oriented (an edge named), several components (how many)
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options);

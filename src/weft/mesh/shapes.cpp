@@ -1,6 +1,7 @@
 #include "weft/mesh/shapes.h"
 
 #include <array>
+#include <iterator>
 #include <string>
 
 #include "weft/core/error.h"
@@ -43,6 +44,7 @@ const Shape* find_shape(std::string_view name) {
 
 std::vector<ShapeInfo> built_in_shapes() {
   std::vector<ShapeInfo> infos;
+  infos.reserve(std::size(shapes));
   for (const Shape& shape : shapes) infos.push_back(shape.info);
   return infos;
 }
@@ -50,6 +52,7 @@ std::vector<ShapeInfo> built_in_shapes() {
 TriangleMesh make_shape(std::string_view name) {
   if (const Shape* shape = find_shape(name)) return shape->make();
   std::vector<std::string_view> names;
+  names.reserve(std::size(shapes));
   for (const Shape& shape : shapes) names.push_back(shape.info.name);
   throw UsageError("builtin:" + std::string(name), "no such shape",
                    "did you mean builtin:" + nearest_name(name, names) + "?");

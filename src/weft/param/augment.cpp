@@ -38,7 +38,7 @@ int worst_vertex(const DiskGeometry& geometry, std::span<const Vec2d> uv, int ve
 /// collapsed triangle dominates its stretch); then three Newton steps, after which cuts compare as
 /// they will in the end. The vertex to reach is that of the reweighted map, where the want of a cut
 /// still shows.
-Verdict judge(const TriangleMesh& mesh, const Cut& cut, int size) {
+Verdict judge(const TriangleMesh& mesh, const Cut& cut, int size, Progress* progress) {
   CutDisk opened = cut_open(mesh, cut);
   if (least_size(opened) > size) return {};
   constexpr int rotations = 4;
@@ -53,11 +53,14 @@ Verdict judge(const TriangleMesh& mesh, const Cut& cut, int size) {
   const DiskGeometry geometry(opened.disk);
   InteriorSolver solver(opened.disk, geometry.edges);
   std::vector<double> weights = symmetric_weights(opened.disk, geometry.edges, geometry.sides);
+  PartOfProgress first(progress, "cut", 0, 0.5);
+  PartOfProgress second(progress, "cut", 0.5, 1);
   ReweightingOptions options;
   options.iterations = 2;
+  options.progress = &first;
   const bool valid = map_by_reweighting(geometry, solver, weights, uv, options);
   const int worst = worst_vertex(geometry, uv, static_cast<int>(mesh.positions.size()));
-  if (valid) minimise_by_newton(geometry, uv, {.steps = 3});
+  if (valid) minimise_by_newton(geometry, uv, {.steps = 3, .progress = &second});
   return {valid ? geometry.stretch_l2(uv) : infinity, worst};
 }
 
@@ -67,14 +70,16 @@ std::vector<int> find_targets(const TriangleMesh& mesh, Cut cut, const AugmentOp
   constexpr int patience = 2;
   std::vector<int> targets;
   std::size_t kept = 0;
-  Verdict verdict = judge(mesh, cut, options.size);
+  PartOfProgress start(options.progress, "cut", 0, 0);
+  Verdict verdict = judge(mesh, cut, options.size, &start);
   double best = verdict.stretch;
   for (int round = 0, weak = 0; round < options.most_rounds && weak < patience; ++round) {
-    update(options.progress, "cut", static_cast<double>(round) / options.most_rounds);
+    PartOfProgress part(options.progress, "cut", static_cast<double>(round) / options.most_rounds,
+                        (round + 1.0) / options.most_rounds);
     if (verdict.worst_vertex < 0) break;
     targets.push_back(verdict.worst_vertex);
     cut = extend_cut(mesh, cut, verdict.worst_vertex);
-    verdict = judge(mesh, cut, options.size);
+    verdict = judge(mesh, cut, options.size, &part);
     // As long as no map is valid at all, every cut is a gain.
     const bool gained = best == infinity || verdict.stretch < best * (1 - least_gain);
     weak = gained ? 0 : weak + 1;

@@ -11,13 +11,22 @@ namespace {
 
 constexpr int most_cures = 6;
 
+/// A disk whose inside is to be mapped, and what that takes.
+struct Task {
+  const DiskGeometry& geometry;
+  InteriorSolver& solver;
+  std::span<Vec2d> uv;
+  Progress* progress;
+};
+
 /// Floater's map as it is; where doubles do not hold it, the neighbours' stretch divides the
 /// weights, which spreads the places where the map has collapsed.
-bool map_by_floater(const DiskGeometry& geometry, const InteriorSolver& solver,
-                    std::span<Vec2d> uv) {
+bool map_by_floater(const Task& task) {
+  const auto& [geometry, solver, uv, progress] = task;
   std::vector<double> weights =
       shape_preserving_weights(geometry.disk, geometry.edges, geometry.sides);
   for (int cure = 0; cure <= most_cures; ++cure) {
+    update(progress, "map", 0.1);
     if (cure > 0) reweight(geometry, uv, weights);
     if (!solver.solve_general(weights, uv)) return false;
     if (is_valid_map(geometry.disk.triangles, uv)) return true;
@@ -25,10 +34,13 @@ bool map_by_floater(const DiskGeometry& geometry, const InteriorSolver& solver,
   return false;
 }
 
-bool map_with_least_stretch(const DiskGeometry& geometry, InteriorSolver& solver,
-                            std::span<Vec2d> uv, const StretchOptions& options) {
+bool map_with_least_stretch(const Task& task, const StretchOptions& options) {
+  const auto& [geometry, solver, uv, progress] = task;
+  PartOfProgress first(progress, "map", 0.1, 0.4);
+  PartOfProgress second(progress, "map", 0.4, 1);
   std::vector<double> weights = symmetric_weights(geometry.disk, geometry.edges, geometry.sides);
-  ReweightingOptions reweighting{.iterations = options.iterations, .cures = most_cures};
+  ReweightingOptions reweighting{
+      .iterations = options.iterations, .cures = most_cures, .progress = &first};
   // A Newton step gains more than the last of these would.
   if (options.newton_steps > 0) reweighting.least_gain = 0.01;
   bool found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
@@ -38,7 +50,7 @@ bool map_with_least_stretch(const DiskGeometry& geometry, InteriorSolver& solver
     found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
   }
   if (found && options.newton_steps > 0)
-    minimise_by_newton(geometry, uv, {.steps = options.newton_steps});
+    minimise_by_newton(geometry, uv, {.steps = options.newton_steps, .progress = &second});
   return found;
 }
 
@@ -46,14 +58,14 @@ bool map_with_least_stretch(const DiskGeometry& geometry, InteriorSolver& solver
 
 bool map_interior(const DiskMesh& disk, std::span<Vec2d> uv, const Parameterizer& parameterizer,
                   Progress* progress) {
-  update(progress, "map", 0.5);
+  update(progress, "map", 0.1);
   const DiskGeometry geometry(disk);
   InteriorSolver solver(disk, geometry.edges);
+  const Task task{geometry, solver, uv, progress};
   if (const auto* stretch = std::get_if<StretchOptions>(&parameterizer))
-    return map_with_least_stretch(geometry, solver, uv, *stretch);
+    return map_with_least_stretch(task, *stretch);
   // A valid map that is not Floater's is better than none.
-  return map_by_floater(geometry, solver, uv) ||
-         map_with_least_stretch(geometry, solver, uv, {.iterations = 0, .newton_steps = 0});
+  return map_by_floater(task) || map_with_least_stretch(task, {.iterations = 0, .newton_steps = 0});
 }
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include <queue>
 #include <tuple>
 
+#include "weft/mesh/one_ring.h"
 #include "weft/mesh/topology.h"
 
 namespace weft {
@@ -74,13 +75,7 @@ void Coarsener::push(int a, int b) {
 }
 
 std::vector<int> Coarsener::neighbours(int vertex) const {
-  std::vector<int> result;
-  for (const int t : around_[vertex])
-    for (const int v : triangles_[t])
-      if (v != vertex) result.push_back(v);
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+  return one_ring(triangles_, around_[vertex], vertex);
 }
 
 bool Coarsener::feature_allows(int from, int to) const {

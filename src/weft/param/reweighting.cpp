@@ -20,6 +20,7 @@ bool map_by_reweighting(const DiskGeometry& geometry, InteriorSolver& solver,
   int rounds_with_map = 0;
   for (int round = 0; rounds_with_map <= options.iterations; ++round) {
     if (best.empty() && round > options.cures) break;
+    update(options.progress, "map", std::min(1.0, round / (options.iterations + 1.0)));
     if (!solver.factorize_symmetric(weights)) break;
     solver.solve_symmetric(uv);
     const double stretch = geometry.stretch_l2(uv);

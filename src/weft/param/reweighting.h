@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "weft/core/progress.h"
 #include "weft/param/disk_geometry.h"
 #include "weft/param/interior_solver.h"
 
@@ -16,6 +17,7 @@ struct ReweightingOptions {
   int iterations = 10;       ///< at most, once a valid map is there
   int cures = 6;             ///< how often a map that is not valid is reweighted before giving up
   double least_gain = 1e-3;  ///< relative fall of the stretch below which the iteration ends
+  Progress* progress = nullptr;  ///< told of every iteration
 };
 
 /// @param weights  [3F] symmetric and positive to start from; reweighted in place

@@ -69,6 +69,7 @@ void minimise_by_newton(const DiskGeometry& geometry, std::span<Vec2d> uv,
   NewtonSystem system(geometry);
   double energy = energy_of(geometry, uv);
   for (int step = 0; step < options.steps; ++step) {
+    update(options.progress, "map", static_cast<double>(step) / options.steps);
     const NewtonSystem::Step newton = system.solve(uv);
     if (newton.move.empty()) return;
     const double reached = line_search(geometry, uv, newton, energy);

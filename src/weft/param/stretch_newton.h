@@ -2,13 +2,15 @@
 
 #include <span>
 
+#include "weft/core/progress.h"
 #include "weft/param/disk_geometry.h"
 
 namespace weft {
 
 struct NewtonOptions {
-  int steps = 24;            ///< at most
-  double least_gain = 2e-3;  ///< relative fall of the L2 stretch in a step below which it ends
+  int steps = 24;                ///< at most
+  double least_gain = 2e-3;      ///< relative fall of the L2 stretch in a step below which it ends
+  Progress* progress = nullptr;  ///< told of every step
 };
 
 /// Lowers the L2 stretch of a valid map by projected Newton steps over all interior vertices at

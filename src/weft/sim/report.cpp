@@ -62,7 +62,8 @@ std::string to_json(const RunReport& report) {
   json["state_hash"] = report.state_hash;
   json["outputs"] = Json::array();
   for (const auto& path : report.outputs) json["outputs"].push_back(path.string());
-  return json.dump();
+  // A path may hold any bytes, JSON only UTF-8.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string frames_csv_header() {

@@ -32,14 +32,6 @@ void check_exports(const RunOptions& options) {
                        "known are: obj, pc2");
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw OutputError(folder.string(), "cannot be made: " + error.message(),
-                      "a writable place is wanted");
-}
-
 /// Everything that is written while a run goes on. Files that grow appear under their names at
 /// `finish`.
 class Recorder {
@@ -176,7 +168,6 @@ RunReport run_scene(const Scene& scene, const std::string& name, const RunOption
   Recorder recorder(simulation, scene, options);
   try {
     for (int frame = 0; frame < scene.frames; ++frame) {
-      update(options.progress, "simulate", static_cast<double>(frame) / scene.frames);
       const FrameReport done = simulation.advance();
       recorder.add_frame(done);
       add_to_report(report, done);

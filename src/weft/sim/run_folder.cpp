@@ -193,7 +193,8 @@ void write_run_manifest(const fs::path& path, const Scene& scene, const RunRepor
     if (fs::exists(normals)) placed["normals"] = normals.filename().string();
     json["bodies"].push_back(std::move(placed));
   }
-  write_file(path, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  write_file(path, [&](std::ostream& out) { out << text << '\n'; });
 }
 
 fs::path normals_path(const fs::path& folder, const std::string& body) {

@@ -26,8 +26,8 @@ nlohmann::json parse_json(std::string_view text, const std::string& name) {
         1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
     throw SceneError(fmt::format("{}:{}", name, line), "is not JSON here",
                      "a scene file is wanted");
-  } catch (const nlohmann::json::exception& error) {
-    throw SceneError(name, error.what(), "a scene file is wanted");
+  } catch (const nlohmann::json::out_of_range&) {
+    throw SceneError(name, "a number that doubles cannot hold", "finite numbers are wanted");
   }
 }
 
@@ -67,6 +67,9 @@ void check_names(const Scene& scene, const JsonPlace& place) {
   };
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) check(scene.cloths[i].name, "cloths", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) check(scene.bodies[i].name, "bodies", i);
+  // A body's normal map lies beside its image.
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    check(scene.bodies[i].name + ".normals", "bodies", i);
 }
 
 void read_ground(const JsonObject& root, Scene& scene) {

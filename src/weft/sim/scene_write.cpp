@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "weft/core/error.h"
 #include "weft/core/files.h"
 #include "weft/sim/scene_file.h"
 
@@ -111,7 +112,14 @@ Json scene_json(const Scene& scene, const fs::path& folder) {
 
 void write_scene(const fs::path& path, const Scene& scene) {
   const Json json = scene_json(scene, path.parent_path());
-  write_file(path, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
+  std::string text;
+  try {
+    text = json.dump(2);
+  } catch (const Json::type_error&) {
+    throw OutputError(path.string(), "a surface's path is not UTF-8, which JSON cannot hold",
+                      "another name is wanted");
+  }
+  write_file(path, [&](std::ostream& out) { out << text << '\n'; });
 }
 
 }  // namespace weft

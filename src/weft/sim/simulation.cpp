@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/cloth/coarse_limit.h"
 #include "weft/core/error.h"
 #include "weft/core/hash.h"
 #include "weft/sim/pins.h"
@@ -30,6 +31,13 @@ double gap_of(const Cloth& cloth) {
 
 /// Of the ground, which scenes do not name a coefficient for.
 constexpr double ground_friction = 0.5;
+
+/// The limiter pulls cloth into bodies, the collider stretches it again. The two-level method's
+/// springs are so soft that the limiter carries the cloth: there both take turns, the collider
+/// last.
+constexpr int rounds_of_soft_springs = 4;
+/// Of the limiter on each coarse level.
+constexpr int coarse_passes = 2;
 
 class StageClock {
  public:
@@ -58,20 +66,22 @@ struct Mover {
   std::unique_ptr<Integrator> integrator;
   std::unique_ptr<Collider> collider;
   RunawayCheck runaway;
+  CoarseLimit coarse_limit;
 };
 
 }  // namespace
 
 struct Simulation::Parts {
-  Parts(const Scene& scene_, std::string name_, int threads)
+  Parts(const Scene& scene_, std::string name_, int threads, Progress* progress_)
       : scene(scene_),
         name(std::move(name_)),
+        progress(progress_),
         team(threads),
         time_step(1 / (scene.frame_rate * scene.substeps)) {}
 
   LoadedSurface load(const std::string& surface, ConvertOptions options, const std::string& what);
-  void load_cloths(Progress* progress);
-  void load_bodies(Progress* progress);
+  void load_cloths();
+  void load_bodies();
   void make_movers();
   /// @return particles in contact
   int step(std::size_t index, FrameReport& report);
@@ -84,6 +94,7 @@ struct Simulation::Parts {
 
   Scene scene;
   std::string name;
+  Progress* progress;
   ThreadTeam team;
   double time_step;  // [s]
   std::vector<SimulatedCloth> cloths;
@@ -97,12 +108,20 @@ LoadedSurface Simulation::Parts::load(const std::string& surface, ConvertOptions
                                       const std::string& what) {
   update(options.progress, "load " + what, 0);
   options.threads = team.size();
-  LoadedSurface loaded = load_surface(surface, options);
+  const auto read = [&] {
+    try {
+      return load_surface(surface, options);
+    } catch (const UsageError& error) {
+      // What a command line gets wrong by itself, a scene names in its file.
+      throw SceneError(name, fmt::format("'{}': {}", what, error.what()), "");
+    }
+  };
+  LoadedSurface loaded = read();
   for (const std::string& note : loaded.notes) notes.push_back(fmt::format("{}: {}", what, note));
   return loaded;
 }
 
-void Simulation::Parts::load_cloths(Progress* progress) {
+void Simulation::Parts::load_cloths() {
   for (const SceneCloth& wanted : scene.cloths) {
     ConvertOptions options;
     options.size = wanted.size;
@@ -116,7 +135,7 @@ void Simulation::Parts::load_cloths(Progress* progress) {
   }
 }
 
-void Simulation::Parts::load_bodies(Progress* progress) {
+void Simulation::Parts::load_bodies() {
   for (const SceneBody& wanted : scene.bodies) {
     ConvertOptions options;
     options.size = wanted.size;
@@ -147,7 +166,8 @@ void Simulation::Parts::make_movers() {
     const Guarded guarded{gap_of(cloth.cloth), scene.cloths[i].friction};
     movers.push_back({make_integrator(scene.integrator, cloth.cloth, typical, team),
                       make_collider(scene.collider, obstacles, guarded),
-                      RunawayCheck(cloth.cloth, cloth.state, scene.gravity)});
+                      RunawayCheck(cloth.cloth, cloth.state, scene.gravity),
+                      CoarseLimit(cloth.cloth)});
   }
 }
 
@@ -168,11 +188,18 @@ int Simulation::Parts::step(std::size_t index, FrameReport& report) {
     if (!contacts.empty()) next = &mover.integrator->iterate(contacts);
   }
   clock.lap();
-  limit_strain(cloth.cloth, scene.limiter, time_step, *next, team);
-  report.limit_ms += clock.lap();
-  const int contacts = mover.collider->correct(
-      {start, next->position, next->velocity, cloth.cloth.inverse_mass}, time_step, team);
-  report.collide_ms += clock.lap();
+  const bool soft = std::holds_alternative<TwoLevelOptions>(scene.integrator);
+  int contacts = 0;
+  for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
+    mover.coarse_limit.limit(std::min(coarse_passes, scene.limiter.passes), time_step, *next, team);
+    limit_strain(cloth.cloth, scene.limiter, time_step, *next, team);
+    report.limit_ms += clock.lap();
+    const int touched = mover.collider->correct(
+        {start, next->position, next->velocity, cloth.cloth.inverse_mass}, time_step, team);
+    report.collide_ms += clock.lap();
+    contacts = std::max(contacts, touched);
+    if (touched == 0) break;
+  }
 
   const StepReport stepped = mover.integrator->end(cloth.state);
   report.forces_ms += 1000 * stepped.forces_seconds;
@@ -234,10 +261,10 @@ void Simulation::Parts::measure(FrameReport& report) {
 }
 
 Simulation::Simulation(const Scene& scene, const std::string& name, int threads, Progress* progress)
-    : parts_(std::make_unique<Parts>(scene, name, threads)) {
+    : parts_(std::make_unique<Parts>(scene, name, threads, progress)) {
   if (scene.cloths.empty()) throw SceneError(name, "no cloth", "at least one is wanted");
-  parts_->load_cloths(progress);
-  parts_->load_bodies(progress);
+  parts_->load_cloths();
+  parts_->load_bodies();
   parts_->make_movers();
 }
 
@@ -246,10 +273,13 @@ Simulation::~Simulation() = default;
 FrameReport Simulation::advance() {
   FrameReport report;
   StageClock clock;
-  for (int substep = 0; substep < parts_->scene.substeps; ++substep) {
+  const int substeps = parts_->scene.substeps;
+  for (int substep = 0; substep < substeps; ++substep) {
+    update(parts_->progress, "simulate",
+           (parts_->frame + static_cast<double>(substep) / substeps) /
+               std::max(parts_->frame + 1, parts_->scene.frames));
     int contacts = 0;
-    const double seconds =
-        parts_->time_step * (parts_->frame * parts_->scene.substeps + substep + 1);
+    const double seconds = parts_->time_step * (parts_->frame * substeps + substep + 1);
     for (std::size_t i = 0; i < parts_->cloths.size(); ++i) {
       contacts += parts_->step(i, report);
       const SimulatedCloth& cloth = parts_->cloths[i];

@@ -84,21 +84,12 @@ std::vector<std::string> format_options(const std::filesystem::path& path) {
 
 std::vector<std::string> command(const std::filesystem::path& path, const std::string& output,
                                  const std::string& size, double frame_rate) {
-  std::vector<std::string> words{"ffmpeg",
-                                 "-y",
-                                 "-loglevel",
-                                 "error",
+  std::vector<std::string> words{"ffmpeg",   "-y",       "-loglevel", "error",
                                  "-nostats",
-                                 "-f",
-                                 "rawvideo",
-                                 "-pix_fmt",
-                                 "rgb24",
-                                 "-s",
-                                 size,
-                                 "-r",
-                                 fmt::format("{}", frame_rate),
-                                 "-i",
-                                 "pipe:0"};
+                                 "-xerror",  // or a full disk goes unnoticed
+                                 "-f",       "rawvideo", "-pix_fmt",  "rgb24",
+                                 "-s",       size,       "-r",        fmt::format("{}", frame_rate),
+                                 "-i",       "pipe:0"};
   for (std::string& word : format_options(path)) words.push_back(std::move(word));
   words.push_back("file:" + output);
   return words;

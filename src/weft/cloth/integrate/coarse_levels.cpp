@@ -32,22 +32,28 @@ void multiply_row(const Blocks& blocks, Planes3& values, int row) {
 
 CoarseLevels::Level CoarseLevels::make_level(const BorderMates& mates) {
   const int n = mates.size();
-  Level level{mates, Grid<float>(n, n, 1), Planes3(n), Grid<float>(n, n), {},
+  Level level{mates, Grid<float>(n, n, 1), Planes3(n), Grid<float>(n, n), {}, {},
               {},    Grid<float>(n, 2 * n)};
   for (int index = 0; index < mates.class_count(); ++index)
-    for (const int s : mates.mates(index).subspan(1)) level.counted(s / n, s % n) = 0;
-  for (Blocks* blocks : {&level.spring, &level.inverse})
+    for (const int s : mates.mates(index))
+      level.share(s / n, s % n) = 1 / static_cast<float>(mates.mates(index).size());
+  for (Blocks* blocks : {&level.spring, &level.contact, &level.inverse})
     for (Grid<float>& plane : *blocks) plane = Grid<float>(n, n);
   return level;
 }
 
-CoarseLevels::CoarseLevels(const Cloth& cloth) : cloth_(cloth), moves_(cloth.size, cloth.size) {
+CoarseLevels::CoarseLevels(const Cloth& cloth)
+    : cloth_(cloth),
+      finest_(make_level(cloth.mates)),
+      share_(finest_.share),
+      moves_(cloth.size, cloth.size) {
   BorderMates mates = cloth.mates;
-  while (halves(mates) && (mates.size() - 1) / 2 + 1 >= least_level_size) {
-    mates = halved(mates);
+  while (mates.size() % 2 == 1 && (mates.size() - 1) / 2 + 1 >= least_level_size) {
+    Level& fine = levels_.empty() ? finest_ : levels_.back();
+    fine.cut_below = !halves(mates);
+    mates = fine.cut_below ? BorderMates((mates.size() - 1) / 2 + 1, {}) : halved(mates);
     levels_.push_back(make_level(mates));
   }
-  if (!levels_.empty()) finest_ = make_level(cloth.mates);
 }
 
 /// The finest level's masses and blocks; those of pinned particles are left out of the masses
@@ -55,7 +61,7 @@ CoarseLevels::CoarseLevels(const Cloth& cloth) : cloth_(cloth), moves_(cloth.siz
 void CoarseLevels::take_row(const Blocks& diagonal, int row) {
   for (int c = 0; c < cloth_.size; ++c) {
     moves_(row, c) = cloth_.inverse_mass(row, c) > 0 ? 1.0F : 0.0F;
-    finest_.counted(row, c) = moves_(row, c) * cloth_.counted(row, c);
+    finest_.share(row, c) = moves_(row, c) * share_(row, c);
     finest_.mass(row, c) = cloth_.mass(row, c);
   }
   for (int i = 0; i < 6; ++i) {
@@ -65,10 +71,26 @@ void CoarseLevels::take_row(const Blocks& diagonal, int row) {
   }
 }
 
-void CoarseLevels::invert_row(Level& level, int row) {
+void CoarseLevels::take_contacts_row(const ContactTerms& contacts, int row) {
+  const ConstRow3 s = row_of(contacts.axis(), row);
+  Blocks& block = finest_.contact;
+  for (int c = 0; c < cloth_.size; ++c) {
+    block[0](row, c) = s.x[c] * s.x[c];
+    block[1](row, c) = s.x[c] * s.y[c];
+    block[2](row, c) = s.x[c] * s.z[c];
+    block[3](row, c) = s.y[c] * s.y[c];
+    block[4](row, c) = s.y[c] * s.z[c];
+    block[5](row, c) = s.z[c] * s.z[c];
+  }
+}
+
+void CoarseLevels::invert_row(Level& level, bool contacts, int row) {
   for (int c = 0; c < level.size(); ++c) {
     const float mass = mass_share * level.mass(row, c);
-    const auto entry = [&](int i) { return spring_share * level.spring[i](row, c); };
+    const auto entry = [&](int i) {
+      const float held = contacts ? mass_share * level.contact[i](row, c) : 0.0F;
+      return spring_share * level.spring[i](row, c) + held;
+    };
     const Symmetric3 block{entry(0) + mass, entry(1), entry(2),
                            entry(3) + mass, entry(4), entry(5) + mass};
     const bool moves = block.xx + block.yy + block.zz > 0;
@@ -82,32 +104,54 @@ void CoarseLevels::invert_row(Level& level, int row) {
   }
 }
 
-void CoarseLevels::prepare(const Blocks& diagonal, Worker& worker) {
+void CoarseLevels::coarsen_row(const Level& fine, bool contacts, Level& coarse, int row) {
+  const int last = coarse.size() - 1;
+  float* line = coarse.line.row(row);
+  restrict_plane_row(fine.mass, &fine.share, row, line, coarse.mass.row(row));
+  for (int i = 0; i < 6; ++i) {
+    float* out = coarse.spring[i].row(row);
+    restrict_plane_row(fine.spring[i], nullptr, row, line, out);
+    // The weights that were summed, so that a mean remains.
+    const float height = row == 0 || row == last ? 1.5F : 2.0F;
+    for (int c = 0; c <= last; ++c) out[c] /= height * (c == 0 || c == last ? 1.5F : 2.0F);
+    if (contacts)
+      restrict_plane_row(fine.contact[i], &fine.share, row, line, coarse.contact[i].row(row));
+  }
+}
+
+void CoarseLevels::sum_level(Level& level, bool contacts, Worker& worker) {
+  Blocks &spring = level.spring, &held = level.contact;
+  sum_over_mates(level.mates, worker, {&level.mass});
+  average_over_mates(level.mates, worker,
+                     {&spring[0], &spring[1], &spring[2], &spring[3], &spring[4], &spring[5]});
+  if (contacts)
+    sum_over_mates(level.mates, worker,
+                   {&held[0], &held[1], &held[2], &held[3], &held[4], &held[5]});
+}
+
+void CoarseLevels::prepare(const Blocks& diagonal, const ContactTerms& contacts, Worker& worker) {
+  const bool held = !contacts.empty();
   const Range rows = worker.share(cloth_.size);
-  for (int r = rows.first; r < rows.last; ++r) take_row(diagonal, r);
+  for (int r = rows.first; r < rows.last; ++r) {
+    take_row(diagonal, r);
+    if (held) take_contacts_row(contacts, r);
+  }
   worker.barrier();
+  if (held) {
+    // A contact acts on a representative alone.
+    Blocks& block = finest_.contact;
+    sum_over_mates(cloth_.mates, worker,
+                   {&block[0], &block[1], &block[2], &block[3], &block[4], &block[5]});
+    worker.barrier();
+  }
   const Level* fine = &finest_;
   for (Level& level : levels_) {
-    const int last = level.size() - 1;
     const Range mine = worker.share(level.size());
-    for (int r = mine.first; r < mine.last; ++r) {
-      float* line = level.line.row(r);
-      restrict_plane_row(fine->mass, &fine->counted, r, line, level.mass.row(r));
-      for (int i = 0; i < 6; ++i) {
-        float* out = level.spring[i].row(r);
-        restrict_plane_row(fine->spring[i], nullptr, r, line, out);
-        // The weights that were summed, so that a mean remains.
-        const float height = r == 0 || r == last ? 1.5F : 2.0F;
-        for (int c = 0; c <= last; ++c) out[c] /= height * (c == 0 || c == last ? 1.5F : 2.0F);
-      }
-    }
+    for (int r = mine.first; r < mine.last; ++r) coarsen_row(*fine, held, level, r);
     worker.barrier();
-    Blocks& spring = level.spring;
-    sum_over_mates(level.mates, worker, {&level.mass});
-    average_over_mates(level.mates, worker,
-                       {&spring[0], &spring[1], &spring[2], &spring[3], &spring[4], &spring[5]});
+    sum_level(level, held, worker);
     worker.barrier();
-    for (int r = mine.first; r < mine.last; ++r) invert_row(level, r);
+    for (int r = mine.first; r < mine.last; ++r) invert_row(level, held, r);
     fine = &level;
   }
   worker.barrier();
@@ -116,9 +160,9 @@ void CoarseLevels::prepare(const Blocks& diagonal, Worker& worker) {
 void CoarseLevels::restrict_row(const Level& fine, const Planes3& in, Level& coarse, int row) {
   float* line = coarse.line.row(row);
   const Row3 out = row_of(coarse.value, row);
-  restrict_plane_row(in.x, &fine.counted, row, line, out.x);
-  restrict_plane_row(in.y, &fine.counted, row, line, out.y);
-  restrict_plane_row(in.z, &fine.counted, row, line, out.z);
+  restrict_plane_row(in.x, &fine.share, row, line, out.x);
+  restrict_plane_row(in.y, &fine.share, row, line, out.y);
+  restrict_plane_row(in.z, &fine.share, row, line, out.z);
 }
 
 /// Residual to correction, with what the levels below found.
@@ -142,6 +186,8 @@ void CoarseLevels::solve_below() {
   for (std::size_t i = levels_.size(); --i > 0;) {
     const Level* below = i + 1 < levels_.size() ? &levels_[i + 1] : nullptr;
     for (int r = 0; r < levels_[i].size(); ++r) correct_row(levels_[i], below, r);
+    Planes3& value = levels_[i].value;
+    if (levels_[i].cut_below) average_over_mates(levels_[i].mates, {&value.x, &value.y, &value.z});
   }
 }
 
@@ -156,6 +202,9 @@ void CoarseLevels::solve(const Planes3& residual, Worker& worker) {
   worker.barrier();
   const Level* below = levels_.size() > 1 ? &levels_[1] : nullptr;
   for (int r = mine.first; r < mine.last; ++r) correct_row(first, below, r);
+  worker.barrier();
+  if (!first.cut_below) return;
+  average_over_mates(first.mates, worker, {&first.value.x, &first.value.y, &first.value.z});
   worker.barrier();
 }
 

@@ -84,8 +84,8 @@ void ConjugateGradients::apply_row(const System& system, const Planes3& in, Plan
   }
 }
 
-/// z = P^-1 r on a row. @return its part of r . z, particles counted once
-double ConjugateGradients::precondition_row(const Planes3& r, int row) {
+/// z = P^-1 r on a row.
+void ConjugateGradients::precondition_row(const Planes3& r, int row) {
   const ConstRow3 in = row_of(r, row);
   const Row3 z = row_of(preconditioned_, row);
   std::array<const float*, 6> d{};
@@ -98,15 +98,26 @@ double ConjugateGradients::precondition_row(const Planes3& r, int row) {
     z.z[c] = d[2][c] * x + d[4][c] * y + d[5][c] * w;
   }
   if (!coarse_.empty()) coarse_.add_row(preconditioned_, row);
-  const ConstRow3 done = const_row_of(preconditioned_, row);
-  const float* counted = cloth_.counted.row(row);
-  return lane_sum(cloth_.size, [&](int c) { return double{counted[c] * dot_at(in, done, c)}; });
 }
 
-/// z = P^-1 r. @return r . z
+/// z = P^-1 r. @return r . z, particles counted once
 double ConjugateGradients::precondition(const Planes3& r, Worker& worker) {
   if (!coarse_.empty()) coarse_.solve(r, worker);
-  return sums_.sum(worker, [&](int row) { return precondition_row(r, row); });
+  const bool apart = coarse_.parts_mates();
+  if (apart) {
+    const Range mine = worker.share(cloth_.size);
+    for (int row = mine.first; row < mine.last; ++row) precondition_row(r, row);
+    worker.barrier();
+    Planes3& z = preconditioned_;
+    average_over_mates(cloth_.mates, worker, {&z.x, &z.y, &z.z});
+    worker.barrier();
+  }
+  return sums_.sum(worker, [&](int row) {
+    if (!apart) precondition_row(r, row);
+    const ConstRow3 in = row_of(r, row), z = const_row_of(preconditioned_, row);
+    const float* counted = cloth_.counted.row(row);
+    return lane_sum(cloth_.size, [&](int c) { return double{counted[c] * dot_at(in, z, c)}; });
+  });
 }
 
 /// v += alpha p, r -= alpha q on a row.
@@ -166,7 +177,7 @@ void ConjugateGradients::start(const System& system, Planes3& r, const Planes3& 
       cloth_.mates, worker,
       {&inverse_[0], &inverse_[1], &inverse_[2], &inverse_[3], &inverse_[4], &inverse_[5]});
   worker.barrier();
-  if (!coarse_.empty()) coarse_.prepare(system.diagonal, worker);
+  if (!coarse_.empty()) coarse_.prepare(system.diagonal, system.contacts, worker);
 }
 
 SolveReport ConjugateGradients::iterate(const System& system, const Stop& stop, Planes3& r,

@@ -41,7 +41,7 @@ class ConjugateGradients {
   void invert_row(const System& system, int row);
   void apply_row(const System& system, const Planes3& in, Planes3& out, int row) const;
   double precondition(const Planes3& r, Worker& worker);
-  double precondition_row(const Planes3& r, int row);
+  void precondition_row(const Planes3& r, int row);
   void step_row(double alpha, Planes3& r, Planes3& v, int row);
   void turn_row(double beta, int row);
   [[nodiscard]] double largest_step() const;

@@ -6,6 +6,7 @@
 
 #include "weft/core/assert.h"
 #include "weft/mesh/facts.h"
+#include "weft/mesh/one_ring.h"
 
 namespace weft {
 namespace {
@@ -32,13 +33,7 @@ EditableMesh::EditableMesh(TriangleMesh mesh)
 }
 
 std::vector<int> EditableMesh::neighbours(int vertex) const {
-  std::vector<int> found;
-  for (const int slot : around_[vertex])
-    for (const int v : triangles_[slot])
-      if (v != vertex) found.push_back(v);
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
+  return one_ring(triangles_, around_[vertex], vertex);
 }
 
 std::optional<std::array<int, 2>> EditableMesh::border_neighbours(int vertex) const {

@@ -49,7 +49,7 @@ std::string read_surface(const JsonObject& object, std::string_view fallback,
 
 /// Names become file names, so they must be plain.
 std::string read_name(const JsonObject& object, std::string_view fallback) {
-  const std::string name = object.text("name", fallback);
+  std::string name = object.text("name", fallback);
   const bool plain =
       !name.empty() && name[0] != '.' &&
       name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "tests/cloth/sheets.h"
+#include "tests/collide/test_bodies.h"
+#include "weft/cloth/coarse_limit.h"
+#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/strain_limit.h"
+#include "weft/collide/collider.h"
+
+// The whole program's allocations are counted: the standard lets a program replace these.
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+void* counted_memory(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  const std::size_t rounded = (std::max<std::size_t>(size, 1) + alignment - 1) / alignment;
+  if (void* memory = std::aligned_alloc(alignment, rounded * alignment)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted_memory(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted_memory(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+
+namespace weft {
+namespace {
+
+using namespace testing;
+
+struct Step {
+  const Cloth& cloth;
+  Integrator& integrator;
+  CoarseLimit& coarse;
+  Collider& collider;
+  ThreadTeam& team;
+
+  void take(const StepInput& input, ClothState& state) const {
+    integrator.begin(input, state);
+    ClothState* next = &integrator.iterate({});
+    const MovingCloth moving{state.position, next->position, next->velocity, cloth.inverse_mass};
+    next = &integrator.iterate(collider.detect(moving, team));
+    coarse.limit(2, input.time_step, *next, team);
+    limit_strain(cloth, {}, input.time_step, *next, team);
+    collider.correct(moving, input.time_step, team);
+    integrator.end(state);
+  }
+};
+
+TEST(Allocation, CounterCounts) {
+  const long before = allocations;
+  const Planes3 planes(9);
+  EXPECT_GE(allocations - before, 3);
+}
+
+TEST(Allocation, SteppingAllocatesNothingOnceWarm) {
+  const int n = 17;
+  for (const IntegratorOptions& options :
+       {IntegratorOptions(ImplicitOptions{}), IntegratorOptions(ExplicitOptions{}),
+        IntegratorOptions(TwoLevelOptions{.local_size = 5})})
+    for (Cloth cloth : {sheet_cloth(n), torus_cloth(n)}) {
+      pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
+      ThreadTeam team(2);
+      const StepInput input{1e-4, {0, -9.81F, 0}};
+      const auto integrator = make_integrator(options, cloth, input, team);
+      const Obstacles ball{{test::octahedral_sphere(17, 0.3, {0, -0.35, 0})}, -0.5, 0.5};
+      const auto collider = make_collider(PolarMapOptions{}, ball, {});
+      CoarseLimit coarse(cloth);
+      ClothState state = rest_state(cloth, {0, -1, 0});
+      shake(cloth, 0.02, state.position);
+      const Step step{cloth, *integrator, coarse, *collider, team};
+      step.take(input, state);
+      const long before = allocations;
+      for (int i = 0; i < 5; ++i) step.take(input, state);
+      EXPECT_EQ(allocations - before, 0) << name_of(options);
+    }
+}
+
+}  // namespace
+}  // namespace weft
