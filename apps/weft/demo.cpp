@@ -86,8 +86,11 @@ void show_drape(Demo& demo, const std::string& name, const std::string& cloth,
   const RunFolder recorded = open_run_folder(run_folder);
   demo.add(name + ".png",
            [&](const fs::path& path) { write_png(path, draw_run(recorded, -1, view)); });
+  DrawingOptions smaller = view;
+  smaller.width = 640;
+  smaller.height = 480;
   demo.add(name + ".mp4",
-           [&](const fs::path& path) { film_run(recorded, path, view, &demo.progress); });
+           [&](const fs::path& path) { film_run(recorded, path, smaller, &demo.progress); });
   say(demo.context,
       fmt::format(
           "cloth   {}: {} particles, {} frames, strain p99 {:.2f} %, {} intersections at the end",
