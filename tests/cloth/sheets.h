@@ -1,6 +1,7 @@
 #pragma once
 
 #include "weft/cloth/cloth.h"
+#include "weft/cloth/integrate/integrator.h"
 #include "weft/core/hash.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
@@ -97,6 +98,18 @@ inline std::string hash_of(const ClothState& state) {
   for (const Planes3* planes : {&state.position, &state.velocity})
     for (const Grid<float>* plane : {&planes->x, &planes->y, &planes->z}) hash.add(*plane);
   return hash.text();
+}
+
+/// Steps without collisions. @return the last step's report
+inline StepReport run(Integrator& integrator, const StepInput& input, int steps,
+                      ClothState& state) {
+  StepReport report;
+  for (int i = 0; i < steps; ++i) {
+    integrator.begin(input, state);
+    integrator.iterate({});
+    report = integrator.end(state);
+  }
+  return report;
 }
 
 }  // namespace weft::testing

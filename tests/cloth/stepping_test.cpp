@@ -17,17 +17,6 @@ using namespace testing;
 const std::vector<IntegratorOptions> all_integrators{ImplicitOptions{}, ExplicitOptions{},
                                                      TwoLevelOptions{.local_size = 5}};
 
-/// Steps without collisions. @return the last step's report
-StepReport run(Integrator& integrator, const StepInput& input, int steps, ClothState& state) {
-  StepReport report;
-  for (int i = 0; i < steps; ++i) {
-    integrator.begin(input, state);
-    integrator.iterate({});
-    report = integrator.end(state);
-  }
-  return report;
-}
-
 /// A step that explicit Euler bears on the small cloths here.
 constexpr double small_step = 1e-4;
 double step_for(const IntegratorOptions& options) {
@@ -55,16 +44,6 @@ TEST(Stepping, FreeFallIsExact) {
     }
     EXPECT_LT(report.residual, 1e-5);
   }
-}
-
-TEST(Stepping, ImplicitNeedsNoCorrectionInFreeFall) {
-  const Cloth cloth = sheet_cloth(17);
-  ThreadTeam team(1);
-  const auto integrator = make_integrator(ImplicitOptions{}, cloth, {}, team);
-  ClothState state = rest_state(cloth);
-  const StepReport report = run(*integrator, {}, 1, state);
-  EXPECT_EQ(report.iterations, 0);
-  EXPECT_EQ(report.residual, 0);
 }
 
 TEST(Stepping, MomentumIsKept) {
@@ -112,29 +91,6 @@ TEST(Stepping, LargestStepOfOneSpringIsTwoOverItsFrequency) {
   ThreadTeam team(1);
   const double frequency = std::sqrt(2 * (material.stretch / 2) / cloth.mass(0, 0));
   EXPECT_NEAR(largest_stable_step(cloth, team) * frequency, 2, 1e-3);
-}
-
-TEST(Stepping, ImplicitEulerDampsASpringByTheKnownFactor) {
-  // Two columns joined by two springs along x: w^2 = 2 k / m; a step takes 1 + w^2 h^2 off the
-  // energy.
-  Material material{.stretch = 50, .shear = 0, .bend_springs = 0, .damping = 0};
-  const Cloth cloth = make_cloth(flat_sheet(2), no_mates(2), material);
-  ThreadTeam team(1);
-  StepInput input{1.0 / 240, {}};
-  const auto integrator = make_integrator(ImplicitOptions{.tolerance = 1e-8}, cloth, input, team);
-  ClothState state = rest_state(cloth);
-  for (const int r : {0, 1})
-    for (const int c : {0, 1}) state.position.x(r, c) *= 1.02F;
-  const auto energy = [&] {
-    return kinetic_energy(cloth, state) + potential_energy(cloth, state, {});
-  };
-  const double w2 = 2 * (material.stretch / 2) / cloth.mass(0, 0);
-  const double factor = 1 + w2 * input.time_step * input.time_step;
-  for (int step = 0; step < 20; ++step) {
-    const double before = energy();
-    run(*integrator, input, 1, state);
-    EXPECT_NEAR(before / energy(), factor, 1e-3 * factor) << "step " << step;
-  }
 }
 
 TEST(Stepping, MatesStayBitEqualOnATorus) {
@@ -258,73 +214,6 @@ TEST(Stepping, VeryUnevenCellsStayFinite) {
   }
 }
 
-TEST(Stepping, ImplicitIterationsHardlyGrowWithTheImage) {
-  const auto iterations = [](int n) {
-    Cloth cloth = sheet_cloth(n);
-    pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
-    pin(cloth, n - 1, vec_cast<double>(cloth.rest.at(n - 1)));
-    ThreadTeam team(1);
-    const StepInput input;
-    const auto integrator = make_integrator(ImplicitOptions{.tolerance = 1e-4}, cloth, input, team);
-    ClothState state = rest_state(cloth);
-    int sum = 0;
-    for (int step = 0; step < 12; ++step) sum += run(*integrator, input, 1, state).iterations;
-    return sum;
-  };
-  const int coarse = iterations(17);
-  EXPECT_GT(coarse, 12);
-  // Without the coarse levels it takes four times as many and more, some 80 a step.
-  EXPECT_LT(iterations(65), 3 * coarse);
-  EXPECT_LT(iterations(65), 12 * 15);
-}
-
-TEST(Stepping, ImplicitReachesTheSameStepWithMatesThatDoNotHalve) {
-  // Mates around a corner; at odd places there is no mip pyramid, yet the physics is the same.
-  const int n = 17;
-  const auto height_after = [](const BorderMates& mates) {
-    Planes3 rest = flat_sheet(n);
-    for (int k = 0; k <= mates.intervals().front().count; ++k) {
-      const MateInterval& interval = mates.intervals().front();
-      rest.set(border_sample(n, interval.mate - k), rest.at(border_sample(n, interval.first + k)));
-    }
-    Cloth cloth = make_cloth(rest, mates, {});
-    pin(cloth, n * n / 2, vec_cast<double>(rest.at(n * n / 2)));
-    ThreadTeam team(1);
-    const StepInput input;
-    const auto integrator = make_integrator(ImplicitOptions{.tolerance = 1e-5}, cloth, input, team);
-    ClothState state = rest_state(cloth);
-    run(*integrator, input, 24, state);
-    EXPECT_TRUE(mates_equal(cloth, state));
-    return centre_of_mass(cloth, state).y;
-  };
-  const double whole = height_after(BorderMates(n, {{14, 18, 2}}));
-  EXPECT_NEAR(height_after(BorderMates(n, {{15, 17, 1}})), whole, 0.01 * std::abs(whole));
-}
-
-TEST(Stepping, ImplicitSolvesWithManyContactsWellBelowItsCap) {
-  // A sheet pressed onto a floor: the coarse levels must know of the contacts, or they push whole
-  // patches through it.
-  const int n = 65;
-  const Cloth cloth = sheet_cloth(n);
-  ThreadTeam team(1);
-  const StepInput input;
-  const auto integrator = make_integrator(ImplicitOptions{}, cloth, input, team);
-  ClothState state = rest_state(cloth, {0, -1, 0});
-  shake(cloth, 0.001, state.position);
-  std::vector<Contact> contacts;
-  for (int s = 0; s < n * n / 2; ++s) contacts.push_back({s, {0, 1, 0}, 0, 0, {}});
-  integrator->begin(input, state);
-  const int free = (integrator->iterate({}), integrator->end(state).iterations);
-  state = rest_state(cloth, {0, -1, 0});
-  shake(cloth, 0.001, state.position);
-  integrator->begin(input, state);
-  integrator->iterate({});
-  integrator->iterate(contacts);
-  const StepReport report = integrator->end(state);
-  EXPECT_LT(report.iterations - free, 60);
-  EXPECT_LT(report.residual, 1e-4);
-}
-
 TEST(Stepping, AngularMomentumErrorFallsWithTheStep) {
   // A torus that turns about its axis and breathes; linearised implicit Euler loses some turn.
   const auto lost = [](double step) {
@@ -361,27 +250,6 @@ TEST(Stepping, HangingSheetIsTheSameAtEveryResolution) {
   EXPECT_LT(middle.y, -0.3F);
   EXPECT_LT(length(tip_after(17) - middle), 0.03F);
   EXPECT_LT(length(tip_after(65) - middle), 0.03F);
-}
-
-TEST(Stepping, ImplicitIterationsStayFewWhereMatesDoNotHalve) {
-  const auto iterations = [](const BorderMates& mates) {
-    const int n = mates.size();
-    Planes3 rest = flat_sheet(n);
-    const MateInterval interval = mates.intervals().front();
-    for (int k = 0; k <= interval.count; ++k)
-      rest.set(border_sample(n, interval.mate - k), rest.at(border_sample(n, interval.first + k)));
-    Cloth cloth = make_cloth(rest, mates, {});
-    pin(cloth, 0, vec_cast<double>(rest.at(0)));
-    ThreadTeam team(1);
-    const StepInput input;
-    const auto integrator = make_integrator(ImplicitOptions{}, cloth, input, team);
-    ClothState state = rest_state(cloth);
-    int sum = 0;
-    for (int step = 0; step < 12; ++step) sum += run(*integrator, input, 1, state).iterations;
-    return sum;
-  };
-  const int n = 65;
-  EXPECT_LT(iterations(BorderMates(n, {{n - 10, n + 8, 9}})), 12 * 25);
 }
 
 TEST(Stepping, OptionsThatDoNotFitNameTheirKey) {
