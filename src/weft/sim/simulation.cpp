@@ -72,10 +72,10 @@ struct Mover {
 }  // namespace
 
 struct Simulation::Parts {
-  Parts(const Scene& scene_, std::string name_, int threads, Progress* progress_)
-      : scene(scene_),
-        name(std::move(name_)),
-        progress(progress_),
+  Parts(const Scene& given_scene, std::string given_name, int threads, Progress* given_progress)
+      : scene(given_scene),
+        name(std::move(given_name)),
+        progress(given_progress),
         team(threads),
         time_step(1 / (scene.frame_rate * scene.substeps)) {}
 
