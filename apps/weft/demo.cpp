@@ -68,12 +68,22 @@ void show_image(Demo& demo) {
           conversion.quality.psnr_db, conversion.mapped.quality.flipped));
 }
 
+/// A cloth to show on the figure.
+struct Shown {
+  std::string name, cloth;
+  int frames = 120;
+  double elevation = 0.2;  // of the eye [rad]
+};
+
 // One cloth on the figure: its scene, caches, last frame and movie.
-void show_drape(Demo& demo, const std::string& name, const std::string& cloth,
-                const DrawingOptions& view) {
+void show_drape(Demo& demo, const Shown& shown) {
+  const std::string& name = shown.name;
+  const DrawingOptions view{960, 720, 0.45, shown.elevation};
   const fs::path run_folder = demo.folder / name;
   make_folder(run_folder);
-  const Scene scene = make_drape_scene(cloth, "builtin:mannequin", {});
+  DrapeOptions placing;
+  placing.frames = shown.frames;
+  const Scene scene = make_drape_scene(shown.cloth, "builtin:mannequin", placing);
   write_scene(run_folder / "scene.json", scene);
   RunOptions options;
   options.folder = run_folder;
@@ -102,8 +112,8 @@ void run_demo(const fs::path& folder, const Context& context) {
   make_folder(folder);
   Demo demo(folder, context);
   show_image(demo);
-  show_drape(demo, "sheet", "builtin:sheet", {960, 720, 0.45, 0.2});
-  show_drape(demo, "tshirt", "builtin:tshirt", {960, 720, 0.45, 0.1});
+  show_drape(demo, {"sheet", "builtin:sheet", 120, 0.2});
+  show_drape(demo, {"tshirt", "builtin:tshirt", 60, 0.1});
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   demo.report["seconds"] = seconds.count();
   demo.report["outputs"] = paths_json(demo.outputs);
