@@ -76,6 +76,7 @@ void apply_run_words(const RunWords& words, Scene& scene) {
   if (words.integrator == "implicit") scene.integrator = ImplicitOptions{};
   if (words.integrator == "explicit") scene.integrator = ExplicitOptions{};
   if (words.integrator == "two_level") scene.integrator = TwoLevelOptions{};
+  if (words.collider == "polar_map") scene.collider = PolarMapOptions{};
 }
 
 void run_and_report(Scene scene, const std::string& name, const RunWords& words,
