@@ -52,6 +52,16 @@ class Simulate(SceneTest):
                       for threads in (1, 2, 3)}
             self.assertEqual(len(hashes), 1, integrator)
 
+    def test_collider_on_the_command_line_replaces_the_scenes(self):
+        scene = sheet_scene(frames=20, collider={"type": "polar_map", "walk": False})
+        scene["cloths"][0].update(size=33, translate=[0.1, 1.03, 0])
+        scene["bodies"] = [{"name": "ring", "surface": "builtin:torus", "size": 65, "translate": [0, 0.85, 0]}]
+        printed = self.write_scene(scene, "printed.json")
+        walking = self.write_scene(dict(scene, collider={"type": "polar_map"}), "walking.json")
+        replaced = self.run_json("simulate", printed, "-o", "a", "--collider", "polar_map")["state_hash"]
+        self.assertEqual(replaced, self.run_json("simulate", walking, "-o", "b")["state_hash"])
+        self.assertNotEqual(replaced, self.run_json("simulate", printed, "-o", "c")["state_hash"])
+
     def test_pc2_holds_the_frames_of_the_obj_vertices(self):
         self.run_weft("simulate", self.write_scene(sheet_scene()), "-o", "run")
         data = (self.folder / "run/sheet.pc2").read_bytes()
