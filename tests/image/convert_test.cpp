@@ -34,6 +34,20 @@ TriangleMesh holed_torus() {
   return mesh;
 }
 
+// A plate of m x m vertices, every fourth quad each way a hole.
+TriangleMesh plate_with_holes(int m) {
+  TriangleMesh plate;
+  for (int k = 0; k < m * m; ++k) plate.positions.push_back({k % m * 1.0, 0, -(k / m) * 1.0});
+  for (int row = 0; row + 1 < m; ++row)
+    for (int col = 0; col + 1 < m; ++col) {
+      if (row % 4 == 1 && col % 4 == 1) continue;
+      const int a = row * m + col;
+      plate.triangles.push_back({a, a + 1, a + m + 1});
+      plate.triangles.push_back({a, a + m + 1, a + m});
+    }
+  return plate;
+}
+
 std::string hash_of(const GeometryImage& image) {
   Hash hash;
   hash.add(image.cube.x);
@@ -125,21 +139,10 @@ TEST(Convert, SameInputGivesTheSameBits) {
 }
 
 TEST(Convert, SizeThatIsTooSmallForTheCutIsNamedWithTheMesh) {
-  // A plate with 25 holes needs many border paths.
-  TriangleMesh plate;
-  const int m = 21;
-  for (int k = 0; k < m * m; ++k) plate.positions.push_back({k % m * 1.0, 0, -(k / m) * 1.0});
-  for (int row = 0; row + 1 < m; ++row)
-    for (int col = 0; col + 1 < m; ++col) {
-      if (row % 4 == 1 && col % 4 == 1) continue;
-      const int a = row * m + col;
-      plate.triangles.push_back({a, a + 1, a + m + 1});
-      plate.triangles.push_back({a, a + m + 1, a + m});
-    }
   ConvertOptions options;
   options.size = 9;
   try {
-    convert_mesh(plate, "plate.obj", options);
+    convert_mesh(plate_with_holes(21), "plate.obj", options);
     FAIL() << "accepted";
   } catch (const TopologyError& error) {
     const std::string line = error.what();
@@ -150,10 +153,30 @@ TEST(Convert, SizeThatIsTooSmallForTheCutIsNamedWithTheMesh) {
 
 TEST(Convert, SizesThatNoImageHasAreAUsageError) {
   ConvertOptions options;
-  for (const int size : {-1, 0, 4, largest_image_size + 1}) {
+  for (const int size : {-1, 4, largest_image_size + 1}) {
     options.size = size;
     EXPECT_THROW(convert_mesh(test::torus(8, 8, 1, 0.4), "ring", options), UsageError) << size;
   }
+}
+
+TEST(Convert, AutomaticSizeHoldsTheVerticesOfTheMesh) {
+  ConvertOptions options;
+  options.size = automatic_size;
+  options.measure = false;
+  options.augment = false;
+  EXPECT_EQ(convert_mesh(test::torus(8, 8, 1, 0.4), "ring", options).image.size(), 33);
+  EXPECT_EQ(convert_mesh(test::torus(40, 30, 1, 0.4), "ring", options).image.size(), 65);
+}
+
+TEST(Convert, AutomaticSizeHoldsTheCutOfAPlateWithManyHoles) {
+  const TriangleMesh plate = plate_with_holes(45);  // 11 x 11 holes
+  ConvertOptions options;
+  options.size = automatic_size;
+  options.measure = false;
+  options.augment = false;
+  const Conversion made = convert_mesh(plate, "plate", options);
+  EXPECT_EQ(made.image.size(), 513);
+  EXPECT_EQ(made.quality.boundaries, 122);
 }
 
 TEST(Convert, InterruptedWorkUnwinds) {

@@ -29,6 +29,7 @@ class Stopwatch {
 };
 
 void check_size(int size) {
+  if (size == automatic_size) return;
   if (size >= least_image_size && size <= largest_image_size) return;
   throw UsageError("", fmt::format("a geometry image of side {}", size),
                    fmt::format("a side of {} .. {}", least_image_size, largest_image_size));
@@ -52,13 +53,16 @@ void cut_and_map(Conversion& made, const std::string& name, const ConvertOptions
   Stopwatch watch;
   update(options.progress, "cut", 0);
   const Cut cut = open_to_disk(mesh, {.seed_triangle = options.seed_triangle});
+  const int size = options.size != automatic_size
+                       ? options.size
+                       : suitable_size(cut_open(mesh, cut), made.input.counts.vertices);
   AugmentedCut augmented{cut, 0};
   if (options.augment)
-    augmented = augment_cut(mesh, cut, {.size = options.size, .progress = options.progress});
+    augmented = augment_cut(mesh, cut, {.size = size, .progress = options.progress});
   made.seconds.cut = watch.lap();
 
   MapOptions map;
-  map.size = options.size;
+  map.size = size;
   map.parameterizer = options.parameterizer;
   map.name = name;
   map.progress = options.progress;

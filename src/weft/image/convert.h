@@ -7,6 +7,7 @@
 
 #include "weft/core/progress.h"
 #include "weft/cut/open_to_disk.h"
+#include "weft/image/automatic_size.h"
 #include "weft/image/geometry_image.h"
 #include "weft/mesh/repair.h"
 #include "weft/param/square_map.h"
@@ -14,7 +15,7 @@
 namespace weft {
 
 struct ConvertOptions {
-  int size = 257;
+  int size = 257;  ///< or automatic_size; the image tells which it was
   Parameterizer parameterizer = StretchOptions{};
   ComponentChoice component;
   int seed_triangle = -1;  ///< -1: choose

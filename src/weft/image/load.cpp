@@ -29,7 +29,8 @@ LoadedSurface load_surface(const std::string& name, const ConvertOptions& option
   if (is_image_name(name)) return {read_image(name), {}, {}};
   if (name.starts_with(builtin_prefix)) {
     const std::string shape = name.substr(builtin_prefix.size());
-    if (is_image_by_nature(shape)) return {make_image_shape(shape, options.size), {}, {}};
+    const int size = options.size == automatic_size ? ConvertOptions{}.size : options.size;
+    if (is_image_by_nature(shape)) return {make_image_shape(shape, size), {}, {}};
   }
   ConvertOptions quick = options;
   quick.measure = false;
