@@ -3,19 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "weft/core/random.h"
+#include "weft/mesh/crossings.h"
 
 namespace weft {
 namespace {
-
-using Corners = std::array<Vec3d, 3>;
-
-TEST(Intersections, CrossingTrianglesAreFoundAndSeparateOnesAreNot) {
-  const Corners flat{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
-  EXPECT_TRUE(triangles_cross(flat, {{{0.2, 0.2, -1}, {0.3, 0.2, 1}, {0.2, 0.3, 1}}}));
-  EXPECT_TRUE(triangles_cross(flat, {{{0.2, -1, -1}, {0.2, 5, -1}, {0.2, 0.2, 1}}}));
-  EXPECT_FALSE(triangles_cross(flat, {{{0.2, 0.2, 0.1}, {0.3, 0.2, 1}, {0.2, 0.3, 1}}}));
-  EXPECT_FALSE(triangles_cross(flat, {{{2, 2, -1}, {2.1, 2, 1}, {2, 2.1, 1}}}));
-}
 
 TEST(Intersections, CountEqualsTestingEveryPair) {
   const int n = 21;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "weft/core/planes.h"
@@ -14,12 +13,9 @@ struct GridTriangles {
   const std::vector<Triangle>* triangles = nullptr;  ///< corners as samples
 };
 
-/// How many pairs of triangles, one of each surface, cross each other: an edge of one passes
-/// through the inside of the other. Doubles; touching and coplanar pairs do not count. Pairs are
-/// found through a lattice of boxes.
+/// How many pairs of triangles, one of each surface, cross each other (weft/mesh/crossings.h): an
+/// exact count for the positions as they are. Touching pairs do not count, pairs that overlap in
+/// one plane do. @pre finite positions
 int count_intersections(const GridTriangles& a, const GridTriangles& b);
-
-/// True when an edge of one passes through the other.
-bool triangles_cross(const std::array<Vec3d, 3>& a, const std::array<Vec3d, 3>& b);
 
 }  // namespace weft

@@ -1,32 +1,118 @@
 #include "weft/core/orientation.h"
 
+#include <algorithm>
+#include <array>
+#include <climits>
 #include <cmath>
+#include <cstdint>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
 namespace weft {
 namespace {
 
-int exact_orientation(Vec2d a, Vec2d b, Vec2d c) {
-  using Exact = boost::multiprecision::cpp_rational;
-  const Exact cx(c.x), cy(c.y);
-  const Exact left = (Exact(a.x) - cx) * (Exact(b.y) - cy);
-  const Exact right = (Exact(a.y) - cy) * (Exact(b.x) - cx);
-  return left.compare(right);
+using boost::multiprecision::cpp_int;
+/// Whole numbers in a fixed room on the stack: far faster than ones that grow.
+using FixedInt = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
+    512, 512, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
+
+constexpr double epsilon = 0x1p-53;
+/// Below it products may have lost digits by underflow, of which the error bounds know nothing.
+constexpr double least_trusted = 1e-200;
+
+int sign_of(double value) { return (value > 0) - (value < 0); }
+
+/// A double as mantissa * 2^exponent.
+struct Scaled {
+  std::int64_t mantissa = 0;
+  int exponent = INT_MAX;  // of zero: larger than any
+  explicit Scaled(double value) {
+    if (value == 0) return;
+    mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
+    exponent -= 53;
+  }
+};
+
+/// The sign of the determinant of the differences of points to the last one, in whole numbers: all
+/// coordinates as multiples of the least power of two among them.
+template <class Int, std::size_t Dimension>
+int sign_in(const std::array<std::array<Scaled, Dimension>, Dimension + 1>& points, int least) {
+  std::array<std::array<Int, Dimension>, Dimension + 1> whole;
+  for (std::size_t i = 0; i <= Dimension; ++i)
+    for (std::size_t k = 0; k < Dimension; ++k) {
+      whole[i][k] = points[i][k].mantissa;
+      if (points[i][k].mantissa != 0) whole[i][k] *= Int(1) << (points[i][k].exponent - least);
+    }
+  for (std::size_t i = 0; i < Dimension; ++i)
+    for (std::size_t k = 0; k < Dimension; ++k) whole[i][k] -= whole[Dimension][k];
+  const auto minor = [&](int i, int j, int k, int l) -> Int {
+    return whole[i][k] * whole[j][l] - whole[i][l] * whole[j][k];
+  };
+  if constexpr (Dimension == 2) {
+    return minor(0, 1, 0, 1).sign();
+  } else {
+    const Int sum = whole[0][0] * minor(1, 2, 1, 2) + whole[0][1] * minor(1, 2, 2, 0) +
+                    whole[0][2] * minor(1, 2, 0, 1);
+    return sum.sign();
+  }
+}
+
+template <std::size_t Dimension>
+int exact_sign(const std::array<std::array<Scaled, Dimension>, Dimension + 1>& points) {
+  int least = INT_MAX, largest = INT_MIN;
+  for (const auto& point : points)
+    for (const Scaled& value : point)
+      if (value.mantissa != 0) {
+        least = std::min(least, value.exponent);
+        largest = std::max(largest, value.exponent);
+      }
+  // Three factors of 53 + 64 + 1 bits, and a sum of six such products, fit 512.
+  constexpr int most_shift = 64;
+  if (largest - least <= most_shift || largest == INT_MIN)
+    return sign_in<FixedInt, Dimension>(points, least);
+  return sign_in<cpp_int, Dimension>(points, least);
+}
+
+std::array<Scaled, 2> scaled(Vec2d p) { return {Scaled(p.x), Scaled(p.y)}; }
+std::array<Scaled, 3> scaled(Vec3d p) { return {Scaled(p.x), Scaled(p.y), Scaled(p.z)}; }
+
+/// Cases that meshes are full of: two equal points, or four in a plane across a coordinate axis.
+bool plainly_flat(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
+  if (a == b || a == c || a == d || b == c || b == d || c == d) return true;
+  const auto level = [&](double Vec3d::*axis) {
+    return a.*axis == d.*axis && b.*axis == d.*axis && c.*axis == d.*axis;
+  };
+  return level(&Vec3d::x) || level(&Vec3d::y) || level(&Vec3d::z);
 }
 
 }  // namespace
 
 int orientation(Vec2d a, Vec2d b, Vec2d c) {
-  constexpr double epsilon = 0x1p-53;
   constexpr double error_factor = (3.0 + 16.0 * epsilon) * epsilon;
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
+  const double permanent = std::fabs(left) + std::fabs(right);
   const double determinant = left - right;
-  if (std::fabs(determinant) > error_factor * (std::fabs(left) + std::fabs(right)))
-    return determinant > 0 ? 1 : -1;
-  const int sign = exact_orientation(a, b, c);
-  return (sign > 0) - (sign < 0);
+  if (permanent > least_trusted && std::fabs(determinant) > error_factor * permanent)
+    return sign_of(determinant);
+  return exact_sign<2>({scaled(a), scaled(b), scaled(c)});
+}
+
+int orientation(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
+  constexpr double error_factor = (7.0 + 56.0 * epsilon) * epsilon;
+  const Vec3d p = a - d, q = b - d, r = c - d;
+  const double yz = q.y * r.z, zy = q.z * r.y;
+  const double zx = q.z * r.x, xz = q.x * r.z;
+  const double xy = q.x * r.y, yx = q.y * r.x;
+  const double determinant = p.x * (yz - zy) + p.y * (zx - xz) + p.z * (xy - yx);
+  const double permanent = std::fabs(p.x) * (std::fabs(yz) + std::fabs(zy)) +
+                           std::fabs(p.y) * (std::fabs(zx) + std::fabs(xz)) +
+                           std::fabs(p.z) * (std::fabs(xy) + std::fabs(yx));
+  // The determinant of a - d, b - d, c - d is positive when d lies below the plane.
+  if (permanent > least_trusted && std::fabs(determinant) > error_factor * permanent)
+    return -sign_of(determinant);
+  if (plainly_flat(a, b, c, d)) return 0;
+  return -exact_sign<3>({scaled(a), scaled(b), scaled(c), scaled(d)});
 }
 
 }  // namespace weft

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "weft/mesh/box_tree.h"
+
+namespace weft {
+
+/// True when the insides of two triangles (without their edges and corners) have a point in common:
+/// one passes through the other, or both lie in one plane and overlap. Touching at a corner or
+/// along an edge does not count, so triangles that share corners or an edge need no special case; a
+/// triangle without area has no inside. Exact for the doubles as they are. The order of tests for
+/// planes that differ is that of [guigue03], with open intervals.
+bool triangles_cross(const Corners& a, const Corners& b);
+
+/// True when the three corners are exactly on one line.
+bool has_no_area(const Corners& triangle);
+
+/// Calls visit(s, t) for each pair of triangles of one surface that cross, s < t, in an order that
+/// depends on the surface alone. Found through a tree of boxes. @pre finite corners
+void for_self_crossings(std::span<const Corners> surface,
+                        const std::function<void(int s, int t)>& visit);
+
+/// How many pairs of triangles, one of each surface, cross. @pre finite corners
+std::int64_t count_crossings(std::span<const Corners> a, std::span<const Corners> b);
+
+}  // namespace weft
