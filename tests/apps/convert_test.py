@@ -199,7 +199,8 @@ class BadInput(ProgramTest):
 class Shapes(ProgramTest):
     def test_every_shape_is_written_and_found_sound(self):
         listed = [shape["name"] for shape in self.run_json("shapes")["shapes"]]
-        for name in ("sheet", "disk", "sphere", "torus", "mannequin", "tshirt"):
+        for name in ("sheet", "disk", "torus", "cylinder", "sphere", "cone", "box", "rod", "double_torus", "knot",
+                     "genus20", "mannequin", "tshirt", "skirt"):
             self.assertIn(name, listed)
         for name in listed:
             self.run_weft("shapes", name, "-o", f"{name}.ply")

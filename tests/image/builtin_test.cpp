@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "weft/core/error.h"
+#include "weft/image/convert.h"
 #include "weft/mesh/shapes/parametric.h"
 
 namespace weft {
@@ -32,7 +33,7 @@ TEST(BuiltinImage, DiskHasItsBorderOnTheCircle) {
 }
 
 TEST(BuiltinImage, EveryShapeFillsTheUnitCube) {
-  for (const char* name : {"sheet", "disk", "torus"}) {
+  for (const char* name : {"sheet", "disk", "torus", "cylinder"}) {
     const GeometryImage image = make_image_shape(name, 65);
     float least = 1, largest = 0;
     for (int r = 0; r < 65; ++r)
@@ -73,6 +74,21 @@ TEST(BuiltinImage, TorusLiesOnItsSurfaceAndFacesOutwards) {
     }
 }
 
+TEST(BuiltinImage, CylinderClosesAroundAndIsOpenAtBothEnds) {
+  const int n = 17;
+  const GeometryImage image = make_image_shape("cylinder", n);
+  EXPECT_TRUE(mates_bit_equal(image));
+  EXPECT_EQ(image.mates.class_count(), n);
+  for (int k = 0; k < n; ++k) {
+    EXPECT_EQ(image.mates.representative(k * n + n - 1), image.mates.representative(k * n));
+    EXPECT_NEAR(image.world_position(0, k).y, -0.5, 1e-7);
+    EXPECT_NEAR(image.world_position(n - 1, k).y, 0.5, 1e-7);
+  }
+  const ImageQuality found = measure_topology(image);
+  EXPECT_EQ(found.euler, 0);
+  EXPECT_EQ(found.boundaries, 2);
+}
+
 TEST(BuiltinImage, OtherShapesAreAUsageError) {
   try {
     make_image_shape("sphere", 17);
@@ -80,8 +96,8 @@ TEST(BuiltinImage, OtherShapesAreAUsageError) {
   } catch (const UsageError& error) {
     EXPECT_STREQ(
         error.what(),
-        "builtin:sphere: not a shape that is an image by nature; one of sheet, disk, torus "
-        "is wanted");
+        "builtin:sphere: not a shape that is an image by nature; one of sheet, disk, torus, "
+        "cylinder is wanted");
   }
 }
 

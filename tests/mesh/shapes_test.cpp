@@ -25,14 +25,16 @@ TEST(Shapes, ListsTheirNamesInOrder) {
     names.append(info.name).append(" ");
     EXPECT_FALSE(info.description.empty());
   }
-  EXPECT_EQ(names, "sheet disk sphere torus mannequin tshirt ");
+  EXPECT_EQ(names,
+            "sheet disk torus cylinder sphere cone box rod double_torus knot genus20 mannequin "
+            "tshirt skirt ");
 }
 
-TEST(Shapes, SheetDiskAndTorusAreImagesByNature) {
+TEST(Shapes, SheetDiskTorusAndCylinderAreImagesByNature) {
   std::string images;
   for (const ShapeInfo& info : built_in_shapes())
     if (is_image_by_nature(info.name)) images.append(info.name).append(" ");
-  EXPECT_EQ(images, "sheet disk torus ");
+  EXPECT_EQ(images, "sheet disk torus cylinder ");
   EXPECT_FALSE(is_image_by_nature("no such shape"));
 }
 

@@ -21,8 +21,14 @@ inline constexpr double torus_major_radius = 0.35, torus_minor_radius = 0.15;
 /// tube; dP/du x dP/dv points outwards.
 Vec3d torus_point(double u, double v);
 
+inline constexpr double cylinder_radius = 0.2, cylinder_height = 1;
+/// An open tube around the y axis: u runs round it, counter-clockwise seen from above, v up;
+/// dP/du x dP/dv points outwards.
+Vec3d cylinder_point(double u, double v);
+
 TriangleMesh sheet_mesh();
 TriangleMesh disk_mesh();
 TriangleMesh torus_mesh();
+TriangleMesh cylinder_mesh();
 
 }  // namespace weft

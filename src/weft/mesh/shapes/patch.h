@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+
+#include "weft/mesh/triangle_mesh.h"
+
+namespace weft {
+
+/// A cols x rows patch of quads over the unit square. Where it wraps, the last column (row) of
+/// vertices is the first.
+struct Patch {
+  int cols = 0, rows = 0;
+  bool wraps_u = false, wraps_v = false;
+};
+
+/// The mesh of a map of the square: quads split along their shorter diagonal, counter-clockwise in
+/// the (u, v) plane, so that dP/du x dP/dv is the side that faces out.
+TriangleMesh patch_mesh(const Patch& patch, const std::function<Vec3d(double u, double v)>& point);
+
+}  // namespace weft

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+
+#include "weft/mesh/triangle_mesh.h"
+
+namespace weft {
+
+/// Evenly spread points on a horizontal circle around the y axis.
+struct Ring {
+  double height = 0, radius = 0;  ///< [m]
+  int count = 1;                  ///< 1: a point on the axis; otherwise >= 3
+};
+
+/// A surface of revolution through rings that follow each other, the first at its lower pole: what
+/// lies between two rings is filled with triangles that advance on both evenly, so that rings of
+/// different counts fit. A pole of one point closes the surface. Faces outward when the rings run
+/// upward on the outside.
+/// @pre no two neighbours of count 1
+TriangleMesh ring_mesh(std::span<const Ring> rings);
+
+/// A closed cone on its base, tip up, its box centred on the origin.
+TriangleMesh cone_mesh();
+/// A closed rod along x, centred on the origin.
+TriangleMesh rod_mesh();
+inline constexpr double cone_radius = 0.25, cone_height = 0.6;
+inline constexpr double rod_radius = 0.02, rod_length = 1;
+
+}  // namespace weft
