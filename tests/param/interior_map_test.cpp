@@ -53,7 +53,7 @@ TEST(InteriorMap, FlipsNothingOnCrumpledSheets) {
          {Parameterizer{StretchOptions{}}, Parameterizer{FloaterOptions{}}}) {
       const DiskMesh disk = crumpled(seed);
       std::vector<Vec2d> uv = test::square_border(disk, 64);
-      ASSERT_TRUE(map_interior(disk, uv, parameterizer, nullptr));
+      ASSERT_TRUE(map_interior(disk, uv, parameterizer));
       EXPECT_EQ(count_bad(disk, uv), 0);
     }
 }
@@ -62,8 +62,8 @@ TEST(InteriorMap, GivesTheSameBitsTwice) {
   const DiskMesh disk = bump();
   std::vector<Vec2d> first = test::square_border(disk, 64);
   std::vector<Vec2d> second = first;
-  ASSERT_TRUE(map_interior(disk, first, StretchOptions{}, nullptr));
-  ASSERT_TRUE(map_interior(disk, second, StretchOptions{}, nullptr));
+  ASSERT_TRUE(map_interior(disk, first, StretchOptions{}));
+  ASSERT_TRUE(map_interior(disk, second, StretchOptions{}));
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(Vec2d)), 0);
 }
 
@@ -72,8 +72,7 @@ TEST(InteriorMap, OfAFlatSheetHasNoStretch) {
   DiskMesh split = disk;
   split_chords(split);
   std::vector<Vec2d> uv = test::square_border(split, 64);
-  ASSERT_TRUE(
-      map_interior(split, uv, StretchOptions{.iterations = 10, .newton_steps = 60}, nullptr));
+  ASSERT_TRUE(map_interior(split, uv, StretchOptions{.iterations = 10, .newton_steps = 60}));
   EXPECT_NEAR(DiskGeometry(split).stretch_l2(uv), 1.0, 1e-4);
 }
 
@@ -81,7 +80,7 @@ TEST(InteriorMap, LeavesTheBorderAlone) {
   const DiskMesh disk = bump();
   const std::vector<Vec2d> border = test::square_border(disk, 64);
   std::vector<Vec2d> uv = border;
-  ASSERT_TRUE(map_interior(disk, uv, StretchOptions{}, nullptr));
+  ASSERT_TRUE(map_interior(disk, uv, StretchOptions{}));
   for (const int v : disk.border) EXPECT_EQ(uv[v], border[v]);
 }
 
@@ -95,8 +94,8 @@ TEST(InteriorMap, TellsOfEveryIterationSoThatItCanBeStopped) {
   const DiskMesh disk = bump();
   std::vector<Vec2d> uv = test::square_border(disk, 64);
   Listener listener;
-  ASSERT_TRUE(
-      map_interior(disk, uv, StretchOptions{.iterations = 2, .newton_steps = 3}, &listener));
+  ASSERT_TRUE(map_interior(disk, uv, StretchOptions{.iterations = 2, .newton_steps = 3},
+                           {.progress = &listener}));
   EXPECT_GE(listener.heard.size(), 5U);
   EXPECT_TRUE(std::is_sorted(listener.heard.begin(), listener.heard.end()));
   EXPECT_LE(listener.heard.back(), 1.0);
@@ -122,7 +121,7 @@ TEST(StretchNewton, EveryStepLowersTheStretchAndKeepsTheMapValid) {
   const DiskMesh disk = bump();
   const DiskGeometry geometry(disk);
   std::vector<Vec2d> uv = test::square_border(disk, 64);
-  ASSERT_TRUE(map_interior(disk, uv, StretchOptions{.iterations = 3, .newton_steps = 0}, nullptr));
+  ASSERT_TRUE(map_interior(disk, uv, StretchOptions{.iterations = 3, .newton_steps = 0}));
   double before = geometry.stretch_l2(uv);
   for (int step = 0; step < 10; ++step) {
     minimise_by_newton(geometry, uv, {.steps = 1, .least_gain = 0});

@@ -11,14 +11,13 @@ namespace weft {
 BorderWalk::BorderWalk(const MappedDisk& mapped)
     : size_(mapped.map.size), path_at_(static_cast<std::size_t>(4 * (size_ - 1)), 0) {
   const std::vector<int>& border = mapped.cut.disk.border;
-  const std::vector<double> positions = border_positions(mapped.cut, mapped.layout);
   const int around = 4 * (size_ - 1);
   for (std::size_t p = 0; p < mapped.cut.paths.size(); ++p) {
     const BorderPath& from = mapped.cut.paths[p];
     Path path{mapped.layout.first[p], mapped.layout.intervals[p], from.mate, {}, {}};
     for (int k = 0; k <= from.edges; ++k) {
       const std::size_t i = static_cast<std::size_t>(from.first + k) % border.size();
-      const double knot = positions[i] - path.first;
+      const double knot = border_position_of(size_, mapped.map.uv[border[i]]) - path.first;
       path.vertices.push_back(border[i]);
       path.knots.push_back(knot < 0 ? knot + around : knot);
     }

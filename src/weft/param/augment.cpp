@@ -60,7 +60,8 @@ Verdict judge(const TriangleMesh& mesh, const Cut& cut, int size, Progress* prog
   options.progress = &first;
   const bool valid = map_by_reweighting(geometry, solver, weights, uv, options);
   const int worst = worst_vertex(geometry, uv, static_cast<int>(mesh.positions.size()));
-  if (valid) minimise_by_newton(geometry, uv, {.steps = 3, .progress = &second});
+  const std::vector<BorderSlide> slides = border_slides(opened, layout, t);
+  if (valid) minimise_by_newton(geometry, uv, {.steps = 3, .progress = &second, .slides = slides});
   return {valid ? geometry.stretch_l2(uv) : infinity, worst};
 }
 

@@ -109,6 +109,14 @@ Vec2d border_point(int size, double t) {
   return {0, 4 * side - t};
 }
 
+double border_position_of(int size, Vec2d point) {
+  const double side = size - 1;
+  if (point.y <= 0 && point.x < side) return point.x;
+  if (point.x >= side && point.y < side) return side + point.y;
+  if (point.y >= side && point.x > 0) return 3 * side - point.x;
+  return 4 * side - point.y;
+}
+
 int least_size(const CutDisk& cut) {
   const int total = least_total(border_curves(cut));
   return std::max(least_side, (total + 3) / 4 + 1);

@@ -19,6 +19,10 @@ struct BorderLayout {
 /// whole t.
 Vec2d border_point(int size, double t);
 
+/// The border position of a point on the border of the square, in [0, 4 (n - 1)): exact where
+/// border_point was.
+double border_position_of(int size, Vec2d point);
+
 struct LayoutOptions {
   int size = 257;
   int rotation = 0;  ///< border position of the first path's first node

@@ -16,17 +16,17 @@ struct Task {
   const DiskGeometry& geometry;
   InteriorSolver& solver;
   std::span<Vec2d> uv;
-  Progress* progress;
+  const InteriorOptions& options;
 };
 
 /// Floater's map as it is; where doubles do not hold it, the neighbours' stretch divides the
 /// weights, which spreads the places where the map has collapsed.
 bool map_by_floater(const Task& task) {
-  const auto& [geometry, solver, uv, progress] = task;
+  const auto& [geometry, solver, uv, options] = task;
   std::vector<double> weights =
       shape_preserving_weights(geometry.disk, geometry.edges, geometry.sides);
   for (int cure = 0; cure <= most_cures; ++cure) {
-    update(progress, "map", 0.1);
+    update(options.progress, "map", 0.1);
     if (cure > 0) reweight(geometry, uv, weights);
     if (!solver.solve_general(weights, uv)) return false;
     if (is_valid_map(geometry.disk.triangles, uv)) return true;
@@ -34,34 +34,36 @@ bool map_by_floater(const Task& task) {
   return false;
 }
 
-bool map_with_least_stretch(const Task& task, const StretchOptions& options) {
-  const auto& [geometry, solver, uv, progress] = task;
-  PartOfProgress first(progress, "map", 0.1, 0.4);
-  PartOfProgress second(progress, "map", 0.4, 1);
+bool map_with_least_stretch(const Task& task, const StretchOptions& stretch) {
+  const auto& [geometry, solver, uv, options] = task;
+  PartOfProgress first(options.progress, "map", 0.1, 0.4);
+  PartOfProgress second(options.progress, "map", 0.4, 1);
   std::vector<double> weights = symmetric_weights(geometry.disk, geometry.edges, geometry.sides);
   ReweightingOptions reweighting{
-      .iterations = options.iterations, .cures = most_cures, .progress = &first};
+      .iterations = stretch.iterations, .cures = most_cures, .progress = &first};
   // A Newton step gains more than the last of these would.
-  if (options.newton_steps > 0) reweighting.least_gain = 0.01;
+  if (stretch.newton_steps > 0) reweighting.least_gain = 0.01;
   bool found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
   if (!found) {
     // Equal weights do not see slivers at all.
     weights.assign(weights.size(), 1.0);
     found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
   }
-  if (found && options.newton_steps > 0)
-    minimise_by_newton(geometry, uv, {.steps = options.newton_steps, .progress = &second});
+  if (found && stretch.newton_steps > 0)
+    minimise_by_newton(
+        geometry, uv,
+        {.steps = stretch.newton_steps, .progress = &second, .slides = options.slides});
   return found;
 }
 
 }  // namespace
 
 bool map_interior(const DiskMesh& disk, std::span<Vec2d> uv, const Parameterizer& parameterizer,
-                  Progress* progress) {
-  update(progress, "map", 0.1);
+                  const InteriorOptions& options) {
+  update(options.progress, "map", 0.1);
   const DiskGeometry geometry(disk);
   InteriorSolver solver(disk, geometry.edges);
-  const Task task{geometry, solver, uv, progress};
+  const Task task{geometry, solver, uv, options};
   if (const auto* stretch = std::get_if<StretchOptions>(&parameterizer))
     return map_with_least_stretch(task, *stretch);
   // A valid map that is not Floater's is better than none.

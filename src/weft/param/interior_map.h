@@ -3,10 +3,16 @@
 #include <span>
 
 #include "weft/core/progress.h"
+#include "weft/param/border_slides.h"
 #include "weft/param/square_map.h"
 
 namespace weft {
 
+struct InteriorOptions {
+  /// Border vertices that may move in the minimisation of stretch; Floater's map keeps them.
+  std::span<const BorderSlide> slides = {};
+  Progress* progress = nullptr;
+};
 /// Stages 7 and 8: maps the inside of a disk into a convex border that is given, without a flipped
 /// or degenerate triangle.
 /// @param uv  [D] positions of the border vertices given, counter-clockwise; the rest is
@@ -14,6 +20,6 @@ namespace weft {
 /// @pre no chords (weft/param/chords.h); border positions distinct
 /// @return whether a valid map was found; if not, uv holds the last attempt
 bool map_interior(const DiskMesh& disk, std::span<Vec2d> uv, const Parameterizer& parameterizer,
-                  Progress* progress);
+                  const InteriorOptions& options = {});
 
 }  // namespace weft

@@ -27,99 +27,171 @@ struct Pair {
 
 struct NewtonSystem::Blocks {
   const DiskGeometry& geometry;
-  std::vector<int> row;  ///< [D] of an interior vertex, -1 on the border
-  Matrix uu, vv;         ///< lower triangles
-  Matrix vu;             ///< whole; the block uv is its transpose
-  std::vector<std::array<int, 9>>
-      lower_slot;  ///< [F] where entry 3 i + j of a triangle goes, or -1
-  std::vector<std::array<int, 9>> whole_slot;
+  /// [2 D] the unknown of each vertex' u and v: -1 where fixed, first all of block u, then block v.
+  /// A slide's unknown is in the block of its vertex' axis, its mate's coordinate has the same.
+  std::vector<int> unknown;
+  std::vector<double> sign;  ///< [2 D] by which the coordinate follows its unknown
+  std::vector<bool> slides;  ///< [F] whether a corner is on the border
+  int rows_u = 0, rows_v = 0;
+  Matrix uu, vv;  ///< lower triangles
+  Matrix vu;      ///< whole; the block uv is its transpose
+  /// [F] where the entry of local coordinates a <= b goes in `values`, or -1; a row after the other
+  std::vector<std::array<int, 21>> slot;
+  std::vector<double> values;  ///< of uu, vv and vu, one after the other
   Pair gradient;
   Cholesky cholesky_u, cholesky_v;
 
   explicit Blocks(const DiskGeometry& shape) : geometry(shape) {}
-  void number_rows();
+  void number_unknowns(std::span<const BorderSlide> border_slides);
   void prepare_pattern();
+  void prepare_slots();
   void assemble(std::span<const Vec2d> uv);
+  void reduce(std::size_t t, TriangleEnergy& energy) const;
   void add_triangle(std::size_t t, const TriangleEnergy& energy);
+  [[nodiscard]] std::array<int, 6> unknowns_of(std::size_t t) const;
   [[nodiscard]] Pair multiply(const Pair& x) const;
   [[nodiscard]] Pair conjugate_gradients() const;
 };
 
-void NewtonSystem::Blocks::number_rows() {
-  row.assign(geometry.disk.positions.size(), 0);
-  for (const int v : geometry.disk.border) row[v] = -1;
-  int count = 0;
-  for (std::size_t v = 0; v < row.size(); ++v)
-    row[v] = row[v] < 0 || geometry.edges.outgoing[v] < 0 ? -1 : count++;
-  gradient = {Vector::Zero(count), Vector::Zero(count)};
+void NewtonSystem::Blocks::number_unknowns(std::span<const BorderSlide> border_slides) {
+  const std::size_t vertices = geometry.disk.positions.size();
+  std::vector<bool> border(vertices, false);
+  for (const int v : geometry.disk.border) border[v] = true;
+  unknown.assign(2 * vertices, -1);
+  sign.assign(2 * vertices, 1.0);
+  const auto number = [&](int axis) {
+    int row = axis == 0 ? 0 : rows_u;
+    for (std::size_t v = 0; v < vertices; ++v)
+      if (!border[v] && geometry.edges.outgoing[v] >= 0) unknown[2 * v + axis] = row++;
+    for (const BorderSlide& slide : border_slides) {
+      if (slide.axis != axis) continue;
+      unknown[2 * slide.vertex + axis] = row;
+      if (slide.mate >= 0) {
+        unknown[2 * slide.mate + slide.mate_axis] = row;
+        sign[2 * slide.mate + slide.mate_axis] = slide.sign;
+      }
+      ++row;
+    }
+    return row;
+  };
+  rows_u = number(0);
+  rows_v = number(1) - rows_u;
+  gradient = {Vector::Zero(rows_u), Vector::Zero(rows_v)};
+  slides.assign(geometry.surface.size(), false);
+  for (std::size_t t = 0; t < slides.size(); ++t)
+    for (const int v : geometry.disk.triangles[t])
+      if (border[v]) slides[t] = true;
+}
+
+/// The unknowns of a triangle's u, v at corner 0, 1, 2; -1 where fixed and where an earlier one is
+/// the same.
+std::array<int, 6> NewtonSystem::Blocks::unknowns_of(std::size_t t) const {
+  std::array<int, 6> found{};
+  for (int i = 0; i < 6; ++i) {
+    const int own = unknown[2 * geometry.disk.triangles[t][i / 2] + i % 2];
+    found[i] = std::find(found.begin(), found.begin() + i, own) == found.begin() + i ? own : -1;
+  }
+  return found;
 }
 
 void NewtonSystem::Blocks::prepare_pattern() {
-  std::vector<Eigen::Triplet<double>> lower;
-  std::vector<Eigen::Triplet<double>> whole;
-  const auto& triangles = geometry.disk.triangles;
-  for (const Triangle& t : triangles)
-    for (int i = 0; i < 9; ++i) {
-      const int r = row[t[i / 3]];
-      const int c = row[t[i % 3]];
-      if (r < 0 || c < 0) continue;
-      whole.emplace_back(r, c, 1.0);
-      if (r >= c) lower.emplace_back(r, c, 1.0);
-    }
-  const auto count = gradient.u.size();
-  vu.resize(count, count);
-  vu.setFromTriplets(whole.begin(), whole.end());
-  uu.resize(count, count);
-  uu.setFromTriplets(lower.begin(), lower.end());
-  lower_slot.resize(triangles.size());
-  whole_slot.resize(triangles.size());
-  const auto slot_of = [](Matrix& matrix, int r, int c) {
-    return static_cast<int>(&matrix.coeffRef(r, c) - matrix.valuePtr());
-  };
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int i = 0; i < 9; ++i) {
-      const int r = row[triangles[t][i / 3]];
-      const int c = row[triangles[t][i % 3]];
-      const bool inside = r >= 0 && c >= 0;
-      whole_slot[t][i] = inside ? slot_of(vu, r, c) : -1;
-      lower_slot[t][i] = inside && r >= c ? slot_of(uu, r, c) : -1;
-    }
-  vv = uu;
+  std::vector<Eigen::Triplet<double>> u, v, mixed;
+  for (std::size_t t = 0; t < geometry.surface.size(); ++t) {
+    const std::array<int, 6> row = unknowns_of(t);
+    for (int a = 0; a < 6; ++a)
+      for (int b = 0; b < 6; ++b) {
+        if (row[a] < 0 || row[b] < 0) continue;
+        const bool a_in_u = row[a] < rows_u;
+        const bool b_in_u = row[b] < rows_u;
+        if (a_in_u && b_in_u && row[a] >= row[b]) u.emplace_back(row[a], row[b], 1.0);
+        if (!a_in_u && !b_in_u && row[a] >= row[b])
+          v.emplace_back(row[a] - rows_u, row[b] - rows_u, 1.0);
+        if (!a_in_u && b_in_u) mixed.emplace_back(row[a] - rows_u, row[b], 1.0);
+      }
+  }
+  uu.resize(rows_u, rows_u);
+  uu.setFromTriplets(u.begin(), u.end());
+  vv.resize(rows_v, rows_v);
+  vv.setFromTriplets(v.begin(), v.end());
+  vu.resize(rows_v, rows_u);
+  vu.setFromTriplets(mixed.begin(), mixed.end());
   cholesky_u.analyzePattern(uu);
   cholesky_v.analyzePattern(vv);
 }
 
-void NewtonSystem::Blocks::add_triangle(std::size_t t, const TriangleEnergy& energy) {
-  const auto hessian = [&](int a, int b) {
-    double sum = 0;
-    for (const auto& square : energy.squares) sum += square[a] * square[b];
-    return sum;
+void NewtonSystem::Blocks::prepare_slots() {
+  const auto slot_of = [&](int a, int b) {
+    const int high = std::max(a, b);
+    const int low = std::min(a, b);
+    const auto count_u = uu.nonZeros();
+    if (high < rows_u) return static_cast<int>(&uu.coeffRef(high, low) - uu.valuePtr());
+    if (low >= rows_u)
+      return static_cast<int>(&vv.coeffRef(high - rows_u, low - rows_u) - vv.valuePtr() + count_u);
+    return static_cast<int>(&vu.coeffRef(high - rows_u, low) - vu.valuePtr() + count_u +
+                            vv.nonZeros());
   };
-  for (int i = 0; i < 9; ++i) {
-    const int a = 2 * (i / 3);
-    const int b = 2 * (i % 3);
-    if (lower_slot[t][i] >= 0) {
-      uu.valuePtr()[lower_slot[t][i]] += hessian(a, b);
-      vv.valuePtr()[lower_slot[t][i]] += hessian(a + 1, b + 1);
-    }
-    if (whole_slot[t][i] >= 0) vu.valuePtr()[whole_slot[t][i]] += hessian(a + 1, b);
+  slot.resize(geometry.surface.size());
+  for (std::size_t t = 0; t < slot.size(); ++t) {
+    const std::array<int, 6> row = unknowns_of(t);
+    int entry = 0;
+    for (int a = 0; a < 6; ++a)
+      for (int b = a; b < 6; ++b, ++entry)
+        slot[t][entry] = row[a] >= 0 && row[b] >= 0 ? slot_of(row[a], row[b]) : -1;
   }
-  for (int k = 0; k < 3; ++k) {
-    const int r = row[geometry.disk.triangles[t][k]];
-    if (r < 0) continue;
-    gradient.u[r] += energy.gradient[2 * k];
-    gradient.v[r] += energy.gradient[2 * k + 1];
+  values.resize(uu.nonZeros() + vv.nonZeros() + vu.nonZeros());
+}
+
+/// Makes a border triangle's derivatives those by its unknowns: a coordinate that runs against its
+/// unknown changes sign, and one whose unknown came earlier is added there.
+void NewtonSystem::Blocks::reduce(std::size_t t, TriangleEnergy& energy) const {
+  const Triangle& corners = geometry.disk.triangles[t];
+  const auto coordinate = [&](int i) { return 2 * corners[i / 2] + i % 2; };
+  for (int i = 0; i < 6; ++i) {
+    const int own = unknown[coordinate(i)];
+    if (own < 0) continue;
+    int first = 0;
+    while (unknown[coordinate(first)] != own) ++first;
+    const auto fold = [&](std::array<double, 6>& row) {
+      row[i] *= sign[coordinate(i)];
+      if (first < i) row[first] += row[i];
+    };
+    fold(energy.gradient);
+    for (auto& square : energy.squares) fold(square);
+  }
+}
+
+void NewtonSystem::Blocks::add_triangle(std::size_t t, const TriangleEnergy& energy) {
+  const auto& s = energy.squares;
+  int entry = 0;
+  for (int a = 0; a < 6; ++a)
+    for (int b = a; b < 6; ++b, ++entry)
+      if (slot[t][entry] >= 0)
+        values[slot[t][entry]] += s[0][a] * s[0][b] + s[1][a] * s[1][b] + s[2][a] * s[2][b];
+  const std::array<int, 6> row = unknowns_of(t);
+  for (int i = 0; i < 6; ++i) {
+    if (row[i] < 0) continue;
+    if (row[i] < rows_u) {
+      gradient.u[row[i]] += energy.gradient[i];
+    } else {
+      gradient.v[row[i] - rows_u] += energy.gradient[i];
+    }
   }
 }
 
 void NewtonSystem::Blocks::assemble(std::span<const Vec2d> uv) {
-  for (Matrix* matrix : {&uu, &vv, &vu})
-    std::fill(matrix->valuePtr(), matrix->valuePtr() + matrix->nonZeros(), 0.0);
+  std::fill(values.begin(), values.end(), 0.0);
   gradient.u.setZero();
   gradient.v.setZero();
   for (std::size_t t = 0; t < geometry.surface.size(); ++t) {
     const auto& [a, b, c] = geometry.disk.triangles[t];
-    add_triangle(t, triangle_energy(geometry.surface[t], uv[a], uv[b], uv[c]));
+    TriangleEnergy energy = triangle_energy(geometry.surface[t], uv[a], uv[b], uv[c]);
+    if (slides[t]) reduce(t, energy);
+    add_triangle(t, energy);
+  }
+  const double* from = values.data();
+  for (Matrix* matrix : {&uu, &vv, &vu}) {
+    std::copy_n(from, matrix->nonZeros(), matrix->valuePtr());
+    from += matrix->nonZeros();
   }
 }
 
@@ -160,17 +232,19 @@ Pair NewtonSystem::Blocks::conjugate_gradients() const {
   return x;
 }
 
-NewtonSystem::NewtonSystem(const DiskGeometry& geometry)
+NewtonSystem::NewtonSystem(const DiskGeometry& geometry, std::span<const BorderSlide> slides)
     : blocks_(std::make_unique<Blocks>(geometry)) {
-  blocks_->number_rows();
-  if (blocks_->gradient.u.size() > 0) blocks_->prepare_pattern();
+  blocks_->number_unknowns(slides);
+  if (blocks_->rows_u + blocks_->rows_v == 0) return;
+  blocks_->prepare_pattern();
+  blocks_->prepare_slots();
 }
 
 NewtonSystem::~NewtonSystem() = default;
 
 NewtonSystem::Step NewtonSystem::solve(std::span<const Vec2d> uv) {
   Blocks& b = *blocks_;
-  if (b.gradient.u.size() == 0) return {};
+  if (b.rows_u + b.rows_v == 0) return {};
   b.assemble(uv);
   b.cholesky_u.factorize(b.uu);
   b.cholesky_v.factorize(b.vv);
@@ -178,9 +252,13 @@ NewtonSystem::Step NewtonSystem::solve(std::span<const Vec2d> uv) {
   const Pair move = b.conjugate_gradients();
   Step step{{}, b.gradient.dot(move)};
   if (!(step.slope < 0) || !move.u.allFinite() || !move.v.allFinite()) return {};
+  const auto value = [&](std::size_t coordinate) {
+    const int row = b.unknown[coordinate];
+    if (row < 0) return 0.0;
+    return b.sign[coordinate] * (row < b.rows_u ? move.u[row] : move.v[row - b.rows_u]);
+  };
   step.move.resize(uv.size());
-  for (std::size_t v = 0; v < uv.size(); ++v)
-    if (b.row[v] >= 0) step.move[v] = {move.u[b.row[v]], move.v[b.row[v]]};
+  for (std::size_t v = 0; v < uv.size(); ++v) step.move[v] = {value(2 * v), value(2 * v + 1)};
   return step;
 }
 

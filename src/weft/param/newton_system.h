@@ -4,26 +4,28 @@
 #include <span>
 #include <vector>
 
+#include "weft/param/border_slides.h"
 #include "weft/param/disk_geometry.h"
 
 namespace weft {
 
 /// The projected Newton system of the stretch energy (see weft/param/stretch_newton.h): two
-/// unknowns for each interior vertex; one pattern and one symbolic factorization for all steps.
+/// unknowns for each interior vertex, one for each slide of the border; one pattern and one
+/// symbolic factorization for all steps.
 ///
 /// Solved by conjugate gradients, preconditioned with the Cholesky factors of the two diagonal
-/// blocks (all u, all v): together they have a quarter of the fill of the whole, and a Newton step
-/// needs no more than a digit.
+/// blocks (along u, along v): together they have a quarter of the fill of the whole, and a Newton
+/// step needs no more than a digit.
 class NewtonSystem {
  public:
   /// Keeps a reference to the geometry, which must outlive it.
-  explicit NewtonSystem(const DiskGeometry& geometry);
+  explicit NewtonSystem(const DiskGeometry& geometry, std::span<const BorderSlide> slides = {});
   NewtonSystem(const NewtonSystem&) = delete;
   NewtonSystem& operator=(const NewtonSystem&) = delete;
   ~NewtonSystem();
 
   struct Step {
-    std::vector<Vec2d> move;  ///< [D], zero on the border; empty when the system broke down
+    std::vector<Vec2d> move;  ///< [D], zero where fixed; empty when the system broke down
     double slope = 0;         ///< derivative of the energy along `move`, negative
   };
   /// @param uv  [D] a valid map

@@ -13,11 +13,9 @@ namespace weft {
 namespace {
 
 /// Border vertices placed, all others at the origin.
-std::vector<Vec2d> place_border(const CutDisk& cut, const BorderLayout& layout) {
+std::vector<Vec2d> place_border(const CutDisk& cut, int size, std::span<const double> t) {
   std::vector<Vec2d> uv(cut.disk.positions.size());
-  const std::vector<double> t = border_positions(cut, layout);
-  for (std::size_t b = 0; b < t.size(); ++b)
-    uv[cut.disk.border[b]] = border_point(layout.size, t[b]);
+  for (std::size_t b = 0; b < t.size(); ++b) uv[cut.disk.border[b]] = border_point(size, t[b]);
   return uv;
 }
 
@@ -34,9 +32,11 @@ MappedDisk map_to_square(const CutDisk& cut, const MapOptions& options) {
   split_chords(mapped.cut.disk);
 
   mapped.map.size = options.size;
-  mapped.map.uv = place_border(mapped.cut, mapped.layout);
-  const bool found =
-      map_interior(mapped.cut.disk, mapped.map.uv, options.parameterizer, options.progress);
+  const std::vector<double> t = border_positions(mapped.cut, mapped.layout);
+  mapped.map.uv = place_border(mapped.cut, options.size, t);
+  const std::vector<BorderSlide> slides = border_slides(mapped.cut, mapped.layout, t);
+  const bool found = map_interior(mapped.cut.disk, mapped.map.uv, options.parameterizer,
+                                  {.slides = slides, .progress = options.progress});
   mapped.quality = measure_map(mapped.cut.disk, mapped.map);
   if (!found)
     throw TopologyError(options.name,

@@ -45,38 +45,63 @@ double energy_of(const DiskGeometry& geometry, std::span<const Vec2d> uv) {
   return sum;
 }
 
-/// Moves along the step as far as the energy falls enough. @return the energy reached; unchanged if
-/// none
-double line_search(const DiskGeometry& geometry, std::span<Vec2d> uv,
-                   const NewtonSystem::Step& step, double energy) {
-  double way = std::min(1.0, 0.9 * free_way(geometry.disk.triangles, uv, step.move));
-  std::vector<Vec2d> trial(uv.begin(), uv.end());
+/// A map that is being improved.
+struct State {
+  const DiskGeometry& geometry;
+  std::span<const BorderSlide> slides;
+  std::span<Vec2d> uv;
+  double energy = 0;
+};
+
+/// The map moved by so much of a step.
+std::vector<Vec2d> moved(const State& state, const NewtonSystem::Step& step, double way) {
+  std::vector<Vec2d> uv(state.uv.begin(), state.uv.end());
+  for (std::size_t v = 0; v < uv.size(); ++v) uv[v] = uv[v] + way * step.move[v];
+  settle(state.slides, uv);
+  return uv;
+}
+
+/// Moves along the step as far as the energy falls enough; if none does, stays. The projected
+/// Hessian is too stiff along valleys, so a step that can be taken whole may be taken further.
+void line_search(State& state, const NewtonSystem::Step& step) {
+  const double most = 0.9 * free_way(state.geometry.disk.triangles, state.uv, step.move);
+  double way = std::min(1.0, most);
+  const auto lowers = [&](double reached) {
+    return reached <= state.energy + 1e-4 * way * step.slope;
+  };
   for (int halving = 0; halving < 12; ++halving, way *= 0.5) {
-    for (std::size_t v = 0; v < uv.size(); ++v) trial[v] = uv[v] + way * step.move[v];
-    const double reached = energy_of(geometry, trial);
-    if (reached > energy + 1e-4 * way * step.slope || !is_valid_map(geometry.disk.triangles, trial))
-      continue;
-    std::copy(trial.begin(), trial.end(), uv.begin());
-    return reached;
+    std::vector<Vec2d> trial = moved(state, step, way);
+    double reached = energy_of(state.geometry, trial);
+    if (!lowers(reached)) continue;
+    while (halving == 0 && 2 * way < most) {
+      std::vector<Vec2d> further = moved(state, step, 2 * way);
+      const double energy = energy_of(state.geometry, further);
+      if (!(energy < reached)) break;
+      way *= 2;
+      reached = energy;
+      trial = std::move(further);
+    }
+    if (!is_valid_map(state.geometry.disk.triangles, trial)) continue;
+    std::copy(trial.begin(), trial.end(), state.uv.begin());
+    state.energy = reached;
+    return;
   }
-  return energy;
 }
 
 }  // namespace
 
 void minimise_by_newton(const DiskGeometry& geometry, std::span<Vec2d> uv,
                         const NewtonOptions& options) {
-  NewtonSystem system(geometry);
-  double energy = energy_of(geometry, uv);
+  NewtonSystem system(geometry, options.slides);
+  State state{geometry, options.slides, uv, energy_of(geometry, uv)};
   for (int step = 0; step < options.steps; ++step) {
     update(options.progress, "map", static_cast<double>(step) / options.steps);
     const NewtonSystem::Step newton = system.solve(uv);
     if (newton.move.empty()) return;
-    const double reached = line_search(geometry, uv, newton, energy);
+    const double before = state.energy;
+    line_search(state, newton);
     // The stretch is the root of the energy, so half its relative fall.
-    const bool enough = reached > energy * (1 - 2 * options.least_gain);
-    energy = reached;
-    if (enough) return;
+    if (state.energy > before * (1 - 2 * options.least_gain)) return;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "weft/core/progress.h"
+#include "weft/param/border_slides.h"
 #include "weft/param/disk_geometry.h"
 
 namespace weft {
@@ -11,10 +12,12 @@ struct NewtonOptions {
   int steps = 24;                ///< at most
   double least_gain = 2e-3;      ///< relative fall of the L2 stretch in a step below which it ends
   Progress* progress = nullptr;  ///< told of every step
+  std::span<const BorderSlide> slides = {};  ///< the rest of the border stays
 };
 
 /// Lowers the L2 stretch of a valid map by projected Newton steps over all interior vertices at
-/// once.
+/// once, and over the border vertices that may slide along their sides (their order is kept, since
+/// a triangle would close where two met).
 ///
 /// Under a displacement with gradient X (in the plane) a triangle's J becomes J (I + X)^-1, so with
 /// the metric G = J^T J its energy is, to second order,
@@ -24,7 +27,7 @@ struct NewtonOptions {
 /// whose last three terms form a 2 x 2 block with one negative eigenvalue; without that one the
 /// system is positive definite. Energy grows without bound as a triangle closes and steps end
 /// before the first one does, so a valid map stays valid.
-/// @param uv  [D] a valid map; the border stays
+/// @param uv  [D] a valid map; the border stays but for `slides`, whose mates stay exactly opposite
 void minimise_by_newton(const DiskGeometry& geometry, std::span<Vec2d> uv,
                         const NewtonOptions& options);
 
