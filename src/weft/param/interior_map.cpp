@@ -2,6 +2,7 @@
 
 #include "weft/param/disk_geometry.h"
 #include "weft/param/interior_solver.h"
+#include "weft/param/progressive_embedding.h"
 #include "weft/param/reweighting.h"
 #include "weft/param/stretch_newton.h"
 #include "weft/param/weights.h"
@@ -49,6 +50,7 @@ bool map_with_least_stretch(const Task& task, const StretchOptions& stretch) {
     weights.assign(weights.size(), 1.0);
     found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
   }
+  if (!found) found = embed_progressively(geometry.disk, uv, &first);
   if (found && stretch.newton_steps > 0)
     minimise_by_newton(
         geometry, uv,

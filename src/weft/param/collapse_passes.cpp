@@ -1,0 +1,127 @@
+#include "weft/param/collapse_passes.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace weft {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Twice the least that the largest inscribed circle and the sides of a triangle allow: 1 for equal
+/// sides, 0 for no area. Times the direction it faces.
+Vec3d facing(Vec3d a, Vec3d b, Vec3d c) {
+  const double squares = squared_length(b - a) + squared_length(c - b) + squared_length(a - c);
+  constexpr double two_root_three = 3.4641016151377544;
+  return squares > 0 ? two_root_three / squares * cross(b - a, c - a) : Vec3d{};
+}
+
+/// Whether triangles around the vertex that goes face another way or become slivers.
+bool spoils_shape(const DiskMesh& disk, const CollapseHierarchy& mesh, int half_edge) {
+  constexpr double least_cosine = 0.5;
+  constexpr double least_quality = 0.2;
+  const int u = mesh.to(half_edge);
+  bool spoils = false;
+  mesh.around(mesh.from(half_edge), [&](int h) {
+    const int b = mesh.to(h);
+    const int c = mesh.from(HalfEdges::previous(h));
+    if (spoils || b == u || c == u) return;
+    const auto& p = disk.positions;
+    const Vec3d before = facing(p[mesh.from(h)], p[b], p[c]);
+    const Vec3d after = facing(p[u], p[b], p[c]);
+    const double worse = std::min(least_quality, 0.5 * length(before));
+    spoils =
+        length(after) < worse || dot(before, after) < least_cosine * length(before) * length(after);
+  });
+  return spoils;
+}
+
+struct Candidate {
+  double cost;
+  int half_edge;
+  auto operator<=>(const Candidate&) const = default;
+};
+
+class Passes {
+ public:
+  Passes(CollapseHierarchy& mesh, const CollapseCost& cost, int triangles)
+      : mesh_(mesh), cost_(cost), triangles_(triangles), resting_(mesh.vertex_count(), -1) {}
+
+  /// @return how many vertices went
+  int run(double most);
+  [[nodiscard]] double least_refused() const { return least_refused_; }
+  [[nodiscard]] bool is_done() const { return mesh_.triangle_count() <= triangles_; }
+
+ private:
+  bool take_away(int vertex, double most);
+
+  CollapseHierarchy& mesh_;
+  const CollapseCost& cost_;
+  int triangles_;
+  std::vector<int> resting_;  ///< [V] the pass in which a vertex rests
+  std::vector<Candidate> candidates_;
+  int pass_ = 0;
+  double least_refused_ = infinity;
+};
+
+int Passes::run(double most) {
+  ++pass_;
+  least_refused_ = infinity;
+  int count = 0;
+  for (int v = 0; v < mesh_.vertex_count() && !is_done(); ++v)
+    if (mesh_.is_inner(v) && resting_[v] != pass_ && take_away(v, most)) ++count;
+  return count;
+}
+
+bool Passes::take_away(int vertex, double most) {
+  candidates_.clear();
+  mesh_.around(vertex, [&](int h) {
+    const double cost = cost_(mesh_, h);
+    if (cost <= most)
+      candidates_.push_back({cost, h});
+    else
+      least_refused_ = std::min(least_refused_, cost);
+  });
+  std::sort(candidates_.begin(), candidates_.end());
+  for (const auto& [cost, h] : candidates_) {
+    if (!mesh_.can_collapse(h)) continue;
+    mesh_.around(vertex, [&](int side) { resting_[mesh_.to(side)] = pass_; });
+    mesh_.collapse(h);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+CollapseCost length_cost(const DiskMesh& disk) {
+  constexpr int most_edges = 10;
+  return [&disk](const CollapseHierarchy& mesh, int h) {
+    const int v = mesh.from(h);
+    const int u = mesh.to(h);
+    if (mesh.is_inner(u) && mesh.valence(v) + mesh.valence(u) - 4 > most_edges) return infinity;
+    if (spoils_shape(disk, mesh, h)) return infinity;
+    return squared_length(disk.positions[v] - disk.positions[u]);
+  };
+}
+
+CollapseCost valence_cost() {
+  return [](const CollapseHierarchy& mesh, int h) {
+    return static_cast<double>(mesh.valence(mesh.from(h)) + mesh.valence(mesh.to(h)) - 4);
+  };
+}
+
+void collapse_in_passes(CollapseHierarchy& mesh, const CollapseCost& cost,
+                        const PassOptions& options) {
+  Passes passes(mesh, cost, options.triangles);
+  double most = options.first_cost;
+  while (!passes.is_done()) {
+    const int before = mesh.triangle_count();
+    const int gone = passes.run(most);
+    if (gone == 0 && !(passes.least_refused() < infinity)) return;
+    if (gone > before / 40) continue;
+    most = std::max(most * options.growth, gone == 0 ? passes.least_refused() : most);
+  }
+}
+
+}  // namespace weft

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "weft/core/progress.h"
+#include "weft/param/collapse_hierarchy.h"
+#include "weft/param/stretch.h"
+
+namespace weft {
+
+struct ReinsertionOptions {
+  /// The surface of a triangle given by its vertices; its energy is what makes room.
+  std::function<SurfaceTriangle(const Triangle&)> surface;
+  double growth = 1.3;  ///< of the count of triangles from one round of sweeps to the next
+  int sweeps = 2;       ///< in a round
+  Progress* progress = nullptr;
+};
+
+/// Brings all collapsed vertices back into a valid map, each inside the kernel of its neighbours
+/// [shen19], where there always is room in real numbers; where doubles see none, the neighbourhood
+/// is first relaxed without the vertex, in ever wider circles. Between rounds all vertices are
+/// relaxed, so that room never runs out.
+/// @param uv  [D] a valid map of what is left; the border stays
+/// @return whether all vertices are back; if not, the map of what is left is valid
+bool bring_back(CollapseHierarchy& mesh, std::span<Vec2d> uv, const ReinsertionOptions& options);
+
+}  // namespace weft
