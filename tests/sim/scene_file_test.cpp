@@ -107,6 +107,8 @@ TEST(SceneFile, WhatIsNotJsonNamesTheLine) {
   EXPECT_EQ(error_of("{\n\"cloths\": [{}],\n oops }"),
             "s.json:3: is not JSON here; a scene file is wanted");
   EXPECT_EQ(error_of(""), "s.json:1: is not JSON here; a scene file is wanted");
+  EXPECT_EQ(error_of("{\"gravity\":\n" + std::string(1000000, '[')),
+            "s.json:2: JSON nested more than 32 deep; a scene file is wanted");
 }
 
 TEST(SceneFile, UnknownNamesListWhatIsKnown) {

@@ -1,6 +1,5 @@
 #include "weft/sim/scene_file.h"
 
-#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 
 #include "weft/core/error.h"
 #include "weft/core/files.h"
+#include "weft/core/parse_json.h"
 #include "weft/sim/detail/scene_parts.h"
 #include "weft/sim/scene_keys.h"
 
@@ -16,18 +16,13 @@ namespace {
 
 constexpr int most_substeps = 10'000;
 constexpr int most_frames = 10'000'000;
+constexpr int deepest_nesting = 32;
 
-nlohmann::json parse_json(std::string_view text, const std::string& name) {
+nlohmann::json parse_scene_json(std::string_view text, const std::string& name) {
   try {
-    return nlohmann::json::parse(text);
-  } catch (const nlohmann::json::parse_error& error) {
-    const std::size_t end = std::min(text.size(), error.byte > 0 ? error.byte - 1 : 0);
-    const auto line =
-        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    throw SceneError(fmt::format("{}:{}", name, line), "is not JSON here",
-                     "a scene file is wanted");
-  } catch (const nlohmann::json::out_of_range&) {
-    throw SceneError(name, "a number that doubles cannot hold", "finite numbers are wanted");
+    return parse_json(text, deepest_nesting);
+  } catch (const JsonFault& fault) {
+    throw SceneError(fault.place(name), fault.what(), "a scene file is wanted");
   }
 }
 
@@ -85,7 +80,7 @@ void read_ground(const JsonObject& root, Scene& scene) {
 
 Scene parse_scene(std::string_view text, const std::string& name,
                   const std::filesystem::path& folder) {
-  const nlohmann::json json = parse_json(text, name);
+  const nlohmann::json json = parse_scene_json(text, name);
   const JsonObject root(json, {name, ""}, scene_keys::scene);
   check_version(root);
   check_wind(root);

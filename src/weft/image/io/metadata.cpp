@@ -8,6 +8,7 @@
 
 #include "weft/core/error.h"
 #include "weft/core/hash.h"
+#include "weft/core/parse_json.h"
 
 namespace weft {
 namespace {
@@ -37,15 +38,10 @@ std::string checksum(const Json& without_checksum, const Planes3& cube) {
 class Fields {
  public:
   Fields(std::string_view text, std::string_view where) : where_(where) {
-    // Writing JSON out again recurses, so that depth has to be bounded where text comes in.
-    const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
-      if (depth > deepest_nesting) fail("metadata nested too deeply", "flat JSON");
-      return true;
-    };
     try {
-      json_ = Json::parse(text, shallow);
-    } catch (const Json::exception&) {
-      fail("metadata that are not JSON", "what weft wrote");
+      json_ = parse_json(text, deepest_nesting);
+    } catch (const JsonFault& fault) {
+      fail(fmt::format("metadata with a fault: {}", fault.what()), "what weft wrote");
     }
     if (!json_.is_object()) fail("metadata that are no JSON object", "what weft wrote");
   }
