@@ -34,7 +34,7 @@ def main():
     words.add_argument("--write", action="store_true", help="renew the table of docs/measured.md")
     words.add_argument("names", nargs="*")
     options = words.parse_args()
-    paths = sorted(p for p in options.meshes.glob("*") if p.suffix in (".obj", ".off", ".ply", ".stl"))
+    paths = sorted(p for p in options.meshes.glob("*") if p.suffix in (".obj", ".off", ".ply", ".stl", ".glb"))
     paths = [p for p in paths if not options.names or p.name in options.names or p.stem in options.names]
     if not paths:
         print(f"bench: error: no meshes in {options.meshes}", file=sys.stderr)

@@ -117,7 +117,7 @@ void convert(const ConvertWords& words, const Context& context) {
 void add_convert(CLI::App& program, const Context& context) {
   auto words = std::make_shared<ConvertWords>();
   CLI::App* command = program.add_subcommand("convert", "Turn a mesh into a geometry image");
-  command->add_option("MESH", words->mesh, "OBJ, OFF, PLY or STL file, or builtin:NAME")
+  command->add_option("MESH", words->mesh, "OBJ, OFF, PLY, STL or GLB file, or builtin:NAME")
       ->required();
   command
       ->add_option("-o,--output", words->output,

@@ -58,6 +58,26 @@ class Convert(ProgramTest):
                 mesh = self.shared_mesh(name)
                 self.check_promises(self.run_json("convert", mesh, "-o", "m.exr", "--size", "65"))
 
+    def test_glb_becomes_an_image(self):
+        self.run_weft("shapes", "torus", "-o", "t.obj")
+        lines = [line.split() for line in (self.folder / "t.obj").read_text().splitlines()]
+        points = [[float(x) for x in line[1:4]] for line in lines if line[0] == "v"]
+        corners = [points[int(i) - 1] for line in lines if line[0] == "f" for i in line[1:4]]
+        # Every corner a vertex of its own, as programs write them that keep a normal for each.
+        binary = b"".join(struct.pack("<3f", *corner) for corner in corners)
+        text = json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [2, 2, 2]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(corners), "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": len(binary)}],
+            "buffers": [{"byteLength": len(binary)}]}).encode()
+        text += b" " * (-len(text) % 4)
+        chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary
+        (self.folder / "t.glb").write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+        report = self.run_json("convert", "t.glb", "-o", "t.exr", "--size", "33")
+        self.check_promises(report)
+        self.assertEqual((report["input"]["vertices"], report["input"]["genus"]), (len(points), 1))
+
     def test_png_and_exr_rebuild_to_the_input_topology(self):
         for ending in ("exr", "png"):
             self.run_weft("convert", "builtin:torus", "-o", f"t.{ending}", "--size", "33")
@@ -105,6 +125,8 @@ class BadInput(ProgramTest):
         self.refuse("text.off", "Dear reader,\nthis is not a mesh.\n")
         self.refuse("text.ply", "Dear reader,\nthis is not a mesh.\n")
         self.refuse("text.stl", "Dear reader,\nthis is not a mesh.\n")
+        self.refuse("text.glb", "Dear reader,\nthis is not a mesh.\n", "text.glb:1")
+        self.refuse("text.gltf", "{}", "asset")
         self.refuse("mesh.xyz", "1 2 3\n")
 
     def test_broken_numbers_and_indices_name_the_line(self):

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/mesh/gltf_files.h"
 #include "weft/core/error.h"
 #include "weft/core/random.h"
 #include "weft/mesh/io/read_mesh.h"
@@ -12,6 +13,10 @@ namespace weft {
 namespace {
 
 using Parser = TriangleMesh (*)(std::string_view, std::string_view);
+
+TriangleMesh parse_glb(std::string_view bytes, std::string_view name) {
+  return parse_gltf(bytes, name);
+}
 
 struct Sample {
   const char* name;
@@ -36,9 +41,13 @@ std::vector<Sample> samples() {
       "endfacet\nendsolid\n";
   std::string binary_stl(84 + 50, '\0');
   binary_stl[80] = 1;
-  return {{"a.obj", parse_obj, obj}, {"a.off", parse_off, off},
-          {"a.ply", parse_ply, ply}, {"b.ply", parse_ply, binary_ply},
-          {"a.stl", parse_stl, stl}, {"b.stl", parse_stl, binary_stl}};
+  return {{"a.obj", parse_obj, obj},
+          {"a.off", parse_off, off},
+          {"a.ply", parse_ply, ply},
+          {"b.ply", parse_ply, binary_ply},
+          {"a.stl", parse_stl, stl},
+          {"b.stl", parse_stl, binary_stl},
+          {"b.glb", parse_glb, test::CreasedPair{}.bytes()}};
 }
 
 void damage(std::string& bytes, Random& random) {

@@ -13,15 +13,17 @@ namespace {
 
 using Parser = TriangleMesh (*)(std::string_view, std::string_view);
 
-Parser parser_for(const std::filesystem::path& path) {
+TriangleMesh parse_by_ending(std::string_view bytes, const std::filesystem::path& path) {
   constexpr std::array<std::pair<std::string_view, Parser>, 4> parsers{
       {{".obj", parse_obj}, {".off", parse_off}, {".ply", parse_ply}, {".stl", parse_stl}}};
   std::string ending = path.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const auto& [known, parser] : parsers)
-    if (known == ending) return parser;
+    if (known == ending) return parser(bytes, path.string());
+  if (ending == ".glb" || ending == ".gltf")
+    return parse_gltf(bytes, path.string(), path.parent_path());
   throw InputError(path.string(), "the ending '" + ending + "' is not that of a mesh",
-                   ".obj, .off, .ply or .stl is wanted");
+                   ".obj, .off, .ply, .stl, .glb or .gltf is wanted");
 }
 
 }  // namespace
@@ -29,7 +31,7 @@ Parser parser_for(const std::filesystem::path& path) {
 TriangleMesh read_mesh(const std::filesystem::path& path) {
   // What is missing or a folder is told before what has a wrong ending.
   const std::string bytes = read_file(path);
-  return parser_for(path)(bytes, path.string());
+  return parse_by_ending(bytes, path);
 }
 
 }  // namespace weft

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "weft/core/vec.h"
+#include "weft/mesh/io/gltf_buffers.h"
+
+namespace weft {
+
+/// The positions that an accessor lists; whole numbers as KHR_mesh_quantization has them.
+/// @param index  @pre below root.count("accessors")
+/// @throws InputError for data out of the buffer's range, of another type, or sparse
+std::vector<Vec3d> read_gltf_positions(const GltfObject& root, GltfBuffers& buffers, int index);
+
+/// The vertex numbers that an accessor lists. @throws InputError, also for one that is not below
+/// `vertices`
+std::vector<int> read_gltf_indices(const GltfObject& root, GltfBuffers& buffers, int index,
+                                   std::size_t vertices);
+
+}  // namespace weft

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "weft/mesh/io/gltf_object.h"
+
+namespace weft {
+
+/// The two parts of a glTF file: text (.gltf) has no binary part.
+struct GltfParts {
+  std::string_view json;
+  std::optional<std::string_view> binary;
+};
+
+/// Takes a file apart: a GLB container by its chunks, anything else as text.
+/// @throws InputError for a container of another version, cut short, or of wrong lengths
+GltfParts split_gltf(std::string_view bytes, std::string_view name);
+
+/// The bytes of a glTF file's buffers, each fetched when it is first asked for: from the binary
+/// part, from base64 text in the JSON, or from a file in the mesh's folder or below.
+class GltfBuffers {
+ public:
+  /// @param binary  kept as a view
+  /// @param folder  where files are looked for; none: they are refused
+  GltfBuffers(const GltfObject& root, std::optional<std::string_view> binary,
+              std::optional<std::filesystem::path> folder)
+      : root_(root), binary_(binary), folder_(std::move(folder)) {}
+
+  /// The part of a buffer that a buffer view names. @throws InputError
+  std::string_view view(int buffer_view);
+
+ private:
+  std::string_view buffer(int index);
+  std::string_view fetch(const GltfObject& buffer, const std::string& uri);
+
+  GltfObject root_;
+  std::optional<std::string_view> binary_;
+  std::optional<std::filesystem::path> folder_;
+  std::map<int, std::string_view> buffers_;
+  std::map<std::string, std::string> fetched_;  ///< by URI: several buffers may name one file
+};
+
+}  // namespace weft

@@ -1,0 +1,96 @@
+#include "weft/mesh/io/gltf_nodes.h"
+
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// `inner` first, then `outer`.
+Placing after(const Placing& outer, const Placing& inner) {
+  return {{outer.direction(inner.axes[0]), outer.direction(inner.axes[1]),
+           outer.direction(inner.axes[2])},
+          outer.point(inner.offset)};
+}
+
+Placing from_matrix(const GltfObject& node, const std::vector<double>& m) {
+  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+    node.fail("has a matrix that is not affine", "0 0 0 1 as the last row is wanted");
+  return {{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}}, {m[12], m[13], m[14]}};
+}
+
+/// Columns of the rotation by a quaternion x, y, z, w of any length.
+std::array<Vec3d, 3> rotation_axes(const GltfObject& node, const std::vector<double>& q) {
+  const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (!(size > 0) || !std::isfinite(size))
+    node.fail("has a rotation without direction", "a unit quaternion is wanted");
+  const double x = q[0] / size, y = q[1] / size, z = q[2] / size, w = q[3] / size;
+  return {{{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+           {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+           {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}}};
+}
+
+Placing placing_of(const GltfObject& node) {
+  const std::vector<double> matrix = node.numbers("matrix", 16);
+  if (!matrix.empty()) return from_matrix(node, matrix);
+  Placing placing;
+  const std::vector<double> rotation = node.numbers("rotation", 4);
+  if (!rotation.empty()) placing.axes = rotation_axes(node, rotation);
+  const std::vector<double> scale = node.numbers("scale", 3);
+  if (!scale.empty())
+    for (std::size_t k = 0; k < 3; ++k) placing.axes[k] = scale[k] * placing.axes[k];
+  const std::vector<double> offset = node.numbers("translation", 3);
+  if (!offset.empty()) placing.offset = {offset[0], offset[1], offset[2]};
+  return placing;
+}
+
+std::vector<int> root_nodes(const GltfObject& root) {
+  const std::size_t nodes = root.count("nodes");
+  const std::size_t scenes = root.count("scenes");
+  const std::optional<int> chosen = root.index("scene", scenes);
+  if (scenes > 0)
+    return root.element("scenes", static_cast<std::size_t>(chosen.value_or(0)))
+        .indices("nodes", nodes);
+  std::vector<bool> is_child(nodes, false);
+  for (std::size_t i = 0; i < nodes; ++i)
+    for (const int child : root.element("nodes", i).indices("children", nodes))
+      is_child[child] = true;
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < nodes; ++i)
+    if (!is_child[i]) roots.push_back(static_cast<int>(i));
+  return roots;
+}
+
+struct PlacedNode {
+  int node = 0;
+  Placing placing;  ///< of its parent
+};
+
+}  // namespace
+
+std::vector<PlacedMesh> placed_meshes(const GltfObject& root) {
+  std::vector<PlacedMesh> meshes;
+  const std::size_t nodes = root.count("nodes"), mesh_count = root.count("meshes");
+  if (nodes == 0)
+    for (std::size_t i = 0; i < mesh_count; ++i) meshes.push_back({static_cast<int>(i), {}});
+  std::vector<PlacedNode> open;
+  const auto push = [&](const std::vector<int>& children, const Placing& parent) {
+    for (auto child = children.rbegin(); child != children.rend(); ++child)
+      open.push_back({*child, parent});
+  };
+  push(root_nodes(root), {});
+  std::vector<bool> seen(nodes, false);
+  while (!open.empty()) {
+    const PlacedNode next = open.back();
+    open.pop_back();
+    const GltfObject node = root.element("nodes", static_cast<std::size_t>(next.node));
+    if (seen[next.node]) node.fail("is reached twice", "a tree of nodes is wanted");
+    seen[next.node] = true;
+    const Placing placing = after(next.placing, placing_of(node));
+    if (const std::optional<int> mesh = node.index("mesh", mesh_count))
+      meshes.push_back({*mesh, placing});
+    push(node.indices("children", nodes), placing);
+  }
+  return meshes;
+}
+
+}  // namespace weft

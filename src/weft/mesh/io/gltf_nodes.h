@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "weft/core/vec.h"
+#include "weft/mesh/io/gltf_object.h"
+
+namespace weft {
+
+/// An affine map of space: p -> axes * p + offset.
+struct Placing {
+  std::array<Vec3d, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< columns
+  Vec3d offset;
+
+  [[nodiscard]] Vec3d direction(Vec3d d) const {
+    return d.x * axes[0] + d.y * axes[1] + d.z * axes[2];
+  }
+  [[nodiscard]] Vec3d point(Vec3d p) const { return direction(p) + offset; }
+  /// Whether it turns the inside out.
+  [[nodiscard]] bool mirrors() const { return dot(axes[0], cross(axes[1], axes[2])) < 0; }
+};
+
+/// A mesh of the file where a node puts it.
+struct PlacedMesh {
+  int mesh = 0;
+  Placing placing;
+};
+
+/// The meshes of the default scene: that which the file names, else its first, else every node that
+/// is no other's child; in the order of the nodes, parents first. A file without nodes shows every
+/// mesh once, as it is. Skins and morph targets are left out: the shape at rest.
+/// @throws InputError for a node out of range or reached twice, or a matrix that is not affine
+std::vector<PlacedMesh> placed_meshes(const GltfObject& root);
+
+}  // namespace weft

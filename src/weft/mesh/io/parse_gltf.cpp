@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "weft/core/error.h"
+#include "weft/core/parse_json.h"
+#include "weft/mesh/io/gltf_accessor.h"
+#include "weft/mesh/io/gltf_nodes.h"
+#include "weft/mesh/io/number.h"
+#include "weft/mesh/io/polygon.h"
+#include "weft/mesh/io/read_mesh.h"
+#include "weft/mesh/repair.h"
+
+// After the glTF 2.0 specification [gltf20]. Why not by a library:
+// docs/decisions/0019-own-gltf-reader.md.
+
+namespace weft {
+namespace {
+
+constexpr int deepest_nesting = 64;
+/// Nodes may show one mesh many times; beyond this, the result stays below the size of the file.
+constexpr std::size_t most_shown_freely = 4'000'000;
+
+enum Mode { triangles_mode = 4, strip_mode = 5, fan_mode = 6 };
+
+nlohmann::json parse_text(std::string_view text, std::string_view name) {
+  try {
+    return parse_json(text, deepest_nesting);
+  } catch (const JsonFault& fault) {
+    throw InputError(fault.place(name), fault.what(), "a glTF 2.0 mesh is wanted");
+  }
+}
+
+/// What a file says that a reader must know to understand it.
+void check_extensions(const GltfObject& root) {
+  // These change how a surface looks, not where it is.
+  constexpr std::array<std::string_view, 4> looks{"KHR_materials_", "KHR_texture_", "KHR_lights_",
+                                                  "EXT_texture_"};
+  for (const std::string& extension : root.texts("extensionsRequired")) {
+    const bool harmless = extension == "KHR_mesh_quantization" ||
+                          std::any_of(looks.begin(), looks.end(), [&](std::string_view prefix) {
+                            return extension.starts_with(prefix);
+                          });
+    if (!harmless)
+      root.fail(fmt::format("needs the extension {}", extension),
+                "an uncompressed mesh of plain glTF 2.0 is wanted");
+  }
+}
+
+void check_version(const GltfObject& root) {
+  const std::optional<GltfObject> asset = root.object("asset");
+  if (!asset) root.fail("has no asset", "a glTF 2.0 mesh is wanted");
+  const std::string version = asset->text("version").value_or("");
+  if (!version.starts_with("2."))
+    asset->fail(fmt::format("tells version '{}'", version), "glTF 2.0 is wanted");
+}
+
+/// The corners of a primitive as triangles of vertex numbers.
+std::vector<Triangle> triangles_of(const GltfObject& primitive, int mode,
+                                   const std::vector<int>& corners) {
+  const std::size_t count = corners.size();
+  if (count < 3 || (mode == triangles_mode && count % 3 != 0))
+    primitive.fail(fmt::format("has {} corners", count), "whole triangles are wanted");
+  std::vector<Triangle> triangles;
+  const std::size_t step = mode == triangles_mode ? 3 : 1;
+  triangles.reserve(count / step);
+  for (std::size_t i = 0; i + 2 < count; i += step) {
+    const bool turned = mode == strip_mode && i % 2 == 1;
+    const int a = corners[mode == fan_mode ? 0 : i];
+    const int b = corners[turned ? i + 2 : i + 1];
+    const int c = corners[turned ? i + 1 : i + 2];
+    // A strip goes on elsewhere by way of triangles without area.
+    if (mode == triangles_mode || (a != b && b != c && c != a)) triangles.push_back({a, b, c});
+  }
+  return triangles;
+}
+
+class Gatherer {
+ public:
+  Gatherer(const GltfObject& root, GltfBuffers& buffers, std::size_t file_size)
+      : root_(root), buffers_(buffers), most_(std::max(most_shown_freely, file_size)) {}
+
+  void add(const PlacedMesh& placed) {
+    bases_.clear();
+    const GltfObject object = root_.element("meshes", static_cast<std::size_t>(placed.mesh));
+    for (std::size_t i = 0; i < object.count("primitives"); ++i)
+      add_primitive(object.element("primitives", i), placed.placing);
+  }
+
+  TriangleMesh take() { return std::move(mesh_); }
+
+ private:
+  void add_primitive(const GltfObject& primitive, const Placing& placing) {
+    const auto mode = static_cast<int>(primitive.integer("mode", 0, 6).value_or(triangles_mode));
+    if (mode < triangles_mode) return;  // points and lines have no surface
+    const std::optional<GltfObject> attributes = primitive.object("attributes");
+    const std::optional<int> position =
+        attributes ? attributes->index("POSITION", root_.count("accessors")) : std::nullopt;
+    if (!position) primitive.fail("has no POSITION", "positions are wanted");
+    const auto [base, count] = place_positions(primitive, *position, placing);
+    std::vector<Triangle> triangles =
+        triangles_of(primitive, mode, corners_of(primitive, static_cast<std::size_t>(count)));
+    require_room(primitive, mesh_.triangles.size() + triangles.size());
+    for (Triangle& t : triangles) {
+      if (placing.mirrors()) std::swap(t[1], t[2]);
+      for (int& v : t) v += base;
+      mesh_.triangles.push_back(t);
+    }
+  }
+
+  [[nodiscard]] std::vector<int> corners_of(const GltfObject& primitive, std::size_t vertices) {
+    if (const std::optional<int> index = primitive.index("indices", root_.count("accessors")))
+      return read_gltf_indices(root_, buffers_, *index, vertices);
+    std::vector<int> corners(vertices);
+    for (std::size_t i = 0; i < vertices; ++i) corners[i] = static_cast<int>(i);
+    return corners;
+  }
+
+  /// First vertex and count of an accessor's positions, which the primitives of a mesh may share.
+  std::pair<int, int> place_positions(const GltfObject& primitive, int accessor,
+                                      const Placing& placing) {
+    if (const auto known = bases_.find(accessor); known != bases_.end()) return known->second;
+    const std::vector<Vec3d> positions = read_gltf_positions(root_, buffers_, accessor);
+    const int base = static_cast<int>(mesh_.positions.size());
+    require_room(primitive, mesh_.positions.size() + positions.size());
+    for (const Vec3d& p : positions) {
+      const Vec3d placed = placing.point(p);
+      for (const double x : {placed.x, placed.y, placed.z})
+        if (const std::string_view fault = coordinate_fault(x); !fault.empty())
+          primitive.fail(fmt::format("has a coordinate that {}", fault),
+                         "finite numbers are wanted");
+      mesh_.positions.push_back(placed);
+    }
+    return bases_[accessor] = {base, static_cast<int>(positions.size())};
+  }
+
+  void require_room(const GltfObject& primitive, std::size_t count) const {
+    if (count > most_)
+      primitive.fail(fmt::format("is shown so often that there are {} elements", count),
+                     fmt::format("at most {} are wanted", most_));
+  }
+
+  const GltfObject& root_;
+  GltfBuffers& buffers_;
+  std::size_t most_;
+  TriangleMesh mesh_;
+  std::map<int, std::pair<int, int>> bases_;  ///< by accessor, of the mesh that is being added
+};
+
+}  // namespace
+
+TriangleMesh parse_gltf(std::string_view bytes, std::string_view name,
+                        const std::optional<std::filesystem::path>& folder) {
+  const GltfParts parts = split_gltf(bytes, name);
+  const nlohmann::json json = parse_text(parts.json, name);
+  const GltfObject root(json, name, "");
+  check_version(root);
+  check_extensions(root);
+  GltfBuffers buffers(root, parts.binary, folder);
+  Gatherer gatherer(root, buffers, bytes.size());
+  for (const PlacedMesh& placed : placed_meshes(root)) gatherer.add(placed);
+  const TriangleMesh mesh = gatherer.take();
+  require_surface(mesh, name);
+  return weld_exact(mesh);
+}
+
+}  // namespace weft
