@@ -56,7 +56,7 @@ TEST(ProgressiveEmbedding, SavesDisksOnWhichWeightsAndTheirReweightingFail) {
   for (const Parameterizer& parameterizer :
        {Parameterizer{StretchOptions{}}, Parameterizer{FloaterOptions{}}}) {
     uv = test::even_border(disk, 64);
-    ASSERT_TRUE(map_interior(disk, uv, parameterizer, nullptr));
+    ASSERT_TRUE(map_interior(disk, uv, parameterizer));
     EXPECT_TRUE(is_valid_map(disk.triangles, uv));
     EXPECT_TRUE(std::isfinite(geometry.stretch_l2(uv)));
   }
