@@ -24,12 +24,18 @@ int find_edge(const CutSurface& surface, int a, int b) {
 }  // namespace
 
 CutGraph::CutGraph(const CutSurface& surface)
-    : surface_(surface), open_(surface.half_edge_count(), 0), valence_(surface.vertex_count(), 0) {
+    : surface_(surface), open_(surface.half_edge_count(), 0), ends_(surface.vertex_count()) {
   for (int h = 0; h < surface.half_edge_count(); ++h) {
     if (surface.twin(h) >= 0) continue;
     open_[h] = 1;
-    ++valence_[surface.from(h)];
-    ++valence_[surface.to(h)];
+    count(h, 1);
+  }
+}
+
+void CutGraph::count(int half_edge, int change) {
+  for (const int v : {surface_.from(half_edge), surface_.to(half_edge)}) {
+    ends_[v].valence += change;
+    ends_[v].mix ^= surface_.edge_name(half_edge);
   }
 }
 
@@ -41,9 +47,7 @@ void CutGraph::set(int half_edge, bool open) {
   const int twin = surface_.twin(half_edge);
   if (twin < 0 || contains(half_edge) == open) return;
   open_[half_edge] = open_[twin] = open ? 1 : 0;
-  const int change = open ? 1 : -1;
-  valence_[surface_.from(half_edge)] += change;
-  valence_[surface_.to(half_edge)] += change;
+  count(half_edge, open ? 1 : -1);
 }
 
 void CutGraph::add_all() {
@@ -53,10 +57,7 @@ void CutGraph::add_all() {
 void CutGraph::prune() {
   for (int v = 0; v < surface_.vertex_count(); ++v) {
     for (int leaf = v; leaf >= 0 && valence(leaf) == 1;) {
-      int edge = -1;
-      surface_.for_each_edge(leaf, [&](int h) {
-        if (contains(h)) edge = h;
-      });
+      const int edge = ends_[leaf].mix;
       remove(edge);
       leaf = surface_.other_end(edge, leaf);
     }

@@ -20,7 +20,7 @@ class CutGraph {
   [[nodiscard]] const CutSurface& surface() const { return surface_; }
   [[nodiscard]] bool contains(int half_edge) const { return open_[half_edge]; }
   /// How many open edges meet at the vertex, border edges included.
-  [[nodiscard]] int valence(int vertex) const { return valence_[vertex]; }
+  [[nodiscard]] int valence(int vertex) const { return ends_[vertex].valence; }
 
   /// Opens or closes an interior edge, given by either of its half-edges; no-ops when it is so
   /// already.
@@ -49,12 +49,18 @@ class CutGraph {
   [[nodiscard]] Cut cut() const;
 
  private:
+  /// The open edges that end at a vertex.
+  struct Ends {
+    int valence = 0;
+    int mix = 0;  ///< exclusive or of their names: of a single one its name
+  };
   void set(int half_edge, bool open);
+  void count(int half_edge, int change);
   void extend(std::vector<int>& path) const;
 
   const CutSurface& surface_;
-  std::vector<char> open_;    // [3F]
-  std::vector<int> valence_;  // [V]
+  std::vector<char> open_;  // [3F]
+  std::vector<Ends> ends_;  // [V]
 };
 
 }  // namespace weft

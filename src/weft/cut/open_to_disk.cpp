@@ -54,10 +54,9 @@ Cut open_to_disk(const TriangleMesh& mesh, const CutOptions& options) {
   if (options.seed_triangle < -1 || options.seed_triangle >= triangles)
     throw TopologyError("seed triangle", fmt::format("{}", options.seed_triangle),
                         fmt::format("0 to {}, or -1 to choose", triangles - 1));
-  const TopologyCounts counts =
-      count_topology(static_cast<int>(mesh.positions.size()), mesh.triangles);
-  if (counts.genus == 0 && counts.boundaries == 1) return {};
   const CutSurface surface(mesh);
+  const TopologyCounts counts = count_topology(mesh.triangles, surface.edges());
+  if (counts.genus == 0 && counts.boundaries == 1) return {};
   if (counts.genus == 0 && counts.boundaries == 0)
     return open_sphere(surface, options.seed_triangle < 0 ? 0 : options.seed_triangle);
   if (options.seed_triangle < 0) return shortest_cut(surface, options.straighten);

@@ -32,7 +32,7 @@ class TriangleRemoval {
   void remove_triangle(int triangle) {
     removed_[triangle] = 1;
     for (int h = 3 * triangle; h < 3 * triangle + 3; ++h)
-      if (surface_.twin(h) >= 0)
+      if (surface_.twin(h) >= 0 && !removed_[surface_.twin(h) / 3])
         queue_.emplace(0.5 * (distance_[surface_.from(h)] + distance_[surface_.to(h)]), h);
   }
 

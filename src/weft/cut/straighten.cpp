@@ -122,20 +122,39 @@ class AnnulusSearch {
   int best_last_ = -1;
 };
 
-/// Replaces the path through an open edge by a shorter one. @return the length gained [m]
-double shorten(CutGraph& graph, AnnulusSearch& search, int half_edge) {
-  const CutSurface& surface = graph.surface();
-  const std::vector<int> path = graph.path_through(half_edge);
-  for (const int h : path) graph.remove(h);
-  const int start = graph.first_open(path.front());
-  const int end = graph.first_open(surface.twin(path.back()));
-  const std::vector<int> shorter =
-      start >= 0 && end >= 0 ? search.shortest(start, end) : std::vector<int>{};
-  const double gain = path_length(surface, path) - path_length(surface, shorter);
-  const bool better = !shorter.empty() && gain > 0;
-  for (const int h : better ? shorter : path) graph.add(h);
-  return better ? gain : 0;
-}
+/// Makes paths shorter one after the other; remembers those that cannot be until another changes.
+class Straightener {
+ public:
+  explicit Straightener(CutGraph& graph)
+      : graph_(graph), search_(graph), tried_at_(graph.surface().half_edge_count(), -1) {}
+
+  /// Replaces the path through an open edge by a shorter one. @return the length gained [m]
+  double shorten(int half_edge) {
+    const CutSurface& surface = graph_.surface();
+    // A search over again would find the same.
+    if (tried_at_[surface.edge_name(half_edge)] == changes_) return 0;
+    const std::vector<int> path = graph_.path_through(half_edge);
+    for (const int h : path) graph_.remove(h);
+    const int start = graph_.first_open(path.front());
+    const int end = graph_.first_open(surface.twin(path.back()));
+    const std::vector<int> shorter =
+        start >= 0 && end >= 0 ? search_.shortest(start, end) : std::vector<int>{};
+    const double gain = path_length(surface, path) - path_length(surface, shorter);
+    const bool better = !shorter.empty() && gain > 0;
+    if (better) ++changes_;
+    for (const int h : better ? shorter : path) {
+      graph_.add(h);
+      tried_at_[surface.edge_name(h)] = changes_;
+    }
+    return better ? gain : 0;
+  }
+
+ private:
+  CutGraph& graph_;
+  AnnulusSearch search_;
+  std::vector<int> tried_at_;  // [3F] by edge name: what changes_ was, -1 never
+  int changes_ = 0;
+};
 
 /// An edge in the middle of every path, longest path first.
 std::vector<int> representatives(const CutGraph& graph) {
@@ -152,11 +171,11 @@ std::vector<int> representatives(const CutGraph& graph) {
 }  // namespace
 
 void straighten(CutGraph& graph, double least_gain) {
-  AnnulusSearch search(graph);
+  Straightener straightener(graph);
   for (int round = 0; round < most_rounds; ++round) {
     double gain = 0;
     for (const int h : representatives(graph))
-      if (graph.contains(h)) gain += shorten(graph, search, h);
+      if (graph.contains(h)) gain += straightener.shorten(h);
     if (gain <= least_gain * graph.length()) return;
   }
 }

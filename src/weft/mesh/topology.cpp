@@ -36,9 +36,8 @@ void check_edge(std::span<const Triangle> triangles, std::span<const int> uses) 
 }
 
 /// Number of sets of vertices that triangles join; vertices without triangle are not counted.
-int count_components(int vertex_count, std::span<const Triangle> triangles,
-                     const HalfEdges& edges) {
-  std::vector<int> parent(vertex_count);
+int count_components(std::span<const Triangle> triangles, const HalfEdges& edges) {
+  std::vector<int> parent(edges.outgoing.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int v) {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
@@ -49,7 +48,8 @@ int count_components(int vertex_count, std::span<const Triangle> triangles,
     parent[root(t[2])] = root(t[0]);
   }
   int count = 0;
-  for (int v = 0; v < vertex_count; ++v) count += edges.outgoing[v] >= 0 && root(v) == v ? 1 : 0;
+  for (int v = 0; v < static_cast<int>(parent.size()); ++v)
+    count += edges.outgoing[v] >= 0 && root(v) == v ? 1 : 0;
   return count;
 }
 
@@ -70,10 +70,13 @@ HalfEdges half_edges(int vertex_count, std::span<const Triangle> triangles) {
     edges.twin[along[1]] = along[0];
   }
   edges.outgoing.assign(vertex_count, -1);
-  for (int h = 0; h < static_cast<int>(edges.twin.size()); ++h) {
-    int& out = edges.outgoing[from_vertex(triangles, h)];
-    if (out < 0 || (edges.twin[h] < 0 && edges.twin[out] >= 0)) out = h;
-  }
+  int h = 0;
+  for (const Triangle& t : triangles)
+    for (const int v : t) {
+      int& out = edges.outgoing[v];
+      if (out < 0 || (edges.twin[h] < 0 && edges.twin[out] >= 0)) out = h;
+      ++h;
+    }
   return edges;
 }
 
@@ -93,13 +96,16 @@ std::vector<std::vector<int>> border_loops(std::span<const Triangle> triangles,
 }
 
 TopologyCounts count_topology(int vertex_count, std::span<const Triangle> triangles) {
-  const HalfEdges edges = half_edges(vertex_count, triangles);
+  return count_topology(triangles, half_edges(vertex_count, triangles));
+}
+
+TopologyCounts count_topology(std::span<const Triangle> triangles, const HalfEdges& edges) {
   TopologyCounts counts;
   for (const int h : edges.outgoing) counts.vertices += h >= 0 ? 1 : 0;
   for (int h = 0; h < static_cast<int>(edges.twin.size()); ++h)
     counts.edges += edges.twin[h] < h ? 1 : 0;
   counts.triangles = static_cast<int>(triangles.size());
-  counts.components = count_components(vertex_count, triangles, edges);
+  counts.components = count_components(triangles, edges);
   counts.boundaries = static_cast<int>(border_loops(triangles, edges).size());
   counts.euler = counts.vertices - counts.edges + counts.triangles;
   counts.genus = (2 * counts.components - counts.boundaries - counts.euler) / 2;

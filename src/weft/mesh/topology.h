@@ -52,5 +52,7 @@ struct TopologyCounts {
 };
 /// For a manifold, oriented mesh. @throws TopologyError as half_edges
 TopologyCounts count_topology(int vertex_count, std::span<const Triangle> triangles);
+/// The same where the half-edges are there already.
+TopologyCounts count_topology(std::span<const Triangle> triangles, const HalfEdges& edges);
 
 }  // namespace weft
