@@ -1,11 +1,9 @@
 #include "weft/param/proxy.h"
 
 #include <algorithm>
-#include <queue>
-#include <tuple>
 
-#include "weft/mesh/one_ring.h"
 #include "weft/mesh/topology.h"
+#include "weft/param/length_queue.h"
 
 namespace weft {
 namespace {
@@ -14,7 +12,6 @@ namespace {
 void replace(std::vector<int>& list, int from, int to) {
   std::replace(list.begin(), list.end(), from, to);
 }
-void erase(std::vector<int>& list, int value) { std::erase(list, value); }
 bool contains(const std::vector<int>& list, int value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
@@ -26,41 +23,49 @@ class Coarsener {
   [[nodiscard]] Proxy result() const;
 
  private:
-  using Candidate = std::tuple<double, int, int>;  ///< squared length, ends
-
   void add_feature(int a, int b);
   void push(int a, int b);
-  [[nodiscard]] std::vector<int> neighbours(int vertex) const;
+  void push_all();
+  template <class Visit>
+  void for_each_around(int vertex, const Visit& visit) const;
+  [[nodiscard]] bool has(int triangle, int vertex) const;
+  int mark_neighbours(int vertex);
   [[nodiscard]] bool feature_allows(int from, int to) const;
-  [[nodiscard]] bool topology_allows(int from, int to) const;
+  [[nodiscard]] bool topology_allows(int from, int to);
   [[nodiscard]] bool shape_allows(int from, int to) const;
   bool collapse(int from, int to);
+  void move_triangles(int from, int to);
 
   const TriangleMesh& mesh_;
   std::vector<Triangle> triangles_;
-  std::vector<bool> triangle_alive_, vertex_alive_;
-  std::vector<std::vector<int>> around_;   ///< triangles of a vertex
+  std::vector<char> triangle_alive_;
+  std::vector<int> first_corner_;  ///< [V] head of the list of a vertex's corners 3 t + k; -1: none
+  std::vector<int> next_corner_;   ///< [3F]; corners of dead triangles stay until the next merge
   std::vector<std::vector<int>> feature_;  ///< neighbours along cut and border
-  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
+  std::vector<int> mark_;                  ///< [V] the last round in which a vertex was marked
+  int round_ = 0;
+  LengthQueue queue_;
   int alive_ = 0;
 };
 
 Coarsener::Coarsener(const TriangleMesh& mesh, const Cut& cut)
     : mesh_(mesh),
       triangles_(mesh.triangles),
-      triangle_alive_(mesh.triangles.size(), true),
-      vertex_alive_(mesh.positions.size(), true),
-      around_(mesh.positions.size()),
+      triangle_alive_(mesh.triangles.size(), 1),
+      first_corner_(mesh.positions.size(), -1),
+      next_corner_(3 * mesh.triangles.size(), -1),
       feature_(mesh.positions.size()),
+      mark_(mesh.positions.size(), 0),
       alive_(static_cast<int>(mesh.triangles.size())) {
-  const HalfEdges edges = half_edges(static_cast<int>(mesh.positions.size()), mesh.triangles);
-  for (int h = 0; h < static_cast<int>(edges.twin.size()); ++h) {
-    const int a = from_vertex(mesh.triangles, h);
-    const int b = to_vertex(mesh.triangles, h);
-    around_[a].push_back(h / 3);
-    if (edges.twin[h] < h) push(a, b);
-    if (edges.twin[h] < 0) add_feature(a, b);
+  for (int c = 3 * alive_ - 1; c >= 0; --c) {
+    int& first = first_corner_[from_vertex(mesh.triangles, c)];
+    next_corner_[c] = first;
+    first = c;
   }
+  const HalfEdges edges = half_edges(static_cast<int>(mesh.positions.size()), mesh.triangles);
+  for (int h = 0; h < static_cast<int>(edges.twin.size()); ++h)
+    if (edges.twin[h] < 0)
+      add_feature(from_vertex(mesh.triangles, h), to_vertex(mesh.triangles, h));
   for (const auto& [a, b] : cut.edges) add_feature(a, b);
 }
 
@@ -70,12 +75,39 @@ void Coarsener::add_feature(int a, int b) {
 }
 
 void Coarsener::push(int a, int b) {
-  queue_.emplace(squared_length(mesh_.positions[a] - mesh_.positions[b]), std::min(a, b),
-                 std::max(a, b));
+  queue_.push(squared_length(mesh_.positions[a] - mesh_.positions[b]),
+              {std::min(a, b), std::max(a, b)});
 }
 
-std::vector<int> Coarsener::neighbours(int vertex) const {
-  return one_ring(triangles_, around_[vertex], vertex);
+void Coarsener::push_all() {
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (!triangle_alive_[t]) continue;
+    // Inside, every edge comes twice, once each way round.
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles_[t][k], b = triangles_[t][(k + 1) % 3];
+      if (a < b || contains(feature_[a], b)) push(a, b);
+    }
+  }
+}
+
+template <class Visit>
+void Coarsener::for_each_around(int vertex, const Visit& visit) const {
+  for (int c = first_corner_[vertex]; c >= 0; c = next_corner_[c])
+    if (triangle_alive_[c / 3]) visit(c / 3);
+}
+
+bool Coarsener::has(int triangle, int vertex) const {
+  const auto& [a, b, c] = triangles_[triangle];
+  return a == vertex || b == vertex || c == vertex;
+}
+
+/// @return the mark that the neighbours of the vertex, and itself, now have
+int Coarsener::mark_neighbours(int vertex) {
+  ++round_;
+  for_each_around(vertex, [&](int t) {
+    for (const int v : triangles_[t]) mark_[v] = round_;
+  });
+  return round_;
 }
 
 bool Coarsener::feature_allows(int from, int to) const {
@@ -86,73 +118,108 @@ bool Coarsener::feature_allows(int from, int to) const {
   return other != to && !contains(feature_[to], other);
 }
 
-bool Coarsener::topology_allows(int from, int to) const {
-  const std::vector<int> a = neighbours(from);
-  const std::vector<int> b = neighbours(to);
-  std::vector<int> common;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
-  const auto shared = std::count_if(around_[from].begin(), around_[from].end(), [&](int t) {
-    return std::find(triangles_[t].begin(), triangles_[t].end(), to) != triangles_[t].end();
+/// The link condition: both vertices' common neighbours are those that stand across their edge.
+bool Coarsener::topology_allows(int from, int to) {
+  int shared = 0;
+  for_each_around(from, [&](int t) { shared += has(t, to) ? 1 : 0; });
+  if (shared == 0) return false;
+  const int of_from = mark_neighbours(from);
+  const int common_mark = ++round_;
+  int common = 0;
+  for_each_around(to, [&](int t) {
+    for (const int v : triangles_[t]) {
+      if (v == from || v == to || mark_[v] != of_from) continue;
+      mark_[v] = common_mark;
+      ++common;
+    }
   });
-  return shared > 0 && shared == static_cast<std::ptrdiff_t>(common.size());
+  return shared == common;
 }
 
 bool Coarsener::shape_allows(int from, int to) const {
-  for (const int t : around_[from]) {
-    Triangle moved = triangles_[t];
-    if (std::find(moved.begin(), moved.end(), to) != moved.end()) continue;
+  bool allowed = true;
+  const auto& p = mesh_.positions;
+  for_each_around(from, [&](int t) {
+    if (!allowed || has(t, to)) return;
     const auto normal = [&](const Triangle& corners) {
-      const auto& p = mesh_.positions;
       return cross(p[corners[1]] - p[corners[0]], p[corners[2]] - p[corners[0]]);
     };
-    const Vec3d before = normal(triangles_[t]);
+    Triangle moved = triangles_[t];
+    const Vec3d before = normal(moved);
     std::replace(moved.begin(), moved.end(), from, to);
     const Vec3d after = normal(moved);
-    if (dot(before, after) < 0.2 * length(before) * length(after)) return false;
-  }
-  return true;
+    const double along = dot(before, after);
+    // The cosine of the turn is to be 0.2 or more.
+    allowed = along >= 0 && along * along >= 0.04 * squared_length(before) * squared_length(after);
+  });
+  return allowed;
+}
+
+/// Hands the triangles of one vertex to another and forgets those that had both.
+void Coarsener::move_triangles(int from, int to) {
+  for_each_around(from, [&](int t) {
+    if (has(t, to)) {
+      triangle_alive_[t] = 0;
+      --alive_;
+    } else {
+      std::replace(triangles_[t].begin(), triangles_[t].end(), from, to);
+    }
+  });
+  int merged = -1;
+  for (const int list : {first_corner_[from], first_corner_[to]})
+    for (int c = list; c >= 0;) {
+      const int next = next_corner_[c];
+      if (triangle_alive_[c / 3]) {
+        next_corner_[c] = merged;
+        merged = c;
+      }
+      c = next;
+    }
+  first_corner_[to] = merged;
+  first_corner_[from] = -1;
 }
 
 bool Coarsener::collapse(int from, int to) {
   if (!feature_allows(from, to) || !topology_allows(from, to) || !shape_allows(from, to))
     return false;
-  for (const int t : around_[from]) {
-    Triangle& corners = triangles_[t];
-    if (std::find(corners.begin(), corners.end(), to) == corners.end()) {
-      std::replace(corners.begin(), corners.end(), from, to);
-      around_[to].push_back(t);
-      continue;
-    }
-    triangle_alive_[t] = false;
-    --alive_;
-    for (const int v : corners)
-      if (v != from) erase(around_[v], t);
-  }
   if (!feature_[from].empty()) {
     const int other = feature_[from][0] == to ? feature_[from][1] : feature_[from][0];
     replace(feature_[other], from, to);
     replace(feature_[to], from, other);
   }
-  around_[from].clear();
-  vertex_alive_[from] = false;
-  for (const int v : neighbours(to)) push(to, v);
+  const int old = mark_neighbours(to);
+  move_triangles(from, to);
+  for_each_around(to, [&](int t) {
+    for (const int v : triangles_[t]) {
+      if (mark_[v] == old) continue;
+      mark_[v] = old;
+      push(to, v);
+    }
+  });
   return true;
 }
 
 void Coarsener::run(int triangles) {
-  while (alive_ > triangles && !queue_.empty()) {
-    const auto [key, a, b] = queue_.top();
-    queue_.pop();
-    if (!vertex_alive_[a] || !vertex_alive_[b]) continue;
-    if (!collapse(b, a)) collapse(a, b);
+  // What was refused may be allowed once its surroundings have changed.
+  for (int before = alive_ + 1; alive_ > triangles && alive_ < before;) {
+    before = alive_;
+    push_all();
+    while (alive_ > triangles && !queue_.empty()) {
+      const auto [a, b] = queue_.pop();
+      if (first_corner_[a] < 0 || first_corner_[b] < 0) continue;
+      if (!collapse(b, a)) collapse(a, b);
+    }
   }
 }
 
 Proxy Coarsener::result() const {
   Proxy proxy;
+  std::vector<char> used(mesh_.positions.size(), 0);
+  for (std::size_t t = 0; t < triangles_.size(); ++t)
+    for (const int v : triangles_[t]) used[v] |= triangle_alive_[t];
   std::vector<int> renumbered(mesh_.positions.size(), -1);
-  for (int v = 0; v < static_cast<int>(vertex_alive_.size()); ++v) {
-    if (!vertex_alive_[v] || around_[v].empty()) continue;
+  for (int v = 0; v < static_cast<int>(used.size()); ++v) {
+    if (!used[v]) continue;
     renumbered[v] = static_cast<int>(proxy.source_vertex.size());
     proxy.source_vertex.push_back(v);
     proxy.mesh.positions.push_back(mesh_.positions[v]);
