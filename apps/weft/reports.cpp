@@ -18,6 +18,8 @@ Json seconds_json(const StageSeconds& s) {
           {"sample", s.sample}, {"measure", s.measure}, {"total", s.total}};
 }
 
+Json vector_json(Vec3d p) { return {p.x, p.y, p.z}; }
+
 Json map_json(const MappedDisk& mapped) {
   const MapQuality& q = mapped.quality;
   return {{"parameterizer", mapped.parameterizer},
@@ -28,6 +30,11 @@ Json map_json(const MappedDisk& mapped) {
 }
 
 }  // namespace
+
+Json box_json(const Box3d& box) {
+  if (box.empty()) return nullptr;
+  return {{"lower", vector_json(box.lower)}, {"upper", vector_json(box.upper)}};
+}
 
 Json paths_json(const std::vector<std::filesystem::path>& paths) {
   Json list = Json::array();

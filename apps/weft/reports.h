@@ -17,6 +17,8 @@ Json input_json(const std::string& path, const RepairedMesh& input);
 Json conversion_json(const std::string& path, const Conversion& conversion,
                      const std::vector<std::filesystem::path>& outputs);
 Json image_json(const GeometryImage& image);
+/// {"lower", "upper"}, or null for an empty box.
+Json box_json(const Box3d& box);
 Json paths_json(const std::vector<std::filesystem::path>& paths);
 
 /// Fails early when a file could not be written there in the end. @throws OutputError, UsageError

@@ -136,6 +136,9 @@ TEST(SurfaceDistance, LooksBothWays) {
   // Half of the area is missing and lies uniformly over heights up to h = sqrt(1/2) of its
   // triangle: mean square = 1/2 * h^2 / 6.
   EXPECT_NEAR(there.rms, std::sqrt(1.0 / 24), 0.002);
+  EXPECT_EQ(there.from_first.rms, there.rms);
+  EXPECT_NEAR(there.from_second.largest, 0, 1e-9);
+  EXPECT_EQ(back.from_second.largest, back.hausdorff);
 }
 
 TEST(SurfaceDistance, CanBeStoppedOnTheWay) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/mesh/small_meshes.h"
+#include "weft/mesh/shapes.h"
 
 namespace weft {
 namespace {
@@ -40,6 +41,76 @@ TEST(MeshFacts, CountsNonManifoldPlacesAndComponents) {
   EXPECT_EQ(facts.nonmanifold_edge_list.front(), (std::array{0, 1}));
   EXPECT_EQ(facts.nonmanifold_vertex_list, std::vector<int>{5});
   EXPECT_EQ(facts.components, 3);
+}
+
+// The bow tie of two rings that touch: two borders stay two where they meet in a vertex.
+TEST(MeshFacts, BordersThatTouchInAVertexStayApart) {
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}},
+                          {{0, 1, 2}, {0, 3, 4}}};
+  const MeshFacts facts = examine_mesh(mesh);
+  ASSERT_EQ(facts.border_loops.size(), 2U);
+  EXPECT_EQ(facts.border_loops[0].edges, 3);
+  EXPECT_NEAR(facts.border_loops[0].length, 2 + std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(facts.component_list.size(), 2U);
+  EXPECT_EQ(facts.component_list[1].boundaries, 1);
+  EXPECT_FALSE(facts.closed);
+}
+
+TEST(MeshFacts, TellsGenusBoxAreaAndVolumeOfATorus) {
+  const TriangleMesh torus = make_shape("torus");
+  const MeshFacts facts = examine_mesh(torus);
+  ASSERT_EQ(facts.component_list.size(), 1U);
+  EXPECT_EQ(facts.component_list[0].genus(), 1);
+  EXPECT_EQ(facts.component_list[0].euler(), 0);
+  EXPECT_TRUE(facts.closed);
+  EXPECT_EQ(facts.self_intersections, 0);
+  TriangleMesh turned = torus;
+  for (Triangle& t : turned.triangles) std::swap(t[0], t[1]);
+  ASSERT_TRUE(facts.volume && examine_mesh(turned).volume);
+  EXPECT_GT(*facts.volume, 0);
+  EXPECT_NEAR(*examine_mesh(turned).volume, -*facts.volume, 1e-12);
+  EXPECT_GT(facts.area, 0);
+}
+
+TEST(MeshFacts, MoebiusStripHasOneBorderAndNoGenus) {
+  const MeshFacts facts = examine_mesh(test::ring(8, true));
+  ASSERT_EQ(facts.border_loops.size(), 1U);
+  EXPECT_EQ(facts.border_loops[0].edges, 16);
+  EXPECT_EQ(facts.component_list[0].euler(), 0);
+  EXPECT_FALSE(facts.component_list[0].genus());
+}
+
+TEST(MeshFacts, CountsWhatIsBrokenInElements) {
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {2, 0, 0}, {std::nan(""), 0, 0}},
+                    {{0, 1, 2}, {2, 0, 1}, {0, 0, 1}, {0, 1, 4}}};
+  const MeshFacts facts = examine_mesh(mesh);
+  EXPECT_EQ(facts.duplicate_triangles, 1);
+  EXPECT_EQ(facts.repeated_vertex_triangles, 1);
+  EXPECT_EQ(facts.zero_area_triangles, 1);
+  EXPECT_EQ(facts.unreferenced_vertices, 2);
+  EXPECT_EQ(facts.not_finite_vertices, 1);
+  EXPECT_EQ(facts.box.upper, (Vec3d{2, 1, 0}));
+  // The twins lie in one plane; their numbers are those of the whole mesh.
+  EXPECT_EQ(facts.self_intersections, 1);
+  EXPECT_EQ(facts.self_intersection_list, (std::vector<std::array<int, 2>>{{0, 1}}));
+  mesh.positions[5] = {9, 9, 9};
+  EXPECT_EQ(examine_mesh(mesh).coincident_vertices, 1);
+}
+
+TEST(MeshFacts, ListsTheFirstCrossingsAndCountsAll) {
+  // One triangle that 50 others pass through.
+  TriangleMesh mesh{{{0, 0, 0}, {100, 0, 0}, {0, 100, 0}}, {{0, 1, 2}}};
+  for (int i = 0; i < 50; ++i) {
+    const double x = 1 + 0.5 * i;
+    for (const Vec3d p : {Vec3d{x, 1, -1}, Vec3d{x, 2, -1}, Vec3d{x, 1, 1}})
+      mesh.positions.push_back(p);
+    mesh.triangles.push_back({3 + 3 * i, 4 + 3 * i, 5 + 3 * i});
+  }
+  const MeshFacts facts = examine_mesh(mesh);
+  EXPECT_EQ(facts.self_intersections, 50);
+  EXPECT_EQ(facts.intersecting_triangles, 51);
+  ASSERT_EQ(facts.self_intersection_list.size(), 20U);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(facts.self_intersection_list[i], (std::array{0, i + 1}));
 }
 
 TEST(MeshFacts, QualityIsOneForEquilateralAndFallsForSlivers) {

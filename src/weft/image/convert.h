@@ -9,6 +9,7 @@
 #include "weft/cut/open_to_disk.h"
 #include "weft/image/automatic_size.h"
 #include "weft/image/geometry_image.h"
+#include "weft/mesh/distance.h"
 #include "weft/mesh/repair.h"
 #include "weft/param/square_map.h"
 
@@ -33,6 +34,7 @@ struct ImageQuality {
   int euler = 0, boundaries = 0;  ///< of the rebuilt mesh
   double psnr_db = 0;             ///< 20 log10(box diagonal / larger one-sided RMS distance)
   double hausdorff_percent = 0;   ///< larger one-sided maximum, in percent of the diagonal
+  OneSidedDistance from_mesh, from_image;  ///< what both are made of [m]
 };
 /// What psnr_db is where the surfaces are equal, so that reports hold a number.
 inline constexpr double best_psnr_db = 300;

@@ -40,6 +40,8 @@ ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
   const SurfaceDistance distance = surface_distance(
       mesh, rebuilt,
       {.seed = options.seed, .threads = options.threads, .progress = options.progress});
+  quality.from_mesh = distance.from_first;
+  quality.from_image = distance.from_second;
   const double size = diagonal(mesh);
   quality.psnr_db = distance.rms > 0 ? 20 * std::log10(size / distance.rms) : best_psnr_db;
   quality.psnr_db = std::min(quality.psnr_db, best_psnr_db);

@@ -11,10 +11,6 @@
 namespace weft {
 namespace {
 
-struct OneSided {
-  double mean_square = 0, largest_square = 0;
-};
-
 Vec3d random_point(const TriangleMesh& mesh, int triangle, Random& random) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   // The square root makes the pair of weights uniform over the triangle.
@@ -46,17 +42,16 @@ std::vector<double> squared_distances(const std::vector<Vec3d>& samples,
   return squared;
 }
 
-OneSided one_sided(const TriangleMesh& from, const TriangleMesh& to,
-                   const DistanceOptions& options) {
+OneSidedDistance one_sided(const TriangleMesh& from, const TriangleMesh& to,
+                           const DistanceOptions& options) {
   const std::vector<double> squared = squared_distances(
       sample_surface(from, options.samples, options.seed), ClosestPointQuery(to), options);
-  OneSided result;
+  double sum = 0, largest = 0;
   for (const double d : squared) {
-    result.mean_square += d;
-    result.largest_square = std::max(result.largest_square, d);
+    sum += d;
+    largest = std::max(largest, d);
   }
-  result.mean_square /= static_cast<double>(squared.size());
-  return result;
+  return {std::sqrt(sum / static_cast<double>(squared.size())), std::sqrt(largest)};
 }
 
 }  // namespace
@@ -87,10 +82,12 @@ SurfaceDistance surface_distance(const TriangleMesh& a, const TriangleMesh& b,
   WEFT_ASSERT(options.samples > 0 && options.threads > 0);
   PartOfProgress first(options.progress, "measure", 0, 0.5);
   PartOfProgress second(options.progress, "measure", 0.5, 1);
-  const OneSided there = one_sided(a, b, {options.samples, options.seed, options.threads, &first});
-  const OneSided back = one_sided(b, a, {options.samples, options.seed, options.threads, &second});
-  return {.rms = std::sqrt(std::max(there.mean_square, back.mean_square)),
-          .hausdorff = std::sqrt(std::max(there.largest_square, back.largest_square))};
+  SurfaceDistance distance;
+  distance.from_first = one_sided(a, b, {options.samples, options.seed, options.threads, &first});
+  distance.from_second = one_sided(b, a, {options.samples, options.seed, options.threads, &second});
+  distance.rms = std::max(distance.from_first.rms, distance.from_second.rms);
+  distance.hausdorff = std::max(distance.from_first.largest, distance.from_second.largest);
+  return distance;
 }
 
 }  // namespace weft

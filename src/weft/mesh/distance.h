@@ -41,9 +41,14 @@ Vec3d closest_on_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c);
 /// order of the triangles. @pre at least one triangle
 std::vector<Vec3d> sample_surface(const TriangleMesh& mesh, int count, std::uint64_t seed);
 
+/// From samples of one surface to the other.
+struct OneSidedDistance {
+  double rms = 0, largest = 0;  ///< [m]
+};
 struct SurfaceDistance {
   double rms = 0;        ///< the larger of the two one-sided root mean squares [m]
   double hausdorff = 0;  ///< the larger of the two one-sided maxima [m]
+  OneSidedDistance from_first, from_second;
 };
 struct DistanceOptions {
   int samples = 40000;  ///< area-uniform samples on each surface

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "apps/weft/context.h"
+
+namespace weft::app {
+
+struct InspectWords {
+  std::string subject, against;
+};
+
+/// Prints what decides a mesh's fate, and that fate. @throws as load_mesh
+void inspect_mesh(const InspectWords& words, const Context& context);
+
+/// Prints what a geometry image is, and how far it is from the mesh `against`, if there is one.
+/// @throws as read_image, load_mesh
+void inspect_image(const InspectWords& words, const Context& context);
+
+}  // namespace weft::app

@@ -1,0 +1,97 @@
+"""The contract of inspect: what it says of meshes, broken ones too, and of images."""
+import unittest
+
+from program import ProgramTest
+
+# Two unit cubes, the second moved by half its side along x, y and z.
+CUBE_FACES = ((1, 3, 4), (1, 4, 2), (5, 6, 8), (5, 8, 7), (1, 2, 6), (1, 6, 5),
+              (3, 7, 8), (3, 8, 4), (1, 5, 7), (1, 7, 3), (2, 4, 8), (2, 8, 6))
+
+
+def cube(shift, first):
+    corners = [(x + shift, y + shift, z + shift) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    lines = [f"v {x} {y} {z}" for x, y, z in corners]
+    lines += ["f " + " ".join(str(v + first) for v in face) for face in CUBE_FACES]
+    return "\n".join(lines) + "\n"
+
+
+class Inspect(ProgramTest):
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+        return name
+
+    def test_closed_mesh_is_told_whole(self):
+        found = self.run_json("inspect", self.write("cube.obj", cube(0, 0)))
+        self.assertEqual(found["bounding_box"], {"lower": [0, 0, 0], "upper": [1, 1, 1]})
+        self.assertEqual((found["closed"], found["orientable"]), (True, True))
+        self.assertAlmostEqual(found["area"], 6)
+        self.assertAlmostEqual(found["volume"], 1)
+        self.assertEqual(found["component_list"], [
+            {"triangles": 12, "vertices": 8, "area": 6, "boundaries": 0, "genus": 0, "euler": 2,
+             "orientable": True, "closed": True}])
+        self.assertEqual(found["self_intersections"], 0)
+        self.assertGreaterEqual(found["least_size"], 5)
+        self.assertEqual(found["input"]["genus"], 0)
+
+    def test_two_cubes_pushed_into_each_other_cross(self):
+        found = self.run_json("inspect", self.write("two.obj", cube(0, 0) + cube(0.5, 8)))
+        self.assertEqual(found["input"]["components"], 2)
+        self.assertEqual([c["triangles"] for c in found["component_list"]], [12, 12])
+        self.assertIn("2 components", found["input"]["error"])
+        self.assertIsNone(found["least_size"])
+        # Three faces of each cube meet three of the other in six segments of half a side, each on one
+        # side of the diagonals of both faces.
+        self.assertEqual(found["self_intersections"], 6)
+        for pair in found["self_intersection_list"]:
+            self.assertTrue(pair[0] < 12 <= pair[1], pair)
+
+    def test_places_are_named_by_vertex(self):
+        mesh = self.write("fan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\n"
+                                     "f 1 2 3\nf 1 2 4\nf 2 1 5\n")
+        found = self.run_json("inspect", mesh)
+        self.assertEqual((found["nonmanifold_edges"], found["nonmanifold_edge_list"]), (1, [[0, 1]]))
+        self.assertEqual(found["unreferenced_vertices"], 1)
+        self.assertIsNone(found["component_list"][0]["genus"])
+        said = self.run_weft("inspect", mesh).stdout
+        self.assertIn("0-1", said)
+        self.assertIn("does not convert", said.splitlines()[-1])
+
+    def test_borders_are_measured(self):
+        found = self.run_json("inspect", self.write("square.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n"))
+        self.assertEqual(found["border_loops"],
+                         [{"vertices": 4, "length": 8, "component": 0, "least_vertex": 0}])
+        self.assertIsNone(found["volume"])
+        self.assertIs(found["closed"], False)
+
+    def test_verdict_tells_repairs_and_the_least_size_works(self):
+        mesh = self.write("turned.obj", cube(0, 0).replace("f 1 3 4", "f 1 4 3"))
+        found = self.run_json("inspect", mesh)
+        self.assertEqual(found["inconsistent_edges"], 3)
+        self.assertEqual(len(found["input"]["repairs"]), 1)
+        self.assertIn(found["input"]["repairs"][0], self.run_weft("inspect", mesh).stdout.splitlines()[-1])
+        least = found["least_size"]
+        self.run_weft("convert", "builtin:torus", "-o", "t.exr",
+                      "--size", self.run_json("inspect", "builtin:torus")["least_size"] + 4)
+        self.assertIsInstance(least, int)
+
+    def test_image_is_measured_from_both_sides(self):
+        self.run_weft("convert", "builtin:torus", "-o", "t.exr", "--size", "33")
+        found = self.run_json("inspect", "t.exr", "--against", "builtin:torus")["image"]
+        self.assertEqual(found["bytes"], (self.folder / "t.exr").stat().st_size)
+        self.assertGreater(found["stretch_l2"], 0.99)
+        self.assertLessEqual(found["stretch_l2"], found["stretch_linf"])
+        self.assertEqual(found["folded_quads"], 0)
+        self.assertEqual(len(found["worst_quad"]), 2)
+        self.assertGreaterEqual(found["largest_mate_class"], 2)
+        for side in ("from_mesh", "from_image"):
+            self.assertGreater(found[side]["largest"], found[side]["rms"])
+        self.assertGreater(found["psnr_db"], 40)
+        self.assertLess(found["bounding_box"]["lower"][0], found["bounding_box"]["upper"][0])
+
+    def test_against_is_for_images(self):
+        line = self.error_of("inspect", "builtin:torus", "--against", "builtin:torus", code=2)
+        self.assertIn("--against", line)
+
+
+if __name__ == "__main__":
+    unittest.main()
