@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 struct ConvertWords {
   std::string mesh, output, parameterizer = "stretch", component;
   int size = 257, normal_map = 0, seed_triangle = -1;
+  bool keep_uv = false;
 };
 
 ComponentChoice component_of(const std::string& word) {
@@ -39,6 +40,7 @@ ConvertOptions options_of(const ConvertWords& words, const Context& context, Pro
   if (words.parameterizer == "floater") options.parameterizer = FloaterOptions{};
   options.seed_triangle = words.seed_triangle;
   options.normal_map_size = words.normal_map;
+  options.keep_uv = words.keep_uv;
   options.threads = context.threads;
   options.seed = context.seed;
   options.progress = &progress;
@@ -73,6 +75,10 @@ Json convert_one(const ConvertWords& words, const Context& context, const Triang
   if (conversion.normals) {
     outputs.push_back(beside(output, "-normals"));
     write_normal_map(outputs.back(), *conversion.normals);
+  }
+  if (conversion.texture) {
+    outputs.push_back(beside(output, "-uv").replace_extension(".exr"));
+    write_texture(outputs.back(), *conversion.texture);
   }
   print_summary(context, conversion);
   for (const fs::path& path : outputs) say(context, "wrote   " + path.string());
@@ -133,6 +139,8 @@ void add_convert(CLI::App& program, const Context& context) {
       ->add_option("--normal-map", words->normal_map,
                    "Write a normal map of this size beside the image")
       ->check(CLI::Range(least_image_size, largest_image_size));
+  command->add_flag("--keep-uv", words->keep_uv,
+                    "Write the mesh's texture coordinates beside the image, as NAME-uv.exr");
   command->add_option("--component", words->component,
                       "Of several: a number (largest is 0), largest, or all");
   command

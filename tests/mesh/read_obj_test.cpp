@@ -29,6 +29,29 @@ TEST(ReadObj, AllFormsOfACornerMeanItsPosition) {
     EXPECT_EQ(parse(square + extra + face).triangles, (Triangles{{0, 1, 2}})) << face;
 }
 
+TEST(ReadObj, TextureCoordinatesBelongToCorners) {
+  const std::string texture = "vt 0 0\nvt 1 0 0\nvt 1 1\nvt 0 1\nvt 0.5 0.25\n";
+  const TriangleMesh mesh = parse(square + texture + "f 1/1 2/2 3/3\nf 1//1 3//1 4//1\n");
+  EXPECT_TRUE(mesh.corner_uv.empty());  // the second face has none
+  using Corners = std::array<Vec2f, 3>;
+  const std::vector<Corners> fan{{{{0, 0}, {1, 0}, {1, 1}}}, {{{0, 0}, {1, 1}, {0, 1}}}};
+  EXPECT_EQ(parse(square + texture + "f 1/1 2/2 3/3 4/4\n").corner_uv, fan);
+  EXPECT_EQ(parse("f 1/1 2/2 3/3 4/4\n" + square + texture).corner_uv, fan);
+  EXPECT_EQ(parse(square + texture + "f -4/-5/1 -3/-4/1 -2/-3/1 -1/-2/1\n").corner_uv, fan);
+  // A seam: vertex 1 has another place in the second triangle.
+  const TriangleMesh seam = parse(square + texture + "f 1/1 2/2 3/3\nf 1/5 3/3 4/4\n");
+  EXPECT_EQ(seam.corner_uv[1][0], (Vec2f{0.5F, 0.25F}));
+}
+
+TEST(ReadObj, BrokenTextureCoordinatesLeaveTheSurface) {
+  for (const char* rest : {"vt 0 0\nf 1/1 2/1 3/2\n", "vt 0 0\nf 1/1 2/1 3/-2\n",
+                           "vt nan 0\nf 1/1 2/1 3/1\n", "vt 1\nf 1/1 2/1 3/1\n"}) {
+    const TriangleMesh mesh = parse(square + rest);
+    EXPECT_TRUE(mesh.corner_uv.empty()) << rest;
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}})) << rest;
+  }
+}
+
 TEST(ReadObj, NegativeIndicesCountBackFromTheirLine) {
   const TriangleMesh mesh = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -4 -2 -1\n");
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));

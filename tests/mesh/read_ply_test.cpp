@@ -144,5 +144,21 @@ TEST(ReadPly, CloudOfPointsIsNoSurface) {
             "a.ply: has 2 vertices but no faces; a surface is wanted");
 }
 
+TEST(ReadPly, TextureCoordinatesOfVerticesComeUnderAllTheirNames) {
+  const std::array<Vec2f, 3> expected{{{0, 0.5F}, {1, 0.25F}, {0.125F, 1}}};
+  for (const auto& [u, v] : {std::pair{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}) {
+    const std::string text = std::string("ply\nformat ascii 1.0\nelement vertex 3\n") +
+                             "property float " + v + "\nproperty float x\nproperty float y\n" +
+                             "property float " + u + "\nproperty float z\nelement face 1\n" +
+                             "property list uchar int vertex_indices\nend_header\n" +
+                             "0.5 0 0 0 0\n0.25 1 0 1 0\n1 0 1 0.125 0\n3 0 1 2\n";
+    const TriangleMesh mesh = parse(text);
+    ASSERT_EQ(mesh.corner_uv.size(), 1U) << u;
+    EXPECT_EQ(mesh.corner_uv[0], expected) << u;
+    EXPECT_EQ(mesh.positions[1], (Vec3d{1, 0, 0}));
+  }
+  EXPECT_TRUE(parse(text_square).corner_uv.empty());
+}
+
 }  // namespace
 }  // namespace weft

@@ -126,6 +126,29 @@ TEST(Repair, UnreferencedVerticesGoAndTheRestKnowTheirSource) {
   EXPECT_EQ(result.repairs, Sentences{"dropped 2 vertices without triangles"});
 }
 
+TEST(Repair, TrianglesKnowTheirSourceAndKeepTheirTextureCoordinates) {
+  TriangleMesh mesh = test::tetrahedron();
+  std::swap(mesh.triangles[2][1], mesh.triangles[2][2]);
+  mesh.triangles.insert(mesh.triangles.begin() + 1, {2, 2, 3});
+  mesh.positions.insert(mesh.positions.begin(), {7, 7, 7});
+  for (int t = 0; t < 5; ++t) {
+    for (int& v : mesh.triangles[t]) ++v;
+    // What each corner has tells its triangle and its vertex.
+    std::array<Vec2f, 3> corners;
+    for (int k = 0; k < 3; ++k)
+      corners[k] = {static_cast<float>(t), static_cast<float>(mesh.triangles[t][k])};
+    mesh.corner_uv.push_back(corners);
+  }
+  const RepairedMesh result = repaired(mesh);
+  EXPECT_EQ(result.source_triangle, (std::vector<int>{0, 2, 3, 4}));
+  ASSERT_EQ(result.mesh.corner_uv.size(), 4U);
+  for (int t = 0; t < 4; ++t)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(result.mesh.corner_uv[t][k],
+                (Vec2f{static_cast<float>(result.source_triangle[t]),
+                       static_cast<float>(result.source_vertex[result.mesh.triangles[t][k]])}));
+}
+
 TEST(Repair, PinchedVertexIsSplitIntoItsFans) {
   // A ring whose two borders are pinched together at one vertex.
   TriangleMesh mesh = test::ring(8, false);

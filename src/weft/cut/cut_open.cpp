@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -127,6 +128,8 @@ DiskMesh opened_mesh(const CutGraph& graph, const std::vector<int>& border) {
   for (int t = 0; t < surface.triangle_count(); ++t)
     disk.triangles.push_back(
         {wedges.corners()[3 * t], wedges.corners()[3 * t + 1], wedges.corners()[3 * t + 2]});
+  disk.surface_triangle.resize(disk.triangles.size());
+  std::iota(disk.surface_triangle.begin(), disk.surface_triangle.end(), 0);
   for (const int h : border) disk.border.push_back(wedges.corners()[h]);
   return disk;
 }

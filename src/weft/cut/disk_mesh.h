@@ -6,15 +6,31 @@
 
 namespace weft {
 
+/// The point (1 - fraction) a + fraction b of an edge between two disk vertices.
+struct EdgePlace {
+  int a = -1, b = -1;  ///< disk vertices; -1 for a vertex that the input has
+  double fraction = 0;
+};
+
 /// A surface cut open to a disk. A point of the surface on the cut has several disk vertices.
 struct DiskMesh {
-  std::vector<Vec3d> positions;     ///< [D]
-  std::vector<Triangle> triangles;  ///< counter-clockwise in the plane as on the surface
-  std::vector<int> surface_vertex;  ///< [D] the point of the surface: shared by mates. Below the
-                                    ///< input's vertex count it is an input vertex, from there on
-                                    ///< it came from splitting an edge
+  std::vector<Vec3d> positions;       ///< [D]
+  std::vector<Triangle> triangles;    ///< counter-clockwise in the plane as on the surface
+  std::vector<int> surface_vertex;    ///< [D] the point of the surface: shared by mates. Below the
+                                      ///< input's vertex count it is an input vertex, from there on
+                                      ///< it came from splitting an edge
+  std::vector<int> surface_triangle;  ///< [F] the input's triangle that holds each; empty where
+                                      ///< the disk was not made by cut_open
+  std::vector<EdgePlace> split_from;  ///< [D] where vertices were put that split an edge; a
+                                      ///< triangle's corners lie in its surface triangle. May be
+                                      ///< shorter: the rest are the input's
   std::vector<int> border;  ///< the disk vertices around, counter-clockwise (surface to the left)
 };
+
+/// Appends a vertex that splits an edge.
+/// @param position  of the place, the same bits for both mates
+/// @return its index
+int add_split_vertex(DiskMesh& disk, const EdgePlace& place, Vec3d position, int surface_vertex);
 
 /// A run of border edges between two cut nodes, as the border is walked counter-clockwise.
 struct BorderPath {

@@ -28,24 +28,44 @@ BorderWalk::BorderWalk(const MappedDisk& mapped)
   }
 }
 
-EdgePoint BorderWalk::at(int index, int size) const {
+BorderWalk::PathPoint BorderWalk::find(int index, int size) const {
   WEFT_ASSERT(index >= 0 && index < 4 * (size - 1));
   // In units of 1 / (size - 1) sample intervals everything is whole.
   const std::int64_t unit = size - 1;
   const std::int64_t place = std::int64_t{index} * (size_ - 1);
-  const Path* path = &paths_[path_at_[place / unit]];
+  PathPoint point;
+  point.path = point.own_path = path_at_[place / unit];
+  const Path* path = &paths_[point.path];
   std::int64_t along = place - path->first * unit;
   if (along < 0) along += 4 * (size_ - 1) * unit;
-  if (path->mate >= 0 && &paths_[path->mate] < path) {
+  if (path->mate >= 0 && path->mate < point.path) {
     along = path->intervals * unit - along;
-    path = &paths_[path->mate];
+    point.path = path->mate;
+    path = &paths_[point.path];
   }
   const double knot = static_cast<double>(along) / static_cast<double>(unit);
   const auto above = std::upper_bound(path->knots.begin(), path->knots.end(), knot);
-  if (above == path->knots.end()) return {path->vertices.back(), path->vertices.back(), 0};
-  const auto k = static_cast<std::size_t>(above - path->knots.begin());
-  const double low = path->knots[k - 1];
-  return {path->vertices[k - 1], path->vertices[k], (knot - low) / (*above - low)};
+  point.edge = static_cast<int>(above - path->knots.begin()) - 1;
+  if (above == path->knots.end()) return point;
+  const double low = path->knots[point.edge];
+  point.fraction = (knot - low) / (*above - low);
+  return point;
+}
+
+EdgePoint BorderWalk::at(int index, int size) const {
+  const PathPoint point = find(index, size);
+  const std::vector<int>& vertices = paths_[point.path].vertices;
+  const std::size_t last = vertices.size() - 1, edge = point.edge;
+  return {vertices[edge], vertices[std::min(edge + 1, last)], point.fraction};
+}
+
+EdgePoint BorderWalk::on_own_side(int index, int size) const {
+  const PathPoint point = find(index, size);
+  if (point.path == point.own_path) return at(index, size);
+  // Mates have the same edges, in the opposite order.
+  const std::vector<int>& vertices = paths_[point.own_path].vertices;
+  const std::size_t from = vertices.size() - 1 - static_cast<std::size_t>(point.edge);
+  return {vertices[from], vertices[from == 0 ? 0 : from - 1], point.fraction};
 }
 
 }  // namespace weft

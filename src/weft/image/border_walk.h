@@ -30,7 +30,20 @@ class BorderWalk {
   /// samples over the same square.
   [[nodiscard]] EdgePoint at(int index, int size) const;
 
+  /// The same surface point by the disk vertices that lie at this border position themselves, not
+  /// those of its mate: for what may differ on both sides of the cut.
+  [[nodiscard]] EdgePoint on_own_side(int index, int size) const;
+
  private:
+  /// A point on the path of a pair that both mates are looked up on: between its vertices `edge`
+  /// and `edge` + 1, or at the last one.
+  struct PathPoint {
+    int path = 0, own_path = 0;
+    int edge = 0;
+    double fraction = 0;
+  };
+  [[nodiscard]] PathPoint find(int index, int size) const;
+
   struct Path {
     int first = 0;  ///< border position of its first node
     int intervals = 0;

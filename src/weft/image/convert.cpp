@@ -35,6 +35,12 @@ void check_size(int size) {
                    fmt::format("a side of {} .. {}", least_image_size, largest_image_size));
 }
 
+void check_texture(const TriangleMesh& mesh, const std::string& name) {
+  if (mesh.corner_uv.empty())
+    throw InputError(name, "not every corner of its faces has texture coordinates",
+                     "an OBJ with vt, or a PLY with s and t or u and v, is wanted to keep them");
+}
+
 std::string source_name(const std::string& name) {
   return name.starts_with("builtin:") ? name : std::filesystem::path(name).filename().string();
 }
@@ -112,6 +118,7 @@ void sample(Conversion& made, const std::string& name, const ConvertOptions& opt
   made.image.source_hash = hash_of(made.input.mesh);
   if (options.normal_map_size > 0)
     made.normals = sample_normals(made.mapped, options.normal_map_size);
+  if (options.keep_uv) made.texture = sample_texture(made.mapped, made.input.mesh);
   made.quality = measure_topology(made.image);
   require_topology(made, name);
   made.seconds.sample = watch.lap();
@@ -123,6 +130,7 @@ Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
                         const ConvertOptions& options) {
   check_size(options.size);
   if (options.normal_map_size != 0) check_size(options.normal_map_size);
+  if (options.keep_uv) check_texture(mesh, name);
   Stopwatch watch;
   Conversion made;
   update(options.progress, "repair", 0);

@@ -22,6 +22,7 @@ struct ConvertOptions {
   int seed_triangle = -1;  ///< -1: choose
   bool augment = true;
   int normal_map_size = 0;  ///< 0: none
+  bool keep_uv = false;     ///< sample the mesh's own texture coordinates too
   bool measure = true;      ///< stage 11
   std::uint64_t seed = 1;   ///< of the samples that stage 11 measures by
   int threads = 1;
@@ -63,6 +64,7 @@ struct Conversion {
   MappedDisk mapped;
   GeometryImage image;
   std::optional<NormalMap> normals;
+  std::optional<Planes3> texture;  ///< with keep_uv: x = u, y = v (see sample_texture)
   ImageQuality quality;
   StageSeconds seconds;
 };
@@ -70,7 +72,8 @@ struct Conversion {
 /// The whole way from a mesh to its geometry image. The image's mates are bit-equal and the
 /// topology of the rebuilt mesh is the input's, or it throws.
 /// @param name  what errors and the image's metadata call the mesh: a path or builtin:NAME
-/// @throws InputError, TopologyError as the stages; UsageError for a size that no image may have
+/// @throws InputError, TopologyError as the stages, InputError when texture coordinates are to be
+///         kept and the mesh lacks them; UsageError for a size that no image may have
 Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
                         const ConvertOptions& options);
 

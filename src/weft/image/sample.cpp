@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "weft/core/assert.h"
 #include "weft/core/error.h"
 #include "weft/image/border_walk.h"
 #include "weft/image/rasterise.h"
+#include "weft/image/surface_places.h"
 #include "weft/image/vertex_normals.h"
 
 namespace weft {
@@ -118,6 +120,23 @@ NormalMap sample_normals(const MappedDisk& mapped, int size) {
     map.normal.set(row, col, unit_normal(normal));
   });
   return map;
+}
+
+Planes3 sample_texture(const MappedDisk& mapped, const TriangleMesh& surface) {
+  WEFT_ASSERT(surface.corner_uv.size() == surface.triangles.size());
+  const int n = mapped.map.size;
+  Planes3 texture(n);
+  const std::vector<SurfacePlace> places = surface_places(mapped, surface.triangles, n);
+  for (int sample = 0; sample < n * n; ++sample) {
+    const SurfacePlace& place = places[sample];
+    Vec2d uv;
+    for (int k = 0; k < 3; ++k) {
+      const Vec2f corner = surface.corner_uv[place.triangle][k];
+      uv = uv + place.weights[k] * Vec2d{corner.x, corner.y};
+    }
+    texture.set(sample, {static_cast<float>(uv.x), static_cast<float>(uv.y), 0});
+  }
+  return texture;
 }
 
 Grid<int> coverage(const MappedDisk& mapped) {

@@ -17,6 +17,12 @@ GeometryImage sample_image(const MappedDisk& mapped);
 /// wherever both are samples, always when size - 1 is a multiple of n - 1.
 NormalMap sample_normals(const MappedDisk& mapped, int size);
 
+/// The mesh's own texture coordinates at the samples of the image, x = u, y = v, z = 0: each from
+/// the triangle that holds the sample, so that mates differ where a seam of the texture runs along
+/// the cut.
+/// @param surface  the mesh that was cut open, with texture coordinates
+Planes3 sample_texture(const MappedDisk& mapped, const TriangleMesh& surface);
+
 /// How often each interior sample is covered by a triangle under the top-left rule, [n x n], border
 /// samples 0: all ones when the map is valid. For tests and inspection.
 Grid<int> coverage(const MappedDisk& mapped);

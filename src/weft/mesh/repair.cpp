@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/core/assert.h"
 #include "weft/core/error.h"
 #include "weft/core/hash.h"
 #include "weft/mesh/orient_triangles.h"
@@ -26,6 +27,7 @@ void check_values(const TriangleMesh& mesh, const std::string& name) {
                      fmt::format("at most {} of each are wanted", INT_MAX / 3));
   // Beyond 1e30 areas and volumes would overflow.
   const auto fits = [](double x) { return std::fabs(x) <= 1e30; };
+  WEFT_ASSERT(mesh.corner_uv.empty() || mesh.corner_uv.size() == mesh.triangles.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const Vec3d p = mesh.positions[v];
     if (!fits(p.x) || !fits(p.y) || !fits(p.z))
@@ -50,17 +52,6 @@ std::string vertices(std::size_t count) {
 
 bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// Removes what `keep(index)` does not want; the order stays. @return how many were removed
-template <class Keep>
-std::size_t keep_triangles(std::vector<Triangle>& triangles, const Keep& keep) {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    if (keep(t)) triangles[kept++] = triangles[t];
-  const std::size_t dropped = triangles.size() - kept;
-  triangles.resize(kept);
-  return dropped;
-}
-
 /// Six times the volume that the triangles enclose, positive when they face outward.
 double signed_volume(const TriangleMesh& mesh) {
   const Vec3d origin = mesh.positions[mesh.triangles[0][0]];
@@ -84,10 +75,13 @@ bool has_area(const TriangleMesh& mesh) {
 /// The repair of one mesh, step by step; each says what it did.
 class Repair {
  public:
-  Repair(const TriangleMesh& mesh, const RepairOptions& options) : mesh_(mesh), options_(options) {
+  Repair(const TriangleMesh& mesh, const RepairOptions& options)
+      : mesh_(mesh), source_triangles_(mesh.triangles), options_(options) {
     check_values(mesh, options.name);
     result_.source_vertex.resize(mesh.positions.size());
     std::iota(result_.source_vertex.begin(), result_.source_vertex.end(), 0);
+    result_.source_triangle.resize(mesh.triangles.size());
+    std::iota(result_.source_triangle.begin(), result_.source_triangle.end(), 0);
   }
 
   RepairedMesh run() {
@@ -99,6 +93,7 @@ class Repair {
     orient();
     split_vertices();
     drop_unused_vertices();
+    carry_corner_uv();
     result_.counts = count_topology(static_cast<int>(mesh_.positions.size()), mesh_.triangles);
     result_.mesh = std::move(mesh_);
     return std::move(result_);
@@ -110,8 +105,24 @@ class Repair {
     edges_ = edge_uses(static_cast<int>(mesh_.positions.size()), mesh_.triangles);
   }
 
+  /// Removes what `keep(index)` does not want; the order stays. @return how many were removed
+  template <class Keep>
+  std::size_t keep_triangles(const Keep& keep) {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!keep(t)) continue;
+      mesh_.triangles[kept] = mesh_.triangles[t];
+      result_.source_triangle[kept++] = result_.source_triangle[t];
+    }
+    const std::size_t dropped = mesh_.triangles.size() - kept;
+    mesh_.triangles.resize(kept);
+    result_.source_triangle.resize(kept);
+    return dropped;
+  }
+
   void drop_triangles() {
-    const std::size_t repeated = std::erase_if(mesh_.triangles, repeats_a_vertex);
+    const std::size_t repeated =
+        keep_triangles([&](std::size_t t) { return !repeats_a_vertex(mesh_.triangles[t]); });
     if (repeated > 0)
       report(fmt::format("dropped {} with a repeated vertex", counted(repeated, "triangle")));
     if (mesh_.triangles.empty())
@@ -119,8 +130,7 @@ class Repair {
                        "a surface is wanted");
     find_edges();
     const std::vector<bool> duplicate = duplicate_triangles(mesh_.triangles, edges_);
-    const std::size_t duplicates =
-        keep_triangles(mesh_.triangles, [&](std::size_t t) { return !duplicate[t]; });
+    const std::size_t duplicates = keep_triangles([&](std::size_t t) { return !duplicate[t]; });
     if (duplicates == 0) return;
     report(fmt::format("dropped {} with the same vertices as another",
                        counted(duplicates, "triangle")));
@@ -157,7 +167,7 @@ class Repair {
 
   void keep_part(const SurfaceParts& parts, int wanted) {
     const std::size_t before = mesh_.triangles.size();
-    keep_triangles(mesh_.triangles, [&](std::size_t t) { return parts.part_of[t] == wanted; });
+    keep_triangles([&](std::size_t t) { return parts.part_of[t] == wanted; });
     report(fmt::format("kept component {} of {} with {} of {} triangles", wanted, parts.count,
                        mesh_.triangles.size(), before));
     find_edges();
@@ -202,6 +212,20 @@ class Repair {
       for (int& v : t) v = place[v];
   }
 
+  /// A triangle that was turned over has its corners in another order than its source.
+  void carry_corner_uv() {
+    if (mesh_.corner_uv.empty()) return;
+    std::vector<std::array<Vec2f, 3>> carried(mesh_.triangles.size());
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const int source = result_.source_triangle[t];
+      for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 3; ++j)
+          if (source_triangles_[source][j] == result_.source_vertex[mesh_.triangles[t][k]])
+            carried[t][k] = mesh_.corner_uv[source][j];
+    }
+    mesh_.corner_uv = std::move(carried);
+  }
+
   [[nodiscard]] std::vector<bool> used_vertices() const {
     std::vector<bool> used(mesh_.positions.size(), false);
     for (const Triangle& t : mesh_.triangles)
@@ -210,6 +234,7 @@ class Repair {
   }
 
   TriangleMesh mesh_;
+  const std::vector<Triangle>& source_triangles_;
   const RepairOptions& options_;
   EdgeUses edges_;  ///< of mesh_, until triangles are turned
   RepairedMesh result_;
@@ -234,6 +259,7 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
 TriangleMesh weld_exact(const TriangleMesh& mesh) {
   TriangleMesh welded;
   welded.triangles = mesh.triangles;
+  welded.corner_uv = mesh.corner_uv;
   std::unordered_map<Vec3d, int, PositionHash> first;
   first.reserve(mesh.positions.size());
   std::vector<int> joined;

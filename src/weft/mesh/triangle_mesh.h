@@ -15,6 +15,9 @@ using Triangle = std::array<int, 3>;
 struct TriangleMesh {
   std::vector<Vec3d> positions;     ///< [V], metres
   std::vector<Triangle> triangles;  ///< [F], indices into positions
+  /// [F] texture coordinates of each triangle's corners, or empty: not every corner has them. Those
+  /// of one vertex may differ between triangles, at a seam of the texture.
+  std::vector<std::array<Vec2f, 3>> corner_uv = {};
 };
 
 }  // namespace weft

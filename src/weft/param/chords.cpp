@@ -15,9 +15,8 @@ std::vector<bool> on_border(const DiskMesh& disk) {
 }
 
 int add_midpoint(DiskMesh& disk, int a, int b, int surface_id) {
-  disk.positions.push_back(0.5 * (disk.positions[a] + disk.positions[b]));
-  disk.surface_vertex.push_back(surface_id);
-  return static_cast<int>(disk.positions.size()) - 1;
+  const Vec3d middle = 0.5 * (disk.positions[a] + disk.positions[b]);
+  return add_split_vertex(disk, {a, b, 0.5}, middle, surface_id);
 }
 
 /// Cuts one triangle at the midpoints of its sides; -1 where a side stays whole.
@@ -66,10 +65,15 @@ int split_chords(DiskMesh& disk) {
   if (splits == 0) return 0;
 
   std::vector<Triangle> triangles;
-  for (int t = 0; t < count / 3; ++t)
+  std::vector<int> surface_triangle;
+  for (int t = 0; t < count / 3; ++t) {
     split_triangle(disk.triangles[t], {middle[3 * t], middle[3 * t + 1], middle[3 * t + 2]},
                    triangles);
+    if (!disk.surface_triangle.empty())
+      surface_triangle.resize(triangles.size(), disk.surface_triangle[t]);
+  }
   disk.triangles = std::move(triangles);
+  disk.surface_triangle = std::move(surface_triangle);
   return splits;
 }
 

@@ -114,6 +114,10 @@ GeometryImage parse_image(std::string_view bytes, std::string_view where) {
   throw InputError(where, "neither an EXR nor a PNG file", "a geometry image");
 }
 
+void write_texture(const std::filesystem::path& path, const Planes3& texture) {
+  write_bytes(path, encode_exr(texture, {}));
+}
+
 void write_normal_map(const std::filesystem::path& path, const NormalMap& normals) {
   const std::string ending = ending_of(path);
   if (ending == ".exr") return write_bytes(path, encode_exr(normals.normal, {}));

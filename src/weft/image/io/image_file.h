@@ -25,4 +25,7 @@ GeometryImage parse_image(std::string_view bytes, std::string_view where);
 /// other programs. @throws OutputError; UsageError on another ending
 void write_normal_map(const std::filesystem::path& path, const NormalMap& normals);
 
+/// Texture coordinates as a float EXR, R = u, G = v, B = 0. @throws OutputError
+void write_texture(const std::filesystem::path& path, const Planes3& texture);
+
 }  // namespace weft

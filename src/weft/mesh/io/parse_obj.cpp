@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <limits>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
@@ -25,6 +27,7 @@ struct ForwardReference {
 
 struct ObjScan {
   std::vector<Vec3d> positions;
+  std::vector<Vec2f> texture;  ///< not finite where a line is not u and v
   std::vector<ForwardReference> forward;
   std::size_t faces = 0;
 };
@@ -37,6 +40,14 @@ void scan_vertex(LineReader& reader, ObjScan& scan) {
   // What follows is a weight or a colour, which are not kept.
   for (std::string_view field = reader.next_field(); !field.empty(); field = reader.next_field())
     if (!to_number(field)) reader.fail(in_quotes(field) + " is not a number", "v x y z is wanted");
+}
+
+/// Nothing is refused here: the surface does not depend on it, and exporters write what they like.
+void scan_texture(LineReader& reader, ObjScan& scan) {
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  const double u = to_number(reader.next_field()).value_or(missing);
+  const double v = to_number(reader.next_field()).value_or(missing);
+  scan.texture.push_back({static_cast<float>(u), static_cast<float>(v)});
 }
 
 /// Checks one corner: v, v/t, v//n or v/t/n.
@@ -86,6 +97,7 @@ ObjScan scan_obj(std::string_view bytes, std::string_view name) {
   while (reader.next_line()) {
     const std::string_view keyword = reader.next_field();
     if (keyword == "v") scan_vertex(reader, scan);
+    if (keyword == "vt") scan_texture(reader, scan);
     if (keyword == "f") scan_face(reader, scan);
   }
   for (const ForwardReference& reference : scan.forward)
@@ -127,26 +139,41 @@ std::string join_continued_lines(std::string_view bytes) {
 /// Gathers what tinyobjloader calls back with.
 struct FaceSink {
   TriangleMesh* mesh = nullptr;
-  int vertices = 0;  ///< so far, which negative indices count back from
+  std::span<const Vec2f> all_texture;
+  int vertices = 0, texture = 0;  ///< so far, which negative indices count back from
   std::vector<int> polygon;
+  std::vector<Vec2f> polygon_uv;
 
   void add(std::span<const tinyobj::index_t> corners) {
     polygon.clear();
+    polygon_uv.clear();
     for (const tinyobj::index_t& corner : corners) {
       // No checked index is zero: what reads as zero begins a comment behind the face.
       if (corner.vertex_index == 0) break;
       polygon.push_back(corner.vertex_index > 0 ? corner.vertex_index - 1
                                                 : vertices + corner.vertex_index);
+      polygon_uv.push_back(texture_of(corner.texcoord_index));
     }
-    add_polygon(*mesh, polygon);
+    add_polygon(*mesh, polygon, polygon_uv);
+  }
+
+  /// Not finite where the corner has none, index 0, or one that does not exist.
+  [[nodiscard]] Vec2f texture_of(int index) const {
+    constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+    const std::int64_t place = index > 0 ? std::int64_t{index} - 1 : std::int64_t{texture} + index;
+    const bool exists = index != 0 && place >= 0 && std::cmp_less(place, all_texture.size());
+    return exists ? all_texture[static_cast<std::size_t>(place)] : Vec2f{missing, missing};
   }
 };
 
-void load_faces(const std::string& text, TriangleMesh& mesh) {
-  FaceSink sink{&mesh, 0, {}};
+void load_faces(const std::string& text, std::span<const Vec2f> texture, TriangleMesh& mesh) {
+  FaceSink sink{&mesh, texture, 0, 0, {}, {}};
   tinyobj::callback_t callback;
   callback.vertex_cb = [](void* user, float, float, float, float) {
     ++static_cast<FaceSink*>(user)->vertices;
+  };
+  callback.texcoord_cb = [](void* user, float, float, float) {
+    ++static_cast<FaceSink*>(user)->texture;
   };
   callback.index_cb = [](void* user, tinyobj::index_t* corners, int count) {
     static_cast<FaceSink*>(user)->add({corners, static_cast<std::size_t>(count)});
@@ -165,7 +192,8 @@ TriangleMesh parse_obj(std::string_view bytes, std::string_view name) {
     throw InputError(name, "has no vertex lines (v x y z)", "an OBJ mesh is wanted");
   TriangleMesh mesh{std::move(scan.positions), {}};
   mesh.triangles.reserve(scan.faces);
-  load_faces(text, mesh);
+  load_faces(text, scan.texture, mesh);
+  keep_whole_texture(mesh);
   require_surface(mesh, name);
   return mesh;
 }

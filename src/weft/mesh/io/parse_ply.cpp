@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -46,8 +49,31 @@ void check_layout(const PlyHeader& header, std::string_view name) {
                      "one list vertex_indices is wanted");
 }
 
-void read_vertex(PlyValues& values, const PlyElement& element, TriangleMesh& mesh) {
+/// 0 for u, 1 for v, -1 for what is no texture coordinate; programs differ in what they write.
+int texture_axis(std::string_view name) {
+  constexpr std::array<std::array<std::string_view, 4>, 2> names{
+      {{"u", "s", "texture_u", "texture_s"}, {"v", "t", "texture_v", "texture_t"}}};
+  for (int axis = 0; axis < 2; ++axis)
+    if (std::find(names[axis].begin(), names[axis].end(), name) != names[axis].end()) return axis;
+  return -1;
+}
+
+/// A file's mesh, and what its vertices have beside a position.
+struct PlyMesh {
+  TriangleMesh mesh;
+  std::vector<Vec2f> texture;  ///< [V] or empty
+};
+
+bool has_texture(const PlyElement& vertex) {
+  std::array<int, 2> found{};
+  for (const PlyProperty& p : vertex.properties)
+    if (const int axis = texture_axis(p.name); axis >= 0 && !p.is_list()) ++found[axis];
+  return found[0] == 1 && found[1] == 1;
+}
+
+void read_vertex(PlyValues& values, const PlyElement& element, PlyMesh& read) {
   Vec3d p;
+  std::array<double, 2> uv{};
   std::vector<double> ignored;
   for (const PlyProperty& property : element.properties) {
     if (property.is_list()) {
@@ -55,6 +81,7 @@ void read_vertex(PlyValues& values, const PlyElement& element, TriangleMesh& mes
       continue;
     }
     const double value = values.next(property.type);
+    if (const int axis = texture_axis(property.name); axis >= 0) uv[axis] = value;
     if (property.name != "x" && property.name != "y" && property.name != "z") continue;
     const std::string_view fault = coordinate_fault(value);
     if (!fault.empty())
@@ -62,7 +89,17 @@ void read_vertex(PlyValues& values, const PlyElement& element, TriangleMesh& mes
                   "a finite number is wanted");
     (property.name == "x" ? p.x : property.name == "y" ? p.y : p.z) = value;
   }
-  mesh.positions.push_back(p);
+  read.mesh.positions.push_back(p);
+  read.texture.push_back({static_cast<float>(uv[0]), static_cast<float>(uv[1])});
+}
+
+/// Spreads the vertices' texture coordinates to the corners.
+TriangleMesh textured(PlyMesh read, bool has_texture) {
+  if (!has_texture) return std::move(read.mesh);
+  for (const auto& [a, b, c] : read.mesh.triangles)
+    read.mesh.corner_uv.push_back({read.texture[a], read.texture[b], read.texture[c]});
+  keep_whole_texture(read.mesh);
+  return std::move(read.mesh);
 }
 
 void add_face(const PlyValues& values, std::span<const double> list, std::int64_t vertices,
@@ -101,22 +138,22 @@ TriangleMesh parse_ply(std::string_view bytes, std::string_view name) {
   LineReader reader(bytes, name);
   const PlyHeader header = read_ply_header(reader);
   check_layout(header, name);
-  const std::int64_t vertices = find_element(header, "vertex")->count;
-  TriangleMesh mesh;
-  mesh.positions.reserve(vertices);
+  const PlyElement& vertex = *find_element(header, "vertex");
+  PlyMesh read;
+  read.mesh.positions.reserve(vertex.count);
   PlyValues values(reader, header.format, name);
   for (const PlyElement& element : header.elements)
     for (std::int64_t i = 0; i < element.count; ++i) {
       values.begin_item(element, i);
       if (element.name == "vertex")
-        read_vertex(values, element, mesh);
+        read_vertex(values, element, read);
       else
-        read_other(values, element, vertices, mesh);
+        read_other(values, element, vertex.count, read.mesh);
       values.end_item();
     }
   values.expect_end();
-  require_surface(mesh, name);
-  return mesh;
+  require_surface(read.mesh, name);
+  return textured(std::move(read), has_texture(vertex));
 }
 
 }  // namespace weft

@@ -1,5 +1,8 @@
 #include "weft/mesh/io/polygon.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "weft/core/error.h"
@@ -9,6 +12,23 @@ namespace weft {
 void add_polygon(TriangleMesh& mesh, std::span<const int> corners) {
   for (std::size_t i = 2; i < corners.size(); ++i)
     mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+}
+
+void add_polygon(TriangleMesh& mesh, std::span<const int> corners, std::span<const Vec2f> uv) {
+  add_polygon(mesh, corners);
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    mesh.corner_uv.push_back({uv[0], uv[i - 1], uv[i]});
+}
+
+void keep_whole_texture(TriangleMesh& mesh) {
+  const auto finite = [](const std::array<Vec2f, 3>& corners) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [](Vec2f uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); });
+  };
+  if (mesh.corner_uv.size() == mesh.triangles.size() &&
+      std::all_of(mesh.corner_uv.begin(), mesh.corner_uv.end(), finite))
+    return;
+  mesh.corner_uv.clear();
 }
 
 void require_surface(const TriangleMesh& mesh, std::string_view name) {

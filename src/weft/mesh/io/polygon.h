@@ -13,6 +13,10 @@ inline constexpr std::int64_t most_elements = 700'000'000;
 
 /// Appends a polygon as a fan of triangles from its first corner. @pre at least three corners
 void add_polygon(TriangleMesh& mesh, std::span<const int> corners);
+/// The same with a texture coordinate for each corner. @pre as many of both
+void add_polygon(TriangleMesh& mesh, std::span<const int> corners, std::span<const Vec2f> uv);
+/// Forgets the texture coordinates unless every corner of the mesh has finite ones.
+void keep_whole_texture(TriangleMesh& mesh);
 
 /// @throws InputError when there is no vertex, no triangle, or too many of either
 void require_surface(const TriangleMesh& mesh, std::string_view name);
