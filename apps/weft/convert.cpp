@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/peak_memory.h"
 #include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/core/error.h"
@@ -65,6 +66,8 @@ void print_summary(const Context& context, const Conversion& c) {
                            c.image.size(), c.quality.psnr_db, c.quality.hausdorff_percent));
   say(context, fmt::format("time    {:.2f} s, of which measuring {:.2f} s", c.seconds.total,
                            c.seconds.measure));
+  if (const std::optional<double> memory = peak_memory_mb())
+    say(context, fmt::format("memory  {:.0f} MB at most", *memory));
 }
 
 Json convert_one(const ConvertWords& words, const Context& context, const TriangleMesh& mesh,

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/weft/peak_memory.h"
 #include "weft/core/error.h"
 #include "weft/core/files.h"
 #include "weft/image/rebuild.h"
@@ -57,6 +58,7 @@ Json input_json(const std::string& path, const RepairedMesh& input) {
 Json conversion_json(const std::string& path, const Conversion& conversion,
                      const std::vector<std::filesystem::path>& outputs) {
   const ImageQuality& q = conversion.quality;
+  const std::optional<double> memory = peak_memory_mb();
   return {{"input", input_json(path, conversion.input)},
           {"cut",
            {{"paths", conversion.cut.paths},
@@ -72,6 +74,7 @@ Json conversion_json(const std::string& path, const Conversion& conversion,
             {"psnr_db", q.psnr_db},
             {"hausdorff_percent", q.hausdorff_percent}}},
           {"seconds", seconds_json(conversion.seconds)},
+          {"peak_memory_mb", memory ? Json(*memory) : Json()},
           {"outputs", paths_json(outputs)}};
 }
 

@@ -43,6 +43,15 @@ class Convert(ProgramTest):
         self.assertEqual(report["outputs"], ["s.exr"])
         self.assertTrue((self.folder / "s.exr").stat().st_size > 1000)
 
+    def test_peak_memory_is_what_the_system_says(self):
+        report = self.run_json("convert", "builtin:sphere", "-o", "s.exr", "--size", "65")
+        # Of the largest child so far; no child of this test is larger by much.
+        largest = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024e-6
+        self.assertGreater(report["peak_memory_mb"], 5)
+        self.assertLessEqual(report["peak_memory_mb"], largest)
+        words = self.run_weft("convert", "builtin:sphere", "-o", "s.exr", "--size", "65").stdout
+        self.assertRegex(words, r"memory  \d+ MB at most")
+
     def test_both_parameterizers_are_named_in_the_report(self):
         for name in ("floater", "stretch"):
             report = self.run_json("convert", "builtin:sphere", "-o", "s.exr", "--size", "33",

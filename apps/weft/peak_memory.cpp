@@ -1,0 +1,19 @@
+#include "apps/weft/peak_memory.h"
+
+#include <fstream>
+#include <string>
+
+namespace weft::app {
+
+std::optional<double> peak_memory_mb() {
+  constexpr double mb_of_kib = 1024e-6;
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word) {
+    double kib = 0;
+    if (word == "VmHWM:" && status >> kib) return kib * mb_of_kib;
+  }
+  return std::nullopt;
+}
+
+}  // namespace weft::app
