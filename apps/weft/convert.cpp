@@ -72,7 +72,10 @@ void print_summary(const Context& context, const Conversion& c) {
 
 Json convert_one(const ConvertWords& words, const Context& context, const TriangleMesh& mesh,
                  const ConvertOptions& options, const fs::path& output) {
-  const Conversion conversion = convert_mesh(mesh, words.mesh, options);
+  const Conversion conversion = [&] {
+    const PromptStop stop;  // nothing is written yet
+    return convert_mesh(mesh, words.mesh, options);
+  }();
   std::vector<fs::path> outputs{output};
   write_image(output, conversion.image);
   if (conversion.normals) {
@@ -108,7 +111,10 @@ void convert(const ConvertWords& words, const Context& context) {
   TerminalProgress progress(context.quiet || context.json);
   ConvertOptions options = options_of(words, context, progress);
   const auto start = std::chrono::steady_clock::now();
-  const TriangleMesh mesh = load_mesh(words.mesh);
+  const TriangleMesh mesh = [&] {
+    const PromptStop stop;
+    return load_mesh(words.mesh);
+  }();
   const std::chrono::duration<double> load = std::chrono::steady_clock::now() - start;
   if (words.component == "all") {
     print_report(context, convert_all(words, context, mesh, options));

@@ -10,11 +10,23 @@
 namespace weft::app {
 namespace {
 
-// A signal handler can reach nothing else: the one mutable global.
-volatile std::sig_atomic_t stop_requested = 0;  // NOLINT
+// Signal handlers can reach nothing else: the only mutable globals.
+volatile std::sig_atomic_t stop_requested = 0;   // NOLINT
+volatile std::sig_atomic_t may_end_at_once = 0;  // NOLINT
+
+// How long work that tells no progress may go on once a stop is asked for [s].
+constexpr unsigned grace = 1;
+
+extern "C" void end_at_once(int /*signal*/) {
+  if (may_end_at_once == 0) return;
+  constexpr std::string_view line = "weft: error: interrupted\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+  ::_exit(static_cast<int>(ExitCode::interrupted));
+}
 
 extern "C" void request_stop(int signal) {
   stop_requested = 1;
+  if (may_end_at_once != 0) (void)::alarm(grace);
   (void)std::signal(signal, SIG_DFL);
 }
 
@@ -23,6 +35,17 @@ extern "C" void request_stop(int signal) {
 void stop_on_signals() {
   (void)std::signal(SIGINT, request_stop);
   (void)std::signal(SIGTERM, request_stop);
+  (void)std::signal(SIGALRM, end_at_once);
+}
+
+PromptStop::PromptStop() {
+  if (stop_requested != 0) throw Interrupted();
+  may_end_at_once = 1;
+}
+
+PromptStop::~PromptStop() {
+  may_end_at_once = 0;
+  (void)::alarm(0);
 }
 
 TerminalProgress::TerminalProgress(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO) == 1) {}

@@ -11,6 +11,18 @@ namespace weft::app {
 /// kills.
 void stop_on_signals();
 
+/// While one lives, a stop that is asked for ends the program within a second even where the work
+/// tells no progress, as a large factorization does. For work that has nothing half-written. One
+/// at a time.
+class PromptStop {
+ public:
+  /// @throws Interrupted when a stop has been asked for
+  PromptStop();
+  PromptStop(const PromptStop&) = delete;
+  PromptStop& operator=(const PromptStop&) = delete;
+  ~PromptStop();
+};
+
 /// A bar on stderr when that is a terminal (nothing otherwise); throws Interrupted when asked to
 /// stop.
 class TerminalProgress : public Progress {

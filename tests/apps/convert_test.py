@@ -1,5 +1,6 @@
 """The contract of convert, rebuild, inspect and shapes: fields, exit codes, errors, files."""
 import json
+import math
 import os
 import pathlib
 import resource
@@ -7,6 +8,7 @@ import shutil
 import signal
 import struct
 import subprocess
+import time
 import unittest
 
 from program import PROGRAM, ProgramTest, SHARED
@@ -129,6 +131,33 @@ class Convert(ProgramTest):
         self.assertEqual((chosen["input"]["triangles"], chosen["input"]["components"]), (2, 2))
         every = self.run_json("convert", "two.obj", "-o", "m.exr", "--size", "9", "--component", "all")
         self.assertEqual([c["outputs"] for c in every["conversions"]], [["m-0.exr"], ["m-1.exr"]])
+
+
+class Interruption(ProgramTest):
+    def write_torus(self, around, across):
+        points, faces = [], []
+        for i in range(around):
+            for j in range(across):
+                a, b = 2 * math.pi * i / around, 2 * math.pi * j / across
+                ring = 1 + 0.4 * math.cos(b)
+                points.append(f"v {ring * math.cos(a)} {0.4 * math.sin(b)} {-ring * math.sin(a)}\n")
+                v = [p % around * across + q % across + 1 for p in (i, i + 1) for q in (j, j + 1)]
+                faces.append(f"f {v[0]} {v[2]} {v[3]}\nf {v[0]} {v[3]} {v[1]}\n")
+        (self.folder / "torus.obj").write_text("".join(points + faces))
+
+    def test_a_stop_at_any_time_leaves_nothing_behind(self):
+        self.write_torus(400, 300)
+        for seconds in (0.3, 0.8, 1.5, 2.5):
+            with self.subTest(seconds):
+                process = subprocess.Popen([PROGRAM, "convert", "torus.obj", "-o", "t.exr", "--quiet"],
+                                           cwd=self.folder, stderr=subprocess.PIPE, text=True)
+                time.sleep(seconds)
+                self.assertIsNone(process.poll(), "ended before it could be stopped")
+                process.send_signal(signal.SIGINT)
+                _, errors = process.communicate(timeout=20)
+                self.assertEqual(process.returncode, 130, errors)
+                self.assertEqual(errors, "weft: error: interrupted\n")
+                self.assertEqual([path.name for path in self.folder.iterdir()], ["torus.obj"])
 
 
 class BadInput(ProgramTest):
