@@ -1,8 +1,11 @@
 #include "weft/image/io/exr_header.h"
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "weft/core/error.h"
 #include "weft/image/io/metadata.h"
@@ -13,6 +16,7 @@ namespace {
 constexpr std::uint32_t version_number = 2;
 constexpr std::uint32_t long_names_flag = 0x400;
 constexpr std::size_t bytes_per_sample = 12;
+constexpr int most_channels = 8;
 
 // The rest of a header, little-endian, read from its front.
 class HeaderReader {
@@ -42,6 +46,7 @@ class HeaderReader {
     take(1);
     return taken;
   }
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
 
  private:
   std::string_view rest_, where_;
@@ -58,7 +63,27 @@ void check_window(std::string_view value, std::size_t file_size, std::string_vie
   require_enough_bytes(right + 1, bytes_per_sample, file_size, where);
 }
 
-// A small picture inside the header, whose own size OpenEXR believes too.
+// Those that lose nothing come first in OpenEXR's list: none, RLE, ZIPS, ZIP, PIZ. The others would
+// part mates, and unpack to sizes that have no bound.
+void check_compression(std::string_view value, std::string_view where) {
+  constexpr char last_lossless = 4;
+  if (value.size() != 1 || value[0] < 0 || value[0] > last_lossless)
+    throw InputError(where, "an EXR picture whose compression loses something",
+                     "a geometry image without loss");
+}
+
+// OpenEXR sets lines of all channels aside, wanted or not.
+void check_channel_list(std::string_view value, std::string_view where) {
+  constexpr std::size_t description = 16;  // type, linearity, sampling
+  HeaderReader reader(value, where);
+  int count = 0;
+  for (; !reader.text().empty(); reader.take(description))
+    if (++count > most_channels)
+      reader.fail("an EXR picture of more than " + std::to_string(most_channels) + " channels");
+  if (!reader.at_end()) reader.fail("a damaged EXR file: a channel list of a wrong size");
+}
+
+// A small picture inside the header.
 void check_preview(std::string_view value, std::string_view where) {
   HeaderReader reader(value, where);
   const std::uint64_t width = reader.number();
@@ -68,6 +93,30 @@ void check_preview(std::string_view value, std::string_view where) {
     reader.fail("a damaged EXR file: a preview of a wrong size");
 }
 
+// Attributes of one size, in bytes.
+constexpr std::array<std::pair<std::string_view, std::size_t>, 23> sizes_of_types{
+    {{"box2f", 16},      {"box2i", 16},  {"chromaticities", 32},
+     {"compression", 1}, {"double", 8},  {"envmap", 1},
+     {"float", 4},       {"int", 4},     {"keycode", 28},
+     {"lineOrder", 1},   {"m33d", 72},   {"m33f", 36},
+     {"m44d", 128},      {"m44f", 64},   {"rational", 8},
+     {"timecode", 8},    {"v2d", 16},    {"v2f", 8},
+     {"v2i", 8},         {"v3d", 24},    {"v3f", 12},
+     {"v3i", 12},        {"tiledesc", 9}}};
+
+// OpenEXR reads an attribute by its type, and does not look at the size that is told for it: where
+// the two differ it goes on reading elsewhere than this walk. So types whose size cannot be checked
+// here are refused.
+void check_attribute(std::string_view type, std::string_view value, std::string_view where) {
+  if (type == "string") return;
+  if (type == "chlist") return check_channel_list(value, where);
+  if (type == "preview") return check_preview(value, where);
+  for (const auto& [known, size] : sizes_of_types)
+    if (known == type && size == value.size()) return;
+  throw InputError(where, "an EXR attribute of an unknown type or a wrong size",
+                   "a geometry image");
+}
+
 }  // namespace
 
 void check_exr_header(std::string_view bytes, std::string_view where) {
@@ -75,16 +124,16 @@ void check_exr_header(std::string_view bytes, std::string_view where) {
   reader.number();  // the magic number that told the format
   if ((reader.number() & ~long_names_flag) != version_number)
     reader.fail("an EXR picture of tiles, layers of depth or several parts");
-  bool has_window = false;
+  std::set<std::string_view> names;
   for (std::string_view name = reader.text(); !name.empty(); name = reader.text()) {
     const std::string_view type = reader.text();
     const std::string_view value = reader.take(reader.number());
-    if (type == "preview") check_preview(value, where);
-    if (name != "dataWindow") continue;
-    check_window(value, bytes.size(), where);
-    has_window = true;
+    if (!names.insert(name).second) reader.fail("a damaged EXR file: an attribute is there twice");
+    check_attribute(type, value, where);
+    if (name == "compression") check_compression(value, where);
+    if (name == "dataWindow") check_window(value, bytes.size(), where);
   }
-  if (!has_window) reader.fail("a damaged EXR file: no data window");
+  if (!names.contains("dataWindow")) reader.fail("a damaged EXR file: no data window");
 }
 
 }  // namespace weft

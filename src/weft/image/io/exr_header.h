@@ -5,8 +5,9 @@
 namespace weft {
 
 /// Walks the header of an EXR file before OpenEXR sees it, because OpenEXR sets memory aside for
-/// whatever sizes a header tells: the file must be a plain scan-line picture, each attribute must
-/// lie inside the file, and the data window must be a geometry image's.
+/// whatever sizes a header tells: the file must be a plain scan-line picture without loss, each
+/// attribute must lie inside the file and have the size of its type, and the data window must be a
+/// geometry image's.
 /// @param bytes  the whole file
 /// @param where  what errors call it
 /// @throws InputError

@@ -78,7 +78,13 @@ Planes3 planes_of(const PngPicture& picture) {
   return planes;
 }
 
-std::string as_png(const GeometryImage& image) {
+}  // namespace
+
+std::string exr_bytes(const GeometryImage& image) {
+  return encode_exr(image.cube, metadata_text(image));
+}
+
+std::string png_bytes(const GeometryImage& image) {
   const Planes3 whole =
       changed(image.cube, [](float value) { return std::round(value * full_scale); });
   PngPicture picture = picture_of(whole, 16);
@@ -88,12 +94,10 @@ std::string as_png(const GeometryImage& image) {
   return encode_png(picture);
 }
 
-}  // namespace
-
 void write_image(const std::filesystem::path& path, const GeometryImage& image) {
   const std::string ending = ending_of(path);
-  if (ending == ".exr") return write_bytes(path, encode_exr(image.cube, metadata_text(image)));
-  if (ending == ".png") return write_bytes(path, as_png(image));
+  if (ending == ".exr") return write_bytes(path, exr_bytes(image));
+  if (ending == ".png") return write_bytes(path, png_bytes(image));
   refuse_ending(path);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "weft/image/geometry_image.h"
@@ -11,6 +12,10 @@ namespace weft {
 /// or .png (16 bits a channel: positions are rounded to 1 / 65535 of the cube's side). Mates, world
 /// map and source travel inside. @throws OutputError; UsageError on another ending
 void write_image(const std::filesystem::path& path, const GeometryImage& image);
+
+/// The same in memory.
+std::string exr_bytes(const GeometryImage& image);
+std::string png_bytes(const GeometryImage& image);
 
 /// Reads one back, by what the file holds. Nothing in it is believed unchecked.
 /// @throws InputError for what is not a geometry image, cut short, of a wrong size or version,
