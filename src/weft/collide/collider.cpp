@@ -167,8 +167,6 @@ class PushCollider final : public Collider {
 
 }  // namespace
 
-std::string_view name_of(const ColliderOptions&) { return "polar_map"; }
-
 std::unique_ptr<Collider> make_collider(const ColliderOptions& options, const Obstacles& obstacles,
                                         const Guarded& cloth) {
   return std::make_unique<PushCollider>(std::get<PolarMapOptions>(options), obstacles, cloth);

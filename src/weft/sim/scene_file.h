@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "weft/sim/scene.h"
@@ -17,5 +18,7 @@ Scene parse_scene(std::string_view text, const std::string& name,
 
 /// Writes a scene with every key, so that reading it back gives the same scene. @throws OutputError
 void write_scene(const std::filesystem::path& path, const Scene& scene);
+/// The same in memory: what a file at that path would hold.
+std::string scene_text(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace weft

@@ -110,16 +110,18 @@ Json scene_json(const Scene& scene, const fs::path& folder) {
 
 }  // namespace
 
-void write_scene(const fs::path& path, const Scene& scene) {
-  const Json json = scene_json(scene, path.parent_path());
-  std::string text;
+std::string scene_text(const Scene& scene, const fs::path& path) {
   try {
-    text = json.dump(2);
+    return scene_json(scene, path.parent_path()).dump(2) + '\n';
   } catch (const Json::type_error&) {
     throw OutputError(path.string(), "a surface's path is not UTF-8, which JSON cannot hold",
                       "another name is wanted");
   }
-  write_file(path, [&](std::ostream& out) { out << text << '\n'; });
+}
+
+void write_scene(const fs::path& path, const Scene& scene) {
+  const std::string text = scene_text(scene, path);
+  write_file(path, [&](std::ostream& out) { out << text; });
 }
 
 }  // namespace weft

@@ -14,13 +14,6 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 
 }  // namespace
 
-std::string_view name_of(const IntegratorOptions& options) {
-  return std::visit(Overloaded{[](const ImplicitOptions&) { return "implicit"; },
-                               [](const ExplicitOptions&) { return "explicit"; },
-                               [](const TwoLevelOptions&) { return "two_level"; }},
-                    options);
-}
-
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Cloth& cloth,
                                             const StepInput& typical, ThreadTeam& team) {
   return std::visit(

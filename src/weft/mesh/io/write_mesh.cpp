@@ -14,6 +14,14 @@
 namespace weft {
 namespace {
 
+template <class Unsigned>
+void append_little_endian(std::string& bytes, Unsigned value) {
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
+    bytes.push_back(static_cast<char>((value >> (8 * i)) & 0xffU));
+}
+
+}  // namespace
+
 std::string obj_text(const TriangleMesh& mesh) {
   std::string text;
   const auto out = std::back_inserter(text);
@@ -22,12 +30,6 @@ std::string obj_text(const TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles)
     fmt::format_to(out, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
   return text;
-}
-
-template <class Unsigned>
-void append_little_endian(std::string& bytes, Unsigned value) {
-  for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
-    bytes.push_back(static_cast<char>((value >> (8 * i)) & 0xffU));
 }
 
 std::string ply_bytes(const TriangleMesh& mesh) {
@@ -46,8 +48,6 @@ std::string ply_bytes(const TriangleMesh& mesh) {
   }
   return bytes;
 }
-
-}  // namespace
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   std::string ending = path.extension().string();

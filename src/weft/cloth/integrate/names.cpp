@@ -1,0 +1,17 @@
+// Apart from the integrators, so that reading a scene does not bring them along.
+#include "weft/cloth/integrate/integrator.h"
+
+namespace weft {
+namespace {
+
+struct NameOf {
+  std::string_view operator()(const ImplicitOptions&) const { return "implicit"; }
+  std::string_view operator()(const ExplicitOptions&) const { return "explicit"; }
+  std::string_view operator()(const TwoLevelOptions&) const { return "two_level"; }
+};
+
+}  // namespace
+
+std::string_view name_of(const IntegratorOptions& options) { return std::visit(NameOf{}, options); }
+
+}  // namespace weft

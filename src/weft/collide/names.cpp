@@ -1,0 +1,8 @@
+// Apart from the colliders, so that reading a scene does not bring them along.
+#include "weft/collide/collider.h"
+
+namespace weft {
+
+std::string_view name_of(const ColliderOptions&) { return "polar_map"; }
+
+}  // namespace weft
