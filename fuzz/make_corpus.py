@@ -92,6 +92,10 @@ def glb_files():
                                {"bufferView": 1, "componentType": 5121, "count": 3, "type": "SCALAR"}],
                  "bufferViews": [{"buffer": 0, "byteLength": 24, "byteStride": 8},
                                  {"buffer": 0, "byteOffset": 24, "byteLength": 3}]}
+    textured = {**content, "accessors": content["accessors"] + [
+        {"bufferView": 0, "componentType": 5123, "normalized": True, "count": 4, "type": "VEC2"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1}]}]}
+    yield "texture", glb(textured, binary)
     short = struct.pack("<12h", 0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0) + bytes([0, 1, 2])
     yield "quantized", glb({**quantized, "buffers": [{"byteLength": 27}]}, short)
     uri = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()

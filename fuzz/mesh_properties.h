@@ -12,7 +12,8 @@
 
 namespace weft::fuzz {
 
-/// The triangles are those of a mesh: vertices exist, coordinates are finite and not beyond 1e30.
+/// The triangles are those of a mesh: vertices exist, coordinates are finite and not beyond 1e30;
+/// texture coordinates are there for every corner or for none.
 inline void require_sound(const TriangleMesh& mesh) {
   require(!mesh.triangles.empty(), "a mesh has triangles");
   for (const Vec3d& p : mesh.positions)
@@ -21,6 +22,11 @@ inline void require_sound(const TriangleMesh& mesh) {
   const int count = static_cast<int>(mesh.positions.size());
   for (const Triangle& t : mesh.triangles)
     for (const int v : t) require(v >= 0 && v < count, "triangles use existing vertices");
+  require(mesh.corner_uv.empty() || mesh.corner_uv.size() == mesh.triangles.size(),
+          "texture coordinates are whole");
+  for (const auto& corners : mesh.corner_uv)
+    for (const Vec2f uv : corners)
+      require(std::isfinite(uv.x) && std::isfinite(uv.y), "texture coordinates are finite");
 }
 
 inline bool same_bits(const TriangleMesh& a, const TriangleMesh& b) {

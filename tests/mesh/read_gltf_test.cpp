@@ -136,6 +136,30 @@ TEST(ReadGltf, WholeNumbersAreScaledWhenNormalized) {
   EXPECT_EQ(read(file).positions, (std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, -1, 0}}));
 }
 
+TEST(ReadGltf, TextureCoordinatesRunUpwardsAndStayWithTheirCorners) {
+  CreasedPair file;
+  test::put(file.binary, std::vector<float>{0, 1, 1, 1, 0, 0, 0.25F, 0.75F, 0.25F, 0, 0.125F, 0});
+  file.json["buffers"][0]["byteLength"] = 84 + 48;
+  file.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 84}, {"byteLength", 48}});
+  file.json["accessors"].push_back(
+      {{"bufferView", 2}, {"componentType", 5126}, {"count", 6}, {"type", "VEC2"}});
+  Json& primitives = file.json["meshes"][0]["primitives"];
+  primitives[0]["attributes"]["TEXCOORD_0"] = 2;
+  using Corners = std::array<Vec2f, 3>;
+  const Corners first{{{0, 0}, {1, 0}, {0, 1}}};
+  const Corners second{{{0.25F, 0.25F}, {0.25F, 1}, {0.125F, 1}}};
+  EXPECT_EQ(read(file).corner_uv, (std::vector<Corners>{first, second}));
+  file.json["nodes"][0]["scale"] = {1, 1, -1};
+  EXPECT_EQ(read(file).corner_uv[0], (Corners{{first[0], first[2], first[1]}}));
+  file.json["accessors"][2]["count"] = 5;
+  EXPECT_EQ(refusal(file.bytes()),
+            "a.glb: accessors[2] has 5 texture coordinates for 6 vertices; one for each is wanted");
+  file.json["accessors"][2]["count"] = 6;
+  primitives.push_back({{"attributes", {{"POSITION", 0}}}});  // one without: none are kept
+  EXPECT_TRUE(read(file).corner_uv.empty());
+  EXPECT_EQ(read(file).triangles.size(), 4U);
+}
+
 TEST(ReadGltf, BuffersMayBeTextOrFilesInTheFolder) {
   const test::TemporaryFolder folder;
   CreasedPair file;

@@ -41,7 +41,7 @@ struct Elements {
   }
 };
 
-/// @param width  components of an element: 1 or 3
+/// @param width  components of an element: 1 to 3
 Elements elements_of(const GltfObject& root, GltfBuffers& buffers, const GltfObject& accessor,
                      std::size_t width) {
   Elements elements;
@@ -49,7 +49,7 @@ Elements elements_of(const GltfObject& root, GltfBuffers& buffers, const GltfObj
   elements.normalized = accessor.boolean("normalized");
   const std::size_t size = width * size_of(elements.component);
   if (size == 0) accessor.fail("has an unknown componentType", "5120 .. 5123, 5125 or 5126");
-  const char* type = width == 1 ? "SCALAR" : "VEC3";
+  const char* type = width == 1 ? "SCALAR" : width == 2 ? "VEC2" : "VEC3";
   if (accessor.text("type") != type)
     accessor.fail("has another type", fmt::format("{} is wanted", type));
   if (accessor.has("sparse")) accessor.fail("is sparse", "plain data are wanted");
@@ -109,6 +109,22 @@ std::vector<Vec3d> read_gltf_positions(const GltfObject& root, GltfBuffers& buff
     positions.push_back({number(elements, elements.at(i, 0)), number(elements, elements.at(i, 1)),
                          number(elements, elements.at(i, 2))});
   return positions;
+}
+
+std::vector<Vec2f> read_gltf_texture(const GltfObject& root, GltfBuffers& buffers, int index,
+                                     std::size_t vertices) {
+  const GltfObject accessor = accessor_of(root, index);
+  const Elements elements = elements_of(root, buffers, accessor, 2);
+  if (elements.count != vertices)
+    accessor.fail(
+        fmt::format("has {} texture coordinates for {} vertices", elements.count, vertices),
+        "one for each is wanted");
+  std::vector<Vec2f> texture;
+  texture.reserve(elements.count);
+  for (std::size_t i = 0; i < elements.count; ++i)
+    texture.push_back({static_cast<float>(number(elements, elements.at(i, 0))),
+                       static_cast<float>(1 - number(elements, elements.at(i, 1)))});
+  return texture;
 }
 
 std::vector<int> read_gltf_indices(const GltfObject& root, GltfBuffers& buffers, int index,

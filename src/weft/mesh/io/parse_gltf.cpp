@@ -104,11 +104,21 @@ class Gatherer {
     std::vector<Triangle> triangles =
         triangles_of(primitive, mode, corners_of(primitive, static_cast<std::size_t>(count)));
     require_room(primitive, mesh_.triangles.size() + triangles.size());
-    for (Triangle& t : triangles) {
-      if (placing.mirrors()) std::swap(t[1], t[2]);
-      for (int& v : t) v += base;
-      mesh_.triangles.push_back(t);
-    }
+    if (placing.mirrors())
+      for (Triangle& t : triangles) std::swap(t[1], t[2]);
+    add_texture(*attributes, triangles, static_cast<std::size_t>(count));
+    for (const auto& [a, b, c] : triangles)
+      mesh_.triangles.push_back({a + base, b + base, c + base});
+  }
+
+  /// Where a primitive has none, the mesh ends up with fewer than corners, and forgets them all.
+  void add_texture(const GltfObject& attributes, const std::vector<Triangle>& triangles,
+                   std::size_t vertices) {
+    const std::optional<int> index = attributes.index("TEXCOORD_0", root_.count("accessors"));
+    if (!index) return;
+    const std::vector<Vec2f> texture = read_gltf_texture(root_, buffers_, *index, vertices);
+    for (const auto& [a, b, c] : triangles)
+      mesh_.corner_uv.push_back({texture[a], texture[b], texture[c]});
   }
 
   [[nodiscard]] std::vector<int> corners_of(const GltfObject& primitive, std::size_t vertices) {
@@ -162,8 +172,9 @@ TriangleMesh parse_gltf(std::string_view bytes, std::string_view name,
   GltfBuffers buffers(root, parts.binary, folder);
   Gatherer gatherer(root, buffers, bytes.size());
   for (const PlacedMesh& placed : placed_meshes(root)) gatherer.add(placed);
-  const TriangleMesh mesh = gatherer.take();
+  TriangleMesh mesh = gatherer.take();
   require_surface(mesh, name);
+  keep_whole_texture(mesh);
   return weld_exact(mesh);
 }
 
