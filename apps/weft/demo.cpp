@@ -78,7 +78,7 @@ struct Shown {
 // One cloth on the figure: its scene, caches, last frame and movie.
 void show_drape(Demo& demo, const Shown& shown) {
   const std::string& name = shown.name;
-  const DrawingOptions view{960, 720, 0.45, shown.elevation};
+  const ViewFrom view{960, 720, 0.45, shown.elevation};
   const fs::path run_folder = demo.folder / name;
   make_folder(run_folder);
   DrapeOptions placing;
@@ -96,7 +96,7 @@ void show_drape(Demo& demo, const Shown& shown) {
   const RunFolder recorded = open_run_folder(run_folder);
   demo.add(name + ".png",
            [&](const fs::path& path) { write_png(path, draw_run(recorded, -1, view)); });
-  DrawingOptions smaller = view;
+  ViewFrom smaller = view;
   smaller.width = 640;
   smaller.height = 480;
   demo.add(name + ".mp4",

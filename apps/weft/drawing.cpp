@@ -1,6 +1,7 @@
 #include "apps/weft/drawing.h"
 
 #include <initializer_list>
+#include <vector>
 
 #include "weft/view/camera.h"
 #include "weft/view/renderer.h"
@@ -14,13 +15,12 @@ void add(Box3d& box, const Box3d& other) {
   box.add(other.upper);
 }
 
-double aspect(const DrawingOptions& options) {
+double aspect(const ViewFrom& options) {
   return static_cast<double>(options.width) / options.height;
 }
 
 // The bodies and the given frames of the cloths.
-Camera camera_of(const RunFolder& run, std::initializer_list<int> frames,
-                 const DrawingOptions& options) {
+Camera camera_of(const RunFolder& run, std::initializer_list<int> frames, const ViewFrom& options) {
   Box3d box;
   for (const PlacedBody& body : run.bodies) add(box, bounds(body.positions));
   for (std::size_t k = 0; k < run.cloths.size(); ++k)
@@ -63,14 +63,14 @@ RunFrame frame_of(const RunFolder& run, int frame, const Camera& camera) {
 
 }  // namespace
 
-Picture draw_run(const RunFolder& run, int frame, const DrawingOptions& options) {
+Picture draw_run(const RunFolder& run, int frame, const ViewFrom& options) {
   Renderer renderer(options.width, options.height);
   const int shown = frame < 0 ? run.frames - 1 : frame;
   return renderer.draw(frame_of(run, shown, camera_of(run, {shown}, options)).scene);
 }
 
-void film_run(const RunFolder& run, const std::filesystem::path& path,
-              const DrawingOptions& options, Progress* progress) {
+void film_run(const RunFolder& run, const std::filesystem::path& path, const ViewFrom& options,
+              Progress* progress) {
   MovieWriter movie(path, options.width, options.height, run.frame_rate);
   Renderer renderer(options.width, options.height);
   const Camera camera = camera_of(run, {0, run.frames - 1}, options);
@@ -79,18 +79,6 @@ void film_run(const RunFolder& run, const std::filesystem::path& path,
     movie.add(renderer.draw(frame_of(run, frame, camera).scene));
   }
   movie.finish();
-}
-
-Picture draw_mesh(const TriangleMesh& mesh, const std::vector<std::array<int, 2>>& marked_edges,
-                  const DrawingOptions& options) {
-  DrawnScene scene;
-  scene.camera = frame_box(bounds(mesh), options.azimuth, options.elevation, aspect(options));
-  DrawnMesh drawn;
-  drawn.mesh = &mesh;
-  drawn.marked_edges = marked_edges;
-  scene.meshes.push_back(drawn);
-  Renderer renderer(options.width, options.height);
-  return renderer.draw(scene);
 }
 
 }  // namespace weft::app

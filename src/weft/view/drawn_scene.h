@@ -31,6 +31,7 @@ struct DrawnMesh {
   const TriangleMesh* mesh = nullptr;
   std::vector<std::array<int, 2>> marked_edges;  ///< pairs of vertices
   Vec3f colour{0.62F, 0.60F, 0.57F};             ///< linear RGB
+  std::vector<Vec3f> colours;                    ///< of each vertex instead, [V] or none
   Vec3f mark_colour{0.75F, 0.05F, 0.03F};        ///< linear RGB
 };
 
@@ -46,6 +47,7 @@ struct DrawnScene {
   Camera camera;
   std::vector<DrawnMesh> meshes;
   KeyLight light;
+  bool on_white = false;  ///< white paper behind all, instead of a backdrop
 };
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "weft/core/assert.h"
+#include "weft/view/palette.h"
 
 namespace weft {
 namespace {
@@ -94,14 +95,6 @@ Patch patch_of(const DiskMesh& disk, const SquareMap& map, const Triangle& t) {
   return patch;
 }
 
-/// From blue over white to red as the stretch goes from a quarter over one to four.
-Vec3f stretch_colour(double stretch) {
-  const double level = std::clamp(std::log2(std::max(stretch, 1e-9)) / 2, -1.0, 1.0);
-  const auto strength = static_cast<float>(std::abs(level));
-  const Vec3f end = level > 0 ? Vec3f{0.80F, 0.20F, 0.12F} : Vec3f{0.16F, 0.36F, 0.75F};
-  return Vec3f{0.97F, 0.97F, 0.95F} + strength * (end - Vec3f{0.97F, 0.97F, 0.95F});
-}
-
 }  // namespace
 
 Picture colours_of(const GeometryImage& image, int least_side) {
@@ -135,7 +128,7 @@ Picture draw_map(const DiskMesh& disk, const SquareMap& map, const MapDrawing& o
       const double squared = patch_of(disk, map, t).squared_stretch * plane / surface;
       fill(canvas, corners(t), stretch_colour(std::sqrt(squared)));
     }
-  for (const Triangle& t : disk.triangles) {
+  for (const Triangle& t : options.edges ? disk.triangles : std::vector<Triangle>{}) {
     const Corners p = corners(t);
     for (int k = 0; k < 3; ++k) line(canvas, p[k], p[(k + 1) % 3], {0.16F, 0.17F, 0.20F});
   }

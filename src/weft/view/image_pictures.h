@@ -17,9 +17,10 @@ struct MapDrawing {
   bool stretch = true;
   ///< triangles coloured by stretch: blue where the map has room to spare, red where it is short of
   ///< it
+  bool edges = true;  ///< of the triangles, as lines
 };
 
-/// The parameterization in the square: the triangles' edges, row v = 0 at the top as in the image.
+/// The parameterization in the square, row v = 0 at the top as in the image.
 Picture draw_map(const DiskMesh& disk, const SquareMap& map, const MapDrawing& options = {});
 
 }  // namespace weft

@@ -1,6 +1,7 @@
 #include "weft/view/normals.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 
 #include "weft/core/assert.h"
@@ -81,6 +82,8 @@ ShadedMesh shade_mesh(const TriangleMesh& mesh) {
   ShadedMesh shaded;
   for (const Vec3d p : mesh.positions) shaded.positions.push_back(vec_cast<float>(p));
   shaded.normals.resize(mesh.positions.size());
+  shaded.source.resize(mesh.positions.size());
+  std::iota(shaded.source.begin(), shaded.source.end(), 0);
   shaded.triangles = mesh.triangles;
   const std::vector<Vec3d> areas = vector_areas(mesh);
   const std::vector<std::vector<int>> around = triangles_around(mesh);
@@ -99,6 +102,7 @@ ShadedMesh shade_mesh(const TriangleMesh& mesh) {
           vertex = static_cast<int>(shaded.positions.size());
           shaded.positions.push_back(shaded.positions[v]);
           shaded.normals.emplace_back();
+          shaded.source.push_back(static_cast<int>(v));
         }
         shaded.normals[vertex] = normal;
         copies.push_back(vertex);

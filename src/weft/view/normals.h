@@ -21,6 +21,7 @@ struct ShadedMesh {
   std::vector<Vec3f> positions;     ///< the first ones are the mesh's own vertices, in its order
   std::vector<Vec3f> normals;       ///< unit, weighted by area; zero where there is no area
   std::vector<Triangle> triangles;  ///< the mesh's, with indices renewed
+  std::vector<int> source;          ///< the mesh's vertex of each
 };
 /// Smooth normals but for edges sharper than 50 degrees.
 /// @pre triangles' indices are vertices

@@ -17,7 +17,14 @@ constexpr int sky_size = 256;
 constexpr double key_offset = 0.006;
 constexpr double sky_offset = 0.016;
 /// Texture units; 0 and 1 are the surface's positions and normals.
-enum Unit { unit_front = 2, unit_back = 3, unit_key = 4, unit_compare = 5, unit_sky = 6 };
+enum Unit {
+  unit_front = 2,
+  unit_back = 3,
+  unit_key = 4,
+  unit_compare = 5,
+  unit_sky = 6,
+  unit_colours = 7
+};
 
 constexpr std::string_view for_meshes = "#define MESH\n";
 
@@ -175,16 +182,18 @@ void ScenePainter::draw_skylight(const SurfaceBuffers& surface, const Program& p
 void ScenePainter::draw_picture(const DrawnScene& scene, const Target& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   glViewport(0, 0, target.width, target.height);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  glClearColor(1, 1, 1, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   const Vec3f size{static_cast<float>(target.width), static_cast<float>(target.height), 0};
   for (const Program* program : {&backdrop_, &surface_, &mesh_, &ground_, &edge_}) {
     program->use();
     program->set_pair("picture_size", size.x, size.y);
   }
-  backdrop_.use();
-  glBindVertexArray(nothing_.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-
+  if (!scene.on_white) {
+    backdrop_.use();
+    glBindVertexArray(nothing_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
   glEnable(GL_DEPTH_TEST);
   const double away = length(scene.camera.eye - lights_.centre);
   const double near = std::max(away / 50, 1e-6 * lights_.radius);
@@ -227,9 +236,11 @@ void ScenePainter::draw_surfaces(const DrawnScene& scene, const Matrix& to_clip)
   }
   mesh_.use();
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    mesh_.set("colour", scene.meshes[i].colour);
+    SurfaceBuffers& mesh = surfaces_[scene.surfaces.size() + i];
     mesh_.set("fabric", 0);
-    draw_lit(surfaces_[scene.surfaces.size() + i], mesh_);
+    mesh_.set("colours", unit_colours);
+    mesh.colours().bind(unit_colours);
+    draw_lit(mesh, mesh_);
   }
 }
 

@@ -137,6 +137,10 @@ void SurfaceBuffers::load(const DrawnMesh& drawn) {
   ShadedMesh shaded = shade_mesh(usable(*drawn.mesh));
   upload_folded(positions_, std::move(shaded.positions));
   upload_folded(normals_, std::move(shaded.normals));
+  std::vector<Vec3f> colours(shaded.source.size(), drawn.colour);
+  if (drawn.colours.size() == drawn.mesh->positions.size())
+    for (std::size_t v = 0; v < colours.size(); ++v) colours[v] = drawn.colours[shaded.source[v]];
+  upload_folded(colours_, std::move(colours));
   std::vector<GLuint> corners;
   corners.reserve(shaded.triangles.size() * 3);
   for (const Triangle& t : shaded.triangles)

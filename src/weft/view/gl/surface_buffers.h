@@ -39,6 +39,8 @@ class SurfaceBuffers {
 
   [[nodiscard]] const Texture& positions() const { return positions_; }
   [[nodiscard]] const Texture& normals() const { return normals_; }
+  /// Of a mesh: the colour of each vertex.
+  [[nodiscard]] const Texture& colours() const { return colours_; }
   [[nodiscard]] const Texture& sky_front() const { return sky_front_; }
   [[nodiscard]] const Texture& sky_back() const { return sky_back_; }
   [[nodiscard]] bool is_grid() const { return grid_side_ > 0; }
@@ -55,7 +57,7 @@ class SurfaceBuffers {
   void upload_grid(const Planes3& positions, const Planes3& normals);
   void make_sky_target(int width, int height);
 
-  Texture positions_, normals_, sky_front_, sky_back_;
+  Texture positions_, normals_, colours_, sky_front_, sky_back_;
   Framebuffer sky_target_;
   std::map<int, IndexList> triangles_;  // by step; made when first drawn
   int grid_side_ = 0;                   // 0: a mesh

@@ -9,12 +9,13 @@ namespace weft::gl {
 /// are found anew for every pixel of a mesh, whose vertices may be far apart. Two programs, because
 /// software drivers walk both ways of every branch.
 inline constexpr std::string_view surface_vertex = R"(
-uniform sampler2D positions, normals, sky_front, sky_back;
+uniform sampler2D positions, normals, colours, sky_front, sky_back;
 uniform int columns, rows;
 uniform mat4 to_clip;
 out vec3 world;
 out vec2 uv;
 #ifdef MESH
+out vec3 own_colour;
 out vec3 own_normal;
 out vec3 own_front;
 out vec3 own_back;
@@ -24,6 +25,7 @@ void main() {
   world = texelFetch(positions, at, 0).xyz;
   uv = vec2(at) / vec2(max(columns - 1, 1), max(rows - 1, 1));
 #ifdef MESH
+  own_colour = texelFetch(colours, at, 0).rgb;
   own_normal = texelFetch(normals, at, 0).xyz;
   own_front = texelFetch(sky_front, at, 0).rgb;
   own_back = texelFetch(sky_back, at, 0).rgb;
@@ -37,13 +39,14 @@ void main() {
 /// [walter07].
 inline constexpr std::string_view surface_fragment = R"(
 uniform bool fabric;
-uniform vec3 eye, colour, key_direction, key_light;
+uniform vec3 eye, key_direction, key_light;
 uniform float threads;
 in vec3 world;
 in vec2 uv;
 out vec4 result;
 
 #ifdef MESH
+in vec3 own_colour;
 in vec3 own_normal;
 in vec3 own_front;
 in vec3 own_back;
@@ -54,12 +57,15 @@ vec3 flat_normal() {
   return dot(n, own_normal) < 0.0 ? -n : n;
 }
 vec3 outward() { return own_normal; }
+vec3 albedo() { return own_colour; }
 vec4 light_here(vec3 n) {
   vec3 lit_side = dot(flat_normal(), key_direction) < 0.0 ? -flat_normal() : flat_normal();
   return vec4(gl_FrontFacing ? own_front : own_back, key_visibility(world, lit_side, pixel_turn()));
 }
 #else
 uniform sampler2D normals, sky_front, sky_back;
+uniform vec3 colour;
+vec3 albedo() { return colour; }
 vec3 outward() { return texture(normals, aligned(uv, textureSize(normals, 0))).xyz; }
 vec4 light_here(vec3 n) {
   vec2 at = aligned(uv, textureSize(sky_front, 0));
@@ -78,7 +84,7 @@ float weave(vec2 at) {
   return mix(1.0, (warp ? 0.70 : 0.62) + 0.62 * height, seen);
 }
 vec3 fabric_light(vec3 n, vec3 v, vec3 key, vec3 sky) {
-  vec3 albedo = colour * weave(uv);
+  vec3 own = albedo(), woven = own * weave(uv);
   float nl = dot(n, key_direction), nv = clamp(dot(n, v), 0.03, 1.0);
   float wrapped = max((nl + 0.2) / 1.2, 0.0);
   vec3 h = normalize(key_direction + v);
@@ -86,9 +92,9 @@ vec3 fabric_light(vec3 n, vec3 v, vec3 key, vec3 sky) {
   float fibres = (2.0 + 1.0 / 0.45) * pow(along, 1.0 / 0.45) / 6.2831853;
   float lit = clamp(nl, 0.0, 1.0);
   float sheen = fibres * lit / (4.0 * (lit + nv - lit * nv) + 0.05);
-  vec3 tint = mix(vec3(1.0), colour / max(max(colour.r, max(colour.g, colour.b)), 1e-3), 0.6);
+  vec3 tint = mix(vec3(1.0), own / max(max(own.r, max(own.g, own.b)), 1e-3), 0.6);
   float rim = pow(1.0 - nv, 3.0);
-  return albedo * (wrapped * key + sky) + 0.16 * tint * (sheen * key + rim * sky);
+  return woven * (wrapped * key + sky) + 0.16 * tint * (sheen * key + rim * sky);
 }
 vec3 body_light(vec3 n, vec3 v, vec3 key, vec3 sky) {
   float nl = max(dot(n, key_direction), 0.0), nv = clamp(dot(n, v), 0.03, 1.0);
@@ -98,7 +104,7 @@ vec3 body_light(vec3 n, vec3 v, vec3 key, vec3 sky) {
   float shine = a2 / (lobe * lobe) / (4.0 * mix(nl * nv, nl + nv, 0.5) + 0.1);
   float mirror = 0.04 + 0.96 * pow(1.0 - max(dot(h, v), 0.0), 5.0);
   float rim = 0.03 + 0.22 * pow(1.0 - nv, 4.0);
-  return colour * (nl * key + sky) + mirror * shine * nl * key + rim * sky;
+  return albedo() * (nl * key + sky) + mirror * shine * nl * key + rim * sky;
 }
 void main() {
   vec3 n = outward();

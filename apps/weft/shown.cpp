@@ -1,0 +1,165 @@
+#include "apps/weft/shown.h"
+
+#include <algorithm>
+
+#include "apps/weft/terminal_progress.h"
+#include "weft/core/error.h"
+#include "weft/cut/open_to_disk.h"
+#include "weft/image/io/image_file.h"
+#include "weft/image/rebuild.h"
+#include "weft/mesh/repair.h"
+#include "weft/param/augment.h"
+#include "weft/view/border_pictures.h"
+#include "weft/view/image_pictures.h"
+
+namespace weft::app {
+namespace {
+
+/// Meshes with more triangles are drawn without their edges.
+constexpr int most_edges_shown = 3000;
+constexpr int default_size = 257;
+
+int size_of(const ShownWords& words) { return words.size > 0 ? words.size : default_size; }
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list.append(list.empty() ? "" : ", ").append(word);
+  return list;
+}
+
+void check(const ShownWords& words, bool is_image) {
+  const auto& known = is_image ? shown_of_images() : shown_of_meshes();
+  if (std::find(known.begin(), known.end(), words.show) == known.end())
+    throw UsageError("--show", "'" + words.show + "' of " + (is_image ? "an image" : "a mesh"),
+                     list_of(known) + " is wanted");
+  const bool converts = !is_image && words.show != "surface";
+  if (!converts && words.size > 0)
+    throw UsageError("--size", "nothing is converted to show this", "leave it out");
+  if ((!converts || words.show == "cut") && !words.parameterizer.empty())
+    throw UsageError("--parameterizer", "nothing is mapped to show this", "leave it out");
+  const bool compares = is_image && words.show == "error";
+  if (compares && words.against.empty())
+    throw UsageError("--show error", "no mesh to compare the image with",
+                     "--against MESH is wanted");
+  if (!compares && !words.against.empty())
+    throw UsageError("--against", "nothing is compared to show this",
+                     "an image and --show error are wanted");
+}
+
+int flat_side(const ViewFrom& view) { return std::min(view.width, view.height); }
+
+}  // namespace
+
+const std::vector<std::string>& shown_of_meshes() {
+  static const std::vector<std::string> words{"cut",     "map",   "stretch", "colours",
+                                              "surface", "mates", "error"};
+  return words;
+}
+
+const std::vector<std::string>& shown_of_images() {
+  static const std::vector<std::string> words{"colours", "surface", "cut",
+                                              "stretch", "mates",   "error"};
+  return words;
+}
+
+Shown::Shown(const ShownWords& asked, const Context& context) : view_(asked.view) {
+  const bool is_image = is_image_name(asked.subject);
+  ShownWords words = asked;
+  if (words.show.empty())
+    words.show = is_image ? shown_of_images().front() : shown_of_meshes().front();
+  check(words, is_image);
+  if (!is_image) {
+    show_mesh(words, context);
+  } else if (words.show == "error") {
+    show_error(read_image(words.subject), load_mesh(words.against));
+  } else {
+    show_image(words, read_image(words.subject));
+  }
+}
+
+void Shown::show(SurfaceDrawing drawing, const ViewFrom& view) {
+  drawing.mesh = &surface_.mesh;
+  painter_ = std::make_unique<SurfacePainter>(drawing, view);
+}
+
+void Shown::show_mesh(const ShownWords& words, const Context& context) {
+  TriangleMesh mesh = load_mesh(words.subject);
+  if (words.show == "cut") return show_cut(words, context, mesh);
+  if (words.show != "surface") return show_conversion(words, context, mesh);
+  surface_.mesh = std::move(mesh);
+  show({}, words.view);
+}
+
+// A mesh that cannot be opened is still drawn, without a cut.
+void Shown::show_cut(const ShownWords& words, const Context& context, const TriangleMesh& mesh) {
+  SurfaceDrawing drawing;
+  try {
+    surface_.mesh = repair_mesh(mesh, {words.subject, {}}).mesh;
+    TerminalProgress progress(context.quiet || context.json);
+    AugmentOptions options;
+    options.size = size_of(words);
+    options.progress = &progress;
+    const Cut cut = augment_cut(surface_.mesh, open_to_disk(surface_.mesh), options).cut;
+    add_cut(drawing, cut_open(surface_.mesh, cut));
+  } catch (const TopologyError& error) {
+    note(context, std::string("drawn without a cut: ") + error.what());
+    surface_.mesh = mesh;
+  }
+  drawing.show_edges = static_cast<int>(surface_.mesh.triangles.size()) <= most_edges_shown;
+  show(drawing, words.view);
+}
+
+void Shown::show_conversion(const ShownWords& words, const Context& context,
+                            const TriangleMesh& mesh) {
+  TerminalProgress progress(context.quiet || context.json);
+  ConvertOptions options;
+  options.size = size_of(words);
+  if (words.parameterizer == "floater") options.parameterizer = FloaterOptions{};
+  options.measure = false;
+  options.threads = context.threads;
+  options.progress = &progress;
+  const Conversion made = convert_mesh(mesh, words.subject, options);
+  if (words.show == "error") return show_error(made.image, made.input.mesh);
+  if (words.show == "stretch") {
+    surface_ = stretch_on_surface(made.mapped);
+    SurfaceDrawing drawing = draw_stretch(surface_);
+    add_cut(drawing, made.mapped.cut);
+    return show(drawing, words.view);
+  }
+  if (words.show != "map") return show_image(words, made.image);
+  const DiskMesh& disk = made.mapped.cut.disk;
+  MapDrawing drawing;
+  drawing.side = flat_side(words.view);
+  drawing.edges = static_cast<int>(disk.triangles.size()) <= most_edges_shown;
+  flat_ = framed_by_mates(draw_map(disk, made.mapped.map, drawing), border_bands(made.mapped),
+                          made.image.size());
+  add_legend(flat_, stretch_legend("stretch"));
+}
+
+void Shown::show_image(const ShownWords& words, const GeometryImage& image) {
+  if (words.show == "colours") {
+    flat_ = colours_of(image);
+  } else if (words.show == "mates") {
+    flat_ = framed_by_mates(colours_of(image, flat_side(words.view)), border_bands(image.mates),
+                            image.size());
+  } else {
+    SurfaceDrawing drawing;
+    if (words.show == "stretch") {
+      surface_ = stretch_on_surface(image);
+      drawing = draw_stretch(surface_);
+    } else {
+      surface_.mesh = rebuild_mesh(image).mesh;
+    }
+    if (words.show != "surface") add_cut(drawing, image);
+    show(drawing, words.view);
+  }
+}
+
+void Shown::show_error(const GeometryImage& image, const TriangleMesh& mesh) {
+  surface_ = error_on_surface(image, mesh);
+  show(draw_error(surface_), view_);
+}
+
+Picture Shown::draw(double azimuth) { return painter_ ? painter_->draw(azimuth) : flat_; }
+
+}  // namespace weft::app

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/weft/context.h"
+#include "weft/image/convert.h"
+#include "weft/view/surface_values.h"
+
+namespace weft::app {
+
+/// What to draw of a mesh or an image.
+struct ShownWords {
+  std::string subject, show, against;  ///< against: the mesh that an image's error is measured to
+  int size = 0;                        ///< of the conversion, where one is needed; 0: 257
+  std::string parameterizer;           ///< empty: stretch
+  ViewFrom view;
+};
+
+/// What can be shown of a mesh and of an image, the default first.
+const std::vector<std::string>& shown_of_meshes();
+const std::vector<std::string>& shown_of_images();
+
+/// A flat picture (colours, mates, map), or a surface seen from azimuth to azimuth.
+class Shown {
+ public:
+  /// Converts where that is needed. @throws UsageError for words that make no sense together;
+  /// whatever loading and converting throw
+  Shown(const ShownWords& words, const Context& context);
+  [[nodiscard]] bool is_flat() const { return flat_.width > 0; }
+  /// One picture. @param azimuth  of the eye [rad]; flat pictures have none
+  Picture draw(double azimuth);
+
+ private:
+  void show_mesh(const ShownWords& words, const Context& context);
+  void show_cut(const ShownWords& words, const Context& context, const TriangleMesh& mesh);
+  void show_conversion(const ShownWords& words, const Context& context, const TriangleMesh& mesh);
+  void show_image(const ShownWords& words, const GeometryImage& image);
+  void show_error(const GeometryImage& image, const TriangleMesh& mesh);
+  void show(SurfaceDrawing drawing, const ViewFrom& view);
+
+  ViewFrom view_;
+  Picture flat_;
+  SurfaceValues surface_;  // what the painter draws
+  std::unique_ptr<SurfacePainter> painter_;
+};
+
+}  // namespace weft::app

@@ -1,0 +1,148 @@
+#include "weft/view/border_pictures.h"
+
+#include <algorithm>
+#include <set>
+
+#include "weft/view/palette.h"
+
+namespace weft {
+namespace {
+
+constexpr Vec3f true_border{0.25F, 0.26F, 0.28F};
+
+/// [P] the number of each path's pair, in order of the lesser path; -1 for true borders.
+std::vector<int> pair_numbers(const CutDisk& cut) {
+  std::vector<int> numbers(cut.paths.size(), -1);
+  int count = 0;
+  for (std::size_t p = 0; p < numbers.size(); ++p) {
+    const int mate = cut.paths[p].mate;
+    if (mate >= 0 && numbers[p] < 0) numbers[p] = numbers[mate] = count++;
+  }
+  return numbers;
+}
+
+Vec3f colour_of_pair(int number) { return number < 0 ? true_border : curve_colour(number); }
+
+std::vector<int> vertices_of(const CutDisk& cut, const BorderPath& path) {
+  std::vector<int> vertices;
+  for (int i = 0; i <= path.edges; ++i)
+    vertices.push_back(cut.disk.border[(path.first + i) % cut.disk.border.size()]);
+  return vertices;
+}
+
+/// The pixel rectangle of one interval's band, outside the square.
+struct Strip {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Where the border runs in a frame `margin` wide around a square of `side` pixels.
+Strip strip_of(double from, double to, int size, int side, int margin) {
+  const int n = size - 1;
+  const int which = std::min(3, static_cast<int>(from / n));
+  const auto pixel = [&](double t) {
+    return static_cast<int>(std::clamp((t - which * n) / n, 0.0, 1.0) * side);
+  };
+  const int a = pixel(from), b = std::max(pixel(to), a + 1);
+  const int band = margin * 2 / 3, gap = margin - band;
+  switch (which) {
+    case 0:
+      return {margin + a, 0, b - a, band};
+    case 1:
+      return {margin + side + gap, margin + a, band, b - a};
+    case 2:
+      return {margin + side - b, margin + side + gap, b - a, band};
+    default:
+      return {0, margin + side - b, band, b - a};
+  }
+}
+
+void fill(Picture& picture, const Strip& strip, Vec3f colour) {
+  for (int y = strip.y; y < strip.y + strip.height; ++y)
+    for (int x = strip.x; x < strip.x + strip.width; ++x) set_pixel(picture, x, y, colour);
+}
+
+}  // namespace
+
+std::vector<BorderBand> border_bands(const BorderMates& mates) {
+  std::vector<MateInterval> pairs = mates.intervals();
+  const int around = 4 * (mates.size() - 1);
+  const auto least = [&](const MateInterval& pair) {
+    return std::min(pair.first % around, (pair.mate - pair.count + around) % around);
+  };
+  std::sort(pairs.begin(), pairs.end(),
+            [&](const MateInterval& a, const MateInterval& b) { return least(a) < least(b); });
+  std::vector<BorderBand> bands;
+  for (int i = 0; i < static_cast<int>(pairs.size()); ++i) {
+    const auto& [first, mate, count] = pairs[i];
+    bands.push_back({first % around, count, curve_colour(i)});
+    bands.push_back({(mate - count + around) % around, count, curve_colour(i)});
+  }
+  return bands;
+}
+
+std::vector<BorderBand> border_bands(const MappedDisk& mapped) {
+  const std::vector<int> numbers = pair_numbers(mapped.cut);
+  std::vector<BorderBand> bands;
+  for (std::size_t p = 0; p < numbers.size(); ++p)
+    bands.push_back(
+        {mapped.layout.first[p], mapped.layout.intervals[p], colour_of_pair(numbers[p])});
+  return bands;
+}
+
+Picture framed_by_mates(const Picture& square, const std::vector<BorderBand>& bands, int size) {
+  const int side = square.width, margin = std::max(6, side / 24);
+  Picture framed = blank_picture(side + 2 * margin, side + 2 * margin, {1, 1, 1});
+  paste(framed, square, margin, margin);
+  const int around = 4 * (size - 1);
+  for (const BorderBand& band : bands) {
+    for (int k = 0; k < band.count; ++k) {
+      const int t = (band.first + k) % around;
+      fill(framed, strip_of(t, t + 1, size, side, margin), band.colour);
+    }
+    // Where a band begins, a gap of paper parts it from the one before.
+    const double interval_pixels = static_cast<double>(side) / (size - 1);
+    const double gap = std::min(0.4 * band.count, std::max(1.0, side / 300.0) / interval_pixels);
+    fill(framed, strip_of(band.first, band.first + gap, size, side, margin), {1, 1, 1});
+  }
+  return framed;
+}
+
+void add_cut(SurfaceDrawing& drawing, const CutDisk& cut) {
+  const std::vector<int> numbers = pair_numbers(cut);
+  std::set<int> nodes;
+  for (std::size_t p = 0; p < numbers.size(); ++p) {
+    const BorderPath& path = cut.paths[p];
+    const std::vector<int> vertices = vertices_of(cut, path);
+    if (path.mate >= 0) nodes.insert(cut.disk.surface_vertex[vertices.front()]);
+    if (path.mate >= 0 && path.mate < static_cast<int>(p)) continue;
+    DrawnCurve curve{{}, colour_of_pair(numbers[p])};
+    for (const int v : vertices) curve.points.push_back(cut.disk.positions[v]);
+    drawing.curves.push_back(curve);
+  }
+  for (std::size_t v = 0; v < cut.disk.positions.size(); ++v)
+    if (nodes.erase(cut.disk.surface_vertex[v]) > 0) drawing.nodes.push_back(cut.disk.positions[v]);
+}
+
+void add_cut(SurfaceDrawing& drawing, const GeometryImage& image) {
+  const int n = image.size(), around = 4 * (n - 1);
+  std::vector<bool> mated(around, false);
+  const auto point = [&](int t) {
+    const int sample = border_sample(n, t % around);
+    return image.world_position(sample / n, sample % n);
+  };
+  const std::vector<BorderBand> bands = border_bands(image.mates);
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    const BorderBand& band = bands[i];
+    for (int k = 0; k < band.count; ++k) mated[(band.first + k) % around] = true;
+    if (i % 2 == 1) continue;  // the mate of the one before
+    DrawnCurve curve{{}, band.colour};
+    for (int k = 0; k <= band.count; ++k) curve.points.push_back(point(band.first + k));
+    drawing.nodes.push_back(curve.points.front());
+    drawing.nodes.push_back(curve.points.back());
+    drawing.curves.push_back(curve);
+  }
+  for (int t = 0; t < around; ++t)
+    if (!mated[t]) drawing.curves.push_back({{point(t), point(t + 1)}, true_border});
+}
+
+}  // namespace weft

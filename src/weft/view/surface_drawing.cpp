@@ -1,0 +1,120 @@
+#include "weft/view/surface_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weft/core/math.h"
+#include "weft/mesh/edge_uses.h"
+#include "weft/mesh/shapes/sphere.h"
+#include "weft/view/camera.h"
+#include "weft/view/palette.h"
+
+namespace weft {
+namespace {
+
+constexpr int tube_sides = 10;
+constexpr Vec3f node_colour{0.08F, 0.08F, 0.09F};
+constexpr Vec3f edge_colour{0.10F, 0.11F, 0.13F};
+/// Balls are this much wider than the tubes that they join.
+constexpr double ball_share = 2.0;
+
+/// Any unit vector across `along`.
+Vec3d across(Vec3d along) {
+  const Vec3d other = std::abs(along.y) < 0.7 * length(along) ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+  return normalized(cross(along, other));
+}
+
+void append(TriangleMesh& whole, const TriangleMesh& part) {
+  const int shift = static_cast<int>(whole.positions.size());
+  whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
+  for (const Triangle& t : part.triangles)
+    whole.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
+TriangleMesh ball(Vec3d centre, double radius) {
+  TriangleMesh mesh = icosphere(radius, 2);
+  for (Vec3d& p : mesh.positions) p += centre;
+  return mesh;
+}
+
+std::vector<std::array<int, 2>> edges_of(const TriangleMesh& mesh) {
+  std::vector<std::array<int, 2>> edges;
+  const EdgeUses uses = edge_uses(static_cast<int>(mesh.positions.size()), mesh.triangles);
+  for (int e = 0; e < uses.edge_count(); ++e) {
+    const int h = uses.of(e).front();
+    edges.push_back({mesh.triangles[h / 3][h % 3], mesh.triangles[h / 3][(h + 1) % 3]});
+  }
+  return edges;
+}
+
+}  // namespace
+
+TriangleMesh tube(std::span<const Vec3d> points, double radius) {
+  TriangleMesh mesh;
+  const int count = static_cast<int>(points.size());
+  if (count < 2) return mesh;
+  Vec3d side = across(points[1] - points[0]);
+  for (int i = 0; i < count; ++i) {
+    const Vec3d along = normalized(points[std::min(i + 1, count - 1)] - points[std::max(i - 1, 0)]);
+    // The ring turns with the curve, no more than it must.
+    const Vec3d carried = side - dot(side, along) * along;
+    side = length(carried) > 1e-9 ? normalized(carried) : across(along);
+    const Vec3d up = cross(along, side);
+    for (int k = 0; k < tube_sides; ++k) {
+      const double angle = 2 * pi * k / tube_sides;
+      mesh.positions.push_back(points[i] + (radius * cosine(angle)) * side +
+                               (radius * sine(angle)) * up);
+    }
+  }
+  for (int i = 0; i + 1 < count; ++i)
+    for (int k = 0; k < tube_sides; ++k) {
+      const int a = i * tube_sides + k, b = i * tube_sides + (k + 1) % tube_sides;
+      mesh.triangles.push_back({a, b, b + tube_sides});
+      mesh.triangles.push_back({a, b + tube_sides, a + tube_sides});
+    }
+  return mesh;
+}
+
+SurfacePainter::SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& view)
+    : drawing_(drawing),
+      view_(view),
+      renderer_(view.width, view.height - (drawing.legend ? legend_height(view.width) : 0)) {
+  DrawnMesh surface;
+  surface.mesh = drawing_.mesh;
+  for (const Vec3f colour : drawing_.colours) surface.colours.push_back(linear_light(colour));
+  if (drawing_.show_edges) surface.marked_edges = edges_of(*drawing_.mesh);
+  surface.mark_colour = linear_light(edge_colour);
+  scene_.meshes.push_back(surface);
+
+  const double radius = drawing_.curve_radius * bounds(*drawing_.mesh).diagonal();
+  DrawnMesh marks;
+  const auto add = [&](const TriangleMesh& part, Vec3f colour) {
+    append(marks_, part);
+    marks.colours.resize(marks_.positions.size(), linear_light(colour));
+  };
+  for (const DrawnCurve& curve : drawing_.curves) {
+    add(tube(curve.points, radius), curve.colour);
+    if (curve.points.empty()) continue;
+    for (const Vec3d end : {curve.points.front(), curve.points.back()})
+      add(ball(end, radius), curve.colour);
+  }
+  for (const Vec3d node : drawing_.nodes) add(ball(node, ball_share * radius), node_colour);
+  marks.mesh = &marks_;
+  if (!marks_.triangles.empty()) scene_.meshes.push_back(marks);
+  scene_.on_white = drawing_.on_white;
+}
+
+Picture SurfacePainter::draw(double azimuth) {
+  const int height = view_.height - (drawing_.legend ? legend_height(view_.width) : 0);
+  scene_.camera = frame_box(bounds(*drawing_.mesh), azimuth, view_.elevation,
+                            static_cast<double>(view_.width) / height);
+  Picture picture = renderer_.draw(scene_);
+  if (drawing_.legend) add_legend(picture, *drawing_.legend);
+  return picture;
+}
+
+Picture draw_surface(const SurfaceDrawing& drawing, const ViewFrom& view) {
+  return SurfacePainter(drawing, view).draw(view.azimuth);
+}
+
+}  // namespace weft

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string_view>
+
+#include "weft/core/vec.h"
+#include "weft/view/picture.h"
+
+namespace weft {
+
+/// The size of a line of text, in pixels: characters are 5 x 7 and stand 6 apart, times `scale`.
+int text_width(std::string_view text, int scale);
+int text_height(int scale);
+
+struct TextPlace {
+  int x = 0, y = 0;  ///< of the upper left corner [pixels]; what falls outside is left out
+  int scale = 1;
+};
+/// Writes into a picture in a small font of our own: digits, lower-case letters, the capitals of
+/// PSNR, dB and L2, and . , - + % : = / ( ). A character that it lacks leaves its room empty.
+/// @param colour  display space, in [0, 1]
+void draw_text(Picture& picture, std::string_view text, TextPlace place, Vec3f colour);
+
+}  // namespace weft

@@ -1,0 +1,71 @@
+"""The contract of render: what can be shown of meshes and images, sizes of pictures, errors."""
+import struct
+import unittest
+
+from program import ProgramTest
+
+
+class Render(ProgramTest):
+    def size_of(self, name):
+        head = (self.folder / name).read_bytes()[:24]
+        self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
+        return struct.unpack(">II", head[16:24])
+
+    def test_every_word_shows_a_mesh(self):
+        for word in ("cut", "map", "stretch", "colours", "mates", "error"):
+            self.run_weft("render", "builtin:torus", "-o", f"{word}.png", "--show", word, "--size", "33",
+                          "--width", "160", "--height", "120")
+        self.run_weft("render", "builtin:torus", "-o", "surface.png", "--show", "surface", "--width", "160",
+                      "--height", "120")
+        for word in ("cut", "stretch", "surface", "error"):
+            self.assertEqual(self.size_of(f"{word}.png"), (160, 120), word)
+        pictures = [(self.folder / f"{word}.png").read_bytes()
+                    for word in ("cut", "map", "stretch", "colours", "surface", "mates", "error")]
+        self.assertEqual(len(set(pictures)), 7)
+
+    def test_every_word_shows_an_image(self):
+        self.run_weft("convert", "builtin:torus", "-o", "t.exr", "--size", "33")
+        for word in ("surface", "cut", "stretch", "mates"):
+            self.run_weft("render", "t.exr", "-o", f"{word}.png", "--show", word, "--width", "160", "--height", "120")
+        self.run_weft("render", "t.exr", "-o", "error.png", "--show", "error", "--against", "builtin:torus",
+                      "--width", "160", "--height", "120")
+        self.run_weft("render", "t.exr", "-o", "colours.png")
+        self.assertEqual(self.size_of("colours.png"), (33 * 8, 33 * 8))
+
+    def test_the_same_words_give_the_same_bytes(self):
+        for name in ("a.png", "b.png"):
+            self.run_weft("render", "builtin:torus", "-o", name, "--width", "160", "--height", "120")
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+
+    def test_turntable_is_a_movie(self):
+        self.run_weft("render", "builtin:sphere", "-o", "t.gif", "--show", "surface", "--turntable", "--width", "64",
+                      "--height", "64")
+        self.assertEqual((self.folder / "t.gif").read_bytes()[:3], b"GIF")
+
+    def test_a_mesh_that_does_not_open_is_drawn_without_a_cut(self):
+        (self.folder / "fan.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 2 1 5\n")
+        done = self.run_weft("render", "fan.obj", "-o", "fan.png", "--width", "160", "--height", "120")
+        self.assertIn("without a cut", done.stderr)
+
+    def test_words_that_make_no_sense_together(self):
+        self.run_weft("convert", "builtin:torus", "-o", "t.exr", "--size", "17")
+        for words, fragment in (
+                (["t.exr", "-o", "p.png", "--show", "map"], "colours, surface"),
+                (["t.exr", "-o", "p.png", "--show", "error"], "--against"),
+                (["t.exr", "-o", "p.png", "--show", "surface", "--size", "33"], "--size"),
+                (["t.exr", "-o", "p.png", "--against", "builtin:torus"], "--against"),
+                (["t.exr", "-o", "p.mp4"], "--turntable"),
+                (["t.exr", "-o", "p.mp4", "--turntable"], "flat"),
+                (["t.exr", "-o", "p.png", "--turntable"], ".mp4"),
+                (["t.exr", "-o", "p.png", "--frame", "3"], "--frame"),
+                (["builtin:torus", "-o", "p.png", "--show", "surface", "--size", "33"], "--size"),
+                (["builtin:torus", "-o", "p.png", "--show", "cut", "--parameterizer", "floater"], "--parameterizer"),
+                (["builtin:torus", "-o", "p.png", "--show", "run"], "cut, map"),
+                (["builtin:torus", "-o", "p.png", "--show", "cats"], "--show")):
+            with self.subTest(words):
+                self.assertIn(fragment, self.error_of("render", *words, code=2))
+        self.assertFalse((self.folder / "p.png").exists() or (self.folder / "p.mp4").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
