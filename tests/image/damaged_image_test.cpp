@@ -131,28 +131,43 @@ TEST(DamagedImage, ExrOfTilesDepthOrPartsIsRefusedAtItsHeader) {
   }
 }
 
-/// A few kilobytes may not unpack to a hundred megabytes of text.
-TEST(DamagedImage, PngTextThatUnpacksToFarMoreIsRefused) {
-  const std::string much(100'000'000, ' ');
-  std::string packed(compressBound(much.size()), '\0');
-  uLongf size = packed.size();
-  ASSERT_EQ(compress(reinterpret_cast<Bytef*>(packed.data()), &size,
-                     reinterpret_cast<const Bytef*>(much.data()), much.size()),
-            Z_OK);
-  packed.resize(size);
+/// A geometry image as PNG, with compressed text chunks more behind its header chunk.
+std::string with_texts(const std::string& key, int count, const std::string& packed) {
   const auto number = [](std::size_t value) {
     std::string bytes;
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xffU);
     return bytes;
   };
-  for (const std::string& key : {std::string("weft"), std::string("other")}) {
-    const std::string chunk = "iTXt" + key + std::string("\0\1\0\0\0", 5) + packed;
-    const uLong sum =
-        crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size()));
-    std::string bytes = png_bytes(torus_image(7));
-    bytes.insert(33, number(chunk.size() - 4) + chunk + number(sum));  // behind the header chunk
-    EXPECT_TRUE(refusal_of_bytes(bytes).value_or("").starts_with("file: a damaged PNG file: "));
-  }
+  const std::string chunk = "iTXt" + key + std::string("\0\1\0\0\0", 5) + packed;
+  const uLong sum =
+      crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size()));
+  std::string bytes = png_bytes(torus_image(7));
+  for (int i = 0; i < count; ++i) bytes.insert(33, number(chunk.size() - 4) + chunk + number(sum));
+  return bytes;
+}
+
+std::string packed_spaces(std::size_t count) {
+  const std::string much(count, ' ');
+  std::string packed(compressBound(much.size()), '\0');
+  uLongf size = packed.size();
+  EXPECT_EQ(compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+                     reinterpret_cast<const Bytef*>(much.data()), much.size()),
+            Z_OK);
+  packed.resize(size);
+  return packed;
+}
+
+/// Some kilobytes may not unpack to a hundred megabytes of text, in one chunk or in many.
+TEST(DamagedImage, PngTextThatUnpacksToFarMoreIsRefused) {
+  const std::string much = packed_spaces(100'000'000);
+  for (const char* key : {"weft", "other"})
+    EXPECT_TRUE(refusal_of_bytes(with_texts(key, 1, much))
+                    .value_or("")
+                    .starts_with("file: a damaged PNG file: "));
+  const std::string little = packed_spaces(2000);
+  EXPECT_EQ(refusal_of_bytes(with_texts("other", 20, little)), std::nullopt);
+  EXPECT_EQ(refusal_of_bytes(with_texts("other", 40, little)),
+            "file: a damaged PNG file: iTXt: no space in chunk cache; a geometry image");
 }
 
 TEST(DamagedImage, PicturesOfAWrongShapeAreRefused) {
