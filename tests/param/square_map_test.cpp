@@ -98,7 +98,7 @@ TEST(Augment, CutClimbsASockAndLowersItsStretch) {
   EXPECT_GE(longer.rounds, 1);
   const double before = map_to_square(cut_open(mesh, cut), {.size = 65}).quality.stretch_l2;
   const double after = map_to_square(cut_open(mesh, longer.cut), {.size = 65}).quality.stretch_l2;
-  EXPECT_LT(after, 0.7 * before);
+  EXPECT_LT(after, 0.75 * before);
 }
 
 TEST(Augment, AFlatSheetStaysWhole) {
@@ -113,7 +113,7 @@ TEST(Augment, ProxyJudgesLargeMeshesAlike) {
   ASSERT_GE(longer.rounds, 1);
   const double before = map_to_square(cut_open(mesh, Cut{}), {.size = 65}).quality.stretch_l2;
   const double after = map_to_square(cut_open(mesh, longer.cut), {.size = 65}).quality.stretch_l2;
-  EXPECT_LT(after, 0.7 * before);
+  EXPECT_LT(after, 0.75 * before);
 }
 
 TEST(Proxy, KeepsTopologyAndOpensToADiskAlongItsCut) {

@@ -37,7 +37,7 @@ class CollapseHierarchy {
   /// How many collapses can be undone.
   [[nodiscard]] int depth() const { return static_cast<int>(collapsed_.size()); }
 
-  /// Visits the half-edges that leave an inner vertex, counter-clockwise.
+  /// Visits the half-edges that leave a vertex, one in each triangle, counter-clockwise.
   template <class Visit>
   void around(int vertex, const Visit& visit) const {
     const int first = outgoing_[vertex];
@@ -45,7 +45,7 @@ class CollapseHierarchy {
     do {
       visit(h);
       h = twin_[HalfEdges::previous(h)];
-    } while (h != first);
+    } while (h >= 0 && h != first);
   }
 
   /// Whether the vertex that a half-edge leaves can go onto the one it points at. @pre the first is

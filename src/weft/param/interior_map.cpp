@@ -1,5 +1,6 @@
 #include "weft/param/interior_map.h"
 
+#include "weft/param/coarse_to_fine.h"
 #include "weft/param/disk_geometry.h"
 #include "weft/param/interior_solver.h"
 #include "weft/param/progressive_embedding.h"
@@ -35,10 +36,11 @@ bool map_by_floater(const Task& task) {
   return false;
 }
 
-bool map_with_least_stretch(const Task& task, const StretchOptions& stretch) {
+/// By positive weights, reweighted; then Newton steps.
+bool map_by_weights(const Task& task, const StretchOptions& stretch) {
   const auto& [geometry, solver, uv, options] = task;
-  PartOfProgress first(options.progress, "map", 0.1, 0.4);
-  PartOfProgress second(options.progress, "map", 0.4, 1);
+  PartOfProgress first(options.progress, "map", 0, 0.3);
+  PartOfProgress second(options.progress, "map", 0.3, 1);
   std::vector<double> weights = symmetric_weights(geometry.disk, geometry.edges, geometry.sides);
   ReweightingOptions reweighting{
       .iterations = stretch.iterations, .cures = most_cures, .progress = &first};
@@ -50,12 +52,29 @@ bool map_with_least_stretch(const Task& task, const StretchOptions& stretch) {
     weights.assign(weights.size(), 1.0);
     found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
   }
-  if (!found) found = embed_progressively(geometry.disk, uv, &first);
   if (found && stretch.newton_steps > 0)
-    minimise_by_newton(
-        geometry, uv,
-        {.steps = stretch.newton_steps, .progress = &second, .slides = options.slides});
+    minimise_by_newton(geometry, uv,
+                       {.steps = stretch.newton_steps,
+                        .least_gain = 1e-4,
+                        .progress = &second,
+                        .slides = options.slides});
   return found;
+}
+
+bool map_with_least_stretch(const DiskMesh& disk, std::span<Vec2d> uv,
+                            const StretchOptions& stretch, const InteriorOptions& options) {
+  PartOfProgress first(options.progress, "map", 0.1, 0.4);
+  PartOfProgress second(options.progress, "map", 0.4, 1);
+  const MapDisk map = [&](const DiskMesh& part, std::span<Vec2d> part_uv,
+                          std::span<const BorderSlide> slides) {
+    const DiskGeometry geometry(part);
+    InteriorSolver solver(part, geometry.edges);
+    return map_by_weights({geometry, solver, part_uv, {slides, &first}}, stretch);
+  };
+  if (stretch.newton_steps == 0 && map(disk, uv, {})) return true;
+  if (map_coarse_to_fine(disk, uv, map, {.slides = options.slides, .progress = &second}))
+    return true;
+  return embed_progressively(disk, uv, &second);
 }
 
 }  // namespace
@@ -63,13 +82,13 @@ bool map_with_least_stretch(const Task& task, const StretchOptions& stretch) {
 bool map_interior(const DiskMesh& disk, std::span<Vec2d> uv, const Parameterizer& parameterizer,
                   const InteriorOptions& options) {
   update(options.progress, "map", 0.1);
+  if (const auto* stretch = std::get_if<StretchOptions>(&parameterizer))
+    return map_with_least_stretch(disk, uv, *stretch, options);
   const DiskGeometry geometry(disk);
   InteriorSolver solver(disk, geometry.edges);
-  const Task task{geometry, solver, uv, options};
-  if (const auto* stretch = std::get_if<StretchOptions>(&parameterizer))
-    return map_with_least_stretch(task, *stretch);
   // A valid map that is not Floater's is better than none.
-  return map_by_floater(task) || map_with_least_stretch(task, {.iterations = 0, .newton_steps = 0});
+  return map_by_floater({geometry, solver, uv, options}) ||
+         map_with_least_stretch(disk, uv, {}, {.progress = options.progress});
 }
 
 }  // namespace weft

@@ -1,114 +1,110 @@
 #include "weft/param/local_newton.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <vector>
 
-#include "weft/core/orientation.h"
-#include "weft/param/triangle_energy.h"
 #include "weft/param/vertex_kernel.h"
 
 namespace weft {
 namespace {
 
-double energy_at(const LocalMap& map, int vertex, Vec2d place) {
-  double sum = 0;
-  map.mesh.around(vertex, [&](int h) {
-    std::array<Vec2d, 3> p{};
-    for (int k = 0; k < 3; ++k) p[k] = map.uv[map.mesh.triangles()[h / 3][k]];
-    p[h % 3] = place;
-    const SurfaceTriangle& surface = map.surface[h / 3];
-    sum += surface.area * triangle_stretch(surface, p[0], p[1], p[2]).mean_square;
-  });
-  return sum;
-}
+/// A smaller relative gain is not worth the trials.
+constexpr double least_gain = 1e-8;
 
-bool is_valid_at(const LocalMap& map, int vertex, Vec2d place) {
-  bool valid = true;
-  map.mesh.around(vertex, [&](int h) {
-    const Vec2d a = map.uv[map.mesh.to(h)];
-    const Vec2d b = map.uv[map.mesh.from(HalfEdges::previous(h))];
-    valid = valid && orientation(place, a, b) > 0;
-  });
-  return valid;
-}
-
-/// The stretch energy of the triangles around a vertex and how it answers to moving the vertex.
-struct Star {
-  double energy = 0;
-  Vec2d gradient{};
-  double xx = 0, xy = 0, yy = 0;  ///< the positive part of the Hessian
-};
-
-Star star_at(const LocalMap& map, int vertex) {
-  Star star;
-  map.mesh.around(vertex, [&](int h) {
-    const auto& [a, b, c] = map.mesh.triangles()[h / 3];
-    const TriangleEnergy part =
-        triangle_energy(map.surface[h / 3], map.uv[a], map.uv[b], map.uv[c]);
-    const int x = 2 * (h % 3);
-    star.energy += part.value;
-    star.gradient = star.gradient + Vec2d{part.gradient[x], part.gradient[x + 1]};
-    for (const auto& square : part.squares) {
-      star.xx += square[x] * square[x];
-      star.xy += square[x] * square[x + 1];
-      star.yy += square[x + 1] * square[x + 1];
-    }
-  });
-  return star;
-}
-
-/// How far a vertex can go along a step before the first triangle around it closes.
-double free_way(const LocalMap& map, int vertex, Vec2d step) {
-  double way = std::numeric_limits<double>::infinity();
-  const Vec2d place = map.uv[vertex];
-  map.mesh.around(vertex, [&](int h) {
-    const Vec2d a = map.uv[map.mesh.to(h)];
-    const Vec2d b = map.uv[map.mesh.from(HalfEdges::previous(h))];
-    const double closing = cross(b - a, step);
-    if (closing < 0) way = std::min(way, cross(a - place, b - place) / -closing);
-  });
+/// Lengthens a whole step for as long as the energy falls by much: near a triangle that is all but
+/// closed Newton steps are short by far.
+double longer_way(const VertexStar& star, Vec2d place, Vec2d step, double most) {
+  constexpr double much = 0.7;
+  double way = 1;
+  double last = star.energy(place);
+  double reached = star.energy(place + step);
+  while (reached < much * last && way < most) {
+    const double next = std::min(2 * way, most);
+    last = reached;
+    reached = star.energy(place + next * step);
+    if (!(reached < last)) break;
+    way = next;
+  }
   return way;
 }
 
+Vec2d on_axis(int axis, double length) { return axis == 0 ? Vec2d{length, 0} : Vec2d{0, length}; }
+
 }  // namespace
 
-bool improve_vertex(const LocalMap& map, int vertex) {
-  const Star star = star_at(map, vertex);
-  const double determinant = star.xx * star.yy - star.xy * star.xy;
-  if (!std::isfinite(star.energy) || !(determinant > 0)) return false;
-  const Vec2d step = -1 / determinant *
-                     Vec2d{star.yy * star.gradient.x - star.xy * star.gradient.y,
-                           star.xx * star.gradient.y - star.xy * star.gradient.x};
-  const double slope = dot(step, star.gradient);
-  // A step that gains next to nothing costs as much as one that does.
-  constexpr double least_gain = 1e-7;
-  if (!(slope < -least_gain * star.energy)) return false;
-  double way = std::min(1.0, 0.9 * free_way(map, vertex, step));
+bool VertexMover::improve(int vertex) {
+  star_.gather(mesh_, surface_, uv_, vertex);
+  const Vec2d place = uv_[vertex];
+  const VertexStar::Model here = star_.model(place);
+  const Symmetric2& curvature = here.hessian.is_positive() ? here.hessian : here.squares;
+  const Vec2d step = curvature.solve(-1.0 * here.gradient);
+  const double slope = dot(step, here.gradient);
+  if (!std::isfinite(here.energy) || !(slope < -least_gain * here.energy)) return false;
+  const double most = 0.9 * star_.free_way(place, step);
+  double way = std::min(1.0, most);
   for (int halving = 0; halving < 8; ++halving, way *= 0.5) {
-    const Vec2d place = map.uv[vertex] + way * step;
-    if (!(energy_at(map, vertex, place) < star.energy + 1e-4 * way * slope)) continue;
-    if (!is_valid_at(map, vertex, place)) continue;
-    map.uv[vertex] = place;
+    const double reached = star_.energy(place + way * step);
+    if (!(reached < here.energy + 1e-4 * way * slope)) continue;
+    if (way == 1 && reached < 0.7 * here.energy) way = longer_way(star_, place, step, most);
+    if (!star_.is_valid(place + way * step)) continue;
+    uv_[vertex] = place + way * step;
     return true;
   }
   return false;
 }
 
-bool centre_vertex(const LocalMap& map, int vertex) {
-  std::vector<Vec2d> ring;
-  map.mesh.around(vertex, [&](int h) { ring.push_back(map.uv[map.mesh.to(h)]); });
-  const std::optional<Vec2d> place = kernel_point(ring);
-  if (!place || !(energy_at(map, vertex, *place) < energy_at(map, vertex, map.uv[vertex])))
-    return false;
-  map.uv[vertex] = *place;
+bool VertexMover::centre(int vertex) {
+  star_.gather(mesh_, surface_, uv_, vertex);
+  const std::optional<Vec2d> place = kernel_point(star_.ring());
+  if (!place || !(star_.energy(*place) < star_.energy(uv_[vertex]))) return false;
+  uv_[vertex] = *place;
   return true;
 }
 
-void sweep(const LocalMap& map) {
-  for (int v = 0; v < map.mesh.vertex_count(); ++v)
-    if (map.mesh.is_inner(v)) improve_vertex(map, v);
+bool VertexMover::improve(const BorderSlide& slide) {
+  const std::array<int, 2> vertex = {slide.vertex, slide.mate};
+  const std::array<VertexStar*, 2> star = {&star_, &mate_star_};
+  const std::array<Vec2d, 2> direction = {on_axis(slide.axis, 1),
+                                          on_axis(slide.mate_axis, slide.sign)};
+  const int ends = slide.mate >= 0 ? 2 : 1;
+  std::array<Vec2d, 2> before{};
+  double energy = 0, slope = 0, hessian = 0, squares = 0;
+  for (int k = 0; k < ends; ++k) {
+    before[k] = uv_[vertex[k]];
+    star[k]->gather(mesh_, surface_, uv_, vertex[k]);
+    const VertexStar::Model here = star[k]->model(before[k]);
+    energy += here.energy;
+    slope += dot(here.gradient, direction[k]);
+    hessian += here.hessian.along(direction[k]);
+    squares += here.squares.along(direction[k]);
+  }
+  double step = -slope / (hessian > 0 ? hessian : squares);
+  if (!std::isfinite(energy) || !(slope * step < -least_gain * energy)) return false;
+  for (int k = 0; k < ends; ++k) {
+    const double sign = step > 0 ? 1 : -1;
+    const double most = 0.9 * star[k]->free_way(before[k], sign * direction[k]);
+    step = std::clamp(step, -most, most);
+  }
+  for (int halving = 0; halving < 8; ++halving, step *= 0.5) {
+    uv_[slide.vertex] = before[0] + step * direction[0];
+    settle(std::span(&slide, 1), uv_);
+    double reached = 0;
+    bool valid = true;
+    for (int k = 0; k < ends; ++k) {
+      reached += star[k]->energy(uv_[vertex[k]]);
+      valid = valid && star[k]->is_valid(uv_[vertex[k]]);
+    }
+    if (valid && reached < energy) return true;
+  }
+  for (int k = 0; k < ends; ++k) uv_[vertex[k]] = before[k];
+  return false;
+}
+
+void VertexMover::sweep(std::span<const BorderSlide> slides) {
+  for (int v = 0; v < mesh_.vertex_count(); ++v)
+    if (mesh_.is_inner(v)) improve(v);
+  for (const BorderSlide& slide : slides) improve(slide);
 }
 
 }  // namespace weft

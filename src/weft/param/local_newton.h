@@ -1,31 +1,41 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
-#include "weft/param/collapse_hierarchy.h"
-#include "weft/param/stretch.h"
+#include "weft/param/border_slides.h"
+#include "weft/param/vertex_star.h"
 
 namespace weft {
 
-/// A valid map of what is left of a disk, whose vertices move one at a time.
-struct LocalMap {
-  const CollapseHierarchy& mesh;
-  std::span<const SurfaceTriangle> surface;  ///< [F] of the triangles as they are now
-  std::span<Vec2d> uv;                       ///< [D]
+/// Moves single vertices of what is left of a disk to lower L2 stretch of the triangles around
+/// them, by Newton steps in their own one or two coordinates with the true Hessian where that is
+/// positive. A step ends before the first triangle closes and every one is checked by exact
+/// arithmetic, so a valid map stays valid.
+class VertexMover {
+ public:
+  /// Keeps references to all of them.
+  /// @param surface  [F] of the triangles as they are now
+  /// @param uv       [D] a valid map
+  VertexMover(const CollapseHierarchy& mesh, std::span<const SurfaceTriangle> surface,
+              std::span<Vec2d> uv)
+      : mesh_(mesh), surface_(surface), uv_(uv) {}
+
+  /// Moves an inner vertex. @return whether it moved
+  bool improve(int vertex);
+  /// Moves an inner vertex into the midst of the kernel of its neighbours where that lowers the
+  /// stretch: out of a crevice at once, from which Newton steps would take long to climb.
+  bool centre(int vertex);
+  /// Moves a border vertex along its side, and its mate with it.
+  bool improve(const BorderSlide& slide);
+  /// Moves all inner vertices and all slides once, in order.
+  void sweep(std::span<const BorderSlide> slides = {});
+
+ private:
+  const CollapseHierarchy& mesh_;
+  std::span<const SurfaceTriangle> surface_;
+  std::span<Vec2d> uv_;
+  VertexStar star_, mate_star_;
 };
-
-/// Moves one inner vertex to lower stretch of the triangles around it, by a projected Newton step
-/// in its two coordinates. The move ends before the first of them closes, and every one is checked
-/// by exact arithmetic, so a valid map stays valid.
-/// @return whether the vertex moved
-bool improve_vertex(const LocalMap& map, int vertex);
-
-/// Moves one inner vertex into the midst of the kernel of its neighbours where that lowers the
-/// stretch: a vertex in a crevice, from which Newton steps would take long to climb, gets out at
-/// once.
-bool centre_vertex(const LocalMap& map, int vertex);
-
-/// improve_vertex for all inner vertices once, in order.
-void sweep(const LocalMap& map);
 
 }  // namespace weft

@@ -15,7 +15,6 @@ class Reinsertion {
   bool run();
 
  private:
-  [[nodiscard]] LocalMap map() const { return {mesh_, surface_, uv_}; }
   void renew_surface_around(int vertex);
   bool bring_one_back();
   bool place(int vertex);
@@ -26,12 +25,17 @@ class Reinsertion {
   std::span<Vec2d> uv_;
   const ReinsertionOptions& options_;
   std::vector<SurfaceTriangle> surface_;
+  VertexMover mover_;
   std::vector<Vec2d> ring_;
 };
 
 Reinsertion::Reinsertion(CollapseHierarchy& mesh, std::span<Vec2d> uv,
                          const ReinsertionOptions& options)
-    : mesh_(mesh), uv_(uv), options_(options), surface_(mesh.triangles().size()) {
+    : mesh_(mesh),
+      uv_(uv),
+      options_(options),
+      surface_(mesh.triangles().size()),
+      mover_(mesh, surface_, uv) {
   for (std::size_t t = 0; t < surface_.size(); ++t)
     if (mesh_.has_triangle(static_cast<int>(t)))
       surface_[t] = options_.surface(mesh.triangles()[t]);
@@ -79,7 +83,7 @@ void Reinsertion::make_room(int half_edge, int circles) {
   std::for_each(near.begin(), near.end(), renew);
   for (int round = 0; round < rounds; ++round)
     for (const int v : near)
-      if (!centre_vertex(map(), v)) improve_vertex(map(), v);
+      if (!mover_.centre(v)) mover_.improve(v);
   mesh_.undo();
   renew_surface_around(mesh_.from(half_edge));
 }
@@ -96,20 +100,20 @@ bool Reinsertion::bring_one_back() {
     }
     make_room(half_edge, circles);
   }
-  improve_vertex(map(), vertex);
+  mover_.improve(vertex);
   return true;
 }
 
 bool Reinsertion::run() {
   const int whole = static_cast<int>(surface_.size());
-  while (mesh_.depth() > 0) {
-    update(options_.progress, "map", static_cast<double>(mesh_.triangle_count()) / whole);
-    const double wanted =
-        std::max(mesh_.triangle_count() * options_.growth, mesh_.triangle_count() + 8.0);
+  do {
+    const int count = mesh_.triangle_count();
+    update(options_.progress, "map", static_cast<double>(count) / whole);
+    const double wanted = std::max(count * options_.growth, count + 8.0);
     while (mesh_.depth() > 0 && mesh_.triangle_count() < wanted)
       if (!bring_one_back()) return false;
-    for (int k = 0; k < options_.sweeps; ++k) sweep(map());
-  }
+    for (int k = 0; k < options_.sweeps; ++k) mover_.sweep(options_.slides);
+  } while (mesh_.depth() > 0);
   return true;
 }
 

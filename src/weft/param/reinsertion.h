@@ -4,6 +4,7 @@
 #include <span>
 
 #include "weft/core/progress.h"
+#include "weft/param/border_slides.h"
 #include "weft/param/collapse_hierarchy.h"
 #include "weft/param/stretch.h"
 
@@ -14,6 +15,7 @@ struct ReinsertionOptions {
   std::function<SurfaceTriangle(const Triangle&)> surface;
   double growth = 1.3;  ///< of the count of triangles from one round of sweeps to the next
   int sweeps = 2;       ///< in a round
+  std::span<const BorderSlide> slides = {};  ///< border vertices that move too
   Progress* progress = nullptr;
 };
 
@@ -21,7 +23,7 @@ struct ReinsertionOptions {
 /// [shen19], where there always is room in real numbers; where doubles see none, the neighbourhood
 /// is first relaxed without the vertex, in ever wider circles. Between rounds all vertices are
 /// relaxed, so that room never runs out.
-/// @param uv  [D] a valid map of what is left; the border stays
+/// @param uv  [D] a valid map of what is left
 /// @return whether all vertices are back; if not, the map of what is left is valid
 bool bring_back(CollapseHierarchy& mesh, std::span<Vec2d> uv, const ReinsertionOptions& options);
 

@@ -29,11 +29,12 @@ MapQuality measure_map(const DiskMesh& disk, const SquareMap& map);
 
 /// Floater's shape-preserving weights [floater97], nothing more.
 struct FloaterOptions {};
-/// A map by symmetric positive weights, reweighted by stretch [yoshizawa04], then Newton steps on
-/// the stretch itself.
+/// A map of a coarse version of the disk by symmetric positive weights, reweighted by stretch
+/// [yoshizawa04], then Newton steps on the stretch itself; refined to the whole disk.
 struct StretchOptions {
   int iterations = 10;    ///< of reweighting, at most; the best iterate is kept
-  int newton_steps = 24;  ///< at most; they end when they gain little
+  int newton_steps = 60;  ///< at most; they end when they gain little. 0: reweighting of the whole
+                          ///< disk, nothing more
 };
 using Parameterizer = std::variant<StretchOptions, FloaterOptions>;
 

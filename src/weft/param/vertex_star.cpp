@@ -1,0 +1,97 @@
+#include "weft/param/vertex_star.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "weft/core/orientation.h"
+
+namespace weft {
+
+Vec2d Symmetric2::solve(Vec2d right) const {
+  return 1 / determinant() * Vec2d{yy * right.x - xy * right.y, xx * right.y - xy * right.x};
+}
+
+void Symmetric2::add(double scale, Vec2d a, Vec2d b) {
+  xx += scale * a.x * b.x;
+  xy += 0.5 * scale * (a.x * b.y + a.y * b.x);
+  yy += scale * a.y * b.y;
+}
+
+void VertexStar::gather(const CollapseHierarchy& mesh, std::span<const SurfaceTriangle> surface,
+                        std::span<const Vec2d> uv, int vertex) {
+  corners_.clear();
+  mesh.around(vertex, [&](int h) {
+    const SurfaceTriangle& s = surface[h / 3];
+    const Vec2d a = uv[mesh.to(h)];
+    const Vec2d b = uv[mesh.from(HalfEdges::previous(h))];
+    // The surface's metric is that on the edges from corner 0.
+    const double third_side = s.g11 - 2 * s.g12 + s.g22;
+    if (h % 3 == 0) {
+      corners_.push_back({a, b, s.g11, s.g12, s.g22, s.area});
+    } else if (h % 3 == 1) {
+      corners_.push_back({a, b, third_side, s.g11 - s.g12, s.g11, s.area});
+    } else {
+      corners_.push_back({a, b, s.g22, s.g22 - s.g12, third_side, s.area});
+    }
+  });
+}
+
+double VertexStar::energy(Vec2d place) const {
+  double sum = 0;
+  for (const Corner& c : corners_) {
+    const Vec2d p = c.a - place;
+    const Vec2d q = c.b - place;
+    const double d = cross(p, q);
+    if (!(d > 0)) return std::numeric_limits<double>::infinity();
+    const double n = c.g11 * dot(q, q) - 2 * c.g12 * dot(p, q) + c.g22 * dot(p, p);
+    sum += 0.5 * c.area * n / (d * d);
+  }
+  return sum;
+}
+
+bool VertexStar::is_valid(Vec2d place) const {
+  return std::all_of(corners_.begin(), corners_.end(),
+                     [&](const Corner& c) { return orientation(place, c.a, c.b) > 0; });
+}
+
+double VertexStar::free_way(Vec2d place, Vec2d step) const {
+  double way = std::numeric_limits<double>::infinity();
+  for (const Corner& c : corners_) {
+    const double closing = cross(c.b - c.a, step);
+    if (closing < 0) way = std::min(way, cross(c.a - place, c.b - place) / -closing);
+  }
+  return way;
+}
+
+VertexStar::Model VertexStar::model(Vec2d place) const {
+  Model model;
+  for (const Corner& c : corners_) {
+    const Vec2d p = c.a - place;
+    const Vec2d q = c.b - place;
+    const double inverse = 1 / cross(p, q);
+    const double weight = 0.5 * c.area * inverse * inverse;
+    const double n = c.g11 * dot(q, q) - 2 * c.g12 * dot(p, q) + c.g22 * dot(p, p);
+    const Vec2d n1 = -2.0 * ((c.g11 - c.g12) * q + (c.g22 - c.g12) * p);
+    const Vec2d d1 = inverse * Vec2d{c.a.y - c.b.y, c.b.x - c.a.x};
+    model.energy += weight * n;
+    model.gradient = model.gradient + weight * (n1 - 2 * n * d1);
+    const double n2 = 2 * (c.g11 - 2 * c.g12 + c.g22) * weight;
+    for (Symmetric2* sum : {&model.hessian, &model.squares}) {
+      sum->xx += n2;
+      sum->yy += n2;
+    }
+    model.hessian.add(-4 * weight, n1, d1);
+    model.hessian.add(6 * weight * n, d1, d1);
+    model.squares.add(-2 * weight, n1, d1);
+    model.squares.add(2 * weight * n, d1, d1);
+  }
+  return model;
+}
+
+std::vector<Vec2d> VertexStar::ring() const {
+  std::vector<Vec2d> ring;
+  for (const Corner& c : corners_) ring.push_back(c.a);
+  return ring;
+}
+
+}  // namespace weft

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "weft/param/collapse_hierarchy.h"
+#include "weft/param/stretch.h"
+
+namespace weft {
+
+/// A symmetric 2 x 2 matrix.
+struct Symmetric2 {
+  double xx = 0, xy = 0, yy = 0;
+
+  [[nodiscard]] double determinant() const { return xx * yy - xy * xy; }
+  [[nodiscard]] bool is_positive() const { return xx > 0 && determinant() > 0; }
+  /// @pre not singular
+  [[nodiscard]] Vec2d solve(Vec2d right) const;
+  [[nodiscard]] double along(Vec2d d) const {
+    return xx * d.x * d.x + 2 * xy * d.x * d.y + yy * d.y * d.y;
+  }
+  /// Adds scale / 2 * (a b^T + b a^T).
+  void add(double scale, Vec2d a, Vec2d b);
+};
+
+/// The triangles around one vertex, and the L2 stretch energy (area * (largest^2 + smallest^2) / 2)
+/// that they have together wherever the vertex is put.
+///
+/// In the triangle of the vertex x and its neighbours a, b, with p = a - x and q = b - x, the
+/// energy is area / 2 * n / d^2 with n = g11 |q|^2 - 2 g12 p.q + g22 |p|^2, quadratic in x, and d =
+/// cross(p, q), linear in x. The gradients n' and d' give
+///   gradient  n' / d^2 - 2 n d' / d^3,
+///   Hessian   n'' / d^2 - 2 (n' d'^T + d' n'^T) / d^3 + 6 n d' d'^T / d^4;
+/// with half the second term and a third of the last it is that of a sum of squares.
+class VertexStar {
+ public:
+  /// @param surface  [F] of the triangles as they are now
+  /// @param uv       [D]
+  void gather(const CollapseHierarchy& mesh, std::span<const SurfaceTriangle> surface,
+              std::span<const Vec2d> uv, int vertex);
+
+  /// Infinite where a triangle does not turn left.
+  [[nodiscard]] double energy(Vec2d place) const;
+  /// Whether all triangles turn left, by exact arithmetic.
+  [[nodiscard]] bool is_valid(Vec2d place) const;
+  /// How far along a step the first triangle closes, in steps.
+  [[nodiscard]] double free_way(Vec2d place, Vec2d step) const;
+
+  struct Model {
+    double energy = 0;
+    Vec2d gradient{};
+    Symmetric2 hessian;  ///< the true one
+    Symmetric2 squares;  ///< positive semidefinite, for where the true one is not positive
+  };
+  [[nodiscard]] Model model(Vec2d place) const;
+  /// The neighbours, counter-clockwise. @pre inner vertex
+  [[nodiscard]] std::vector<Vec2d> ring() const;
+
+ private:
+  /// A triangle, its metric on the edges to a and to b.
+  struct Corner {
+    Vec2d a, b;
+    double g11, g12, g22, area;
+  };
+  std::vector<Corner> corners_;
+};
+
+}  // namespace weft

@@ -1,0 +1,84 @@
+#include "weft/param/vertex_star.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/param/disks.h"
+
+namespace weft {
+namespace {
+
+/// An inner vertex of a hilly sheet, mapped with some noise.
+struct Case {
+  DiskMesh disk = test::sheet(4, [](double x, double y) { return x * y + 0.3 * x * x; });
+  CollapseHierarchy mesh{disk};
+  std::vector<SurfaceTriangle> surface = surface_triangles(disk.positions, disk.triangles);
+  std::vector<Vec2d> uv;
+  VertexStar star;
+
+  explicit Case(int vertex) {
+    Random random(5);
+    for (const Vec3d& p : disk.positions)
+      uv.push_back({p.x + random.uniform(-0.05, 0.05), p.y + random.uniform(-0.05, 0.05)});
+    star.gather(mesh, surface, uv, vertex);
+  }
+};
+
+constexpr int inner = 12;
+constexpr int on_border = 2;
+
+TEST(VertexStar, EnergyIsThatOfTheTrianglesAroundTheVertex) {
+  for (const int vertex : {inner, on_border}) {
+    const Case c(vertex);
+    double expected = 0;
+    for (std::size_t t = 0; t < c.surface.size(); ++t) {
+      const auto& [a, b, d] = c.disk.triangles[t];
+      if (a != vertex && b != vertex && d != vertex) continue;
+      expected +=
+          c.surface[t].area * triangle_stretch(c.surface[t], c.uv[a], c.uv[b], c.uv[d]).mean_square;
+    }
+    EXPECT_NEAR(c.star.energy(c.uv[vertex]), expected, 1e-12 * expected);
+    EXPECT_NEAR(c.star.model(c.uv[vertex]).energy, expected, 1e-12 * expected);
+  }
+}
+
+TEST(VertexStar, DerivativesAreThoseOfTheEnergy) {
+  const Case c(inner);
+  const Vec2d place = c.uv[inner];
+  const VertexStar::Model model = c.star.model(place);
+  constexpr double h = 1e-5;
+  for (const Vec2d direction : {Vec2d{1, 0}, Vec2d{0, 1}, Vec2d{0.6, 0.8}}) {
+    const double after = c.star.energy(place + h * direction);
+    const double before = c.star.energy(place + -h * direction);
+    const double here = c.star.energy(place);
+    EXPECT_NEAR(dot(model.gradient, direction), (after - before) / (2 * h), 1e-6 * here);
+    EXPECT_NEAR(model.hessian.along(direction), (after - 2 * here + before) / (h * h), 1e-2 * here);
+  }
+}
+
+TEST(VertexStar, SquaresAreNeverNegative) {
+  const Case c(inner);
+  Random random(2);
+  for (int k = 0; k < 200; ++k) {
+    const Vec2d place =
+        c.uv[inner] + Vec2d{random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15)};
+    if (!c.star.is_valid(place)) continue;
+    const Symmetric2 squares = c.star.model(place).squares;
+    EXPECT_GT(squares.xx, 0);
+    EXPECT_GE(squares.determinant(), -1e-9 * squares.xx * squares.yy);
+  }
+}
+
+TEST(VertexStar, WayEndsWhereTheFirstTriangleCloses) {
+  const Case c(inner);
+  for (const Vec2d step : {Vec2d{1, 0}, Vec2d{-0.3, 0.2}, Vec2d{0, -2}}) {
+    const double way = c.star.free_way(c.uv[inner], step);
+    ASSERT_TRUE(std::isfinite(way));
+    EXPECT_TRUE(c.star.is_valid(c.uv[inner] + 0.999 * way * step));
+    EXPECT_FALSE(c.star.is_valid(c.uv[inner] + 1.001 * way * step));
+  }
+}
+
+}  // namespace
+}  // namespace weft
