@@ -45,7 +45,7 @@ TEST(Text, OutsideThePictureIsLeftOut) {
 
 TEST(Text, EveryLetterOfTheLegendsIsThere) {
   for (const char letter : std::string("0123456789.,-+%:=/()abcdefghijklmnopqrstuvwxyzBLNPRS")) {
-    Picture picture = blank_picture(5, 7, {1, 1, 1});
+    Picture picture = blank_picture(5, 9, {1, 1, 1});
     draw_text(picture, std::string(1, letter), {0, 0, 1}, {0, 0, 0});
     EXPECT_GT(dark_pixels(picture), 2) << letter;
   }
@@ -58,7 +58,7 @@ TEST(Legend, BarRunsFromOneEndOfTheScaleToTheOther) {
   add_legend(picture, plain);
   ASSERT_EQ(picture.height, 100 + legend_height(400));
   EXPECT_EQ(pixel(picture, 200, 50), (Pixel{0, 255, 0})) << "the picture stays above";
-  const int middle = 100 + 18;
+  const int middle = 100 + 19;
   EXPECT_EQ(pixel(picture, 25, middle), pixel_of(stretch_colour(0.25)));
   EXPECT_EQ(pixel(picture, 200, middle), pixel_of(stretch_colour(1)));
   EXPECT_EQ(pixel(picture, 375, middle), pixel_of(stretch_colour(4)));

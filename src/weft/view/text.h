@@ -7,7 +7,8 @@
 
 namespace weft {
 
-/// The size of a line of text, in pixels: characters are 5 x 7 and stand 6 apart, times `scale`.
+/// The size of a line of text, in pixels: characters are 5 x 9 (two rows for
+/// what reaches below the line) and stand 6 apart, times `scale`.
 int text_width(std::string_view text, int scale);
 int text_height(int scale);
 

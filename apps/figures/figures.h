@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+
+namespace weft::figures {
+
+// The pictures of docs/theory.md, a file a picture, each by a function of its name's group. All are
+// made from built-in shapes; the same machine makes the same bits.
+
+/// repair.png, cube.png
+void draw_input(const std::filesystem::path& folder);
+/// distance.png, straighten.png, augment.png
+void draw_cuts(const std::filesystem::path& folder);
+/// border.png, chords.png, maps.png
+void draw_maps(const std::filesystem::path& folder);
+/// samples.png, pyramid.png, rebuilt.png, mannequin-colours.png, mannequin-map.png
+void draw_images(const std::filesystem::path& folder);
+
+}  // namespace weft::figures
