@@ -79,6 +79,7 @@ Json facts_json(const MeshFacts& facts) {
           {"unreferenced_vertices", facts.unreferenced_vertices},
           {"coincident_vertices", facts.coincident_vertices},
           {"not_finite_vertices", facts.not_finite_vertices},
+          {"texture_coordinates", facts.texture_coordinates},
           {"self_intersections", facts.self_intersections},
           {"intersecting_triangles", facts.intersecting_triangles},
           {"self_intersection_list", facts.self_intersection_list}};
@@ -137,11 +138,13 @@ void say_facts(const Context& context, const MeshFacts& facts) {
                   "a repeated vertex, {} duplicates",
                   facts.slivers, facts.least_quality, facts.zero_area_triangles,
                   facts.repeated_vertex_triangles, facts.duplicate_triangles));
-  say(context, fmt::format("vertices      {} unreferenced, {} at the place of another{}",
-                           facts.unreferenced_vertices, facts.coincident_vertices,
-                           facts.not_finite_vertices > 0
-                               ? fmt::format(", {} not finite", facts.not_finite_vertices)
-                               : ""));
+  say(context,
+      fmt::format(
+          "vertices      {} unreferenced, {} at the place of another{}; {} texture coordinates",
+          facts.unreferenced_vertices, facts.coincident_vertices,
+          facts.not_finite_vertices > 0 ? fmt::format(", {} not finite", facts.not_finite_vertices)
+                                        : "",
+          facts.texture_coordinates ? "with" : "no"));
   say(context, fmt::format("crossings     {} pairs of triangles, {} triangles in all",
                            facts.self_intersections, facts.intersecting_triangles));
 }

@@ -63,6 +63,13 @@ class Inspect(ProgramTest):
         self.assertIsNone(found["volume"])
         self.assertIs(found["closed"], False)
 
+    def test_texture_coordinates_are_seen(self):
+        plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+        textured = self.write("uv.obj", plain + "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+        self.assertIs(self.run_json("inspect", textured)["texture_coordinates"], True)
+        bare = self.write("bare.obj", plain + "f 1 2 3\n")
+        self.assertIs(self.run_json("inspect", bare)["texture_coordinates"], False)
+
     def test_verdict_tells_repairs_and_the_least_size_works(self):
         mesh = self.write("turned.obj", cube(0, 0).replace("f 1 3 4", "f 1 4 3"))
         found = self.run_json("inspect", mesh)

@@ -93,6 +93,7 @@ MeshFacts examine_mesh(const TriangleMesh& mesh) {
   MeshFacts facts;
   facts.vertices = static_cast<int>(mesh.positions.size());
   facts.triangles = static_cast<int>(mesh.triangles.size());
+  facts.texture_coordinates = !mesh.corner_uv.empty();
   examine_vertices(mesh, facts);
   const SoundPart sound = sound_part(mesh);
   facts.repeated_vertex_triangles = facts.triangles - static_cast<int>(sound.source.size());

@@ -40,12 +40,13 @@ struct BorderLoopFacts {
 struct MeshFacts {
   int vertices = 0, triangles = 0;
 
-  int unreferenced_vertices = 0;  ///< in no triangle
-  int coincident_vertices = 0;    ///< at the place of an earlier one: seams that are not joined
-  int not_finite_vertices = 0;    ///< taken for the origin in all that follows
-  Box3d box;                      ///< of the finite vertices
-  double area = 0;                ///< [m^2]
-  std::optional<double> volume;   ///< where closed and consistently oriented; < 0: inside out [m^3]
+  int unreferenced_vertices = 0;     ///< in no triangle
+  int coincident_vertices = 0;       ///< at the place of an earlier one: seams that are not joined
+  int not_finite_vertices = 0;       ///< taken for the origin in all that follows
+  bool texture_coordinates = false;  ///< every corner of every triangle has them
+  Box3d box;                         ///< of the finite vertices
+  double area = 0;                   ///< [m^2]
+  std::optional<double> volume;  ///< where closed and consistently oriented; < 0: inside out [m^3]
 
   int repeated_vertex_triangles = 0;
   int duplicate_triangles = 0;  ///< with the vertices of an earlier one
