@@ -54,9 +54,10 @@ TEST(CollapseHierarchy, StaysADiskWithItsBorderDownToAWheel) {
        {hilly_sheet(), test::long_neck(5, 40, 0.1), test::sliver_fan(60, 10)}) {
     CollapseHierarchy mesh(disk);
     const PassOptions down{.triangles = mesh.triangle_count() / 3, .first_cost = 6, .growth = 1.25};
-    collapse_in_passes(mesh, valence_cost(), down);
+    collapse_in_passes(mesh, least_valence_first(), down);
     expect_disk(mesh, disk);
-    collapse_in_passes(mesh, valence_cost(), {.triangles = 0, .first_cost = 6, .growth = 1.25});
+    collapse_in_passes(mesh, least_valence_first(),
+                       {.triangles = 0, .first_cost = 6, .growth = 1.25});
     expect_disk(mesh, disk);
     EXPECT_EQ(inner_vertices(mesh), 1);
     EXPECT_EQ(mesh.triangle_count(), static_cast<int>(disk.border.size()));
@@ -66,10 +67,12 @@ TEST(CollapseHierarchy, StaysADiskWithItsBorderDownToAWheel) {
 TEST(CollapseHierarchy, ComesBackTriangleForTriangle) {
   const DiskMesh disk = hilly_sheet();
   CollapseHierarchy mesh(disk);
-  collapse_in_passes(mesh, valence_cost(), {.triangles = 300, .first_cost = 6, .growth = 1.25});
+  collapse_in_passes(mesh, least_valence_first(),
+                     {.triangles = 300, .first_cost = 6, .growth = 1.25});
   const CoarseDisk half_way = coarse_disk(mesh, disk);
   const int depth = mesh.depth();
-  collapse_in_passes(mesh, valence_cost(), {.triangles = 0, .first_cost = 6, .growth = 1.25});
+  collapse_in_passes(mesh, least_valence_first(),
+                     {.triangles = 0, .first_cost = 6, .growth = 1.25});
   while (mesh.depth() > depth) mesh.undo();
   EXPECT_EQ(coarse_disk(mesh, disk).disk.triangles, half_way.disk.triangles);
   EXPECT_EQ(coarse_disk(mesh, disk).vertex, half_way.vertex);
@@ -110,7 +113,8 @@ TEST(CollapsePasses, ByLengthThinOutTheDenseParts) {
   for (Vec3d& p : disk.positions) p.x = p.x < 0.5 ? 0.2 * p.x : 0.1 + 1.8 * (p.x - 0.5);
   split_chords(disk);
   CollapseHierarchy mesh(disk);
-  collapse_in_passes(mesh, length_cost(disk), {.triangles = 1200, .first_cost = 1e-5, .growth = 2});
+  collapse_in_passes(mesh, shortest_first(disk),
+                     {.triangles = 1200, .first_cost = 1e-5, .growth = 2});
   EXPECT_LE(mesh.triangle_count(), 1200);
   int dense = 0;
   int sparse = 0;

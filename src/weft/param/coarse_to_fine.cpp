@@ -17,13 +17,13 @@ double mean_area(const DiskMesh& disk) {
 
 /// The triangle's own metric and a little of one with equal sides: one without area would else be
 /// no barrier to its neighbours.
-SurfaceTriangle metric(const DiskMesh& disk, const Triangle& t, double mean) {
+StarTriangle metric(const DiskMesh& disk, const Triangle& t, double mean) {
   constexpr double share = 1e-8;
   const Vec3d p = disk.positions[t[1]] - disk.positions[t[0]];
   const Vec3d q = disk.positions[t[2]] - disk.positions[t[0]];
   const double least = share * mean;
-  return {dot(p, p) + least, dot(p, q) + 0.5 * least, dot(q, q) + least,
-          0.5 * length(cross(p, q)) + least};
+  return {{dot(p, p) + least, dot(p, q) + 0.5 * least, dot(q, q) + least,
+           0.5 * length(cross(p, q)) + least}};
 }
 
 std::vector<BorderSlide> renumbered(std::span<const BorderSlide> slides, const CoarseDisk& coarse,
@@ -55,17 +55,17 @@ bool map_coarse_to_fine(const DiskMesh& disk, std::span<Vec2d> uv, const MapDisk
                         const CoarseToFineOptions& options) {
   constexpr int triangles_per_border_edge = 8;
   const double mean = mean_area(disk);
-  const CollapseCost cost = length_cost(disk);
+  const CollapseOrder order = shortest_first(disk);
   CollapseHierarchy mesh(disk);
   int wanted =
       std::max(options.triangles, triangles_per_border_edge * static_cast<int>(disk.border.size()));
   for (int left = -1;; wanted = left / 4) {
-    collapse_in_passes(mesh, cost, {.triangles = wanted, .first_cost = mean, .growth = 1.5});
+    collapse_in_passes(mesh, order, {.triangles = wanted, .first_cost = mean, .growth = 1.5});
     if (mesh.triangle_count() == left) return false;
     left = mesh.triangle_count();
     if (map_what_is_left(mesh, disk, uv, map, options.slides)) break;
   }
-  ReinsertionOptions back{.surface = [&](const Triangle& t) { return metric(disk, t, mean); },
+  ReinsertionOptions back{.triangle = [&](const Triangle& t) { return metric(disk, t, mean); },
                           .growth = options.growth,
                           .sweeps = options.sweeps,
                           .slides = options.slides,

@@ -44,8 +44,8 @@ struct Candidate {
 
 class Passes {
  public:
-  Passes(CollapseHierarchy& mesh, const CollapseCost& cost, int triangles)
-      : mesh_(mesh), cost_(cost), triangles_(triangles), resting_(mesh.vertex_count(), -1) {}
+  Passes(CollapseHierarchy& mesh, const CollapseOrder& order, int triangles)
+      : mesh_(mesh), order_(order), triangles_(triangles), resting_(mesh.vertex_count(), -1) {}
 
   /// @return how many vertices went
   int run(double most);
@@ -56,7 +56,7 @@ class Passes {
   bool take_away(int vertex, double most);
 
   CollapseHierarchy& mesh_;
-  const CollapseCost& cost_;
+  const CollapseOrder& order_;
   int triangles_;
   std::vector<int> resting_;  ///< [V] the pass in which a vertex rests
   std::vector<Candidate> candidates_;
@@ -76,7 +76,7 @@ int Passes::run(double most) {
 bool Passes::take_away(int vertex, double most) {
   candidates_.clear();
   mesh_.around(vertex, [&](int h) {
-    const double cost = cost_(mesh_, h);
+    const double cost = order_.cost(mesh_, h);
     if (cost <= most)
       candidates_.push_back({cost, h});
     else
@@ -84,7 +84,7 @@ bool Passes::take_away(int vertex, double most) {
   });
   std::sort(candidates_.begin(), candidates_.end());
   for (const auto& [cost, h] : candidates_) {
-    if (!mesh_.can_collapse(h)) continue;
+    if (!mesh_.can_collapse(h) || !order_.allows(mesh_, h)) continue;
     mesh_.around(vertex, [&](int side) { resting_[mesh_.to(side)] = pass_; });
     mesh_.collapse(h);
     return true;
@@ -94,26 +94,33 @@ bool Passes::take_away(int vertex, double most) {
 
 }  // namespace
 
-CollapseCost length_cost(const DiskMesh& disk) {
+CollapseOrder shortest_first(const DiskMesh& disk) {
   constexpr int most_edges = 10;
-  return [&disk](const CollapseHierarchy& mesh, int h) {
+  CollapseOrder order;
+  order.cost = [&disk](const CollapseHierarchy& mesh, int h) {
+    return squared_length(disk.positions[mesh.from(h)] - disk.positions[mesh.to(h)]);
+  };
+  order.allows = [&disk](const CollapseHierarchy& mesh, int h) {
     const int v = mesh.from(h);
     const int u = mesh.to(h);
-    if (mesh.is_inner(u) && mesh.valence(v) + mesh.valence(u) - 4 > most_edges) return infinity;
-    if (spoils_shape(disk, mesh, h)) return infinity;
-    return squared_length(disk.positions[v] - disk.positions[u]);
+    const bool too_many = mesh.is_inner(u) && mesh.valence(v) + mesh.valence(u) - 4 > most_edges;
+    return !too_many && !spoils_shape(disk, mesh, h);
   };
+  return order;
 }
 
-CollapseCost valence_cost() {
-  return [](const CollapseHierarchy& mesh, int h) {
+CollapseOrder least_valence_first() {
+  CollapseOrder order;
+  order.cost = [](const CollapseHierarchy& mesh, int h) {
     return static_cast<double>(mesh.valence(mesh.from(h)) + mesh.valence(mesh.to(h)) - 4);
   };
+  order.allows = [](const CollapseHierarchy&, int) { return true; };
+  return order;
 }
 
-void collapse_in_passes(CollapseHierarchy& mesh, const CollapseCost& cost,
+void collapse_in_passes(CollapseHierarchy& mesh, const CollapseOrder& order,
                         const PassOptions& options) {
-  Passes passes(mesh, cost, options.triangles);
+  Passes passes(mesh, order, options.triangles);
   double most = options.first_cost;
   while (!passes.is_done()) {
     const int before = mesh.triangle_count();

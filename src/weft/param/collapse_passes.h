@@ -6,16 +6,22 @@
 
 namespace weft {
 
-/// What it costs to take away the vertex that a half-edge leaves by collapsing it; infinity: never.
-using CollapseCost = std::function<double(const CollapseHierarchy&, int half_edge)>;
+/// Which vertices go first, each by collapsing a half-edge that leaves it.
+struct CollapseOrder {
+  /// The less, the sooner.
+  std::function<double(const CollapseHierarchy&, int half_edge)> cost;
+  /// Asked last, and only where the topology allows it.
+  std::function<bool(const CollapseHierarchy&, int half_edge)> allows;
+};
 
-/// Squared length of the edge; only where the triangles that move keep about their direction and
-/// shape and no vertex gets too many neighbours: the coarse surface is one on which a map compares
-/// with that of the fine one.
-CollapseCost length_cost(const DiskMesh& disk);
-/// How many edges the vertex that stays gets: whatever the surface looks like, all vertices keep
-/// about equally many neighbours.
-CollapseCost valence_cost();
+/// Shortest edges first; only where the triangles that move keep about their direction and shape
+/// and no vertex gets too many neighbours: the coarse surface is one on which a map compares with
+/// that of the fine one.
+/// @param disk  must outlive the order
+CollapseOrder shortest_first(const DiskMesh& disk);
+/// By how many edges the vertex that stays gets, always allowed: whatever the surface looks like,
+/// all vertices keep about equally many neighbours.
+CollapseOrder least_valence_first();
 
 struct PassOptions {
   int triangles = 0;      ///< it ends when no more are left
@@ -24,8 +30,8 @@ struct PassOptions {
 };
 /// Takes vertices away in passes, each the cheapest way it can go. Vertices around a collapse stay
 /// until the next pass, so that a pass thins the mesh evenly. Ends when nothing can be collapsed at
-/// any finite cost.
-void collapse_in_passes(CollapseHierarchy& mesh, const CollapseCost& cost,
+/// any cost.
+void collapse_in_passes(CollapseHierarchy& mesh, const CollapseOrder& order,
                         const PassOptions& options);
 
 }  // namespace weft

@@ -34,7 +34,7 @@ Vec2d on_axis(int axis, double length) { return axis == 0 ? Vec2d{length, 0} : V
 }  // namespace
 
 bool VertexMover::improve(int vertex) {
-  star_.gather(mesh_, surface_, uv_, vertex);
+  star_.gather(mesh_, triangles_, uv_, vertex);
   const Vec2d place = uv_[vertex];
   const VertexStar::Model here = star_.model(place);
   const Symmetric2& curvature = here.hessian.is_positive() ? here.hessian : here.squares;
@@ -55,7 +55,7 @@ bool VertexMover::improve(int vertex) {
 }
 
 bool VertexMover::centre(int vertex) {
-  star_.gather(mesh_, surface_, uv_, vertex);
+  star_.gather(mesh_, triangles_, uv_, vertex);
   const std::optional<Vec2d> place = kernel_point(star_.ring());
   if (!place || !(star_.energy(*place) < star_.energy(uv_[vertex]))) return false;
   uv_[vertex] = *place;
@@ -72,7 +72,7 @@ bool VertexMover::improve(const BorderSlide& slide) {
   double energy = 0, slope = 0, hessian = 0, squares = 0;
   for (int k = 0; k < ends; ++k) {
     before[k] = uv_[vertex[k]];
-    star[k]->gather(mesh_, surface_, uv_, vertex[k]);
+    star[k]->gather(mesh_, triangles_, uv_, vertex[k]);
     const VertexStar::Model here = star[k]->model(before[k]);
     energy += here.energy;
     slope += dot(here.gradient, direction[k]);

@@ -15,16 +15,16 @@ namespace weft {
 class VertexMover {
  public:
   /// Keeps references to all of them.
-  /// @param surface  [F] of the triangles as they are now
-  /// @param uv       [D] a valid map
-  VertexMover(const CollapseHierarchy& mesh, std::span<const SurfaceTriangle> surface,
+  /// @param triangles  [F] as they are now
+  /// @param uv         [D] a valid map
+  VertexMover(const CollapseHierarchy& mesh, std::span<const StarTriangle> triangles,
               std::span<Vec2d> uv)
-      : mesh_(mesh), surface_(surface), uv_(uv) {}
+      : mesh_(mesh), triangles_(triangles), uv_(uv) {}
 
   /// Moves an inner vertex. @return whether it moved
   bool improve(int vertex);
   /// Moves an inner vertex into the midst of the kernel of its neighbours where that lowers the
-  /// stretch: out of a crevice at once, from which Newton steps would take long to climb.
+  /// energy: out of a crevice at once, from which Newton steps would take long to climb.
   bool centre(int vertex);
   /// Moves a border vertex along its side, and its mate with it.
   bool improve(const BorderSlide& slide);
@@ -33,7 +33,7 @@ class VertexMover {
 
  private:
   const CollapseHierarchy& mesh_;
-  std::span<const SurfaceTriangle> surface_;
+  std::span<const StarTriangle> triangles_;
   std::span<Vec2d> uv_;
   VertexStar star_, mate_star_;
 };

@@ -15,7 +15,7 @@ class Reinsertion {
   bool run();
 
  private:
-  void renew_surface_around(int vertex);
+  void renew_around(int vertex);
   bool bring_one_back();
   bool place(int vertex);
   void make_room(int half_edge, int circles);
@@ -24,7 +24,7 @@ class Reinsertion {
   CollapseHierarchy& mesh_;
   std::span<Vec2d> uv_;
   const ReinsertionOptions& options_;
-  std::vector<SurfaceTriangle> surface_;
+  std::vector<StarTriangle> triangles_;
   VertexMover mover_;
   std::vector<Vec2d> ring_;
 };
@@ -34,16 +34,16 @@ Reinsertion::Reinsertion(CollapseHierarchy& mesh, std::span<Vec2d> uv,
     : mesh_(mesh),
       uv_(uv),
       options_(options),
-      surface_(mesh.triangles().size()),
-      mover_(mesh, surface_, uv) {
-  for (std::size_t t = 0; t < surface_.size(); ++t)
+      triangles_(mesh.triangles().size()),
+      mover_(mesh, triangles_, uv) {
+  for (std::size_t t = 0; t < triangles_.size(); ++t)
     if (mesh_.has_triangle(static_cast<int>(t)))
-      surface_[t] = options_.surface(mesh.triangles()[t]);
+      triangles_[t] = options_.triangle(mesh.triangles()[t]);
 }
 
-void Reinsertion::renew_surface_around(int vertex) {
+void Reinsertion::renew_around(int vertex) {
   mesh_.around(vertex,
-               [&](int h) { surface_[h / 3] = options_.surface(mesh_.triangles()[h / 3]); });
+               [&](int h) { triangles_[h / 3] = options_.triangle(mesh_.triangles()[h / 3]); });
 }
 
 bool Reinsertion::place(int vertex) {
@@ -79,20 +79,20 @@ void Reinsertion::make_room(int half_edge, int circles) {
   constexpr int rounds = 8;
   const std::vector<int> near = neighbourhood(half_edge, circles);
   mesh_.collapse(half_edge);
-  const auto renew = [&](int v) { renew_surface_around(v); };
+  const auto renew = [&](int v) { renew_around(v); };
   std::for_each(near.begin(), near.end(), renew);
   for (int round = 0; round < rounds; ++round)
     for (const int v : near)
       if (!mover_.centre(v)) mover_.improve(v);
   mesh_.undo();
-  renew_surface_around(mesh_.from(half_edge));
+  renew_around(mesh_.from(half_edge));
 }
 
 bool Reinsertion::bring_one_back() {
   constexpr int most_circles = 12;
   const int half_edge = mesh_.undo();
   const int vertex = mesh_.from(half_edge);
-  renew_surface_around(vertex);
+  renew_around(vertex);
   for (int circles = 0; !place(vertex); ++circles) {
     if (circles == most_circles) {
       mesh_.collapse(half_edge);
@@ -105,7 +105,7 @@ bool Reinsertion::bring_one_back() {
 }
 
 bool Reinsertion::run() {
-  const int whole = static_cast<int>(surface_.size());
+  const int whole = static_cast<int>(triangles_.size());
   do {
     const int count = mesh_.triangle_count();
     update(options_.progress, "map", static_cast<double>(count) / whole);

@@ -6,13 +6,13 @@
 #include "weft/core/progress.h"
 #include "weft/param/border_slides.h"
 #include "weft/param/collapse_hierarchy.h"
-#include "weft/param/stretch.h"
+#include "weft/param/vertex_star.h"
 
 namespace weft {
 
 struct ReinsertionOptions {
-  /// The surface of a triangle given by its vertices; its energy is what makes room.
-  std::function<SurfaceTriangle(const Triangle&)> surface;
+  /// A triangle given by its vertices; its energy is what makes room.
+  std::function<StarTriangle(const Triangle&)> triangle;
   double growth = 1.3;  ///< of the count of triangles from one round of sweeps to the next
   int sweeps = 2;       ///< in a round
   std::span<const BorderSlide> slides = {};  ///< border vertices that move too

@@ -17,21 +17,21 @@ void Symmetric2::add(double scale, Vec2d a, Vec2d b) {
   yy += scale * a.y * b.y;
 }
 
-void VertexStar::gather(const CollapseHierarchy& mesh, std::span<const SurfaceTriangle> surface,
+void VertexStar::gather(const CollapseHierarchy& mesh, std::span<const StarTriangle> triangles,
                         std::span<const Vec2d> uv, int vertex) {
   corners_.clear();
   mesh.around(vertex, [&](int h) {
-    const SurfaceTriangle& s = surface[h / 3];
+    const auto& [s, quartic] = triangles[h / 3];
     const Vec2d a = uv[mesh.to(h)];
     const Vec2d b = uv[mesh.from(HalfEdges::previous(h))];
     // The surface's metric is that on the edges from corner 0.
     const double third_side = s.g11 - 2 * s.g12 + s.g22;
     if (h % 3 == 0) {
-      corners_.push_back({a, b, s.g11, s.g12, s.g22, s.area});
+      corners_.push_back({a, b, s.g11, s.g12, s.g22, s.area, quartic});
     } else if (h % 3 == 1) {
-      corners_.push_back({a, b, third_side, s.g11 - s.g12, s.g11, s.area});
+      corners_.push_back({a, b, third_side, s.g11 - s.g12, s.g11, s.area, quartic});
     } else {
-      corners_.push_back({a, b, s.g22, s.g22 - s.g12, third_side, s.area});
+      corners_.push_back({a, b, s.g22, s.g22 - s.g12, third_side, s.area, quartic});
     }
   });
 }
@@ -44,7 +44,8 @@ double VertexStar::energy(Vec2d place) const {
     const double d = cross(p, q);
     if (!(d > 0)) return std::numeric_limits<double>::infinity();
     const double n = c.g11 * dot(q, q) - 2 * c.g12 * dot(p, q) + c.g22 * dot(p, p);
-    sum += 0.5 * c.area * n / (d * d);
+    const double m = 0.5 * n / (d * d);
+    sum += c.area * m * (1 + 0.5 * c.quartic * m);
   }
   return sum;
 }
@@ -69,16 +70,21 @@ VertexStar::Model VertexStar::model(Vec2d place) const {
     const Vec2d p = c.a - place;
     const Vec2d q = c.b - place;
     const double inverse = 1 / cross(p, q);
-    const double weight = 0.5 * c.area * inverse * inverse;
+    const double half = 0.5 * inverse * inverse;
     const double n = c.g11 * dot(q, q) - 2 * c.g12 * dot(p, q) + c.g22 * dot(p, p);
     const Vec2d n1 = -2.0 * ((c.g11 - c.g12) * q + (c.g22 - c.g12) * p);
     const Vec2d d1 = inverse * Vec2d{c.a.y - c.b.y, c.b.x - c.a.x};
-    model.energy += weight * n;
-    model.gradient = model.gradient + weight * (n1 - 2 * n * d1);
+    const double m = half * n;
+    const Vec2d m1 = half * (n1 - 2 * n * d1);
+    const double factor = c.area * (1 + c.quartic * m);
+    const double weight = factor * half;
+    model.energy += c.area * m * (1 + 0.5 * c.quartic * m);
+    model.gradient = model.gradient + factor * m1;
     const double n2 = 2 * (c.g11 - 2 * c.g12 + c.g22) * weight;
     for (Symmetric2* sum : {&model.hessian, &model.squares}) {
       sum->xx += n2;
       sum->yy += n2;
+      sum->add(c.area * c.quartic, m1, m1);
     }
     model.hessian.add(-4 * weight, n1, d1);
     model.hessian.add(6 * weight * n, d1, d1);

@@ -23,20 +23,28 @@ struct Symmetric2 {
   void add(double scale, Vec2d a, Vec2d b);
 };
 
-/// The triangles around one vertex, and the L2 stretch energy (area * (largest^2 + smallest^2) / 2)
-/// that they have together wherever the vertex is put.
+/// A triangle as the local minimisation sees it: of mean square stretch m (half the sum of the
+/// squared singular values) its energy is area * (m + quartic / 2 * m^2).
+struct StarTriangle {
+  SurfaceTriangle surface;
+  double quartic = 0;  ///< >= 0; the larger, the more it counts how much the triangle is stretched
+};
+
+/// The triangles around one vertex, and the energy that they have together wherever the vertex is
+/// put.
 ///
-/// In the triangle of the vertex x and its neighbours a, b, with p = a - x and q = b - x, the
-/// energy is area / 2 * n / d^2 with n = g11 |q|^2 - 2 g12 p.q + g22 |p|^2, quadratic in x, and d =
-/// cross(p, q), linear in x. The gradients n' and d' give
-///   gradient  n' / d^2 - 2 n d' / d^3,
-///   Hessian   n'' / d^2 - 2 (n' d'^T + d' n'^T) / d^3 + 6 n d' d'^T / d^4;
-/// with half the second term and a third of the last it is that of a sum of squares.
+/// In the triangle of the vertex x and its neighbours a, b, with p = a - x and q = b - x, the mean
+/// square stretch is m = n / (2 d^2) with n = g11 |q|^2 - 2 g12 p.q + g22 |p|^2, quadratic in x,
+/// and d = cross(p, q), linear in x. The gradients n' and d' give, up to the half,
+///   gradient m'  n' / d^2 - 2 n d' / d^3,
+///   Hessian m''  n'' / d^2 - 2 (n' d'^T + d' n'^T) / d^3 + 6 n d' d'^T / d^4;
+/// with half the second term and a third of the last it is that of a sum of squares. The energy's
+/// are area * (1 + quartic m) m' and area * ((1 + quartic m) m'' + quartic m' m'^T).
 class VertexStar {
  public:
-  /// @param surface  [F] of the triangles as they are now
-  /// @param uv       [D]
-  void gather(const CollapseHierarchy& mesh, std::span<const SurfaceTriangle> surface,
+  /// @param triangles  [F] as they are now
+  /// @param uv         [D]
+  void gather(const CollapseHierarchy& mesh, std::span<const StarTriangle> triangles,
               std::span<const Vec2d> uv, int vertex);
 
   /// Infinite where a triangle does not turn left.
@@ -60,7 +68,7 @@ class VertexStar {
   /// A triangle, its metric on the edges to a and to b.
   struct Corner {
     Vec2d a, b;
-    double g11, g12, g22, area;
+    double g11, g12, g22, area, quartic;
   };
   std::vector<Corner> corners_;
 };
