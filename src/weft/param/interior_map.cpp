@@ -36,6 +36,12 @@ bool map_by_floater(const Task& task) {
   return false;
 }
 
+NewtonOptions newton(const StretchOptions& stretch, std::span<const BorderSlide> slides,
+                     Progress* progress) {
+  return {
+      .steps = stretch.newton_steps, .least_gain = 1e-4, .progress = progress, .slides = slides};
+}
+
 /// By positive weights, reweighted; then Newton steps.
 bool map_by_weights(const Task& task, const StretchOptions& stretch) {
   const auto& [geometry, solver, uv, options] = task;
@@ -53,11 +59,7 @@ bool map_by_weights(const Task& task, const StretchOptions& stretch) {
     found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
   }
   if (found && stretch.newton_steps > 0)
-    minimise_by_newton(geometry, uv,
-                       {.steps = stretch.newton_steps,
-                        .least_gain = 1e-4,
-                        .progress = &second,
-                        .slides = options.slides});
+    minimise_by_newton(geometry, uv, newton(stretch, options.slides, &second));
   return found;
 }
 
@@ -65,16 +67,23 @@ bool map_with_least_stretch(const DiskMesh& disk, std::span<Vec2d> uv,
                             const StretchOptions& stretch, const InteriorOptions& options) {
   PartOfProgress first(options.progress, "map", 0.1, 0.4);
   PartOfProgress second(options.progress, "map", 0.4, 1);
-  const MapDisk map = [&](const DiskMesh& part, std::span<Vec2d> part_uv,
-                          std::span<const BorderSlide> slides) {
+  const MapDisk by_weights = [&](const DiskMesh& part, std::span<Vec2d> part_uv,
+                                 std::span<const BorderSlide> slides) {
     const DiskGeometry geometry(part);
     InteriorSolver solver(part, geometry.edges);
     return map_by_weights({geometry, solver, part_uv, {slides, &first}}, stretch);
   };
-  if (stretch.newton_steps == 0 && map(disk, uv, {})) return true;
-  if (map_coarse_to_fine(disk, uv, map, {.slides = options.slides, .progress = &second}))
+  const MapDisk by_embedding = [&](const DiskMesh& part, std::span<Vec2d> part_uv,
+                                   std::span<const BorderSlide> slides) {
+    if (!embed_progressively(part, part_uv, &first)) return false;
+    minimise_by_newton(DiskGeometry(part), part_uv, newton(stretch, slides, &first));
     return true;
-  return embed_progressively(disk, uv, &second);
+  };
+  if (stretch.newton_steps == 0 && by_weights(disk, uv, {})) return true;
+  const CoarseToFineOptions refinement{.slides = options.slides, .progress = &second};
+  return map_coarse_to_fine(disk, uv, by_weights, refinement) ||
+         map_coarse_to_fine(disk, uv, by_embedding, refinement) ||
+         embed_progressively(disk, uv, &second);
 }
 
 }  // namespace
