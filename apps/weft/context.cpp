@@ -28,6 +28,10 @@ void note(const Context& context, const std::string& line) {
   if (!context.quiet) fmt::print(stderr, "weft: note: {}\n", line);
 }
 
+void warn(const Context& context, const std::string& line) {
+  if (!context.quiet) fmt::print(stderr, "weft: warning: {}\n", line);
+}
+
 std::string text_of(const nlohmann::ordered_json& report) {
   // A path may hold any bytes, JSON only UTF-8.
   return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);

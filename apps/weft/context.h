@@ -21,6 +21,9 @@ void say(const Context& context, const std::string& line);
 /// A remark that is worth reading even with --json: on stderr; nothing with --quiet.
 void note(const Context& context, const std::string& line);
 
+/// The same for what may not be as the user thinks.
+void warn(const Context& context, const std::string& line);
+
 /// JSON as text; bytes of paths that are not UTF-8 become U+FFFD.
 std::string text_of(const nlohmann::ordered_json& report);
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/mesh_words.h"
 #include "apps/weft/peak_memory.h"
 #include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
@@ -20,9 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ConvertWords {
-  std::string mesh, output, parameterizer = "stretch", component;
-  int size = 257, normal_map = 0, seed_triangle = -1;
+  std::string mesh, output, parameterizer = "stretch", component, size = "257";
+  MeshWords frame;
+  int normal_map = 0, seed_triangle = -1;
   bool keep_uv = false;
+  std::string seam;
 };
 
 ComponentChoice component_of(const std::string& word) {
@@ -35,13 +38,25 @@ ComponentChoice component_of(const std::string& word) {
   return {ComponentChoice::Kind::index, index};
 }
 
+int size_of(const std::string& word) {
+  if (word == "auto") return automatic_size;
+  int size = 0;
+  if (!CLI::detail::lexical_cast(word, size) || size < least_image_size ||
+      size > largest_image_size)
+    throw UsageError("--size", fmt::format("'{}'", word),
+                     fmt::format("a number from {} to {}, or auto, is wanted", least_image_size,
+                                 largest_image_size));
+  return size;
+}
+
 ConvertOptions options_of(const ConvertWords& words, const Context& context, Progress& progress) {
   ConvertOptions options;
-  options.size = words.size;
+  options.size = size_of(words.size);
   if (words.parameterizer == "floater") options.parameterizer = FloaterOptions{};
   options.seed_triangle = words.seed_triangle;
   options.normal_map_size = words.normal_map;
   options.keep_uv = words.keep_uv;
+  if (!words.seam.empty()) options.seam = read_seam(words.seam);
   options.threads = context.threads;
   options.seed = context.seed;
   options.progress = &progress;
@@ -70,11 +85,11 @@ void print_summary(const Context& context, const Conversion& c) {
     say(context, fmt::format("memory  {:.0f} MB at most", *memory));
 }
 
-Json convert_one(const ConvertWords& words, const Context& context, const TriangleMesh& mesh,
+Json convert_one(const ConvertWords& words, const Context& context, const NamedMesh& named,
                  const ConvertOptions& options, const fs::path& output) {
-  const Conversion conversion = [&] {
-    const PromptStop stop;  // nothing is written yet
-    return convert_mesh(mesh, words.mesh, options);
+  Conversion conversion = [&] {
+    const PromptStop stop;  // nothing of it is written yet
+    return convert_mesh(named.mesh, words.mesh, options);
   }();
   std::vector<fs::path> outputs{output};
   write_image(output, conversion.image);
@@ -86,42 +101,79 @@ Json convert_one(const ConvertWords& words, const Context& context, const Triang
     outputs.push_back(beside(output, "-uv").replace_extension(".exr"));
     write_texture(outputs.back(), *conversion.texture);
   }
+  for (const std::string& warning : conversion.warnings) warn(context, warning);
+  conversion.warnings.insert(conversion.warnings.begin(), named.warnings.begin(),
+                             named.warnings.end());
   print_summary(context, conversion);
   for (const fs::path& path : outputs) say(context, "wrote   " + path.string());
   return conversion_json(words.mesh, conversion, outputs);
 }
 
-// One image a component, the largest first, numbered from 0; ends at the first number that is too
-// large.
-Json convert_all(const ConvertWords& words, const Context& context, const TriangleMesh& mesh,
+// One image a component, numbered from 0, the largest first. One that does not convert keeps none
+// of the others from being written.
+Json convert_all(const ConvertWords& words, const Context& context, const NamedMesh& named,
                  ConvertOptions options) {
-  Json conversions = Json::array();
-  const int count =
-      repair_mesh(mesh, {words.mesh, {ComponentChoice::Kind::largest, 0}}).components_found;
+  Json conversions = Json::array(), failed = Json::array();
+  const int count = count_components(named.mesh, words.mesh);
   for (int k = 0; k < count; ++k) {
     options.component = {ComponentChoice::Kind::index, k};
     const fs::path output = beside(words.output, fmt::format("-{}", k));
-    conversions.push_back(convert_one(words, context, mesh, options, output));
+    try {
+      conversions.push_back(convert_one(words, context, named, options, output));
+    } catch (const InputError& error) {
+      failed.push_back({{"component", k}, {"error", error.what()}});
+    } catch (const TopologyError& error) {
+      failed.push_back({{"component", k}, {"error", error.what()}});
+    }
   }
-  return {{"conversions", conversions}};
+  return {{"conversions", conversions}, {"failed", failed}};
+}
+
+// After the report, which tells what was written.
+void require_all(const ConvertWords& words, const Context& context, const Json& report) {
+  if (report["failed"].empty()) return;
+  std::string numbers;
+  for (const Json& failure : report["failed"]) {
+    warn(context, fmt::format("component {}: {}", failure["component"].get<int>(),
+                              failure["error"].get<std::string>()));
+    numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", failure["component"].get<int>());
+  }
+  const std::size_t written = report["conversions"].size();
+  throw TopologyError(
+      words.mesh,
+      fmt::format("{} of {} components did not convert: {}", report["failed"].size(),
+                  report["failed"].size() + written, numbers),
+      written > 0 ? "the others were written" : "none was written");
+}
+
+void check_words(const ConvertWords& words) {
+  check_output(words.output, {".exr", ".png"});
+  if (words.component != "all") return;
+  for (const auto& [option, given] :
+       {std::pair{"--cut", !words.seam.empty()}, {"--seed-triangle", words.seed_triangle >= 0}})
+    if (given)
+      throw UsageError(option, "together with --component all",
+                       "the component that it lies on is wanted");
 }
 
 void convert(const ConvertWords& words, const Context& context) {
-  check_output(words.output, {".exr", ".png"});
+  check_words(words);
   TerminalProgress progress(context.quiet || context.json);
   ConvertOptions options = options_of(words, context, progress);
   const auto start = std::chrono::steady_clock::now();
-  const TriangleMesh mesh = [&] {
+  const NamedMesh named = [&] {
     const PromptStop stop;
-    return load_mesh(words.mesh);
+    return load_named_mesh(words.mesh, words.frame);
   }();
   const std::chrono::duration<double> load = std::chrono::steady_clock::now() - start;
+  for (const std::string& warning : named.warnings) warn(context, warning);
   if (words.component == "all") {
-    print_report(context, convert_all(words, context, mesh, options));
-    return;
+    const Json report = convert_all(words, context, named, options);
+    print_report(context, report);
+    return require_all(words, context, report);
   }
   options.component = component_of(words.component);
-  Json report = convert_one(words, context, mesh, options, words.output);
+  Json report = convert_one(words, context, named, options, words.output);
   report["seconds"]["load"] = report["seconds"]["load"].get<double>() + load.count();
   report["seconds"]["total"] = report["seconds"]["total"].get<double>() + load.count();
   print_report(context, report);
@@ -138,9 +190,11 @@ void add_convert(CLI::App& program, const Context& context) {
       ->add_option("-o,--output", words->output,
                    "IMAGE.exr (float32, exact) or IMAGE.png (16 bits)")
       ->required();
-  command->add_option("--size", words->size, "Samples a side; 2^k + 1 suits the solvers")
-      ->check(CLI::Range(least_image_size, largest_image_size))
+  command
+      ->add_option("--size", words->size,
+                   "Samples a side, 2^k + 1 suits the solvers; auto: by the mesh")
       ->capture_default_str();
+  add_mesh_options(*command, words->frame);
   command->add_option("--parameterizer", words->parameterizer, "How the inside is mapped")
       ->check(CLI::IsMember({"floater", "stretch"}))
       ->capture_default_str();
@@ -148,6 +202,8 @@ void add_convert(CLI::App& program, const Context& context) {
       ->add_option("--normal-map", words->normal_map,
                    "Write a normal map of this size beside the image")
       ->check(CLI::Range(least_image_size, largest_image_size));
+  command->add_option("--cut", words->seam,
+                      "Cut along the vertex paths in this text file, one a line, counted from 0");
   command->add_flag("--keep-uv", words->keep_uv,
                     "Write the mesh's texture coordinates beside the image, as NAME-uv.exr");
   command->add_option("--component", words->component,

@@ -27,6 +27,7 @@ void add_inspect(CLI::App& program, const Context& context) {
   command->add_option("MESH|IMAGE", words->subject, "Mesh, builtin:NAME, or geometry image")
       ->required();
   command->add_option("--against", words->against, "Mesh to measure the image's distance to");
+  add_mesh_options(*command, words->frame);
   command->footer("Example: weft inspect bunny.exr --against bunny.obj");
   command->callback([words, &context] { inspect(*words, context); });
 }

@@ -3,10 +3,12 @@
 #include <string>
 
 #include "apps/weft/context.h"
+#include "apps/weft/mesh_words.h"
 
 namespace weft::app {
 
 struct InspectWords {
+  MeshWords frame;
   std::string subject, against;
 };
 

@@ -20,7 +20,8 @@ void add_distances(const InspectWords& words, const Context& context, const Geom
                    Json& found) {
   TerminalProgress progress(context.quiet || context.json);
   const ImageQuality quality =
-      measure_image(image, load_mesh(words.against), {context.threads, context.seed, &progress});
+      measure_image(image, load_named_mesh(words.against, words.frame).mesh,
+                    {context.threads, context.seed, &progress});
   found["psnr_db"] = quality.psnr_db;
   found["hausdorff_percent"] = quality.hausdorff_percent;
   found["from_mesh"] = one_sided_json(quality.from_mesh);

@@ -182,7 +182,8 @@ Fate fate_of(const std::string& name, const TriangleMesh& mesh, const MeshFacts&
 }  // namespace
 
 void inspect_mesh(const InspectWords& words, const Context& context) {
-  const TriangleMesh mesh = load_mesh(words.subject);
+  const auto [mesh, warnings] = load_named_mesh(words.subject, words.frame);
+  for (const std::string& warning : warnings) warn(context, warning);
   const MeshFacts facts = examine_mesh(mesh);
   say_facts(context, facts);
   const Fate fate = fate_of(words.subject, mesh, facts);
@@ -190,6 +191,7 @@ void inspect_mesh(const InspectWords& words, const Context& context) {
   report.update(facts_json(facts));
   report["least_size"] = fate.least_size;
   say(context, fate.verdict);
+  report["warnings"] = warnings;
   print_report(context, report);
 }
 

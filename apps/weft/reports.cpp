@@ -75,6 +75,7 @@ Json conversion_json(const std::string& path, const Conversion& conversion,
             {"hausdorff_percent", q.hausdorff_percent}}},
           {"seconds", seconds_json(conversion.seconds)},
           {"peak_memory_mb", memory ? Json(*memory) : Json()},
+          {"warnings", conversion.warnings},
           {"outputs", paths_json(outputs)}};
 }
 

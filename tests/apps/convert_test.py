@@ -23,9 +23,6 @@ TOP_FIELDS = {
 }
 
 
-SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
-
-
 class Convert(ProgramTest):
     def check_promises(self, report):
         for group, fields in TOP_FIELDS.items():
@@ -65,16 +62,6 @@ class Convert(ProgramTest):
         self.assertEqual(report["outputs"], ["s.png", "s-normals.png"])
         for name in report["outputs"]:
             self.assertEqual((self.folder / name).read_bytes()[:4], b"\x89PNG")
-
-    def test_texture_coordinates_are_written_beside(self):
-        (self.folder / "square.obj").write_text(SQUARE + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
-        report = self.run_json("convert", "square.obj", "-o", "s.png", "--size", "9", "--keep-uv")
-        self.assertEqual(report["outputs"], ["s.png", "s-uv.exr"])
-        self.assertEqual((self.folder / "s-uv.exr").read_bytes()[:4], b"\x76\x2f\x31\x01")
-        (self.folder / "bare.obj").write_text(SQUARE + "f 1 2 3 4\n")
-        line = self.error_of("convert", "bare.obj", "-o", "b.exr", "--size", "9", "--keep-uv", code=3)
-        self.assertIn("bare.obj", line)
-        self.assertFalse((self.folder / "b.exr").exists())
 
     def test_shared_meshes_keep_topology(self):
         for name in ("gpt_mannequin.off", "opt_cube.obj", "cgal_eight.off", "opt_torus_with_holes.obj"):
@@ -228,8 +215,6 @@ class BadInput(ProgramTest):
         self.assertLess(len(line), 120)
 
     def test_options_of_later_versions_are_usage_errors(self):
-        for words in (["--cut", "a"], ["--unit", "m"], ["--up", "y"], ["--size", "auto"]):
-            self.error_of("convert", "builtin:sphere", "-o", "m.exr", *words, code=2)
         self.error_of("table5", code=2)
         self.assert_nothing_left()
 

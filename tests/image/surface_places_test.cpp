@@ -1,11 +1,13 @@
 #include "weft/image/surface_places.h"
 
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
+#include "weft/core/math.h"
 #include "weft/image/convert.h"
 #include "weft/mesh/shapes.h"
 
@@ -81,6 +83,40 @@ TEST_P(Places, TextureThatIsAffineInSpaceStaysSo) {
 INSTANTIATE_TEST_SUITE_P(Meshes, Places,
                          testing::Values("tetrahedron", "coarse_torus", "genus20", "skirt"),
                          [](const auto& instance) { return instance.param; });
+
+TEST(Texture, MatesAreApartWhereASeamOfTheTextureRunsAlongTheCut) {
+  // A tube around which u runs from 0 to 1: the seam is the line of vertices 0, 7, 14 ...
+  const int around = 7, rows = 6;
+  TriangleMesh mesh;
+  for (int row = 0; row < rows; ++row)
+    for (int k = 0; k < around; ++k)
+      mesh.positions.push_back(
+          {0.2 * cosine(2 * pi * k / around), 0.2 * row, -0.2 * sine(2 * pi * k / around)});
+  for (int row = 0; row + 1 < rows; ++row)
+    for (int k = 0; k < around; ++k) {
+      const int a = row * around, b = a + around, next = (k + 1) % around;
+      const auto uv = [&](int col, int at) {
+        return Vec2f{static_cast<float>(col) / around, static_cast<float>(at)};
+      };
+      mesh.triangles.push_back({a + k, a + next, b + next});
+      mesh.corner_uv.push_back({uv(k, row), uv(k + 1, row), uv(k + 1, row + 1)});
+      mesh.triangles.push_back({a + k, b + next, b + k});
+      mesh.corner_uv.push_back({uv(k, row), uv(k + 1, row + 1), uv(k, row + 1)});
+    }
+  ConvertOptions options = quick(33);
+  options.keep_uv = true;
+  options.seam = parse_seam("0 35", "seam.txt");
+  const Conversion made = convert_mesh(mesh, "tube", options);
+  EXPECT_TRUE(made.warnings.empty());
+  ASSERT_GT(made.image.mates.class_count(), 3);
+  for (int k = 0; k < made.image.mates.class_count(); ++k) {
+    const auto mates = made.image.mates.mates(k);
+    ASSERT_EQ(mates.size(), 2U);
+    const Vec3f one = made.texture->at(mates[0]), other = made.texture->at(mates[1]);
+    EXPECT_NEAR(std::abs(one.x - other.x), 1, 1e-6);
+    EXPECT_NEAR(one.y, other.y, 1e-6);
+  }
+}
 
 TEST(Texture, MeshWithoutItIsRefused) {
   ConvertOptions options = quick(33);

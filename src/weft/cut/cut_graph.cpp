@@ -30,6 +30,7 @@ CutGraph::CutGraph(const CutSurface& surface)
     open_[h] = 1;
     count(h, 1);
   }
+  hold();
 }
 
 void CutGraph::count(int half_edge, int change) {
@@ -45,7 +46,7 @@ CutGraph::CutGraph(const CutSurface& surface, const Cut& cut) : CutGraph(surface
 
 void CutGraph::set(int half_edge, bool open) {
   const int twin = surface_.twin(half_edge);
-  if (twin < 0 || contains(half_edge) == open) return;
+  if (twin < 0 || contains(half_edge) == open || is_held(half_edge)) return;
   open_[half_edge] = open_[twin] = open ? 1 : 0;
   count(half_edge, open ? 1 : -1);
 }
@@ -58,6 +59,7 @@ void CutGraph::prune() {
   for (int v = 0; v < surface_.vertex_count(); ++v) {
     for (int leaf = v; leaf >= 0 && valence(leaf) == 1;) {
       const int edge = ends_[leaf].mix;
+      if (is_held(edge)) break;
       remove(edge);
       leaf = surface_.other_end(edge, leaf);
     }
@@ -83,6 +85,7 @@ void CutGraph::extend(std::vector<int>& path) const {
     surface_.for_each_edge(end, [&](int h) {
       if (contains(h) && h != surface_.twin(last)) onward = h;
     });
+    if (held_[onward] != held_[last]) return;
     path.push_back(onward);
   }
 }
@@ -106,6 +109,28 @@ std::vector<std::vector<int>> CutGraph::paths() const {
     for (const int g : all.back()) seen[g] = seen[surface_.twin(g)] = 1;
   }
   return all;
+}
+
+int CutGraph::piece_count() const {
+  std::vector<char> seen(surface_.triangle_count(), 0);
+  std::vector<int> stack;
+  int pieces = 0;
+  for (int t = 0; t < surface_.triangle_count(); ++t) {
+    if (seen[t]) continue;
+    ++pieces;
+    seen[t] = 1;
+    stack.push_back(t);
+    while (!stack.empty()) {
+      const int first = 3 * stack.back();
+      stack.pop_back();
+      for (int h = first; h < first + 3; ++h) {
+        if (contains(h) || seen[surface_.twin(h) / 3]) continue;
+        seen[surface_.twin(h) / 3] = 1;
+        stack.push_back(surface_.twin(h) / 3);
+      }
+    }
+  }
+  return pieces;
 }
 
 double CutGraph::length() const {

@@ -22,13 +22,16 @@ class CutGraph {
   /// How many open edges meet at the vertex, border edges included.
   [[nodiscard]] int valence(int vertex) const { return ends_[vertex].valence; }
 
+  /// From now on the edges that are open stay so: `remove` and `prune` leave them alone.
+  void hold() { held_ = open_; }
+  [[nodiscard]] bool is_held(int half_edge) const { return held_[half_edge]; }
   /// Opens or closes an interior edge, given by either of its half-edges; no-ops when it is so
   /// already.
   void add(int half_edge) { set(half_edge, true); }
   void remove(int half_edge) { set(half_edge, false); }
   /// Opens every interior edge.
   void add_all();
-  /// Closes interior edges that dangle, one after the other, until none is left.
+  /// Closes interior edges that dangle, one after the other, until none is left that is not held.
   void prune();
 
   /// The first open half-edge met when turning around the start of `half_edge` towards the surface
@@ -39,8 +42,10 @@ class CutGraph {
     return first_open(HalfEdges::next(half_edge));
   }
 
+  /// How many pieces the opened surface has.
+  [[nodiscard]] int piece_count() const;
   /// The interior path that runs through an open edge, as half-edges one after the other from node
-  /// to node; a node has a valence other than 2.
+  /// to node; a node has a valence other than 2, or lies between a held edge and another.
   [[nodiscard]] std::vector<int> path_through(int half_edge) const;
   /// Every interior path once, ordered by its least half-edge.
   [[nodiscard]] std::vector<std::vector<int>> paths() const;
@@ -60,6 +65,7 @@ class CutGraph {
 
   const CutSurface& surface_;
   std::vector<char> open_;  // [3F]
+  std::vector<char> held_;  // [3F] among them those of the border
   std::vector<Ends> ends_;  // [V]
 };
 

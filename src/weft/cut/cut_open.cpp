@@ -78,30 +78,6 @@ class WedgeNumbers {
   std::vector<int> corner_, surface_vertex_;
 };
 
-/// How many pieces the opened surface has.
-int count_pieces(const CutGraph& graph) {
-  const CutSurface& surface = graph.surface();
-  std::vector<char> seen(surface.triangle_count(), 0);
-  std::vector<int> stack;
-  int pieces = 0;
-  for (int t = 0; t < surface.triangle_count(); ++t) {
-    if (seen[t]) continue;
-    ++pieces;
-    seen[t] = 1;
-    stack.push_back(t);
-    while (!stack.empty()) {
-      const int first = 3 * stack.back();
-      stack.pop_back();
-      for (int h = first; h < first + 3; ++h) {
-        if (graph.contains(h) || seen[surface.twin(h) / 3]) continue;
-        seen[surface.twin(h) / 3] = 1;
-        stack.push_back(surface.twin(h) / 3);
-      }
-    }
-  }
-  return pieces;
-}
-
 /// A connected surface is a disk when its Euler characteristic is 1: one border loop, no handle.
 void check_disk(const CutGraph& graph, std::size_t disk_vertices) {
   const CutSurface& surface = graph.surface();
@@ -109,7 +85,7 @@ void check_disk(const CutGraph& graph, std::size_t disk_vertices) {
   for (int h = 0; h < surface.half_edge_count(); ++h) open += graph.contains(h) ? 1 : 0;
   const int edges = (surface.half_edge_count() + open) / 2;
   const int euler = static_cast<int>(disk_vertices) - edges + surface.triangle_count();
-  const int pieces = count_pieces(graph);
+  const int pieces = graph.piece_count();
   if (pieces != 1 || euler != 1 || open == 0)
     throw TopologyError("cut",
                         fmt::format("the mesh opens to {} pieces with {} border edges and Euler "

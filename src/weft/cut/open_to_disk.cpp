@@ -27,18 +27,19 @@ Cut open_sphere(const CutSurface& surface, int seed_triangle) {
   return graph.cut();
 }
 
-CutGraph open_from(const CutSurface& surface, int seed_triangle, bool straightened) {
-  CutGraph graph = cut_from_seed(surface, seed_triangle);
+CutGraph open_from(const CutGraph& held, int seed_triangle, bool straightened) {
+  CutGraph graph = cut_from_seed(held, seed_triangle);
   if (straightened) straighten(graph);
   return graph;
 }
 
 /// The shortest of the cuts from a few seeds; of equal ones the first.
-Cut shortest_cut(const CutSurface& surface, bool straightened) {
+Cut shortest_cut(const CutGraph& held, bool straightened) {
+  const CutSurface& surface = held.surface();
   std::optional<Cut> best;
   double best_length = 0;
   for (const int seed : spread_triangles(surface, 0, seed_count(surface.triangle_count()))) {
-    const CutGraph graph = open_from(surface, seed, straightened);
+    const CutGraph graph = open_from(held, seed, straightened);
     const double length = graph.length();
     if (best && length >= best_length) continue;
     best = graph.cut();
@@ -47,20 +48,28 @@ Cut shortest_cut(const CutSurface& surface, bool straightened) {
   return *best;
 }
 
+void check_seed(int seed_triangle, int triangles) {
+  if (seed_triangle < -1 || seed_triangle >= triangles)
+    throw TopologyError("seed triangle", fmt::format("{}", seed_triangle),
+                        fmt::format("0 to {}, or -1 to choose", triangles - 1));
+}
+
 }  // namespace
 
+Cut complete_cut(const CutGraph& held, const CutOptions& options) {
+  check_seed(options.seed_triangle, held.surface().triangle_count());
+  if (options.seed_triangle < 0) return shortest_cut(held, options.straighten);
+  return open_from(held, options.seed_triangle, options.straighten).cut();
+}
+
 Cut open_to_disk(const TriangleMesh& mesh, const CutOptions& options) {
-  const int triangles = static_cast<int>(mesh.triangles.size());
-  if (options.seed_triangle < -1 || options.seed_triangle >= triangles)
-    throw TopologyError("seed triangle", fmt::format("{}", options.seed_triangle),
-                        fmt::format("0 to {}, or -1 to choose", triangles - 1));
+  check_seed(options.seed_triangle, static_cast<int>(mesh.triangles.size()));
   const CutSurface surface(mesh);
   const TopologyCounts counts = count_topology(mesh.triangles, surface.edges());
   if (counts.genus == 0 && counts.boundaries == 1) return {};
   if (counts.genus == 0 && counts.boundaries == 0)
     return open_sphere(surface, options.seed_triangle < 0 ? 0 : options.seed_triangle);
-  if (options.seed_triangle < 0) return shortest_cut(surface, options.straighten);
-  return open_from(surface, options.seed_triangle, options.straighten).cut();
+  return complete_cut(CutGraph(surface), options);
 }
 
 }  // namespace weft

@@ -7,6 +7,8 @@
 
 namespace weft {
 
+class CutGraph;
+
 /// Cut edges of a mesh; opening the mesh along them (its border edges are cut anyway) leaves a
 /// disk. Sorted pairs of vertices (a < b), interior edges only, each once, in ascending order.
 struct Cut {
@@ -25,6 +27,11 @@ struct CutOptions {
 /// @pre repaired mesh (weft/mesh/repair.h). Deterministic.
 /// @throws TopologyError when the seed triangle does not exist
 Cut open_to_disk(const TriangleMesh& mesh, const CutOptions& options = {});
+
+/// The same for a surface of which some edges are open already; those stay.
+/// @pre the open edges leave the surface in one piece
+/// @throws TopologyError when the seed triangle does not exist
+Cut complete_cut(const CutGraph& held, const CutOptions& options = {});
 
 /// Joins more vertices to a cut by shortest paths, keeping a disk (stage 4). A vertex already on
 /// the cut or the border changes nothing.

@@ -22,7 +22,7 @@ class TriangleRemoval {
       const int h = queue_.top().second;
       queue_.pop();
       const int across = surface_.twin(h) / 3;
-      if (removed_[across]) continue;
+      if (removed_[across] || graph_.is_held(h)) continue;
       graph_.remove(h);
       remove_triangle(across);
     }
@@ -45,8 +45,10 @@ class TriangleRemoval {
 
 }  // namespace
 
-CutGraph cut_from_seed(const CutSurface& surface, int seed_triangle) {
-  CutGraph graph(surface);
+CutGraph cut_from_seed(const CutGraph& held, int seed_triangle) {
+  const CutSurface& surface = held.surface();
+  CutGraph graph = held;
+  graph.hold();
   graph.add_all();
   const Triangle& corners = surface.mesh().triangles[seed_triangle];
   TriangleRemoval(graph, paths_from(surface, corners).distance).run(seed_triangle);

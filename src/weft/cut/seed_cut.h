@@ -12,7 +12,8 @@ namespace weft {
 /// edges it does not cross are what phase one leaves, so a queue gives the same result in O(n log
 /// n). As the removed triangles form one open disk, what is left is connected and holds every
 /// border loop.
-CutGraph cut_from_seed(const CutSurface& surface, int seed_triangle);
+/// @param held  edges that are open whatever the seed; they leave the surface in one piece
+CutGraph cut_from_seed(const CutGraph& held, int seed_triangle);
 
 /// Triangles that lie far from each other, the first among them `first`: each further one touches
 /// the vertex farthest from all before. At most `count`, fewer on a tiny mesh.

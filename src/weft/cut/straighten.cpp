@@ -160,7 +160,8 @@ class Straightener {
 std::vector<int> representatives(const CutGraph& graph) {
   std::vector<Reach> ranked;
   for (const std::vector<int>& path : graph.paths())
-    ranked.emplace_back(-path_length(graph.surface(), path), path[path.size() / 2]);
+    if (!graph.is_held(path.front()))
+      ranked.emplace_back(-path_length(graph.surface(), path), path[path.size() / 2]);
   std::sort(ranked.begin(), ranked.end());
   std::vector<int> edges;
   edges.reserve(ranked.size());

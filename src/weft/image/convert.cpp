@@ -1,5 +1,6 @@
 #include "weft/image/convert.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
@@ -52,18 +53,42 @@ std::string hash_of(const TriangleMesh& mesh) {
   return hash.text();
 }
 
+// Users count the triangles of their file, of which repair may have dropped some.
+int repaired_triangle(const RepairedMesh& input, int triangle) {
+  if (triangle < 0) return triangle;
+  const auto& sources = input.source_triangle;
+  const auto found = std::find(sources.begin(), sources.end(), triangle);
+  if (found == sources.end())
+    throw TopologyError("seed triangle",
+                        fmt::format("{} is not in the surface that is converted", triangle),
+                        "a triangle of it, counted from 0 in the order of its file, is wanted");
+  return static_cast<int>(found - sources.begin());
+}
+
+Cut first_cut(Conversion& made, const ConvertOptions& options) {
+  const TriangleMesh& mesh = made.input.mesh;
+  const CutOptions cut{.seed_triangle = repaired_triangle(made.input, options.seed_triangle)};
+  if (!options.seam) return open_to_disk(mesh, cut);
+  SeamCut along = cut_along_seam(mesh, made.input.source_vertex, *options.seam, cut);
+  if (along.added_edges > 0)
+    made.warnings.push_back(fmt::format(
+        "{}: the seam does not open the mesh to a disk, {} edge{} were added to the cut",
+        options.seam->name, along.added_edges, along.added_edges == 1 ? "" : "s"));
+  return std::move(along.cut);
+}
+
 // The cut with the paths that lower the stretch, or, where no valid map of that comes out, the
 // plain one.
 void cut_and_map(Conversion& made, const std::string& name, const ConvertOptions& options) {
   const TriangleMesh& mesh = made.input.mesh;
   Stopwatch watch;
   update(options.progress, "cut", 0);
-  const Cut cut = open_to_disk(mesh, {.seed_triangle = options.seed_triangle});
+  const Cut cut = first_cut(made, options);
   const int size = options.size != automatic_size
                        ? options.size
                        : suitable_size(cut_open(mesh, cut), made.input.counts.vertices);
   AugmentedCut augmented{cut, 0};
-  if (options.augment)
+  if (options.augment && !options.seam)
     augmented = augment_cut(mesh, cut, {.size = size, .progress = options.progress});
   made.seconds.cut = watch.lap();
 

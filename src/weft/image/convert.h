@@ -7,6 +7,7 @@
 
 #include "weft/core/progress.h"
 #include "weft/cut/open_to_disk.h"
+#include "weft/cut/seam.h"
 #include "weft/image/automatic_size.h"
 #include "weft/image/geometry_image.h"
 #include "weft/mesh/distance.h"
@@ -19,7 +20,8 @@ struct ConvertOptions {
   int size = 257;  ///< or automatic_size; the image tells which it was
   Parameterizer parameterizer = StretchOptions{};
   ComponentChoice component;
-  int seed_triangle = -1;  ///< -1: choose
+  int seed_triangle = -1;    ///< of the input, before repair; -1: choose
+  std::optional<Seam> seam;  ///< cut here, and elsewhere only as far as it must be for a disk
   bool augment = true;
   int normal_map_size = 0;  ///< 0: none
   bool keep_uv = false;     ///< sample the mesh's own texture coordinates too
@@ -59,6 +61,7 @@ struct StageSeconds {
 /// Everything that a conversion made and found.
 struct Conversion {
   RepairedMesh input;
+  std::vector<std::string> warnings;  ///< what was not done as asked for
   CutSummary cut;
   int rounds = 0;
   MappedDisk mapped;
@@ -72,6 +75,7 @@ struct Conversion {
 /// The whole way from a mesh to its geometry image. The image's mates are bit-equal and the
 /// topology of the rebuilt mesh is the input's, or it throws.
 /// @param name  what errors and the image's metadata call the mesh: a path or builtin:NAME
+/// The seam's vertices are those of `mesh`, before repair.
 /// @throws InputError, TopologyError as the stages, InputError when texture coordinates are to be
 ///         kept and the mesh lacks them; UsageError for a size that no image may have
 Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,

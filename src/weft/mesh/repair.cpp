@@ -84,6 +84,11 @@ class Repair {
     std::iota(result_.source_triangle.begin(), result_.source_triangle.end(), 0);
   }
 
+  int count_components() {
+    drop_triangles();
+    return surface_parts(mesh_, edges_).count;
+  }
+
   RepairedMesh run() {
     drop_triangles();
     note_unreferenced();
@@ -254,6 +259,10 @@ struct PositionHash {
 
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
   return Repair(mesh, options).run();
+}
+
+int count_components(const TriangleMesh& mesh, const std::string& name) {
+  return Repair(mesh, {name, {}}).count_components();
 }
 
 TriangleMesh weld_exact(const TriangleMesh& mesh) {

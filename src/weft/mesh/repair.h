@@ -39,6 +39,10 @@ struct RepairedMesh {
 ///                        cannot be oriented (an edge named), several components (how many)
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options);
 
+/// How many components a mesh has to choose from, whether they convert or not.
+/// @throws InputError as repair_mesh
+int count_components(const TriangleMesh& mesh, const std::string& name);
+
 /// Joins vertices at exactly equal positions; for formats without indices.
 /// @return the joined mesh; vertices in order of first occurrence
 TriangleMesh weld_exact(const TriangleMesh& mesh);

@@ -1,0 +1,30 @@
+#include "apps/weft/mesh_words.h"
+
+#include <CLI/CLI.hpp>
+
+#include "weft/image/convert.h"
+#include "weft/mesh/units.h"
+
+namespace weft::app {
+
+void add_mesh_options(CLI::App& command, MeshWords& words) {
+  command.add_option("--unit", words.unit, "What the numbers of the mesh's file are")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in"}))
+      ->capture_default_str();
+  command.add_option("--up", words.up, "Which axis of the mesh's file points up")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
+}
+
+NamedMesh load_named_mesh(const std::string& name, const MeshWords& words) {
+  MeshFrame frame;
+  frame.z_up = words.up == "z";
+  for (const LengthUnit& unit : length_units)
+    if (unit.name == words.unit) frame.unit = unit;
+  NamedMesh named{in_metres_y_up(load_mesh(name), frame), {}};
+  if (const auto warning = implausible_size(named.mesh, frame.unit))
+    named.warnings.push_back(name + ": " + *warning);
+  return named;
+}
+
+}  // namespace weft::app

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "weft/mesh/triangle_mesh.h"
+
+namespace CLI {
+class App;
+}
+
+namespace weft::app {
+
+/// How the numbers of a mesh's file are meant.
+struct MeshWords {
+  std::string unit = "m", up = "y";
+};
+void add_mesh_options(CLI::App& command, MeshWords& words);
+
+/// A mesh in metres with y up, and what is worth a warning about it.
+struct NamedMesh {
+  TriangleMesh mesh;
+  std::vector<std::string> warnings;
+};
+/// @throws as load_mesh
+NamedMesh load_named_mesh(const std::string& name, const MeshWords& words);
+
+}  // namespace weft::app

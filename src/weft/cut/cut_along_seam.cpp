@@ -1,0 +1,102 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/cut/cut_graph.h"
+#include "weft/cut/seam.h"
+#include "weft/cut/shortest_paths.h"
+
+namespace weft {
+namespace {
+
+using HalfEdgePath = std::vector<int>;
+
+/// Finds the edges of a seam's paths.
+class SeamFinder {
+ public:
+  SeamFinder(const CutSurface& surface, std::span<const int> source_vertex, const Seam& seam)
+      : surface_(surface), seam_(seam) {
+    for (std::size_t v = 0; v < source_vertex.size(); ++v) {
+      const auto source = static_cast<std::size_t>(source_vertex[v]);
+      if (source >= copies_.size()) copies_.resize(source + 1);
+      copies_[source].push_back(static_cast<int>(v));
+    }
+  }
+
+  [[nodiscard]] HalfEdgePath edges_of(const SeamPath& path) const {
+    HalfEdgePath edges;
+    for (std::size_t i = 1; i < path.vertices.size(); ++i) {
+      const std::vector<int>& from = vertices_of(path, i - 1);
+      const std::vector<int>& to = vertices_of(path, i);
+      const HalfEdgePath piece = join(from, to);
+      edges.insert(edges.end(), piece.begin(), piece.end());
+    }
+    return edges;
+  }
+
+  [[noreturn]] void fail(const SeamPath& path, const std::string& found,
+                         const std::string& wanted) const {
+    throw InputError(fmt::format("{}:{}", seam_.name, path.line), found, wanted);
+  }
+
+ private:
+  /// The mesh's vertices that are one of the seam's: several where repair split it.
+  [[nodiscard]] const std::vector<int>& vertices_of(const SeamPath& path, std::size_t i) const {
+    const auto number = static_cast<std::size_t>(path.vertices[i]);
+    if (number >= copies_.size() || copies_[number].empty())
+      fail(path, fmt::format("vertex {} is not in the mesh", number),
+           fmt::format("vertices of the surface that is converted, from 0 to {} in the order of "
+                       "its file, are wanted",
+                       copies_.size() - 1));
+    return copies_[number];
+  }
+
+  [[nodiscard]] HalfEdgePath join(const std::vector<int>& from, const std::vector<int>& to) const {
+    const auto is_goal = [&](int v) { return std::find(to.begin(), to.end(), v) != to.end(); };
+    // An edge is taken though a way around may be as short.
+    int edge = -1;
+    for (const int v : from)
+      surface_.for_each_edge(v, [&](int h) {
+        if (is_goal(surface_.other_end(h, v))) edge = h;
+      });
+    if (edge >= 0) return {edge};
+    const PathTree tree = search_paths(surface_, from, is_goal);
+    return path_to(surface_, tree, tree.end);
+  }
+
+  const CutSurface& surface_;
+  const Seam& seam_;
+  std::vector<std::vector<int>> copies_;  // by the seam's number
+};
+
+void open_path(CutGraph& graph, const HalfEdgePath& path) {
+  for (const int h : path) graph.add(h);
+}
+
+/// Names the first path after which the surface is in pieces.
+void refuse_pieces(const CutSurface& surface, const SeamFinder& finder, const Seam& seam) {
+  CutGraph graph(surface);
+  for (const SeamPath& path : seam.paths) {
+    open_path(graph, finder.edges_of(path));
+    if (graph.piece_count() > 1)
+      finder.fail(path, "this path cuts the surface in pieces",
+                  "a seam that leaves it in one piece is wanted");
+  }
+}
+
+}  // namespace
+
+SeamCut cut_along_seam(const TriangleMesh& mesh, std::span<const int> source_vertex,
+                       const Seam& seam, const CutOptions& options) {
+  const CutSurface surface(mesh);
+  const SeamFinder finder(surface, source_vertex, seam);
+  CutGraph graph(surface);
+  for (const SeamPath& path : seam.paths) open_path(graph, finder.edges_of(path));
+  if (graph.piece_count() > 1) refuse_pieces(surface, finder, seam);
+  SeamCut made{complete_cut(graph, options), 0};
+  made.added_edges = static_cast<int>(made.cut.edges.size() - graph.cut().edges.size());
+  return made;
+}
+
+}  // namespace weft
