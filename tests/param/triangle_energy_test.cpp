@@ -91,6 +91,34 @@ TEST(TriangleEnergy, HessianIsTheTrueOneWithNothingButNegativeCurvatureRemoved) 
   EXPECT_GT(equal, 20);
 }
 
+TEST(TriangleEnergy, EmphasisedGradientAndCurvatureMatchFiniteDifferences) {
+  Random random(4);
+  const double quartic = 0.7;
+  for (int k = 0; k < 20; ++k) {
+    const Case c = random_case(random);
+    const auto emphasised = [&](const std::array<double, 6>& x) {
+      TriangleEnergy energy = energy_at(c.surface, x);
+      emphasise(energy, c.surface.area, quartic);
+      return energy;
+    };
+    const TriangleEnergy energy = emphasised(c.corners);
+    const double m = energy_at(c.surface, c.corners).value / c.surface.area;
+    EXPECT_NEAR(energy.value, c.surface.area * (m + quartic * m * m / 2), 1e-12 * energy.value);
+    for (int i = 0; i < 6; ++i) {
+      std::array<double, 6> axis{};
+      axis[i] = 1;
+      const double h = 1e-5;
+      const double above = emphasised(moved(c.corners, axis, h)).value;
+      const double below = emphasised(moved(c.corners, axis, -h)).value;
+      EXPECT_NEAR(energy.gradient[i], (above - below) / (2 * h), 1e-5 * (1 + energy.value));
+      double projected = 0;
+      for (const auto& square : energy.squares) projected += square[i] * square[i];
+      const double exact = (above - 2 * energy.value + below) / (h * h);
+      EXPECT_GE(projected, exact - 1e-3 * (1 + energy.value + projected));
+    }
+  }
+}
+
 TEST(TriangleEnergy, OfAnIsometryGrowsByThreeTimesTheSquareOfAStrain) {
   // J = I: a strain e along u changes area * (1 / (1 + e)^2 + 1) / 2 by -area e + 3/2 area e^2.
   const SurfaceTriangle surface{1, 0, 1, 0.5};

@@ -1,96 +1,106 @@
 #include "weft/param/augment.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
+#include "weft/cut/cut_graph.h"
+#include "weft/cut/shortest_paths.h"
 #include "weft/param/border_layout.h"
-#include "weft/param/chords.h"
-#include "weft/param/disk_geometry.h"
-#include "weft/param/interior_solver.h"
 #include "weft/param/proxy.h"
-#include "weft/param/reweighting.h"
-#include "weft/param/rotation.h"
-#include "weft/param/stretch_newton.h"
-#include "weft/param/weights.h"
+#include "weft/param/trial_map.h"
 
 namespace weft {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct Verdict {
-  double stretch = infinity;  ///< L2, after the Newton steps
-  int worst_vertex = -1;  ///< of the mesh: where the area-averaged stretch before them is largest
+/// What a cut comes to at the best of a few rotations; nothing where the size cannot hold it.
+TrialMap judge(const TriangleMesh& mesh, const Cut& cut, int size, Progress* progress) {
+  const CutDisk opened = cut_open(mesh, cut);
+  if (least_size(opened) > size) return {};
+  const int step = std::max(1, (size - 1) / 4);
+  return try_rotations(opened, std::array{0, step, 2 * step, 3 * step}, {size, progress});
+}
+
+/// Where a longer cut may help, each once: where the map wanted it most at first, and the vertices
+/// far from the cut, weighed by distance alone and together with what stretch is left there.
+std::vector<int> candidates(const TriangleMesh& mesh, const Cut& cut, const TrialMap& trial) {
+  const CutSurface surface(mesh);
+  const CutGraph graph(surface, cut);
+  std::vector<int> sources;
+  for (int v = 0; v < surface.vertex_count(); ++v)
+    if (graph.valence(v) > 0) sources.push_back(v);
+  std::vector<int> found;
+  const auto add = [&](int v) {
+    if (v >= 0 && std::find(found.begin(), found.end(), v) == found.end()) found.push_back(v);
+  };
+  add(trial.worst_vertex);
+  if (sources.empty() || trial.stretch_at.empty()) return found;
+  const PathTree tree = paths_from(surface, sources);
+  const auto largest = [&](const auto& weight) {
+    int best = -1;
+    double most = 0;
+    for (int v = 0; v < surface.vertex_count(); ++v) {
+      if (trial.stretch_at[v] <= 0 || !(tree.distance[v] < HUGE_VAL)) continue;
+      const double value = weight(trial.stretch_at[v]) * tree.distance[v];
+      if (value <= most) continue;
+      most = value;
+      best = v;
+    }
+    return best;
+  };
+  add(largest([](double) { return 1.0; }));
+  add(largest([](double s) { return s; }));
+  add(largest([](double s) { return s * s; }));
+  add(largest([](double s) { return s - 1; }));
+  return found;
+}
+
+/// A cut, what it takes to get there, and what it comes to.
+struct Plan {
+  Cut cut;
+  std::vector<int> targets;
+  TrialMap trial;
 };
 
-int worst_vertex(const DiskGeometry& geometry, std::span<const Vec2d> uv, int vertex_count) {
-  const std::vector<double> sigma = vertex_stretch(geometry.surface, geometry.disk.triangles, uv);
-  std::vector<bool> candidate(uv.size(), true);
-  for (const int v : geometry.disk.border) candidate[v] = false;
-  int worst = -1;
-  for (std::size_t v = 0; v < uv.size(); ++v) {
-    if (!candidate[v] || geometry.disk.surface_vertex[v] >= vertex_count) continue;
-    if (worst < 0 || sigma[v] > sigma[worst]) worst = static_cast<int>(v);
+/// The best of all cuts that are one path longer; nothing gained where there is none.
+Plan lengthen(const TriangleMesh& mesh, const Plan& plan, const AugmentOptions& options) {
+  Plan best;
+  const std::vector<int> goals = candidates(mesh, plan.cut, plan.trial);
+  const double count = static_cast<double>(goals.size());
+  for (std::size_t k = 0; k < goals.size(); ++k) {
+    PartOfProgress part(options.progress, "cut", static_cast<double>(k) / count,
+                        (static_cast<double>(k) + 1) / count);
+    Plan next{extend_cut(mesh, plan.cut, goals[k]), plan.targets, {}};
+    next.targets.push_back(goals[k]);
+    next.trial = judge(mesh, next.cut, options.size, &part);
+    if (k == 0 || next.trial.energy < best.trial.energy) best = std::move(next);
   }
-  return worst < 0 ? -1 : geometry.disk.surface_vertex[worst];
+  return best;
 }
 
-/// Maps quickly: two steps of reweighting, for the first map alone would mislead (one nearly
-/// collapsed triangle dominates its stretch); then three Newton steps, after which cuts compare as
-/// they will in the end. The vertex to reach is that of the reweighted map, where the want of a cut
-/// still shows.
-Verdict judge(const TriangleMesh& mesh, const Cut& cut, int size, Progress* progress) {
-  CutDisk opened = cut_open(mesh, cut);
-  if (least_size(opened) > size) return {};
-  constexpr int rotations = 4;
-  const BorderLayout layout =
-      lay_out_border(opened, {size, choose_rotation(opened, size, rotations)});
-  split_at_corners(opened, layout);
-  split_chords(opened.disk);
-
-  std::vector<Vec2d> uv(opened.disk.positions.size());
-  const std::vector<double> t = border_positions(opened, layout);
-  for (std::size_t b = 0; b < t.size(); ++b) uv[opened.disk.border[b]] = border_point(size, t[b]);
-  const DiskGeometry geometry(opened.disk);
-  InteriorSolver solver(opened.disk, geometry.edges);
-  std::vector<double> weights = symmetric_weights(opened.disk, geometry.edges, geometry.sides);
-  PartOfProgress first(progress, "cut", 0, 0.5);
-  PartOfProgress second(progress, "cut", 0.5, 1);
-  ReweightingOptions options;
-  options.iterations = 2;
-  options.progress = &first;
-  const bool valid = map_by_reweighting(geometry, solver, weights, uv, options);
-  const int worst = worst_vertex(geometry, uv, static_cast<int>(mesh.positions.size()));
-  const std::vector<BorderSlide> slides = border_slides(opened, layout, t);
-  if (valid) minimise_by_newton(geometry, uv, {.steps = 3, .progress = &second, .slides = slides});
-  return {valid ? geometry.stretch_l2(uv) : infinity, worst};
-}
-
-/// The vertices that the cut is to reach, in order, judged on a mesh of moderate size.
-std::vector<int> find_targets(const TriangleMesh& mesh, Cut cut, const AugmentOptions& options) {
-  constexpr double least_gain = 0.005;
-  constexpr int patience = 2;
-  std::vector<int> targets;
-  std::size_t kept = 0;
+/// The best plan found on a mesh of moderate size.
+Plan plan_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& options) {
+  constexpr double least_gain = 0.01;
   PartOfProgress start(options.progress, "cut", 0, 0);
-  Verdict verdict = judge(mesh, cut, options.size, &start);
-  double best = verdict.stretch;
-  for (int round = 0, weak = 0; round < options.most_rounds && weak < patience; ++round) {
+  Plan plan{cut, {}, judge(mesh, cut, options.size, &start)};
+  Plan best = plan;
+  for (int round = 0; round < options.most_rounds; ++round) {
     PartOfProgress part(options.progress, "cut", static_cast<double>(round) / options.most_rounds,
                         (round + 1.0) / options.most_rounds);
-    if (verdict.worst_vertex < 0) break;
-    targets.push_back(verdict.worst_vertex);
-    cut = extend_cut(mesh, cut, verdict.worst_vertex);
-    verdict = judge(mesh, cut, options.size, &part);
+    AugmentOptions inner = options;
+    inner.progress = &part;
+    plan = lengthen(mesh, plan, inner);
+    if (plan.targets.empty()) break;
     // As long as no map is valid at all, every cut is a gain.
-    const bool gained = best == infinity || verdict.stretch < best * (1 - least_gain);
-    weak = gained ? 0 : weak + 1;
-    if (verdict.stretch < best) {
-      best = verdict.stretch;
-      kept = targets.size();
-    }
+    const bool gained =
+        best.trial.energy == infinity || plan.trial.energy < best.trial.energy * (1 - least_gain);
+    if (plan.trial.energy < best.trial.energy) best = plan;
+    if (!gained) break;
   }
-  targets.resize(kept);
-  return targets;
+  return best;
 }
 
 }  // namespace
@@ -99,10 +109,10 @@ AugmentedCut augment_cut(const TriangleMesh& mesh, const Cut& cut, const Augment
   std::vector<int> targets;
   if (static_cast<int>(mesh.triangles.size()) > options.proxy_triangles) {
     const Proxy proxy = coarsen(mesh, cut, options.proxy_triangles);
-    for (const int v : find_targets(proxy.mesh, proxy.cut, options))
+    for (const int v : plan_cut(proxy.mesh, proxy.cut, options).targets)
       targets.push_back(proxy.source_vertex[v]);
   } else {
-    targets = find_targets(mesh, cut, options);
+    targets = plan_cut(mesh, cut, options).targets;
   }
 
   AugmentedCut result{.cut = cut};

@@ -4,6 +4,7 @@
 
 #include "weft/core/orientation.h"
 #include "weft/param/edge_lengths.h"
+#include "weft/param/emphasis.h"
 
 namespace weft {
 
@@ -11,7 +12,31 @@ DiskGeometry::DiskGeometry(const DiskMesh& mesh)
     : disk(mesh),
       edges(half_edges(static_cast<int>(mesh.positions.size()), mesh.triangles)),
       sides(floored_lengths(mesh.positions, mesh.triangles)),
-      surface(surface_triangles(mesh.positions, mesh.triangles)) {}
+      surface(surface_triangles(mesh.positions, mesh.triangles)),
+      emphasis(curvature_emphasis(mesh, edges, surface)) {}
+
+double DiskGeometry::mean_square_stretch(std::span<const Vec2d> uv) const {
+  double plane = 0;
+  double area = 0;
+  for (std::size_t t = 0; t < surface.size(); ++t) {
+    const auto& [a, b, c] = disk.triangles[t];
+    plane += 0.5 * cross(uv[b] - uv[a], uv[c] - uv[a]);
+    area += surface[t].area;
+  }
+  return area / plane;
+}
+
+double DiskGeometry::energy(std::span<const Vec2d> uv) const {
+  const double unit = mean_square_stretch(uv);
+  double sum = 0;
+  for (std::size_t t = 0; t < surface.size(); ++t) {
+    if (surface[t].area <= 0) continue;
+    const auto& [a, b, c] = disk.triangles[t];
+    const double m = triangle_stretch(surface[t], uv[a], uv[b], uv[c]).mean_square;
+    sum += surface[t].area * m * (1 + 0.5 * emphasis[t] * m / unit);
+  }
+  return sum;
+}
 
 double DiskGeometry::stretch_l2(std::span<const Vec2d> uv) const {
   return measure_stretch(surface, disk.triangles, uv).l2;

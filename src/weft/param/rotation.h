@@ -4,10 +4,10 @@
 
 namespace weft {
 
-/// The border position of the first path's first node that gives the least stretch of `count`
+/// The border position of the first path's first node that gives the least stretch of about `count`
 /// candidates, spread evenly over one side of the square (turning by a whole side gives the same
-/// map, turned). Candidates are judged by the first map of the stretch minimisation, so that
-/// all share one factorization.
+/// map, turned), and of the neighbours of the best at half the spacing. Candidates are mapped in
+/// full, on a coarser mesh where the disk has more than a few thousand triangles.
 /// @pre n is large enough for the cut
 int choose_rotation(const CutDisk& cut, int size, int count);
 

@@ -34,17 +34,6 @@ double free_way(std::span<const Triangle> triangles, std::span<const Vec2d> uv,
   return way;
 }
 
-double energy_of(const DiskGeometry& geometry, std::span<const Vec2d> uv) {
-  double sum = 0;
-  for (std::size_t t = 0; t < geometry.surface.size(); ++t) {
-    if (geometry.surface[t].area <= 0) continue;
-    const auto& [a, b, c] = geometry.disk.triangles[t];
-    sum += geometry.surface[t].area *
-           triangle_stretch(geometry.surface[t], uv[a], uv[b], uv[c]).mean_square;
-  }
-  return sum;
-}
-
 /// A map that is being improved.
 struct State {
   const DiskGeometry& geometry;
@@ -71,11 +60,11 @@ void line_search(State& state, const NewtonSystem::Step& step) {
   };
   for (int halving = 0; halving < 12; ++halving, way *= 0.5) {
     std::vector<Vec2d> trial = moved(state, step, way);
-    double reached = energy_of(state.geometry, trial);
+    double reached = state.geometry.energy(trial);
     if (!lowers(reached)) continue;
     while (halving == 0 && 2 * way < most) {
       std::vector<Vec2d> further = moved(state, step, 2 * way);
-      const double energy = energy_of(state.geometry, further);
+      const double energy = state.geometry.energy(further);
       if (!(energy < reached)) break;
       way *= 2;
       reached = energy;
@@ -93,14 +82,14 @@ void line_search(State& state, const NewtonSystem::Step& step) {
 void minimise_by_newton(const DiskGeometry& geometry, std::span<Vec2d> uv,
                         const NewtonOptions& options) {
   NewtonSystem system(geometry, options.slides);
-  State state{geometry, options.slides, uv, energy_of(geometry, uv)};
+  State state{geometry, options.slides, uv, geometry.energy(uv)};
   for (int step = 0; step < options.steps; ++step) {
     update(options.progress, "map", static_cast<double>(step) / options.steps);
     const NewtonSystem::Step newton = system.solve(uv);
     if (newton.move.empty()) return;
     const double before = state.energy;
     line_search(state, newton);
-    // The stretch is the root of the energy, so half its relative fall.
+    // A stretch goes with the root of the energy: half its relative fall.
     if (state.energy > before * (1 - 2 * options.least_gain)) return;
   }
 }

@@ -9,13 +9,15 @@
 namespace weft {
 
 struct NewtonOptions {
-  int steps = 24;                ///< at most
-  double least_gain = 2e-3;      ///< relative fall of the L2 stretch in a step below which it ends
-  Progress* progress = nullptr;  ///< told of every step
+  int steps = 24;  ///< at most
+  double least_gain =
+      2e-3;  ///< relative fall of the root of the energy in a step below which it ends
+  Progress* progress = nullptr;              ///< told of every step
   std::span<const BorderSlide> slides = {};  ///< the rest of the border stays
 };
 
-/// Lowers the L2 stretch of a valid map by projected Newton steps over all interior vertices at
+/// Lowers the stretch of a valid map (DiskGeometry::energy: the L2 stretch and a quartic term where
+/// samples are wanted most) by projected Newton steps over all interior vertices at
 /// once, and over the border vertices that may slide along their sides (their order is kept, since
 /// a triangle would close where two met).
 ///

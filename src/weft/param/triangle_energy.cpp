@@ -69,4 +69,18 @@ TriangleEnergy triangle_energy(const SurfaceTriangle& surface, Vec2d a, Vec2d b,
   return energy;
 }
 
+void emphasise(TriangleEnergy& energy, double area, double quartic) {
+  if (!(quartic > 0) || !(area > 0)) return;
+  const double mean_square = energy.value / area;
+  const double factor = 1 + quartic * mean_square;
+  const double root = std::sqrt(factor);
+  const double outer = std::sqrt(quartic / area);
+  for (int k = 0; k < 6; ++k) {
+    for (int s = 0; s < 3; ++s) energy.squares[s][k] *= root;
+    energy.squares[3][k] = outer * energy.gradient[k];
+    energy.gradient[k] *= factor;
+  }
+  energy.value = area * mean_square * (1 + 0.5 * quartic * mean_square);
+}
+
 }  // namespace weft

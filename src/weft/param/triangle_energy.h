@@ -12,10 +12,15 @@ namespace weft {
 struct TriangleEnergy {
   double value = 0;
   std::array<double, 6> gradient{};  ///< u, v of corner 0, 1, 2
-  std::array<std::array<double, 6>, 3>
-      squares{};  ///< Hessian = sum of outer products of these rows
+  /// Hessian = sum of outer products of these rows; the last is of `emphasise` alone
+  std::array<std::array<double, 6>, 4> squares{};
 };
 /// @pre the triangle turns left
 TriangleEnergy triangle_energy(const SurfaceTriangle& surface, Vec2d a, Vec2d b, Vec2d c);
+
+/// Turns an energy area * m of mean square stretch m into area * (m + quartic * m^2 / 2), with its
+/// derivatives: the second term counts for the more the more a triangle is stretched.
+/// @param quartic  >= 0
+void emphasise(TriangleEnergy& energy, double area, double quartic);
 
 }  // namespace weft
