@@ -4,26 +4,57 @@
 
 #include "weft/param/collapse_passes.h"
 #include "weft/param/disk_geometry.h"
+#include "weft/param/emphasis.h"
 #include "weft/param/reinsertion.h"
 
 namespace weft {
 namespace {
 
-double mean_area(const DiskMesh& disk) {
-  double sum = 0;
-  for (const SurfaceTriangle& s : surface_triangles(disk.positions, disk.triangles)) sum += s.area;
-  return sum / static_cast<double>(disk.triangles.size());
+/// The triangles of a disk's coarser versions as the local minimisation sees them.
+class Triangles {
+ public:
+  /// @param uv  [D] the border given
+  Triangles(const DiskMesh& disk, std::span<const Vec2d> uv);
+  [[nodiscard]] double mean_area() const { return mean_area_; }
+  [[nodiscard]] StarTriangle operator()(const Triangle& t) const;
+
+ private:
+  const DiskMesh& disk_;
+  double mean_area_ = 0;
+  std::vector<double> quartic_;  ///< [D] area-weighted mean of the triangles around the vertex
+};
+
+Triangles::Triangles(const DiskMesh& disk, std::span<const Vec2d> uv)
+    : disk_(disk), quartic_(disk.positions.size(), 0.0) {
+  const std::vector<SurfaceTriangle> surface = surface_triangles(disk.positions, disk.triangles);
+  const HalfEdges edges = half_edges(static_cast<int>(disk.positions.size()), disk.triangles);
+  const std::vector<double> emphasis = curvature_emphasis(disk, edges, surface);
+  std::vector<double> around(disk.positions.size(), 0.0);
+  double area = 0;
+  for (std::size_t t = 0; t < surface.size(); ++t) {
+    area += surface[t].area;
+    for (const int v : disk.triangles[t]) {
+      quartic_[v] += surface[t].area * emphasis[t];
+      around[v] += surface[t].area;
+    }
+  }
+  mean_area_ = area / static_cast<double>(surface.size());
+  double plane = 0;
+  for (std::size_t b = 0; b < disk.border.size(); ++b)
+    plane += 0.5 * cross(uv[disk.border[b]], uv[disk.border[(b + 1) % disk.border.size()]]);
+  for (std::size_t v = 0; v < quartic_.size(); ++v)
+    quartic_[v] = around[v] > 0 ? quartic_[v] / around[v] * plane / area : 0;
 }
 
 /// The triangle's own metric and a little of one with equal sides: one without area would else be
 /// no barrier to its neighbours.
-StarTriangle metric(const DiskMesh& disk, const Triangle& t, double mean) {
-  constexpr double share = 1e-8;
-  const Vec3d p = disk.positions[t[1]] - disk.positions[t[0]];
-  const Vec3d q = disk.positions[t[2]] - disk.positions[t[0]];
-  const double least = share * mean;
+StarTriangle Triangles::operator()(const Triangle& t) const {
+  const double least = 1e-8 * mean_area_;
+  const Vec3d p = disk_.positions[t[1]] - disk_.positions[t[0]];
+  const Vec3d q = disk_.positions[t[2]] - disk_.positions[t[0]];
   return {{dot(p, p) + least, dot(p, q) + 0.5 * least, dot(q, q) + least,
-           0.5 * length(cross(p, q)) + least}};
+           0.5 * length(cross(p, q)) + least},
+          (quartic_[t[0]] + quartic_[t[1]] + quartic_[t[2]]) / 3};
 }
 
 std::vector<BorderSlide> renumbered(std::span<const BorderSlide> slides, const CoarseDisk& coarse,
@@ -54,18 +85,19 @@ bool map_what_is_left(const CollapseHierarchy& mesh, const DiskMesh& disk, std::
 bool map_coarse_to_fine(const DiskMesh& disk, std::span<Vec2d> uv, const MapDisk& map,
                         const CoarseToFineOptions& options) {
   constexpr int triangles_per_border_edge = 8;
-  const double mean = mean_area(disk);
+  const Triangles triangles(disk, uv);
   const CollapseOrder order = shortest_first(disk);
   CollapseHierarchy mesh(disk);
   int wanted =
       std::max(options.triangles, triangles_per_border_edge * static_cast<int>(disk.border.size()));
   for (int left = -1;; wanted = left / 4) {
-    collapse_in_passes(mesh, order, {.triangles = wanted, .first_cost = mean, .growth = 1.5});
+    collapse_in_passes(mesh, order,
+                       {.triangles = wanted, .first_cost = triangles.mean_area(), .growth = 1.5});
     if (mesh.triangle_count() == left) return false;
     left = mesh.triangle_count();
     if (map_what_is_left(mesh, disk, uv, map, options.slides)) break;
   }
-  ReinsertionOptions back{.triangle = [&](const Triangle& t) { return metric(disk, t, mean); },
+  ReinsertionOptions back{.triangle = triangles,
                           .growth = options.growth,
                           .sweeps = options.sweeps,
                           .slides = options.slides,
