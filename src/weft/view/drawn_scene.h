@@ -33,6 +33,7 @@ struct DrawnMesh {
   Vec3f colour{0.62F, 0.60F, 0.57F};             ///< linear RGB
   std::vector<Vec3f> colours;                    ///< of each vertex instead, [V] or none
   Vec3f mark_colour{0.75F, 0.05F, 0.03F};        ///< linear RGB
+  double mark_width = 2;                         ///< in pixels of a picture 480 high
 };
 
 /// Where the one light that throws sharp shadows stands, seen from the scene [rad]; azimuth 0 is

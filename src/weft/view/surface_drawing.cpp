@@ -84,6 +84,7 @@ SurfacePainter::SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& vi
   for (const Vec3f colour : drawing_.colours) surface.colours.push_back(linear_light(colour));
   if (drawing_.show_edges) surface.marked_edges = edges_of(*drawing_.mesh);
   surface.mark_colour = linear_light(edge_colour);
+  surface.mark_width = 1;
   scene_.meshes.push_back(surface);
 
   const double radius = drawing_.curve_radius * bounds(*drawing_.mesh).diagonal();

@@ -265,7 +265,6 @@ void ScenePainter::draw_edges(const DrawnScene& scene, const Matrix& to_clip,
                               const Target& target) {
   edge_.use();
   edge_.set("to_clip", to_clip);
-  edge_.set("half_width", static_cast<float>(std::max(1.0, target.height / 480.0)));
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const DrawnMesh& mesh = scene.meshes[i];
     const int vertices = static_cast<int>(mesh.mesh->positions.size());
@@ -276,6 +275,8 @@ void ScenePainter::draw_edges(const DrawnScene& scene, const Matrix& to_clip,
     if (ends.empty()) continue;
     surfaces_[scene.surfaces.size() + i].bind(edge_);
     edge_.set("colour", mesh.mark_colour);
+    const double width = mesh.mark_width * std::max(1.0, target.height / 480.0);
+    edge_.set("half_width", static_cast<float>(width / 2));
     glBindVertexArray(edge_array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, edge_ends_.name());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(ends.size() * sizeof(GLuint)),
