@@ -30,7 +30,7 @@ class Figures(unittest.TestCase):
     def test_pictures_are_small(self):
         for path in FIGURES.glob("*.png"):
             if path.name not in LARGE:
-                self.assertLess(path.stat().st_size, 150_000, path.name)
+                self.assertLess(path.stat().st_size, 200_000, path.name)
 
 
 if __name__ == "__main__":
