@@ -12,6 +12,7 @@ TEST(Orientation, TellsTurnsApart) {
   EXPECT_EQ(orientation({0, 0}, {1, 0}, {0, 1}), 1);
   EXPECT_EQ(orientation({0, 0}, {0, 1}, {1, 0}), -1);
   EXPECT_EQ(orientation({0, 0}, {1, 1}, {2, 2}), 0);
+  EXPECT_EQ(orientation(Vec2d{}, Vec2d{}, Vec2d{}), 0);
 }
 
 // Points of one line with slope 1, one of them moved by the least amount that a double can: plain

@@ -66,10 +66,10 @@ int exact_sign(const std::array<std::array<Scaled, Dimension>, Dimension + 1>& p
         least = std::min(least, value.exponent);
         largest = std::max(largest, value.exponent);
       }
+  if (largest == INT_MIN) return 0;  // all coordinates are zero
   // Three factors of 53 + 64 + 1 bits, and a sum of six such products, fit 512.
   constexpr int most_shift = 64;
-  if (largest - least <= most_shift || largest == INT_MIN)
-    return sign_in<FixedInt, Dimension>(points, least);
+  if (largest - least <= most_shift) return sign_in<FixedInt, Dimension>(points, least);
   return sign_in<cpp_int, Dimension>(points, least);
 }
 
