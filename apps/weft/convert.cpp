@@ -24,7 +24,7 @@ struct ConvertWords {
   std::string mesh, output, parameterizer = "stretch", component, size = "257";
   MeshWords frame;
   int normal_map = 0, seed_triangle = -1;
-  bool keep_uv = false;
+  bool keep_uv = false, fit = false;
   std::string seam;
 };
 
@@ -57,6 +57,7 @@ ConvertOptions options_of(const ConvertWords& words, const Context& context, Pro
   options.normal_map_size = words.normal_map;
   options.keep_uv = words.keep_uv;
   if (!words.seam.empty()) options.seam = read_seam(words.seam);
+  options.fit_samples = words.fit;
   options.threads = context.threads;
   options.seed = context.seed;
   options.progress = &progress;
@@ -204,6 +205,8 @@ void add_convert(CLI::App& program, const Context& context) {
       ->check(CLI::Range(least_image_size, largest_image_size));
   command->add_option("--cut", words->seam,
                       "Cut along the vertex paths in this text file, one a line, counted from 0");
+  command->add_flag("--fit", words->fit,
+                    "Move the samples so that the surface between them is nearer to the mesh");
   command->add_flag("--keep-uv", words->keep_uv,
                     "Write the mesh's texture coordinates beside the image, as NAME-uv.exr");
   command->add_option("--component", words->component,

@@ -108,6 +108,15 @@ class Convert(ProgramTest):
         self.assertNotEqual(reports[0]["image"]["psnr_db"], reports[1]["image"]["psnr_db"])
         self.assertEqual((self.folder / "1.exr").read_bytes(), (self.folder / "2.exr").read_bytes())
 
+    def test_fitted_samples_raise_psnr_and_keep_every_promise(self):
+        plain = self.run_json("convert", "builtin:torus", "-o", "plain.exr", "--size", "33")
+        fitted = self.run_json("convert", "builtin:torus", "-o", "fitted.exr", "--size", "33", "--fit")
+        self.check_promises(fitted)
+        self.assertGreater(fitted["image"]["psnr_db"], plain["image"]["psnr_db"] + 2)
+        self.assertEqual(fitted["map"], plain["map"])
+        again = self.run_json("rebuild", "fitted.exr", "-o", "t.obj")
+        self.assertEqual(again["image"]["euler"], 0)
+
     def test_components_are_chosen_or_refused(self):
         two = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 1 3 4\nf 5 6 7\n"
         (self.folder / "two.obj").write_text(two)

@@ -8,6 +8,7 @@
 
 #include "weft/core/error.h"
 #include "weft/core/hash.h"
+#include "weft/image/fit_samples.h"
 #include "weft/image/sample.h"
 #include "weft/param/augment.h"
 
@@ -139,6 +140,8 @@ void sample(Conversion& made, const std::string& name, const ConvertOptions& opt
   Stopwatch watch;
   update(options.progress, "sample", 0);
   made.image = sample_image(made.mapped);
+  if (options.fit_samples)
+    made.image = fit_samples(made.mapped, made.image, {.progress = options.progress});
   made.image.source = source_name(name);
   made.image.source_hash = hash_of(made.input.mesh);
   if (options.normal_map_size > 0)

@@ -25,8 +25,10 @@ struct ConvertOptions {
   bool augment = true;
   int normal_map_size = 0;  ///< 0: none
   bool keep_uv = false;     ///< sample the mesh's own texture coordinates too
-  bool measure = true;      ///< stage 11
-  std::uint64_t seed = 1;   ///< of the samples that stage 11 measures by
+  bool fit_samples =
+      false;               ///< move samples so that the triangles between them fit, see fit_samples
+  bool measure = true;     ///< stage 11
+  std::uint64_t seed = 1;  ///< of the samples that stage 11 measures by
   int threads = 1;
   Progress* progress = nullptr;
 };
