@@ -33,7 +33,7 @@ void draw_distance(const CutSurface& surface, const std::filesystem::path& path)
   drawing.legend->colour = [](double place) { return amount_colour(0.8 * place); };
   SurfaceDrawing cut;
   cut.mesh = &mesh;
-  add_cut(cut, cut_open(mesh, cut_from_seed(surface, seed_triangle).cut()));
+  add_cut(cut, cut_open(mesh, cut_from_seed(CutGraph(surface), seed_triangle).cut()));
   ViewFrom plain = from_above;
   plain.height -= legend_height(plain.width);
   write_png(path, in_a_row({{draw_on_white(drawing, from_above), "triangles go in this order"},
@@ -42,7 +42,7 @@ void draw_distance(const CutSurface& surface, const std::filesystem::path& path)
 
 void draw_straightened(const CutSurface& surface, const std::filesystem::path& path) {
   std::vector<Panel> panels;
-  CutGraph graph = cut_from_seed(surface, seed_triangle);
+  CutGraph graph = cut_from_seed(CutGraph(surface), seed_triangle);
   for (const bool straight : {false, true}) {
     if (straight) straighten(graph);
     SurfaceDrawing drawing;

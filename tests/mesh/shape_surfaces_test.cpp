@@ -1,55 +1,19 @@
-#include "weft/mesh/shapes.h"
-
 #include <algorithm>
-#include <array>
-#include <numeric>
-#include <string>
-#include <vector>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "weft/collide/intersections.h"
+#include "weft/mesh/crossings.h"
 #include "weft/mesh/distance.h"
+#include "weft/mesh/shapes.h"
 #include "weft/mesh/shapes/mannequin.h"
 
 namespace weft {
 namespace {
 
-struct Placed {
-  Triangle vertices;
-  std::array<Vec3d, 3> corners;
-  Box3d box;
-};
-
-/// The triangles in order of where their boxes begin along x.
-std::vector<Placed> swept(const TriangleMesh& mesh) {
-  std::vector<Placed> all;
-  for (const Triangle& t : mesh.triangles) {
-    Placed placed{t, {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}, {}};
-    for (const Vec3d p : placed.corners) placed.box.add(p);
-    all.push_back(placed);
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Placed& a, const Placed& b) { return a.box.lower.x < b.box.lower.x; });
-  return all;
-}
-
-bool share_a_vertex(const Triangle& a, const Triangle& b) {
-  return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
-}
-
-bool cross(const Placed& a, const Placed& b) {
-  return a.box.lower.y <= b.box.upper.y && b.box.lower.y <= a.box.upper.y &&
-         a.box.lower.z <= b.box.upper.z && b.box.lower.z <= a.box.upper.z &&
-         triangles_cross(a.corners, b.corners);
-}
-
 int self_crossings(const TriangleMesh& mesh) {
-  const std::vector<Placed> all = swept(mesh);
   int count = 0;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t j = i + 1; j < all.size() && all[j].box.lower.x <= all[i].box.upper.x; ++j)
-      if (!share_a_vertex(all[i].vertices, all[j].vertices) && cross(all[i], all[j])) ++count;
+  for_self_crossings(corners_of(mesh), [&](int, int) { ++count; });
   return count;
 }
 
@@ -98,7 +62,7 @@ TEST(Skirt, IsHeldByTheHipsAndFacesAwayFromTheBody) {
   EXPECT_LT(mannequin_field({waist, 0.9, 0}), 0);  // the waist's width is within the hips
   for (const auto& [a, b, c] : skirt.triangles) {
     const Vec3d pa = skirt.positions[a];
-    const Vec3d normal = normalized(weft::cross(skirt.positions[b] - pa, skirt.positions[c] - pa));
+    const Vec3d normal = normalized(cross(skirt.positions[b] - pa, skirt.positions[c] - pa));
     EXPECT_GT(dot(normal, normalized(Vec3d{pa.x, 0, pa.z})), 0) << pa.x << ' ' << pa.y;
   }
 }
