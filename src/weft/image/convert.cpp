@@ -78,8 +78,13 @@ Cut first_cut(Conversion& made, const ConvertOptions& options) {
   return std::move(along.cut);
 }
 
-// The cut with the paths that lower the stretch, or, where no valid map of that comes out, the
-// plain one.
+// Longer cuts are judged on a coarse proxy, which slivers can mislead.
+bool is_suspicious(const MappedDisk& mapped) {
+  constexpr double most = 1.5;
+  return mapped.parameterizer == "stretch" && mapped.quality.stretch_l2 > most;
+}
+
+// The cut with the paths that lower the stretch, or the plain one where they do not after all.
 void cut_and_map(Conversion& made, const std::string& name, const ConvertOptions& options) {
   const TriangleMesh& mesh = made.input.mesh;
   Stopwatch watch;
@@ -98,18 +103,16 @@ void cut_and_map(Conversion& made, const std::string& name, const ConvertOptions
   map.parameterizer = options.parameterizer;
   map.name = name;
   map.progress = options.progress;
-  const auto use = [&](const Cut& chosen, int rounds) {
-    const CutDisk disk = cut_open(mesh, chosen);
-    made.mapped = map_to_square(disk, map);
-    made.cut = summarise(disk);
-    made.rounds = rounds;
-  };
-  try {
-    use(augmented.cut, augmented.rounds);
-  } catch (const TopologyError&) {
-    if (augmented.rounds == 0) throw;
-    use(cut, 0);
+  made.mapped = map_to_square(cut_open(mesh, augmented.cut), map);
+  if (augmented.rounds > 0 && is_suspicious(made.mapped)) {
+    MappedDisk plain = map_to_square(cut_open(mesh, cut), map);
+    if (plain.quality.stretch_l2 < made.mapped.quality.stretch_l2) {
+      made.mapped = std::move(plain);
+      augmented = {cut, 0};
+    }
   }
+  made.cut = summarise(cut_open(mesh, augmented.cut));
+  made.rounds = augmented.rounds;
   made.seconds.map = watch.lap();
 }
 
