@@ -123,8 +123,8 @@ TEST(Texture, MeshWithoutItIsRefused) {
   options.keep_uv = true;
   EXPECT_EQ(
       test::message_of<InputError>([&] { convert_mesh(test::tetrahedron(), "bare.obj", options); }),
-      "bare.obj: not every corner of its faces has texture coordinates; an OBJ with vt, or a "
-      "PLY with s and t or u and v, is wanted to keep them");
+      "bare.obj: not every corner of its faces has texture coordinates; an OBJ with vt, a "
+      "PLY with s and t or u and v, or a glTF with TEXCOORD_0 is wanted");
 }
 
 }  // namespace

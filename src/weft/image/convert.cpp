@@ -39,8 +39,9 @@ void check_size(int size) {
 
 void check_texture(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.corner_uv.empty())
-    throw InputError(name, "not every corner of its faces has texture coordinates",
-                     "an OBJ with vt, or a PLY with s and t or u and v, is wanted to keep them");
+    throw InputError(
+        name, "not every corner of its faces has texture coordinates",
+        "an OBJ with vt, a PLY with s and t or u and v, or a glTF with TEXCOORD_0 is wanted");
 }
 
 std::string source_name(const std::string& name) {
