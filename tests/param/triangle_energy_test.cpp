@@ -119,6 +119,39 @@ TEST(TriangleEnergy, EmphasisedGradientAndCurvatureMatchFiniteDifferences) {
   }
 }
 
+TEST(TriangleEnergy, InverseStretchIsExactlyItsSquares) {
+  Random random(6);
+  for (int k = 0; k < 20; ++k) {
+    const Case c = random_case(random);
+    const double weight = 0.3 / c.surface.area;
+    const auto inverse = [&](const std::array<double, 6>& x) {
+      TriangleEnergy energy;
+      add_inverse_stretch(energy, c.surface, weight,
+                          {Vec2d{x[0], x[1]}, Vec2d{x[2], x[3]}, Vec2d{x[4], x[5]}});
+      return energy;
+    };
+    const auto& x = c.corners;
+    const TriangleEnergy here = inverse(x);
+    const Vec2d p{x[2] - x[0], x[3] - x[1]};
+    const Vec2d q{x[4] - x[0], x[5] - x[1]};
+    const double expected = weight * (c.surface.g11 * dot(q, q) - 2 * c.surface.g12 * dot(p, q) +
+                                      c.surface.g22 * dot(p, p));
+    EXPECT_NEAR(here.value, expected, 1e-12 * expected);
+    std::array<double, 6> step{};
+    for (double& d : step) d = random.uniform(-1, 1);
+    double change = 0;
+    for (int i = 0; i < 6; ++i) change += here.gradient[i] * step[i];
+    for (const auto& square : here.squares) {
+      double product = 0;
+      for (int i = 0; i < 6; ++i) product += square[i] * step[i];
+      change += 0.5 * product * product;
+    }
+    // Quadratic: the second-order model is exact however far the step goes.
+    const double reached = inverse(moved(x, step, 1)).value;
+    EXPECT_NEAR(here.value + change, reached, 1e-11 * (expected + reached));
+  }
+}
+
 TEST(TriangleEnergy, OfAnIsometryGrowsByThreeTimesTheSquareOfAStrain) {
   // J = I: a strain e along u changes area * (1 / (1 + e)^2 + 1) / 2 by -area e + 3/2 area e^2.
   const SurfaceTriangle surface{1, 0, 1, 0.5};

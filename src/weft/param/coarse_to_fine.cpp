@@ -5,6 +5,7 @@
 #include "weft/param/collapse_passes.h"
 #include "weft/param/disk_geometry.h"
 #include "weft/param/emphasis.h"
+#include "weft/param/inverse_stretch.h"
 #include "weft/param/reinsertion.h"
 
 namespace weft {
@@ -21,6 +22,7 @@ class Triangles {
  private:
   const DiskMesh& disk_;
   double mean_area_ = 0;
+  double inverse_unit_ = 0;      ///< of inverse_weight
   std::vector<double> quartic_;  ///< [D] area-weighted mean of the triangles around the vertex
 };
 
@@ -42,6 +44,7 @@ Triangles::Triangles(const DiskMesh& disk, std::span<const Vec2d> uv)
   double plane = 0;
   for (std::size_t b = 0; b < disk.border.size(); ++b)
     plane += 0.5 * cross(uv[disk.border[b]], uv[disk.border[(b + 1) % disk.border.size()]]);
+  inverse_unit_ = (area / plane) * (area / plane);
   for (std::size_t v = 0; v < quartic_.size(); ++v)
     quartic_[v] = around[v] > 0 ? quartic_[v] / around[v] * plane / area : 0;
 }
@@ -52,9 +55,10 @@ StarTriangle Triangles::operator()(const Triangle& t) const {
   const double least = 1e-8 * mean_area_;
   const Vec3d p = disk_.positions[t[1]] - disk_.positions[t[0]];
   const Vec3d q = disk_.positions[t[2]] - disk_.positions[t[0]];
-  return {{dot(p, p) + least, dot(p, q) + 0.5 * least, dot(q, q) + least,
-           0.5 * length(cross(p, q)) + least},
-          (quartic_[t[0]] + quartic_[t[1]] + quartic_[t[2]]) / 3};
+  const SurfaceTriangle surface{dot(p, p) + least, dot(p, q) + 0.5 * least, dot(q, q) + least,
+                                0.5 * length(cross(p, q)) + least};
+  return {surface, (quartic_[t[0]] + quartic_[t[1]] + quartic_[t[2]]) / 3,
+          inverse_unit_ * inverse_weight(surface)};
 }
 
 std::vector<BorderSlide> renumbered(std::span<const BorderSlide> slides, const CoarseDisk& coarse,

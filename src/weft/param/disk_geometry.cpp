@@ -5,6 +5,7 @@
 #include "weft/core/orientation.h"
 #include "weft/param/edge_lengths.h"
 #include "weft/param/emphasis.h"
+#include "weft/param/inverse_stretch.h"
 
 namespace weft {
 
@@ -13,7 +14,9 @@ DiskGeometry::DiskGeometry(const DiskMesh& mesh)
       edges(half_edges(static_cast<int>(mesh.positions.size()), mesh.triangles)),
       sides(floored_lengths(mesh.positions, mesh.triangles)),
       surface(surface_triangles(mesh.positions, mesh.triangles)),
-      emphasis(curvature_emphasis(mesh, edges, surface)) {}
+      emphasis(curvature_emphasis(mesh, edges, surface)) {
+  for (const SurfaceTriangle& s : surface) inverse.push_back(inverse_weight(s));
+}
 
 double DiskGeometry::mean_square_stretch(std::span<const Vec2d> uv) const {
   double plane = 0;
@@ -28,12 +31,16 @@ double DiskGeometry::mean_square_stretch(std::span<const Vec2d> uv) const {
 
 double DiskGeometry::energy(std::span<const Vec2d> uv) const {
   const double unit = mean_square_stretch(uv);
+  const double inverse_unit = unit * unit;
   double sum = 0;
   for (std::size_t t = 0; t < surface.size(); ++t) {
     if (surface[t].area <= 0) continue;
     const auto& [a, b, c] = disk.triangles[t];
     const double m = triangle_stretch(surface[t], uv[a], uv[b], uv[c]).mean_square;
     sum += surface[t].area * m * (1 + 0.5 * emphasis[t] * m / unit);
+    const double d = cross(uv[b] - uv[a], uv[c] - uv[a]);
+    // n = 2 m d^2, see inverse_weight.
+    sum += inverse_unit * inverse[t] * 2 * m * d * d;
   }
   return sum;
 }

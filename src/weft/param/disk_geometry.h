@@ -21,12 +21,14 @@ struct DiskGeometry {
   std::vector<SurfaceTriangle> surface;      ///< [F] the metric as it is
 
   std::vector<double> emphasis;  ///< [F] of the quartic term of the energy
+  std::vector<double> inverse;   ///< [F] of the inverse term, see inverse_weight
 
   /// Square stretch of a map that keeps areas, of the size of this one: a constant of the disk and
   /// the square.
   [[nodiscard]] double mean_square_stretch(std::span<const Vec2d> uv) const;
   /// What the Newton steps lower: the sum over all triangles of area * (m + q m^2 / 2), m their
-  /// mean square stretch and q their emphasis in units of mean_square_stretch. For a valid map.
+  /// mean square stretch and q their emphasis in units of mean_square_stretch, and of their inverse
+  /// stretch. For a valid map.
   [[nodiscard]] double energy(std::span<const Vec2d> uv) const;
   [[nodiscard]] double stretch_l2(std::span<const Vec2d> uv) const;
 };

@@ -166,8 +166,9 @@ void NewtonSystem::Blocks::add_triangle(std::size_t t, const TriangleEnergy& ene
   for (int a = 0; a < 6; ++a)
     for (int b = a; b < 6; ++b, ++entry)
       if (slot[t][entry] >= 0)
-        values[slot[t][entry]] +=
-            s[0][a] * s[0][b] + s[1][a] * s[1][b] + s[2][a] * s[2][b] + s[3][a] * s[3][b];
+        values[slot[t][entry]] += s[0][a] * s[0][b] + s[1][a] * s[1][b] + s[2][a] * s[2][b] +
+                                  s[3][a] * s[3][b] + s[4][a] * s[4][b] + s[5][a] * s[5][b] +
+                                  s[6][a] * s[6][b] + s[7][a] * s[7][b];
   const std::array<int, 6> row = unknowns_of(t);
   for (int i = 0; i < 6; ++i) {
     if (row[i] < 0) continue;
@@ -188,6 +189,8 @@ void NewtonSystem::Blocks::assemble(std::span<const Vec2d> uv) {
     const auto& [a, b, c] = geometry.disk.triangles[t];
     TriangleEnergy energy = triangle_energy(geometry.surface[t], uv[a], uv[b], uv[c]);
     emphasise(energy, geometry.surface[t].area, geometry.emphasis[t] / mean_square);
+    add_inverse_stretch(energy, geometry.surface[t],
+                        mean_square * mean_square * geometry.inverse[t], {uv[a], uv[b], uv[c]});
     if (slides[t]) reduce(t, energy);
     add_triangle(t, energy);
   }

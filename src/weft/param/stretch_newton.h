@@ -16,10 +16,10 @@ struct NewtonOptions {
   std::span<const BorderSlide> slides = {};  ///< the rest of the border stays
 };
 
-/// Lowers the stretch of a valid map (DiskGeometry::energy: the L2 stretch and a quartic term where
-/// samples are wanted most) by projected Newton steps over all interior vertices at
-/// once, and over the border vertices that may slide along their sides (their order is kept, since
-/// a triangle would close where two met).
+/// Lowers the stretch of a valid map (DiskGeometry::energy: the L2 stretch, a quartic term where
+/// samples are wanted most and the inverse stretch) by projected Newton steps over all interior
+/// vertices at once, and over the border vertices that may slide along their sides (their order is
+/// kept, since a triangle would close where two met).
 ///
 /// Under a displacement with gradient X (in the plane) a triangle's J becomes J (I + X)^-1, so with
 /// the metric G = J^T J its energy is, to second order,

@@ -83,4 +83,28 @@ void emphasise(TriangleEnergy& energy, double area, double quartic) {
   energy.value = area * mean_square * (1 + 0.5 * quartic * mean_square);
 }
 
+void add_inverse_stretch(TriangleEnergy& energy, const SurfaceTriangle& surface, double weight,
+                         const std::array<Vec2d, 3>& corners) {
+  if (!(weight > 0) || !(surface.g22 > 0)) return;
+  const double share = surface.g12 / surface.g22;
+  const double rest = std::max(0.0, surface.g11 - surface.g12 * share);
+  // n = g22 |p - share q|^2 + rest |q|^2, in each coordinate alone.
+  const std::array<double, 3> first = {share - 1, 1, -share};
+  const std::array<double, 3> second = {-1, 0, 1};
+  const auto add = [&](int row, const std::array<double, 3>& form, double factor) {
+    const double root = std::sqrt(2 * weight * factor);
+    Vec2d sum{};
+    for (int k = 0; k < 3; ++k) sum = sum + form[k] * corners[k];
+    energy.value += weight * factor * dot(sum, sum);
+    for (int k = 0; k < 3; ++k) {
+      energy.gradient[2 * k] += 2 * weight * factor * form[k] * sum.x;
+      energy.gradient[2 * k + 1] += 2 * weight * factor * form[k] * sum.y;
+      energy.squares[row][2 * k] = root * form[k];
+      energy.squares[row + 1][2 * k + 1] = root * form[k];
+    }
+  };
+  add(4, first, surface.g22);
+  add(6, second, rest);
+}
+
 }  // namespace weft

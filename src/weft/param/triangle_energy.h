@@ -12,8 +12,9 @@ namespace weft {
 struct TriangleEnergy {
   double value = 0;
   std::array<double, 6> gradient{};  ///< u, v of corner 0, 1, 2
-  /// Hessian = sum of outer products of these rows; the last is of `emphasise` alone
-  std::array<std::array<double, 6>, 4> squares{};
+  /// Hessian = sum of outer products of these rows; the fourth is of `emphasise` alone, the last
+  /// four of `add_inverse_stretch`
+  std::array<std::array<double, 6>, 8> squares{};
 };
 /// @pre the triangle turns left
 TriangleEnergy triangle_energy(const SurfaceTriangle& surface, Vec2d a, Vec2d b, Vec2d c);
@@ -22,5 +23,9 @@ TriangleEnergy triangle_energy(const SurfaceTriangle& surface, Vec2d a, Vec2d b,
 /// derivatives: the second term counts for the more the more a triangle is stretched.
 /// @param quartic  >= 0
 void emphasise(TriangleEnergy& energy, double area, double quartic);
+
+/// Adds the inverse term, unit^2 times inverse_weight being `weight`; it is the sum of its squares.
+void add_inverse_stretch(TriangleEnergy& energy, const SurfaceTriangle& surface, double weight,
+                         const std::array<Vec2d, 3>& corners);
 
 }  // namespace weft

@@ -21,17 +21,17 @@ void VertexStar::gather(const CollapseHierarchy& mesh, std::span<const StarTrian
                         std::span<const Vec2d> uv, int vertex) {
   corners_.clear();
   mesh.around(vertex, [&](int h) {
-    const auto& [s, quartic] = triangles[h / 3];
+    const auto& [s, quartic, inverse] = triangles[h / 3];
     const Vec2d a = uv[mesh.to(h)];
     const Vec2d b = uv[mesh.from(HalfEdges::previous(h))];
     // The surface's metric is that on the edges from corner 0.
     const double third_side = s.g11 - 2 * s.g12 + s.g22;
     if (h % 3 == 0) {
-      corners_.push_back({a, b, s.g11, s.g12, s.g22, s.area, quartic});
+      corners_.push_back({a, b, s.g11, s.g12, s.g22, s.area, quartic, inverse});
     } else if (h % 3 == 1) {
-      corners_.push_back({a, b, third_side, s.g11 - s.g12, s.g11, s.area, quartic});
+      corners_.push_back({a, b, third_side, s.g11 - s.g12, s.g11, s.area, quartic, inverse});
     } else {
-      corners_.push_back({a, b, s.g22, s.g22 - s.g12, third_side, s.area, quartic});
+      corners_.push_back({a, b, s.g22, s.g22 - s.g12, third_side, s.area, quartic, inverse});
     }
   });
 }
@@ -45,7 +45,7 @@ double VertexStar::energy(Vec2d place) const {
     if (!(d > 0)) return std::numeric_limits<double>::infinity();
     const double n = c.g11 * dot(q, q) - 2 * c.g12 * dot(p, q) + c.g22 * dot(p, p);
     const double m = 0.5 * n / (d * d);
-    sum += c.area * m * (1 + 0.5 * c.quartic * m);
+    sum += c.area * m * (1 + 0.5 * c.quartic * m) + c.inverse * n;
   }
   return sum;
 }
@@ -78,9 +78,9 @@ VertexStar::Model VertexStar::model(Vec2d place) const {
     const Vec2d m1 = half * (n1 - 2 * n * d1);
     const double factor = c.area * (1 + c.quartic * m);
     const double weight = factor * half;
-    model.energy += c.area * m * (1 + 0.5 * c.quartic * m);
-    model.gradient = model.gradient + factor * m1;
-    const double n2 = 2 * (c.g11 - 2 * c.g12 + c.g22) * weight;
+    model.energy += c.area * m * (1 + 0.5 * c.quartic * m) + c.inverse * n;
+    model.gradient = model.gradient + factor * m1 + c.inverse * n1;
+    const double n2 = 2 * (c.g11 - 2 * c.g12 + c.g22) * (weight + c.inverse);
     for (Symmetric2* sum : {&model.hessian, &model.squares}) {
       sum->xx += n2;
       sum->yy += n2;

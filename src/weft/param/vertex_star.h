@@ -24,10 +24,12 @@ struct Symmetric2 {
 };
 
 /// A triangle as the local minimisation sees it: of mean square stretch m (half the sum of the
-/// squared singular values) its energy is area * (m + quartic / 2 * m^2).
+/// squared singular values) its energy is area * (m + quartic / 2 * m^2) + inverse * n, see
+/// inverse_weight.
 struct StarTriangle {
   SurfaceTriangle surface;
   double quartic = 0;  ///< >= 0; the larger, the more it counts how much the triangle is stretched
+  double inverse = 0;  ///< >= 0; inverse_weight in units of the whole map
 };
 
 /// The triangles around one vertex, and the energy that they have together wherever the vertex is
@@ -39,7 +41,8 @@ struct StarTriangle {
 ///   gradient m'  n' / d^2 - 2 n d' / d^3,
 ///   Hessian m''  n'' / d^2 - 2 (n' d'^T + d' n'^T) / d^3 + 6 n d' d'^T / d^4;
 /// with half the second term and a third of the last it is that of a sum of squares. The energy's
-/// are area * (1 + quartic m) m' and area * ((1 + quartic m) m'' + quartic m' m'^T).
+/// are area * (1 + quartic m) m' + inverse n' and
+/// area * ((1 + quartic m) m'' + quartic m' m'^T) + inverse n''.
 class VertexStar {
  public:
   /// @param triangles  [F] as they are now
@@ -68,7 +71,7 @@ class VertexStar {
   /// A triangle, its metric on the edges to a and to b.
   struct Corner {
     Vec2d a, b;
-    double g11, g12, g22, area, quartic;
+    double g11, g12, g22, area, quartic, inverse;
   };
   std::vector<Corner> corners_;
 };
