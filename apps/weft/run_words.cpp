@@ -58,7 +58,7 @@ void add_run_options(CLI::App& command, RunWords& words) {
       ->check(CLI::Range(1, INT_MAX));
   command
       .add_option("--integrator", words.integrator, "Instead of the scene's, with default options")
-      ->check(CLI::IsMember({"implicit", "explicit", "two_level"}));
+      ->check(CLI::IsMember({"multigrid", "implicit", "explicit", "two_level"}));
   command.add_option("--collider", words.collider, "Instead of the scene's")
       ->check(CLI::IsMember({"polar_map"}));
   command.add_option("--export", words.exports, "What to write, separated by commas")
@@ -73,6 +73,7 @@ void add_run_options(CLI::App& command, RunWords& words) {
 
 void apply_run_words(const RunWords& words, Scene& scene) {
   if (words.frames > 0) scene.frames = words.frames;
+  if (words.integrator == "multigrid") scene.integrator = MultigridOptions{};
   if (words.integrator == "implicit") scene.integrator = ImplicitOptions{};
   if (words.integrator == "explicit") scene.integrator = ExplicitOptions{};
   if (words.integrator == "two_level") scene.integrator = TwoLevelOptions{};

@@ -15,6 +15,8 @@ inline constexpr std::array<std::string_view, 1> wind{"velocity"};
 inline constexpr std::array<std::string_view, 2> explicit_integrator{"type", "limiter_passes"};
 inline constexpr std::array<std::string_view, 4> implicit_integrator{"type", "limiter_passes",
                                                                      "max_iterations", "tolerance"};
+inline constexpr std::array<std::string_view, 4> multigrid_integrator{
+    "type", "limiter_passes", "max_iterations", "tolerance"};
 inline constexpr std::array<std::string_view, 6> two_level_integrator{
     "type", "limiter_passes", "local_size", "global_size", "as_printed", "filter_stiffness"};
 inline constexpr std::array<std::string_view, 3> collider{"type", "size", "walk"};

@@ -26,9 +26,8 @@ std::string surface_text(const std::string& surface, const fs::path& folder) {
 }
 
 struct IntegratorWriter {
-  Json operator()(const ImplicitOptions& o) const {
-    return {{"type", name_of(o)}, {"max_iterations", o.max_iterations}, {"tolerance", o.tolerance}};
-  }
+  Json operator()(const ImplicitOptions& o) const { return iterative(o); }
+  Json operator()(const MultigridOptions& o) const { return iterative(o); }
   Json operator()(const ExplicitOptions& o) const { return {{"type", name_of(o)}}; }
   Json operator()(const TwoLevelOptions& o) const {
     return {{"type", name_of(o)},
@@ -36,6 +35,12 @@ struct IntegratorWriter {
             {"global_size", o.global_size},
             {"as_printed", o.as_printed},
             {"filter_stiffness", o.filter_stiffness}};
+  }
+
+ private:
+  template <class Options>
+  static Json iterative(const Options& o) {
+    return {{"type", name_of(o)}, {"max_iterations", o.max_iterations}, {"tolerance", o.tolerance}};
   }
 };
 

@@ -180,8 +180,9 @@ int Simulation::Parts::step(std::size_t index, FrameReport& report) {
   ClothState* next = &mover.integrator->iterate({});
 
   StageClock clock;
-  // Only the implicit method heeds contacts; the others are pushed out at the end of the step.
-  if (std::holds_alternative<ImplicitOptions>(scene.integrator)) {
+  // Only implicit methods heed contacts; the others are pushed out at the end of the step.
+  if (std::holds_alternative<ImplicitOptions>(scene.integrator) ||
+      std::holds_alternative<MultigridOptions>(scene.integrator)) {
     const auto contacts = mover.collider->detect(
         {start, next->position, next->velocity, cloth.cloth.inverse_mass}, team);
     report.collide_ms += clock.lap();

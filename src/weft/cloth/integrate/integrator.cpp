@@ -21,6 +21,9 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, co
                  [&](const ExplicitOptions&) { return make_explicit(cloth, team); },
                  [&](const TwoLevelOptions& chosen) {
                    return make_two_level(chosen, cloth, typical, team);
+                 },
+                 [&](const MultigridOptions& chosen) {
+                   return make_multigrid(chosen, cloth, typical, team);
                  }},
       options);
 }

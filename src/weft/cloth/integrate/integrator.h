@@ -42,9 +42,16 @@ struct TwoLevelOptions {
   /// k of the filter and of its soft springs [N/m]; 0: the largest known stable.
   double filter_stiffness = 0;
 };
-using IntegratorOptions = std::variant<ImplicitOptions, ExplicitOptions, TwoLevelOptions>;
+/// Implicit Euler solved by descent, preconditioned by the exact filter on the image's mip pyramid.
+struct MultigridOptions {
+  int max_iterations = 3;
+  /// Stop when the correction of an iteration falls below this times the rest spacing.
+  double tolerance = 1e-3;
+};
+using IntegratorOptions =
+    std::variant<ImplicitOptions, ExplicitOptions, TwoLevelOptions, MultigridOptions>;
 
-/// The name in scene file and command line: implicit, explicit, two_level.
+/// The name in scene file and command line: implicit, explicit, two_level, multigrid.
 std::string_view name_of(const IntegratorOptions& options);
 
 /// Advances one cloth by one step, in parts, so that a collider can work between them:

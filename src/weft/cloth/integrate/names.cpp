@@ -8,6 +8,7 @@ struct NameOf {
   std::string_view operator()(const ImplicitOptions&) const { return "implicit"; }
   std::string_view operator()(const ExplicitOptions&) const { return "explicit"; }
   std::string_view operator()(const TwoLevelOptions&) const { return "two_level"; }
+  std::string_view operator()(const MultigridOptions&) const { return "multigrid"; }
 };
 
 }  // namespace

@@ -33,5 +33,7 @@ std::unique_ptr<Integrator> make_implicit(const ImplicitOptions& options, const 
                                           ThreadTeam& team);
 std::unique_ptr<Integrator> make_two_level(const TwoLevelOptions& options, const Cloth& cloth,
                                            const StepInput& typical, ThreadTeam& team);
+std::unique_ptr<Integrator> make_multigrid(const MultigridOptions& options, const Cloth& cloth,
+                                           const StepInput& typical, ThreadTeam& team);
 
 }  // namespace weft

@@ -29,6 +29,14 @@ ImplicitOptions read_implicit(const JsonObject& object) {
   return options;
 }
 
+MultigridOptions read_multigrid(const JsonObject& object) {
+  MultigridOptions options;
+  options.max_iterations =
+      object.integer("max_iterations", options.max_iterations, 1, most_iterations);
+  options.tolerance = object.number("tolerance", options.tolerance, positive);
+  return options;
+}
+
 TwoLevelOptions read_two_level(const JsonObject& object) {
   TwoLevelOptions options;
   options.local_size = object.integer("local_size", options.local_size, 3, largest_image_size);
@@ -60,13 +68,15 @@ IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& 
   };
   if (type == name_of(ImplicitOptions{}))
     return read(scene_keys::implicit_integrator, read_implicit);
+  if (type == name_of(MultigridOptions{}))
+    return read(scene_keys::multigrid_integrator, read_multigrid);
   if (type == name_of(TwoLevelOptions{}))
     return read(scene_keys::two_level_integrator, read_two_level);
   if (type == name_of(ExplicitOptions{}))
     return read(scene_keys::explicit_integrator,
                 [](const JsonObject&) { return ExplicitOptions{}; });
   place.key("type").fail(fmt::format("unknown integrator '{}'", type),
-                         "known are: implicit, explicit, two_level");
+                         "known are: multigrid, implicit, explicit, two_level");
 }
 
 ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place) {

@@ -1,0 +1,166 @@
+#include "weft/cloth/multigrid/filter_level.h"
+
+#include <algorithm>
+
+#include "weft/cloth/mates.h"
+#include "weft/cloth/mip_levels.h"
+
+namespace weft {
+namespace {
+
+constexpr int least_level_size = 3;
+
+FilterLevel empty_level(const BorderMates& mates) {
+  const int n = mates.size();
+  FilterLevel level;
+  level.mates = mates;
+  for (Grid<float>& plane : level.edge) plane = Grid<float>(n, n);
+  for (Grid<float>* plane : {&level.own_weight, &level.own_diagonal, &level.inverse_diagonal})
+    *plane = Grid<float>(n, n);
+  level.share = Grid<float>(n, n, 1);
+  for (int index = 0; index < mates.class_count(); ++index)
+    for (const int s : mates.mates(index))
+      level.share(s / n, s % n) = 1 / static_cast<float>(mates.mates(index).size());
+  for (Planes3* planes : {&level.right, &level.value, &level.next, &level.residual})
+    *planes = Planes3(n);
+  level.line = Grid<float>(n, 4 * n);
+  return level;
+}
+
+float at(const Grid<float>& plane, int row, int col) {
+  const bool inside = row >= 0 && row < plane.rows() && col >= 0 && col < plane.cols();
+  return inside ? plane(row, col) : 0.0F;
+}
+
+/// What fine edges along a line add up to on one coarse edge, when both bound the same linear
+/// field: a fine edge sees half of its difference, a second-neighbour edge all of it. Across the
+/// line weights are 1/2 1 1/2.
+/// @param along  steps of row and column along the edge
+struct Line {
+  const FilterLevel& fine;
+  int direction;
+  [[nodiscard]] float edge(int row, int col) const {
+    const auto [down, right] = spring_step();
+    float sum = 0;
+    for (int side = -1; side <= 1; ++side) {
+      const float share = side == 0 ? 1.0F : 0.5F;
+      const int r = 2 * row + side * right, c = 2 * col + side * down;
+      const Grid<float>& first = fine.edge[direction];
+      sum += share * 0.25F * (at(first, r, c) + at(first, r + down, c + right));
+      const Grid<float>& second = fine.second[direction];
+      if (second.rows() == 0) continue;
+      sum += share * (at(second, r, c) +
+                      0.5F * (at(second, r - down, c - right) + at(second, r + down, c + right)));
+    }
+    return sum;
+  }
+  [[nodiscard]] std::array<int, 2> spring_step() const {
+    return direction == stretch_u ? std::array{0, 1} : std::array{1, 0};
+  }
+};
+
+/// The mean of a coarse cell's four fine diagonals; `right` -1 for those that run to the left.
+float diagonal_edge(const Grid<float>& fine, int row, int col, int right) {
+  const int r = 2 * row, c = 2 * col;
+  return 0.25F * (at(fine, r, c) + at(fine, r + 1, c) + at(fine, r, c + right) +
+                  at(fine, r + 1, c + right));
+}
+
+void coarsen_edges(const FilterLevel& fine, FilterLevel& coarse) {
+  const int n = coarse.size();
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      if (c + 1 < n) coarse.edge[stretch_u](r, c) = Line{fine, stretch_u}.edge(r, c);
+      if (r + 1 < n) coarse.edge[stretch_v](r, c) = Line{fine, stretch_v}.edge(r, c);
+      if (r + 1 < n && c + 1 < n)
+        coarse.edge[shear_1](r, c) = diagonal_edge(fine.edge[shear_1], r, c, 1);
+      if (r + 1 < n && c > 0)
+        coarse.edge[shear_2](r, c) = diagonal_edge(fine.edge[shear_2], r, c, -1);
+    }
+}
+
+void add_ends(const Grid<float>& edges, int down, int right, Grid<float>& diagonal) {
+  const int n = edges.rows();
+  for (int r = 0; r + down < n; ++r)
+    for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c) {
+      diagonal(r, c) += edges(r, c);
+      diagonal(r + down, c + right) += edges(r, c);
+    }
+}
+
+void set_diagonals(FilterLevel& level) {
+  level.own_diagonal = level.own_weight;
+  for (int d = 0; d < 4; ++d)
+    add_ends(level.edge[d], d == 0 ? 0 : 1, d == 0 || d == 2 ? 1 : (d == 1 ? 0 : -1),
+             level.own_diagonal);
+  if (level.second[0].rows() > 0) {
+    add_ends(level.second[0], 0, 2, level.own_diagonal);
+    add_ends(level.second[1], 2, 0, level.own_diagonal);
+  }
+  level.inverse_diagonal = level.own_diagonal;
+  sum_over_mates(level.mates, {&level.inverse_diagonal});
+  for (int r = 0; r < level.size(); ++r)
+    for (int c = 0; c < level.size(); ++c) {
+      const float diagonal = level.inverse_diagonal(r, c);
+      level.inverse_diagonal(r, c) = diagonal > 0 ? 1 / diagonal : 0.0F;
+    }
+}
+
+/// Held particles weigh on coarser levels what holds them on this one.
+Grid<float> weight_below(const FilterLevel& level, const Grid<float>* moves) {
+  Grid<float> weight = level.own_weight;
+  if (moves == nullptr) return weight;
+  for (int r = 0; r < level.size(); ++r)
+    for (int c = 0; c < level.size(); ++c)
+      if ((*moves)(r, c) == 0) weight(r, c) += level.own_diagonal(r, c);
+  return weight;
+}
+
+/// What a spring and its damping resist a move by, in any direction.
+Grid<float> conductance(const SpringPlane& springs, double time_step) {
+  Grid<float> result = springs.stiffness;
+  const auto per_step = static_cast<float>(1 / time_step);
+  for (int r = 0; r < result.rows(); ++r)
+    for (int c = 0; c < result.cols(); ++c) result(r, c) += per_step * springs.damping(r, c);
+  return result;
+}
+
+}  // namespace
+
+std::vector<FilterLevel> make_filter_levels(const Cloth& cloth, double time_step) {
+  std::vector<FilterLevel> levels;
+  levels.push_back(empty_level(cloth.mates));
+  FilterLevel& finest = levels.back();
+  for (int d = 0; d < 4; ++d) finest.edge[d] = conductance(cloth.springs[d], time_step);
+  for (int d = 0; d < 2; ++d) finest.second[d] = conductance(cloth.springs[bend_u + d], time_step);
+  const auto per_step = static_cast<float>(1 / (time_step * time_step));
+  for (int r = 0; r < cloth.size; ++r)
+    for (int c = 0; c < cloth.size; ++c)
+      finest.own_weight(r, c) = per_step * cloth.mass(r, c) * finest.share(r, c);
+  while (levels.back().size() % 2 == 1 && (levels.back().size() - 1) / 2 + 1 >= least_level_size) {
+    const BorderMates& mates = levels.back().mates;
+    const bool matched = halves(mates);
+    FilterLevel coarse =
+        empty_level(matched ? halved(mates) : BorderMates((mates.size() - 1) / 2 + 1, {}));
+    coarse.matched = matched;
+    coarsen_edges(levels.back(), coarse);
+    levels.push_back(std::move(coarse));
+  }
+  return levels;
+}
+
+void renew_weights(std::vector<FilterLevel>& levels, const Grid<float>& moves) {
+  set_diagonals(levels.front());
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const Grid<float> weight = weight_below(levels[i - 1], i == 1 ? &moves : nullptr);
+    FilterLevel& coarse = levels[i];
+    for (int r = 0; r < coarse.size(); ++r)
+      restrict_plane_row(weight, nullptr, r, coarse.line.row(r), coarse.own_weight.row(r));
+    set_diagonals(coarse);
+  }
+  FilterLevel& finest = levels.front();
+  for (int r = 0; r < finest.size(); ++r)
+    for (int c = 0; c < finest.size(); ++c) finest.inverse_diagonal(r, c) *= moves(r, c);
+}
+
+}  // namespace weft
