@@ -45,7 +45,7 @@ def main():
     words.add_argument("--threads", type=numbers, default=[1, 2])
     words.add_argument("--write", action="store_true", help="renew the table of docs/measured.md")
     options = words.parse_args()
-    text = program.table(COLUMNS, [row_of(size, integrator, threads) for integrator in ("implicit", "two_level")
+    text = program.table(COLUMNS, [row_of(size, integrator, threads) for integrator in ("implicit", "two_level", "multigrid")
                                    for size in options.sizes for threads in options.threads])
     print(text)
     if options.write:

@@ -58,7 +58,7 @@ void add_run_options(CLI::App& command, RunWords& words) {
       ->check(CLI::Range(1, INT_MAX));
   command
       .add_option("--integrator", words.integrator, "Instead of the scene's, with default options")
-      ->check(CLI::IsMember({"multigrid", "implicit", "explicit", "two_level"}));
+      ->check(CLI::IsMember({"implicit", "explicit", "two_level", "multigrid"}));
   command.add_option("--collider", words.collider, "Instead of the scene's")
       ->check(CLI::IsMember({"polar_map"}));
   command.add_option("--export", words.exports, "What to write, separated by commas")

@@ -14,8 +14,8 @@ namespace {
 
 using namespace testing;
 
-const std::vector<IntegratorOptions> all_integrators{ImplicitOptions{}, ExplicitOptions{},
-                                                     TwoLevelOptions{.local_size = 5}};
+const std::vector<IntegratorOptions> all_integrators{
+    ImplicitOptions{}, ExplicitOptions{}, TwoLevelOptions{.local_size = 5}, MultigridOptions{}};
 
 /// A step that explicit Euler bears on the small cloths here.
 constexpr double small_step = 1e-4;
@@ -112,8 +112,9 @@ TEST(Stepping, MatesStayBitEqualOnATorus) {
 
 TEST(Stepping, AnyTeamGivesTheSameBits) {
   // Few iterations: teams larger than the machine wait long at every barrier.
-  for (const IntegratorOptions& options : {IntegratorOptions(ImplicitOptions{.max_iterations = 6}),
-                                           all_integrators[1], all_integrators[2]})
+  for (const IntegratorOptions& options :
+       {IntegratorOptions(ImplicitOptions{.max_iterations = 6}), all_integrators[1],
+        all_integrators[2], all_integrators[3]})
     for (Cloth cloth : {sheet_cloth(21), torus_cloth(17)}) {
       pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
       std::string first;

@@ -16,13 +16,13 @@ namespace {
 // without what shear takes off it, the lower what the next level no longer sees.
 constexpr float upper = 1.9F, lower = 0.4F;
 constexpr int sweeps = 2;
+// Where a coarsest level is too large to be factored: all of its spectrum, as far as that goes.
+constexpr float coarsest_lower = 0.01F;
 constexpr int coarsest_sweeps = 24;
 
-/// One over the Chebyshev roots of [low, high].
-template <int Count>
-std::array<float, Count> factors(float low, float high) {
-  // cos((2 i + 1) pi / (2 Count)) by half angles would need core/math; two and four are enough.
-  static_assert(Count == 2);
+/// One over the two Chebyshev roots of [low, high].
+std::array<float, sweeps> factors(float low, float high) {
+  static_assert(sweeps == 2);
   constexpr float root = 0.70710678F;
   const float middle = 0.5F * (high + low), half = 0.5F * (high - low);
   return {1 / (middle + half * root), 1 / (middle - half * root)};
@@ -39,18 +39,22 @@ Line3 line_of(FilterLevel& level, int row) {
 MultigridFilter::MultigridFilter(const Cloth& cloth, double time_step)
     : levels_(make_filter_levels(cloth, time_step)),
       moves_(cloth.size, cloth.size),
-      mass_weight_(levels_.front().own_weight) {
-  set_weights(cloth, nullptr);
+      factor_(levels_.back()) {
+  renew_pins(cloth);
 }
 
-void MultigridFilter::set_weights(const Cloth& cloth, const Grid<float>* weight) {
-  FilterLevel& finest = levels_.front();
+void MultigridFilter::renew_pins(const Cloth& cloth) {
   for (int r = 0; r < cloth.size; ++r)
-    for (int c = 0; c < cloth.size; ++c) {
-      moves_(r, c) = cloth.inverse_mass(r, c) > 0 ? 1.0F : 0.0F;
-      finest.own_weight(r, c) = mass_weight_(r, c) + (weight == nullptr ? 0.0F : (*weight)(r, c));
-    }
+    for (int c = 0; c < cloth.size; ++c) moves_(r, c) = cloth.inverse_mass(r, c) > 0 ? 1.0F : 0.0F;
   renew_weights(levels_, moves_);
+  if (factor_.fits()) factor_.renew(levels_.back());
+}
+
+bool MultigridFilter::knows_pins(const Cloth& cloth) const {
+  for (int r = 0; r < cloth.size; ++r)
+    for (int c = 0; c < cloth.size; ++c)
+      if ((cloth.inverse_mass(r, c) > 0) != (moves_(r, c) > 0)) return false;
+  return true;
 }
 
 void MultigridFilter::finish_sweep(FilterLevel& level, float factor, Worker& worker) {
@@ -162,7 +166,8 @@ void MultigridFilter::prolong(const FilterLevel& coarse, FilterLevel& fine, Work
 }
 
 void MultigridFilter::solve_coarsest(FilterLevel& level, Worker& worker) {
-  const auto steps = factors<sweeps>(0.01F, upper);
+  if (factor_.fits()) return factor_.solve(level, worker);
+  const auto steps = factors(coarsest_lower, upper);
   first_sweep(level, steps[0], worker);
   for (int i = 1; i < coarsest_sweeps; ++i) sweep(level, steps[i % 2], worker);
 }
@@ -170,7 +175,7 @@ void MultigridFilter::solve_coarsest(FilterLevel& level, Worker& worker) {
 void MultigridFilter::descend(std::size_t index, Worker& worker) {
   FilterLevel& level = levels_[index];
   if (index + 1 == levels_.size()) return solve_coarsest(level, worker);
-  const auto steps = factors<sweeps>(lower, upper);
+  const auto steps = factors(lower, upper);
   first_sweep(level, steps[0], worker);
   for (int i = 1; i < sweeps; ++i) sweep(level, steps[i], worker);
   restrict_residual(level, levels_[index + 1], worker);
@@ -180,17 +185,5 @@ void MultigridFilter::descend(std::size_t index, Worker& worker) {
 }
 
 void MultigridFilter::cycle(Worker& worker) { descend(0, worker); }
-
-void MultigridFilter::improve(Worker& worker) {
-  FilterLevel& level = levels_.front();
-  const auto steps = factors<sweeps>(lower, upper);
-  for (int i = 0; i < sweeps; ++i) sweep(level, steps[i], worker);
-  if (levels_.size() > 1) {
-    restrict_residual(level, levels_[1], worker);
-    descend(1, worker);
-    prolong(levels_[1], level, worker);
-  }
-  for (int i = sweeps - 1; i >= 0; --i) sweep(level, steps[i], worker);
-}
 
 }  // namespace weft

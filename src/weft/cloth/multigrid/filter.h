@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "weft/cloth/multigrid/coarse_factor.h"
 #include "weft/cloth/multigrid/filter_level.h"
 #include "weft/core/thread_team.h"
 
@@ -12,30 +13,28 @@ namespace weft {
 /// [zink07, section 4; brandt77]. A bounds the Hessian of implicit Euler's energy from above, so
 /// x - A^-1 gradient never rises in energy.
 ///
-/// Smoothing is Jacobi's with the Chebyshev roots of the upper part of the spectrum, the same
-/// forwards before and backwards after the coarse correction, so that one cycle is a symmetric
+/// The coarsest level, of at most 9 samples a side or the size that no longer halves, is solved
+/// directly. Smoothing is Jacobi's with the Chebyshev roots of the upper part of the spectrum, the
+/// same forwards before and backwards after the coarse correction, so that one cycle is a symmetric
 /// operator and may precondition conjugate gradients.
 class MultigridFilter {
  public:
   MultigridFilter(const Cloth& cloth, double time_step);
 
-  /// Held particles and additional weights (contacts) changed.
-  /// @param weight  [n x n] added to own_weight's M / h^2, own part [N/m]; null: none
-  void set_weights(const Cloth& cloth, const Grid<float>* weight);
+  /// To be called when particles have been pinned or let go.
+  void renew_pins(const Cloth& cloth);
+  [[nodiscard]] bool knows_pins(const Cloth& cloth) const;
 
   /// One V-cycle from zero: value() = about A^-1 right(). To be called by every worker of a team;
   /// ends with a barrier.
   void cycle(Worker& worker);
-  /// Improves value() by one more cycle.
-  void improve(Worker& worker);
 
   /// Own part of the right side [N]; to be filled before a cycle.
   [[nodiscard]] Planes3& right() { return levels_.front().right; }
   /// The correction [m]; mates equal, 0 where held.
   [[nodiscard]] const Planes3& value() const { return levels_.front().value; }
   /// [n x n] own part of M / h^2 [N/m]
-  [[nodiscard]] const Grid<float>& mass_weight() const { return mass_weight_; }
-  [[nodiscard]] int levels() const { return static_cast<int>(levels_.size()); }
+  [[nodiscard]] const Grid<float>& mass_weight() const { return levels_.front().own_weight; }
 
  private:
   void descend(std::size_t index, Worker& worker);
@@ -48,7 +47,7 @@ class MultigridFilter {
 
   std::vector<FilterLevel> levels_;
   Grid<float> moves_;
-  Grid<float> mass_weight_;  ///< own part of M / h^2
+  CoarseFactor factor_;  // of the coarsest level
 };
 
 }  // namespace weft

@@ -4,11 +4,13 @@
 
 #include "weft/cloth/mates.h"
 #include "weft/cloth/mip_levels.h"
+#include "weft/cloth/neighbours.h"
 
 namespace weft {
 namespace {
 
-constexpr int least_level_size = 3;
+// Below, a direct solve costs less than the barriers of smoothing.
+constexpr int coarsest_size = 9;
 
 FilterLevel empty_level(const BorderMates& mates) {
   const int n = mates.size();
@@ -35,12 +37,11 @@ float at(const Grid<float>& plane, int row, int col) {
 /// What fine edges along a line add up to on one coarse edge, when both bound the same linear
 /// field: a fine edge sees half of its difference, a second-neighbour edge all of it. Across the
 /// line weights are 1/2 1 1/2.
-/// @param along  steps of row and column along the edge
 struct Line {
   const FilterLevel& fine;
   int direction;
   [[nodiscard]] float edge(int row, int col) const {
-    const auto [down, right] = spring_step();
+    const auto [down, right] = spring_offsets[direction];
     float sum = 0;
     for (int side = -1; side <= 1; ++side) {
       const float share = side == 0 ? 1.0F : 0.5F;
@@ -53,9 +54,6 @@ struct Line {
                       0.5F * (at(second, r - down, c - right) + at(second, r + down, c + right)));
     }
     return sum;
-  }
-  [[nodiscard]] std::array<int, 2> spring_step() const {
-    return direction == stretch_u ? std::array{0, 1} : std::array{1, 0};
   }
 };
 
@@ -79,7 +77,8 @@ void coarsen_edges(const FilterLevel& fine, FilterLevel& coarse) {
     }
 }
 
-void add_ends(const Grid<float>& edges, int down, int right, Grid<float>& diagonal) {
+void add_ends(const Grid<float>& edges, SpringOffset offset, Grid<float>& diagonal) {
+  const auto [down, right] = offset;
   const int n = edges.rows();
   for (int r = 0; r + down < n; ++r)
     for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c) {
@@ -90,12 +89,9 @@ void add_ends(const Grid<float>& edges, int down, int right, Grid<float>& diagon
 
 void set_diagonals(FilterLevel& level) {
   level.own_diagonal = level.own_weight;
-  for (int d = 0; d < 4; ++d)
-    add_ends(level.edge[d], d == 0 ? 0 : 1, d == 0 || d == 2 ? 1 : (d == 1 ? 0 : -1),
-             level.own_diagonal);
-  if (level.second[0].rows() > 0) {
-    add_ends(level.second[0], 0, 2, level.own_diagonal);
-    add_ends(level.second[1], 2, 0, level.own_diagonal);
+  for (int d = 0; d < spring_directions; ++d) {
+    const Grid<float>& edges = d < 4 ? level.edge[d] : level.second[d - 4];
+    if (edges.rows() > 0) add_ends(edges, spring_offsets[d], level.own_diagonal);
   }
   level.inverse_diagonal = level.own_diagonal;
   sum_over_mates(level.mates, {&level.inverse_diagonal});
@@ -137,7 +133,7 @@ std::vector<FilterLevel> make_filter_levels(const Cloth& cloth, double time_step
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c)
       finest.own_weight(r, c) = per_step * cloth.mass(r, c) * finest.share(r, c);
-  while (levels.back().size() % 2 == 1 && (levels.back().size() - 1) / 2 + 1 >= least_level_size) {
+  while (levels.back().size() % 2 == 1 && levels.back().size() > coarsest_size) {
     const BorderMates& mates = levels.back().mates;
     const bool matched = halves(mates);
     FilterLevel coarse =

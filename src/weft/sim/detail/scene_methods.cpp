@@ -76,7 +76,7 @@ IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& 
     return read(scene_keys::explicit_integrator,
                 [](const JsonObject&) { return ExplicitOptions{}; });
   place.key("type").fail(fmt::format("unknown integrator '{}'", type),
-                         "known are: multigrid, implicit, explicit, two_level");
+                         "known are: implicit, explicit, two_level, multigrid");
 }
 
 ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place) {

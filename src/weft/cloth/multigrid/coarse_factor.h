@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "weft/cloth/multigrid/filter_level.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// The direct solver of the coarsest level: Cholesky's factors within the envelope of A, which
+/// they do not leave [george81]. Rows go by image rows with mates as one unknown, so an n x n sheet
+/// takes about n^3 entries, a seam adds one long row for each of its particles.
+class CoarseFactor {
+ public:
+  CoarseFactor() = default;
+  /// Finds the envelope. @param level  gives edges and mates; its weights may change later
+  explicit CoarseFactor(const FilterLevel& level);
+
+  /// False where the envelope would be too large to be worth it (images of even size above about
+  /// 128, which no halving shrinks).
+  [[nodiscard]] bool fits() const { return !rows_.empty(); }
+  /// Factors anew, in doubles. Requires fits().
+  void renew(const FilterLevel& level);
+  /// level.value = A^-1 level.right. To be called by every worker; ends with a barrier.
+  void solve(FilterLevel& level, Worker& worker);
+
+ private:
+  /// Where a row's entries are: columns `first` .. the diagonal, from `start` in the factor.
+  struct Row {
+    std::size_t start = 0;
+    int first = 0;
+  };
+  void assemble(const FilterLevel& level);
+  void factor();
+  void substitute(float* x) const;
+  void solve_plane(const FilterLevel& level, const Grid<float>& right, std::vector<float>& x,
+                   Grid<float>& value) const;
+
+  std::vector<int> unknown_of_;  // [n n] by sample
+  std::vector<int> sample_of_;   // by unknown: its least sample
+  std::vector<Row> rows_;
+  std::vector<double> exact_;               // the lower factor, row by row
+  std::vector<float> lower_;                // the same, rounded; diagonals inverted
+  std::array<std::vector<float>, 3> work_;  // by unknown, one a coordinate
+};
+
+}  // namespace weft
