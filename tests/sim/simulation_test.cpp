@@ -26,7 +26,8 @@ Scene free_fall(const IntegratorOptions& integrator) {
 
 TEST(Simulation, FreeFallIsTheFormulaOfTheStep) {
   for (const IntegratorOptions& integrator :
-       {IntegratorOptions{ImplicitOptions{}}, IntegratorOptions{ExplicitOptions{}}}) {
+       {IntegratorOptions{ImplicitOptions{}}, IntegratorOptions{ExplicitOptions{}},
+        IntegratorOptions{MultigridOptions{}}}) {
     Scene scene = free_fall(integrator);
     scene.substeps = 16;
     scene.cloths[0].material.stretch = 50;  // so that the explicit method is stable
@@ -77,8 +78,8 @@ Scene torus_on_ground() {
 
 TEST(Simulation, AnyNumberOfThreadsGivesTheSameHash) {
   for (const IntegratorOptions& integrator :
-       {IntegratorOptions{ImplicitOptions{}},
-        IntegratorOptions{TwoLevelOptions{.local_size = 5}}}) {
+       {IntegratorOptions{ImplicitOptions{}}, IntegratorOptions{TwoLevelOptions{.local_size = 5}},
+        IntegratorOptions{MultigridOptions{}}}) {
     Scene scene = torus_on_ground();
     scene.integrator = integrator;
     const auto hash = [&](int threads) {
