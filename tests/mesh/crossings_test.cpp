@@ -167,8 +167,8 @@ std::vector<std::array<int, 2>> self_crossings(const TriangleMesh& mesh) {
   return pairs;
 }
 
-// A bar along x through both faces of a cube across x, beside the faces' diagonals: each of its long
-// sides is two triangles, and each of these passes through one triangle of each face.
+// A bar along x through both faces of a cube across x, beside the faces' diagonals: each of its
+// long sides is two triangles, and each of these passes through one triangle of each face.
 TEST(Crossings, BarThroughABoxIsCountedByHand) {
   const TriangleMesh cube = box({0, 0, 0}, {4, 4, 4});
   EXPECT_TRUE(self_crossings(cube).empty());

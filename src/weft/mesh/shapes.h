@@ -18,8 +18,8 @@ std::vector<ShapeInfo> built_in_shapes();
 /// The shape as a mesh. Deterministic. @throws UsageError naming the nearest known name
 TriangleMesh make_shape(std::string_view name);
 
-/// True for the shapes that are images by nature (sheet, disk, torus, cylinder): the image module samples
-/// them directly, no map is computed.
+/// True for the shapes that are images by nature (sheet, disk, torus, cylinder): the image module
+/// samples them directly, no map is computed.
 bool is_image_by_nature(std::string_view name);
 
 }  // namespace weft
