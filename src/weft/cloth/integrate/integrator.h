@@ -62,7 +62,8 @@ std::string_view name_of(const IntegratorOptions& options);
 /// Advances one cloth by one step, in parts, so that a collider can work between them:
 ///   begin(input, state); next = iterate(contacts) (once or more); ... next may be changed ...;
 ///   end(state).
-/// Nothing here allocates once constructed; nothing throws.
+/// Nothing here allocates once constructed, but for multigrid where the time step or the set of
+/// pins changes; nothing throws.
 class Integrator {
  public:
   Integrator() = default;

@@ -21,16 +21,10 @@ std::string type_of(const nlohmann::json& value, const JsonPlace& place,
   return at->get<std::string>();
 }
 
-ImplicitOptions read_implicit(const JsonObject& object) {
-  ImplicitOptions options;
-  options.max_iterations =
-      object.integer("max_iterations", options.max_iterations, 1, most_iterations);
-  options.tolerance = object.number("tolerance", options.tolerance, positive);
-  return options;
-}
-
-MultigridOptions read_multigrid(const JsonObject& object) {
-  MultigridOptions options;
+/// Of the methods that iterate to a tolerance.
+template <class Options>
+Options read_iterative(const JsonObject& object) {
+  Options options;
   options.max_iterations =
       object.integer("max_iterations", options.max_iterations, 1, most_iterations);
   options.tolerance = object.number("tolerance", options.tolerance, positive);
@@ -67,9 +61,9 @@ IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& 
     return options_of(object);
   };
   if (type == name_of(ImplicitOptions{}))
-    return read(scene_keys::implicit_integrator, read_implicit);
+    return read(scene_keys::implicit_integrator, read_iterative<ImplicitOptions>);
   if (type == name_of(MultigridOptions{}))
-    return read(scene_keys::multigrid_integrator, read_multigrid);
+    return read(scene_keys::multigrid_integrator, read_iterative<MultigridOptions>);
   if (type == name_of(TwoLevelOptions{}))
     return read(scene_keys::two_level_integrator, read_two_level);
   if (type == name_of(ExplicitOptions{}))
