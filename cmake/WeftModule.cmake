@@ -3,10 +3,27 @@
 function(weft_module name)
   cmake_parse_arguments(MODULE "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/weft/${name}/*.cpp")
+  list(FILTER sources EXCLUDE REGEX "/kernels/rows/")
   add_library(weft_${name} STATIC ${sources})
   add_library(weft::${name} ALIAS weft_${name})
   set_target_properties(weft_${name} PROPERTIES EXPORT_NAME ${name})
   target_link_libraries(weft_${name}
     PUBLIC weft_flags ${MODULE_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:weft_warnings> ${MODULE_PRIVATE})
+endfunction()
+
+# Compiles src/weft/NAME/kernels/rows once for every instruction set into the module. Functions get
+# the set's name as namespace, so that the linker cannot mistake one for another.
+function(weft_kernels name)
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/weft/${name}/kernels/rows/*.cpp")
+  set(flags_baseline "")
+  set(flags_avx2 -mavx2)
+  set(flags_avx512 -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512)
+  foreach(set baseline avx2 avx512)
+    add_library(weft_${name}_${set} OBJECT ${sources})
+    target_compile_definitions(weft_${name}_${set} PRIVATE WEFT_KERNEL_SET=${set})
+    target_compile_options(weft_${name}_${set} PRIVATE ${flags_${set}})
+    target_link_libraries(weft_${name}_${set} PRIVATE weft_flags weft_warnings)
+    target_sources(weft_${name} PRIVATE $<TARGET_OBJECTS:weft_${name}_${set}>)
+  endforeach()
 endfunction()

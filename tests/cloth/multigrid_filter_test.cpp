@@ -1,9 +1,11 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/multigrid/filter.h"
-#include "weft/cloth/multigrid/filter_rows.h"
+#include "weft/cloth/neighbours.h"
 
 namespace weft {
 namespace {
@@ -14,31 +16,38 @@ constexpr double frame = 1.0 / 60;
 
 /// A filter beside the operator that it inverts.
 struct Filter {
-  explicit Filter(const Cloth& of)
-      : cloth(of), levels(make_filter_levels(of, frame)), filter(of, frame) {
+  explicit Filter(const Cloth& of, int sweeps = 1)
+      : cloth(of), levels(make_filter_levels(of, frame)), filter(of, {frame, sweeps}, team) {
     renew_weights(levels, Grid<float>(of.size, of.size, 1));
     for (int s = 0; s < of.size * of.size; ++s)
       if (of.inverse_mass(s / of.size, s % of.size) == 0) held.push_back(s);
   }
 
-  /// Own part of b - A x, 0 where held.
+  /// Own part of b - A x, 0 where held. @param b  own part too
   Planes3 residual(const Planes3& b, const Planes3& x) {
-    Planes3 out(cloth.size);
-    for (int r = 0; r < cloth.size; ++r)
-      residual_row(levels.front(), x, b, r, {out.x.row(r), out.y.row(r), out.z.row(r)});
+    const int n = cloth.size;
+    Planes3 out(n);
+    for (int r = 0; r < n; ++r)
+      kernels_for(InstructionSet::baseline)
+          .apply(n, levels.front().operator_row(r),
+                 {row_of(x, std::max(0, r - 1)), row_of(x, r), row_of(x, std::min(n - 1, r + 1))},
+                 row_of(out, r));
+    for (int s = 0; s < n * n; ++s) out.set(s, out.at(s) + b.at(s));
     for (const int s : held) out.set(s, {});
     return out;
   }
-  Planes3 apply(const Planes3& own) {
+  Planes3 apply(Planes3 own) {
+    sum_over_mates(cloth.mates, {&own.x, &own.y, &own.z});
     filter.right() = own;
-    ThreadTeam team(1);
-    team.run([&](Worker& worker) { filter.cycle(worker); });
+    team.run([&](Worker& worker) { slope = filter.cycle(worker); });
     return filter.value();
   }
 
   const Cloth& cloth;
   std::vector<FilterLevel> levels;
+  ThreadTeam team{1};
   MultigridFilter filter;
+  double slope = 0;
   std::vector<int> held;
 };
 
@@ -56,8 +65,8 @@ double dot_of(const Planes3& a, const Planes3& b) {
 }
 
 /// How much of the error in A's norm one of many cycles leaves.
-double convergence_factor(const Cloth& cloth) {
-  Filter filter(cloth);
+double convergence_factor(const Cloth& cloth, int sweeps) {
+  Filter filter(cloth, sweeps);
   const Planes3 zero(cloth.size);
   Planes3 x(cloth.size);
   shake(cloth, 1, x);
@@ -77,17 +86,20 @@ Cloth hung(int n) {
 }
 
 TEST(MultigridFilter, ConvergesAtARateThatDoesNotDependOnSize) {
-  for (const int n : {17, 33, 65, 129}) EXPECT_LT(convergence_factor(sheet_cloth(n)), 0.2) << n;
+  for (const int n : {17, 33, 65, 129}) {
+    EXPECT_LT(convergence_factor(sheet_cloth(n), 1), 0.26) << n;
+    EXPECT_LT(convergence_factor(sheet_cloth(n), 2), 0.12) << n;
+  }
 }
 
 TEST(MultigridFilter, ConvergesAsWellOnSizesThatHalveOnce) {
-  for (const int n : {35, 71, 81}) EXPECT_LT(convergence_factor(sheet_cloth(n)), 0.2) << n;
+  for (const int n : {35, 71, 81}) EXPECT_LT(convergence_factor(sheet_cloth(n), 2), 0.12) << n;
 }
 
 TEST(MultigridFilter, ConvergesWithPinsAndSeams) {
   for (const int n : {33, 65, 71}) {
-    EXPECT_LT(convergence_factor(hung(n)), 0.4) << n;
-    EXPECT_LT(convergence_factor(torus_cloth(n)), 0.6) << n;
+    EXPECT_LT(convergence_factor(hung(n), 2), 0.4) << n;
+    EXPECT_LT(convergence_factor(torus_cloth(n), 2), 0.6) << n;
   }
 }
 
@@ -180,18 +192,19 @@ TEST(MultigridFilter, GivesAConstantAccelerationBack) {
 }
 
 TEST(MultigridFilter, CycleIsSymmetric) {
-  for (const Cloth& cloth :
-       {sheet_cloth(33), torus_cloth(33), hung(33), sheet_cloth(71), torus_cloth(71)}) {
-    Filter filter(cloth);
-    Planes3 a(cloth.size), b(cloth.size);
-    shake(cloth, 1, a, 1);
-    shake(cloth, 1, b, 2);
-    for (const int s : filter.held) a.set(s, {}), b.set(s, {});
-    const double ab = dot_of(a, filter.apply(b)), ba = dot_of(b, filter.apply(a));
-    const double scale = std::sqrt(dot_of(a, filter.apply(a)) * dot_of(b, filter.apply(b)));
-    EXPECT_NEAR(ab, ba, 1e-4 * scale) << cloth.size;
-    EXPECT_GT(scale, 0);
-  }
+  for (const int sweeps : {1, 2})
+    for (const Cloth& cloth :
+         {sheet_cloth(33), torus_cloth(33), hung(33), sheet_cloth(71), torus_cloth(71)}) {
+      Filter filter(cloth, sweeps);
+      Planes3 a(cloth.size), b(cloth.size);
+      shake(cloth, 1, a, 1);
+      shake(cloth, 1, b, 2);
+      for (const int s : filter.held) a.set(s, {}), b.set(s, {});
+      const double ab = dot_of(a, filter.apply(b)), ba = dot_of(b, filter.apply(a));
+      const double scale = std::sqrt(dot_of(a, filter.apply(a)) * dot_of(b, filter.apply(b)));
+      EXPECT_NEAR(ab, ba, 1e-4 * scale) << cloth.size;
+      EXPECT_GT(scale, 0);
+    }
 }
 
 TEST(MultigridFilter, ForgetsPinsThatAreLetGo) {
@@ -200,12 +213,12 @@ TEST(MultigridFilter, ForgetsPinsThatAreLetGo) {
   shake(cloth, 1, b);
   Filter fresh(cloth);
   const Planes3 free = fresh.apply(b);
-  MultigridFilter filter(hung(17), frame);
+  ThreadTeam team(1);
+  MultigridFilter filter(hung(17), {frame}, team);
   EXPECT_FALSE(filter.knows_pins(cloth));
   filter.renew_pins(cloth);
   EXPECT_TRUE(filter.knows_pins(cloth));
   filter.right() = b;
-  ThreadTeam team(1);
   team.run([&](Worker& worker) { filter.cycle(worker); });
   for (int s = 0; s < 17 * 17; ++s) ASSERT_EQ(filter.value().at(s), free.at(s));
 }

@@ -48,6 +48,7 @@ struct Step {
   const Cloth& cloth;
   Integrator& integrator;
   CoarseLimit& coarse;
+  StrainLimit& limit;
   Collider& collider;
   ThreadTeam& team;
 
@@ -57,7 +58,7 @@ struct Step {
     const MovingCloth moving{state.position, next->position, next->velocity, cloth.inverse_mass};
     next = &integrator.iterate(collider.detect(moving, team));
     coarse.limit(2, input.time_step, *next, team);
-    limit_strain(cloth, {}, input.time_step, *next, team);
+    limit.limit({}, input.time_step, *next, team);
     collider.correct(moving, input.time_step, team);
     integrator.end(state);
   }
@@ -81,10 +82,11 @@ TEST(Allocation, SteppingAllocatesNothingOnceWarm) {
       const auto integrator = make_integrator(options, cloth, input, team);
       const Obstacles ball{{test::octahedral_sphere(17, 0.3, {0, -0.35, 0})}, -0.5, 0.5};
       const auto collider = make_collider(PolarMapOptions{}, ball, {});
-      CoarseLimit coarse(cloth);
+      CoarseLimit coarse(cloth, team);
+      StrainLimit limit(cloth, team);
       ClothState state = rest_state(cloth, {0, -1, 0});
       shake(cloth, 0.02, state.position);
-      const Step step{cloth, *integrator, coarse, *collider, team};
+      const Step step{cloth, *integrator, coarse, limit, *collider, team};
       step.take(input, state);
       const long before = allocations;
       for (int i = 0; i < 5; ++i) step.take(input, state);

@@ -57,7 +57,7 @@ TEST(SceneFile, EveryKeyIsRead) {
   EXPECT_EQ(two_level.global_size, 9);
   EXPECT_TRUE(two_level.as_printed);
   EXPECT_EQ(two_level.filter_stiffness, 12);
-  EXPECT_EQ(scene.limiter.passes, 3);
+  EXPECT_EQ(scene.limiter_passes, 3);
   const auto& polar_map = std::get<PolarMapOptions>(scene.collider);
   EXPECT_EQ(polar_map.size, 99);
   EXPECT_FALSE(polar_map.walk);
@@ -168,7 +168,7 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   scene.ground.reset();
   scene.integrator = TwoLevelOptions{
       .local_size = 5, .global_size = 3, .as_printed = true, .filter_stiffness = 0.7};
-  scene.limiter.passes = 4;
+  scene.limiter_passes = 4;
   scene.collider = PolarMapOptions{.size = 12, .walk = false};
   SceneCloth cloth;
   const test::TemporaryFolder folder;

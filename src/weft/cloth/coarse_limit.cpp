@@ -6,7 +6,6 @@
 #include "weft/cloth/mates.h"
 #include "weft/cloth/mip_levels.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/cloth/strain_limit.h"
 
 namespace weft {
 namespace {
@@ -69,7 +68,7 @@ void add_row(const Planes3& term, float factor, int row, Planes3& sum) {
 
 }  // namespace
 
-CoarseLimit::Level CoarseLimit::coarsened(const Cloth& fine) {
+std::unique_ptr<CoarseLimit::Level> CoarseLimit::coarsened(const Cloth& fine) {
   Cloth coarse;
   coarse.size = (fine.size - 1) / 2 + 1;
   coarse.mates = halves(fine.mates) ? halved(fine.mates) : BorderMates(coarse.size, {});
@@ -78,22 +77,25 @@ CoarseLimit::Level CoarseLimit::coarsened(const Cloth& fine) {
   for (int d = 0; d < bend_u; ++d) coarse.springs[d] = joined_springs(fine.springs[d], coarse.size);
   coarse.border_springs = find_border_springs(coarse);
   const int n = coarse.size;
-  return {std::move(coarse), {Planes3(n), Planes3(n)}, Grid<float>(n, n, 1)};
+  return std::make_unique<Level>(
+      Level{std::move(coarse), {Planes3(n), Planes3(n)}, Grid<float>(n, n, 1)});
 }
 
-CoarseLimit::CoarseLimit(const Cloth& cloth)
+CoarseLimit::CoarseLimit(const Cloth& cloth, const ThreadTeam& team)
     : cloth_(cloth), moves_(cloth.size, cloth.size, 1), correction_(cloth.size) {
   const Cloth* fine = &cloth;
   while (fine->size % 2 == 1 && (fine->size - 1) / 2 + 1 >= least_level_size) {
     levels_.push_back(coarsened(*fine));
-    fine = &levels_.back().cloth;
+    fine = &levels_.back()->cloth;
+    levels_.back()->limit = std::make_unique<StrainLimit>(*fine, team);
   }
 }
 
 void CoarseLimit::sample(const ClothState& state) {
   const Planes3* position = &state.position;
   const Grid<float>* inverse_mass = &cloth_.inverse_mass;
-  for (Level& level : levels_) {
+  for (const auto& held : levels_) {
+    Level& level = *held;
     const int n = level.cloth.size;
     for (int r = 0; r < n; ++r)
       for (int c = 0; c < n; ++c) {
@@ -109,17 +111,16 @@ void CoarseLimit::sample(const ClothState& state) {
 
 /// Takes over what the level below found, and adds to it.
 void CoarseLimit::limit_level(std::size_t index, const Bounds& bounds, Worker& worker) {
-  Level& level = levels_[index];
+  Level& level = *levels_[index];
   Planes3 &x = level.state.position, &d = level.state.velocity;
   const bool coarsest = index + 1 == levels_.size();
   for (int r = 0; r < level.cloth.size; ++r) {
     clear_row(d, r);
-    if (!coarsest) interpolate(levels_[index + 1].state, level.moves, r, d);
+    if (!coarsest) interpolate(levels_[index + 1]->state, level.moves, r, d);
   }
   average_over_mates(level.cloth.mates, worker, {&d.x, &d.y, &d.z});
   for (int r = 0; r < level.cloth.size; ++r) add_row(d, 1, r, x);
-  for (int pass = 0; pass < bounds.passes; ++pass)
-    limit_pass(level.cloth, {0, bounds.longest, 1}, level.state, worker);
+  level.limit->passes(bounds.passes, {0, bounds.longest, 1}, level.state, worker);
   copy_to_mates(level.cloth.mates, worker, {&x.x, &x.y, &x.z, &d.x, &d.y, &d.z});
 }
 
@@ -131,7 +132,7 @@ void CoarseLimit::apply(double time_step, ClothState& state, Worker& worker) {
     for (int c = 0; c < cloth_.size; ++c)
       moves_(r, c) = cloth_.inverse_mass(r, c) > 0 ? 1.0F : 0.0F;
     clear_row(correction_, r);
-    interpolate(levels_.front().state, moves_, r, correction_);
+    interpolate(levels_.front()->state, moves_, r, correction_);
   }
   worker.barrier();
   average_over_mates(cloth_.mates, worker, {&correction_.x, &correction_.y, &correction_.z});

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "weft/cloth/cloth.h"
+#include "weft/cloth/strain_limit.h"
 #include "weft/core/thread_team.h"
 
 namespace weft {
@@ -17,7 +19,8 @@ namespace weft {
 /// levels are cut along the seam, and what they find is averaged over the mates.
 class CoarseLimit {
  public:
-  explicit CoarseLimit(const Cloth& cloth);
+  /// @param cloth  kept by reference
+  CoarseLimit(const Cloth& cloth, const ThreadTeam& team);
 
   /// @param passes  on each level
   /// @param state   mates equal, before and after
@@ -28,20 +31,21 @@ class CoarseLimit {
     Cloth cloth;        ///< as far as a limiter needs it
     ClothState state;   ///< velocity: the correction of the positions [m]
     Grid<float> moves;  ///< 1 where not pinned
+    std::unique_ptr<StrainLimit> limit{};
   };
   struct Bounds {
     int passes;
     float longest;  ///< in rest lengths
   };
-  static Level coarsened(const Cloth& fine);
+  static std::unique_ptr<Level> coarsened(const Cloth& fine);
   void sample(const ClothState& state);
   void limit_level(std::size_t index, const Bounds& bounds, Worker& worker);
   void apply(double time_step, ClothState& state, Worker& worker);
 
   const Cloth& cloth_;
-  std::vector<Level> levels_;  ///< from fine to coarse
-  Grid<float> moves_;          ///< [n x n] 1 where not pinned
-  Planes3 correction_;         ///< [n x n] [m]
+  std::vector<std::unique_ptr<Level>> levels_;  ///< from fine to coarse
+  Grid<float> moves_;                           ///< [n x n] 1 where not pinned
+  Planes3 correction_;                          ///< [n x n] [m]
 };
 
 }  // namespace weft

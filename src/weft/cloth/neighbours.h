@@ -3,6 +3,7 @@
 #include <array>
 
 #include "weft/cloth/cloth.h"
+#include "weft/cloth/kernels/row_pointers.h"
 
 namespace weft {
 
@@ -47,13 +48,6 @@ class NeighbourRows {
   int count_ = 0;
 };
 
-/// The three rows of a vector field.
-struct ConstRow3 {
-  const float *x, *y, *z;
-};
-struct Row3 {
-  float *x, *y, *z;
-};
 inline ConstRow3 row_of(const Planes3& planes, int r) {
   return {planes.x.row(r), planes.y.row(r), planes.z.row(r)};
 }

@@ -31,6 +31,7 @@ class PushCollider final : public Collider {
   }
 
   std::span<const Contact> detect(const MovingCloth& cloth, ThreadTeam& team) noexcept override {
+    if (nothing_there()) return {};
     const int n = cloth.position.size();
     slots_.resize(static_cast<std::size_t>(n) * n);
     contacts_.reserve(slots_.size());
@@ -47,6 +48,7 @@ class PushCollider final : public Collider {
   }
 
   int correct(const MovingCloth& cloth, double time_step, ThreadTeam& team) noexcept override {
+    if (nothing_there()) return 0;
     const int n = cloth.position.size();
     touched_.resize(n);
     team.run([&](Worker& worker) {
@@ -88,6 +90,8 @@ class PushCollider final : public Collider {
     SurfacePoint point;
     double friction = 0;
   };
+
+  [[nodiscard]] bool nothing_there() const { return bodies_.empty() && !ground_; }
 
   /// The obstacle that is entered deepest, of those nearer than `reach`.
   [[nodiscard]] std::optional<Nearest> deepest(Vec3d point, Vec3d start,

@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "weft/core/instruction_set.h"
+
 namespace weft {
 
 /// A half-open range of rows, samples or the like.
@@ -44,12 +46,14 @@ class Worker {
 class ThreadTeam {
  public:
   /// @param size  threads, >= 1
-  explicit ThreadTeam(int size);
+  /// @param set   what the members' inner loops use; this processor must have it
+  explicit ThreadTeam(int size, InstructionSet set = best_instruction_set());
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
   ~ThreadTeam();
 
   [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] InstructionSet instructions() const { return set_; }
 
   /// Calls body(worker) on every worker and returns when all are done. The body must not throw.
   template <class Body>
@@ -70,6 +74,7 @@ class ThreadTeam {
   void wait_for_all();
 
   int size_;
+  InstructionSet set_;
   Task task_;
   // Workers sleep between regions and spin briefly, then yield, at barriers inside one.
   std::mutex mutex_;

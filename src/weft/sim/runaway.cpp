@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/cloth/neighbours.h"
+
 namespace weft {
 namespace {
 
@@ -38,8 +40,9 @@ Motion motion_of(const Cloth& cloth, const ClothState& state) {
 }  // namespace
 
 RunawayCheck::RunawayCheck(const Cloth& cloth, const ClothState& start, Vec3d gravity)
-    : gravity_(length(gravity)) {
+    : rows_(static_cast<std::size_t>(cloth.size)), gravity_(length(gravity)) {
   const Motion motion = motion_of(cloth, start);
+  mass_ = motion.mass;
   start_energy_ = motion.kinetic / motion.mass;
   speed_ = std::sqrt(motion.fastest);
   Box3d box;
@@ -52,16 +55,29 @@ double RunawayCheck::most_energy(double seconds) const {
   return generous * (least_energy + start_energy_ + gravity_ * fallen);
 }
 
+/// One particle of many carries little energy: it is judged by its speed.
+bool RunawayCheck::suspect(const Cloth& cloth, const ClothState& state, double bound,
+                           ThreadTeam& team) {
+  const KernelTable& kernels = kernels_for(team.instructions());
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(cloth.size);
+    for (int r = mine.first; r < mine.last; ++r)
+      rows_[r] = kernels.motion(cloth.size, cloth.mass.row(r), row_of(state.position, r),
+                                row_of(state.velocity, r));
+  });
+  double kinetic = 0;
+  for (const RowMotion& row : rows_) {
+    if (!row.finite || 0.5 * double{row.largest_squared} > generous * bound) return true;
+    kinetic += row.kinetic;
+  }
+  return kinetic / mass_ > bound;
+}
+
 std::optional<BadParticle> RunawayCheck::find(const Cloth& cloth, const ClothState& state,
-                                              double seconds) const {
+                                              double seconds, ThreadTeam& team) {
+  if (!suspect(cloth, state, most_energy(seconds), team)) return std::nullopt;
   if (const auto bad = find_not_finite(state)) return bad;
-  const double bound = most_energy(seconds);
-  const Motion motion = motion_of(cloth, state);
-  // One particle of many carries little energy: it is judged by its speed.
-  const bool runaway =
-      motion.kinetic / motion.mass > bound || 0.5 * motion.fastest > generous * bound;
-  if (!runaway) return std::nullopt;
-  return BadParticle{motion.fastest_sample / cloth.size, motion.fastest_sample % cloth.size};
+  return fastest_particle(cloth, state);
 }
 
 BadParticle fastest_particle(const Cloth& cloth, const ClothState& state) {

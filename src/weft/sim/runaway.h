@@ -1,9 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "weft/cloth/cloth.h"
+#include "weft/cloth/kernels/kernel_table.h"
 #include "weft/cloth/measure.h"
+#include "weft/core/thread_team.h"
 
 namespace weft {
 
@@ -11,20 +14,24 @@ namespace weft {
 /// to.
 class RunawayCheck {
  public:
-  RunawayCheck() = default;
   /// @param start  the state that the run begins with
   RunawayCheck(const Cloth& cloth, const ClothState& start, Vec3d gravity);
 
   /// The first particle that is not finite, or the fastest one when the cloth has more kinetic
   /// energy than `most_energy` or a single particle ten times the speed of that.
   [[nodiscard]] std::optional<BadParticle> find(const Cloth& cloth, const ClothState& state,
-                                                double seconds) const;
+                                                double seconds, ThreadTeam& team);
 
   /// A hundred times the energy per mass that falling for `seconds` and the cloth's own size
   /// account for. [J/kg]
   [[nodiscard]] double most_energy(double seconds) const;
 
  private:
+  [[nodiscard]] bool suspect(const Cloth& cloth, const ClothState& state, double bound,
+                             ThreadTeam& team);
+
+  std::vector<RowMotion> rows_;
+  double mass_ = 0;                                                // [kg]
   double start_energy_ = 0, speed_ = 0, gravity_ = 0, reach_ = 0;  // [J/kg], [m/s], [m/s^2], [m]
 };
 

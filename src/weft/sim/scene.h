@@ -8,7 +8,6 @@
 
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/material.h"
-#include "weft/cloth/strain_limit.h"
 #include "weft/collide/collider.h"
 
 namespace weft {
@@ -59,7 +58,7 @@ struct Scene {
   int frames = 120;
   std::optional<double> ground = 0.0;
   IntegratorOptions integrator = ImplicitOptions{};
-  LimitOptions limiter;
+  std::optional<int> limiter_passes;  ///< a step; none: what suits the integrator
   ColliderOptions collider = PolarMapOptions{};
   std::vector<SceneCloth> cloths;
   std::vector<SceneBody> bodies;

@@ -91,7 +91,8 @@ Scene parse_scene(std::string_view text, const std::string& name,
   scene.frames = root.integer("frames", scene.frames, 0, most_frames);
   read_ground(root, scene);
   if (const auto* value = root.find("integrator"))
-    scene.integrator = read_integrator(*value, root.place().key("integrator"), scene.limiter);
+    scene.integrator =
+        read_integrator(*value, root.place().key("integrator"), scene.limiter_passes);
   if (const auto* value = root.find("collider"))
     scene.collider = read_collider(*value, root.place().key("collider"));
   scene.cloths = read_list<SceneCloth>(root, "cloths", [&](const auto& value, const auto& place) {

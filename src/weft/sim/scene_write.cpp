@@ -104,7 +104,7 @@ Json scene_json(const Scene& scene, const fs::path& folder) {
   json["ground"] = scene.ground ? Json(*scene.ground) : Json();
   json["wind"] = {{"velocity", to_json(Vec3d{})}};
   json["integrator"] = std::visit(IntegratorWriter{}, scene.integrator);
-  json["integrator"]["limiter_passes"] = scene.limiter.passes;
+  if (scene.limiter_passes) json["integrator"]["limiter_passes"] = *scene.limiter_passes;
   json["collider"] = collider_json(scene.collider);
   json["cloths"] = Json::array();
   for (const SceneCloth& cloth : scene.cloths) json["cloths"].push_back(cloth_json(cloth, folder));

@@ -36,6 +36,9 @@ constexpr double ground_friction = 0.5;
 /// springs are so soft that the limiter carries the cloth: there both take turns, the collider
 /// last.
 constexpr int rounds_of_soft_springs = 4;
+/// Stiff springs leave the limiter a few samples about pins, which it has to bring up the whole
+/// cloth's weight by: many passes, that cost little.
+constexpr int passes_of_soft_springs = 10, passes_of_stiff_springs = 60;
 /// Of the limiter on each coarse level.
 constexpr int coarse_passes = 2;
 
@@ -66,6 +69,7 @@ struct Mover {
   std::unique_ptr<Integrator> integrator;
   std::unique_ptr<Collider> collider;
   RunawayCheck runaway;
+  StrainLimit limit;
   CoarseLimit coarse_limit;
 };
 
@@ -77,7 +81,10 @@ struct Simulation::Parts {
         name(std::move(given_name)),
         progress(given_progress),
         team(threads),
-        time_step(1 / (scene.frame_rate * scene.substeps)) {}
+        time_step(1 / (scene.frame_rate * scene.substeps)),
+        soft(std::holds_alternative<TwoLevelOptions>(scene.integrator)),
+        limiter{scene.limiter_passes.value_or(soft ? passes_of_soft_springs
+                                                   : passes_of_stiff_springs)} {}
 
   LoadedSurface load(const std::string& surface, ConvertOptions options, const std::string& what);
   void load_cloths();
@@ -97,6 +104,8 @@ struct Simulation::Parts {
   Progress* progress;
   ThreadTeam team;
   double time_step;  // [s]
+  bool soft;         // springs that leave all stretch to the limiter
+  LimitOptions limiter;
   std::vector<SimulatedCloth> cloths;
   std::vector<PlacedBody> bodies;
   std::vector<std::string> notes;
@@ -167,7 +176,7 @@ void Simulation::Parts::make_movers() {
     movers.push_back({make_integrator(scene.integrator, cloth.cloth, typical, team),
                       make_collider(scene.collider, obstacles, guarded),
                       RunawayCheck(cloth.cloth, cloth.state, scene.gravity),
-                      CoarseLimit(cloth.cloth)});
+                      StrainLimit(cloth.cloth, team), CoarseLimit(cloth.cloth, team)});
   }
 }
 
@@ -189,11 +198,11 @@ int Simulation::Parts::step(std::size_t index, FrameReport& report) {
     if (!contacts.empty()) next = &mover.integrator->iterate(contacts);
   }
   clock.lap();
-  const bool soft = std::holds_alternative<TwoLevelOptions>(scene.integrator);
   int contacts = 0;
   for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
-    mover.coarse_limit.limit(std::min(coarse_passes, scene.limiter.passes), time_step, *next, team);
-    limit_strain(cloth.cloth, scene.limiter, time_step, *next, team);
+    if (soft)
+      mover.coarse_limit.limit(std::min(coarse_passes, limiter.passes), time_step, *next, team);
+    mover.limit.limit(limiter, time_step, *next, team);
     report.limit_ms += clock.lap();
     const int touched = mover.collider->correct(
         {start, next->position, next->velocity, cloth.cloth.inverse_mass}, time_step, team);
@@ -284,7 +293,8 @@ FrameReport Simulation::advance() {
     for (std::size_t i = 0; i < parts_->cloths.size(); ++i) {
       contacts += parts_->step(i, report);
       const SimulatedCloth& cloth = parts_->cloths[i];
-      if (const auto bad = parts_->movers[i].runaway.find(cloth.cloth, cloth.state, seconds))
+      if (const auto bad =
+              parts_->movers[i].runaway.find(cloth.cloth, cloth.state, seconds, parts_->team))
         parts_->stop_unstable(i, *bad);
     }
     report.contacts = std::max(report.contacts, contacts);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "weft/cloth/forces.h"
 #include "weft/cloth/integrate/proposal.h"
+#include "weft/cloth/mates.h"
 #include "weft/cloth/neighbours.h"
 
 namespace weft {
@@ -14,29 +14,27 @@ namespace {
 /// Of the secant: directions are as long as the filter, which is too stiff, makes them.
 constexpr double most_way = 4;
 
-/// The dot product of a row of own parts with a row of whole values: summed over all samples it
-/// counts every particle once.
-double dot_row(const Planes3& own, const Planes3& whole, int row) {
-  const ConstRow3 a = row_of(own, row), b = row_of(whole, row);
-  return lane_sum(own.size(), [&](int c) {
-    return double{a.x[c]} * double{b.x[c]} + double{a.y[c]} * double{b.y[c]} +
-           double{a.z[c]} * double{b.z[c]};
-  });
+void copy_row(ConstRow3 from, Row3 to, int n) {
+  std::copy(from.x, from.x + n, to.x);
+  std::copy(from.y, from.y + n, to.y);
+  std::copy(from.z, from.z + n, to.z);
 }
 
 }  // namespace
 
-Descent::Descent(const Cloth& cloth, double time_step)
+Descent::Descent(const Cloth& cloth, double time_step, ThreadTeam& team)
     : cloth_(cloth),
+      team_(team),
+      kernels_(kernels_for(team.instructions())),
       time_step_(time_step),
-      filter_(cloth, time_step),
+      filter_(cloth, {time_step}, team),
       contacts_(cloth.size),
+      springs_(cloth, team),
       start_(rest_state(cloth)),
       next_(rest_state(cloth)),
       fall_(cloth.size),
       move_(cloth.size),
       direction_(cloth.size),
-      residual_(cloth.size),
       far_residual_(cloth.size),
       sums_(cloth.size),
       largest_(static_cast<std::size_t>(cloth.size)) {}
@@ -44,35 +42,40 @@ Descent::Descent(const Cloth& cloth, double time_step)
 void Descent::renew_filter() {
   if (input_.time_step != time_step_) {
     time_step_ = input_.time_step;
-    filter_ = MultigridFilter(cloth_, time_step_);
+    filter_ = MultigridFilter(cloth_, {time_step_}, team_);
   } else if (!filter_.knows_pins(cloth_)) {
     filter_.renew_pins(cloth_);
   }
 }
 
-void Descent::begin(const StepInput& input, const ClothState& state, ThreadTeam& team) {
+void Descent::begin(const StepInput& input, const ClothState& state) {
   input_ = input;
   iterations_ = 0;
   correction_ = 0;
+  pending_way_ = 0;
   contacts_.clear();
   renew_filter();
-  team.run([&](Worker& worker) {
+  team_.run([&](Worker& worker) {
     copy_rows(state, start_, worker);
     const Range mine = worker.share(cloth_.size);
-    for (int r = mine.first; r < mine.last; ++r) {
-      fall_row(r);
-      place_row(0, r);
-    }
+    for (int r = mine.first; r < mine.last; ++r) fall_row(r);
   });
   hold_pins();
 }
 
-void Descent::run(std::span<const Contact> contacts, const MultigridOptions& options,
-                  ThreadTeam& team) {
+void Descent::run(std::span<const Contact> contacts, const MultigridOptions& options) {
   contacts_.choose(cloth_, contacts, next_.position);
-  team.run([&](Worker& worker) {
+  team_.run([&](Worker& worker) {
+    const Range mine = worker.share(cloth_.size);
+    const auto pending = static_cast<float>(pending_way_);
+    for (int r = mine.first; r < mine.last; ++r) settle_row(pending, r);
+    worker.barrier();
     contacts_.push_out(cloth_, fall_, move_, worker);
-    descend(options, worker);
+    const Course course = descend(options, worker);
+    if (worker.rank() != 0) return;
+    pending_way_ = course.way;
+    iterations_ += course.iterations;
+    correction_ = course.correction;
   });
   hold_pins();
 }
@@ -88,159 +91,117 @@ void Descent::fall_row(int row) {
   const Vec3f g = input_.gravity;
   const ConstRow3 x = row_of(std::as_const(start_.position), row);
   const ConstRow3 v = row_of(std::as_const(start_.velocity), row);
-  const Row3 y = row_of(fall_, row), z = row_of(move_, row);
+  const Row3 y = row_of(fall_, row), z = row_of(move_, row), d = row_of(direction_, row);
   for (int c = 0; c < cloth_.size; ++c) {
     y.x[c] = x.x[c] + h * (v.x[c] + h * g.x);
     y.y[c] = x.y[c] + h * (v.y[c] + h * g.y);
     y.z[c] = x.z[c] + h * (v.z[c] + h * g.z);
     z.x[c] = z.y[c] = z.z[c] = 0;
+    d.x[c] = d.y[c] = d.z[c] = 0;
   }
 }
 
 void Descent::place_row(float way, int row) {
   const auto h = static_cast<float>(input_.time_step);
   const Vec3f g = input_.gravity;
-  const ConstRow3 y = row_of(std::as_const(fall_), row), z = row_of(std::as_const(move_), row);
-  const ConstRow3 d = row_of(std::as_const(direction_), row);
-  const ConstRow3 v = row_of(std::as_const(start_.velocity), row);
-  const Row3 x1 = row_of(next_.position, row), v1 = row_of(next_.velocity, row);
-  const float per_step = 1 / h;
-#pragma omp simd
-  for (int c = 0; c < cloth_.size; ++c) {
-    const float dx = z.x[c] + way * d.x[c];
-    const float dy = z.y[c] + way * d.y[c];
-    const float dz = z.z[c] + way * d.z[c];
-    x1.x[c] = y.x[c] + dx;
-    x1.y[c] = y.y[c] + dy;
-    x1.z[c] = y.z[c] + dz;
-    v1.x[c] = v.x[c] + h * g.x + per_step * dx;
-    v1.y[c] = v.y[c] + h * g.y + per_step * dy;
-    v1.z[c] = v.z[c] + h * g.z + per_step * dz;
-  }
+  kernels_.place(cloth_.size, {way,
+                               1 / h,
+                               {h * g.x, h * g.y, h * g.z},
+                               row_of(std::as_const(fall_), row),
+                               row_of(std::as_const(move_), row),
+                               row_of(std::as_const(direction_), row),
+                               row_of(std::as_const(start_.velocity), row),
+                               row_of(next_.position, row),
+                               row_of(next_.velocity, row)});
 }
 
-void Descent::residual_row(float way, Planes3& out, int row) {
-  gather_damped(cloth_, row, next_, out);
-  const float* weight = filter_.mass_weight().row(row);
-  const ConstRow3 z = row_of(std::as_const(move_), row);
-  const ConstRow3 d = row_of(std::as_const(direction_), row);
-  const Row3 r = row_of(out, row);
-#pragma omp simd
-  for (int c = 0; c < cloth_.size; ++c) {
-    r.x[c] -= weight[c] * (z.x[c] + way * d.x[c]);
-    r.y[c] -= weight[c] * (z.y[c] + way * d.y[c]);
-    r.z[c] -= weight[c] * (z.z[c] + way * d.z[c]);
-  }
-  contacts_.filter_row(out, row);
-}
-
-void Descent::look(float way, Planes3& out, Worker& worker) {
-  const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) place_row(way, r);
-  worker.barrier();
-  for (int r = mine.first; r < mine.last; ++r) residual_row(way, out, r);
-  worker.barrier();
-}
-
-void Descent::copy_right_row(int row) {
-  const ConstRow3 r = row_of(std::as_const(residual_), row);
-  const Row3 b = row_of(filter_.right(), row);
-  std::copy(r.x, r.x + cloth_.size, b.x);
-  std::copy(r.y, r.y + cloth_.size, b.y);
-  std::copy(r.z, r.z + cloth_.size, b.z);
-}
-
-void Descent::step_difference_row(int row) {
-  const ConstRow3 now = row_of(std::as_const(residual_), row);
-  const ConstRow3 before = row_of(std::as_const(filter_.right()), row);
-  const Row3 out = row_of(far_residual_, row);
-  for (int c = 0; c < cloth_.size; ++c) {
-    out.x[c] = now.x[c] - before.x[c];
-    out.y[c] = now.y[c] - before.y[c];
-    out.z[c] = now.z[c] - before.z[c];
-  }
-}
-
-void Descent::turn_row(float beta, int row) {
-  const ConstRow3 w = row_of(filter_.value(), row);
-  const Row3 d = row_of(direction_, row);
-  for (int c = 0; c < cloth_.size; ++c) {
-    d.x[c] = w.x[c] + beta * d.x[c];
-    d.y[c] = w.y[c] + beta * d.y[c];
-    d.z[c] = w.z[c] + beta * d.z[c];
-  }
-  contacts_.filter_row(direction_, row);
-}
-
-double Descent::turn(double last_slope, Worker& worker) {
-  const Range mine = worker.share(cloth_.size);
-  // The residual before the step is the filter's right side still.
-  for (int r = mine.first; r < mine.last; ++r) {
-    if (last_slope > 0) step_difference_row(r);
-    copy_right_row(r);
-  }
-  worker.barrier();
-  filter_.cycle(worker);
-  const Planes3& w = filter_.value();
-  const double slope = sums_.sum(worker, [&](int r) { return dot_row(residual_, w, r); });
-  double beta = 0;
-  if (last_slope > 0) {
-    const double change = sums_.sum(worker, [&](int r) { return dot_row(far_residual_, w, r); });
-    beta = std::max(0.0, change / last_slope);
-  }
-  for (int r = mine.first; r < mine.last; ++r) turn_row(static_cast<float>(beta), r);
-  worker.barrier();
-  return slope;
-}
-
-void Descent::step_row(float way, int row) {
-  const ConstRow3 d = row_of(std::as_const(direction_), row);
-  const ConstRow3 far = row_of(std::as_const(far_residual_), row);
-  const Row3 z = row_of(move_, row), r = row_of(residual_, row);
-  float largest = 0;
+void Descent::settle_row(float way, int row) {
+  if (way == 0) return;
+  const Row3 z = row_of(move_, row), d = row_of(direction_, row);
   for (int c = 0; c < cloth_.size; ++c) {
     z.x[c] += way * d.x[c];
     z.y[c] += way * d.y[c];
     z.z[c] += way * d.z[c];
-    r.x[c] += way * (far.x[c] - r.x[c]);
-    r.y[c] += way * (far.y[c] - r.y[c]);
-    r.z[c] += way * (far.z[c] - r.z[c]);
-    largest = std::max(largest, d.x[c] * d.x[c] + d.y[c] * d.y[c] + d.z[c] * d.z[c]);
+    d.x[c] = d.y[c] = d.z[c] = 0;
   }
-  largest_[static_cast<std::size_t>(row)] = way * std::sqrt(largest);
 }
 
-double Descent::go(Worker& worker) {
-  look(1, far_residual_, worker);
-  const double here = sums_.sum(worker, [&](int r) { return dot_row(residual_, direction_, r); });
-  const double there =
-      sums_.sum(worker, [&](int r) { return dot_row(far_residual_, direction_, r); });
-  const double bend = here - there;
-  const double way = bend > 0 && here > 0 ? std::min(here / bend, most_way) : 1.0;
+double Descent::look(Worker& worker) {
+  const SpringRows::Motion motion{next_.position, start_.position, input_.time_step};
+  springs_.begin(motion, worker);
+  const double along = sums_.sum(worker, [&](int r) {
+    const Row3 out = row_of(far_residual_, r);
+    copy_row(springs_.row(motion, r, worker), out, cloth_.size);
+    return kernels_.inertia(cloth_.size, filter_.mass_weight().row(r),
+                            row_of(std::as_const(move_), r), row_of(std::as_const(direction_), r),
+                            out);
+  });
+  if (cloth_.mates.class_count() > 0) {
+    sum_over_mates(cloth_.mates, worker, {&far_residual_.x, &far_residual_.y, &far_residual_.z});
+    worker.barrier();
+  }
   const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) step_row(static_cast<float>(way), r);
-  worker.barrier();
-  float largest = 0;
-  for (const float row : largest_) largest = std::max(largest, row);
-  worker.barrier();
-  return double{largest} / cloth_.rest_spacing;
+  for (int r = mine.first; r < mine.last; ++r) contacts_.filter_row(far_residual_, r);
+  return along;
 }
 
-void Descent::descend(const MultigridOptions& options, Worker& worker) {
-  double slope = 0, correction = 0;
-  int done = 0;
-  look(0, residual_, worker);
-  while (done < options.max_iterations) {
-    slope = turn(slope, worker);
-    correction = go(worker);
-    ++done;
-    if (!(correction > options.tolerance)) break;
+void Descent::take_residual(const Course& course, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    const ConstRow3 far = row_of(std::as_const(far_residual_), r);
+    if (course.iterations == 0)
+      copy_row(far, row_of(filter_.right(), r), cloth_.size);
+    else
+      kernels_.step_residual(cloth_.size, static_cast<float>(course.way), far,
+                             row_of(filter_.right(), r));
   }
+  worker.barrier();
+}
+
+double Descent::turn(Course& course, Worker& worker) {
+  const double slope = filter_.cycle(worker);
+  double beta = course.slope > 0 ? slope / course.slope : 0;
+  // Residuals that grow, or a direction that leads up, are no reason to go on as before.
+  if (!(beta <= 1) || !(slope + beta * course.left > 0)) beta = 0;
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    contacts_.filter_row(filter_.value(), r);
+    largest_[static_cast<std::size_t>(r)] = kernels_.turn(
+        cloth_.size, {static_cast<float>(course.way), static_cast<float>(beta),
+                      row_of(std::as_const(fall_), r), row_of(std::as_const(filter_.value()), r),
+                      row_of(move_, r), row_of(direction_, r), row_of(next_.position, r)});
+  }
+  worker.barrier();
+  course.slope = slope;
+  return slope + beta * course.left;
+}
+
+double Descent::largest_direction() const {
+  return std::sqrt(double{*std::max_element(largest_.begin(), largest_.end())});
+}
+
+void Descent::go(double slope, Course& course, Worker& worker) {
+  const double there = look(worker);
+  const double bend = slope - there;
+  course.way = bend > 0 && slope > 0 ? std::min(slope / bend, most_way) : 1.0;
+  course.left = slope - course.way * bend;
+  course.correction = course.way * largest_direction() / cloth_.rest_spacing;
+  ++course.iterations;
+}
+
+Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) place_row(0, r);
-  if (worker.rank() != 0) return;
-  iterations_ += done;
-  correction_ = correction;
+  worker.barrier();
+  look(worker);
+  Course course;
+  while (course.iterations < options.max_iterations) {
+    take_residual(course, worker);
+    go(turn(course, worker), course, worker);
+    if (!(course.correction > options.tolerance)) break;
+  }
+  for (int r = mine.first; r < mine.last; ++r) place_row(static_cast<float>(course.way), r);
+  return course;
 }
 
 }  // namespace weft

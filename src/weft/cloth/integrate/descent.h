@@ -5,6 +5,7 @@
 
 #include "weft/cloth/integrate/contact_filter.h"
 #include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrate/spring_rows.h"
 #include "weft/cloth/multigrid/filter.h"
 #include "weft/core/ordered_sum.h"
 
@@ -12,20 +13,20 @@ namespace weft {
 
 /// One step of implicit Euler with the springs as they are, by descending in its energy
 ///   E(x) = |x - y|^2_M / (2 h^2) + springs(x) + damping(x),  y = x0 + h v + h^2 g,
-/// from x = y on: conjugate gradients [polak69], preconditioned by the multigrid filter, with a
+/// from x = y on: conjugate gradients [fletcher64], preconditioned by the multigrid filter, with a
 /// secant step along each direction. The gradient at the step's end is taken as linear between
 /// those at both ends of the secant, so an iteration costs one V-cycle and one pass over the
 /// springs. Starting from y keeps free fall exact and, unlike a guess from the step before, adds no
 /// energy when few iterations are made.
 class Descent {
  public:
-  /// @param cloth  kept by reference
-  Descent(const Cloth& cloth, double time_step);
+  /// @param cloth  kept by reference, as is the team
+  Descent(const Cloth& cloth, double time_step, ThreadTeam& team);
 
   /// Starts a step: next() falls freely.
-  void begin(const StepInput& input, const ClothState& state, ThreadTeam& team);
+  void begin(const StepInput& input, const ClothState& state);
   /// Puts particles onto the contacts' surfaces and descends along them.
-  void run(std::span<const Contact> contacts, const MultigridOptions& options, ThreadTeam& team);
+  void run(std::span<const Contact> contacts, const MultigridOptions& options);
 
   /// Where the descent stands. What the caller changes here decides which contacts the next run
   /// heeds; that goes on from where the last one ended.
@@ -36,41 +37,48 @@ class Descent {
   [[nodiscard]] double correction() const { return correction_; }
 
  private:
+  /// What a descent carries from one iteration to the next; every worker has its own, all alike.
+  struct Course {
+    double slope = 0;  ///< residual . W residual [N m]
+    double left = 0;   ///< residual . direction after the step [N m]
+    double way = 0;    ///< of the last step along its direction
+    double correction = 0;
+    int iterations = 0;
+  };
   void renew_filter();
   void hold_pins();
   /// A row of y, the first guess, and z = 0.
   void fall_row(int row);
-  /// next = y + z + way d, and the velocity that leads there.
   void place_row(float way, int row);
-  /// Own part of minus the gradient at `next`: forces less inertia.
-  void residual_row(float way, Planes3& out, int row);
-  /// Fills next and the residual there. Ends with a barrier.
-  void look(float way, Planes3& out, Worker& worker);
-  /// d = what the filter makes of the residual, and of the last direction what keeps it conjugate.
-  /// @param last_slope  what the last turn returned; 0: there was none
-  /// @return residual . W residual [N m]
-  double turn(double last_slope, Worker& worker);
-  void turn_row(float beta, int row);
-  void copy_right_row(int row);
-  /// far = residual - right: what the last step changed in the residual.
-  void step_difference_row(int row);
+  /// z += way d; d = 0.
+  void settle_row(float way, int row);
+  /// Minus the gradient at `next`: forces less inertia. Ends with a barrier.
+  /// @return its dot product with d [N m]
+  double look(Worker& worker);
+  /// Ends with a barrier.
+  void take_residual(const Course& course, Worker& worker);
+  /// d = what the filter makes of the residual, and of the last direction what keeps it conjugate;
+  /// next = y + z + d. Ends with a barrier. @return the slope along d [N m]
+  double turn(Course& course, Worker& worker);
   /// Goes along d to where its slope would vanish if that fell linearly.
-  /// @return the largest correction over the rest spacing
-  double go(Worker& worker);
-  /// z += way d, the residual moved along the secant.
-  void step_row(float way, int row);
-  void descend(const MultigridOptions& options, Worker& worker);
+  void go(double slope, Course& course, Worker& worker);
+  [[nodiscard]] double largest_direction() const;
+  Course descend(const MultigridOptions& options, Worker& worker);
 
   const Cloth& cloth_;
+  ThreadTeam& team_;
+  const KernelTable& kernels_;
   double time_step_;  // [s] that the filter was made for
   MultigridFilter filter_;
   ContactFilter contacts_;
+  SpringRows springs_;
   StepInput input_;
   ClothState start_, next_;
   Planes3 fall_, move_, direction_;  // y, z, d [m]
-  Planes3 residual_, far_residual_;  // own parts [N]
+  Planes3 far_residual_;             // minus the gradient where `next` is [N]
   RowSums sums_;
-  std::vector<float> largest_;  // [n] correction of each row [m]
+  std::vector<float> largest_;  // [n] squared direction of each row [m^2]
+  double pending_way_ = 0;      // along d, not yet in z
   int iterations_ = 0;
   double correction_ = 0;
 };

@@ -14,19 +14,19 @@ class Multigrid final : public Integrator {
  public:
   Multigrid(const MultigridOptions& options, const Cloth& cloth, const StepInput& typical,
             ThreadTeam& team)
-      : options_(options), cloth_(cloth), team_(team), descent_(cloth, typical.time_step) {}
+      : options_(options), cloth_(cloth), team_(team), descent_(cloth, typical.time_step, team) {}
 
   void begin(const StepInput& input, const ClothState& state) noexcept override {
     const Stopwatch watch;
     report_ = {};
     time_step_ = input.time_step;
-    descent_.begin(input, state, team_);
+    descent_.begin(input, state);
     report_.forces_seconds = watch.seconds();
   }
 
   ClothState& iterate(std::span<const Contact> contacts) noexcept override {
     const Stopwatch watch;
-    descent_.run(contacts, options_, team_);
+    descent_.run(contacts, options_);
     report_.iterations = descent_.iterations();
     report_.residual = descent_.correction();
     report_.solve_seconds += watch.seconds();

@@ -17,9 +17,8 @@ constexpr std::size_t most_entries = 4'500'000;
 template <class Use>
 void for_each_edge(const FilterLevel& level, const Use& use) {
   const int n = level.size();
-  for (int d = 0; d < spring_directions; ++d) {
-    const Grid<float>& edges = d < 4 ? level.edge[d] : level.second[d - 4];
-    if (edges.rows() == 0) continue;
+  for (int d = 0; d < bend_u; ++d) {
+    const Grid<float>& edges = level.edge[d];
     const auto [down, right] = spring_offsets[d];
     for (int r = 0; r + down < n; ++r)
       for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c)
@@ -135,25 +134,20 @@ void CoarseFactor::substitute(float* x) const {
 }
 
 void CoarseFactor::solve_plane(const FilterLevel& level, const Grid<float>& right,
-                               std::vector<float>& x, Grid<float>& value) const {
+                               std::vector<float>& x, Grid<float>& result) const {
   const int n = level.size();
-  std::fill(x.begin(), x.end(), 0.0F);
-  for (int s = 0; s < n * n; ++s) x[unknown_of_[s]] += right(s / n, s % n);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = right(sample_of_[i] / n, sample_of_[i] % n);
   substitute(x.data());
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c)
-      value(r, c) = level.inverse_diagonal(r, c) == 0 ? 0.0F : x[unknown_of_[r * n + c]];
+      result(r, c) = level.inverse_diagonal(r, c) == 0 ? 0.0F : x[unknown_of_[r * n + c]];
 }
 
-void CoarseFactor::solve(FilterLevel& level, Worker& worker) {
-  // The coordinates are apart, so that any team gives the same bits.
-  const Range mine = worker.share(3);
-  for (int i = mine.first; i < mine.last; ++i) {
-    const std::array<const Grid<float>*, 3> right{&level.right.x, &level.right.y, &level.right.z};
-    const std::array<Grid<float>*, 3> value{&level.value.x, &level.value.y, &level.value.z};
-    solve_plane(level, *right[i], work_[i], *value[i]);
-  }
-  worker.barrier();
+void CoarseFactor::solve(FilterLevel& level, Range coordinates) {
+  const std::array<const Grid<float>*, 3> right{&level.right.x, &level.right.y, &level.right.z};
+  const std::array<Grid<float>*, 3> result{&level.result.x, &level.result.y, &level.result.z};
+  for (int i = coordinates.first; i < coordinates.last; ++i)
+    solve_plane(level, *right[i], work_[i], *result[i]);
 }
 
 }  // namespace weft

@@ -22,8 +22,9 @@ class CoarseFactor {
   [[nodiscard]] bool fits() const { return !rows_.empty(); }
   /// Factors anew, in doubles. Requires fits().
   void renew(const FilterLevel& level);
-  /// level.value = A^-1 level.right. To be called by every worker; ends with a barrier.
-  void solve(FilterLevel& level, Worker& worker);
+  /// level.result = A^-1 level.right, of coordinates 0, 1, 2 those within the range: they are
+  /// apart, so that any team gives the same bits.
+  void solve(FilterLevel& level, Range coordinates);
 
  private:
   /// Where a row's entries are: columns `first` .. the diagonal, from `start` in the factor.
@@ -35,7 +36,7 @@ class CoarseFactor {
   void factor();
   void substitute(float* x) const;
   void solve_plane(const FilterLevel& level, const Grid<float>& right, std::vector<float>& x,
-                   Grid<float>& value) const;
+                   Grid<float>& result) const;
 
   std::vector<int> unknown_of_;  // [n n] by sample
   std::vector<int> sample_of_;   // by unknown: its least sample

@@ -5,41 +5,64 @@
 #include <utility>
 
 #include "weft/cloth/mates.h"
-#include "weft/cloth/mip_levels.h"
-#include "weft/cloth/multigrid/filter_rows.h"
 #include "weft/cloth/neighbours.h"
 
 namespace weft {
 namespace {
 
-// Jacobi steps that damp the eigenvalues of D^-1 A between these: the upper is Gershgorin's bound
-// without what shear takes off it, the lower what the next level no longer sees.
-constexpr float upper = 1.9F, lower = 0.4F;
-constexpr int sweeps = 2;
-// Where a coarsest level is too large to be factored: all of its spectrum, as far as that goes.
-constexpr float coarsest_lower = 0.01F;
-constexpr int coarsest_sweeps = 24;
-
-/// One over the two Chebyshev roots of [low, high].
-std::array<float, sweeps> factors(float low, float high) {
-  static_assert(sweeps == 2);
-  constexpr float root = 0.70710678F;
-  const float middle = 0.5F * (high + low), half = 0.5F * (high - low);
+/// Of Jacobi's sweeps. The upper part of the spectrum of D^-1 A reaches to about 1.9 (Gershgorin's
+/// bound without what shear takes off it); what is below 0.4 the next level sees.
+std::vector<float> sweep_factors(int sweeps) {
+  if (sweeps == 1) return {0.85F};
+  constexpr float middle = 0.5F * (1.9F + 0.4F), half = 0.5F * (1.9F - 0.4F), root = 0.70710678F;
   return {1 / (middle + half * root), 1 / (middle - half * root)};
 }
-
-Line3 line_of(FilterLevel& level, int row) {
-  float* line = level.line.row(row);
-  const int n = level.size();
-  return {line, line + n, line + 2 * n};
-}
+/// Where a coarsest level is too large to be factored: so many sweeps.
+constexpr int coarsest_sweeps = 24;
+/// Levels of at most so many samples a side are left to one worker: barriers would cost more.
+constexpr int lone_size = 33;
+/// Three of a stencil, one that is worked on.
+constexpr int lines_a_worker = 4;
 
 }  // namespace
 
-MultigridFilter::MultigridFilter(const Cloth& cloth, double time_step)
-    : levels_(make_filter_levels(cloth, time_step)),
+/// Who works on a level: all, or one whom the others wait for.
+struct MultigridFilter::Crew {
+  Worker& worker;
+  bool alone;
+
+  [[nodiscard]] Range share(int count) const {
+    return alone ? Range{0, count} : worker.share(count);
+  }
+  void barrier() const {
+    if (!alone) worker.barrier();
+  }
+  void average(const BorderMates& mates, Planes3& planes) const {
+    if (mates.class_count() == 0) return;
+    if (alone)
+      average_over_mates(mates, {&planes.x, &planes.y, &planes.z});
+    else
+      average_over_mates(mates, worker, {&planes.x, &planes.y, &planes.z});
+    barrier();
+  }
+  void sum(const BorderMates& mates, Planes3& planes) const {
+    if (mates.class_count() == 0) return;
+    if (alone)
+      sum_over_mates(mates, {&planes.x, &planes.y, &planes.z});
+    else
+      sum_over_mates(mates, worker, {&planes.x, &planes.y, &planes.z});
+    barrier();
+  }
+};
+
+MultigridFilter::MultigridFilter(const Cloth& cloth, const Options& options, const ThreadTeam& team)
+    : factors_(sweep_factors(options.sweeps)),
+      levels_(make_filter_levels(cloth, options.time_step)),
       moves_(cloth.size, cloth.size),
-      factor_(levels_.back()) {
+      factor_(levels_.back()),
+      kernels_(&kernels_for(team.instructions())),
+      lines_(3 * lines_a_worker * team.size(), cloth.size),
+      sums_(cloth.size) {
   renew_pins(cloth);
 }
 
@@ -57,133 +80,160 @@ bool MultigridFilter::knows_pins(const Cloth& cloth) const {
   return true;
 }
 
-void MultigridFilter::finish_sweep(FilterLevel& level, float factor, Worker& worker) {
-  worker.barrier();
-  if (level.mates.class_count() > 0) {
-    Planes3 &next = level.next, &own = level.residual;
-    const int n = level.size();
-    const Range mine = worker.share(level.mates.class_count());
-    for (int index = mine.first; index < mine.last; ++index) {
-      const std::span<const int> samples = level.mates.mates(index);
-      Vec3f sum;
-      for (const int s : samples) sum = sum + own.at(s);
-      const int first = samples.front();
-      const float step = factor * level.inverse_diagonal(first / n, first % n);
-      const Vec3f value = level.value.at(first) + step * sum;
-      for (const int s : samples) next.set(s, value);
-    }
-    worker.barrier();
-  }
-  if (worker.rank() == 0) std::swap(level.value, level.next);
-  worker.barrier();
+Row3 MultigridFilter::lines(const Crew& crew, int index) {
+  const int first = 3 * (lines_a_worker * crew.worker.rank() + index);
+  return {lines_.row(first), lines_.row(first + 1), lines_.row(first + 2)};
 }
 
-void MultigridFilter::first_sweep(FilterLevel& level, float factor, Worker& worker) {
+void MultigridFilter::first_sweep_row(const FilterLevel& level, int row, Row3 out) const {
+  kernels_->first_sweep(level.size(), factors_.front(), level.inverse_diagonal.row(row),
+                        row_of(level.right, row), out);
+}
+
+/// The residual of a first sweep from zero, which is never stored: three lines hold it.
+void MultigridFilter::lone_sweep_residual(FilterLevel& level, const Crew& crew) {
   const int n = level.size();
-  const Range mine = worker.share(n);
+  const Range mine = crew.share(n);
+  const auto smooth = [&](int r) { first_sweep_row(level, r, lines(crew, r % 3)); };
+  const auto read = [&](int r) {
+    const Row3 row = lines(crew, r % 3);
+    return ConstRow3{row.x, row.y, row.z};
+  };
+  for (int r = std::max(0, mine.first - 1); r < std::min(n, mine.first + 1); ++r) smooth(r);
   for (int r = mine.first; r < mine.last; ++r) {
-    const ConstRow3 b = row_of(std::as_const(level.right), r);
-    const Row3 x = row_of(level.next, r), own = row_of(level.residual, r);
-    const Row3 zero = row_of(level.value, r);
-    const float* inverse = level.inverse_diagonal.row(r);
-#pragma omp simd
-    for (int c = 0; c < n; ++c) {
-      const float step = factor * inverse[c];
-      x.x[c] = step * b.x[c];
-      x.y[c] = step * b.y[c];
-      x.z[c] = step * b.z[c];
-      own.x[c] = b.x[c];
-      own.y[c] = b.y[c];
-      own.z[c] = b.z[c];
-      zero.x[c] = zero.y[c] = zero.z[c] = 0;
-    }
+    if (r + 1 < n) smooth(r + 1);
+    const Row3 out = row_of(level.result, r);
+    kernels_->apply(n, level.operator_row(r),
+                    {read(std::max(0, r - 1)), read(r), read(std::min(n - 1, r + 1))}, out);
+    kernels_->add_right(n, level.share_row(r), level.inverse_diagonal.row(r),
+                        row_of(std::as_const(level.right), r), out);
   }
-  finish_sweep(level, factor, worker);
+  crew.barrier();
 }
 
-void MultigridFilter::sweep(FilterLevel& level, float factor, Worker& worker) {
+/// Leaves the iterate in `value`, as the way up wants it.
+void MultigridFilter::two_sweeps_residual(FilterLevel& level, const Crew& crew) {
   const int n = level.size();
-  const Range mine = worker.share(n);
+  const Range mine = crew.share(n);
+  for (int r = mine.first; r < mine.last; ++r) first_sweep_row(level, r, row_of(level.value, r));
+  crew.barrier();
+  level_sweep(level, factors_.back(), crew);
+  exchange(level, crew);
   for (int r = mine.first; r < mine.last; ++r) {
-    const Line3 line = line_of(level, r);
-    residual_row(level, level.value, level.right, r, line);
-    const ConstRow3 x = row_of(std::as_const(level.value), r);
-    const Row3 out = row_of(level.next, r), own = row_of(level.residual, r);
-    const float* inverse = level.inverse_diagonal.row(r);
-#pragma omp simd
-    for (int c = 0; c < n; ++c) {
-      const float step = factor * inverse[c];
-      out.x[c] = x.x[c] + step * line.x[c];
-      out.y[c] = x.y[c] + step * line.y[c];
-      out.z[c] = x.z[c] + step * line.z[c];
-      own.x[c] = line.x[c];
-      own.y[c] = line.y[c];
-      own.z[c] = line.z[c];
-    }
+    const Row3 out = row_of(level.result, r);
+    kernels_->apply(n, level.operator_row(r), level.stencil_rows(r), out);
+    kernels_->add_right(n, level.share_row(r), level.inverse_diagonal.row(r),
+                        row_of(std::as_const(level.right), r), out);
   }
-  finish_sweep(level, factor, worker);
+  crew.barrier();
 }
 
-void MultigridFilter::restrict_residual(FilterLevel& fine, FilterLevel& coarse, Worker& worker) {
-  Range mine = worker.share(fine.size());
+void MultigridFilter::down(FilterLevel& fine, FilterLevel& coarse, const Crew& crew) {
+  if (factors_.size() == 1)
+    lone_sweep_residual(fine, crew);
+  else
+    two_sweeps_residual(fine, crew);
+  if (!coarse.matched) crew.average(fine.mates, fine.result);
+  const int n = fine.size();
+  const float* zero = fine.zeros.row(0);
+  const ConstRow3 none{zero, zero, zero};
+  const Planes3& residual = fine.result;
+  const Range mine = crew.share(coarse.size());
   for (int r = mine.first; r < mine.last; ++r) {
-    const Row3 out = row_of(fine.residual, r);
-    residual_row(fine, fine.value, fine.right, r, {out.x, out.y, out.z});
+    const StencilRows rows{r > 0 ? row_of(residual, 2 * r - 1) : none, row_of(residual, 2 * r),
+                           2 * r + 1 < n ? row_of(residual, 2 * r + 1) : none};
+    kernels_->restrict_rows(n, rows, lines(crew, 3), row_of(coarse.right, r));
+  }
+  crew.barrier();
+  crew.sum(coarse.mates, coarse.right);
+}
+
+void MultigridFilter::up(const FilterLevel& coarse, FilterLevel& fine, const Crew& crew) {
+  const int n = fine.size();
+  const Range mine = crew.share(n);
+  for (int r = mine.first; r < mine.last; ++r) {
     const float* inverse = fine.inverse_diagonal.row(r);
-    for (int c = 0; c < fine.size(); ++c)
-      if (inverse[c] == 0) out.x[c] = out.y[c] = out.z[c] = 0;
+    if (factors_.size() == 1) first_sweep_row(fine, r, row_of(fine.value, r));
+    kernels_->interpolate(n, row_of(coarse.result, r / 2), row_of(coarse.result, (r + 1) / 2),
+                          inverse, lines(crew, 3), row_of(fine.value, r));
   }
-  worker.barrier();
-  if (!coarse.matched) {
-    average_over_mates(fine.mates, worker, {&fine.residual.x, &fine.residual.y, &fine.residual.z});
-    worker.barrier();
-  }
-  mine = worker.share(coarse.size());
-  for (int r = mine.first; r < mine.last; ++r) {
-    float* line = coarse.line.row(r);
-    const Row3 out = row_of(coarse.right, r);
-    restrict_plane_row(fine.residual.x, nullptr, r, line, out.x);
-    restrict_plane_row(fine.residual.y, nullptr, r, line, out.y);
-    restrict_plane_row(fine.residual.z, nullptr, r, line, out.z);
-  }
-  worker.barrier();
+  crew.barrier();
+  if (!coarse.matched) crew.average(fine.mates, fine.value);
 }
 
-void MultigridFilter::prolong(const FilterLevel& coarse, FilterLevel& fine, Worker& worker) {
-  const Range mine = worker.share(fine.size());
-  const bool finest = &fine == &levels_.front();
-  for (int r = mine.first; r < mine.last; ++r) {
-    const Row3 out = row_of(fine.value, r);
-    const float* moves = finest ? moves_.row(r) : nullptr;
-    add_interpolated_row(coarse.value.x, r, moves, out.x);
-    add_interpolated_row(coarse.value.y, r, moves, out.y);
-    add_interpolated_row(coarse.value.z, r, moves, out.z);
+double MultigridFilter::sweep_row(FilterLevel& level, int row, float factor, bool wants_dot) {
+  const int n = level.size();
+  const Row3 out = row_of(level.result, row);
+  kernels_->apply(n, level.operator_row(row), level.stencil_rows(row), out);
+  return kernels_->sweep(
+      n,
+      {factor, level.inverse_diagonal.row(row), level.share_row(row), level.count_row(row),
+       row_of(std::as_const(level.right), row), row_of(std::as_const(level.value), row), wants_dot},
+      out);
+}
+
+/// Every sample takes what its own part makes of its class, and the mean is what the class makes.
+void MultigridFilter::level_sweep(FilterLevel& level, float factor, const Crew& crew) {
+  const Range mine = crew.share(level.size());
+  for (int r = mine.first; r < mine.last; ++r) sweep_row(level, r, factor, false);
+  crew.barrier();
+  crew.average(level.mates, level.result);
+}
+
+double MultigridFilter::finest_sweep(Worker& worker) {
+  FilterLevel& level = levels_.front();
+  const double slope =
+      sums_.sum(worker, [&](int r) { return sweep_row(level, r, factors_.front(), true); });
+  Crew{worker, false}.average(level.mates, level.result);
+  return slope;
+}
+
+void MultigridFilter::exchange(FilterLevel& level, const Crew& crew) {
+  if (crew.alone || crew.worker.rank() == 0) std::swap(level.value, level.result);
+  crew.barrier();
+}
+
+void MultigridFilter::solve_coarsest(FilterLevel& level, const Crew& crew) {
+  if (factor_.fits()) {
+    factor_.solve(level, crew.share(3));
+    return crew.barrier();
   }
-  worker.barrier();
-  if (coarse.matched) return;
-  average_over_mates(fine.mates, worker, {&fine.value.x, &fine.value.y, &fine.value.z});
-  worker.barrier();
+  const Range mine = crew.share(level.size());
+  for (int r = mine.first; r < mine.last; ++r) first_sweep_row(level, r, row_of(level.result, r));
+  for (int i = 1; i < coarsest_sweeps; ++i) {
+    crew.barrier();
+    exchange(level, crew);
+    level_sweep(level, factors_.front(), crew);
+  }
 }
 
-void MultigridFilter::solve_coarsest(FilterLevel& level, Worker& worker) {
-  if (factor_.fits()) return factor_.solve(level, worker);
-  const auto steps = factors(coarsest_lower, upper);
-  first_sweep(level, steps[0], worker);
-  for (int i = 1; i < coarsest_sweeps; ++i) sweep(level, steps[i % 2], worker);
-}
-
-void MultigridFilter::descend(std::size_t index, Worker& worker) {
+/// Level `index` and all below it. A lone worker's helpers wait at the end.
+void MultigridFilter::below(std::size_t index, Worker& worker) {
   FilterLevel& level = levels_[index];
-  if (index + 1 == levels_.size()) return solve_coarsest(level, worker);
-  const auto steps = factors(lower, upper);
-  first_sweep(level, steps[0], worker);
-  for (int i = 1; i < sweeps; ++i) sweep(level, steps[i], worker);
-  restrict_residual(level, levels_[index + 1], worker);
-  descend(index + 1, worker);
-  prolong(levels_[index + 1], level, worker);
-  for (int i = sweeps - 1; i >= 0; --i) sweep(level, steps[i], worker);
+  const bool lone = index > 0 && level.size() <= lone_size;
+  if (lone && worker.rank() != 0) return;
+  const Crew crew{worker, lone};
+  if (index + 1 == levels_.size()) return solve_coarsest(level, crew);
+  const bool next_lone = !lone && levels_[index + 1].size() <= lone_size;
+  down(level, levels_[index + 1], crew);
+  below(index + 1, worker);
+  if (next_lone) worker.barrier();
+  up(levels_[index + 1], level, crew);
+  for (std::size_t i = factors_.size(); i-- > 1;) {
+    level_sweep(level, factors_[i], crew);
+    exchange(level, crew);
+  }
+  if (index > 0) level_sweep(level, factors_.front(), crew);
 }
 
-void MultigridFilter::cycle(Worker& worker) { descend(0, worker); }
+double MultigridFilter::cycle(Worker& worker) {
+  below(0, worker);
+  if (levels_.size() > 1) return finest_sweep(worker);
+  const FilterLevel& level = levels_.front();
+  return sums_.sum(worker, [&](int r) {
+    return kernels_->dot(level.size(), level.share_row(r), row_of(level.right, r),
+                         row_of(level.result, r));
+  });
+}
 
 }  // namespace weft

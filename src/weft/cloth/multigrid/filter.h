@@ -4,6 +4,7 @@
 
 #include "weft/cloth/multigrid/coarse_factor.h"
 #include "weft/cloth/multigrid/filter_level.h"
+#include "weft/core/ordered_sum.h"
 #include "weft/core/thread_team.h"
 
 namespace weft {
@@ -13,41 +14,59 @@ namespace weft {
 /// [zink07, section 4; brandt77]. A bounds the Hessian of implicit Euler's energy from above, so
 /// x - A^-1 gradient never rises in energy.
 ///
-/// The coarsest level, of at most 9 samples a side or the size that no longer halves, is solved
-/// directly. Smoothing is Jacobi's with the Chebyshev roots of the upper part of the spectrum, the
-/// same forwards before and backwards after the coarse correction, so that one cycle is a symmetric
-/// operator and may precondition conjugate gradients.
+/// Jacobi's sweeps, damped by Chebyshev's roots, come before the coarse correction and in the
+/// opposite order after it. With one of each, of which the first starts from zero and needs no
+/// neighbours, a cycle on a uniform sheet leaves 0.24 of the error, with two of each 0.10 for twice
+/// the work: one does where few iterations are made. The coarsest level, of at most 9 samples a
+/// side or the size that no longer halves, is solved directly. A cycle is a symmetric operator and
+/// may precondition conjugate gradients.
 class MultigridFilter {
  public:
-  MultigridFilter(const Cloth& cloth, double time_step);
+  struct Options {
+    double time_step = 1.0 / 240;  ///< [s]
+    int sweeps = 1;                ///< before and after the coarse correction, 1 or 2
+  };
+  /// @param team  that will call cycle
+  MultigridFilter(const Cloth& cloth, const Options& options, const ThreadTeam& team);
 
   /// To be called when particles have been pinned or let go.
   void renew_pins(const Cloth& cloth);
   [[nodiscard]] bool knows_pins(const Cloth& cloth) const;
 
-  /// One V-cycle from zero: value() = about A^-1 right(). To be called by every worker of a team;
-  /// ends with a barrier.
-  void cycle(Worker& worker);
+  /// One V-cycle from zero: value() = about A^-1 right(). To be called by every worker of the team;
+  /// ends with a barrier. @return right . value [N m]
+  double cycle(Worker& worker);
 
-  /// Own part of the right side [N]; to be filled before a cycle.
+  /// The right side, mates equal [N]; to be filled before a cycle.
   [[nodiscard]] Planes3& right() { return levels_.front().right; }
   /// The correction [m]; mates equal, 0 where held.
-  [[nodiscard]] const Planes3& value() const { return levels_.front().value; }
+  [[nodiscard]] const Planes3& value() const { return levels_.front().result; }
+  [[nodiscard]] Planes3& value() { return levels_.front().result; }
   /// [n x n] own part of M / h^2 [N/m]
   [[nodiscard]] const Grid<float>& mass_weight() const { return levels_.front().own_weight; }
 
  private:
-  void descend(std::size_t index, Worker& worker);
-  void sweep(FilterLevel& level, float factor, Worker& worker);
-  void first_sweep(FilterLevel& level, float factor, Worker& worker);
-  void finish_sweep(FilterLevel& level, float factor, Worker& worker);
-  void restrict_residual(FilterLevel& fine, FilterLevel& coarse, Worker& worker);
-  void prolong(const FilterLevel& coarse, FilterLevel& fine, Worker& worker);
-  void solve_coarsest(FilterLevel& level, Worker& worker);
+  struct Crew;
+  void below(std::size_t index, Worker& worker);
+  void down(FilterLevel& fine, FilterLevel& coarse, const Crew& crew);
+  void up(const FilterLevel& coarse, FilterLevel& fine, const Crew& crew);
+  void first_sweep_row(const FilterLevel& level, int row, Row3 out) const;
+  void lone_sweep_residual(FilterLevel& level, const Crew& crew);
+  void two_sweeps_residual(FilterLevel& level, const Crew& crew);
+  double sweep_row(FilterLevel& level, int row, float factor, bool wants_dot);
+  double finest_sweep(Worker& worker);
+  void level_sweep(FilterLevel& level, float factor, const Crew& crew);
+  void exchange(FilterLevel& level, const Crew& crew);
+  void solve_coarsest(FilterLevel& level, const Crew& crew);
+  [[nodiscard]] Row3 lines(const Crew& crew, int index);
 
+  std::vector<float> factors_;  // of the sweeps, in the order before the coarse correction
   std::vector<FilterLevel> levels_;
   Grid<float> moves_;
   CoarseFactor factor_;  // of the coarsest level
+  const KernelTable* kernels_;
+  Grid<float> lines_;  // scratch of every worker
+  RowSums sums_;
 };
 
 }  // namespace weft

@@ -19,13 +19,14 @@ FilterLevel empty_level(const BorderMates& mates) {
   for (Grid<float>& plane : level.edge) plane = Grid<float>(n, n);
   for (Grid<float>* plane : {&level.own_weight, &level.own_diagonal, &level.inverse_diagonal})
     *plane = Grid<float>(n, n);
-  level.share = Grid<float>(n, n, 1);
+  level.zeros = Grid<float>(1, n);
+  if (mates.class_count() > 0) level.share = level.count = Grid<float>(n, n, 1);
   for (int index = 0; index < mates.class_count(); ++index)
-    for (const int s : mates.mates(index))
-      level.share(s / n, s % n) = 1 / static_cast<float>(mates.mates(index).size());
-  for (Planes3* planes : {&level.right, &level.value, &level.next, &level.residual})
-    *planes = Planes3(n);
-  level.line = Grid<float>(n, 4 * n);
+    for (const int s : mates.mates(index)) {
+      level.count(s / n, s % n) = static_cast<float>(mates.mates(index).size());
+      level.share(s / n, s % n) = 1 / level.count(s / n, s % n);
+    }
+  for (Planes3* planes : {&level.right, &level.value, &level.result}) *planes = Planes3(n);
   return level;
 }
 
@@ -35,8 +36,7 @@ float at(const Grid<float>& plane, int row, int col) {
 }
 
 /// What fine edges along a line add up to on one coarse edge, when both bound the same linear
-/// field: a fine edge sees half of its difference, a second-neighbour edge all of it. Across the
-/// line weights are 1/2 1 1/2.
+/// field: a fine edge sees half of its difference. Across the line weights are 1/2 1 1/2.
 struct Line {
   const FilterLevel& fine;
   int direction;
@@ -48,10 +48,6 @@ struct Line {
       const int r = 2 * row + side * right, c = 2 * col + side * down;
       const Grid<float>& first = fine.edge[direction];
       sum += share * 0.25F * (at(first, r, c) + at(first, r + down, c + right));
-      const Grid<float>& second = fine.second[direction];
-      if (second.rows() == 0) continue;
-      sum += share * (at(second, r, c) +
-                      0.5F * (at(second, r - down, c - right) + at(second, r + down, c + right)));
     }
     return sum;
   }
@@ -89,10 +85,7 @@ void add_ends(const Grid<float>& edges, SpringOffset offset, Grid<float>& diagon
 
 void set_diagonals(FilterLevel& level) {
   level.own_diagonal = level.own_weight;
-  for (int d = 0; d < spring_directions; ++d) {
-    const Grid<float>& edges = d < 4 ? level.edge[d] : level.second[d - 4];
-    if (edges.rows() > 0) add_ends(edges, spring_offsets[d], level.own_diagonal);
-  }
+  for (int d = 0; d < bend_u; ++d) add_ends(level.edge[d], spring_offsets[d], level.own_diagonal);
   level.inverse_diagonal = level.own_diagonal;
   sum_over_mates(level.mates, {&level.inverse_diagonal});
   for (int r = 0; r < level.size(); ++r)
@@ -121,18 +114,47 @@ Grid<float> conductance(const SpringPlane& springs, double time_step) {
   return result;
 }
 
+/// Second neighbours are bounded by the edges between: |a + b|^2 <= 2 |a|^2 + 2 |b|^2, which is
+/// exact where a field is smooth.
+void add_second_neighbours(const Grid<float>& second, SpringOffset offset, Grid<float>& edges) {
+  const auto [down, right] = offset;
+  const int n = edges.rows(), gap_down = down / 2, gap_right = right / 2;
+  for (int r = 0; r + down < n; ++r)
+    for (int c = 0; c + right < n; ++c) {
+      edges(r, c) += 2 * second(r, c);
+      edges(r + gap_down, c + gap_right) += 2 * second(r, c);
+    }
+}
+
 }  // namespace
+
+OperatorRow FilterLevel::operator_row(int row) const {
+  const auto above = [&](int direction) {
+    return row > 0 ? edge[direction].row(row - 1) : zeros.row(0);
+  };
+  return {
+      own_weight.row(row),    edge[stretch_u].row(row), edge[stretch_v].row(row), above(stretch_v),
+      edge[shear_1].row(row), above(shear_1),           edge[shear_2].row(row),   above(shear_2)};
+}
+
+StencilRows FilterLevel::stencil_rows(int row) const {
+  return {row_of(value, std::max(0, row - 1)), row_of(value, row),
+          row_of(value, std::min(size() - 1, row + 1))};
+}
 
 std::vector<FilterLevel> make_filter_levels(const Cloth& cloth, double time_step) {
   std::vector<FilterLevel> levels;
   levels.push_back(empty_level(cloth.mates));
   FilterLevel& finest = levels.back();
   for (int d = 0; d < 4; ++d) finest.edge[d] = conductance(cloth.springs[d], time_step);
-  for (int d = 0; d < 2; ++d) finest.second[d] = conductance(cloth.springs[bend_u + d], time_step);
+  for (int d = 0; d < 2; ++d)
+    add_second_neighbours(conductance(cloth.springs[bend_u + d], time_step),
+                          spring_offsets[bend_u + d], finest.edge[d]);
   const auto per_step = static_cast<float>(1 / (time_step * time_step));
+  const bool shared = finest.share.rows() > 0;
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c)
-      finest.own_weight(r, c) = per_step * cloth.mass(r, c) * finest.share(r, c);
+      finest.own_weight(r, c) = per_step * cloth.mass(r, c) * (shared ? finest.share(r, c) : 1.0F);
   while (levels.back().size() % 2 == 1 && levels.back().size() > coarsest_size) {
     const BorderMates& mates = levels.back().mates;
     const bool matched = halves(mates);
@@ -147,11 +169,12 @@ std::vector<FilterLevel> make_filter_levels(const Cloth& cloth, double time_step
 
 void renew_weights(std::vector<FilterLevel>& levels, const Grid<float>& moves) {
   set_diagonals(levels.front());
+  std::vector<float> line(static_cast<std::size_t>(levels.front().size()));
   for (std::size_t i = 1; i < levels.size(); ++i) {
     const Grid<float> weight = weight_below(levels[i - 1], i == 1 ? &moves : nullptr);
     FilterLevel& coarse = levels[i];
     for (int r = 0; r < coarse.size(); ++r)
-      restrict_plane_row(weight, nullptr, r, coarse.line.row(r), coarse.own_weight.row(r));
+      restrict_plane_row(weight, nullptr, r, line.data(), coarse.own_weight.row(r));
     set_diagonals(coarse);
   }
   FilterLevel& finest = levels.front();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "weft/cloth/cloth.h"
+#include "weft/cloth/kernels/kernel_table.h"
 
 namespace weft {
 
@@ -13,19 +14,28 @@ namespace weft {
 struct FilterLevel {
   BorderMates mates;
   /// Conductance of the edges to the right, below, below right and below left; as SpringPlane.
-  std::array<Grid<float>, 4> edge;    ///< [n x n] [N/m], >= 0
-  std::array<Grid<float>, 2> second;  ///< to second neighbours, finest level alone [N/m]
-  Grid<float> own_weight;             ///< [n x n] own part of M / h^2 + held [N/m]
-  Grid<float> own_diagonal;           ///< [n x n] own part of the diagonal [N/m]
-  Grid<float> inverse_diagonal;       ///< [n x n] summed over mates; 0 where nothing moves [m/N]
-  Grid<float> share;                  ///< [n x n] one over the number of mates
+  std::array<Grid<float>, 4> edge;  ///< [n x n] [N/m], >= 0
+  Grid<float> own_weight;           ///< [n x n] own part of M / h^2 + held [N/m]
+  Grid<float> own_diagonal;         ///< [n x n] own part of the diagonal [N/m]
+  Grid<float> inverse_diagonal;     ///< [n x n] summed over mates; 0 where nothing moves [m/N]
+  Grid<float> share, count;  ///< [n x n] one over the number of mates, and that; empty: no mates
+  Grid<float> zeros;         ///< [1 x n] the edges above the first row
   bool matched = true;  ///< the finer level's mates are this level's; else it is cut along the seam
 
-  Planes3 right;        ///< own part of the right side [N]
-  Planes3 value, next;  ///< the iterate and the one that a sweep makes of it [m]
-  Planes3 residual;     ///< own part [N]
-  Grid<float> line;     ///< [n x 4 n] scratch: one line a row
+  Planes3 right;  ///< the right side, mates equal [N]
+  Planes3 value;  ///< the iterate before the last sweep [m]
+  /// Own part of the residual [N] on the way down; the iterate [m] on the way up.
+  Planes3 result;
+
   [[nodiscard]] int size() const { return own_weight.rows(); }
+  [[nodiscard]] OperatorRow operator_row(int row) const;
+  [[nodiscard]] StencilRows stencil_rows(int row) const;  ///< of value
+  [[nodiscard]] const float* share_row(int row) const {
+    return share.rows() > 0 ? share.row(row) : nullptr;
+  }
+  [[nodiscard]] const float* count_row(int row) const {
+    return count.rows() > 0 ? count.row(row) : nullptr;
+  }
 };
 
 /// The levels of a cloth's filter, finest first, down to the coarsest that halving reaches.

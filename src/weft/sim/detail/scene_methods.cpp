@@ -45,19 +45,20 @@ TwoLevelOptions read_two_level(const JsonObject& object) {
   return options;
 }
 
-int read_passes(const JsonObject& object, int fallback) {
-  return object.integer("limiter_passes", fallback, 0, most_passes);
+std::optional<int> read_passes(const JsonObject& object) {
+  if (!object.has("limiter_passes")) return std::nullopt;
+  return object.integer("limiter_passes", 0, 0, most_passes);
 }
 
 }  // namespace
 
 IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& place,
-                                  LimitOptions& limiter) {
+                                  std::optional<int>& limiter_passes) {
   const std::string type = type_of(value, place, name_of(IntegratorOptions{}));
   const auto read = [&](std::span<const std::string_view> keys,
                         const auto& options_of) -> IntegratorOptions {
     const JsonObject object(value, place, keys);
-    limiter.passes = read_passes(object, limiter.passes);
+    limiter_passes = read_passes(object);
     return options_of(object);
   };
   if (type == name_of(ImplicitOptions{}))

@@ -8,7 +8,7 @@ namespace weft {
 // Readers of the parts of a scene file. All throw SceneError with FILE:KEY.
 
 IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& place,
-                                  LimitOptions& limiter);
+                                  std::optional<int>& limiter_passes);
 ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place);
 Material read_material(const nlohmann::json& value, const JsonPlace& place);
 /// @param folder  where relative surfaces are looked for

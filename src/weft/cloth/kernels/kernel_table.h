@@ -1,0 +1,129 @@
+#pragma once
+
+#include "weft/cloth/kernels/row_pointers.h"
+
+// The inner loops of stepping: each works on one row of n samples, reads its neighbours' rows and
+// writes nothing but what it is given to write. They are compiled once for every instruction set
+// (kernels/rows/) and give the same bits in each: no sum's order depends on the vector's width.
+
+namespace weft {
+
+enum class InstructionSet;
+
+/// The springs that start from the samples of a row; as in SpringPlane.
+struct SpringRow {
+  const float *rest_length, *stiffness;
+  const float* damping;  ///< null: none
+};
+
+/// Where a row is and where the step began.
+struct MovingRow {
+  ConstRow3 position, start;  ///< [m]
+};
+
+/// A row of the operator A of a filter level, with the edges that lead up from it. Above the first
+/// row stand zeros.
+struct OperatorRow {
+  const float* weight;         ///< own part of M / h^2 + held [N/m]
+  const float* right;          ///< edges to the right
+  const float *below, *above;  ///< edges down from this row, and from the one above
+  const float *below_right, *above_left;
+  const float *below_left, *above_right;
+};
+
+/// Three rows of a field around one of them; beyond the border any row of finite values.
+struct StencilRows {
+  ConstRow3 above, here, below;
+};
+
+/// Two rows that springs join.
+struct RowPair {
+  MovingRow here, there;
+};
+
+/// z += way d; then d = w + beta d; then x = y + z + d.
+struct TurningRow {
+  float way, beta;
+  ConstRow3 fall, correction;  ///< y, w [m]
+  Row3 move, direction;        ///< z, d [m]
+  Row3 position;               ///< x [m]
+};
+
+/// Where y + z + way d leads in a step: x, and its velocity v + gained + (z + way d) per_step.
+struct PlacedRow {
+  float way, per_step;
+  float gained[3];  ///< by gravity [m/s]
+  ConstRow3 fall, move, direction, start_velocity;
+  Row3 position, velocity;
+};
+
+/// What a smoothing sweep over a row needs beside -A x.
+struct SweepRow {
+  float factor;
+  const float* inverse;        ///< of the diagonal; 0 where nothing moves
+  const float *share, *count;  ///< of mates: one over their number, their number; null: 1
+  ConstRow3 right, value;
+  bool wants_dot;
+};
+
+/// Springs that share no particle: from column c of `here` to column c + shift of `there` for c =
+/// first, first + step, ... below last.
+struct LimitedRows {
+  Row3 here, there, here_velocity, there_velocity;
+  const float *here_inverse_mass, *there_inverse_mass, *rest_length;
+  int shift, first, last, step;
+  float shortest, longest, inverse_step;  ///< as StrainBounds
+  float relaxation;                       ///< of the corrections
+};
+
+/// How fast a row moves.
+struct RowMotion {
+  double kinetic;         ///< [J]
+  float largest_squared;  ///< speed [m^2/s^2]
+  bool finite;            ///< all positions and velocities
+};
+
+/// Scratch `lines` are three rows of n values that are overwritten.
+struct KernelTable {
+  /// out += forces of the springs from column c to c + gap of a row [N].
+  void (*springs_along)(int n, int gap, const SpringRow& springs, float per_step,
+                        const MovingRow& row, Row3 lines, Row3 out);
+  /// The same from column c of a row to column c + shift of one below it.
+  void (*springs_across)(int n, int shift, const SpringRow& springs, float per_step,
+                         const RowPair& rows, Row3 lines, Row3 out, Row3 out_there);
+  /// force -= weight (z + d). @return its dot product with d [N m]
+  double (*inertia)(int n, const float* weight, ConstRow3 move, ConstRow3 direction, Row3 force);
+  /// @return the largest |d|^2 [m^2]
+  float (*turn)(int n, const TurningRow& row);
+  void (*place)(int n, const PlacedRow& row);
+  /// residual += way (far - residual).
+  void (*step_residual)(int n, float way, ConstRow3 far, Row3 residual);
+
+  /// The sum of share a . b; share null: 1.
+  double (*dot)(int n, const float* share, ConstRow3 a, ConstRow3 b);
+
+  /// out = factor inverse right: a sweep from zero.
+  void (*first_sweep)(int n, float factor, const float* inverse, ConstRow3 right, Row3 out);
+  /// out = -A x, own part.
+  void (*apply)(int n, const OperatorRow& row, const StencilRows& x, Row3 out);
+  /// out = out + share right where something moves, else 0. @param share  null: 1
+  void (*add_right)(int n, const float* share, const float* inverse, ConstRow3 right, Row3 out);
+  /// out = value + factor inverse (right + count out). @return share right . out where wanted
+  double (*sweep)(int n, const SweepRow& row, Row3 out);
+  /// The transpose of interpolation: a coarse row of three fine ones of n samples.
+  void (*restrict_rows)(int n, const StencilRows& fine, Row3 lines, Row3 out);
+  /// out += the mean of two coarse rows, interpolated to n samples, where something moves.
+  void (*interpolate)(int n, ConstRow3 a, ConstRow3 b, const float* inverse, Row3 lines, Row3 out);
+
+  /// Whether any of the springs is out of its bounds.
+  bool (*breaks_limit)(const LimitedRows& rows);
+  /// Moves both ends of those that are, by inverse mass.
+  void (*limit)(const LimitedRows& rows);
+
+  RowMotion (*motion)(int n, const float* mass, ConstRow3 position, ConstRow3 velocity);
+};
+
+/// The kernels of an instruction set; the processor must have it to run them.
+const KernelTable& kernels_for(InstructionSet set);
+
+}  // namespace weft

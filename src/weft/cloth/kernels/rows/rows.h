@@ -1,0 +1,29 @@
+#pragma once
+
+#include "weft/cloth/kernels/kernel_table.h"
+
+// The kernels of one instruction set, whose name WEFT_KERNEL_SET is.
+namespace weft::WEFT_KERNEL_SET {
+
+void springs_along(int n, int gap, const SpringRow& springs, float per_step, const MovingRow& row,
+                   Row3 lines, Row3 out);
+void springs_across(int n, int shift, const SpringRow& springs, float per_step, const RowPair& rows,
+                    Row3 lines, Row3 out, Row3 out_there);
+double inertia(int n, const float* weight, ConstRow3 move, ConstRow3 direction, Row3 force);
+float turn(int n, const TurningRow& row);
+void place(int n, const PlacedRow& row);
+void step_residual(int n, float way, ConstRow3 far, Row3 residual);
+double dot(int n, const float* share, ConstRow3 a, ConstRow3 b);
+void first_sweep(int n, float factor, const float* inverse, ConstRow3 right, Row3 out);
+void apply(int n, const OperatorRow& row, const StencilRows& x, Row3 out);
+void add_right(int n, const float* share, const float* inverse, ConstRow3 right, Row3 out);
+double sweep(int n, const SweepRow& row, Row3 out);
+void restrict_rows(int n, const StencilRows& fine, Row3 lines, Row3 out);
+void interpolate(int n, ConstRow3 a, ConstRow3 b, const float* inverse, Row3 lines, Row3 out);
+bool breaks_limit(const LimitedRows& rows);
+void limit(const LimitedRows& rows);
+RowMotion motion(int n, const float* mass, ConstRow3 position, ConstRow3 velocity);
+
+extern const KernelTable table;
+
+}  // namespace weft::WEFT_KERNEL_SET

@@ -1,0 +1,9 @@
+#include "weft/cloth/kernels/rows/rows.h"
+
+namespace weft::WEFT_KERNEL_SET {
+
+const KernelTable table{springs_along, springs_across, inertia, turn,      place, step_residual,
+                        dot,           first_sweep,    apply,   add_right, sweep, restrict_rows,
+                        interpolate,   breaks_limit,   limit,   motion};
+
+}  // namespace weft::WEFT_KERNEL_SET
