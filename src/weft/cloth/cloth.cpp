@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/cloth/bending_weights.h"
 #include "weft/cloth/border_springs.h"
 #include "weft/cloth/neighbours.h"
 #include "weft/cloth/rest_shape.h"
@@ -23,6 +24,7 @@ void check_material(const Material& m) {
   require(positive(m.density), "density", m.density, "a density above 0 kg/m^2");
   require(not_negative(m.stretch), "stretch", m.stretch, "a stiffness of at least 0 N/m");
   require(not_negative(m.shear), "shear", m.shear, "a stiffness of at least 0 N/m");
+  require(not_negative(m.bending), "bending", m.bending, "a stiffness of at least 0 N m");
   require(not_negative(m.bend_springs), "bend_springs", m.bend_springs,
           "a stiffness of at least 0 N/m");
   require(not_negative(m.damping), "damping", m.damping, "a rate of at least 0 1/s");
@@ -109,6 +111,7 @@ Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& 
     cloth.springs[d] = make_springs(shape, material, direction);
     set_damping(cloth, cloth.springs[d]);
   }
+  cloth.bending = make_bending(shape, material);
   cloth.border_springs = find_border_springs(cloth);
   cloth.rest_spacing = shape.mean_spacing;
   return cloth;

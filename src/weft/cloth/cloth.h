@@ -22,6 +22,23 @@ struct SpringPlane {
 /// The six directions in their fixed order: two of stretch, two of shear, two of bending.
 enum SpringDirection { stretch_u, stretch_v, shear_1, shear_2, bend_u, bend_v, spring_directions };
 
+/// Samples around one, in the order of the planes of bending.
+inline constexpr int bending_neighbours = 8, straight_bending_neighbours = 4;
+
+/// Resistance to bending, B/2 sum area |L x - R|^2, as |u|^2 / 2 with u = M x - sqrt(B area) R and
+/// M = sqrt(B area) L: element (r, c) of a weight plane belongs to a neighbour of sample (r, c),
+/// (M x)_i = sum_j weight_j (x_j - x_i), a class of mates adding up what its samples see. L is a
+/// Laplacian of the rest surface that vanishes on affine maps of it; along free borders it is the
+/// second derivative along the border alone, at free corners nothing.
+struct BendingPlanes {
+  std::array<Grid<float>, bending_neighbours> weight;  ///< [n x n] each [sqrt(N/m)]
+  Grid<float> rest;        ///< [n x n] sqrt(B area) H0, the same on all of a class [sqrt(N m)]
+  Grid<float> diagonal;    ///< [n x n] of M^T M, of the class on its representative, else 0 [N/m]
+  bool active = false;     ///< whether any weight is not 0
+  bool diagonals = false;  ///< whether any weight beyond the four straight neighbours is not 0
+  bool curved = false;     ///< whether any rest curvature is not 0
+};
+
 /// A pinned surface point: all samples of one class.
 struct Pin {
   int sample = 0;             ///< representative
@@ -47,6 +64,7 @@ struct Cloth {
   Grid<float> inverse_mass;  ///< [n x n] 0 where pinned
   Grid<float> counted;       ///< [n x n] 1 on representatives, 0 on their mates
   std::array<SpringPlane, spring_directions> springs;
+  BendingPlanes bending;
   std::vector<BorderSpring>
       border_springs;  ///< ordered by direction, then by the sample they start from
   std::vector<Pin> pins;

@@ -1,0 +1,199 @@
+#include "weft/cloth/bending.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "weft/cloth/mates.h"
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+namespace {
+
+int used_neighbours(const BendingPlanes& bending) {
+  return bending.diagonals ? bending_neighbours : straight_bending_neighbours;
+}
+
+/// The columns of a row that have a neighbour there; none when its row is outside.
+Range columns_with(BendingOffset to, int row, int size) {
+  if (row + to.down < 0 || row + to.down >= size) return {0, 0};
+  return {to.right < 0 ? -to.right : 0, to.right > 0 ? size - to.right : size};
+}
+
+void clear(Row3 row, int size) {
+  std::fill(row.x, row.x + size, 0.0F);
+  std::fill(row.y, row.y + size, 0.0F);
+  std::fill(row.z, row.z + size, 0.0F);
+}
+
+/// The part of an area vector that the cell towards two straight neighbours has: a, then b counter
+/// to rows times columns.
+void add_corner_row(const Planes3& position, BendingOffset a, BendingOffset b, int row,
+                    Row3 normal) {
+  const int n = position.size();
+  const Range with_a = columns_with(a, row, n), with_b = columns_with(b, row, n);
+  const int first = std::max(with_a.first, with_b.first);
+  const int last = std::min(with_a.last, with_b.last);
+  if (first >= last) return;
+  const ConstRow3 here = row_of(position, row);
+  const ConstRow3 to_a = row_of(position, row + a.down), to_b = row_of(position, row + b.down);
+#pragma omp simd
+  for (int c = first; c < last; ++c) {
+    const float ax = to_a.x[c + a.right] - here.x[c], bx = to_b.x[c + b.right] - here.x[c];
+    const float ay = to_a.y[c + a.right] - here.y[c], by = to_b.y[c + b.right] - here.y[c];
+    const float az = to_a.z[c + a.right] - here.z[c], bz = to_b.z[c + b.right] - here.z[c];
+    normal.x[c] += ay * bz - az * by;
+    normal.y[c] += az * bx - ax * bz;
+    normal.z[c] += ax * by - ay * bx;
+  }
+}
+
+}  // namespace
+
+BendingPass::BendingPass(const Cloth& cloth) : cloth_(cloth) {
+  if (cloth.bending.active) curved_ = Planes3(cloth.size);
+  if (cloth.bending.curved) normal_ = Planes3(cloth.size);
+}
+
+void BendingPass::curve(const Planes3& position, Worker& worker) {
+  if (!active()) return;
+  const Range mine = worker.share(cloth_.size);
+  const bool turned = cloth_.bending.curved;
+  for (int r = mine.first; r < mine.last; ++r) {
+    curve_row(position, r);
+    if (turned) turn_row(position, r);
+  }
+  worker.barrier();
+  if (cloth_.mates.class_count() > 0) {
+    sum_over_mates(cloth_.mates, worker, {&curved_.x, &curved_.y, &curved_.z});
+    if (turned) sum_over_mates(cloth_.mates, worker, {&normal_.x, &normal_.y, &normal_.z});
+    worker.barrier();
+  }
+  if (!turned) return;
+  for (int r = mine.first; r < mine.last; ++r) subtract_rest_row(r);
+  worker.barrier();
+}
+
+void BendingPass::curve_change(const Planes3& change, Worker& worker) {
+  if (!active()) return;
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) curve_row(change, r);
+  worker.barrier();
+  if (cloth_.mates.class_count() == 0) return;
+  sum_over_mates(cloth_.mates, worker, {&curved_.x, &curved_.y, &curved_.z});
+  worker.barrier();
+}
+
+/// Differences, not positions, are weighted: those of far places would round away.
+void BendingPass::curve_row(const Planes3& position, int row) {
+  const Row3 u = row_of(curved_, row);
+  clear(u, cloth_.size);
+  const ConstRow3 here = row_of(position, row);
+  for (int k = 0; k < used_neighbours(cloth_.bending); ++k) {
+    const BendingOffset to = bending_offsets[k];
+    const Range with = columns_with(to, row, cloth_.size);
+    if (with.first >= with.last) continue;
+    const ConstRow3 there = row_of(position, row + to.down);
+    const float* weight = cloth_.bending.weight[k].row(row);
+    const int shift = to.right;
+#pragma omp simd
+    for (int c = with.first; c < with.last; ++c) {
+      u.x[c] += weight[c] * (there.x[c + shift] - here.x[c]);
+      u.y[c] += weight[c] * (there.y[c + shift] - here.y[c]);
+      u.z[c] += weight[c] * (there.z[c + shift] - here.z[c]);
+    }
+  }
+}
+
+/// A row of area vectors, each sample's own part.
+void BendingPass::turn_row(const Planes3& position, int row) {
+  constexpr BendingOffset right{0, 1}, left{0, -1}, below{1, 0}, above{-1, 0};
+  const Row3 normal = row_of(normal_, row);
+  clear(normal, cloth_.size);
+  add_corner_row(position, right, below, row, normal);
+  add_corner_row(position, below, left, row, normal);
+  add_corner_row(position, left, above, row, normal);
+  add_corner_row(position, above, right, row, normal);
+}
+
+void BendingPass::subtract_rest_row(int row) {
+  constexpr float least_squared = 1e-36F;
+  const Row3 u = row_of(curved_, row);
+  const ConstRow3 normal = row_of(std::as_const(normal_), row);
+  const float* rest = cloth_.bending.rest.row(row);
+#pragma omp simd
+  for (int c = 0; c < cloth_.size; ++c) {
+    const float squared =
+        normal.x[c] * normal.x[c] + normal.y[c] * normal.y[c] + normal.z[c] * normal.z[c];
+    const float scale = rest[c] / std::sqrt(squared > least_squared ? squared : least_squared);
+    u.x[c] -= scale * normal.x[c];
+    u.y[c] -= scale * normal.y[c];
+    u.z[c] -= scale * normal.z[c];
+  }
+}
+
+void BendingPass::add_row(float factor, int row, Planes3& out) const {
+  if (!active()) return;
+  const Row3 sum = row_of(out, row);
+  const ConstRow3 u = row_of(curved_, row);
+  for (int k = 0; k < used_neighbours(cloth_.bending); ++k) {
+    // The neighbour k of this sample has it as neighbour `back`.
+    const int back = k ^ 1;
+    const BendingOffset to = bending_offsets[k];
+    const Range with = columns_with(to, row, cloth_.size);
+    if (with.first >= with.last) continue;
+    const ConstRow3 other = row_of(curved_, row + to.down);
+    const float* own = cloth_.bending.weight[k].row(row);
+    const float* theirs = cloth_.bending.weight[back].row(row + to.down);
+    const int shift = to.right;
+#pragma omp simd
+    for (int c = with.first; c < with.last; ++c) {
+      const float a = factor * own[c], b = factor * theirs[c + shift];
+      sum.x[c] += a * u.x[c] - b * other.x[c + shift];
+      sum.y[c] += a * u.y[c] - b * other.y[c + shift];
+      sum.z[c] += a * u.z[c] - b * other.z[c + shift];
+    }
+  }
+}
+
+double BendingPass::energy() const {
+  if (!active()) return 0;
+  double energy = 0;
+  for (int r = 0; r < cloth_.size; ++r)
+    for (int c = 0; c < cloth_.size; ++c)
+      energy += 0.5 * cloth_.counted(r, c) * squared_length(vec_cast<double>(curved_.at(r, c)));
+  return energy;
+}
+
+Grid<float> bending_bound(const Cloth& cloth, SpringDirection direction) {
+  const int n = cloth.size;
+  const auto [down, right] = spring_offsets[direction];
+  Grid<float> bound(n, n), total(n, n);
+  if (!cloth.bending.active || down > 1 || right > 1) return bound;
+  for (const Grid<float>& weight : cloth.bending.weight)
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) total(r, c) += std::abs(weight(r, c));
+  sum_over_mates(cloth.mates, {&total});
+  const auto is_direction = [d = down, r = right](BendingOffset o) {
+    return o.down == d && o.right == r;
+  };
+  const auto ahead = static_cast<std::size_t>(
+      std::find_if(bending_offsets.begin(), bending_offsets.end(), is_direction) -
+      bending_offsets.begin());
+  const Grid<float>&forth = cloth.bending.weight[ahead], &back = cloth.bending.weight[ahead ^ 1U];
+  for (int r = 0; r + down < n; ++r)
+    for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c)
+      bound(r, c) = total(r, c) * std::abs(forth(r, c)) +
+                    total(r + down, c + right) * std::abs(back(r + down, c + right));
+  return bound;
+}
+
+double bending_energy(const Cloth& cloth, const Planes3& position) {
+  if (!cloth.bending.active) return 0;
+  BendingPass pass(cloth);
+  ThreadTeam alone(1);
+  alone.run([&](Worker& worker) { pass.curve(position, worker); });
+  return pass.energy();
+}
+
+}  // namespace weft

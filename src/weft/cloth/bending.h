@@ -1,0 +1,63 @@
+#pragma once
+
+#include "weft/cloth/cloth.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// Row and column offsets of the neighbours of bending, opposite ones in pairs.
+struct BendingOffset {
+  int down = 0, right = 0;
+};
+inline constexpr std::array<BendingOffset, bending_neighbours> bending_offsets{
+    {{0, 1}, {0, -1}, {1, 0}, {-1, 0}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
+
+/// The forces of quadratic bending, -M^T (M x - sqrt(B area) H0 n(x)), in two passes over the rows
+/// with a scratch field between: first u = M x - ..., then its transpose. Each sample gathers in
+/// both. The normals n are those of the positions given and held: forces are minus the gradient at
+/// fixed normals, and M^T M is their derivative [bergou06]. A cloth that is flat at rest needs no
+/// normals and keeps its angular momentum.
+class BendingPass {
+ public:
+  /// @param cloth  kept by reference
+  explicit BendingPass(const Cloth& cloth);
+
+  /// Whether the cloth resists bending at all. Without, the other functions do nothing, and a
+  /// worker meets no barrier in them.
+  [[nodiscard]] bool active() const { return cloth_.bending.active; }
+
+  /// u of the positions. To be called by every worker when all positions are in place; ends with a
+  /// barrier. Rows of the last call must not be in use any more.
+  /// @param position  [n x n] [m]
+  void curve(const Planes3& position, Worker& worker);
+  /// u = M change: what a small move changes in u.
+  void curve_change(const Planes3& change, Worker& worker);
+  /// Adds -factor M^T u to a row, each sample's own part: with 1 the bending forces [N], after
+  /// curve_change with -h^2 a row of h^2 M^T M change.
+  void add_row(float factor, int row, Planes3& out) const;
+  /// |u|^2 / 2 of the last curve, over all particles [J].
+  [[nodiscard]] double energy() const;
+
+ private:
+  void curve_row(const Planes3& position, int row);
+  void turn_row(const Planes3& position, int row);
+  void subtract_rest_row(int row);
+
+  const Cloth& cloth_;
+  Planes3 curved_;  // u
+  Planes3 normal_;  // of the surface, as long as the area around [m^2]; empty for flat rest shapes
+};
+
+/// Conductances of the edges of one direction of stretch or shear whose Dirichlet energy bounds
+/// that of bending from above,
+///   |M x|^2 <= sum over edges k |x_j - x_i|^2,  k = sum over both ends (sum |weight|) |weight|,
+/// laid out as stiffnesses are in a SpringPlane. A bound, by Cauchy and Schwarz: tight for the
+/// roughest fields, for smooth ones larger by the square of their wavelength in samples. On the
+/// next coarser level it counts a quarter. Zero planes for the directions of bend springs.
+/// @return [n x n] each sample's own part [N/m]
+Grid<float> bending_bound(const Cloth& cloth, SpringDirection direction);
+
+/// The energy of bending at a position [J].
+double bending_energy(const Cloth& cloth, const Planes3& position);
+
+}  // namespace weft

@@ -1,0 +1,267 @@
+#include "weft/cloth/bending_weights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "weft/cloth/bending_ring.h"
+
+namespace weft {
+namespace {
+
+/// The affine conditions and the second moments that weights have to meet.
+constexpr int conditions = 5;
+using Column = std::array<double, conditions>;
+
+/// Second moments may miss by this part of what meeting them would cost where they cannot be met;
+/// the affine conditions are as good as hard.
+constexpr double softness = 1e-3, affine_softness = 1e-11;
+/// What a change of a weight costs that the stencil asked for leaves at zero.
+constexpr double diagonal_cost = 4, across_border_cost = 100;
+/// Of the second moments: below, the straight neighbours alone make the stencil.
+constexpr double straight_enough = 1e-4;
+/// No weights beyond those of a regular grid of this part of the mean spacing.
+constexpr double least_spacing = 0.05;
+/// A border that turns by more has a corner, where the second derivative along it means nothing:
+/// the cosine of 60 degrees.
+constexpr double most_turn = 0.5;
+
+/// Second differences along a line want 2 / (l (l + l')), which opposite neighbours of one sample
+/// know of each other.
+double wish_between(const Surroundings& around, const Neighbour& at) {
+  const double own = length(at.edge) / around.spacing;
+  double other = own;
+  for (const Neighbour& o : around.ring) {
+    const bool across =
+        around.free ? o.border && &o != &at : o.sample == at.sample && o.place == (at.place ^ 1);
+    if (across) other = length(o.edge) / around.spacing;
+  }
+  return at.share * 2 / (own * (own + other));
+}
+
+/// Sets the stencil asked for: the five-point one, along free borders the second difference.
+void set_wishes(Surroundings& around) {
+  for (Neighbour& at : around.ring) {
+    const bool wanted = straight(at) && (!around.free || at.border);
+    const double relative = squared_length(at.edge) / (around.spacing * around.spacing);
+    at.wish = wanted ? wish_between(around, at) : 0;
+    at.cost = relative * relative / at.share *
+              (wanted ? 1 : (around.free ? across_border_cost : diagonal_cost));
+  }
+}
+
+/// The direction along the border, or none at its corners.
+Vec3d border_direction(const Surroundings& around) {
+  std::vector<const Neighbour*> ends;
+  for (const Neighbour& at : around.ring)
+    if (at.border) ends.push_back(&at);
+  if (ends.size() != 2) return {};
+  const Vec3d a = normalized(ends[0]->edge), b = normalized(ends[1]->edge);
+  return -dot(a, b) < most_turn ? Vec3d{} : normalized(b - a);
+}
+
+/// Lays the ring out in the tangent plane. @return whether it could
+bool flatten(Surroundings& around) {
+  const Vec3d normal = normalized(around.area_vector);
+  Vec3d along = around.free ? border_direction(around)
+                            : (around.ring.empty() ? Vec3d{} : around.ring.front().edge);
+  along = normalized(along - dot(along, normal) * normal);
+  const Vec3d across = cross(normal, along);
+  for (Neighbour& at : around.ring) {
+    at.x = dot(at.edge, along) / around.spacing;
+    at.y = dot(at.edge, across) / around.spacing;
+  }
+  return squared_length(across) > 0.5;
+}
+
+Column column_of(const Neighbour& at) {
+  return {at.x, at.y, at.x * at.x, at.x * at.y, at.y * at.y};
+}
+
+/// Solves a symmetric positive definite system by elimination.
+Column solve(std::array<Column, conditions> a, Column b) {
+  for (int k = 0; k < conditions; ++k)
+    for (int i = k + 1; i < conditions; ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (int j = k; j < conditions; ++j) a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  for (int k = conditions - 1; k >= 0; --k) {
+    for (int j = k + 1; j < conditions; ++j) b[k] -= a[k][j] * b[j];
+    b[k] /= a[k][k];
+  }
+  return b;
+}
+
+/// The least change of the wished weights that meets the conditions.
+/// @param wanted  count of conditions: 2, the affine ones alone, or all
+void fit(Surroundings& around, int wanted) {
+  Column missing{0, 0, 2, 0, around.free ? 0.0 : 2.0};
+  std::array<Column, conditions> gram{};
+  for (int i = 0; i < conditions; ++i)
+    gram[i][i] = i < 2 ? affine_softness : (i < wanted ? softness : 1.0);
+  for (const Neighbour& at : around.ring) {
+    const Column column = column_of(at);
+    for (int i = 0; i < conditions; ++i) {
+      missing[i] -= at.wish * column[i];
+      for (int j = 0; j < conditions; ++j)
+        if (i < wanted && j < wanted && (wanted == conditions || at.wish > 0))
+          gram[i][j] += column[i] * column[j] / at.cost;
+    }
+  }
+  const Column factor = solve(gram, missing);
+  for (Neighbour& at : around.ring) {
+    at.weight = at.wish;
+    if (wanted < conditions && at.wish == 0) continue;
+    const Column column = column_of(at);
+    for (int i = 0; i < wanted; ++i) at.weight += factor[i] * column[i] / at.cost;
+  }
+}
+
+/// The largest of the conditions that weights miss.
+template <class Weight>
+double largest_miss(const Surroundings& around, int count, const Weight& weight) {
+  Column missing{0, 0, 2, 0, around.free ? 0.0 : 2.0};
+  double most = 0;
+  for (int i = 0; i < count; ++i) {
+    for (const Neighbour& at : around.ring) missing[i] -= weight(at) * column_of(at)[i];
+    most = std::max(most, std::abs(missing[i]));
+  }
+  return most;
+}
+
+/// Turns weights per mean edge into those per metre, within bounds; zero where they are no
+/// Laplacian.
+void finish(Surroundings& around, double mean_spacing) {
+  constexpr double affine = 1e-5;
+  double sum = 0;
+  for (const Neighbour& at : around.ring) sum += std::abs(at.weight);
+  const bool good = std::isfinite(sum) && around.spacing > 0 &&
+                    largest_miss(around, 2, [](const Neighbour& at) { return at.weight; }) <=
+                        affine * std::max(1.0, sum);
+  const double least = least_spacing * mean_spacing;
+  const double most = 8 / (least * least), spacing = around.spacing * around.spacing;
+  const double scale = good && sum > 0 ? std::min(1 / spacing, most / sum) : 0;
+  for (Neighbour& at : around.ring) at.weight *= scale;
+}
+
+void set_weights(Surroundings& around, double mean_spacing) {
+  if (!(around.spacing > 0) || !flatten(around)) {
+    for (Neighbour& at : around.ring) at.weight = 0;
+    return;
+  }
+  set_wishes(around);
+  const double miss = largest_miss(around, conditions, [](const Neighbour& a) { return a.wish; });
+  fit(around, miss < straight_enough ? 2 : conditions);
+  finish(around, mean_spacing);
+}
+
+/// Writes one particle's row of M and what follows from it.
+class Writer {
+ public:
+  Writer(int n, double bending, BendingPlanes& planes)
+      : n_(n), bending_(bending), planes_(planes), diagonal_(n, n) {
+    for (Grid<float>& plane : planes.weight) plane = Grid<float>(n, n);
+    planes.rest = Grid<float>(n, n);
+    planes.diagonal = Grid<float>(n, n);
+  }
+
+  void write(std::span<const int> samples, double area, double reach, const Surroundings& around) {
+    const double scale = std::sqrt(bending_ * area);
+    Vec3d curvature;
+    double rounding = 0;
+    std::vector<std::pair<int, double>> column;
+    for (const Neighbour& at : around.ring) {
+      float& weight = planes_.weight[at.place](at.sample / n_, at.sample % n_);
+      weight = static_cast<float>(scale * at.weight);
+      if (weight == 0) continue;
+      planes_.active = true;
+      planes_.diagonals = planes_.diagonals || !straight(at);
+      curvature += double{weight} * at.edge;
+      rounding += std::abs(double{weight}) * reach;
+      column.emplace_back(at.other, weight);
+      column.emplace_back(samples.front(), -weight);
+    }
+    add_to_diagonal(column);
+    // What the rounding of places may make up is none.
+    const double rest = dot(curvature, normalized(around.area_vector));
+    if (std::abs(rest) <= 4 * std::numeric_limits<float>::epsilon() * rounding) return;
+    planes_.curved = true;
+    for (const int s : samples) planes_.rest(s / n_, s % n_) = static_cast<float>(rest);
+  }
+
+  void finish() {
+    for (int r = 0; r < n_; ++r)
+      for (int c = 0; c < n_; ++c) planes_.diagonal(r, c) = static_cast<float>(diagonal_(r, c));
+  }
+
+ private:
+  /// Weights of one particle add up before they are squared.
+  void add_to_diagonal(std::vector<std::pair<int, double>>& column) {
+    std::sort(column.begin(), column.end());
+    for (std::size_t i = 0; i < column.size();) {
+      const int particle = column[i].first;
+      double sum = 0;
+      for (; i < column.size() && column[i].first == particle; ++i) sum += column[i].second;
+      diagonal_(particle / n_, particle % n_) += sum * sum;
+    }
+  }
+
+  int n_;
+  double bending_;
+  BendingPlanes& planes_;
+  Grid<double> diagonal_;
+};
+
+/// A quarter of each cell around the samples [m^2].
+double area_around(const RestShape& shape, std::span<const int> samples) {
+  const int n = shape.size();
+  double area = 0;
+  for (const int s : samples)
+    for (const int corner : {0, 1, 2, 3}) {
+      const int r = s / n - corner / 2, c = s % n - corner % 2;
+      if (r >= 0 && c >= 0 && r + 1 < n && c + 1 < n) area += 0.25 * shape.cell_area(r, c);
+    }
+  return area;
+}
+
+/// The largest coordinate: places round by its last bit.
+double reach_of(const Planes3& position) {
+  double reach = 0;
+  for (int s = 0; s < position.size() * position.size(); ++s) {
+    const Vec3d p = vec_cast<double>(position.at(s));
+    reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return reach;
+}
+
+}  // namespace
+
+BendingPlanes make_bending(const RestShape& shape, const Material& material) {
+  BendingPlanes planes;
+  if (material.bending == 0) return planes;
+  const int n = shape.size();
+  const RingReader reader(shape);
+  const double reach = reach_of(shape.position);
+  Writer writer(n, material.bending, planes);
+  const auto add = [&](std::span<const int> samples) {
+    Surroundings around = reader.read(samples);
+    set_weights(around, shape.mean_spacing);
+    writer.write(samples, area_around(shape, samples), reach, around);
+  };
+  std::vector<bool> has_mates(static_cast<std::size_t>(n) * n, false);
+  for (int index = 0; index < shape.mates.class_count(); ++index) {
+    add(shape.mates.mates(index));
+    for (const int s : shape.mates.mates(index)) has_mates[static_cast<std::size_t>(s)] = true;
+  }
+  for (int s = 0; s < n * n; ++s)
+    if (!has_mates[static_cast<std::size_t>(s)]) add(std::span(&s, 1));
+  writer.finish();
+  return planes;
+}
+
+}  // namespace weft

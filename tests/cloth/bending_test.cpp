@@ -1,0 +1,267 @@
+#include "weft/cloth/bending.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "tests/cloth/sheets.h"
+#include "weft/cloth/mates.h"
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+namespace {
+
+using namespace testing;
+
+const Material stiff{.bending = 1e-3};
+
+/// A flat square whose samples are unevenly spread and whose grid lines are not at right angles.
+Planes3 uneven_sheet(int n) {
+  Planes3 p(n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const double u = c / (n - 1.0), v = r / (n - 1.0);
+      const double x = u + 0.06 * sine(2 * pi * u) + 0.05 * sine(pi * u) * sine(2 * pi * v);
+      const double z = v - 0.05 * sine(pi * v) * sine(pi * (u + 0.3));
+      p.set(r, c, vec_cast<float>(Vec3d{x - 0.5, 0, z - 0.5}));
+    }
+  return p;
+}
+
+/// A flat disk: the border of the image is a circle, its corners lie on it like all else.
+Planes3 disk(int n) {
+  Planes3 p(n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const double x = 2.0 * c / (n - 1) - 1, z = 2.0 * r / (n - 1) - 1;
+      const double out = std::max(std::abs(x), std::abs(z)), round = std::sqrt(x * x + z * z);
+      const double scale = round > 0 ? 0.5 * out / round : 0;
+      p.set(r, c, vec_cast<float>(Vec3d{scale * x, 0, scale * z}));
+    }
+  return p;
+}
+
+Cloth flat_cloth(const Planes3& rest, const Material& material = stiff) {
+  return make_cloth(rest, no_mates(rest.size()), material);
+}
+
+Planes3 mapped(const Planes3& from, const std::function<Vec3d(Vec3d)>& map) {
+  Planes3 to(from.size());
+  for (int s = 0; s < from.size() * from.size(); ++s)
+    to.set(s, vec_cast<float>(map(vec_cast<double>(from.at(s)))));
+  return to;
+}
+
+Vec3d turned(Vec3d p) {
+  const Vec3d x = normalized(Vec3d{1, 2, -1}), y = normalized(cross(x, Vec3d{0, 1, 1}));
+  return p.x * x + p.y * y + p.z * cross(x, y) + Vec3d{0.3, -0.2, 0.5};
+}
+
+/// Each particle's whole bending force, or that of a change.
+Planes3 forces(const Cloth& cloth, const Planes3& position, bool change = false, int threads = 1) {
+  Planes3 out(cloth.size);
+  BendingPass pass(cloth);
+  ThreadTeam team(threads);
+  team.run([&](Worker& worker) {
+    if (change) {
+      pass.curve_change(position, worker);
+    } else {
+      pass.curve(position, worker);
+    }
+    const Range mine = worker.share(cloth.size);
+    for (int r = mine.first; r < mine.last; ++r) pass.add_row(1, r, out);
+    worker.barrier();
+    sum_over_mates(cloth.mates, worker, {&out.x, &out.y, &out.z});
+  });
+  return out;
+}
+
+double largest(const Planes3& planes) {
+  double most = 0;
+  for (int s = 0; s < planes.size() * planes.size(); ++s)
+    most = std::max(most, length(vec_cast<double>(planes.at(s))));
+  return most;
+}
+
+double dot_product(const Cloth& cloth, const Planes3& a, const Planes3& b) {
+  double sum = 0;
+  for (int s = 0; s < cloth.size * cloth.size; ++s)
+    sum += double{cloth.counted(s / cloth.size, s % cloth.size)} *
+           dot(vec_cast<double>(a.at(s)), vec_cast<double>(b.at(s)));
+  return sum;
+}
+
+/// What the forces make of moving particles by a micrometre, which rounding must stay below.
+double force_of_a_hair(const Cloth& cloth) {
+  Planes3 p(cloth.size);
+  shake(cloth, 1e-6, p);
+  return largest(forces(cloth, p, true));
+}
+
+TEST(Bending, AffineMapsOfFlatClothFeelNone) {
+  const auto affine = [](Vec3d p) {
+    return Vec3d{1.3 * p.x + 0.2 * p.z, 0.4 * p.x - 0.7 * p.z + 0.1, 0.8 * p.z - 0.3 * p.x};
+  };
+  for (const Planes3& rest : {flat_sheet(17), uneven_sheet(17), disk(17)}) {
+    const Cloth cloth = flat_cloth(rest);
+    EXPECT_FALSE(cloth.bending.curved);
+    EXPECT_LT(largest(forces(cloth, mapped(rest, affine))), force_of_a_hair(cloth));
+  }
+}
+
+TEST(Bending, LaplacianDoesNotDependOnTheParameterization) {
+  // |u|^2 / 2 of y = x^2 / 2 + x z / 3 + z^2, whose Laplacian is 3, is B/2 9 times the area.
+  const auto bowl = [](Vec3d p) {
+    return Vec3d{p.x, 0.5 * p.x * p.x + p.x * p.z / 3 + p.z * p.z, p.z};
+  };
+  for (const Planes3& rest : {flat_sheet(65), uneven_sheet(65), disk(65)}) {
+    const Cloth cloth = flat_cloth(rest);
+    const double area = total_mass(cloth) / cloth.material.density;
+    const double energy = bending_energy(cloth, mapped(rest, bowl));
+    // Along the border only the second derivative there counts.
+    EXPECT_NEAR(energy / (0.5 * stiff.bending * 9 * area), 1, 0.05);
+  }
+}
+
+TEST(Bending, RegularGridNeedsItsStraightNeighboursAlone) {
+  EXPECT_FALSE(flat_cloth(flat_sheet(41)).bending.diagonals);
+  EXPECT_TRUE(flat_cloth(uneven_sheet(41)).bending.diagonals);
+}
+
+TEST(Bending, RolledStripHasTheEnergyOfItsCurvature) {
+  // A cylinder of radius 1/2: B/2 4 on all of the area but half a row at either end.
+  const int n = 33;
+  const Cloth cloth = flat_cloth(flat_sheet(n));
+  const auto roll = [](Vec3d p) { return Vec3d{0.5 * sine(2 * p.x), -0.5 * cosine(2 * p.x), p.z}; };
+  const double energy = bending_energy(cloth, mapped(cloth.rest, roll));
+  const double wanted = 0.5 * stiff.bending * 4 * (1 - 1.0 / (n - 1));
+  EXPECT_NEAR(energy / wanted, 1, 1e-3);
+}
+
+TEST(Bending, ForcesAreMinusTheGradientOfFlatCloth) {
+  const Cloth cloth = flat_cloth(uneven_sheet(9));
+  Planes3 p = cloth.rest;
+  shake(cloth, 0.05, p);
+  const Planes3 force = forces(cloth, p);
+  const float step = 0x1p-8F;
+  for (const int sample : {0, 4, 9, 10, 40, 44, 79, 80})
+    for (const Vec3f way : {Vec3f{step, 0, 0}, Vec3f{0, step, 0}, Vec3f{0, 0, step}}) {
+      Planes3 ahead = p, behind = p;
+      ahead.set(sample, p.at(sample) + way);
+      behind.set(sample, p.at(sample) - way);
+      // Exact for a quadratic energy, but for rounding.
+      const double slope =
+          (bending_energy(cloth, ahead) - bending_energy(cloth, behind)) / (2.0 * step);
+      const double along = dot(vec_cast<double>(force.at(sample)), vec_cast<double>(way)) / step;
+      EXPECT_NEAR(along, -slope, 1e-4 * largest(force)) << "sample " << sample;
+    }
+}
+
+TEST(Bending, TurnedTorusFeelsNone) {
+  const Cloth cloth = torus_cloth(33, stiff);
+  EXPECT_TRUE(cloth.bending.curved);
+  EXPECT_LT(largest(forces(cloth, cloth.rest)), force_of_a_hair(cloth));
+  const double left = largest(forces(cloth, mapped(cloth.rest, turned)));
+  EXPECT_LT(left, force_of_a_hair(cloth));
+  const auto wider = [](Vec3d p) { return 1.1 * p; };
+  EXPECT_GT(largest(forces(cloth, mapped(cloth.rest, wider))), 10 * left);
+}
+
+TEST(Bending, TurnedFlatClothStaysFlat) {
+  const Planes3 rest = mapped(flat_sheet(65), turned);
+  EXPECT_FALSE(flat_cloth(rest).bending.curved);
+}
+
+TEST(Bending, ForcesOfOneClothAddUpToNone) {
+  for (const Cloth& cloth : {flat_cloth(uneven_sheet(17)), torus_cloth(17, stiff)}) {
+    Planes3 p = cloth.rest;
+    shake(cloth, 0.01, p);
+    const Planes3 force = forces(cloth, p);
+    Vec3d sum;
+    for (int s = 0; s < cloth.size * cloth.size; ++s)
+      sum += double{cloth.counted(s / cloth.size, s % cloth.size)} * vec_cast<double>(force.at(s));
+    EXPECT_LT(length(sum), 1e-4 * largest(force));
+  }
+}
+
+TEST(Bending, FlatClothIsNotTurned) {
+  const Cloth cloth = flat_cloth(uneven_sheet(17));
+  Planes3 p = cloth.rest;
+  shake(cloth, 0.01, p);
+  const Planes3 force = forces(cloth, p);
+  Vec3d torque;
+  for (int s = 0; s < 17 * 17; ++s)
+    torque += cross(vec_cast<double>(p.at(s)), vec_cast<double>(force.at(s)));
+  EXPECT_LT(length(torque), 1e-4 * largest(force));
+}
+
+TEST(Bending, ChangeIsTheDerivativeAtHeldNormals) {
+  const Cloth cloth = torus_cloth(17, stiff);
+  Planes3 way(17);
+  shake(cloth, 1, way, 2);
+  BendingPass pass(cloth);
+  ThreadTeam alone(1);
+  alone.run([&](Worker& worker) { pass.curve_change(way, worker); });
+  const double squared = 2 * pass.energy();
+  EXPECT_NEAR(-dot_product(cloth, way, forces(cloth, way, true)) / squared, 1, 1e-5);
+}
+
+TEST(Bending, BoundIsNotExceeded) {
+  for (const Cloth& cloth :
+       {flat_cloth(flat_sheet(9)), flat_cloth(uneven_sheet(9)), torus_cloth(9, stiff)}) {
+    for (int seed = 1; seed <= 20; ++seed) {
+      Planes3 way(9);
+      shake(cloth, 1, way, seed);
+      double bound = 0;
+      for (int d = 0; d < spring_directions; ++d) {
+        const Grid<float> edges = bending_bound(cloth, static_cast<SpringDirection>(d));
+        const auto [down, right] = spring_offsets[d];
+        for (int r = 0; r < 9; ++r)
+          for (int c = 0; c < 9; ++c)
+            if (edges(r, c) > 0)
+              bound += edges(r, c) *
+                       squared_length(vec_cast<double>(way.at(r + down, c + right) - way.at(r, c)));
+      }
+      EXPECT_LT(-dot_product(cloth, way, forces(cloth, way, true)), bound);
+    }
+  }
+}
+
+TEST(Bending, CheckerboardMeetsItsBoundInside) {
+  const Cloth cloth = flat_cloth(flat_sheet(9));
+  const double d = 1.0 / 8;
+  // One particle's part of M^T M of a checkerboard is B d^2 (8 / d^2)^2; of the edges, 8 k 8.
+  const double exact = stiff.bending * 64 / (d * d);
+  EXPECT_NEAR(bending_bound(cloth, stretch_u)(4, 4) * 8, exact, 1e-4 * exact);
+}
+
+TEST(Bending, DiagonalIsThatOfTheMatrix) {
+  for (const Cloth& cloth : {flat_cloth(uneven_sheet(9)), torus_cloth(9, stiff)})
+    for (const int sample : {0, 3, 8, 9, 12, 40, 63, 72, 80}) {
+      const int first = cloth.mates.representative(sample);
+      Planes3 unit(9);
+      for (int s = 0; s < 81; ++s)
+        if (cloth.mates.representative(s) == first) unit.set(s, {1, 0, 0});
+      const double wanted = -forces(cloth, unit, true).x(first / 9, first % 9);
+      EXPECT_NEAR(cloth.bending.diagonal(first / 9, first % 9), wanted, 1e-4 * wanted + 1e-9);
+    }
+}
+
+TEST(Bending, AnyTeamGivesTheSameBits) {
+  const Cloth cloth = torus_cloth(17, stiff);
+  Planes3 p = cloth.rest;
+  shake(cloth, 0.01, p);
+  const auto hash = [&](int threads) {
+    return hash_of({forces(cloth, p, false, threads), Planes3(17)});
+  };
+  EXPECT_EQ(hash(1), hash(3));
+  EXPECT_EQ(hash(1), hash(7));
+}
+
+TEST(Bending, NoneWithoutStiffness) {
+  const Cloth cloth = sheet_cloth(9, {.bending = 0});
+  EXPECT_FALSE(BendingPass(cloth).active());
+}
+
+}  // namespace
+}  // namespace weft
