@@ -64,9 +64,15 @@ TEST(Stepping, MomentumIsKept) {
     }
 }
 
-TEST(Stepping, ExplicitBreaksOnlyAboveItsLargestStep) {
-  Material material;
-  material.damping = 0;
+class StableStep : public ::testing::TestWithParam<Material> {};
+
+// Stiff against stretch, or against bending.
+INSTANTIATE_TEST_SUITE_P(Materials, StableStep,
+                         ::testing::Values(Material{.bending = 0, .damping = 0},
+                                           Material{.bending = 20, .damping = 0}));
+
+TEST_P(StableStep, ExplicitBreaksOnlyAboveIt) {
+  const Material& material = GetParam();
   const Cloth cloth = sheet_cloth(9, material);
   ThreadTeam team(1);
   const double largest = largest_stable_step(cloth, team);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "weft/cloth/bending.h"
+
 namespace weft {
 namespace {
 
@@ -85,7 +87,7 @@ double potential_energy(const Cloth& cloth, const ClothState& state, Vec3d gravi
     return cloth.mass(r, c) * dot(gravity, vec_cast<double>(state.position.at(r, c)));
   });
   for (const SpringPlane& plane : cloth.springs) energy += energy_of(plane, state.position);
-  return energy;
+  return energy + bending_energy(cloth, state.position);
 }
 
 std::optional<BadParticle> find_not_finite(const ClothState& state) {

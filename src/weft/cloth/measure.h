@@ -15,7 +15,7 @@ StrainSummary measure_strain(const Cloth& cloth, const ClothState& state);
 
 /// Particles counted once, weighted by mass [m].
 Vec3d centre_of_mass(const Cloth& cloth, const ClothState& state);
-/// [J]; potential: springs and gravity (zero at the origin).
+/// [J]; potential: springs, bending and gravity (zero at the origin).
 double kinetic_energy(const Cloth& cloth, const ClothState& state);
 double potential_energy(const Cloth& cloth, const ClothState& state, Vec3d gravity);
 

@@ -53,7 +53,7 @@ Json material_json(const Material& m) {
   return {{"density", m.density},
           {"stretch", m.stretch},
           {"shear", m.shear},
-          {"bending", 0},
+          {"bending", m.bending},
           {"bend_springs", m.bend_springs},
           {"damping", m.damping},
           {"strain_limit", m.strain_limit},

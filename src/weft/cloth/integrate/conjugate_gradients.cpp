@@ -60,10 +60,12 @@ void ConjugateGradients::invert_row(const System& system, int row) {
   }
 }
 
-/// Row of out = (M + S + contacts) in, each sample's own part.
+/// Row of out = (M + S + bending + contacts) in, each sample's own part. Bending has been curved by
+/// `in`.
 void ConjugateGradients::apply_row(const System& system, const Planes3& in, Planes3& out,
                                    int row) const {
   system.springs.multiply_row(in, out, row);
+  system.bending.add_row(-system.squared_step, row, out);
   const ConstRow3 v = row_of(in, row);
   const Row3 sum = row_of(out, row);
   const float* mass = own_mass_.row(row);
@@ -159,6 +161,7 @@ double ConjugateGradients::largest_step() const {
 /// Turns the right side into the residual of the guess, summed over mates.
 void ConjugateGradients::start(const System& system, Planes3& r, const Planes3& v, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
+  system.bending.curve_change(v, worker);
   for (int row = mine.first; row < mine.last; ++row) {
     invert_row(system, row);
     apply_row(system, v, image_, row);
@@ -188,6 +191,7 @@ SolveReport ConjugateGradients::iterate(const System& system, const Stop& stop, 
   worker.barrier();
   SolveReport report;
   while (report.iterations < stop.max_iterations && rz > 0) {
+    system.bending.curve_change(direction_, worker);
     const double pq = sums_.sum(worker, [&](int row) {
       apply_row(system, direction_, image_, row);
       const ConstRow3 p = const_row_of(direction_, row), q = const_row_of(image_, row);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "weft/cloth/bending.h"
 #include "weft/cloth/integrate/coarse_levels.h"
 #include "weft/cloth/integrate/contact_terms.h"
 #include "weft/cloth/integrate/spring_matrix.h"
@@ -16,9 +17,10 @@ struct SolveReport {
       0;  ///< largest change of a velocity component vector in the last iteration [m/s]
 };
 
-/// Modified conjugate gradients [baraff98] for (M + S + contacts) v = b on planes, preconditioned
-/// by the inverses of the 3 x 3 diagonal blocks. Particles without inverse mass keep their v.
-/// Vectors are single precision, sums double in a fixed order, so every team gives the same bits.
+/// Modified conjugate gradients [baraff98] for (M + S + bending + contacts) v = b on planes,
+/// preconditioned by the inverses of the 3 x 3 diagonal blocks. Particles without inverse mass keep
+/// their v. Vectors are single precision, sums double in a fixed order, so every team gives the
+/// same bits.
 class ConjugateGradients {
  public:
   explicit ConjugateGradients(const Cloth& cloth);
@@ -26,7 +28,9 @@ class ConjugateGradients {
   struct System {
     const SpringMatrix& springs;
     const ContactTerms& contacts;
-    const Blocks& diagonal;  ///< of M + S, summed over mates
+    const Blocks& diagonal;  ///< of M + S + bending, summed over mates
+    BendingPass& bending;
+    float squared_step = 0;  ///< h^2, what bending counts by [s^2]
   };
   struct Stop {
     int max_iterations = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/cloth/bending.h"
 #include "weft/cloth/forces.h"
 #include "weft/cloth/integrate/proposal.h"
 #include "weft/cloth/integrate/stable_step.h"
@@ -16,14 +17,18 @@ namespace {
 class Explicit final : public Integrator {
  public:
   Explicit(const Cloth& cloth, ThreadTeam& team)
-      : cloth_(cloth), team_(team), force_(cloth.size), next_(rest_state(cloth)) {}
+      : cloth_(cloth), team_(team), force_(cloth.size), bending_(cloth), next_(rest_state(cloth)) {}
 
   void begin(const StepInput& input, const ClothState& state) noexcept override {
     const Stopwatch watch;
     time_step_ = input.time_step;
     team_.run([&](Worker& worker) {
       const Range mine = worker.share(cloth_.size);
-      for (int r = mine.first; r < mine.last; ++r) gather_damped(cloth_, r, state, force_);
+      bending_.curve(state.position, worker);
+      for (int r = mine.first; r < mine.last; ++r) {
+        gather_damped(cloth_, r, state, force_);
+        bending_.add_row(1, r, force_);
+      }
       worker.barrier();
       sum_over_mates(cloth_.mates, worker, {&force_.x, &force_.y, &force_.z});
       worker.barrier();
@@ -69,6 +74,7 @@ class Explicit final : public Integrator {
   const Cloth& cloth_;
   ThreadTeam& team_;
   Planes3 force_;
+  BendingPass bending_;
   ClothState next_;
   double time_step_ = 1, seconds_ = 0;
 };

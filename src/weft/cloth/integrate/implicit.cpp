@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/cloth/bending.h"
 #include "weft/cloth/forces.h"
 #include "weft/cloth/integrate/conjugate_gradients.h"
 #include "weft/cloth/integrate/proposal.h"
@@ -29,6 +30,7 @@ class Implicit final : public Integrator {
         force_(cloth.size),
         right_(cloth.size),
         springs_(cloth.size),
+        bending_(cloth),
         contacts_(cloth.size),
         solver_(cloth) {
     for (Grid<float>& plane : diagonal_) plane = Grid<float>(cloth.size, cloth.size);
@@ -41,10 +43,12 @@ class Implicit final : public Integrator {
     contacts_.clear();
     team_.run([&](Worker& worker) {
       copy_rows(state, start_, worker);
+      bending_.curve(state.position, worker);
       const Range mine = worker.share(cloth_.size);
       for (int r = mine.first; r < mine.last; ++r) {
         springs_.linearise_row(cloth_, state.position, input.time_step, r);
         gather_elastic(cloth_, r, state.position, force_);
+        bending_.add_row(1, r, force_);
         fall_row(state, r);
       }
       worker.barrier();
@@ -69,7 +73,7 @@ class Implicit final : public Integrator {
     });
     const double to_residual = input_.time_step / cloth_.rest_spacing;
     const SolveReport solved = solver_.solve(
-        {springs_, contacts_, diagonal_},
+        {springs_, contacts_, diagonal_, bending_, squared_step()},
         {options_.max_iterations, options_.tolerance / to_residual}, right_, next_.velocity, team_);
     team_.run([&](Worker& worker) {
       const Range mine = worker.share(cloth_.size);
@@ -90,6 +94,10 @@ class Implicit final : public Integrator {
   [[nodiscard]] std::string stability_advice(double /*time_step*/) const override { return {}; }
 
  private:
+  [[nodiscard]] float squared_step() const {
+    return static_cast<float>(input_.time_step * input_.time_step);
+  }
+
   /// The guess: v + h g, and where it leads.
   void fall_row(const ClothState& state, int row) {
     const auto h = static_cast<float>(input_.time_step);
@@ -114,6 +122,12 @@ class Implicit final : public Integrator {
       for (int c = 0; c < cloth_.size; ++c) out[c] = on_diagonal ? mass[c] * counted[c] : 0.0F;
     }
     springs_.add_diagonal_row(diagonal_, row);
+    if (!bending_.active()) return;
+    const float* bending = cloth_.bending.diagonal.row(row);
+    for (const int i : {0, 3, 5}) {
+      float* out = diagonal_[i].row(row);
+      for (int c = 0; c < cloth_.size; ++c) out[c] += squared_step() * bending[c];
+    }
   }
 
   /// M (v + h g) + h f + contacts, each sample's own part.
@@ -153,6 +167,7 @@ class Implicit final : public Integrator {
   ClothState start_, next_;
   Planes3 force_, right_;
   SpringMatrix springs_;
+  BendingPass bending_;
   Blocks diagonal_;
   ContactTerms contacts_;
   ConjugateGradients solver_;

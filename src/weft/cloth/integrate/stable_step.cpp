@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/cloth/bending.h"
 #include "weft/cloth/integrate/spring_matrix.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/neighbours.h"
@@ -27,11 +28,21 @@ Planes3 random_motion(const Cloth& cloth) {
   return v;
 }
 
+/// K, the stiffness matrix at rest.
+struct Stiffness {
+  SpringMatrix springs;
+  BendingPass bending;
+};
+
 /// v <- M^-1 K v / |M^-1 K v| by this worker's rows. @return |M^-1 K v|
-double iterate_power(const Cloth& cloth, const SpringMatrix& matrix, Planes3& v, Planes3& kv,
+double iterate_power(const Cloth& cloth, Stiffness& stiffness, Planes3& v, Planes3& kv,
                      RowSums& sums, Worker& worker) {
   const Range mine = worker.share(cloth.size);
-  for (int r = mine.first; r < mine.last; ++r) matrix.multiply_row(v, kv, r);
+  stiffness.bending.curve_change(v, worker);
+  for (int r = mine.first; r < mine.last; ++r) {
+    stiffness.springs.multiply_row(v, kv, r);
+    stiffness.bending.add_row(-1, r, kv);
+  }
   worker.barrier();
   sum_over_mates(cloth.mates, worker, {&kv.x, &kv.y, &kv.z});
   worker.barrier();
@@ -68,14 +79,15 @@ double highest_squared_frequency(const Cloth& cloth, ThreadTeam& team) {
   constexpr int iterations = 200;
   Cloth undamped = cloth;
   for (SpringPlane& plane : undamped.springs) plane.damping.fill(0);
-  SpringMatrix matrix(cloth.size);
-  for (int r = 0; r < cloth.size; ++r) matrix.linearise_row(undamped, cloth.rest, 1, r);
+  Stiffness stiffness{SpringMatrix(cloth.size), BendingPass(cloth)};
+  for (int r = 0; r < cloth.size; ++r) stiffness.springs.linearise_row(undamped, cloth.rest, 1, r);
   Planes3 v = random_motion(cloth), kv(cloth.size);
   RowSums sums(cloth.size);
   double result = 0;
   team.run([&](Worker& worker) {
     double norm = 0;
-    for (int i = 0; i < iterations; ++i) norm = iterate_power(cloth, matrix, v, kv, sums, worker);
+    for (int i = 0; i < iterations; ++i)
+      norm = iterate_power(cloth, stiffness, v, kv, sums, worker);
     if (worker.rank() == 0) result = norm;
   });
   return result;

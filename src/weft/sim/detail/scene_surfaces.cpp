@@ -120,13 +120,11 @@ Material read_material(const nlohmann::json& value, const JsonPlace& place) {
   material.density = object.number("density", fallback.density, positive);
   material.stretch = object.number("stretch", fallback.stretch, not_negative);
   material.shear = object.number("shear", fallback.shear, not_negative);
+  material.bending = object.number("bending", fallback.bending, not_negative);
   material.bend_springs = object.number("bend_springs", fallback.bend_springs, not_negative);
   material.damping = object.number("damping", fallback.damping, not_negative);
   material.strain_limit = object.number("strain_limit", fallback.strain_limit, {0, 0.999, false});
   material.thickness = object.number("thickness", fallback.thickness, positive);
-  if (object.number("bending", 0, not_negative) != 0)
-    place.key("bending").fail("is not supported by this version",
-                              "0 is wanted; \"bend_springs\" resist bending");
   return material;
 }
 
