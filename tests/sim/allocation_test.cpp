@@ -11,6 +11,7 @@
 #include "weft/cloth/coarse_limit.h"
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/strain_limit.h"
+#include "weft/cloth/wind.h"
 #include "weft/collide/collider.h"
 
 // The whole program's allocations are counted: the standard lets a program replace these.
@@ -47,12 +48,14 @@ using namespace testing;
 struct Step {
   const Cloth& cloth;
   Integrator& integrator;
+  Wind& wind;
   CoarseLimit& coarse;
   StrainLimit& limit;
   Collider& collider;
   ThreadTeam& team;
 
   void take(const StepInput& input, ClothState& state) const {
+    wind.blow(input.time_step, state, team);
     integrator.begin(input, state);
     ClothState* next = &integrator.iterate({});
     const MovingCloth moving{state.position, next->position, next->velocity, cloth.inverse_mass};
@@ -82,11 +85,12 @@ TEST(Allocation, SteppingAllocatesNothingOnceWarm) {
       const auto integrator = make_integrator(options, cloth, input, team);
       const Obstacles ball{{test::octahedral_sphere(17, 0.3, {0, -0.35, 0})}, -0.5, 0.5};
       const auto collider = make_collider(PolarMapOptions{}, ball, {});
+      Wind wind({{1, 2, 0}}, cloth);
       CoarseLimit coarse(cloth, team);
       StrainLimit limit(cloth, team);
       ClothState state = rest_state(cloth, {0, -1, 0});
       shake(cloth, 0.02, state.position);
-      const Step step{cloth, *integrator, coarse, limit, *collider, team};
+      const Step step{cloth, *integrator, wind, coarse, limit, *collider, team};
       step.take(input, state);
       const long before = allocations;
       for (int i = 0; i < 5; ++i) step.take(input, state);

@@ -38,7 +38,7 @@ TEST(SceneFile, EmptyClothIsTheDefaults) {
 TEST(SceneFile, EveryKeyIsRead) {
   const Scene scene = parse_scene(R"({
     "version": 1, "gravity": [0, -1.6, 0], "frame_rate": 25, "substeps": 3, "frames": 7, "ground": null,
-    "wind": {"velocity": [0, 0, 0]},
+    "wind": {"velocity": [1, 0, 2], "drag": 0.5, "lift": 0},
     "integrator": {"type": "two_level", "local_size": 7, "global_size": 9, "as_printed": true,
                    "filter_stiffness": 12, "limiter_passes": 3},
     "collider": {"type": "polar_map", "size": 99, "walk": false},
@@ -46,12 +46,16 @@ TEST(SceneFile, EveryKeyIsRead) {
                 "translate": [1, 0, -1], "material": {"density": 0.3, "stretch": 5, "shear": 6, "bending": 2e-5,
                 "bend_springs": 7, "damping": 8, "strain_limit": 0.1, "thickness": 0.003},
                 "self_collision": false, "friction": 0.1, "velocity": [3, 2, 1],
-                "pins": [{"image": [0, 1]}, {"nearest": [1, 2, 3]}, {"region": [[0, 0], [1, 0.5]]}]}],
+                "pins": [{"image": [0, 1], "path": [{"time": 0}, {"time": 2, "rotate": [0, 90, 0], "translate": [1, 0, 0]}]}, {"nearest": [1, 2, 3]}, {"region": [[0, 0], [1, 0.5]]}]}],
     "bodies": [{"name": "b", "surface": "builtin:sphere", "size": 65, "scale": 2, "friction": 0.7}]})",
                                   "s.json", "");
   EXPECT_EQ(scene.gravity, (Vec3d{0, -1.6, 0}));
   EXPECT_EQ(scene.frames, 7);
   EXPECT_FALSE(scene.ground.has_value());
+  ASSERT_TRUE(scene.wind.has_value());
+  EXPECT_EQ(scene.wind->velocity, (Vec3d{1, 0, 2}));
+  EXPECT_EQ(scene.wind->drag, 0.5);
+  EXPECT_EQ(scene.wind->lift, 0);
   const auto& two_level = std::get<TwoLevelOptions>(scene.integrator);
   EXPECT_EQ(two_level.local_size, 7);
   EXPECT_EQ(two_level.global_size, 9);
@@ -68,9 +72,13 @@ TEST(SceneFile, EveryKeyIsRead) {
   EXPECT_EQ(cloth.material.bend_springs, 7);
   EXPECT_EQ(cloth.velocity, (Vec3d{3, 2, 1}));
   ASSERT_EQ(cloth.pins.size(), 3);
-  EXPECT_EQ(std::get<ImagePin>(cloth.pins[0]).uv, (Vec2d{0, 1}));
-  EXPECT_EQ(std::get<NearestPin>(cloth.pins[1]).point, (Vec3d{1, 2, 3}));
-  EXPECT_EQ(std::get<RegionPin>(cloth.pins[2]).upper, (Vec2d{1, 0.5}));
+  EXPECT_EQ(std::get<ImagePin>(cloth.pins[0].place).uv, (Vec2d{0, 1}));
+  EXPECT_EQ(std::get<NearestPin>(cloth.pins[1].place).point, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(std::get<RegionPin>(cloth.pins[2].place).upper, (Vec2d{1, 0.5}));
+  ASSERT_EQ(cloth.pins[0].path.size(), 2);
+  EXPECT_EQ(cloth.pins[0].path[1].time, 2);
+  EXPECT_EQ(cloth.pins[0].path[1].rotate, (Vec3d{0, 90, 0}));
+  EXPECT_EQ(cloth.pins[0].path[1].translate, (Vec3d{1, 0, 0}));
   EXPECT_EQ(scene.bodies.at(0).placement.scale, (Vec3d{2, 2, 2}));
 }
 
@@ -100,6 +108,10 @@ TEST(SceneFile, WrongTypesAndRangesNameTheKey) {
             "s.json:cloths[0].friction: \"much\"; a number from 0 to 10 is wanted");
   EXPECT_EQ(error_of(with_cloth(R"("pins":[{"image":[0,2]}])")),
             "s.json:cloths[0].pins[0].image: [0, 2]; u and v from 0 to 1 are wanted");
+  EXPECT_EQ(error_of(with_cloth(R"("pins":[{"image":[0,1],"path":[{"time":1},{"time":1}]}])")),
+            "s.json:cloths[0].pins[0].path[1].time: 1 after 1; ascending times are wanted");
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"wind":{"drag":-1}})"),
+            "s.json:wind.drag: -1; a number >= 0 is wanted");
   EXPECT_EQ(error_of(R"({"cloths":[]})"), "s.json:cloths: no cloth; at least one is wanted");
   EXPECT_EQ(error_of(R"([1])"), "s.json: [1] is no object; an object {...} is wanted");
 }
@@ -132,8 +144,12 @@ TEST(SceneFile, WhatThisVersionLacksIsRefused) {
   EXPECT_EQ(error_of(with_cloth(R"("self_collision":true)")),
             "s.json:cloths[0].self_collision: true is not available with collider polar_map; false "
             "is wanted");
-  EXPECT_EQ(error_of(R"({"cloths":[{}],"wind":{"velocity":[1,0,0]}})"),
-            "s.json:wind.velocity: is not supported by this version; [0, 0, 0] is wanted");
+}
+
+TEST(SceneFile, StillAirIsNoneUnlessItsCoefficientsAreGiven) {
+  EXPECT_FALSE(parse_scene(R"({"cloths":[{}],"wind":{"velocity":[0,0,0]}})", "s", "").wind);
+  EXPECT_TRUE(parse_scene(R"({"cloths":[{}],"wind":{"drag":1}})", "s", "").wind);
+  EXPECT_TRUE(parse_scene(R"({"cloths":[{}],"wind":{"velocity":[0,0,1]}})", "s", "").wind);
 }
 
 TEST(SceneFile, TwoThingsOfOneNameAreRefused) {
@@ -167,6 +183,7 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   scene.integrator = TwoLevelOptions{
       .local_size = 5, .global_size = 3, .as_printed = true, .filter_stiffness = 0.7};
   scene.limiter_passes = 4;
+  scene.wind = WindOptions{{}, 2, 0.25};
   scene.collider = PolarMapOptions{.size = 12, .walk = false};
   SceneCloth cloth;
   const test::TemporaryFolder folder;
@@ -175,6 +192,7 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   cloth.material.density = 0.123;
   cloth.velocity = {1, 2, 3};
   cloth.pins = {ImagePin{{0, 1}}, NearestPin{{1, 2, 3}}, RegionPin{{0, 0.25}, {0.5, 1}}};
+  cloth.pins[1].path = {{0.5, {0, 0, 10}, {1, 2, 3}}, {1.5, {}, {4, 5, 6}}};
   scene.cloths = {cloth};
   scene.bodies.push_back(
       {.name = "b", .surface = "builtin:sphere", .size = 65, .placement = {}, .friction = 0.2});
@@ -188,7 +206,10 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   EXPECT_EQ(back.cloths[0].placement.rotate, cloth.placement.rotate);
   EXPECT_EQ(back.cloths[0].material.density, 0.123);
   EXPECT_EQ(std::get<TwoLevelOptions>(back.integrator).filter_stiffness, 0.7);
-  EXPECT_EQ(std::get<RegionPin>(back.cloths[0].pins[2]).lower, (Vec2d{0, 0.25}));
+  EXPECT_EQ(std::get<RegionPin>(back.cloths[0].pins[2].place).lower, (Vec2d{0, 0.25}));
+  EXPECT_EQ(back.cloths[0].pins[1].path.at(1).translate, (Vec3d{4, 5, 6}));
+  ASSERT_TRUE(back.wind.has_value());
+  EXPECT_EQ(back.wind->lift, 0.25);
   EXPECT_FALSE(back.ground.has_value());
   write_scene(second, back);
   const auto text = [](const std::string& path) {
@@ -229,6 +250,7 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
   EXPECT_EQ(properties_of(parts["body"]), as_set(scene_keys::body));
   EXPECT_EQ(properties_of(parts["material"]), as_set(scene_keys::material));
   EXPECT_EQ(properties_of(parts["pin"]), as_set(scene_keys::pin));
+  EXPECT_EQ(properties_of(parts["motion_key"]), as_set(scene_keys::motion_key));
 }
 
 TEST(SceneSchema, DefaultsAreTheReadersDefaults) {

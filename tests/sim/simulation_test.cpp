@@ -160,6 +160,51 @@ TEST(Simulation, PinsHold) {
   EXPECT_LT(state.position.at(16, 8).y, 1.9F);
 }
 
+TEST(Simulation, PinsFollowTheirPaths) {
+  Scene scene = free_fall(ImplicitOptions{});
+  scene.cloths[0].velocity = {};
+  // One side turns by a quarter about its middle while it rises, then rests.
+  scene.cloths[0].pins = {
+      ScenePin(RegionPin{{0, 0}, {1, 0}}, {{0.1, {}, {}}, {0.3, {0, 90, 0}, {0, 0.2, 0}}})};
+  Simulation simulation(scene, "pins", 1);
+  const auto corner = [&] { return simulation.cloths()[0].state.position.at(0, 16); };
+  for (int frame = 0; frame < 6; ++frame) simulation.advance();
+  EXPECT_EQ(corner(), (Vec3f{0.5F, 2, -0.5F}));
+  for (int frame = 6; frame < 12; ++frame) simulation.advance();
+  const float half = 0.5F * std::sqrt(0.5F);
+  EXPECT_LT(length(corner() - Vec3f{half, 2.1F, -0.5F - half}), 1e-6F);
+  for (int frame = 12; frame < 20; ++frame) simulation.advance();
+  EXPECT_LT(length(corner() - Vec3f{0, 2.2F, -1}), 1e-6F);
+  EXPECT_LT(length(simulation.cloths()[0].state.velocity.at(0, 16)), 1e-4F);
+}
+
+TEST(Simulation, LaterPinTakesASampleFromAPath) {
+  Scene scene = free_fall(ImplicitOptions{});
+  scene.cloths[0].pins = {ScenePin(RegionPin{{0, 0}, {1, 0}}, {{0, {}, {}}, {0.1, {}, {1, 0, 0}}}),
+                          ImagePin{{1, 0}}};
+  Simulation simulation(scene, "pins", 1);
+  simulation.advance();
+  EXPECT_EQ(simulation.cloths()[0].state.position.at(0, 16), (Vec3f{0.5F, 2, -0.5F}));
+  EXPECT_GT(simulation.cloths()[0].state.position.at(0, 0).x, -0.5F);
+}
+
+TEST(Simulation, WindCarriesCloth) {
+  for (const IntegratorOptions& integrator :
+       {IntegratorOptions{ImplicitOptions{}}, IntegratorOptions{MultigridOptions{}}}) {
+    Scene scene = free_fall(integrator);
+    scene.gravity = {};
+    scene.cloths[0].velocity = {};
+    scene.wind = WindOptions{{0, 3, 0}, 1, 1};
+    Simulation simulation(scene, "wind", 1);
+    Vec3d centre;
+    for (int frame = 0; frame < 30; ++frame) centre = simulation.advance().centre_of_mass;
+    // A plate face on: dv/dt = k (w - v)^2, so v = w - w / (1 + k w t).
+    const double k = 0.5 * air_density / 0.2, t = 0.5;
+    const double way = 3 * t - std::log(1 + k * 3 * t) / k;
+    EXPECT_NEAR(centre.y - 2, way, 0.02 * way);
+  }
+}
+
 TEST(Simulation, InstabilityNamesFrameClothParticleAndTheStableStep) {
   Scene scene = free_fall(ExplicitOptions{});
   scene.cloths[0].name = "stiff";

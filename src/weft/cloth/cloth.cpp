@@ -117,16 +117,16 @@ Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& 
   return cloth;
 }
 
-void pin(Cloth& cloth, int sample, Vec3d target) {
+int pin(Cloth& cloth, int sample, Vec3d target) {
   const int n = cloth.size;
   if (sample < 0 || sample >= n * n)
     throw SceneError("pins", fmt::format("sample {}", sample),
                      fmt::format("one of 0 to {}", n * n - 1));
   const int representative = cloth.mates.representative(sample);
-  for (Pin& known : cloth.pins)
-    if (known.sample == representative) {
-      known.target = target;
-      return;
+  for (std::size_t i = 0; i < cloth.pins.size(); ++i)
+    if (cloth.pins[i].sample == representative) {
+      cloth.pins[i].target = target;
+      return static_cast<int>(i);
     }
   Pin added{representative, target, {representative}};
   for (int index = 0; index < cloth.mates.class_count(); ++index) {
@@ -135,6 +135,7 @@ void pin(Cloth& cloth, int sample, Vec3d target) {
   }
   for (const int copy : added.copies) cloth.inverse_mass(copy / n, copy % n) = 0;
   cloth.pins.push_back(std::move(added));
+  return static_cast<int>(cloth.pins.size()) - 1;
 }
 
 ClothState rest_state(const Cloth& cloth, Vec3f velocity) {

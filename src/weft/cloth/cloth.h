@@ -92,8 +92,9 @@ inline constexpr double least_relative_length = 1e-3, least_relative_mass = 1e-4
 Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& material);
 
 /// Pins the class of a sample at a place. Pinning twice changes the target.
+/// @return which of the cloth's pins holds it
 /// @throws SceneError for a sample outside the image
-void pin(Cloth& cloth, int sample, Vec3d target);
+int pin(Cloth& cloth, int sample, Vec3d target);
 
 /// At rest in the rest shape; velocity the same everywhere.
 ClothState rest_state(const Cloth& cloth, Vec3f velocity = {});

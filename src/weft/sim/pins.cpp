@@ -1,14 +1,19 @@
 #include "weft/sim/pins.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "weft/core/error.h"
+#include "weft/core/math.h"
+#include "weft/sim/placement.h"
 
 namespace weft {
 namespace {
 
 struct Pinner {
   Cloth& cloth;
+  std::vector<int>& held;  // pins of the cloth
 
   void operator()(const ImagePin& at) const { hold(sample_at(cloth.size, at.uv)); }
 
@@ -40,8 +45,36 @@ struct Pinner {
       for (int c = first_col; c <= last_col; ++c) hold(r * cloth.size + c);
   }
 
-  void hold(int sample) const { pin(cloth, sample, vec_cast<double>(cloth.rest.at(sample))); }
+  void hold(int sample) const {
+    held.push_back(pin(cloth, sample, vec_cast<double>(cloth.rest.at(sample))));
+  }
 };
+
+/// Whose rest places are the targets still.
+PinMotion motion_of(const Cloth& cloth, const ScenePin& place, std::vector<int> held) {
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  PinMotion motion;
+  motion.path = place.path;
+  for (const int index : held) {
+    motion.rest.push_back(cloth.pins[static_cast<std::size_t>(index)].target);
+    motion.centre += (1 / static_cast<double>(held.size())) * motion.rest.back();
+  }
+  motion.pins = std::move(held);
+  return motion;
+}
+
+/// A pin belongs to the last place that names it.
+void let_go(const std::vector<int>& held, std::vector<PinMotion>& motions) {
+  for (PinMotion& motion : motions)
+    for (std::size_t i = motion.pins.size(); i-- > 0;)
+      if (std::find(held.begin(), held.end(), motion.pins[i]) != held.end()) {
+        motion.pins.erase(motion.pins.begin() + static_cast<std::ptrdiff_t>(i));
+        motion.rest.erase(motion.rest.begin() + static_cast<std::ptrdiff_t>(i));
+      }
+}
+
+Vec3d between(double part, Vec3d a, Vec3d b) { return a + part * (b - a); }
 
 }  // namespace
 
@@ -51,8 +84,51 @@ int sample_at(int size, Vec2d uv) {
   return row * size + col;
 }
 
-void pin_places(Cloth& cloth, std::span<const PinPlace> places) {
-  for (const PinPlace& place : places) std::visit(Pinner{cloth}, place);
+std::vector<PinMotion> pin_places(Cloth& cloth, std::span<const ScenePin> places) {
+  std::vector<PinMotion> motions;
+  for (const ScenePin& place : places) {
+    std::vector<int> held;
+    std::visit(Pinner{cloth, held}, place.place);
+    let_go(held, motions);
+    if (!place.path.empty()) motions.push_back(motion_of(cloth, place, std::move(held)));
+  }
+  return motions;
+}
+
+MotionKey key_at(std::span<const MotionKey> path, double seconds) {
+  if (seconds <= path.front().time) return path.front();
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const MotionKey &a = path[i - 1], &b = path[i];
+    if (seconds > b.time) continue;
+    const double part = (seconds - a.time) / (b.time - a.time);
+    return {seconds, between(part, a.rotate, b.rotate), between(part, a.translate, b.translate)};
+  }
+  return path.back();
+}
+
+void move_pins(std::span<const PinMotion> motions, double seconds, Cloth& cloth) {
+  for (const PinMotion& motion : motions) {
+    const MotionKey key = key_at(motion.path, seconds);
+    const PlacementMap map = placement_map({{1, 1, 1}, key.rotate, key.translate});
+    for (std::size_t i = 0; i < motion.pins.size(); ++i)
+      cloth.pins[static_cast<std::size_t>(motion.pins[i])].target =
+          motion.centre + map.point(motion.rest[i] - motion.centre);
+  }
+}
+
+double fastest_pin(std::span<const PinMotion> motions) {
+  double fastest = 0;
+  for (const PinMotion& motion : motions) {
+    double reach = 0;
+    for (const Vec3d& place : motion.rest) reach = std::max(reach, length(place - motion.centre));
+    for (std::size_t i = 1; i < motion.path.size(); ++i) {
+      const MotionKey &a = motion.path[i - 1], &b = motion.path[i];
+      const double way =
+          length(b.translate - a.translate) + reach * pi / 180 * length(b.rotate - a.rotate);
+      fastest = std::max(fastest, way / (b.time - a.time));
+    }
+  }
+  return fastest;
 }
 
 }  // namespace weft

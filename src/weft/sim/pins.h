@@ -1,15 +1,34 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "weft/cloth/cloth.h"
 #include "weft/sim/scene.h"
 
 namespace weft {
 
-/// Pins a cloth where its rest shape is.
+/// Pins that move together along a path.
+struct PinMotion {
+  std::vector<MotionKey> path;
+  Vec3d centre;             ///< middle of the rest places [m]
+  std::vector<int> pins;    ///< of the cloth
+  std::vector<Vec3d> rest;  ///< [pins] rest places [m]
+};
+
+/// Pins a cloth where its rest shape is. A sample that several places name is held by the last.
+/// @return the places that have a path
 /// @throws SceneError when a region holds no sample
-void pin_places(Cloth& cloth, std::span<const PinPlace> places);
+std::vector<PinMotion> pin_places(Cloth& cloth, std::span<const ScenePin> places);
+
+/// Where a path stands: linear between its keys, still before the first and after the last.
+MotionKey key_at(std::span<const MotionKey> path, double seconds);
+
+/// Sets the targets of pins that move to where they are at a time.
+void move_pins(std::span<const PinMotion> motions, double seconds, Cloth& cloth);
+
+/// The fastest that any of these pins goes [m/s].
+double fastest_pin(std::span<const PinMotion> motions);
 
 /// The sample nearest to a point of the square.
 int sample_at(int size, Vec2d uv);

@@ -39,12 +39,12 @@ Motion motion_of(const Cloth& cloth, const ClothState& state) {
 
 }  // namespace
 
-RunawayCheck::RunawayCheck(const Cloth& cloth, const ClothState& start, Vec3d gravity)
+RunawayCheck::RunawayCheck(const Cloth& cloth, const ClothState& start, Vec3d gravity, double drive)
     : rows_(static_cast<std::size_t>(cloth.size)), gravity_(length(gravity)) {
   const Motion motion = motion_of(cloth, start);
   mass_ = motion.mass;
-  start_energy_ = motion.kinetic / motion.mass;
-  speed_ = std::sqrt(motion.fastest);
+  start_energy_ = motion.kinetic / motion.mass + 0.5 * drive * drive;
+  speed_ = std::sqrt(motion.fastest) + drive;
   Box3d box;
   for (int s = 0; s < cloth.size * cloth.size; ++s) box.add(vec_cast<double>(start.position.at(s)));
   reach_ = box.diagonal();

@@ -15,7 +15,8 @@ namespace weft {
 class RunawayCheck {
  public:
   /// @param start  the state that the run begins with
-  RunawayCheck(const Cloth& cloth, const ClothState& start, Vec3d gravity);
+  /// @param drive  the speed that wind or moving pins may lend [m/s]
+  RunawayCheck(const Cloth& cloth, const ClothState& start, Vec3d gravity, double drive = 0);
 
   /// The first particle that is not finite, or the fastest one when the cloth has more kinetic
   /// energy than `most_energy` or a single particle ten times the speed of that.

@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/material.h"
+#include "weft/cloth/wind.h"
 #include "weft/collide/collider.h"
 
 namespace weft {
@@ -17,6 +19,13 @@ struct Placement {
   Vec3d scale{1, 1, 1};
   Vec3d rotate;
   Vec3d translate;
+};
+
+/// Where something that is moved stands at a time; in between linearly.
+struct MotionKey {
+  double time = 0;  ///< [s]
+  Vec3d rotate;     ///< about x, then y, then z [degrees]
+  Vec3d translate;  ///< [m]
 };
 
 /// A pin as a scene names it.
@@ -30,6 +39,14 @@ struct RegionPin {
   Vec2d lower, upper;  ///< all samples within
 };
 using PinPlace = std::variant<ImagePin, NearestPin, RegionPin>;
+struct ScenePin {
+  template <class Place>
+  ScenePin(Place at, std::vector<MotionKey> moves = {})  // NOLINT(google-explicit-constructor)
+      : place(at), path(std::move(moves)) {}
+  PinPlace place;
+  /// From the rest place, about the middle of all samples that the pin holds; ascending times.
+  std::vector<MotionKey> path;
+};
 
 struct SceneCloth {
   std::string name = "cloth";
@@ -39,7 +56,7 @@ struct SceneCloth {
   Material material;
   double friction = 0.4;
   Vec3d velocity;  ///< at the start [m/s]
-  std::vector<PinPlace> pins;
+  std::vector<ScenePin> pins;
 };
 
 struct SceneBody {
@@ -57,6 +74,7 @@ struct Scene {
   int substeps = 4;
   int frames = 120;
   std::optional<double> ground = 0.0;
+  std::optional<WindOptions> wind;  ///< none: no air
   IntegratorOptions integrator = ImplicitOptions{};
   std::optional<int> limiter_passes;  ///< a step; none: what suits the integrator
   ColliderOptions collider = PolarMapOptions{};

@@ -31,12 +31,18 @@ void check_version(const JsonObject& root) {
     root.place().key("version").fail("unknown version", "1 is wanted");
 }
 
-void check_wind(const JsonObject& root) {
+/// Still air is none unless its coefficients are given.
+std::optional<WindOptions> read_wind(const JsonObject& root) {
   const nlohmann::json* value = root.find("wind");
-  if (value == nullptr) return;
-  const JsonObject wind(*value, root.place().key("wind"), scene_keys::wind);
-  if (wind.vector("velocity", {}) != Vec3d{})
-    wind.place().key("velocity").fail("is not supported by this version", "[0, 0, 0] is wanted");
+  if (value == nullptr) return std::nullopt;
+  const JsonObject object(*value, root.place().key("wind"), scene_keys::wind);
+  WindOptions wind;
+  wind.velocity = object.vector("velocity", wind.velocity);
+  wind.drag = object.number("drag", wind.drag, not_negative);
+  wind.lift = object.number("lift", wind.lift, not_negative);
+  const bool given = object.has("drag") || object.has("lift");
+  if (wind.velocity == Vec3d{} && !given) return std::nullopt;
+  return wind;
 }
 
 template <class Part, class Read>
@@ -83,13 +89,13 @@ Scene parse_scene(std::string_view text, const std::string& name,
   const nlohmann::json json = parse_scene_json(text, name);
   const JsonObject root(json, {name, ""}, scene_keys::scene);
   check_version(root);
-  check_wind(root);
   Scene scene;
   scene.gravity = root.vector("gravity", scene.gravity);
   scene.frame_rate = root.number("frame_rate", scene.frame_rate, positive);
   scene.substeps = root.integer("substeps", scene.substeps, 1, most_substeps);
   scene.frames = root.integer("frames", scene.frames, 0, most_frames);
   read_ground(root, scene);
+  scene.wind = read_wind(root);
   if (const auto* value = root.find("integrator"))
     scene.integrator =
         read_integrator(*value, root.place().key("integrator"), scene.limiter_passes);

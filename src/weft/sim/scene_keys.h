@@ -11,7 +11,7 @@ namespace weft::scene_keys {
 inline constexpr std::array<std::string_view, 11> scene{
     "version", "gravity",    "frame_rate", "substeps", "frames", "ground",
     "wind",    "integrator", "collider",   "cloths",   "bodies"};
-inline constexpr std::array<std::string_view, 1> wind{"velocity"};
+inline constexpr std::array<std::string_view, 3> wind{"velocity", "drag", "lift"};
 inline constexpr std::array<std::string_view, 2> explicit_integrator{"type", "limiter_passes"};
 inline constexpr std::array<std::string_view, 4> implicit_integrator{"type", "limiter_passes",
                                                                      "max_iterations", "tolerance"};
@@ -29,6 +29,7 @@ inline constexpr std::array<std::string_view, 10> body{
 inline constexpr std::array<std::string_view, 8> material{"density",      "stretch",      "shear",
                                                           "bending",      "bend_springs", "damping",
                                                           "strain_limit", "thickness"};
+inline constexpr std::array<std::string_view, 3> motion_key{"time", "rotate", "translate"};
 inline constexpr std::array<std::string_view, 4> pin{"image", "nearest", "region", "path"};
 
 }  // namespace weft::scene_keys

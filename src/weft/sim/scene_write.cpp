@@ -50,14 +50,10 @@ Json collider_json(const ColliderOptions& options) {
 }
 
 Json material_json(const Material& m) {
-  return {{"density", m.density},
-          {"stretch", m.stretch},
-          {"shear", m.shear},
-          {"bending", m.bending},
-          {"bend_springs", m.bend_springs},
-          {"damping", m.damping},
-          {"strain_limit", m.strain_limit},
-          {"thickness", m.thickness}};
+  return {
+      {"density", m.density},           {"stretch", m.stretch},           {"shear", m.shear},
+      {"bending", m.bending},           {"bend_springs", m.bend_springs}, {"damping", m.damping},
+      {"strain_limit", m.strain_limit}, {"thickness", m.thickness}};
 }
 
 struct PinWriter {
@@ -67,6 +63,15 @@ struct PinWriter {
     return {{"region", Json::array({to_json(pin.lower), to_json(pin.upper)})}};
   }
 };
+
+Json pin_json(const ScenePin& pin) {
+  Json json = std::visit(PinWriter{}, pin.place);
+  for (const MotionKey& key : pin.path)
+    json["path"].push_back({{"time", key.time},
+                            {"rotate", to_json(key.rotate)},
+                            {"translate", to_json(key.translate)}});
+  return json;
+}
 
 void add_placement(Json& json, const Placement& placement) {
   json["scale"] = to_json(placement.scale);
@@ -83,7 +88,7 @@ Json cloth_json(const SceneCloth& cloth, const fs::path& folder) {
   json["friction"] = cloth.friction;
   json["velocity"] = to_json(cloth.velocity);
   json["pins"] = Json::array();
-  for (const PinPlace& pin : cloth.pins) json["pins"].push_back(std::visit(PinWriter{}, pin));
+  for (const ScenePin& pin : cloth.pins) json["pins"].push_back(pin_json(pin));
   return json;
 }
 
@@ -102,7 +107,11 @@ Json scene_json(const Scene& scene, const fs::path& folder) {
             {"substeps", scene.substeps},
             {"frames", scene.frames}};
   json["ground"] = scene.ground ? Json(*scene.ground) : Json();
-  json["wind"] = {{"velocity", to_json(Vec3d{})}};
+  json["wind"] = {{"velocity", to_json(scene.wind ? scene.wind->velocity : Vec3d{})}};
+  if (scene.wind) {
+    json["wind"]["drag"] = scene.wind->drag;
+    json["wind"]["lift"] = scene.wind->lift;
+  }
   json["integrator"] = std::visit(IntegratorWriter{}, scene.integrator);
   if (scene.limiter_passes) json["integrator"]["limiter_passes"] = *scene.limiter_passes;
   json["collider"] = collider_json(scene.collider);

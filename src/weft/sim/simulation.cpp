@@ -68,6 +68,7 @@ double mass_of(const Cloth& cloth) {
 struct Mover {
   std::unique_ptr<Integrator> integrator;
   std::unique_ptr<Collider> collider;
+  std::optional<Wind> wind;
   RunawayCheck runaway;
   StrainLimit limit;
   CoarseLimit coarse_limit;
@@ -90,6 +91,8 @@ struct Simulation::Parts {
   void load_cloths();
   void load_bodies();
   void make_movers();
+  /// The speed that wind and moving pins may lend a cloth [m/s].
+  [[nodiscard]] double drive_of(std::size_t index) const;
   /// @return particles in contact
   int step(std::size_t index, FrameReport& report);
   [[noreturn]] void stop_unstable(std::size_t index, BadParticle particle) const;
@@ -109,7 +112,8 @@ struct Simulation::Parts {
   std::vector<SimulatedCloth> cloths;
   std::vector<PlacedBody> bodies;
   std::vector<std::string> notes;
-  std::vector<Mover> movers;  // one a cloth
+  std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
+  std::vector<Mover> movers;                        // one a cloth
   int frame = 0;
 };
 
@@ -138,7 +142,7 @@ void Simulation::Parts::load_cloths() {
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
     const Planes3 rest = placed_positions(loaded.image, placement_map(wanted.placement));
     Cloth cloth = make_cloth(rest, loaded.image.mates, wanted.material);
-    pin_places(cloth, wanted.pins);
+    pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
     cloths.push_back({wanted.name, std::move(loaded.image), std::move(cloth), std::move(state)});
   }
@@ -173,11 +177,17 @@ void Simulation::Parts::make_movers() {
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
     const Guarded guarded{gap_of(cloth.cloth), scene.cloths[i].friction};
-    movers.push_back({make_integrator(scene.integrator, cloth.cloth, typical, team),
-                      make_collider(scene.collider, obstacles, guarded),
-                      RunawayCheck(cloth.cloth, cloth.state, scene.gravity),
-                      StrainLimit(cloth.cloth, team), CoarseLimit(cloth.cloth, team)});
+    movers.push_back(
+        {make_integrator(scene.integrator, cloth.cloth, typical, team),
+         make_collider(scene.collider, obstacles, guarded),
+         scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
+         RunawayCheck(cloth.cloth, cloth.state, scene.gravity, drive_of(i)),
+         StrainLimit(cloth.cloth, team), CoarseLimit(cloth.cloth, team)});
   }
+}
+
+double Simulation::Parts::drive_of(std::size_t index) const {
+  return (scene.wind ? length(scene.wind->velocity) : 0) + fastest_pin(pin_motions[index]);
 }
 
 int Simulation::Parts::step(std::size_t index, FrameReport& report) {
@@ -185,6 +195,7 @@ int Simulation::Parts::step(std::size_t index, FrameReport& report) {
   Mover& mover = movers[index];
   const StepInput input{time_step, vec_cast<float>(scene.gravity)};
   const Planes3& start = cloth.state.position;
+  if (mover.wind) mover.wind->blow(time_step, cloth.state, team);
   mover.integrator->begin(input, cloth.state);
   ClothState* next = &mover.integrator->iterate({});
 
@@ -291,6 +302,7 @@ FrameReport Simulation::advance() {
     int contacts = 0;
     const double seconds = parts_->time_step * (parts_->frame * substeps + substep + 1);
     for (std::size_t i = 0; i < parts_->cloths.size(); ++i) {
+      move_pins(parts_->pin_motions[i], seconds, parts_->cloths[i].cloth);
       contacts += parts_->step(i, report);
       const SimulatedCloth& cloth = parts_->cloths[i];
       if (const auto bad =

@@ -69,9 +69,34 @@ Vec2d read_image_point(const nlohmann::json& value, const JsonPlace& place) {
   return {uv[0], uv[1]};
 }
 
-PinPlace read_pin(const nlohmann::json& value, const JsonPlace& place) {
-  const JsonObject object(value, place, scene_keys::pin);
-  object.refuse("path", "pins hold still here; leave the key out");
+MotionKey read_motion_key(const nlohmann::json& value, const JsonPlace& place) {
+  const JsonObject object(value, place, scene_keys::motion_key);
+  MotionKey key;
+  key.time = object.number("time", 0, not_negative);
+  key.rotate = object.vector("rotate", {});
+  key.translate = object.vector("translate", {});
+  return key;
+}
+
+/// Keys at ascending times; empty where there are none.
+std::vector<MotionKey> read_path(const JsonObject& object) {
+  std::vector<MotionKey> path;
+  const nlohmann::json* list = object.find("path");
+  if (list == nullptr) return path;
+  const JsonPlace place = object.place().key("path");
+  if (!list->is_array() || list->empty())
+    place.fail("no list of keys", "[{\"time\", \"rotate\", \"translate\"}, ...] is wanted");
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    path.push_back(read_motion_key((*list)[i], place.element(i)));
+    if (i > 0 && path[i].time <= path[i - 1].time)
+      place.element(i).key("time").fail(fmt::format("{} after {}", path[i].time, path[i - 1].time),
+                                        "ascending times are wanted");
+  }
+  return path;
+}
+
+PinPlace read_pin_place(const JsonObject& object) {
+  const JsonPlace& place = object.place();
   const int ways = (object.has("image") ? 1 : 0) + (object.has("nearest") ? 1 : 0) +
                    (object.has("region") ? 1 : 0);
   if (ways != 1)
@@ -91,8 +116,13 @@ PinPlace read_pin(const nlohmann::json& value, const JsonPlace& place) {
   return pin;
 }
 
-std::vector<PinPlace> read_pins(const JsonObject& object) {
-  std::vector<PinPlace> pins;
+ScenePin read_pin(const nlohmann::json& value, const JsonPlace& place) {
+  const JsonObject object(value, place, scene_keys::pin);
+  return {read_pin_place(object), read_path(object)};
+}
+
+std::vector<ScenePin> read_pins(const JsonObject& object) {
+  std::vector<ScenePin> pins;
   const nlohmann::json* list = object.find("pins");
   if (list == nullptr) return pins;
   const JsonPlace place = object.place().key("pins");
