@@ -14,8 +14,9 @@ namespace {
 
 using namespace testing;
 
-const std::vector<IntegratorOptions> all_integrators{
-    ImplicitOptions{}, ExplicitOptions{}, TwoLevelOptions{.local_size = 5}, MultigridOptions{}};
+const std::vector<IntegratorOptions> all_integrators{ImplicitOptions{}, ExplicitOptions{},
+                                                     TwoLevelOptions{.local_size = 5},
+                                                     MultigridOptions{}, DesbrunOptions{}};
 
 /// A step that explicit Euler bears on the small cloths here.
 constexpr double small_step = 1e-4;
@@ -120,7 +121,7 @@ TEST(Stepping, AnyTeamGivesTheSameBits) {
   // Few iterations: teams larger than the machine wait long at every barrier.
   for (const IntegratorOptions& options :
        {IntegratorOptions(ImplicitOptions{.max_iterations = 6}), all_integrators[1],
-        all_integrators[2], all_integrators[3]})
+        all_integrators[2], all_integrators[3], all_integrators[4]})
     for (Cloth cloth : {sheet_cloth(21), torus_cloth(17)}) {
       pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
       std::string first;
@@ -205,7 +206,8 @@ TEST(Stepping, VeryUnevenCellsStayFinite) {
   }
   Cloth cloth = make_cloth(rest, no_mates(n), {});
   pin(cloth, 0, vec_cast<double>(rest.at(0)));
-  for (const IntegratorOptions& options : {all_integrators[0], all_integrators[2]}) {
+  for (const IntegratorOptions& options :
+       {all_integrators[0], all_integrators[2], all_integrators[4]}) {
     ThreadTeam team(1);
     const StepInput input;
     const auto integrator = make_integrator(options, cloth, input, team);

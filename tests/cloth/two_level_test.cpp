@@ -26,13 +26,23 @@ FilterGrid patch(int n, double ratio) {
   return grid;
 }
 
-void expect_rows_of_one(const std::vector<float>& w, const std::vector<double>& mass) {
-  const std::size_t count = mass.size();
-  for (std::size_t i = 0; i < count; ++i) {
+Grid<float> matrix_of(const FilterGrid& grid) {
+  ThreadTeam team(2);
+  return filter_matrix(grid, team);
+}
+
+GlobalFilter global_filter(const Cloth& cloth, const GlobalFilter::Options& options) {
+  ThreadTeam team(2);
+  return {cloth, options, team};
+}
+
+void expect_rows_of_one(const Grid<float>& w, const std::vector<double>& mass) {
+  const int count = static_cast<int>(mass.size());
+  for (int i = 0; i < count; ++i) {
     double sum = 0;
-    for (std::size_t j = 0; j < count; ++j) {
-      sum += w[i * count + j];
-      EXPECT_NEAR(mass[i] * w[i * count + j], mass[j] * w[j * count + i], 1e-6 * mass[i]);
+    for (int j = 0; j < count; ++j) {
+      sum += w(i, j);
+      EXPECT_NEAR(mass[i] * w(i, j), mass[j] * w(j, i), 1e-6 * mass[i]);
     }
     EXPECT_NEAR(sum, 1, 1e-5);
   }
@@ -40,20 +50,22 @@ void expect_rows_of_one(const std::vector<float>& w, const std::vector<double>& 
 
 TEST(TwoLevel, RowsOfTheLocalMatrixSumToOneAndItIsSymmetric) {
   const FilterGrid grid = patch(7, 0.3);
-  const std::vector<float> w = filter_matrix(grid);
+  const Grid<float> w = matrix_of(grid);
   expect_rows_of_one(w, grid.mass);
-  EXPECT_LT(w[24 * 49 + 24], 0.5);
-  EXPECT_GT(w[24 * 49 + 25], 0.01);
+  EXPECT_LT(w(24, 24), 0.5);
+  EXPECT_GT(w(24, 25), 0.01);
 }
 
 TEST(TwoLevel, RowsOfTheGlobalMatrixSumToOneAndMassTimesItIsSymmetric) {
   for (const Cloth& cloth : {sheet_cloth(17), torus_cloth(17)}) {
-    const GlobalFilter filter(cloth, {.size = 5, .stiffness = 100, .time_step = 1.0 / 60});
+    const GlobalFilter filter =
+        global_filter(cloth, {.size = 5, .stiffness = 100, .time_step = 1.0 / 60});
     expect_rows_of_one(filter.matrix(), filter.masses());
     EXPECT_NEAR(std::accumulate(filter.masses().begin(), filter.masses().end(), 0.0),
                 total_mass(cloth), 1e-6);
   }
-  const GlobalFilter merged(torus_cloth(17), {.size = 5, .stiffness = 1, .time_step = 1.0 / 60});
+  const GlobalFilter merged =
+      global_filter(torus_cloth(17), {.size = 5, .stiffness = 1, .time_step = 1.0 / 60});
   EXPECT_EQ(merged.masses().size(), 16U);
 }
 
@@ -63,19 +75,20 @@ TEST(TwoLevel, FilterWithMassesIsTheInverseOfItsSystem) {
   grid.particle_of = {0, 1, 0, 1};
   grid.mass = {1, 3};
   grid.stiffness[stretch_u](0, 0) = 0.5;
-  const std::vector<float> w = filter_matrix(grid);
+  const Grid<float> w = matrix_of(grid);
   const double determinant = 1.5 * 3.5 - 0.25;
-  EXPECT_NEAR(w[0], 3.5 / determinant, 1e-6);
-  EXPECT_NEAR(w[1], 0.5 * 3 / determinant, 1e-6);
-  EXPECT_NEAR(w[2], 0.5 / determinant, 1e-6);
-  EXPECT_NEAR(w[3], 1.5 * 3 / determinant, 1e-6);
+  EXPECT_NEAR(w(0, 0), 3.5 / determinant, 1e-6);
+  EXPECT_NEAR(w(0, 1), 0.5 * 3 / determinant, 1e-6);
+  EXPECT_NEAR(w(1, 0), 0.5 / determinant, 1e-6);
+  EXPECT_NEAR(w(1, 1), 1.5 * 3 / determinant, 1e-6);
 }
 
 TEST(TwoLevel, SlidingPatchTakesTheRowOfItsPlace) {
   const int n = 23, size = 5;
   const double ratio = 0.4;
-  const std::vector<float> w = filter_matrix(patch(size, ratio));
-  const LocalFilter filter(n, size, ratio);
+  const Grid<float> w = matrix_of(patch(size, ratio));
+  ThreadTeam team(1);
+  const LocalFilter filter(n, size, ratio, team);
   Planes3 in(n), out(n);
   shake(sheet_cloth(n), 1, in);
   for (int r = 0; r < n; ++r) filter.apply_row(in, out, r);
@@ -85,8 +98,7 @@ TEST(TwoLevel, SlidingPatchTakesTheRowOfItsPlace) {
       double sum = 0;
       for (int k = 0; k < size; ++k)
         for (int l = 0; l < size; ++l)
-          sum += double{w[((r - top) * size + c - left) * 25 + k * size + l]} *
-                 in.y(top + k, left + l);
+          sum += double{w((r - top) * size + c - left, k * size + l)} * in.y(top + k, left + l);
       ASSERT_NEAR(out.y(r, c), sum, 1e-5) << "row " << r << ", col " << c;
     }
 }
@@ -94,7 +106,7 @@ TEST(TwoLevel, SlidingPatchTakesTheRowOfItsPlace) {
 TEST(TwoLevel, GlobalFilterLeavesUniformFieldsAlone) {
   const Cloth cloth = torus_cloth(17);
   for (const bool difference : {true, false}) {
-    GlobalFilter filter(
+    GlobalFilter filter = global_filter(
         cloth, {.size = 5, .stiffness = 100, .time_step = 1.0 / 60, .difference = difference});
     Planes3 in(17), out(17);
     in.y.fill(2);

@@ -77,7 +77,8 @@ TEST(Allocation, SteppingAllocatesNothingOnceWarm) {
   const int n = 17;
   for (const IntegratorOptions& options :
        {IntegratorOptions(ImplicitOptions{}), IntegratorOptions(ExplicitOptions{}),
-        IntegratorOptions(TwoLevelOptions{.local_size = 5}), IntegratorOptions(MultigridOptions{})})
+        IntegratorOptions(TwoLevelOptions{.local_size = 5}), IntegratorOptions(MultigridOptions{}),
+        IntegratorOptions(DesbrunOptions{})})
     for (Cloth cloth : {sheet_cloth(n), torus_cloth(n)}) {
       pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
       ThreadTeam team(2);

@@ -127,7 +127,7 @@ TEST(SceneFile, WhatIsNotJsonNamesTheLine) {
 TEST(SceneFile, UnknownNamesListWhatIsKnown) {
   EXPECT_EQ(error_of(R"({"cloths":[{}],"integrator":{"type":"midpoint"}})"),
             "s.json:integrator.type: unknown integrator 'midpoint'; known are: implicit, "
-            "explicit, two_level, multigrid");
+            "explicit, desbrun, two_level, multigrid");
   EXPECT_EQ(error_of(R"({"cloths":[{}],"collider":{"type":"pyramid"}})"),
             "s.json:collider.type: unknown collider 'pyramid'; known is: polar_map");
   EXPECT_EQ(error_of(with_cloth(R"("material":"coton")")),
@@ -243,6 +243,7 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
   EXPECT_EQ(properties_of(parts["wind"]), as_set(scene_keys::wind));
   EXPECT_EQ(properties_of(parts["implicit"]), as_set(scene_keys::implicit_integrator));
   EXPECT_EQ(properties_of(parts["explicit"]), as_set(scene_keys::explicit_integrator));
+  EXPECT_EQ(properties_of(parts["desbrun"]), as_set(scene_keys::desbrun_integrator));
   EXPECT_EQ(properties_of(parts["multigrid"]), as_set(scene_keys::multigrid_integrator));
   EXPECT_EQ(properties_of(parts["two_level"]), as_set(scene_keys::two_level_integrator));
   EXPECT_EQ(properties_of(parts["collider"]), as_set(scene_keys::collider));

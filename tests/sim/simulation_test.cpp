@@ -79,7 +79,7 @@ Scene torus_on_ground() {
 TEST(Simulation, AnyNumberOfThreadsGivesTheSameHash) {
   for (const IntegratorOptions& integrator :
        {IntegratorOptions{ImplicitOptions{}}, IntegratorOptions{TwoLevelOptions{.local_size = 5}},
-        IntegratorOptions{MultigridOptions{}}}) {
+        IntegratorOptions{MultigridOptions{}}, IntegratorOptions{DesbrunOptions{}}}) {
     Scene scene = torus_on_ground();
     scene.integrator = integrator;
     const auto hash = [&](int threads) {

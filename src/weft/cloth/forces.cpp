@@ -61,31 +61,6 @@ void add_axial_damping(const NeighbourRow& to, const SpringPlane& springs, const
   }
 }
 
-void add_lagged(const NeighbourRow& to, const LaggedSprings& springs, const ClothState& state,
-                int row, Row3 force) {
-  const float* k = (*springs.stiffness)[to.direction].row(to.spring_row);
-  const float* rest_length = springs.cloth->springs[to.direction].rest_length.row(to.spring_row);
-  const float lag = springs.lag;
-  const ConstRow3 here = row_of(state.position, row);
-  const ConstRow3 there = row_of(state.position, to.other_row);
-  const ConstRow3 speed = row_of(state.velocity, row);
-  const ConstRow3 other = row_of(state.velocity, to.other_row);
-  const int shift = to.shift;
-  const int spring = to.spring_shift;
-#pragma omp simd
-  for (int c = to.first; c < to.last; ++c) {
-    const float dx = there.x[c + shift] - here.x[c];
-    const float dy = there.y[c + shift] - here.y[c];
-    const float dz = there.z[c + shift] - here.z[c];
-    const float squared = dx * dx + dy * dy + dz * dz;
-    const float length = std::sqrt(squared > least_squared_length ? squared : least_squared_length);
-    const float strain = (length - rest_length[c + spring]) / length;
-    force.x[c] += k[c + spring] * (strain * dx + lag * (other.x[c + shift] - speed.x[c]));
-    force.y[c] += k[c + spring] * (strain * dy + lag * (other.y[c + shift] - speed.y[c]));
-    force.z[c] += k[c + spring] * (strain * dz + lag * (other.z[c + shift] - speed.z[c]));
-  }
-}
-
 }  // namespace
 
 void gather_elastic(const Cloth& cloth, int row, const Planes3& position, Planes3& force) {
@@ -100,12 +75,6 @@ void gather_damped(const Cloth& cloth, int row, const ClothState& state, Planes3
   if (cloth.material.damping == 0) return;
   for (const NeighbourRow& to : NeighbourRows(cloth.size, row))
     add_axial_damping(to, cloth.springs[to.direction], state, row, row_of(force, row));
-}
-
-void gather_lagged(const LaggedSprings& springs, int row, const ClothState& state, Planes3& force) {
-  clear_row(force, row);
-  for (const NeighbourRow& to : NeighbourRows(force.size(), row))
-    add_lagged(to, springs, state, row, row_of(force, row));
 }
 
 }  // namespace weft

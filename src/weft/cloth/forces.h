@@ -22,13 +22,4 @@ void gather_elastic(const Cloth& cloth, int row, const Planes3& position, Planes
 /// fall nor turning as a whole is slowed.
 void gather_damped(const Cloth& cloth, int row, const ClothState& state, Planes3& force);
 
-/// Forces of springs that have stiffnesses of their own and resist all relative velocity by
-/// k lag (v_j - v_i), what implicit Euler adds to first order [desbrun99].
-struct LaggedSprings {
-  const Cloth* cloth = nullptr;                                           ///< of the rest lengths
-  const std::array<Grid<float>, spring_directions>* stiffness = nullptr;  ///< [n x n] each [N/m]
-  float lag = 0;                                                          ///< [s]
-};
-void gather_lagged(const LaggedSprings& springs, int row, const ClothState& state, Planes3& force);
-
 }  // namespace weft

@@ -29,6 +29,7 @@ struct IntegratorWriter {
   Json operator()(const ImplicitOptions& o) const { return iterative(o); }
   Json operator()(const MultigridOptions& o) const { return iterative(o); }
   Json operator()(const ExplicitOptions& o) const { return {{"type", name_of(o)}}; }
+  Json operator()(const DesbrunOptions& o) const { return {{"type", name_of(o)}}; }
   Json operator()(const TwoLevelOptions& o) const {
     return {{"type", name_of(o)},
             {"local_size", o.local_size},

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "weft/cloth/cloth.h"
+#include "weft/core/thread_team.h"
 
 namespace weft {
 
@@ -12,14 +13,16 @@ namespace weft {
 /// are filtered by W; forces by M W M^-1. (The printed h / m has the wrong unit.)
 struct FilterGrid {
   int size = 0;                  ///< samples a side
-  std::vector<int> particle_of;  ///< [size^2] particle of every sample; mates share one
+  std::vector<int> particle_of;  ///< [size^2] particle of every sample; mates share one; -1: held
   std::vector<double> mass;      ///< [particles] [kg]
   std::array<Grid<double>, spring_directions>
       stiffness;         ///< [size x size] each, from (r, c) on [N/m]
   double time_step = 0;  ///< [s]
 };
 
-/// @return [particles x particles], row by row
-std::vector<float> filter_matrix(const FilterGrid& grid);
+/// By a sparse Cholesky factorization of M - h^2 H, which a held particle pulls at like a wall, and
+/// one solve a row: rows are shared among the team.
+/// @return [particles x particles]; its padding holds zeros
+Grid<float> filter_matrix(const FilterGrid& grid, ThreadTeam& team);
 
 }  // namespace weft

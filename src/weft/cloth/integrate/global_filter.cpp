@@ -5,7 +5,6 @@
 #include "weft/cloth/integrate/filter_matrix.h"
 #include "weft/cloth/integrate/mass_springs.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/core/ordered_sum.h"
 
 namespace weft {
 namespace {
@@ -31,13 +30,14 @@ std::vector<double> restricted_masses(const Cloth& cloth, int coarse, int stride
 
 }  // namespace
 
-GlobalFilter::GlobalFilter(const Cloth& cloth, const Options& options)
+GlobalFilter::GlobalFilter(const Cloth& cloth, const Options& options, ThreadTeam& team)
     : size_(cloth.size),
       coarse_(options.size),
       stride_((cloth.size - 1) / (options.size - 1)),
       difference_(options.difference),
       particle_of_(static_cast<std::size_t>(options.size) * options.size),
-      result_(options.size) {
+      along_{Grid<float>(coarse_, size_), Grid<float>(coarse_, size_),
+             Grid<float>(coarse_, size_)} {
   const std::vector<double> spread = restricted_masses(cloth, coarse_, stride_);
   std::vector<int> particle_at(static_cast<std::size_t>(size_) * size_, -1);
   for (std::size_t i = 0; i < particle_of_.size(); ++i) {
@@ -59,46 +59,52 @@ GlobalFilter::GlobalFilter(const Cloth& cloth, const Options& options)
     grid.stiffness[d] = Grid<double>(coarse_, coarse_);
     mass_springs(spring_offsets[d], options.stiffness / mean, mass_at, grid.stiffness[d]);
   }
-  matrix_ = filter_matrix(grid);
+  matrix_ = filter_matrix(grid, team);
+  sampled_ = Vectors3(static_cast<int>(sample_of_.size()));
 }
 
 void GlobalFilter::filter(const Planes3& in, Worker& worker) {
-  const int count = static_cast<int>(sample_of_.size());
-  const auto row_sum = [&](const float* weights, const Grid<float>& plane) {
-    return lane_sum(count, [&](int j) {
-      const int s = sample_of_[j];
-      return double{weights[j]} * plane.row(s / size_)[s % size_];
-    });
-  };
+  const Range particles = worker.share(static_cast<int>(sample_of_.size()));
+  for (int p = particles.first; p < particles.last; ++p) sampled_.set(p, in.at(sample_of_[p]));
+  worker.barrier();
   // Several samples may be one particle: each sample is computed by itself, to the same bits.
-  const Range mine = worker.share(coarse_ * coarse_);
-  for (int i = mine.first; i < mine.last; ++i) {
-    const int particle = particle_of_[i];
-    const float* weights = matrix_.data() + static_cast<std::size_t>(particle) * count;
-    const Vec3d filtered{row_sum(weights, in.x), row_sum(weights, in.y), row_sum(weights, in.z)};
-    const Vec3d before = vec_cast<double>(in.at(sample_of_[particle]));
-    result_.set(i, vec_cast<float>(difference_ ? filtered - before : filtered));
+  const Range rows = worker.share(coarse_);
+  for (int r = rows.first; r < rows.last; ++r) {
+    for (int c = 0; c < coarse_; ++c) {
+      const int particle = particle_of_[r * coarse_ + c];
+      const Vec3f filtered = row_times(matrix_.row(particle), matrix_.stride(), sampled_);
+      const Vec3f change = difference_ ? filtered - sampled_.at(particle) : filtered;
+      along_.x(r, c * stride_) = change.x;
+      along_.y(r, c * stride_) = change.y;
+      along_.z(r, c * stride_) = change.z;
+    }
+    interpolate_row(along_.x.row(r));
+    interpolate_row(along_.y.row(r));
+    interpolate_row(along_.z.row(r));
+  }
+}
+
+void GlobalFilter::interpolate_row(float* row) const {
+  for (int first = 0; first + stride_ < size_; first += stride_) {
+    const float a = row[first], b = row[first + stride_];
+    for (int c = 1; c < stride_; ++c) {
+      const float u = static_cast<float>(c) / static_cast<float>(stride_);
+      row[first + c] = (1 - u) * a + u * b;
+    }
   }
 }
 
 void GlobalFilter::add_row(Planes3& out, int row) const {
   const int r0 = std::min(row / stride_, coarse_ - 2);
-  const float step = 1 / static_cast<float>(stride_);
-  const float v = step * static_cast<float>(row - r0 * stride_);
-  const Row3 to = row_of(out, row);
-  const ConstRow3 low = row_of(result_, r0), high = row_of(result_, r0 + 1);
-  const auto value = [&](const float* a, const float* b, int c0, float u) {
-    const float left = (1 - v) * a[c0] + v * b[c0];
-    const float right = (1 - v) * a[c0 + 1] + v * b[c0 + 1];
-    return (1 - u) * left + u * right;
+  const float v = static_cast<float>(row - r0 * stride_) / static_cast<float>(stride_);
+  const auto add = [&](const Grid<float>& from, float* to) {
+    const float *low = from.row(r0), *high = from.row(r0 + 1);
+#pragma omp simd
+    for (int c = 0; c < size_; ++c) to[c] += (1 - v) * low[c] + v * high[c];
   };
-  for (int c = 0; c < size_; ++c) {
-    const int c0 = std::min(c / stride_, coarse_ - 2);
-    const float u = step * static_cast<float>(c - c0 * stride_);
-    to.x[c] += value(low.x, high.x, c0, u);
-    to.y[c] += value(low.y, high.y, c0, u);
-    to.z[c] += value(low.z, high.z, c0, u);
-  }
+  add(along_.x, out.x.row(row));
+  add(along_.y, out.y.row(row));
+  add(along_.z, out.z.row(row));
 }
 
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "weft/cloth/cloth.h"
+#include "weft/cloth/integrate/dense_product.h"
 #include "weft/core/thread_team.h"
 
 namespace weft {
@@ -20,25 +21,32 @@ class GlobalFilter {
     double time_step = 0;    ///< [s]
     bool difference = true;  ///< interpolate W_g a - a, not W_g a
   };
-  GlobalFilter(const Cloth& cloth, const Options& options);
+  GlobalFilter(const Cloth& cloth, const Options& options, ThreadTeam& team);
 
-  /// Computes this worker's share of W_g a at the coarse samples. Barriers before and after are the
-  /// caller's.
+  /// Computes this worker's share of W_g a at the coarse samples. To be called by every worker;
+  /// barriers before and after are the caller's.
   void filter(const Planes3& in, Worker& worker);
   /// Adds the interpolated result to a row.
   void add_row(Planes3& out, int row) const;
 
-  [[nodiscard]] const std::vector<float>& matrix() const { return matrix_; }
+  [[nodiscard]] const Grid<float>& matrix() const { return matrix_; }
   [[nodiscard]] const std::vector<double>& masses() const { return masses_; }
 
  private:
+  /// Between the values at every stride-th column.
+  void interpolate_row(float* row) const;
+
   int size_, coarse_, stride_;
   bool difference_;
   std::vector<int> particle_of_;  ///< [n_g^2]
   std::vector<int> sample_of_;    ///< [particles] fine sample of each
   std::vector<double> masses_;    ///< [particles]
-  std::vector<float> matrix_;     ///< [particles x particles]
-  Planes3 result_;                ///< [n_g x n_g]
+  Grid<float> matrix_;            ///< [particles x particles]
+  Vectors3 sampled_;              ///< [particles] what is filtered
+  /// [n_g x n] the result, interpolated along rows
+  struct {
+    Grid<float> x, y, z;
+  } along_;
 };
 
 }  // namespace weft

@@ -34,6 +34,8 @@ struct ImplicitOptions {
   /// Stop when the correction of an iteration falls below this times the rest spacing.
   double tolerance = 1e-4;
 };
+/// One dense filter W of the cloth's own springs [desbrun99].
+struct DesbrunOptions {};
 /// The paper's local and global filters [zink07].
 struct TwoLevelOptions {
   int local_size = 11;      ///< n_l, odd
@@ -53,17 +55,17 @@ struct MultigridOptions {
   /// Stop when the correction of an iteration falls below this times the rest spacing.
   double tolerance = 1e-3;
 };
-using IntegratorOptions =
-    std::variant<ImplicitOptions, ExplicitOptions, TwoLevelOptions, MultigridOptions>;
+using IntegratorOptions = std::variant<ImplicitOptions, ExplicitOptions, DesbrunOptions,
+                                       TwoLevelOptions, MultigridOptions>;
 
-/// The name in scene file and command line: implicit, explicit, two_level, multigrid.
+/// The name in scene file and command line: implicit, explicit, desbrun, two_level, multigrid.
 std::string_view name_of(const IntegratorOptions& options);
 
 /// Advances one cloth by one step, in parts, so that a collider can work between them:
 ///   begin(input, state); next = iterate(contacts) (once or more); ... next may be changed ...;
 ///   end(state).
-/// Nothing here allocates once constructed, but for multigrid where the time step or the set of
-/// pins changes; nothing throws.
+/// Nothing here allocates once constructed, but where the set of pins changes (multigrid, desbrun)
+/// or the time step (multigrid); nothing throws.
 class Integrator {
  public:
   Integrator() = default;
@@ -86,9 +88,9 @@ class Integrator {
 };
 
 /// @param cloth    kept by reference, as is the team; its pins may change between steps
-/// @param typical  the step that two_level's filters are made for
-/// @throws SceneError when options do not fit the cloth (even local_size, n - 1 not a multiple,
-/// ...)
+/// @param typical  the step that the filters of desbrun and two_level are made for
+/// @throws SceneError when options do not fit the cloth (even local_size, n - 1 not a multiple, too
+/// many particles for a dense matrix, ...)
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Cloth& cloth,
                                             const StepInput& typical, ThreadTeam& team);
 

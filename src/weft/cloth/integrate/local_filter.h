@@ -3,28 +3,48 @@
 #include <vector>
 
 #include "weft/core/planes.h"
+#include "weft/core/thread_team.h"
 
 namespace weft {
 
 /// The paper's local filter: W_l of an n_l x n_l patch of equal particles, laid over the image with
 /// its centre on each sample in turn, or with its side along the border where it would reach beyond
 /// [zink07, section 4]. Each sample takes the row of W_l that belongs to its place in the patch.
+///
+/// The patch is its own mirror image, and so are the rows of W_l: samples whose patch is centred
+/// add what lies at equal distances left and right, above and below, before they weigh it.
 class LocalFilter {
  public:
   /// @param image_size  n, >= patch_size
-  /// @param patch_size  n_l, odd
+  /// @param patch_size  n_l, odd, up to `largest_patch`
   /// @param ratio       h^2 k / m of the patch
-  LocalFilter(int image_size, int patch_size, double ratio);
+  LocalFilter(int image_size, int patch_size, double ratio, ThreadTeam& team);
+  static constexpr int largest_patch = 65;
 
   /// Filters row `row`; reads the rows around it.
   void apply_row(const Planes3& in, Planes3& out, int row) const;
 
  private:
-  [[nodiscard]] const float* weights(int patch_row, int patch_col) const;
+  /// One row of the patch, or the sum of two at equal distance from its middle.
+  struct Term {
+    const float *row, *mirrored;  ///< the second null where there is none
+    const float *centred, *beside;
+  };
+  /// @param terms  room for n_l. @return how many
+  int terms_of(const Grid<float>& in, int row, Term* terms) const;
   void apply_plane_row(const Grid<float>& in, Grid<float>& out, int row) const;
+  /// Samples whose patch leans on neither side.
+  void apply_centred(const Term* terms, int count, float* out) const;
+  /// Samples whose patch leans on a side.
+  void apply_beside(const Term* terms, int count, float* out) const;
+  [[nodiscard]] const float* centred(int patch_row, int row) const;
+  [[nodiscard]] const float* beside(int patch_row, int row) const;
 
-  int size_, patch_;
-  std::vector<float> matrix_;  ///< [n_l^2 x n_l^2]
+  int size_, patch_, half_, lanes_;
+  /// [n_l places x n_l rows x (n_l / 2 + 1) distances] of samples in the middle column
+  std::vector<float> centred_;
+  /// [n_l places x n_l rows x n_l columns x lanes] of the first n_l / 2 columns, padded with zeros
+  std::vector<float> beside_;
 };
 
 }  // namespace weft

@@ -7,13 +7,15 @@
 
 namespace weft {
 
-/// Sums over particles, each once, about the origin.
+/// Sums over particles, each once, about a point near them: x is the way from there.
 struct Moments {
+  Vec3d about;                                            ///< [m]
   double mass = 0;                                        ///< [kg]
   Vec3d first;                                            ///< sum m x [kg m]
   Vec3d force, torque;                                    ///< sum m a [N], sum x cross m a [N m]
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  ///< sum m x x^T [kg m^2]
 };
+/// Of sums about the same point.
 Moments& operator+=(Moments& a, const Moments& b);
 
 /// A rigid acceleration: linear + r cross turn, r from the centre.
@@ -32,7 +34,9 @@ RigidAcceleration momentum_correction(const Moments& moments);
 /// as the acceleration that moves x so.
 RigidAcceleration printed_correction(const Moments& moments, double time_step, double mass);
 
-/// Moments of accelerations `a` at positions `x`, to the same bits for any team.
+/// Moments of accelerations `a` at positions `x` about the middle sample, to the same bits for any
+/// team and instruction set: rows are summed in fixed lanes of single precision, which is enough
+/// near the particles, and added in their order in double.
 class MomentSums {
  public:
   explicit MomentSums(int size) : rows_(static_cast<std::size_t>(size)) {}

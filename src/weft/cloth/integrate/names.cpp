@@ -7,6 +7,7 @@ namespace {
 struct NameOf {
   std::string_view operator()(const ImplicitOptions&) const { return "implicit"; }
   std::string_view operator()(const ExplicitOptions&) const { return "explicit"; }
+  std::string_view operator()(const DesbrunOptions&) const { return "desbrun"; }
   std::string_view operator()(const TwoLevelOptions&) const { return "two_level"; }
   std::string_view operator()(const MultigridOptions&) const { return "multigrid"; }
 };

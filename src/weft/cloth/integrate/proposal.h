@@ -31,6 +31,8 @@ class Stopwatch {
 std::unique_ptr<Integrator> make_explicit(const Cloth& cloth, ThreadTeam& team);
 std::unique_ptr<Integrator> make_implicit(const ImplicitOptions& options, const Cloth& cloth,
                                           ThreadTeam& team);
+std::unique_ptr<Integrator> make_desbrun(const Cloth& cloth, const StepInput& typical,
+                                         ThreadTeam& team);
 std::unique_ptr<Integrator> make_two_level(const TwoLevelOptions& options, const Cloth& cloth,
                                            const StepInput& typical, ThreadTeam& team);
 std::unique_ptr<Integrator> make_multigrid(const MultigridOptions& options, const Cloth& cloth,

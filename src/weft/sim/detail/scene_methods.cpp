@@ -70,8 +70,10 @@ IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& 
   if (type == name_of(ExplicitOptions{}))
     return read(scene_keys::explicit_integrator,
                 [](const JsonObject&) { return ExplicitOptions{}; });
+  if (type == name_of(DesbrunOptions{}))
+    return read(scene_keys::desbrun_integrator, [](const JsonObject&) { return DesbrunOptions{}; });
   place.key("type").fail(fmt::format("unknown integrator '{}'", type),
-                         "known are: implicit, explicit, two_level, multigrid");
+                         "known are: implicit, explicit, desbrun, two_level, multigrid");
 }
 
 ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place) {

@@ -1,0 +1,108 @@
+#include "weft/cloth/integrate/filtered_integrator.h"
+
+#include <utility>
+
+#include "weft/cloth/integrate/proposal.h"
+#include "weft/cloth/mates.h"
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+
+FilteredIntegrator::FilteredIntegrator(const Cloth& cloth, ThreadTeam& team)
+    : cloth_(cloth),
+      team_(team),
+      acceleration_(cloth.size),
+      filtered_(cloth.size),
+      next_(rest_state(cloth)),
+      sums_(cloth.size) {}
+
+void FilteredIntegrator::begin(const StepInput& input, const ClothState& state) noexcept {
+  const Stopwatch watch;
+  input_ = input;
+  renew();
+  team_.run([&](Worker& worker) { accelerate(state, worker); });
+  report_ = {};
+  report_.forces_seconds = watch.seconds();
+  const Stopwatch filtering;
+  team_.run([&](Worker& worker) {
+    filter(acceleration_, filtered_, worker);
+    advance(state, worker);
+  });
+  set_pins(cloth_, state, input_.time_step, next_);
+  report_.solve_seconds = filtering.seconds();
+}
+
+StepReport FilteredIntegrator::end(ClothState& state) noexcept {
+  accept(cloth_, next_, input_.time_step, state, team_);
+  return report_;
+}
+
+FilteredIntegrator::Corrections FilteredIntegrator::corrections(const Moments& moments,
+                                                                double /*time_step*/) const {
+  return {momentum_correction(moments), {}};
+}
+
+void FilteredIntegrator::average(Planes3& planes, Worker& worker) const {
+  if (cloth_.mates.class_count() == 0) return;
+  worker.barrier();
+  average_over_mates(cloth_.mates, worker, {&planes.x, &planes.y, &planes.z});
+  worker.barrier();
+}
+
+void FilteredIntegrator::accelerate(const ClothState& state, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    gather_viscous(cloth_, springs_, r, state, acceleration_);
+  if (cloth_.mates.class_count() > 0) {
+    worker.barrier();
+    sum_over_mates(cloth_.mates, worker, {&acceleration_.x, &acceleration_.y, &acceleration_.z});
+    worker.barrier();
+  }
+  for (int r = mine.first; r < mine.last; ++r) {
+    const Row3 a = row_of(acceleration_, r);
+    const float* inverse_mass = cloth_.inverse_mass.row(r);
+#pragma omp simd
+    for (int c = 0; c < cloth_.size; ++c) {
+      a.x[c] *= inverse_mass[c];
+      a.y[c] *= inverse_mass[c];
+      a.z[c] *= inverse_mass[c];
+    }
+  }
+}
+
+void FilteredIntegrator::advance(const ClothState& state, Worker& worker) {
+  Corrections add;
+  if (cloth_.pins.empty())
+    add = corrections(sums_.sum(cloth_, state.position, filtered_, worker), input_.time_step);
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) advance_row(state, add, r);
+}
+
+void FilteredIntegrator::advance_row(const ClothState& state, const Corrections& add, int row) {
+  const auto h = static_cast<float>(input_.time_step);
+  const ConstRow3 x = row_of(state.position, row), v = row_of(state.velocity, row);
+  const ConstRow3 a = row_of(std::as_const(filtered_), row);
+  const Row3 x1 = row_of(next_.position, row), v1 = row_of(next_.velocity, row);
+  const Vec3f centre = vec_cast<float>(add.both.centre);
+  const Vec3f linear = input_.gravity + vec_cast<float>(add.both.linear);
+  const Vec3f turn = vec_cast<float>(add.both.turn);
+#pragma omp simd
+  for (int c = 0; c < cloth_.size; ++c) {
+    const float dx = x.x[c] - centre.x, dy = x.y[c] - centre.y, dz = x.z[c] - centre.z;
+    v1.x[c] = v.x[c] + h * (a.x[c] + linear.x + (dy * turn.z - dz * turn.y));
+    v1.y[c] = v.y[c] + h * (a.y[c] + linear.y + (dz * turn.x - dx * turn.z));
+    v1.z[c] = v.z[c] + h * (a.z[c] + linear.z + (dx * turn.y - dy * turn.x));
+    x1.x[c] = x.x[c] + h * v1.x[c];
+    x1.y[c] = x.y[c] + h * v1.y[c];
+    x1.z[c] = x.z[c] + h * v1.z[c];
+  }
+  if (add.position.turn == Vec3d{}) return;
+  for (int c = 0; c < cloth_.size; ++c) {
+    const Vec3d moved =
+        cross(vec_cast<double>(state.position.at(row, c)) - add.position.centre, add.position.turn);
+    const double squared_step = input_.time_step * input_.time_step;
+    next_.position.set(row, c, next_.position.at(row, c) + vec_cast<float>(squared_step * moved));
+  }
+}
+
+}  // namespace weft
