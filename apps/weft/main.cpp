@@ -79,6 +79,7 @@ int run(int argc, char** argv) {
   add_drape(program, context);
   add_render(program, context);
   add_shapes(program, context);
+  add_table5(program, context);
   add_demo(program, context);
   program.require_subcommand(1);
   try {

@@ -1,0 +1,140 @@
+#include "weft/sim/table5.h"
+
+#include <array>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/weft/commands.h"
+#include "apps/weft/terminal_progress.h"
+
+namespace weft::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Where the image halves down to the coarsest level, which the paper's sizes do not.
+constexpr std::array<int, 4> multigrid_sizes{17, 33, 65, 129};
+
+struct Table5Words {
+  bool full = false;
+  int frames = Table5Options{}.frames;
+  CLI::Option* threads = nullptr;
+};
+
+struct SizeTime {
+  int n = 0;
+  double seconds = 0;
+};
+
+Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json row_json(const Table5Row& row) {
+  return {{"n", row.paper.n},
+          {"particles", row.particles},
+          {"ng", row.paper.global_size},
+          {"nl", row.paper.local_size},
+          {"precompute_wg_s", row.global_matrix},
+          {"precompute_wl_s", row.local_matrix},
+          {"integration_s", row.two_level},
+          {"desbrun_precompute_s", row.dense_matrix},
+          {"desbrun_integration_s", row.desbrun},
+          {"multigrid_integration_s", row.multigrid},
+          {"paper_integration_s", row.paper.integration},
+          {"paper_desbrun_integration_s", row.paper.dense_integration},
+          {"rms_error_two_level", optional_json(row.two_level_error)},
+          {"rms_error_desbrun", optional_json(row.desbrun_error)},
+          {"rms_error_multigrid", optional_json(row.multigrid_error)},
+          {"stiffness", row.stiffness}};
+}
+
+Json table_json(const std::vector<Table5Row>& rows, const std::vector<SizeTime>& sizes,
+                int threads) {
+  Json json{{"rows", Json::array()}, {"multigrid_sizes", Json::array()}, {"threads", threads}};
+  for (const Table5Row& row : rows) json["rows"].push_back(row_json(row));
+  for (const SizeTime& size : sizes)
+    json["multigrid_sizes"].push_back({{"n", size.n}, {"multigrid_integration_s", size.seconds}});
+  return json;
+}
+
+std::string seconds_text(const std::optional<double>& seconds) {
+  return seconds ? fmt::format("{:.5g}", *seconds) : "-";
+}
+
+/// Milliseconds here, seconds in the paper.
+void say_row(const Context& context, const Table5Row& row, bool first) {
+  const Figure5Row& paper = row.paper;
+  say(context,
+      fmt::format("{:<8} {:>3} {:>3} {:>9.3g} {:>8} {:>9.3g} {:>6} {:>8.4f} {:>10} {:>6.0f} "
+                  "{:>8} {:>8} {:>9} {:>8} {:>5.1f} {:>8.4f} {:>5.2f}",
+                  first ? fmt::format("{0} x {0}", paper.n) : "", paper.global_size,
+                  paper.local_size, row.global_matrix, seconds_text(paper.global_matrix),
+                  row.local_matrix, seconds_text(paper.local_matrix), 1e3 * row.two_level,
+                  paper.integration, paper.integration / row.two_level,
+                  first ? fmt::format("{:.3g}", row.dense_matrix) : "",
+                  first ? seconds_text(paper.dense_matrix) : "",
+                  first ? fmt::format("{:.4f}", 1e3 * row.desbrun) : "",
+                  first ? seconds_text(paper.dense_integration) : "", row.desbrun / row.two_level,
+                  1e3 * row.multigrid, row.multigrid / row.two_level) +
+          (row.two_level_error ? fmt::format(" {:>9.2e} {:>9.2e} {:>9.2e}", *row.two_level_error,
+                                             *row.desbrun_error, *row.multigrid_error)
+                               : ""));
+}
+
+void say_table(const Context& context, const std::vector<Table5Row>& rows,
+               const std::vector<SizeTime>& sizes) {
+  const bool errors = !rows.empty() && rows.front().two_level_error.has_value();
+  say(context,
+      fmt::format("{:<16} {:^34} {:^26} {:^42} {:^14}{}", "", "precompute [s]", "two_level, a step",
+                  "desbrun", "multigrid", errors ? fmt::format(" {:^29}", "RMS error [m]") : ""));
+  say(context, fmt::format("{:<8} {:>3} {:>3} {:>9} {:>8} {:>9} {:>6} {:>8} {:>10} {:>6} {:>8} "
+                           "{:>8} {:>9} {:>8} {:>5} {:>8} {:>5}{}",
+                           "cloth", "n_g", "n_l", "W_g", "2007", "W_l", "2007", "ms", "2007 [s]",
+                           "faster", "W [s]", "2007", "ms", "2007 [s]", "ratio", "ms", "ratio",
+                           errors ? " two_level   desbrun multigrid" : ""));
+  int size = 0;
+  for (const Table5Row& row : rows) {
+    say_row(context, row, row.paper.n != size);
+    size = row.paper.n;
+  }
+  for (const SizeTime& time : sizes)
+    say(context, fmt::format("multigrid on {0} x {0}: {1:.4f} ms", time.n, 1e3 * time.seconds));
+}
+
+void table5(const Table5Words& words, const Context& context) {
+  Table5Options options;
+  options.errors = words.full;
+  options.frames = words.frames;
+  // The paper's machine had one core.
+  options.threads = words.threads->count() > 0 ? context.threads : 1;
+  std::vector<Table5Row> rows;
+  std::vector<SizeTime> sizes;
+  {
+    const PromptStop nothing_half_written;
+    TerminalProgress progress(context.quiet || context.json);
+    options.progress = &progress;
+    rows = measure_table5(options);
+    for (const int n : multigrid_sizes) sizes.push_back({n, measure_multigrid(n, options)});
+  }
+  say_table(context, rows, sizes);
+  print_report(context, table_json(rows, sizes, options.threads));
+}
+
+}  // namespace
+
+void add_table5(CLI::App& program, const Context& context) {
+  auto words = std::make_shared<Table5Words>();
+  words->threads = program.get_option("--threads");
+  CLI::App* command =
+      program.add_subcommand("table5", "Measure the paper's Figure 5: its methods and multigrid");
+  command->add_flag("--full", words->full, "Measure the error against a converged solution too");
+  command->add_option("--frames", words->frames, "Frames that each method runs")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command->footer("On one thread unless --threads is given.\nExample: weft table5 --full --json");
+  command->callback([words, &context] { table5(*words, context); });
+}
+
+}  // namespace weft::app
