@@ -89,6 +89,7 @@ void show_drape(Demo& demo, const Shown& shown) {
   options.folder = run_folder;
   options.threads = demo.context.threads;
   options.progress = &demo.progress;
+  options.checkpoint_frames = 0;
   const RunReport run = run_scene(scene, (run_folder / "scene.json").string(), options);
   demo.report[name] = Json::parse(to_json(run));
   for (const fs::path& path : run.outputs)

@@ -7,9 +7,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/run_words.h"
-#include "weft/core/files.h"
 #include "weft/image/geometry_image.h"
-#include "weft/sim/scene_file.h"
 
 namespace weft::app {
 namespace {
@@ -21,14 +19,10 @@ struct DrapeWords {
 };
 
 void drape(const DrapeWords& words, const Context& context) {
-  Scene scene = make_drape_scene(words.cloth, words.body, words.options);
-  apply_run_words(words.run, scene);
-  make_folder(words.run.folder);
-  const auto path = std::filesystem::path(words.run.folder) / "scene.json";
-  write_scene(path, scene);
+  const Scene scene = make_drape_scene(words.cloth, words.body, words.options);
   RunWords run = words.run;
-  run.made.push_back(path);
-  run_and_report(scene, path.string(), run, context);
+  run.scene_file = std::filesystem::path(words.run.folder) / "scene.json";
+  run_and_report(scene, run.scene_file.string(), run, context);
 }
 
 }  // namespace

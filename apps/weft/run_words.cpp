@@ -46,6 +46,9 @@ RunOptions options_of(const RunWords& words, const Context& context, Progress& p
   options.verify = words.verify;
   options.threads = context.threads;
   options.progress = &progress;
+  options.checkpoint_frames = words.checkpoint;
+  options.resume = words.resume;
+  options.scene_file = words.scene_file;
   return options;
 }
 
@@ -67,6 +70,12 @@ void add_run_options(CLI::App& command, RunWords& words) {
       ->capture_default_str();
   command.add_flag("--unwelded", words.unwelded,
                    "Keep every sample apart instead of joining mates");
+  command
+      .add_option("--checkpoint", words.checkpoint,
+                  "Frames between two checkpoints; 0: none; by default one every 5 s")
+      ->check(CLI::Range(0, INT_MAX));
+  command.add_flag("--resume", words.resume,
+                   "Go on with the run in the folder, or begin it where there is none");
   command.add_flag("--verify", words.verify,
                    "Count intersections in every frame; exit 4 when there are any");
 }
@@ -89,7 +98,6 @@ void run_and_report(Scene scene, const std::string& name, const RunWords& words,
     TerminalProgress progress(context.quiet || context.json);
     report = run_scene(scene, name, options_of(words, context, progress));
   }
-  report.outputs.insert(report.outputs.begin(), words.made.begin(), words.made.end());
   print_summary(context, report);
   print_report(context, nlohmann::ordered_json::parse(to_json(report)));
   if (words.verify && report.intersections > 0)

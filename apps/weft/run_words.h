@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct RunWords {
   std::string folder, integrator, collider;
   int frames = 0;  ///< 0: as the scene says
   std::vector<std::string> exports{"obj", "pc2"};
-  bool unwelded = false, verify = false;
-  std::vector<std::filesystem::path> made;  ///< what was written before the run, reported with it
+  bool unwelded = false, verify = false, resume = false;
+  std::optional<int> checkpoint;
+  std::filesystem::path scene_file;  ///< where the scene is written, if anywhere
 };
 void add_run_options(CLI::App& command, RunWords& words);
 

@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "weft/core/error.h"
@@ -42,13 +43,29 @@ void make_folder(const fs::path& path) {
                       "a writable place is wanted");
 }
 
-NewFile::NewFile(fs::path path) : path_(std::move(path)), temporary_(path_) {
+void flush_to_disk(const fs::path& path) {
+  const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool flushed = handle >= 0 && ::fsync(handle) == 0;
+  const std::string reason = flushed ? "" : system_reason();
+  if (handle >= 0) ::close(handle);
+  if (!flushed) throw OutputError(path.string(), "cannot be written: " + reason, "");
+}
+
+fs::path temporary_path(const fs::path& path, TemporaryName name) {
+  const bool own = name == TemporaryName::of_this_process;
+  fs::path temporary = path;
+  return temporary.replace_filename(fmt::format(".{}{}.part{}", path.stem().string(),
+                                                own ? fmt::format(".{}", ::getpid()) : "",
+                                                path.extension().string()));
+}
+
+NewFile::NewFile(fs::path path, TemporaryName name)
+    : path_(std::move(path)), temporary_(temporary_path(path_, name)) {
   std::error_code ignored;
   if (fs::is_directory(path_, ignored))
     throw OutputError(path_.string(), "is a folder", "a file name is wanted");
-  temporary_.replace_filename(
-      fmt::format(".{}.{}.part{}", path_.stem().string(), ::getpid(), path_.extension().string()));
-  const int handle = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int emptied = name == TemporaryName::of_this_process ? O_TRUNC : 0;
+  const int handle = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | emptied, 0666);
   if (handle < 0)
     throw OutputError(path_.string(), "cannot be written: " + system_reason(),
                       "a writable place is wanted");
@@ -57,23 +74,33 @@ NewFile::NewFile(fs::path path) : path_(std::move(path)), temporary_(path_) {
 
 NewFile::~NewFile() {
   std::error_code ignored;
-  if (!committed_) fs::remove(temporary_, ignored);
+  if (!committed_ && !keep_) fs::remove(temporary_, ignored);
 }
 
 void NewFile::commit() {
-  const int handle = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool flushed = handle >= 0 && ::fsync(handle) == 0;
-  const std::string reason = flushed ? "" : system_reason();
-  if (handle >= 0) ::close(handle);
-  if (!flushed) throw OutputError(path_.string(), "cannot be written: " + reason, "");
+  flush_to_disk(temporary_);
   std::error_code error;
   fs::rename(temporary_, path_, error);
   if (error) throw OutputError(path_.string(), "cannot be written: " + error.message(), "");
   committed_ = true;
 }
 
-void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  NewFile file(path);
+FolderLock::FolderLock(const fs::path& folder)
+    : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  // File systems that know no locks do not stop the work.
+  if (handle_ < 0 || ::flock(handle_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(handle_);
+  throw OutputError(folder.string(), "another weft is writing there",
+                    "another folder, or to wait until it is done, is wanted");
+}
+
+FolderLock::~FolderLock() {
+  if (handle_ >= 0) ::close(handle_);
+}
+
+void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write,
+                TemporaryName name) {
+  NewFile file(path, name);
   std::ofstream out(file.temporary(), std::ios::binary);
   write(out);
   out.close();

@@ -15,12 +15,20 @@ std::string read_file(const std::filesystem::path& path);
 /// @throws OutputError when it cannot be made, or a file has its name
 void make_folder(const std::filesystem::path& path);
 
+/// Waits until what was written to a file is on the disk. @throws OutputError
+void flush_to_disk(const std::filesystem::path& path);
+
+/// Whose name a file bears until it is whole: a new one for each process, or always the same, where
+/// the next process finds what one that was killed left.
+enum class TemporaryName { of_this_process, of_the_file };
+std::filesystem::path temporary_path(const std::filesystem::path& path, TemporaryName name);
+
 /// A file that appears whole or not at all: written under a temporary name beside its place, then
 /// renamed. Unless `commit` was called, the destructor removes what was written.
 class NewFile {
  public:
   /// @throws OutputError when the folder is missing or cannot be written
-  explicit NewFile(std::filesystem::path path);
+  explicit NewFile(std::filesystem::path path, TemporaryName name = TemporaryName::of_this_process);
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
   ~NewFile();
@@ -28,14 +36,31 @@ class NewFile {
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
   /// Flushes to disk and puts the file in its place. @throws OutputError
   void commit();
+  /// From now on the destructor leaves what was written.
+  void keep_unfinished() { keep_ = true; }
 
  private:
   std::filesystem::path path_, temporary_;
-  bool committed_ = false;
+  bool committed_ = false, keep_ = false;
+};
+
+/// Keeps a folder to one process that asks for it; the system frees it when the process ends,
+/// however that comes about.
+class FolderLock {
+ public:
+  /// @throws OutputError when another process holds it
+  explicit FolderLock(const std::filesystem::path& folder);
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock();
+
+ private:
+  int handle_ = -1;
 };
 
 /// Writes a file whole through a stream. @throws OutputError when it cannot be (full, no
 /// permission)
-void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
+                TemporaryName name = TemporaryName::of_this_process);
 
 }  // namespace weft

@@ -1,29 +1,24 @@
 #include "weft/sim/run.h"
 
 #include <algorithm>
-#include <fstream>
-#include <memory>
+#include <chrono>
 
 #include <fmt/format.h>
 
-#include "weft/collide/intersections.h"
 #include "weft/core/error.h"
 #include "weft/core/files.h"
-#include "weft/image/io/exr_codec.h"
-#include "weft/image/io/image_file.h"
-#include "weft/sim/export/pc2_writer.h"
-#include "weft/sim/export/surface_points.h"
-#include "weft/sim/report.h"
-#include "weft/sim/run_folder.h"
+#include "weft/sim/checkpoint.h"
+#include "weft/sim/recorder.h"
+#include "weft/sim/run_identity.h"
+#include "weft/sim/scene_file.h"
 
 namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool asks_for(const RunOptions& options, std::string_view format) {
-  return std::find(options.exports.begin(), options.exports.end(), format) != options.exports.end();
-}
+/// Work that a killed run may lose where nobody says how many frames [s].
+constexpr double default_seconds_between_checkpoints = 5;
 
 void check_exports(const RunOptions& options) {
   for (const std::string& format : options.exports)
@@ -32,107 +27,22 @@ void check_exports(const RunOptions& options) {
                        "known are: obj, pc2");
 }
 
-/// Everything that is written while a run goes on. Files that grow appear under their names at
-/// `finish`.
-class Recorder {
+/// Decides after which frames a checkpoint is written.
+class CheckpointClock {
  public:
-  Recorder(const Simulation& simulation, const Scene& scene, const RunOptions& options)
-      : simulation_(simulation),
-        scene_(scene),
-        options_(options),
-        csv_file_(options.folder / "frames.csv"),
-        csv_(csv_file_.temporary()) {
-    csv_ << frames_csv_header();
-    for (const SimulatedCloth& cloth : simulation.cloths()) start_cloth(cloth);
-    for (const PlacedBody& body : simulation.bodies()) write_body(body);
-    add_positions();
+  explicit CheckpointClock(std::optional<int> frames) : frames_(frames) {}
+  [[nodiscard]] bool off() const { return frames_ == 0; }
+  [[nodiscard]] bool is_due(int frame) const {
+    if (frames_) return *frames_ > 0 && frame % *frames_ == 0;
+    const std::chrono::duration<double> passed = Clock::now() - last_;
+    return passed.count() >= default_seconds_between_checkpoints;
   }
-
-  void add_frame(const FrameReport& frame) {
-    csv_ << frames_csv_line(simulation_.frame(), frame) << std::flush;
-    add_positions();
-  }
-
-  /// Puts the files that grew in their places and names everything in the report.
-  void finish(RunReport& report) {
-    for (std::size_t i = 0; i < caches_.size(); ++i) {
-      caches_[i]->finish();
-      outputs_.push_back(file(simulation_.cloths()[i].name, ".pc2"));
-    }
-    csv_.close();
-    if (!csv_)
-      throw OutputError((options_.folder / "frames.csv").string(), "cannot be written whole", "");
-    csv_file_.commit();
-    outputs_.push_back(options_.folder / "frames.csv");
-    report.outputs = outputs_;
-    const fs::path manifest = options_.folder / "weft-run.json";
-    write_run_manifest(manifest, scene_, report, options_);
-    report.outputs.push_back(manifest);
-  }
-
-  /// Pairs of crossing triangles between cloths and bodies, and between different cloths, as they
-  /// stand now.
-  [[nodiscard]] int intersections() const {
-    int total = 0;
-    for (std::size_t i = 0; i < cloths_.size(); ++i) {
-      const GridTriangles cloth{&simulation_.cloths()[i].state.position, &cloths_[i].triangles};
-      for (std::size_t b = 0; b < bodies_.size(); ++b)
-        total +=
-            count_intersections(cloth, {&simulation_.bodies()[b].positions, &bodies_[b].triangles});
-      for (std::size_t other = 0; other < i; ++other)
-        total += count_intersections(
-            cloth, {&simulation_.cloths()[other].state.position, &cloths_[other].triangles});
-    }
-    return total;
-  }
+  void written() { last_ = Clock::now(); }
 
  private:
-  [[nodiscard]] fs::path file(const std::string& name, const std::string& ending) const {
-    return options_.folder / (name + ending);
-  }
-
-  void write_surface(const std::string& name, const GeometryImage& image, const Planes3& positions,
-                     const SurfacePoints& points) {
-    write_image(file(name, ".exr"), image);
-    outputs_.push_back(file(name, ".exr"));
-    if (!asks_for(options_, "obj")) return;
-    write_obj(file(name, ".obj"), points, positions);
-    outputs_.push_back(file(name, ".obj"));
-  }
-
-  void start_cloth(const SimulatedCloth& cloth) {
-    cloths_.push_back(surface_points(cloth.image, options_.unwelded));
-    write_surface(cloth.name, cloth.image, cloth.state.position, cloths_.back());
-    if (asks_for(options_, "pc2"))
-      caches_.push_back(std::make_unique<Pc2Writer>(
-          file(cloth.name, ".pc2"), static_cast<int>(cloths_.back().sample_of.size())));
-  }
-
-  void write_body(const PlacedBody& body) {
-    bodies_.push_back(surface_points(body.image, options_.unwelded));
-    write_surface(body.name, body.image, body.positions, bodies_.back());
-    const fs::path path = normals_path(options_.folder, body.name);
-    std::error_code ignored;
-    fs::remove(path, ignored);  // of an earlier run
-    if (!body.image_normals) return;
-    const std::string bytes = encode_exr(body.image_normals->normal, "normals");
-    write_file(path, [&](std::ostream& out) { out << bytes; });
-    outputs_.push_back(path);
-  }
-
-  void add_positions() {
-    for (std::size_t i = 0; i < caches_.size(); ++i)
-      caches_[i]->add(cloths_[i].gather(simulation_.cloths()[i].state.position));
-  }
-
-  const Simulation& simulation_;
-  const Scene& scene_;
-  const RunOptions& options_;
-  NewFile csv_file_;
-  std::ofstream csv_;
-  std::vector<SurfacePoints> cloths_, bodies_;
-  std::vector<std::unique_ptr<Pc2Writer>> caches_;
-  std::vector<fs::path> outputs_;
+  using Clock = std::chrono::steady_clock;
+  std::optional<int> frames_;
+  Clock::time_point last_ = Clock::now();
 };
 
 /// What is known before the first frame.
@@ -158,31 +68,155 @@ void add_to_report(RunReport& report, const FrameReport& frame) {
   report.centre_of_mass.push_back(frame.centre_of_mass);
 }
 
+class Run {
+ public:
+  Run(const Scene& scene, const std::string& name, const RunOptions& options)
+      : scene_(scene),
+        options_(options),
+        path_(checkpoint_path(options.folder)),
+        clock_(options.checkpoint_frames),
+        simulation_(scene, name, options.threads, options.progress),
+        report_(start_report(simulation_, scene, name, options.threads)) {
+    if (!clock_.off() || options.resume)
+      point_.identity = run_identity(scene, simulation_, options);
+    point_.start_centre = report_.centre_of_mass.front();
+  }
+
+  void start() {
+    // One of an earlier run would not fit to the files that begin now.
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+    make_recorder().start();
+    simulation_.save(point_.state);
+    if (options_.resume)
+      report_.notes.push_back(
+          fmt::format("{}: nothing to resume, begun at frame 0", options_.folder.string()));
+  }
+
+  void resume(const Checkpoint& from) {
+    check(from);
+    Recorder& recorder = make_recorder();
+    simulation_.restore(from.state);
+    recorder.resume(from.state.frame == scene_.frames);
+    point_.state = from.state;
+    for (const FrameReport& frame : from.history) add_to_report(report_, frame);
+    report_.intersections = from.intersections;
+    last_written_ = from.state.frame;
+    report_.notes.push_back(
+        from.state.frame == scene_.frames
+            ? fmt::format("{}: finished already, nothing is left to do", options_.folder.string())
+            : fmt::format("{}: resumed after frame {}", options_.folder.string(),
+                          from.state.frame));
+  }
+
+  RunReport go() {
+    try {
+      while (simulation_.frame() < scene_.frames) take_frame();
+      update(options_.progress, "simulate", 1);
+      if (!options_.verify) report_.intersections = recorder_->intersections();
+      report_.state_hash = simulation_.state_hash();
+    } catch (const OutputError&) {
+      keep_what_fits();
+      throw;
+    } catch (...) {
+      keep();
+      throw;
+    }
+    keep();
+    return std::move(report_);
+  }
+
+ private:
+  Recorder& make_recorder() {
+    if (!options_.scene_file.empty()) write_scene(options_.scene_file, scene_);
+    recorder_.emplace(simulation_, scene_, options_);
+    return *recorder_;
+  }
+
+  void check(const Checkpoint& from) const {
+    const std::string difference = identity_difference(from.identity, point_.identity);
+    if (!difference.empty())
+      throw InputError(path_.string(), "is of another scene: " + difference,
+                       "the same scene, or a run without --resume, is wanted");
+    const auto& cloths = simulation_.cloths();
+    if (!std::equal(cloths.begin(), cloths.end(), from.state.cloths.begin(),
+                    from.state.cloths.end(),
+                    [](const SimulatedCloth& cloth, const ClothState& state) {
+                      return cloth.cloth.size == state.position.size();
+                    }))
+      throw InputError(path_.string(), "does not fit to its scene",
+                       "a run without --resume starts afresh");
+    if (from.state.frame > scene_.frames)
+      throw InputError(path_.string(), fmt::format("is of frame {}", from.state.frame),
+                       fmt::format("at least {} frames are wanted", from.state.frame));
+  }
+
+  void take_frame() {
+    const FrameReport done = simulation_.advance();
+    recorder_->add_frame();
+    add_to_report(report_, done);
+    if (options_.verify)
+      report_.intersections = std::max(report_.intersections, recorder_->intersections());
+    if (clock_.off()) return;
+    simulation_.save(point_.state);
+    if (!clock_.is_due(report_.frames)) return;
+    recorder_->flush();
+    write_point();
+  }
+
+  /// Everything so far, as files that are whole, and where to go on.
+  void keep() {
+    recorder_->finish(report_);
+    if (!options_.scene_file.empty())
+      report_.outputs.insert(report_.outputs.begin(), options_.scene_file);
+    if (clock_.off()) return;
+    if (last_written_ != report_.frames) write_point();
+    report_.outputs.push_back(path_);
+  }
+
+  /// The first error tells what is the matter; a second of the kind would only hide it.
+  void keep_what_fits() {
+    try {
+      keep();
+    } catch (const OutputError&) {
+      return;
+    }
+  }
+
+  void write_point() {
+    point_.history = report_.history;
+    point_.intersections = report_.intersections;
+    write_checkpoint(path_, point_);
+    last_written_ = report_.frames;
+    clock_.written();
+  }
+
+  const Scene& scene_;
+  const RunOptions& options_;
+  fs::path path_;  // of the checkpoint
+  CheckpointClock clock_;
+  Simulation simulation_;
+  RunReport report_;
+  std::optional<Recorder> recorder_;
+  Checkpoint point_;  // its state is that of the last whole frame
+  int last_written_ = -1;
+};
+
 }  // namespace
 
 RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options) {
   check_exports(options);
   make_folder(options.folder);
-  Simulation simulation(scene, name, options.threads, options.progress);
-  RunReport report = start_report(simulation, scene, name, options.threads);
-  Recorder recorder(simulation, scene, options);
-  try {
-    for (int frame = 0; frame < scene.frames; ++frame) {
-      const FrameReport done = simulation.advance();
-      recorder.add_frame(done);
-      add_to_report(report, done);
-      if (options.verify)
-        report.intersections = std::max(report.intersections, recorder.intersections());
-    }
-    update(options.progress, "simulate", 1);
-  } catch (...) {
-    recorder.finish(report);
-    throw;
+  const FolderLock lock(options.folder);
+  std::optional<Checkpoint> found;
+  if (options.resume) found = read_checkpoint(checkpoint_path(options.folder));
+  Run run(scene, name, options);
+  if (found) {
+    run.resume(*found);
+  } else {
+    run.start();
   }
-  if (!options.verify) report.intersections = recorder.intersections();
-  report.state_hash = simulation.state_hash();
-  recorder.finish(report);
-  return report;
+  return run.go();
 }
 
 }  // namespace weft

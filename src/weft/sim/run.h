@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,17 @@
 namespace weft {
 
 struct RunOptions {
-  std::filesystem::path folder;  ///< where everything is written
+  std::filesystem::path folder{};  ///< where everything is written
   std::vector<std::string> exports{"obj", "pc2"};
   bool unwelded = false;  ///< write every sample instead of joining mates
   bool verify = false;    ///< count intersections in every frame, not in the last one only
   int threads = 1;
   Progress* progress = nullptr;
+  /// Frames between two checkpoints; 0: none; nothing: every five seconds.
+  std::optional<int> checkpoint_frames{};
+  bool resume = false;  ///< go on where the folder's checkpoint stands, if it has one
+  /// Where the scene is written once it is known to run; empty: nowhere.
+  std::filesystem::path scene_file{};
 };
 
 /// What `simulate` reports: the fields of its JSON, and more.
@@ -36,9 +42,11 @@ struct RunReport {
 /// Runs a whole scene into a folder, which is made when missing: for each cloth and body its
 /// geometry image NAME.exr (at rest, unplaced), NAME.obj and, for cloths, NAME.pc2; frames.csv;
 /// weft-run.json, by which open_run_folder finds them again. When the run stops early by error or
-/// interruption, what was finished is kept: files appear whole, with the frames there are.
+/// interruption, what was finished is kept: files appear whole, with the frames there are, and a
+/// checkpoint of the last of them. A run that was killed goes on at its last checkpoint; either way
+/// it ends in the bits and the report (but for times) of one that never stopped.
 /// @throws UsageError for an export that is not known; OutputError; what Simulation throws;
-/// Interrupted
+/// InputError for a checkpoint that is damaged, of another version or another scene; Interrupted
 RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options);
 
 }  // namespace weft

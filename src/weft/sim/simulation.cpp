@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "weft/cloth/coarse_limit.h"
+#include "weft/core/assert.h"
 #include "weft/core/error.h"
 #include "weft/core/hash.h"
 #include "weft/sim/pins.h"
@@ -315,6 +316,18 @@ FrameReport Simulation::advance() {
   parts_->measure(report);
   ++parts_->frame;
   return report;
+}
+
+void Simulation::save(SimulationState& state) const {
+  state.frame = parts_->frame;
+  state.cloths.resize(parts_->cloths.size());
+  for (std::size_t i = 0; i < state.cloths.size(); ++i) state.cloths[i] = parts_->cloths[i].state;
+}
+
+void Simulation::restore(const SimulationState& state) {
+  WEFT_ASSERT(state.cloths.size() == parts_->cloths.size());
+  parts_->frame = state.frame;
+  for (std::size_t i = 0; i < state.cloths.size(); ++i) parts_->cloths[i].state = state.cloths[i];
 }
 
 int Simulation::frame() const { return parts_->frame; }

@@ -38,6 +38,13 @@ struct PlacedBody {
   Planes3 positions;                       ///< world [m]
 };
 
+/// All that the next frame depends on besides the scene: integrators and colliders carry nothing
+/// over from one step to the next.
+struct SimulationState {
+  int frame = 0;                   ///< frames done
+  std::vector<ClothState> cloths;  ///< in the scene's order
+};
+
 /// A scene brought to life.
 class Simulation {
  public:
@@ -53,6 +60,11 @@ class Simulation {
   /// runaway
   ///         energy, with the integrator's advice
   FrameReport advance();
+
+  /// Copies the state; nothing is allocated when `state` has held it before.
+  void save(SimulationState& state) const;
+  /// Goes on from a saved state of the same scene: what follows has the same bits.
+  void restore(const SimulationState& state);
 
   [[nodiscard]] int frame() const;
   [[nodiscard]] const std::vector<SimulatedCloth>& cloths() const;

@@ -1,0 +1,160 @@
+#include "weft/sim/checkpoint.h"
+
+#include <ostream>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/core/hash.h"
+#include "weft/image/geometry_image.h"
+#include "weft/sim/detail/bytes.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view magic = "WEFTCKPT";
+constexpr std::uint32_t format_version = 1;
+constexpr std::string_view weft_version = WEFT_VERSION;
+
+/// Every field of a frame's report in the order of the file: what is forgotten here would be lost
+/// in a resumed run's tables.
+template <class Report, class Visit>
+void each_field(Report& f, const Visit& visit) {
+  visit(f.milliseconds), visit(f.forces_ms), visit(f.solve_ms), visit(f.collide_ms),
+      visit(f.limit_ms);
+  visit(f.iterations), visit(f.residual);
+  visit(f.strain.mean), visit(f.strain.p99), visit(f.strain.max);
+  visit(f.kinetic_energy), visit(f.potential_energy);
+  visit(f.contacts), visit(f.smallest_gap);
+  visit(f.centre_of_mass.x), visit(f.centre_of_mass.y), visit(f.centre_of_mass.z);
+}
+static_assert(sizeof(FrameReport) == 17 * 8, "a new field goes into each_field, and this count up");
+constexpr std::size_t frame_bytes = 15 * sizeof(double) + 2 * sizeof(int);
+
+std::uint64_t hash_of(std::string_view bytes) {
+  Hash hash;
+  hash.add(std::span<const char>(bytes));
+  return hash.value();
+}
+
+template <class State, class Visit>
+void each_plane(State& state, const Visit& visit) {
+  for (auto* planes : {&state.position, &state.velocity})
+    for (auto* plane : {&planes->x, &planes->y, &planes->z}) visit(*plane);
+}
+
+void add_cloth(const ClothState& cloth, ByteWriter& out) {
+  out.add(static_cast<std::int32_t>(cloth.position.size()));
+  each_plane(cloth, [&](const Grid<float>& plane) {
+    for (int r = 0; r < plane.rows(); ++r) out.add_floats(plane.row(r), plane.cols());
+  });
+}
+
+/// Nothing for a size that the bytes do not hold.
+std::optional<ClothState> next_cloth(ByteReader& in) {
+  const auto size = in.next<std::int32_t>();
+  if (size < least_image_size || size > largest_image_size) return std::nullopt;
+  const std::size_t samples = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+  if (in.left() < 6 * sizeof(float) * samples) return std::nullopt;
+  ClothState cloth{Planes3(size), Planes3(size)};
+  each_plane(cloth, [&](Grid<float>& plane) {
+    for (int r = 0; r < size; ++r) in.read_floats(plane.row(r), size);
+  });
+  return cloth;
+}
+
+std::string payload_of(const Checkpoint& checkpoint) {
+  ByteWriter out;
+  out.add_text(weft_version);
+  out.add_text(checkpoint.identity);
+  const Vec3d centre = checkpoint.start_centre;
+  out.add(centre.x), out.add(centre.y), out.add(centre.z);
+  out.add(static_cast<std::int32_t>(checkpoint.intersections));
+  out.add(static_cast<std::uint64_t>(checkpoint.history.size()));
+  for (const FrameReport& frame : checkpoint.history)
+    each_field(frame, [&](auto value) { out.add(value); });
+  out.add(static_cast<std::uint32_t>(checkpoint.state.cloths.size()));
+  for (const ClothState& cloth : checkpoint.state.cloths) add_cloth(cloth, out);
+  return out.bytes();
+}
+
+/// Nothing when the fields do not fit together, as in no file that Weft wrote.
+std::optional<Checkpoint> parse_payload(ByteReader in) {
+  Checkpoint checkpoint;
+  checkpoint.identity = in.next_text();
+  Vec3d& centre = checkpoint.start_centre;
+  in.read(centre.x), in.read(centre.y), in.read(centre.z);
+  in.read(checkpoint.intersections);
+  const auto frames = in.next<std::uint64_t>();
+  if (frames > in.left() / frame_bytes) return std::nullopt;
+  checkpoint.history.resize(frames);
+  for (FrameReport& frame : checkpoint.history)
+    each_field(frame, [&](auto& value) { in.read(value); });
+  checkpoint.state.frame = static_cast<int>(frames);
+  const auto cloths = in.next<std::uint32_t>();
+  for (std::uint32_t i = 0; i < cloths; ++i) {
+    std::optional<ClothState> cloth = next_cloth(in);
+    if (!cloth) return std::nullopt;
+    checkpoint.state.cloths.push_back(std::move(*cloth));
+  }
+  if (!in.whole() || in.left() != 0) return std::nullopt;
+  return checkpoint;
+}
+
+[[noreturn]] void refuse(const std::string& where, std::string_view found) {
+  throw InputError(where, found, "a run without --resume starts afresh");
+}
+
+}  // namespace
+
+fs::path checkpoint_path(const fs::path& folder) { return folder / "weft-checkpoint.bin"; }
+
+std::string encode_checkpoint(const Checkpoint& checkpoint) {
+  const std::string payload = payload_of(checkpoint);
+  ByteWriter out;
+  out.add(format_version);
+  out.add(static_cast<std::uint64_t>(payload.size()));
+  out.add(hash_of(payload));
+  return std::string(magic) + out.bytes() + payload;
+}
+
+Checkpoint decode_checkpoint(std::string_view bytes, const std::string& where) {
+  if (!bytes.starts_with(magic)) refuse(where, "is no checkpoint");
+  ByteReader header(bytes.substr(magic.size()));
+  const auto version = header.next<std::uint32_t>();
+  if (header.whole() && version != format_version)
+    refuse(where, fmt::format("has checkpoint format {} instead of {}", version, format_version));
+  const auto size = header.next<std::uint64_t>();
+  const auto hash = header.next<std::uint64_t>();
+  if (!header.whole() || size != header.left())
+    refuse(where, fmt::format("is damaged: {} bytes instead of {}", bytes.size(),
+                              bytes.size() - header.left() + size));
+  const std::string_view payload = bytes.substr(bytes.size() - size);
+  if (hash != hash_of(payload)) refuse(where, "is damaged: its bytes do not give its hash");
+  ByteReader in(payload);
+  const std::string_view writer = in.next_text();
+  if (writer != weft_version)
+    refuse(where, fmt::format("was written by weft {}, this is {}", writer, weft_version));
+  std::optional<Checkpoint> checkpoint = parse_payload(in);
+  if (!checkpoint) refuse(where, "is damaged: its parts do not fit together");
+  return std::move(*checkpoint);
+}
+
+void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
+  const std::string bytes = encode_checkpoint(checkpoint);
+  const auto write = [&](std::ostream& out) { out << bytes; };
+  // Of the file: one that is killed while writing leaves nothing that stays.
+  write_file(path, write, TemporaryName::of_the_file);
+}
+
+std::optional<Checkpoint> read_checkpoint(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::status(path, ignored).type() == fs::file_type::not_found) return std::nullopt;
+  return decode_checkpoint(read_file(path), path.string());
+}
+
+}  // namespace weft

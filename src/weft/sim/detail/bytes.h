@@ -1,0 +1,83 @@
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace weft {
+
+static_assert(std::endian::native == std::endian::little,
+              "binary files are little-endian, written as values lie in memory");
+
+/// Appends plain values to a string of bytes.
+class ByteWriter {
+ public:
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void add(T value) {
+    const auto* first = reinterpret_cast<const char*>(&value);
+    bytes_.append(first, sizeof(T));
+  }
+  void add_floats(const float* values, int count) {
+    bytes_.append(reinterpret_cast<const char*>(values),
+                  sizeof(float) * static_cast<std::size_t>(count));
+  }
+  void add_text(std::string_view text) {
+    add(static_cast<std::uint64_t>(text.size()));
+    bytes_.append(text);
+  }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+/// Reads them again. Beyond the end everything is zero and `whole` false, so that a reader asks
+/// once, before it sets memory aside and at the end.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : left_(bytes) {}
+
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void read(T& value) {
+    value = T{};
+    if (take(sizeof(T))) std::memcpy(&value, taken_.data(), sizeof(T));
+  }
+  template <class T>
+  [[nodiscard]] T next() {
+    T value{};
+    read(value);
+    return value;
+  }
+  void read_floats(float* values, int count) {
+    if (take(sizeof(float) * static_cast<std::size_t>(count)))
+      std::memcpy(values, taken_.data(), taken_.size());
+  }
+  [[nodiscard]] std::string_view next_text() {
+    const auto size = next<std::uint64_t>();
+    return take(size) ? taken_ : std::string_view();
+  }
+  [[nodiscard]] bool whole() const { return whole_; }
+  /// Bytes not read yet.
+  [[nodiscard]] std::size_t left() const { return left_.size(); }
+
+ private:
+  bool take(std::uint64_t count) {
+    whole_ = whole_ && count <= left_.size();
+    if (!whole_) return false;
+    taken_ = left_.substr(0, count);
+    left_.remove_prefix(count);
+    return true;
+  }
+
+  std::string_view left_, taken_;
+  bool whole_ = true;
+};
+
+}  // namespace weft

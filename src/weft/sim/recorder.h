@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "weft/sim/export/pc2_writer.h"
+#include "weft/sim/export/surface_points.h"
+#include "weft/sim/run.h"
+
+namespace weft {
+
+/// Everything that a run leaves in its folder. Files that grow appear under their names at
+/// `finish`.
+class Recorder {
+ public:
+  /// Writes what does not grow. @param simulation  at its start; kept by reference, as are the
+  /// others
+  /// @throws OutputError, as everything below
+  Recorder(const Simulation& simulation, const Scene& scene, const RunOptions& options);
+
+  /// Begins the files that grow, with frame 0.
+  void start();
+  /// Goes on with those of an earlier run, at the simulation's frame.
+  /// @param finished  nothing will be added: whole files are left as they are
+  /// @throws InputError when they do not hold the frames up to there
+  void resume(bool finished);
+  void add_frame();
+  /// Waits until all frames are on the disk.
+  void flush();
+  /// Puts the files that grew in their places and names everything in the report.
+  void finish(RunReport& report);
+
+  /// Pairs of crossing triangles between cloths and bodies, and between different cloths, as they
+  /// stand now.
+  [[nodiscard]] int intersections() const;
+
+ private:
+  [[nodiscard]] std::filesystem::path file(const std::string& name,
+                                           const std::string& ending) const;
+  [[nodiscard]] std::vector<Vec3f> points(std::size_t cloth) const;
+  void write_surface(const std::string& name, const GeometryImage& image, const Planes3& positions,
+                     const SurfacePoints& points);
+  void write_body(const PlacedBody& body);
+
+  const Simulation& simulation_;
+  const Scene& scene_;
+  const RunOptions& options_;
+  std::vector<SurfacePoints> cloths_, bodies_;
+  std::vector<std::unique_ptr<Pc2Writer>> caches_;  // one a cloth, where they are wanted
+  std::vector<std::filesystem::path> outputs_;
+};
+
+}  // namespace weft

@@ -1,0 +1,69 @@
+#include "weft/sim/run_identity.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "weft/core/hash.h"
+#include "weft/sim/scene_file.h"
+
+namespace weft {
+namespace {
+
+using Json = nlohmann::json;
+
+/// As an absolute path, so that the scene's writer leaves it as it is but for the leading slash.
+std::string surface_name(const Planes3& placed, const BorderMates& mates) {
+  Hash hash;
+  for (const Grid<float>* plane : {&placed.x, &placed.y, &placed.z}) hash.add(*plane);
+  for (int i = 0; i < mates.class_count(); ++i) hash.add(mates.mates(i));
+  return std::string("/").append(hash.text());
+}
+
+std::string shown(const Json& json, const Json::json_pointer& key) {
+  return json.contains(key) ? json.at(key).dump() : "missing";
+}
+
+}  // namespace
+
+std::string run_identity(const Scene& scene, const Simulation& simulation,
+                         const RunOptions& options) {
+  Scene named = scene;
+  for (std::size_t i = 0; i < named.cloths.size(); ++i) {
+    const Cloth& cloth = simulation.cloths()[i].cloth;
+    named.cloths[i].surface = surface_name(cloth.rest, cloth.mates);
+  }
+  for (std::size_t i = 0; i < named.bodies.size(); ++i) {
+    const PlacedBody& body = simulation.bodies()[i];
+    named.bodies[i].surface = surface_name(body.positions, body.image.mates);
+  }
+  Json json = Json::parse(scene_text(named, "/scene.json"));
+  json.erase("frames");
+  std::vector<std::string> exports = options.exports;
+  std::sort(exports.begin(), exports.end());
+  json["--export"] = exports;
+  json["--unwelded"] = options.unwelded;
+  json["--verify"] = options.verify;
+  return json.dump();
+}
+
+std::string identity_difference(const std::string& found, const std::string& wanted) {
+  if (found == wanted) return {};
+  const Json there = Json::parse(found, nullptr, false), here = Json::parse(wanted, nullptr, false);
+  if (there.is_discarded() || here.is_discarded()) return "scene is none";
+  const Json changes = Json::diff(there, here);
+  if (changes.empty()) return {};
+  // Another method has other keys, too: the method's own name says most.
+  const auto names_type = [](const Json& change) {
+    return change.at("path").get<std::string>().ends_with("/type");
+  };
+  auto change = std::find_if(changes.begin(), changes.end(), names_type);
+  if (change == changes.end()) change = changes.begin();
+  const std::string key = change->at("path");
+  const Json::json_pointer pointer(key);
+  return fmt::format("{} is {} there and {} here", key.substr(1), shown(there, pointer),
+                     shown(here, pointer));
+}
+
+}  // namespace weft
