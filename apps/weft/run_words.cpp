@@ -7,12 +7,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/weft/peak_memory.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/core/error.h"
+#include "weft/core/memory.h"
+#include "weft/sim/memory_estimate.h"
 #include "weft/sim/report.h"
 
 namespace weft::app {
 namespace {
+
+constexpr std::uint64_t much_memory = 500'000'000;
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -36,6 +41,20 @@ void print_summary(const Context& context, const RunReport& report) {
                            report.contacts_max, report.intersections));
   say(context, "state   " + report.state_hash);
   for (const auto& path : report.outputs) say(context, "wrote   " + path.string());
+}
+
+// Before a large run starts, what it will take; before one that may not fit, a warning. What
+// certainly does not fit is refused.
+void tell_memory(const Scene& scene, const std::string& name, const Context& context) {
+  const std::uint64_t bytes = estimate_memory(scene);
+  const std::optional<std::uint64_t> available = available_memory();
+  if (available) check_memory(bytes, *available, name);
+  if (available && is_memory_short(bytes, *available)) {
+    warn(context, fmt::format("about {} of memory are needed, {} are there", memory_text(bytes),
+                              memory_text(*available)));
+  } else if (bytes >= much_memory) {
+    say(context, "memory  about " + memory_text(bytes));
+  }
 }
 
 RunOptions options_of(const RunWords& words, const Context& context, Progress& progress) {
@@ -93,13 +112,17 @@ void apply_run_words(const RunWords& words, Scene& scene) {
 void run_and_report(Scene scene, const std::string& name, const RunWords& words,
                     const Context& context) {
   apply_run_words(words, scene);
+  tell_memory(scene, name, context);
   RunReport report;
   {
     TerminalProgress progress(context.quiet || context.json);
     report = run_scene(scene, name, options_of(words, context, progress));
   }
   print_summary(context, report);
-  print_report(context, nlohmann::ordered_json::parse(to_json(report)));
+  auto json = nlohmann::ordered_json::parse(to_json(report));
+  const std::optional<double> memory = peak_memory_mb();
+  json["peak_memory_mb"] = memory ? nlohmann::ordered_json(*memory) : nlohmann::ordered_json();
+  print_report(context, json);
   if (words.verify && report.intersections > 0)
     throw Error(ExitCode::check_failed, name,
                 fmt::format("{} triangle pairs intersect in the worst frame", report.intersections),

@@ -1,5 +1,7 @@
 """The contract of simulate, drape and render: fields, determinism, errors, files, interruption."""
+import csv
 import json
+import os
 import pathlib
 import resource
 import signal
@@ -28,6 +30,10 @@ class SceneTest(ProgramTest):
     def write_scene(self, scene, name="scene.json"):
         (self.folder / name).write_text(scene if isinstance(scene, str) else json.dumps(scene))
         return name
+
+    def table(self, folder):
+        with open(self.folder / folder / "frames.csv", newline="") as lines:
+            return list(csv.DictReader(lines))
 
 
 class Simulate(SceneTest):
@@ -82,6 +88,37 @@ class Simulate(SceneTest):
         self.assertGreaterEqual(len(lines), 6)
         self.assertEqual(len({len(line.split(",")) for line in lines}), 1)
 
+    def test_frames_csv_tells_time_solver_strain_energy_and_contacts(self):
+        fall = self.run_json("simulate", self.write_scene(sheet_scene()), "-o", "fall")
+        rows = self.table("fall")
+        self.assertEqual(list(rows[0]), ["frame", "ms", "forces_ms", "solve_ms", "collide_ms", "limit_ms", "iterations",
+                                         "residual", "strain_mean", "strain_p99", "strain_max", "kinetic_energy",
+                                         "potential_energy", "contacts", "smallest_gap", "com_x", "com_y", "com_z"])
+        for frame, row in enumerate(rows, 1):
+            stages = sum(float(row[stage]) for stage in ("forces_ms", "solve_ms", "collide_ms", "limit_ms"))
+            self.assertLessEqual(stages, float(row["ms"]) + 0.01)
+            self.assertEqual((int(row["frame"]), int(row["contacts"]), row["smallest_gap"]), (frame, 0, ""))
+            self.assertEqual(float(row["com_y"]), float(f"{fall['centre_of_mass'][frame][1]:.9g}"))
+        # What falls turns height into speed; implicit Euler's height is that of the formula.
+        mass = float(rows[-1]["potential_energy"]) / (9.81 * float(rows[-1]["com_y"]))
+        speed = 9.81 * 5 / 60
+        self.assertAlmostEqual(float(rows[-1]["kinetic_energy"]), mass * speed ** 2 / 2, delta=1e-4 * mass)
+        scene = sheet_scene(ground=0.99, frames=20)
+        landed = self.run_json("simulate", self.write_scene(scene), "-o", "landed")
+        rows = self.table("landed")
+        self.assertEqual(max(int(row["contacts"]) for row in rows), landed["contacts_max"])
+        self.assertAlmostEqual(float(rows[-1]["smallest_gap"]), float(rows[-1]["com_y"]) - 0.99, delta=1e-3)
+        self.assertEqual(float(rows[-1]["strain_max"]), float(f"{landed['strain']['max']:.6g}"))
+        self.assertEqual(max(float(row["residual"]) for row in rows), float(f"{landed['residual']['max']:.4g}"))
+
+    def test_methods_that_do_not_iterate_have_no_residual(self):
+        for integrator in ("explicit", "two_level"):
+            scene = sheet_scene(integrator={"type": integrator}, substeps=16)
+            scene["cloths"][0]["material"] = {"stretch": 50, "shear": 10}
+            report = self.run_json("simulate", self.write_scene(scene), "-o", "run")
+            self.assertEqual(report["residual"], {"median": 0, "max": 0})
+            self.assertEqual({row["iterations"] for row in self.table("run")}, {"0"})
+
     def test_interrupted_run_keeps_whole_frames_and_exits_130(self):
         scene = sheet_scene(frames=100000)
         scene["cloths"][0]["size"] = 33
@@ -96,6 +133,28 @@ class Simulate(SceneTest):
         self.assertGreater(frames, 1)
         self.assertEqual(len(data), 32 + 12 * points * frames)
         self.assertEqual([p for p in (self.folder / "run").iterdir() if ".part" in p.name], [])
+
+
+class Memory(SceneTest):
+    def test_estimate_is_within_a_quarter_of_what_a_run_takes(self):
+        if os.environ.get("WEFT_SANITIZE"):
+            self.skipTest("sanitizers take memory of their own")
+        body = {"name": "ring", "surface": "builtin:torus", "size": 257, "translate": [0, 0.5, 0]}
+        for size, integrator, bodies in ((257, "multigrid", [body]), (513, "multigrid", []), (257, "explicit", []),
+                                         (257, "two_level", []), (257, "implicit", []), (513, "implicit", [body])):
+            with self.subTest(f"{integrator} {size}"):
+                scene = sheet_scene(frames=1, substeps=1, integrator={"type": integrator}, bodies=bodies)
+                scene["cloths"][0]["size"] = size
+                report = self.run_json("simulate", self.write_scene(scene), "-o", "run")
+                ratio = report["estimated_memory_mb"] / report["peak_memory_mb"]
+                self.assertGreater(ratio, 0.75)
+                self.assertLess(ratio, 1.25)
+
+    def test_large_runs_say_what_they_will_take_and_too_large_ones_do_not_start(self):
+        scene = sheet_scene(cloths=[{"name": str(i), "surface": "builtin:sheet", "size": 8193} for i in range(99)])
+        line = self.error_of("simulate", self.write_scene(scene), "-o", "run", code=3)
+        self.assertRegex(line, r"scene.json: about [0-9.]+ GB of memory are needed, [0-9.]+ [GM]B are there")
+        self.assertFalse((self.folder / "run").exists())
 
 
 class BadScenes(SceneTest):

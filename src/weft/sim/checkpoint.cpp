@@ -1,5 +1,6 @@
 #include "weft/sim/checkpoint.h"
 
+#include <cstring>
 #include <ostream>
 #include <span>
 
@@ -18,6 +19,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "WEFTCKPT";
 constexpr std::uint32_t format_version = 1;
+constexpr std::size_t size_at = magic.size() + sizeof(format_version);
+constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
+constexpr std::size_t header_bytes = hash_at + sizeof(std::uint64_t);
 constexpr std::string_view weft_version = WEFT_VERSION;
 
 /// Every field of a frame's report in the order of the file: what is forgotten here would be lost
@@ -67,8 +71,7 @@ std::optional<ClothState> next_cloth(ByteReader& in) {
   return cloth;
 }
 
-std::string payload_of(const Checkpoint& checkpoint) {
-  ByteWriter out;
+void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   out.add_text(weft_version);
   out.add_text(checkpoint.identity);
   const Vec3d centre = checkpoint.start_centre;
@@ -79,7 +82,6 @@ std::string payload_of(const Checkpoint& checkpoint) {
     each_field(frame, [&](auto value) { out.add(value); });
   out.add(static_cast<std::uint32_t>(checkpoint.state.cloths.size()));
   for (const ClothState& cloth : checkpoint.state.cloths) add_cloth(cloth, out);
-  return out.bytes();
 }
 
 /// Nothing when the fields do not fit together, as in no file that Weft wrote.
@@ -114,12 +116,17 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
 fs::path checkpoint_path(const fs::path& folder) { return folder / "weft-checkpoint.bin"; }
 
 std::string encode_checkpoint(const Checkpoint& checkpoint) {
-  const std::string payload = payload_of(checkpoint);
   ByteWriter out;
+  out.add_bytes(magic);
   out.add(format_version);
-  out.add(static_cast<std::uint64_t>(payload.size()));
-  out.add(hash_of(payload));
-  return std::string(magic) + out.bytes() + payload;
+  out.add(std::uint64_t{0}), out.add(std::uint64_t{0});
+  add_payload(checkpoint, out);
+  std::string bytes = out.take();
+  const std::string_view payload = std::string_view(bytes).substr(header_bytes);
+  const std::uint64_t size = payload.size(), hash = hash_of(payload);
+  std::memcpy(bytes.data() + size_at, &size, sizeof(size));
+  std::memcpy(bytes.data() + hash_at, &hash, sizeof(hash));
+  return bytes;
 }
 
 Checkpoint decode_checkpoint(std::string_view bytes, const std::string& where) {

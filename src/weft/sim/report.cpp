@@ -60,6 +60,7 @@ std::string to_json(const RunReport& report) {
   json["centre_of_mass"] = Json::array();
   for (const Vec3d& c : report.centre_of_mass) json["centre_of_mass"].push_back({c.x, c.y, c.z});
   json["state_hash"] = report.state_hash;
+  json["estimated_memory_mb"] = 1e-6 * static_cast<double>(report.estimated_memory);
   json["outputs"] = Json::array();
   for (const auto& path : report.outputs) json["outputs"].push_back(path.string());
   // A path may hold any bytes, JSON only UTF-8.

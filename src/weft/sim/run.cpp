@@ -7,7 +7,9 @@
 
 #include "weft/core/error.h"
 #include "weft/core/files.h"
+#include "weft/core/memory.h"
 #include "weft/sim/checkpoint.h"
+#include "weft/sim/memory_estimate.h"
 #include "weft/sim/recorder.h"
 #include "weft/sim/run_identity.h"
 #include "weft/sim/scene_file.h"
@@ -206,6 +208,8 @@ class Run {
 
 RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options) {
   check_exports(options);
+  const std::uint64_t memory = estimate_memory(scene);
+  if (const auto available = available_memory()) check_memory(memory, *available, name);
   make_folder(options.folder);
   const FolderLock lock(options.folder);
   std::optional<Checkpoint> found;
@@ -216,7 +220,9 @@ RunReport run_scene(const Scene& scene, const std::string& name, const RunOption
   } else {
     run.start();
   }
-  return run.go();
+  RunReport report = run.go();
+  report.estimated_memory = memory;
+  return report;
 }
 
 }  // namespace weft

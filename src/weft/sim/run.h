@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -35,6 +36,7 @@ struct RunReport {
   int intersections = 0;  ///< triangle pairs, last frame; with verify: of the worst frame
   std::vector<Vec3d> centre_of_mass;  ///< frame 0 first
   std::string state_hash;
+  std::uint64_t estimated_memory = 0;  ///< before the start [bytes]
   std::vector<std::string> notes;
   std::vector<std::filesystem::path> outputs;
 };
@@ -46,7 +48,8 @@ struct RunReport {
 /// checkpoint of the last of them. A run that was killed goes on at its last checkpoint; either way
 /// it ends in the bits and the report (but for times) of one that never stopped.
 /// @throws UsageError for an export that is not known; OutputError; what Simulation throws;
-/// InputError for a checkpoint that is damaged, of another version or another scene; Interrupted
+/// SceneError when the memory that is there can certainly not hold it; InputError for a checkpoint
+/// that is damaged, of another version or another scene; Interrupted
 RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options);
 
 }  // namespace weft

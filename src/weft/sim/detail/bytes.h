@@ -1,13 +1,12 @@
 #pragma once
 
 #include <bit>
-#include <concepts>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace weft {
 
@@ -27,11 +26,13 @@ class ByteWriter {
     bytes_.append(reinterpret_cast<const char*>(values),
                   sizeof(float) * static_cast<std::size_t>(count));
   }
+  void add_bytes(std::string_view bytes) { bytes_.append(bytes); }
   void add_text(std::string_view text) {
     add(static_cast<std::uint64_t>(text.size()));
-    bytes_.append(text);
+    add_bytes(text);
   }
-  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+  /// All that was added; the writer is empty afterwards.
+  [[nodiscard]] std::string take() { return std::move(bytes_); }
 
  private:
   std::string bytes_;

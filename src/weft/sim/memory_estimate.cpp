@@ -1,0 +1,62 @@
+#include "weft/sim/memory_estimate.h"
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/image/convert.h"
+#include "weft/image/io/image_file.h"
+
+namespace weft {
+namespace {
+
+// Measured as the most that a run held, by size; the test of the program compares them again.
+constexpr double program_bytes = 10e6;
+constexpr double body_bytes_per_sample = 370;
+/// Every cloth has a table of every body.
+constexpr double table_bytes_per_sample = 110;
+constexpr double margin = 1.25, short_share = 0.8;
+
+struct BytesPerSample {
+  double operator()(const ExplicitOptions&) const { return 340; }
+  double operator()(const TwoLevelOptions&) const { return 350; }
+  double operator()(const MultigridOptions&) const { return 620; }
+  double operator()(const ImplicitOptions&) const { return 770; }
+};
+
+double samples_of(const std::string& surface, int size) {
+  const double side = is_image_name(surface) ? read_image(surface).size() : size;
+  return side * side;
+}
+
+}  // namespace
+
+std::uint64_t estimate_memory(const Scene& scene) {
+  const double per_sample = std::visit(BytesPerSample{}, scene.integrator);
+  double bytes = program_bytes;
+  for (const SceneCloth& cloth : scene.cloths)
+    bytes += per_sample * samples_of(cloth.surface, cloth.size);
+  const double per_body_sample =
+      body_bytes_per_sample + table_bytes_per_sample * static_cast<double>(scene.cloths.size());
+  for (const SceneBody& body : scene.bodies)
+    bytes += per_body_sample * samples_of(body.surface, body.size);
+  return static_cast<std::uint64_t>(bytes);
+}
+
+void check_memory(std::uint64_t bytes, std::uint64_t available, const std::string& scene) {
+  if (static_cast<double>(bytes) <= margin * static_cast<double>(available)) return;
+  throw SceneError(scene,
+                   fmt::format("about {} of memory are needed, {} are there", memory_text(bytes),
+                               memory_text(available)),
+                   "smaller sizes are wanted");
+}
+
+bool is_memory_short(std::uint64_t bytes, std::uint64_t available) {
+  return static_cast<double>(bytes) > short_share * static_cast<double>(available);
+}
+
+std::string memory_text(std::uint64_t bytes) {
+  const double mb = 1e-6 * static_cast<double>(bytes);
+  return mb < 1000 ? fmt::format("{:.0f} MB", mb) : fmt::format("{:.1f} GB", mb / 1000);
+}
+
+}  // namespace weft
