@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
+#include "tests/cloth/filter_residual.h"
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/integrate/filter_matrix.h"
 #include "weft/cloth/integrate/viscous_springs.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/measure.h"
 #include "weft/cloth/multigrid/filter.h"
-#include "weft/cloth/multigrid/filter_rows.h"
 #include "weft/core/error.h"
 
 namespace weft {
@@ -34,18 +34,18 @@ Planes3 forces_of(const Cloth& cloth, const ClothState& state) {
 
 /// A^-1 b by V-cycles until nothing changes, A = M / h^2 + sum k; b given by own parts.
 Planes3 filtered_by_cycles(const Cloth& cloth, const Planes3& b) {
-  MultigridFilter filter(cloth, frame);
+  ThreadTeam team(1);
+  MultigridFilter filter(cloth, {frame}, team);
   std::vector<FilterLevel> levels = make_filter_levels(cloth, frame);
   Grid<float> moves(cloth.size, cloth.size, 1);
   for (const Pin& held : cloth.pins)
     for (const int s : held.copies) moves(s / cloth.size, s % cloth.size) = 0;
   renew_weights(levels, moves);
   Planes3 x(cloth.size);
-  ThreadTeam team(1);
   for (int cycle = 0; cycle < 60; ++cycle) {
     Planes3& right = filter.right();
-    for (int r = 0; r < cloth.size; ++r)
-      residual_row(levels.front(), x, b, r, {right.x.row(r), right.y.row(r), right.z.row(r)});
+    right = filter_residual(levels.front(), b, x);
+    sum_over_mates(cloth.mates, {&right.x, &right.y, &right.z});
     for (const Pin& held : cloth.pins)
       for (const int s : held.copies) right.set(s, {});
     team.run([&](Worker& worker) { filter.cycle(worker); });

@@ -1,11 +1,9 @@
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
+#include "tests/cloth/filter_residual.h"
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/multigrid/filter.h"
-#include "weft/cloth/neighbours.h"
 
 namespace weft {
 namespace {
@@ -25,14 +23,7 @@ struct Filter {
 
   /// Own part of b - A x, 0 where held. @param b  own part too
   Planes3 residual(const Planes3& b, const Planes3& x) {
-    const int n = cloth.size;
-    Planes3 out(n);
-    for (int r = 0; r < n; ++r)
-      kernels_for(InstructionSet::baseline)
-          .apply(n, levels.front().operator_row(r),
-                 {row_of(x, std::max(0, r - 1)), row_of(x, r), row_of(x, std::min(n - 1, r + 1))},
-                 row_of(out, r));
-    for (int s = 0; s < n * n; ++s) out.set(s, out.at(s) + b.at(s));
+    Planes3 out = filter_residual(levels.front(), b, x);
     for (const int s : held) out.set(s, {});
     return out;
   }
