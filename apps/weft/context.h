@@ -5,6 +5,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "weft/core/instruction_set.h"
+
 namespace weft::app {
 
 /// The global options, the same for every command.
@@ -12,6 +14,7 @@ struct Context {
   bool json = false;
   bool quiet = false;
   int threads = 1;
+  InstructionSet instructions = best_instruction_set();
   std::uint64_t seed = 1;
 };
 

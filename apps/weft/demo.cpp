@@ -88,6 +88,7 @@ void show_drape(Demo& demo, const Shown& shown) {
   RunOptions options;
   options.folder = run_folder;
   options.threads = demo.context.threads;
+  options.instructions = demo.context.instructions;
   options.progress = &demo.progress;
   options.checkpoint_frames = 0;
   const RunReport run = run_scene(scene, (run_folder / "scene.json").string(), options);

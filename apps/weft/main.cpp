@@ -17,6 +17,12 @@ int fail(ExitCode code, std::string_view what) {
   return static_cast<int>(code);
 }
 
+std::string check_instructions(const std::string& name) {
+  const auto set = find_instruction_set(name);
+  if (!set) return "'" + name + "' is none of baseline, avx2, avx512";
+  return has_instruction_set(*set) ? "" : "this processor has no " + name;
+}
+
 void add_globals(CLI::App& program, Context& context) {
   program.add_flag("--json", context.json,
                    "Print one JSON object on stdout and nothing else there");
@@ -24,6 +30,15 @@ void add_globals(CLI::App& program, Context& context) {
   program.add_option("--threads", context.threads, "Threads; results do not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  program
+      .add_option_function<std::string>(
+          "--instructions",
+          [&context](const std::string& name) {
+            context.instructions = *find_instruction_set(name);
+          },
+          "Widest vectors to step cloth with: baseline, avx2 or avx512; results do not depend on "
+          "it")
+      ->check(check_instructions);
   program
       .add_option("--seed", context.seed,
                   "Of anything random: the samples that distances are measured by")

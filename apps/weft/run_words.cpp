@@ -64,6 +64,7 @@ RunOptions options_of(const RunWords& words, const Context& context, Progress& p
   options.unwelded = words.unwelded;
   options.verify = words.verify;
   options.threads = context.threads;
+  options.instructions = context.instructions;
   options.progress = &progress;
   options.checkpoint_frames = words.checkpoint;
   options.resume = words.resume;

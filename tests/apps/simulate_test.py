@@ -47,6 +47,15 @@ class Simulate(SceneTest):
             t = frame / 60
             self.assertAlmostEqual(y, 1 - 9.81 * t * (t + h) / 2, delta=2e-6)
 
+    def test_every_instruction_set_gives_the_same_hash_and_unknown_ones_are_usage_errors(self):
+        scene = self.write_scene(sheet_scene(integrator={"type": "multigrid"}, ground=0.95))
+        flags = pathlib.Path("/proc/cpuinfo").read_text()
+        there = ["baseline"] + ["avx2"] * (" avx2 " in flags) + ["avx512"] * (" avx512bw " in flags)
+        hashes = {self.run_json("simulate", scene, "-o", f"run-{name}", "--instructions", name)["state_hash"]
+                  for name in there}
+        self.assertEqual(len(hashes), 1, there)
+        self.assertIn("sse9", self.error_of("simulate", scene, "-o", "none", "--instructions", "sse9", code=2))
+
     def test_every_integrator_gives_the_same_hash_on_one_and_two_threads(self):
         hanging = sheet_scene(frames=10)
         hanging["cloths"][0]["pins"] = [{"image": [0, 0]}, {"image": [1, 0]}]

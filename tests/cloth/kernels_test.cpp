@@ -42,7 +42,7 @@ TEST(Kernels, EveryInstructionSetAndTeamGivesTheSameBits) {
         for (const InstructionSet set : instruction_sets())
           for (const int threads : {1, 2, 3, 7}) {
             if (!has_instruction_set(set)) continue;
-            ThreadTeam team(threads, set);
+            ThreadTeam team({threads, set});
             const std::string hash = hash_after_steps(cloth, team);
             if (first.empty()) first = hash;
             ASSERT_EQ(hash, first) << name_of(set) << ", " << threads << " threads, " << n;

@@ -29,7 +29,7 @@ TEST(SceneFile, EmptyClothIsTheDefaults) {
   EXPECT_EQ(scene.frame_rate, 60);
   EXPECT_EQ(scene.substeps, 4);
   EXPECT_EQ(scene.ground, 0.0);
-  EXPECT_TRUE(std::holds_alternative<ImplicitOptions>(scene.integrator));
+  EXPECT_TRUE(std::holds_alternative<MultigridOptions>(scene.integrator));
   ASSERT_EQ(scene.cloths.size(), 1);
   EXPECT_EQ(scene.cloths[0].surface, "builtin:sheet");
   EXPECT_EQ(scene.cloths[0].size, 257);
@@ -277,7 +277,7 @@ TEST(SceneSchema, DefaultsAreTheReadersDefaults) {
   check(schema["properties"], json);
   check(schema["$defs"]["cloth"]["properties"], json["cloths"][0]);
   check(schema["$defs"]["material"]["properties"], json["cloths"][0]["material"]);
-  check(schema["$defs"]["implicit"]["properties"], json["integrator"]);
+  check(schema["$defs"]["multigrid"]["properties"], json["integrator"]);
   check(schema["$defs"]["collider"]["properties"], json["collider"]);
 }
 

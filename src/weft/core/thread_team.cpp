@@ -4,11 +4,12 @@
 
 namespace weft {
 
-ThreadTeam::ThreadTeam(int size, InstructionSet set) : size_(size), set_(set) {
-  WEFT_ASSERT(size >= 1);
-  WEFT_ASSERT(has_instruction_set(set));
-  threads_.reserve(static_cast<std::size_t>(size - 1));
-  for (int rank = 1; rank < size; ++rank) threads_.emplace_back([this, rank] { serve(rank); });
+ThreadTeam::ThreadTeam(const TeamOptions& options)
+    : size_(options.size), set_(options.instructions) {
+  WEFT_ASSERT(size_ >= 1);
+  WEFT_ASSERT(has_instruction_set(set_));
+  threads_.reserve(static_cast<std::size_t>(size_ - 1));
+  for (int rank = 1; rank < size_; ++rank) threads_.emplace_back([this, rank] { serve(rank); });
 }
 
 ThreadTeam::~ThreadTeam() {

@@ -20,6 +20,17 @@ struct Range {
 
 class ThreadTeam;
 
+/// How many work, and how wide their hands are.
+struct TeamOptions {
+  int size = 1;  ///< threads, >= 1
+  /// Of the inner loops; this processor must have it.
+  InstructionSet instructions = best_instruction_set();
+
+  TeamOptions(int threads,  // NOLINT(google-explicit-constructor): most say no more
+              InstructionSet set = best_instruction_set())
+      : size(threads), instructions(set) {}
+};
+
 /// One member of a team inside a parallel region.
 class Worker {
  public:
@@ -45,9 +56,7 @@ class Worker {
 /// thread.
 class ThreadTeam {
  public:
-  /// @param size  threads, >= 1
-  /// @param set   what the members' inner loops use; this processor must have it
-  explicit ThreadTeam(int size, InstructionSet set = best_instruction_set());
+  explicit ThreadTeam(const TeamOptions& options);
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
   ~ThreadTeam();

@@ -77,7 +77,7 @@ class Run {
         options_(options),
         path_(checkpoint_path(options.folder)),
         clock_(options.checkpoint_frames),
-        simulation_(scene, name, options.threads, options.progress),
+        simulation_(scene, name, {options.threads, options.instructions}, options.progress),
         report_(start_report(simulation_, scene, name, options.threads)) {
     if (!clock_.off() || options.resume)
       point_.identity = run_identity(scene, simulation_, options);

@@ -17,6 +17,7 @@ struct RunOptions {
   bool unwelded = false;  ///< write every sample instead of joining mates
   bool verify = false;    ///< count intersections in every frame, not in the last one only
   int threads = 1;
+  InstructionSet instructions = best_instruction_set();
   Progress* progress = nullptr;
   /// Frames between two checkpoints; 0: none; nothing: every five seconds.
   std::optional<int> checkpoint_frames{};

@@ -75,7 +75,7 @@ struct Scene {
   int frames = 120;
   std::optional<double> ground = 0.0;
   std::optional<WindOptions> wind;  ///< none: no air
-  IntegratorOptions integrator = ImplicitOptions{};
+  IntegratorOptions integrator;
   std::optional<int> limiter_passes;  ///< a step; none: what suits the integrator
   ColliderOptions collider = PolarMapOptions{};
   std::vector<SceneCloth> cloths;

@@ -78,11 +78,12 @@ struct Mover {
 }  // namespace
 
 struct Simulation::Parts {
-  Parts(const Scene& given_scene, std::string given_name, int threads, Progress* given_progress)
+  Parts(const Scene& given_scene, std::string given_name, const TeamOptions& given_team,
+        Progress* given_progress)
       : scene(given_scene),
         name(std::move(given_name)),
         progress(given_progress),
-        team(threads),
+        team(given_team),
         time_step(1 / (scene.frame_rate * scene.substeps)),
         soft(std::holds_alternative<TwoLevelOptions>(scene.integrator)),
         limiter{scene.limiter_passes.value_or(soft ? passes_of_soft_springs
@@ -282,8 +283,9 @@ void Simulation::Parts::measure(FrameReport& report) {
   report.centre_of_mass = centre();
 }
 
-Simulation::Simulation(const Scene& scene, const std::string& name, int threads, Progress* progress)
-    : parts_(std::make_unique<Parts>(scene, name, threads, progress)) {
+Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOptions& team,
+                       Progress* progress)
+    : parts_(std::make_unique<Parts>(scene, name, team, progress)) {
   if (scene.cloths.empty()) throw SceneError(name, "no cloth", "at least one is wanted");
   parts_->load_cloths();
   parts_->load_bodies();

@@ -6,6 +6,7 @@
 
 #include "weft/cloth/measure.h"
 #include "weft/core/progress.h"
+#include "weft/core/thread_team.h"
 #include "weft/image/convert.h"
 #include "weft/sim/scene.h"
 
@@ -49,7 +50,7 @@ struct SimulationState {
 class Simulation {
  public:
   /// Loads every surface. @throws SceneError, InputError, TopologyError
-  Simulation(const Scene& scene, const std::string& name, int threads,
+  Simulation(const Scene& scene, const std::string& name, const TeamOptions& team,
              Progress* progress = nullptr);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;

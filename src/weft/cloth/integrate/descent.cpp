@@ -30,6 +30,7 @@ Descent::Descent(const Cloth& cloth, double time_step, ThreadTeam& team)
       filter_(cloth, {time_step}, team),
       contacts_(cloth.size),
       springs_(cloth, team),
+      bending_(cloth),
       start_(rest_state(cloth)),
       next_(rest_state(cloth)),
       fall_(cloth.size),
@@ -128,10 +129,12 @@ void Descent::settle_row(float way, int row) {
 
 double Descent::look(Worker& worker) {
   const SpringRows::Motion motion{next_.position, start_.position, input_.time_step};
+  bending_.curve(next_.position, worker);
   springs_.begin(motion, worker);
   const double along = sums_.sum(worker, [&](int r) {
     const Row3 out = row_of(far_residual_, r);
     copy_row(springs_.row(motion, r, worker), out, cloth_.size);
+    bending_.add_row(1, r, far_residual_);
     return kernels_.inertia(cloth_.size, filter_.mass_weight().row(r),
                             row_of(std::as_const(move_), r), row_of(std::as_const(direction_), r),
                             out);

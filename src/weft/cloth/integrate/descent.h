@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "weft/cloth/bending.h"
 #include "weft/cloth/integrate/contact_filter.h"
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/integrate/spring_rows.h"
@@ -12,7 +13,7 @@
 namespace weft {
 
 /// One step of implicit Euler with the springs as they are, by descending in its energy
-///   E(x) = |x - y|^2_M / (2 h^2) + springs(x) + damping(x),  y = x0 + h v + h^2 g,
+///   E(x) = |x - y|^2_M / (2 h^2) + springs(x) + bending(x) + damping(x),  y = x0 + h v + h^2 g,
 /// from x = y on: conjugate gradients [fletcher64], preconditioned by the multigrid filter, with a
 /// secant step along each direction. The gradient at the step's end is taken as linear between
 /// those at both ends of the secant, so an iteration costs one V-cycle and one pass over the
@@ -72,6 +73,7 @@ class Descent {
   MultigridFilter filter_;
   ContactFilter contacts_;
   SpringRows springs_;
+  BendingPass bending_;
   StepInput input_;
   ClothState start_, next_;
   Planes3 fall_, move_, direction_;  // y, z, d [m]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "weft/cloth/bending.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/mip_levels.h"
 #include "weft/cloth/neighbours.h"
@@ -16,7 +17,6 @@ FilterLevel empty_level(const BorderMates& mates) {
   const int n = mates.size();
   FilterLevel level;
   level.mates = mates;
-  for (Grid<float>& plane : level.edge) plane = Grid<float>(n, n);
   for (Grid<float>* plane : {&level.own_weight, &level.own_diagonal, &level.inverse_diagonal})
     *plane = Grid<float>(n, n);
   level.zeros = Grid<float>(1, n);
@@ -35,23 +35,20 @@ float at(const Grid<float>& plane, int row, int col) {
   return inside ? plane(row, col) : 0.0F;
 }
 
+using Edges = std::array<Grid<float>, 4>;
+
 /// What fine edges along a line add up to on one coarse edge, when both bound the same linear
 /// field: a fine edge sees half of its difference. Across the line weights are 1/2 1 1/2.
-struct Line {
-  const FilterLevel& fine;
-  int direction;
-  [[nodiscard]] float edge(int row, int col) const {
-    const auto [down, right] = spring_offsets[direction];
-    float sum = 0;
-    for (int side = -1; side <= 1; ++side) {
-      const float share = side == 0 ? 1.0F : 0.5F;
-      const int r = 2 * row + side * right, c = 2 * col + side * down;
-      const Grid<float>& first = fine.edge[direction];
-      sum += share * 0.25F * (at(first, r, c) + at(first, r + down, c + right));
-    }
-    return sum;
+float line_edge(const Grid<float>& fine, SpringOffset offset, int row, int col) {
+  const auto [down, right] = offset;
+  float sum = 0;
+  for (int side = -1; side <= 1; ++side) {
+    const float share = side == 0 ? 1.0F : 0.5F;
+    const int r = 2 * row + side * right, c = 2 * col + side * down;
+    sum += share * 0.25F * (at(fine, r, c) + at(fine, r + down, c + right));
   }
-};
+  return sum;
+}
 
 /// The mean of a coarse cell's four fine diagonals; `right` -1 for those that run to the left.
 float diagonal_edge(const Grid<float>& fine, int row, int col, int right) {
@@ -60,17 +57,26 @@ float diagonal_edge(const Grid<float>& fine, int row, int col, int right) {
                   at(fine, r + 1, c + right));
 }
 
-void coarsen_edges(const FilterLevel& fine, FilterLevel& coarse) {
-  const int n = coarse.size();
-  for (int r = 0; r < n; ++r)
-    for (int c = 0; c < n; ++c) {
-      if (c + 1 < n) coarse.edge[stretch_u](r, c) = Line{fine, stretch_u}.edge(r, c);
-      if (r + 1 < n) coarse.edge[stretch_v](r, c) = Line{fine, stretch_v}.edge(r, c);
-      if (r + 1 < n && c + 1 < n)
-        coarse.edge[shear_1](r, c) = diagonal_edge(fine.edge[shear_1], r, c, 1);
-      if (r + 1 < n && c > 0)
-        coarse.edge[shear_2](r, c) = diagonal_edge(fine.edge[shear_2], r, c, -1);
-    }
+/// @return factor times the edges of the next coarser level
+Edges coarsened(const Edges& fine, float factor) {
+  const int n = (fine[0].rows() - 1) / 2 + 1;
+  Edges coarse;
+  for (Grid<float>& plane : coarse) plane = Grid<float>(n, n);
+  for (int d = 0; d < bend_u; ++d) {
+    const auto [down, right] = spring_offsets[d];
+    const bool diagonal = down != 0 && right != 0;
+    for (int r = 0; r + down < n; ++r)
+      for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c)
+        coarse[d](r, c) = factor * (diagonal ? diagonal_edge(fine[d], r, c, right)
+                                             : line_edge(fine[d], spring_offsets[d], r, c));
+  }
+  return coarse;
+}
+
+void add_edges(const Edges& more, Edges& edges) {
+  for (int d = 0; d < bend_u; ++d)
+    for (int r = 0; r < edges[d].rows(); ++r)
+      for (int c = 0; c < edges[d].cols(); ++c) edges[d](r, c) += more[d](r, c);
 }
 
 void add_ends(const Grid<float>& edges, SpringOffset offset, Grid<float>& diagonal) {
@@ -126,6 +132,30 @@ void add_second_neighbours(const Grid<float>& second, SpringOffset offset, Grid<
     }
 }
 
+Edges spring_edges(const Cloth& cloth, double time_step) {
+  Edges edges;
+  for (int d = 0; d < bend_u; ++d) edges[d] = conductance(cloth.springs[d], time_step);
+  for (const int d : {bend_u, bend_v})
+    add_second_neighbours(conductance(cloth.springs[d], time_step), spring_offsets[d],
+                          edges[d - bend_u]);
+  return edges;
+}
+
+Edges bending_edges(const Cloth& cloth) {
+  Edges edges;
+  for (int d = 0; d < bend_u; ++d) edges[d] = bending_bound(cloth, static_cast<SpringDirection>(d));
+  return edges;
+}
+
+void set_masses(const Cloth& cloth, double time_step, FilterLevel& level) {
+  const auto per_step = static_cast<float>(1 / (time_step * time_step));
+  for (int r = 0; r < cloth.size; ++r)
+    for (int c = 0; c < cloth.size; ++c) {
+      const float* share = level.share_row(r);
+      level.own_weight(r, c) = per_step * cloth.mass(r, c) * (share == nullptr ? 1.0F : share[c]);
+    }
+}
+
 }  // namespace
 
 OperatorRow FilterLevel::operator_row(int row) const {
@@ -145,23 +175,20 @@ StencilRows FilterLevel::stencil_rows(int row) const {
 std::vector<FilterLevel> make_filter_levels(const Cloth& cloth, double time_step) {
   std::vector<FilterLevel> levels;
   levels.push_back(empty_level(cloth.mates));
-  FilterLevel& finest = levels.back();
-  for (int d = 0; d < 4; ++d) finest.edge[d] = conductance(cloth.springs[d], time_step);
-  for (int d = 0; d < 2; ++d)
-    add_second_neighbours(conductance(cloth.springs[bend_u + d], time_step),
-                          spring_offsets[bend_u + d], finest.edge[d]);
-  const auto per_step = static_cast<float>(1 / (time_step * time_step));
-  const bool shared = finest.share.rows() > 0;
-  for (int r = 0; r < cloth.size; ++r)
-    for (int c = 0; c < cloth.size; ++c)
-      finest.own_weight(r, c) = per_step * cloth.mass(r, c) * (shared ? finest.share(r, c) : 1.0F);
+  Edges springs = spring_edges(cloth, time_step), bending = bending_edges(cloth);
+  levels.back().edge = springs;
+  add_edges(bending, levels.back().edge);
+  set_masses(cloth, time_step, levels.back());
   while (levels.back().size() % 2 == 1 && levels.back().size() > coarsest_size) {
     const BorderMates& mates = levels.back().mates;
     const bool matched = halves(mates);
     FilterLevel coarse =
         empty_level(matched ? halved(mates) : BorderMates((mates.size() - 1) / 2 + 1, {}));
     coarse.matched = matched;
-    coarsen_edges(levels.back(), coarse);
+    springs = coarsened(springs, 1);
+    bending = coarsened(bending, 0.25F);
+    coarse.edge = springs;
+    add_edges(bending, coarse.edge);
     levels.push_back(std::move(coarse));
   }
   return levels;
