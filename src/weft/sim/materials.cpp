@@ -5,17 +5,15 @@
 namespace weft {
 namespace {
 
-// Area densities are those that fabrics of the kind are sold at: shirting cotton 120 to 170 g/m^2;
-// silk by the momme (4.34 g/m^2), 16 momme for blouses; wool suiting 240 to 300 g/m^2; denim by the
-// ounce a square yard (33.9 g/m^2), 12 ounces for trousers; garment leather of 1 mm at about 0.75
-// g/cm^3. Membrane stiffnesses keep the fabrics' order, far below their true tens of kN/m, which no
-// eye tells from these; the strain limit does the rest.
-constexpr std::array<NamedMaterial, 5> materials{{
+// Densities and bending stiffnesses are those of real fabrics, with their sources in
+// docs/materials.md. Membrane stiffnesses keep the fabrics' order, far below their true tens of
+// kN/m, which no eye tells from these; the strain limit does the rest.
+constexpr std::array<NamedMaterial, 9> materials{{
     {"cotton",
      {.density = 0.15,
       .stretch = 2000,
       .shear = 400,
-      .bend_springs = 0.5,
+      .bending = 1.2e-5,
       .damping = 2,
       .strain_limit = 0.05,
       .thickness = 0.002}},
@@ -23,7 +21,7 @@ constexpr std::array<NamedMaterial, 5> materials{{
      {.density = 0.07,
       .stretch = 1500,
       .shear = 150,
-      .bend_springs = 0.05,
+      .bending = 2.5e-6,
       .damping = 1,
       .strain_limit = 0.05,
       .thickness = 0.002}},
@@ -31,7 +29,7 @@ constexpr std::array<NamedMaterial, 5> materials{{
      {.density = 0.27,
       .stretch = 1500,
       .shear = 300,
-      .bend_springs = 0.8,
+      .bending = 1.2e-5,
       .damping = 3,
       .strain_limit = 0.08,
       .thickness = 0.0025}},
@@ -39,17 +37,49 @@ constexpr std::array<NamedMaterial, 5> materials{{
      {.density = 0.41,
       .stretch = 4000,
       .shear = 1200,
-      .bend_springs = 3,
+      .bending = 6e-5,
       .damping = 3,
       .strain_limit = 0.03,
       .thickness = 0.0025}},
     {"leather",
-     {.density = 0.75,
+     {.density = 0.6,
       .stretch = 5000,
       .shear = 2500,
-      .bend_springs = 6,
+      .bending = 8e-5,
       .damping = 4,
       .strain_limit = 0.05,
+      .thickness = 0.003}},
+    {"linen",
+     {.density = 0.18,
+      .stretch = 2500,
+      .shear = 400,
+      .bending = 2e-5,
+      .damping = 2,
+      .strain_limit = 0.03,
+      .thickness = 0.002}},
+    {"jersey",
+     {.density = 0.187,
+      .stretch = 800,
+      .shear = 300,
+      .bending = 6e-6,
+      .damping = 3,
+      .strain_limit = 0.1,
+      .thickness = 0.002}},
+    {"chiffon",
+     {.density = 0.04,
+      .stretch = 1200,
+      .shear = 100,
+      .bending = 8e-7,
+      .damping = 1,
+      .strain_limit = 0.05,
+      .thickness = 0.002}},
+    {"canvas",
+     {.density = 0.5,
+      .stretch = 5000,
+      .shear = 2000,
+      .bending = 0.00015,
+      .damping = 3,
+      .strain_limit = 0.03,
       .thickness = 0.003}},
 }};
 

@@ -92,6 +92,7 @@ Sheet make_sheet(int n) {
   material.density = density;
   material.stretch = sheet.stiffness;
   material.shear = 2 * sheet.stiffness;
+  material.bending = 0;  // the paper's springs alone
   material.bend_springs = sheet.stiffness;
   material.damping = 0;
   sheet.cloth = make_cloth(flat_positions(n), BorderMates(n, {}), material);
