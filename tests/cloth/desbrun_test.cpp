@@ -19,7 +19,8 @@ constexpr double frame = 1.0 / 60;
 /// Own part of the forces of the cloth's springs with implicit Euler's viscous term, summed over
 /// mates.
 Planes3 forces_of(const Cloth& cloth, const ClothState& state) {
-  ViscousSprings springs;
+  ThreadTeam team(1);
+  ViscousSprings springs(cloth, team);
   Planes3 force(cloth.size);
   for (int d = 0; d < spring_directions; ++d) {
     springs.stiffness[d] = springs.viscosity[d] = cloth.springs[d].stiffness;
@@ -28,7 +29,7 @@ Planes3 forces_of(const Cloth& cloth, const ClothState& state) {
         springs.viscosity[d](r, c) =
             static_cast<float>(frame) * springs.stiffness[d](r, c) + cloth.springs[d].damping(r, c);
   }
-  for (int r = 0; r < cloth.size; ++r) gather_viscous(cloth, springs, r, state, force);
+  for (int r = 0; r < cloth.size; ++r) springs.gather_row(r, state, force);
   return force;
 }
 

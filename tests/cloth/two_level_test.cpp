@@ -88,10 +88,12 @@ TEST(TwoLevel, SlidingPatchTakesTheRowOfItsPlace) {
   const double ratio = 0.4;
   const Grid<float> w = matrix_of(patch(size, ratio));
   ThreadTeam team(1);
-  const LocalFilter filter(n, size, ratio, team);
+  LocalFilter filter(n, size, ratio, team);
   Planes3 in(n), out(n);
   shake(sheet_cloth(n), 1, in);
-  for (int r = 0; r < n; ++r) filter.apply_row(in, out, r);
+  team.run([&](Worker& worker) {
+    for (int r = 0; r < n; ++r) filter.apply_row(in, out, r, worker);
+  });
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
       const int top = std::clamp(r - 2, 0, n - size), left = std::clamp(c - 2, 0, n - size);
@@ -120,8 +122,8 @@ TEST(TwoLevel, GlobalFilterLeavesUniformFieldsAlone) {
 
 Moments moments_of(const Cloth& cloth, const Planes3& x, const Planes3& a) {
   Moments result;
-  MomentSums sums(cloth.size);
   ThreadTeam team(1);
+  MomentSums sums(cloth.size, team);
   team.run([&](Worker& worker) { result = sums.sum(cloth, x, a, worker); });
   return result;
 }

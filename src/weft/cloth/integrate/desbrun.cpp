@@ -1,11 +1,12 @@
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "weft/cloth/integrate/dense_product.h"
 #include "weft/cloth/integrate/filter_matrix.h"
 #include "weft/cloth/integrate/filtered_integrator.h"
 #include "weft/cloth/integrate/proposal.h"
+#include "weft/cloth/integrate/vectors3.h"
 #include "weft/core/error.h"
 
 namespace weft {
@@ -86,8 +87,8 @@ class Desbrun final : public FilteredIntegrator {
     for (int p = particles.first; p < particles.last; ++p)
       before_.set(p, acceleration.at(sample_of_[p]));
     worker.barrier();
-    for (int p = particles.first; p < particles.last; ++p)
-      after_.set(p, row_times(matrix_.row(p), matrix_.stride(), before_));
+    kernels_.dense_rows(particles.first, particles.last, {matrix_.row(0), matrix_.stride()},
+                        std::as_const(before_).rows(), after_.rows());
     worker.barrier();
     const int n = cloth_.size;
     const Range rows = worker.share(n);

@@ -11,10 +11,12 @@ namespace weft {
 FilteredIntegrator::FilteredIntegrator(const Cloth& cloth, ThreadTeam& team)
     : cloth_(cloth),
       team_(team),
+      kernels_(filtering_kernels_for(team.instructions())),
+      springs_(cloth, team),
       acceleration_(cloth.size),
       filtered_(cloth.size),
       next_(rest_state(cloth)),
-      sums_(cloth.size) {}
+      sums_(cloth.size, team) {}
 
 void FilteredIntegrator::begin(const StepInput& input, const ClothState& state) noexcept {
   const Stopwatch watch;
@@ -51,23 +53,14 @@ void FilteredIntegrator::average(Planes3& planes, Worker& worker) const {
 
 void FilteredIntegrator::accelerate(const ClothState& state, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r)
-    gather_viscous(cloth_, springs_, r, state, acceleration_);
+  for (int r = mine.first; r < mine.last; ++r) springs_.gather_row(r, state, acceleration_);
   if (cloth_.mates.class_count() > 0) {
     worker.barrier();
     sum_over_mates(cloth_.mates, worker, {&acceleration_.x, &acceleration_.y, &acceleration_.z});
     worker.barrier();
   }
-  for (int r = mine.first; r < mine.last; ++r) {
-    const Row3 a = row_of(acceleration_, r);
-    const float* inverse_mass = cloth_.inverse_mass.row(r);
-#pragma omp simd
-    for (int c = 0; c < cloth_.size; ++c) {
-      a.x[c] *= inverse_mass[c];
-      a.y[c] *= inverse_mass[c];
-      a.z[c] *= inverse_mass[c];
-    }
-  }
+  for (int r = mine.first; r < mine.last; ++r)
+    kernels_.scale(cloth_.size, cloth_.inverse_mass.row(r), row_of(acceleration_, r));
 }
 
 void FilteredIntegrator::advance(const ClothState& state, Worker& worker) {
@@ -79,23 +72,17 @@ void FilteredIntegrator::advance(const ClothState& state, Worker& worker) {
 }
 
 void FilteredIntegrator::advance_row(const ClothState& state, const Corrections& add, int row) {
-  const auto h = static_cast<float>(input_.time_step);
-  const ConstRow3 x = row_of(state.position, row), v = row_of(state.velocity, row);
-  const ConstRow3 a = row_of(std::as_const(filtered_), row);
-  const Row3 x1 = row_of(next_.position, row), v1 = row_of(next_.velocity, row);
-  const Vec3f centre = vec_cast<float>(add.both.centre);
+  const Vec3f centre = vec_cast<float>(add.both.centre), turn = vec_cast<float>(add.both.turn);
   const Vec3f linear = input_.gravity + vec_cast<float>(add.both.linear);
-  const Vec3f turn = vec_cast<float>(add.both.turn);
-#pragma omp simd
-  for (int c = 0; c < cloth_.size; ++c) {
-    const float dx = x.x[c] - centre.x, dy = x.y[c] - centre.y, dz = x.z[c] - centre.z;
-    v1.x[c] = v.x[c] + h * (a.x[c] + linear.x + (dy * turn.z - dz * turn.y));
-    v1.y[c] = v.y[c] + h * (a.y[c] + linear.y + (dz * turn.x - dx * turn.z));
-    v1.z[c] = v.z[c] + h * (a.z[c] + linear.z + (dx * turn.y - dy * turn.x));
-    x1.x[c] = x.x[c] + h * v1.x[c];
-    x1.y[c] = x.y[c] + h * v1.y[c];
-    x1.z[c] = x.z[c] + h * v1.z[c];
-  }
+  kernels_.accelerate(cloth_.size,
+                      {static_cast<float>(input_.time_step),
+                       {linear.x, linear.y, linear.z},
+                       {centre.x, centre.y, centre.z},
+                       {turn.x, turn.y, turn.z},
+                       row_of(state.position, row),
+                       row_of(state.velocity, row),
+                       row_of(std::as_const(filtered_), row)},
+                      row_of(next_.position, row), row_of(next_.velocity, row));
   if (add.position.turn == Vec3d{}) return;
   for (int c = 0; c < cloth_.size; ++c) {
     const Vec3d moved =

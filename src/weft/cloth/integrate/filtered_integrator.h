@@ -35,6 +35,7 @@ class FilteredIntegrator : public Integrator {
 
   const Cloth& cloth_;
   ThreadTeam& team_;
+  const FilteringKernels& kernels_;
   ViscousSprings springs_;  ///< to be filled by the method
 
  private:

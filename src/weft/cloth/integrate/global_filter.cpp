@@ -1,6 +1,7 @@
 #include "weft/cloth/integrate/global_filter.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "weft/cloth/integrate/filter_matrix.h"
 #include "weft/cloth/integrate/mass_springs.h"
@@ -35,6 +36,7 @@ GlobalFilter::GlobalFilter(const Cloth& cloth, const Options& options, ThreadTea
       coarse_(options.size),
       stride_((cloth.size - 1) / (options.size - 1)),
       difference_(options.difference),
+      kernels_(filtering_kernels_for(team.instructions())),
       particle_of_(static_cast<std::size_t>(options.size) * options.size),
       along_{Grid<float>(coarse_, size_), Grid<float>(coarse_, size_),
              Grid<float>(coarse_, size_)} {
@@ -60,19 +62,21 @@ GlobalFilter::GlobalFilter(const Cloth& cloth, const Options& options, ThreadTea
     mass_springs(spring_offsets[d], options.stiffness / mean, mass_at, grid.stiffness[d]);
   }
   matrix_ = filter_matrix(grid, team);
-  sampled_ = Vectors3(static_cast<int>(sample_of_.size()));
+  sampled_ = filtered_ = Vectors3(static_cast<int>(sample_of_.size()));
 }
 
 void GlobalFilter::filter(const Planes3& in, Worker& worker) {
   const Range particles = worker.share(static_cast<int>(sample_of_.size()));
   for (int p = particles.first; p < particles.last; ++p) sampled_.set(p, in.at(sample_of_[p]));
   worker.barrier();
-  // Several samples may be one particle: each sample is computed by itself, to the same bits.
+  kernels_.dense_rows(particles.first, particles.last, {matrix_.row(0), matrix_.stride()},
+                      std::as_const(sampled_).rows(), filtered_.rows());
+  worker.barrier();
   const Range rows = worker.share(coarse_);
   for (int r = rows.first; r < rows.last; ++r) {
     for (int c = 0; c < coarse_; ++c) {
       const int particle = particle_of_[r * coarse_ + c];
-      const Vec3f filtered = row_times(matrix_.row(particle), matrix_.stride(), sampled_);
+      const Vec3f filtered = filtered_.at(particle);
       const Vec3f change = difference_ ? filtered - sampled_.at(particle) : filtered;
       along_.x(r, c * stride_) = change.x;
       along_.y(r, c * stride_) = change.y;

@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "weft/cloth/cloth.h"
-#include "weft/cloth/integrate/dense_product.h"
+#include "weft/cloth/integrate/vectors3.h"
+#include "weft/cloth/kernels/filtering_kernels.h"
 #include "weft/core/thread_team.h"
 
 namespace weft {
@@ -38,11 +39,12 @@ class GlobalFilter {
 
   int size_, coarse_, stride_;
   bool difference_;
+  const FilteringKernels& kernels_;
   std::vector<int> particle_of_;  ///< [n_g^2]
   std::vector<int> sample_of_;    ///< [particles] fine sample of each
   std::vector<double> masses_;    ///< [particles]
   Grid<float> matrix_;            ///< [particles x particles]
-  Vectors3 sampled_;              ///< [particles] what is filtered
+  Vectors3 sampled_, filtered_;   ///< [particles] before and after
   /// [n_g x n] the result, interpolated along rows
   struct {
     Grid<float> x, y, z;

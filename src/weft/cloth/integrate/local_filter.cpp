@@ -9,12 +9,8 @@
 namespace weft {
 namespace {
 
-/// Columns that are taken together; with the reach of the patch they stay in the first cache.
-constexpr int block = 64;
-/// Outputs of one side that are taken together, a multiple of this.
+/// Columns of one side are taken so many at a time.
 constexpr int side_lanes = 4;
-/// Columns of one vector; a multiple of every instruction set's.
-constexpr int width = 16;
 
 FilterGrid uniform_patch(int size, double ratio) {
   FilterGrid patch;
@@ -34,8 +30,10 @@ LocalFilter::LocalFilter(int image_size, int patch_size, double ratio, ThreadTea
       patch_(patch_size),
       half_(patch_size / 2),
       lanes_((half_ + side_lanes - 1) / side_lanes * side_lanes),
+      kernels_(filtering_kernels_for(team.instructions())),
       centred_(static_cast<std::size_t>(patch_) * patch_ * (half_ + 1)),
-      beside_(static_cast<std::size_t>(patch_) * patch_ * patch_ * lanes_) {
+      beside_(static_cast<std::size_t>(patch_) * patch_ * patch_ * lanes_),
+      lines_(2 * (half_ + 1) * team.size(), image_size) {
   const Grid<float> w = filter_matrix(uniform_patch(patch_, ratio), team);
   float *centred = centred_.data(), *beside = beside_.data();
   for (int place = 0; place < patch_; ++place)
@@ -53,94 +51,33 @@ LocalFilter::LocalFilter(int image_size, int patch_size, double ratio, ThreadTea
     }
 }
 
-const float* LocalFilter::centred(int patch_row, int row) const {
-  return &centred_[(static_cast<std::size_t>(patch_row) * patch_ + row) * (half_ + 1)];
+PatchWeights LocalFilter::weights(int patch_row) const {
+  const std::size_t rows = static_cast<std::size_t>(patch_row) * patch_;
+  return {half_, patch_row == half_ ? half_ + 1 : patch_, lanes_, &centred_[rows * (half_ + 1)],
+          &beside_[rows * patch_ * lanes_]};
 }
 
-const float* LocalFilter::beside(int patch_row, int row) const {
-  return &beside_[(static_cast<std::size_t>(patch_row) * patch_ + row) * patch_ * lanes_];
-}
-
-int LocalFilter::terms_of(const Grid<float>& in, int row, Term* terms) const {
+void LocalFilter::apply_plane_row(const Grid<float>& in, Grid<float>& out, int row,
+                                  const Worker& worker) {
   const int top = std::clamp(row - half_, 0, size_ - patch_);
-  const int place = row - top;
-  const bool mirrors = place == half_;
-  const int count = mirrors ? half_ + 1 : patch_;
-  for (int k = 0; k < count; ++k) {
-    const bool paired = mirrors && k < half_;
-    terms[k] = {in.row(top + k), paired ? in.row(top + patch_ - 1 - k) : nullptr, centred(place, k),
-                beside(place, k)};
+  const PatchWeights patch = weights(row - top);
+  const int scratch = 2 * (half_ + 1) * worker.rank();
+  std::array<const float*, largest_patch> rows{};
+  for (int k = 0; k < patch.rows; ++k) {
+    rows[k] = in.row(top + k);
+    // Rows at one distance above and below have one weight.
+    if (row - top != half_ || k == half_) continue;
+    float* both = lines_.row(scratch + k);
+    kernels_.add_rows(size_, rows[k], in.row(top + patch_ - 1 - k), both);
+    rows[k] = both;
   }
-  return count;
+  kernels_.patch_row(size_, rows.data(), patch, lines_.row(scratch + half_ + 1), out.row(row));
 }
 
-void LocalFilter::apply_centred(const Term* terms, int count, float* out) const {
-  constexpr int reach = largest_patch / 2;
-  std::array<float, block + 2 * reach + width> line;
-  for (int first = half_; first < size_ - half_; first += block) {
-    const int columns = std::min(block, size_ - half_ - first), from = first - half_;
-    std::array<float, block> sums{};
-    for (int k = 0; k < count; ++k) {
-      const float *a = terms[k].row, *b = terms[k].mirrored;
-      const int wide = columns + 2 * half_;
-      std::copy(a + from, a + from + wide, line.begin());
-      if (b != nullptr) {
-#pragma omp simd
-        for (int c = 0; c < wide; ++c) line[c] += b[from + c];
-      }
-      std::fill(line.begin() + wide, line.begin() + wide + width, 0.0F);
-      for (int c = 0; c < columns; c += width) {
-        const float *middle = &line[c + half_], *w = terms[k].centred;
-        std::array<float, width> sum;
-#pragma omp simd
-        for (int i = 0; i < width; ++i) sum[i] = sums[c + i] + w[0] * middle[i];
-        for (int l = 1; l <= half_; ++l) {
-#pragma omp simd
-          for (int i = 0; i < width; ++i) sum[i] += w[l] * (middle[i - l] + middle[i + l]);
-        }
-#pragma omp simd
-        for (int i = 0; i < width; ++i) sums[c + i] = sum[i];
-      }
-    }
-    std::copy(sums.begin(), sums.begin() + columns, out + first);
-  }
-}
-
-void LocalFilter::apply_beside(const Term* terms, int count, float* out) const {
-  for (int first = 0; first < half_; first += side_lanes) {
-    std::array<float, side_lanes> left{}, right{};
-    for (int k = 0; k < count; ++k) {
-      const float *a = terms[k].row, *b = terms[k].mirrored;
-      const float* w = terms[k].beside + first;
-      for (int l = 0; l < patch_; ++l, w += lanes_) {
-        const int r = size_ - 1 - l;
-        const float at_left = b == nullptr ? a[l] : a[l] + b[l];
-        const float at_right = b == nullptr ? a[r] : a[r] + b[r];
-#pragma omp simd
-        for (int i = 0; i < side_lanes; ++i) {
-          left[i] += w[i] * at_left;
-          right[i] += w[i] * at_right;
-        }
-      }
-    }
-    for (int i = 0; i < std::min(side_lanes, half_ - first); ++i) {
-      out[first + i] = left[i];
-      out[size_ - 1 - first - i] = right[i];
-    }
-  }
-}
-
-void LocalFilter::apply_plane_row(const Grid<float>& in, Grid<float>& out, int row) const {
-  std::array<Term, largest_patch> terms;
-  const int count = terms_of(in, row, terms.data());
-  apply_beside(terms.data(), count, out.row(row));
-  apply_centred(terms.data(), count, out.row(row));
-}
-
-void LocalFilter::apply_row(const Planes3& in, Planes3& out, int row) const {
-  apply_plane_row(in.x, out.x, row);
-  apply_plane_row(in.y, out.y, row);
-  apply_plane_row(in.z, out.z, row);
+void LocalFilter::apply_row(const Planes3& in, Planes3& out, int row, const Worker& worker) {
+  apply_plane_row(in.x, out.x, row, worker);
+  apply_plane_row(in.y, out.y, row, worker);
+  apply_plane_row(in.z, out.z, row, worker);
 }
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "weft/cloth/kernels/filtering_kernels.h"
 #include "weft/core/planes.h"
 #include "weft/core/thread_team.h"
 
@@ -22,29 +23,19 @@ class LocalFilter {
   static constexpr int largest_patch = 65;
 
   /// Filters row `row`; reads the rows around it.
-  void apply_row(const Planes3& in, Planes3& out, int row) const;
+  void apply_row(const Planes3& in, Planes3& out, int row, const Worker& worker);
 
  private:
-  /// One row of the patch, or the sum of two at equal distance from its middle.
-  struct Term {
-    const float *row, *mirrored;  ///< the second null where there is none
-    const float *centred, *beside;
-  };
-  /// @param terms  room for n_l. @return how many
-  int terms_of(const Grid<float>& in, int row, Term* terms) const;
-  void apply_plane_row(const Grid<float>& in, Grid<float>& out, int row) const;
-  /// Samples whose patch leans on neither side.
-  void apply_centred(const Term* terms, int count, float* out) const;
-  /// Samples whose patch leans on a side.
-  void apply_beside(const Term* terms, int count, float* out) const;
-  [[nodiscard]] const float* centred(int patch_row, int row) const;
-  [[nodiscard]] const float* beside(int patch_row, int row) const;
+  void apply_plane_row(const Grid<float>& in, Grid<float>& out, int row, const Worker& worker);
+  [[nodiscard]] PatchWeights weights(int patch_row) const;
 
   int size_, patch_, half_, lanes_;
+  const FilteringKernels& kernels_;
   /// [n_l places x n_l rows x (n_l / 2 + 1) distances] of samples in the middle column
   std::vector<float> centred_;
   /// [n_l places x n_l rows x n_l columns x lanes] of the first n_l / 2 columns, padded with zeros
   std::vector<float> beside_;
+  Grid<float> lines_;  ///< [2 (n_l / 2 + 1) a worker x n] scratch
 };
 
 }  // namespace weft

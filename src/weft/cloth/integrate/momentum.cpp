@@ -1,6 +1,5 @@
 #include "weft/cloth/integrate/momentum.h"
 
-#include <array>
 #include <cmath>
 
 #include "weft/cloth/neighbours.h"
@@ -8,55 +7,8 @@
 namespace weft {
 namespace {
 
-constexpr int lanes = 8;
-/// Mass; first moments; force; torque; second moments.
-constexpr int terms = 16;
-using Lanes = std::array<std::array<float, lanes>, terms>;
-
-struct MomentRow {
-  const float *mass, *counted;
-  ConstRow3 x, a;
-  Vec3f about;
-};
-
-/// Adds the columns first .. first + count - 1, each to its lane.
-inline void add_columns(const MomentRow& row, int first, int count, Lanes& s) {
-#pragma omp simd
-  for (int i = 0; i < count; ++i) {
-    const int c = first + i;
-    const float m = row.mass[c] * row.counted[c];
-    const float x = row.x.x[c] - row.about.x, y = row.x.y[c] - row.about.y;
-    const float z = row.x.z[c] - row.about.z;
-    const float mx = m * x, my = m * y, mz = m * z;
-    const float fx = m * row.a.x[c], fy = m * row.a.y[c], fz = m * row.a.z[c];
-    s[0][i] += m;
-    s[1][i] += mx;
-    s[2][i] += my;
-    s[3][i] += mz;
-    s[4][i] += fx;
-    s[5][i] += fy;
-    s[6][i] += fz;
-    s[7][i] += y * fz - z * fy;
-    s[8][i] += z * fx - x * fz;
-    s[9][i] += x * fy - y * fx;
-    s[10][i] += mx * x;
-    s[11][i] += my * y;
-    s[12][i] += mz * z;
-    s[13][i] += mx * y;
-    s[14][i] += mx * z;
-    s[15][i] += my * z;
-  }
-}
-
-Moments row_moments(const MomentRow& row, int columns) {
-  Lanes lane_sums{};
-  int c = 0;
-  for (; c + lanes <= columns; c += lanes) add_columns(row, c, lanes, lane_sums);
-  add_columns(row, c, columns - c, lane_sums);
-  std::array<double, terms> t{};
-  for (int i = 0; i < terms; ++i)
-    for (const float lane : lane_sums[i]) t[i] += lane;
-  return {{},
+Moments moments_of(const std::array<double, moment_terms>& t, Vec3f about) {
+  return {vec_cast<double>(about),
           t[0],
           {t[1], t[2], t[3]},
           {t[4], t[5], t[6]},
@@ -85,20 +37,6 @@ Vec3d solve(const Symmetric& s, Vec3d b) {
 
 }  // namespace
 
-Moments& operator+=(Moments& a, const Moments& b) {
-  a.mass += b.mass;
-  a.first += b.first;
-  a.force += b.force;
-  a.torque += b.torque;
-  a.xx += b.xx;
-  a.yy += b.yy;
-  a.zz += b.zz;
-  a.xy += b.xy;
-  a.xz += b.xz;
-  a.yz += b.yz;
-  return a;
-}
-
 RigidAcceleration momentum_correction(const Moments& m) {
   const Vec3d g = (1 / m.mass) * m.first;
   const Vec3d torque = m.torque - cross(g, m.force);
@@ -116,16 +54,23 @@ RigidAcceleration printed_correction(const Moments& m, double time_step, double 
 }
 
 Moments MomentSums::sum(const Cloth& cloth, const Planes3& x, const Planes3& a, Worker& worker) {
-  const Range mine = worker.share(cloth.size);
   const Vec3f about = x.at(cloth.size / 2, cloth.size / 2);
-  for (int r = mine.first; r < mine.last; ++r)
-    rows_[r] = row_moments(
-        {cloth.mass.row(r), cloth.counted.row(r), row_of(x, r), row_of(a, r), about}, cloth.size);
+  const Range mine = worker.share(cloth.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    rows_[r] = {};
+    kernels_.moments(cloth.size,
+                     {cloth.mass.row(r),
+                      cloth.counted.row(r),
+                      row_of(x, r),
+                      row_of(a, r),
+                      {about.x, about.y, about.z}},
+                     rows_[r].data());
+  }
   worker.barrier();
-  Moments total;
-  total.about = vec_cast<double>(about);
-  for (const Moments& row : rows_) total += row;
-  return total;
+  std::array<double, moment_terms> total{};
+  for (const auto& row : rows_)
+    for (int i = 0; i < moment_terms; ++i) total[i] += row[i];
+  return moments_of(total, about);
 }
 
 }  // namespace weft

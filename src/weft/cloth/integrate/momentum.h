@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "weft/cloth/cloth.h"
+#include "weft/cloth/kernels/filtering_kernels.h"
 #include "weft/core/thread_team.h"
 
 namespace weft {
@@ -15,8 +17,6 @@ struct Moments {
   Vec3d force, torque;                                    ///< sum m a [N], sum x cross m a [N m]
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  ///< sum m x x^T [kg m^2]
 };
-/// Of sums about the same point.
-Moments& operator+=(Moments& a, const Moments& b);
 
 /// A rigid acceleration: linear + r cross turn, r from the centre.
 struct RigidAcceleration {
@@ -39,12 +39,15 @@ RigidAcceleration printed_correction(const Moments& moments, double time_step, d
 /// near the particles, and added in their order in double.
 class MomentSums {
  public:
-  explicit MomentSums(int size) : rows_(static_cast<std::size_t>(size)) {}
+  MomentSums(int size, const ThreadTeam& team)
+      : kernels_(filtering_kernels_for(team.instructions())),
+        rows_(static_cast<std::size_t>(size)) {}
   /// To be called by every worker; ends with a barrier, all get the same.
   Moments sum(const Cloth& cloth, const Planes3& x, const Planes3& a, Worker& worker);
 
  private:
-  std::vector<Moments> rows_;
+  const FilteringKernels& kernels_;
+  std::vector<std::array<double, moment_terms>> rows_;
 };
 
 }  // namespace weft

@@ -74,8 +74,8 @@ class TwoLevel final : public FilteredIntegrator {
   void make_springs_of(int direction) {
     const int n = cloth_.size;
     const auto [down, right] = spring_offsets[direction];
-    Grid<float>& stiffness = springs_.stiffness[direction] = Grid<float>(n, n);
-    Grid<float>& viscosity = springs_.viscosity[direction] = Grid<float>(n, n);
+    Grid<float>& stiffness = springs_.stiffness[direction];
+    Grid<float>& viscosity = springs_.viscosity[direction];
     mass_springs(
         {down, right}, stiffness_ / mean_mass_, [&](int r, int c) { return cloth_.mass(r, c); },
         stiffness);
@@ -91,7 +91,8 @@ class TwoLevel final : public FilteredIntegrator {
 
   void filter(const Planes3& acceleration, Planes3& filtered, Worker& worker) override {
     const Range mine = worker.share(cloth_.size);
-    for (int r = mine.first; r < mine.last; ++r) local_.apply_row(acceleration, filtered, r);
+    for (int r = mine.first; r < mine.last; ++r)
+      local_.apply_row(acceleration, filtered, r, worker);
     average(filtered, worker);
     worker.barrier();
     global_.filter(filtered, worker);
