@@ -105,6 +105,7 @@ Sheet make_sheet(int n) {
 struct Runner {
   const Sheet* sheet = nullptr;
   std::unique_ptr<Integrator> integrator;
+  std::unique_ptr<StrainLimit> limit;
   double step_seconds = HUGE_VAL;
   ClothState state{};
 
@@ -113,7 +114,7 @@ struct Runner {
     const double seconds = seconds_of([&] {
       for (int frame = 0; frame < frames; ++frame) {
         integrator->begin(step_input, state);
-        limit_strain(sheet->cloth, {}, frame_step, integrator->iterate({}), team);
+        limit->limit({}, frame_step, integrator->iterate({}), team);
         integrator->end(state);
       }
     });
@@ -122,7 +123,8 @@ struct Runner {
 };
 
 Runner make_runner(const Sheet& sheet, const IntegratorOptions& options, ThreadTeam& team) {
-  return {&sheet, make_integrator(options, sheet.cloth, step_input, team)};
+  return {&sheet, make_integrator(options, sheet.cloth, step_input, team),
+          std::make_unique<StrainLimit>(sheet.cloth, team)};
 }
 
 double rms_distance(const ClothState& a, const ClothState& b) {
