@@ -183,10 +183,31 @@ def scene_files():
     yield "explicit", {"integrator": {"type": "explicit"}, "ground": -1, "cloths": [{"name": "a"}, {"name": "a"}]}
 
 
+def checkpoint_files():
+    def text(words):
+        return struct.pack("<Q", len(words)) + words
+
+    def checkpoint(identity, frames, sizes):
+        body = text(b"0.1.0") + text(identity) + struct.pack("<3di", 0, 1, 2, 0) + struct.pack("<Q", frames)
+        for k in range(frames):
+            body += struct.pack("<5di6di4d", 9, 1, 2, 3, 4, 5, 1e-3, 0, 0.1, 0.2, 3, 4, k, 0.5, 0, 1, 0)
+        body += struct.pack("<I", len(sizes))
+        for n in sizes:
+            body += struct.pack("<i", n) + struct.pack(f"<{6 * n * n}f", *(float(i) for i in range(6 * n * n)))
+        value = 0xcbf29ce484222325
+        for byte in body:
+            value = (value ^ byte) * 0x100000001b3 % 2 ** 64
+        return b"WEFTCKPT" + struct.pack("<IQQ", 1, len(body), value) + body
+
+    yield "least", checkpoint(b"{}", 0, [5])
+    yield "two_cloths", checkpoint(b'{"substeps":4}', 3, [5, 6])
+    yield "false_count", checkpoint(b"{}", 1, []).replace(struct.pack("<I", 0), struct.pack("<I", 2 ** 31))
+
+
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parent / "corpus"
     kinds = {"obj": obj_files, "off": off_files, "ply": ply_files, "stl": stl_files, "glb": glb_files,
-             "image": image_files, "scene": scene_files}
+             "image": image_files, "scene": scene_files, "checkpoint": checkpoint_files}
     for kind, files in kinds.items():
         (folder / kind).mkdir(parents=True, exist_ok=True)
         for name, content in files():
