@@ -108,7 +108,7 @@ void run_and_kill(const Scene& scene, const fs::path& folder, int substep) {
 TEST(Resume, KilledRunEndsInTheSameBitsForEveryIntegrator) {
   for (const IntegratorOptions& integrator :
        {IntegratorOptions(ImplicitOptions{}), IntegratorOptions(ExplicitOptions{}),
-        IntegratorOptions(TwoLevelOptions{.local_size = 5}),
+        IntegratorOptions(DesbrunOptions{}), IntegratorOptions(TwoLevelOptions{.local_size = 5}),
         IntegratorOptions(MultigridOptions{})}) {
     SCOPED_TRACE(name_of(integrator));
     const test::TemporaryFolder place;

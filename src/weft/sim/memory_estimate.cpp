@@ -16,20 +16,18 @@ constexpr double body_bytes_per_sample = 370;
 constexpr double table_bytes_per_sample = 110;
 constexpr double margin = 1.25, short_share = 0.8;
 
-struct BytesPerSample {
-  double operator()(const ExplicitOptions&) const { return 340; }
-  double operator()(const TwoLevelOptions&) const { return 350; }
-  double operator()(const MultigridOptions&) const { return 620; }
-  double operator()(const ImplicitOptions&) const { return 770; }
-  /// Beside a matrix of all particles by all.
-  double operator()(const DesbrunOptions&) const { return 350; }
+/// Of a cloth of so many samples.
+struct ClothBytes {
+  double samples;
+  double operator()(const ExplicitOptions&) const { return 340 * samples; }
+  double operator()(const TwoLevelOptions&) const { return 400 * samples; }
+  double operator()(const MultigridOptions&) const { return 515 * samples; }
+  double operator()(const ImplicitOptions&) const { return 735 * samples; }
+  /// Its filter is one dense matrix.
+  double operator()(const DesbrunOptions&) const {
+    return 500 * samples + sizeof(float) * samples * samples;
+  }
 };
-
-/// Desbrun's filter, and while it is made its factors in doubles.
-double matrix_bytes(const Scene& scene, double samples) {
-  const bool dense = std::holds_alternative<DesbrunOptions>(scene.integrator);
-  return dense ? 4 * samples * samples : 0;
-}
 
 double samples_of(const std::string& surface, int size) {
   const double side = is_image_name(surface) ? read_image(surface).size() : size;
@@ -39,12 +37,9 @@ double samples_of(const std::string& surface, int size) {
 }  // namespace
 
 std::uint64_t estimate_memory(const Scene& scene) {
-  const double per_sample = std::visit(BytesPerSample{}, scene.integrator);
   double bytes = program_bytes;
-  for (const SceneCloth& cloth : scene.cloths) {
-    const double samples = samples_of(cloth.surface, cloth.size);
-    bytes += per_sample * samples + matrix_bytes(scene, samples);
-  }
+  for (const SceneCloth& cloth : scene.cloths)
+    bytes += std::visit(ClothBytes{samples_of(cloth.surface, cloth.size)}, scene.integrator);
   const double per_body_sample =
       body_bytes_per_sample + table_bytes_per_sample * static_cast<double>(scene.cloths.size());
   for (const SceneBody& body : scene.bodies)
