@@ -1,0 +1,150 @@
+// How far every method is off a converged run, over what it costs: as a table and as a plot.
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/hanging_sheet.h"
+#include "bench/plot.h"
+
+namespace weft::bench {
+namespace {
+
+struct Words {
+  int size = 65, threads = 1, repeats = 3, reference_substeps = 1600;
+  std::string picture;
+};
+
+/// One setting of one method.
+struct Trial {
+  std::string series;
+  int substeps = 1, iterations = 0;  // iterations: 0 where there is no such setting
+  std::function<std::optional<HangingRun>()> run;
+};
+
+class Trials {
+ public:
+  explicit Trials(const Words& words) : words_(words) {}
+
+  void add(const std::string& series, const IntegratorOptions& method, int substeps,
+           int iterations = 0) {
+    Scene scene = hanging_sheet(words_.size);
+    scene.integrator = method;
+    scene.substeps = substeps;
+    list_.push_back({series, substeps, iterations,
+                     [scene, threads = words_.threads] { return run_hanging(scene, threads); }});
+  }
+  void add_position_based(int substeps) {
+    Scene scene = hanging_sheet(words_.size);
+    scene.substeps = substeps;
+    list_.push_back({"position based", substeps, 0,
+                     [scene] { return std::optional(run_hanging_position_based(scene)); }});
+  }
+  [[nodiscard]] const std::vector<Trial>& list() const { return list_; }
+
+ private:
+  const Words& words_;
+  std::vector<Trial> list_;
+};
+
+/// Beyond this the dense filter of desbrun takes minutes to make.
+constexpr int largest_desbrun_size = 71;
+
+Trials trials_for(const Words& words) {
+  Trials trials(words);
+  for (const int iterations : {1, 2, 3, 5, 10})
+    for (const int substeps : {1, 2, 4, 8, 16})
+      trials.add(fmt::format("multigrid {}", iterations),
+                 MultigridOptions{.max_iterations = iterations, .tolerance = 0}, substeps,
+                 iterations);
+  for (const int substeps : {1, 2, 4, 8, 16}) trials.add("implicit", ImplicitOptions{}, substeps);
+  for (const int substeps : {100, 200, 400, 800})
+    trials.add("explicit", ExplicitOptions{}, substeps);
+  for (const int substeps : {1, 2, 4, 8}) {
+    trials.add("two level", TwoLevelOptions{}, substeps);
+    if (words.size <= largest_desbrun_size) trials.add("desbrun", DesbrunOptions{}, substeps);
+  }
+  for (const int substeps : {10, 20, 50, 100, 200, 400}) trials.add_position_based(substeps);
+  return trials;
+}
+
+/// The run with the least time of several.
+std::optional<HangingRun> best_of(int repeats, const Trial& trial) {
+  constexpr double long_enough = 100;  // [ms] a frame
+  std::optional<HangingRun> best = trial.run();
+  for (int i = 1; best && i < repeats && best->milliseconds < long_enough; ++i)
+    best->milliseconds = std::min(best->milliseconds, trial.run()->milliseconds);
+  return best;
+}
+
+HangingRun converged(const Words& words, int substeps) {
+  Scene scene = hanging_sheet(words.size);
+  scene.integrator = ExplicitOptions{};
+  scene.limiter_passes = 0;
+  scene.substeps = substeps;
+  return run_hanging(scene, words.threads).value();
+}
+
+void print_row(const Trial& trial, const std::optional<HangingRun>& run, double error) {
+  const std::string iterations = trial.iterations > 0 ? fmt::format("{}", trial.iterations) : "";
+  const std::string method =
+      trial.series.substr(0, trial.series.find_last_not_of("0123456789 ") + 1);
+  if (!run) {
+    fmt::print("| {} | {} | {} | unstable | | | | |\n", method, trial.substeps, iterations);
+    return;
+  }
+  fmt::print("| {} | {} | {} | {:.2f} | {:.1f} | {:.3f} | {:.2f} | {:.1f} |\n", method,
+             trial.substeps, iterations, run->milliseconds, 1000 * error, run->fall,
+             100 * run->strain.p99, 100 * run->strain.max);
+}
+
+void add_point(Plot& plot, const std::string& series, PlotPoint point) {
+  const auto same = [&](const PlotSeries& known) { return known.name == series; };
+  auto known = std::find_if(plot.series.begin(), plot.series.end(), same);
+  if (known == plot.series.end()) known = plot.series.insert(known, {series, {}});
+  known->points.push_back(point);
+}
+
+void measure(const Words& words) {
+  const HangingRun reference = converged(words, words.reference_substeps);
+  const double own = distance_between(converged(words, words.reference_substeps / 2), reference);
+  fmt::print(
+      "{0} x {0} samples, {1} thread(s). The converged run takes {2} explicit steps a frame; with "
+      "half as many "
+      "it is {3:.1f} mm off itself, and it falls {4:.3f} m.\n\n",
+      words.size, words.threads, words.reference_substeps, 1000 * own, reference.fall);
+  fmt::print(
+      "| method | substeps | iterations | ms a frame | off by, mm | fall, m | strain p99 % | "
+      "largest % |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|\n");
+  Plot plot{"ms a frame", "off by mm (rms of 30 frames)", {}};
+  const Trials trials = trials_for(words);
+  for (const Trial& trial : trials.list()) {
+    const std::optional<HangingRun> run = best_of(words.repeats, trial);
+    const double error = run ? distance_between(*run, reference) : 0;
+    print_row(trial, run, error);
+    (void)std::fflush(stdout);
+    if (run) add_point(plot, trial.series, {run->milliseconds, 1000 * error});
+  }
+  if (!words.picture.empty()) write_png(words.picture, draw_plot(plot));
+}
+
+}  // namespace
+}  // namespace weft::bench
+
+int main(int argc, char** argv) {
+  weft::bench::Words words;
+  CLI::App program{"Error of every method against a converged run, over its time."};
+  program.add_option("--size", words.size, "Samples a side")->capture_default_str();
+  program.add_option("--threads", words.threads)->capture_default_str();
+  program.add_option("--repeats", words.repeats, "Runs of which the fastest counts")
+      ->capture_default_str();
+  program.add_option("--reference", words.reference_substeps, "Explicit steps a frame")
+      ->capture_default_str();
+  program.add_option("-o,--picture", words.picture, "PNG of the plot");
+  CLI11_PARSE(program, argc, argv);
+  weft::bench::measure(words);
+}
