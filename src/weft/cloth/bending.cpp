@@ -50,7 +50,8 @@ void add_corner_row(const Planes3& position, BendingOffset a, BendingOffset b, i
 
 }  // namespace
 
-BendingPass::BendingPass(const Cloth& cloth) : cloth_(cloth) {
+BendingPass::BendingPass(const Cloth& cloth, InstructionSet instructions)
+    : cloth_(cloth), kernels_(&kernels_for(instructions)) {
   if (cloth.bending.active) curved_ = Planes3(cloth.size);
   if (cloth.bending.curved) normal_ = Planes3(cloth.size);
 }
@@ -94,14 +95,8 @@ void BendingPass::curve_row(const Planes3& position, int row) {
     const Range with = columns_with(to, row, cloth_.size);
     if (with.first >= with.last) continue;
     const ConstRow3 there = row_of(position, row + to.down);
-    const float* weight = cloth_.bending.weight[k].row(row);
-    const int shift = to.right;
-#pragma omp simd
-    for (int c = with.first; c < with.last; ++c) {
-      u.x[c] += weight[c] * (there.x[c + shift] - here.x[c]);
-      u.y[c] += weight[c] * (there.y[c + shift] - here.y[c]);
-      u.z[c] += weight[c] * (there.z[c + shift] - here.z[c]);
-    }
+    kernels_->add_differences(with.first, with.last, to.right, cloth_.bending.weight[k].row(row),
+                              here, there, u);
   }
 }
 
@@ -143,16 +138,10 @@ void BendingPass::add_row(float factor, int row, Planes3& out) const {
     const Range with = columns_with(to, row, cloth_.size);
     if (with.first >= with.last) continue;
     const ConstRow3 other = row_of(curved_, row + to.down);
-    const float* own = cloth_.bending.weight[k].row(row);
-    const float* theirs = cloth_.bending.weight[back].row(row + to.down);
-    const int shift = to.right;
-#pragma omp simd
-    for (int c = with.first; c < with.last; ++c) {
-      const float a = factor * own[c], b = factor * theirs[c + shift];
-      sum.x[c] += a * u.x[c] - b * other.x[c + shift];
-      sum.y[c] += a * u.y[c] - b * other.y[c + shift];
-      sum.z[c] += a * u.z[c] - b * other.z[c + shift];
-    }
+    kernels_->add_transposed(
+        {with.first, with.last, to.right, factor, cloth_.bending.weight[k].row(row),
+         cloth_.bending.weight[back].row(row + to.down), u, other},
+        sum);
   }
 }
 

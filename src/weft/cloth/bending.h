@@ -1,6 +1,7 @@
 #pragma once
 
 #include "weft/cloth/cloth.h"
+#include "weft/cloth/kernels/kernel_table.h"
 #include "weft/core/thread_team.h"
 
 namespace weft {
@@ -20,7 +21,7 @@ inline constexpr std::array<BendingOffset, bending_neighbours> bending_offsets{
 class BendingPass {
  public:
   /// @param cloth  kept by reference
-  explicit BendingPass(const Cloth& cloth);
+  explicit BendingPass(const Cloth& cloth, InstructionSet instructions = best_instruction_set());
 
   /// Whether the cloth resists bending at all. Without, the other functions do nothing, and a
   /// worker meets no barrier in them.
@@ -44,6 +45,7 @@ class BendingPass {
   void subtract_rest_row(int row);
 
   const Cloth& cloth_;
+  const KernelTable* kernels_;
   Planes3 curved_;  // u
   Planes3 normal_;  // of the surface, as long as the area around [m^2]; empty for flat rest shapes
 };

@@ -30,7 +30,7 @@ Descent::Descent(const Cloth& cloth, double time_step, ThreadTeam& team)
       filter_(cloth, {time_step}, team),
       contacts_(cloth.size),
       springs_(cloth, team),
-      bending_(cloth),
+      bending_(cloth, team.instructions()),
       start_(rest_state(cloth)),
       next_(rest_state(cloth)),
       fall_(cloth.size),

@@ -17,7 +17,11 @@ namespace {
 class Explicit final : public Integrator {
  public:
   Explicit(const Cloth& cloth, ThreadTeam& team)
-      : cloth_(cloth), team_(team), force_(cloth.size), bending_(cloth), next_(rest_state(cloth)) {}
+      : cloth_(cloth),
+        team_(team),
+        force_(cloth.size),
+        bending_(cloth, team.instructions()),
+        next_(rest_state(cloth)) {}
 
   void begin(const StepInput& input, const ClothState& state) noexcept override {
     const Stopwatch watch;

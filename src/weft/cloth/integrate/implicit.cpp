@@ -30,7 +30,7 @@ class Implicit final : public Integrator {
         force_(cloth.size),
         right_(cloth.size),
         springs_(cloth.size),
-        bending_(cloth),
+        bending_(cloth, team.instructions()),
         contacts_(cloth.size),
         solver_(cloth) {
     for (Grid<float>& plane : diagonal_) plane = Grid<float>(cloth.size, cloth.size);

@@ -36,6 +36,15 @@ struct StencilRows {
   ConstRow3 above, here, below;
 };
 
+/// The columns first .. last - 1 of a row that have a neighbour `shift` columns to the right in
+/// another, and what each weighs the other by.
+struct TransposedRow {
+  int first, last, shift;
+  float factor;
+  const float *own, *theirs;
+  ConstRow3 here, there;
+};
+
 /// Two rows that springs join.
 struct RowPair {
   MovingRow here, there;
@@ -91,6 +100,11 @@ struct KernelTable {
   /// The same from column c of a row to column c + shift of one below it.
   void (*springs_across)(int n, int shift, const SpringRow& springs, float per_step,
                          const RowPair& rows, Row3 lines, Row3 out, Row3 out_there);
+  /// out += weight (there - here) for columns first .. last - 1, `there` shifted by `shift`.
+  void (*add_differences)(int first, int last, int shift, const float* weight, ConstRow3 here,
+                          ConstRow3 there, Row3 out);
+  /// The transpose: out += factor (own u - theirs u there), both weights those of one pair.
+  void (*add_transposed)(const TransposedRow& row, Row3 out);
   /// force -= weight (z + d). @return its dot product with d [N m]
   double (*inertia)(int n, const float* weight, ConstRow3 move, ConstRow3 direction, Row3 force);
   /// @return the largest |d|^2 [m^2]

@@ -11,8 +11,8 @@ namespace weft {
 namespace {
 
 /// Of Jacobi's sweeps. The upper part of the spectrum of D^-1 A reaches to about 1.9 (Gershgorin's
-/// bound without what shear takes off it); what is below 0.3 the next level sees, even beside points
-/// where many corners meet.
+/// bound without what shear takes off it); what is below 0.3 the next level sees, even beside
+/// points where many corners meet.
 std::vector<float> sweep_factors(int sweeps) {
   if (sweeps == 1) return {0.85F};
   constexpr float middle = 0.5F * (1.9F + 0.3F), half = 0.5F * (1.9F - 0.3F), root = 0.70710678F;
@@ -68,6 +68,8 @@ MultigridFilter::MultigridFilter(const Cloth& cloth, const Options& options, con
 }
 
 void MultigridFilter::renew_pins(const Cloth& cloth) {
+  pinned_.clear();
+  for (const Pin& held : cloth.pins) pinned_.push_back(held.sample);
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c) moves_(r, c) = cloth.inverse_mass(r, c) > 0 ? 1.0F : 0.0F;
   renew_weights(levels_, moves_);
@@ -75,10 +77,8 @@ void MultigridFilter::renew_pins(const Cloth& cloth) {
 }
 
 bool MultigridFilter::knows_pins(const Cloth& cloth) const {
-  for (int r = 0; r < cloth.size; ++r)
-    for (int c = 0; c < cloth.size; ++c)
-      if ((cloth.inverse_mass(r, c) > 0) != (moves_(r, c) > 0)) return false;
-  return true;
+  return std::equal(cloth.pins.begin(), cloth.pins.end(), pinned_.begin(), pinned_.end(),
+                    [](const Pin& held, int sample) { return held.sample == sample; });
 }
 
 Row3 MultigridFilter::lines(const Crew& crew, int index) {

@@ -63,7 +63,8 @@ class MultigridFilter {
   std::vector<float> factors_;  // of the sweeps, in the order before the coarse correction
   std::vector<FilterLevel> levels_;
   Grid<float> moves_;
-  CoarseFactor factor_;  // of the coarsest level
+  std::vector<int> pinned_;  // samples
+  CoarseFactor factor_;      // of the coarsest level
   const KernelTable* kernels_;
   Grid<float> lines_;  // scratch of every worker
   RowSums sums_;

@@ -9,6 +9,9 @@ void springs_along(int n, int gap, const SpringRow& springs, float per_step, con
                    Row3 lines, Row3 out);
 void springs_across(int n, int shift, const SpringRow& springs, float per_step, const RowPair& rows,
                     Row3 lines, Row3 out, Row3 out_there);
+void add_differences(int first, int last, int shift, const float* weight, ConstRow3 here,
+                     ConstRow3 there, Row3 out);
+void add_transposed(const TransposedRow& row, Row3 out);
 double inertia(int n, const float* weight, ConstRow3 move, ConstRow3 direction, Row3 force);
 float turn(int n, const TurningRow& row);
 void place(int n, const PlacedRow& row);
