@@ -223,6 +223,19 @@ TEST(Simulation, InstabilityNamesFrameClothParticleAndTheStableStep) {
   }
 }
 
+TEST(Simulation, StiffFiltersAreCautionedAgainst) {
+  Scene scene = free_fall(TwoLevelOptions{.local_size = 5, .filter_stiffness = 0.1});
+  scene.cloths[0].material.bending = 0;
+  EXPECT_TRUE(Simulation(scene, "soft", 1).notes().empty());
+  scene.integrator = TwoLevelOptions{.local_size = 5, .filter_stiffness = 1000};
+  const Simulation stiff(scene, "stiff", 1);
+  ASSERT_EQ(stiff.notes().size(), 1U);
+  EXPECT_NE(stiff.notes()[0].find("largest stiffness known to be stable"), std::string::npos);
+  scene.integrator = DesbrunOptions{};
+  scene.cloths[0].material.bending = 1e-5;
+  EXPECT_NE(Simulation(scene, "bends", 1).notes().at(0).find("bending"), std::string::npos);
+}
+
 TEST(Simulation, RegionWithoutSamplesIsRefused) {
   Scene scene = free_fall(ImplicitOptions{});
   scene.cloths[0].pins = {RegionPin{{0.01, 0.01}, {0.02, 0.02}}};

@@ -185,6 +185,8 @@ void Simulation::Parts::make_movers() {
          scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
          RunawayCheck(cloth.cloth, cloth.state, scene.gravity, drive_of(i)),
          StrainLimit(cloth.cloth, team), CoarseLimit(cloth.cloth, team)});
+    if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
+      notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }
 }
 

@@ -39,6 +39,12 @@ StepReport FilteredIntegrator::end(ClothState& state) noexcept {
   return report_;
 }
 
+std::string FilteredIntegrator::caution() const {
+  if (cloth_.material.bending == 0) return {};
+  return "this integrator filters springs alone: the material's bending counts for nothing, its "
+         "bend_springs do";
+}
+
 FilteredIntegrator::Corrections FilteredIntegrator::corrections(const Moments& moments,
                                                                 double /*time_step*/) const {
   return {momentum_correction(moments), {}};

@@ -15,6 +15,8 @@ class FilteredIntegrator : public Integrator {
   /// Contacts are left to what the collider does with the proposal.
   ClothState& iterate(std::span<const Contact> /*contacts*/) noexcept final { return next_; }
   StepReport end(ClothState& state) noexcept final;
+  /// A material's bending is none of the springs that are filtered.
+  [[nodiscard]] std::string caution() const override;
 
  protected:
   FilteredIntegrator(const Cloth& cloth, ThreadTeam& team);

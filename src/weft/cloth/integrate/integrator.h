@@ -83,6 +83,9 @@ class Integrator {
   /// sentence for the error that names an instability; empty where the method is unconditionally
   /// stable.
   [[nodiscard]] virtual std::string stability_advice(double time_step) const = 0;
+
+  /// A remark on options that are allowed but may not go well; empty where there is none.
+  [[nodiscard]] virtual std::string caution() const { return {}; }
 };
 
 /// @param cloth    kept by reference, as is the team; its pins may change between steps

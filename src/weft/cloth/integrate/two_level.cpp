@@ -62,6 +62,15 @@ class TwoLevel final : public FilteredIntegrator {
         time_step, largest_stable_stiffness(time_step), stiffness_);
   }
 
+  /// The limiter may keep a filter that grows within bounds: then nothing runs away, the cloth
+  /// trembles.
+  [[nodiscard]] std::string caution() const override {
+    const std::string general = FilteredIntegrator::caution();
+    if (stiffness_ <= largest_stable_stiffness(filter_step_)) return general;
+    return "this may tremble or run away: " + stability_advice(filter_step_) +
+           (general.empty() ? "" : "; " + general);
+  }
+
  private:
   [[nodiscard]] double largest_stable_stiffness(double time_step) const {
     return stable_ratio_per_sample * options_.local_size * mean_mass_ / (time_step * time_step);
