@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "weft/cloth/kernels/row_pointers.h"
 
 // The inner loops of stepping: each works on one row of n samples, reads its neighbours' rows and
@@ -92,6 +94,17 @@ struct RowMotion {
   bool finite;            ///< all positions and velocities
 };
 
+/// Cholesky's factor L of `count` unknowns within its envelope, below the diagonal: by rows, each
+/// run ending before the diagonal, and by columns, each beginning after it. Runs are padded with
+/// zeros, away from the diagonal, to a multiple of `envelope_padding`.
+struct Envelope {
+  int count;
+  const float* inverse_diagonal;
+  const float *rows, *columns;
+  const std::ptrdiff_t *row_start, *column_start;  ///< [count + 1]
+};
+inline constexpr int envelope_padding = 16;
+
 /// Scratch `lines` are three rows of n values that are overwritten.
 struct KernelTable {
   /// out += forces of the springs from column c to c + gap of a row [N].
@@ -128,6 +141,9 @@ struct KernelTable {
   void (*restrict_rows)(int n, const StencilRows& fine, Row3 lines, Row3 out);
   /// out += the mean of two coarse rows, interpolated to n samples, where something moves.
   void (*interpolate)(int n, ConstRow3 a, ConstRow3 b, const float* inverse, Row3 lines, Row3 out);
+
+  /// x = (L L^T)^-1 x, all three at once; with room for a padding before and after.
+  void (*substitute)(const Envelope& factor, Row3 x);
 
   /// Whether any of the springs is out of its bounds.
   bool (*breaks_limit)(const LimitedRows& rows);

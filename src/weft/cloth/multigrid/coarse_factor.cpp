@@ -1,7 +1,6 @@
 #include "weft/cloth/multigrid/coarse_factor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "weft/cloth/neighbours.h"
@@ -58,8 +57,26 @@ CoarseFactor::CoarseFactor(const FilterLevel& level) {
   if (count > most_entries) return;
   rows_ = std::move(rows);
   exact_.resize(count);
-  lower_.resize(count);
-  for (std::vector<float>& x : work_) x.resize(rows_.size());
+  place_runs();
+}
+
+void CoarseFactor::place_runs() {
+  const auto padded = [](int count) {
+    return std::ptrdiff_t{(count + envelope_padding - 1) / envelope_padding} * envelope_padding;
+  };
+  const int count = static_cast<int>(rows_.size());
+  std::vector<int> last(rows_.size());
+  for (int i = 0; i < count; ++i)
+    for (int j = rows_[i].first; j <= i; ++j) last[j] = i;
+  row_start_ = column_start_ = {0};
+  for (int i = 0; i < count; ++i) {
+    row_start_.push_back(row_start_.back() + padded(i - rows_[i].first));
+    column_start_.push_back(column_start_.back() + padded(last[i] - i));
+  }
+  by_rows_.resize(static_cast<std::size_t>(row_start_.back()));
+  by_columns_.resize(static_cast<std::size_t>(column_start_.back()));
+  inverse_diagonal_.resize(rows_.size());
+  work_ = Grid<float>(3, count + 2 * envelope_padding);
 }
 
 void CoarseFactor::assemble(const FilterLevel& level) {
@@ -106,48 +123,37 @@ void CoarseFactor::factor() {
 void CoarseFactor::renew(const FilterLevel& level) {
   assemble(level);
   factor();
-  for (std::size_t i = 0; i < exact_.size(); ++i) lower_[i] = static_cast<float>(exact_[i]);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const std::size_t diagonal = rows_[i].start + i - static_cast<std::size_t>(rows_[i].first);
-    lower_[diagonal] = static_cast<float>(1 / exact_[diagonal]);
-  }
-}
-
-void CoarseFactor::substitute(float* x) const {
   const int count = static_cast<int>(rows_.size());
   for (int i = 0; i < count; ++i) {
-    const Row& row = rows_[i];
-    const float* entries = &lower_[row.start];
-    const float* known = x + row.first;
-    const double done =
-        lane_sum(i - row.first, [&](int k) { return double{entries[k]} * double{known[k]}; });
-    x[i] = (x[i] - static_cast<float>(done)) * entries[i - row.first];
-  }
-  for (int i = count - 1; i >= 0; --i) {
-    const Row& row = rows_[i];
-    const float* entries = &lower_[row.start];
-    float* above = x + row.first;
-    const float found = x[i] * entries[i - row.first];
-    x[i] = found;
-    for (int k = 0; k < i - row.first; ++k) above[k] -= entries[k] * found;
+    const double* row = &exact_[rows_[i].start];
+    for (int j = rows_[i].first; j < i; ++j) {
+      const auto entry = static_cast<float>(row[j - rows_[i].first]);
+      by_rows_[static_cast<std::size_t>(row_start_[i + 1] - (i - j))] = entry;
+      by_columns_[static_cast<std::size_t>(column_start_[j] + (i - j - 1))] = entry;
+    }
+    inverse_diagonal_[i] = static_cast<float>(1 / row[i - rows_[i].first]);
   }
 }
 
-void CoarseFactor::solve_plane(const FilterLevel& level, const Grid<float>& right,
-                               std::vector<float>& x, Grid<float>& result) const {
+void CoarseFactor::solve(FilterLevel& level, const KernelTable& kernels) {
   const int n = level.size();
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = right(sample_of_[i] / n, sample_of_[i] % n);
-  substitute(x.data());
+  const Row3 x = {work_.row(0) + envelope_padding, work_.row(1) + envelope_padding,
+                  work_.row(2) + envelope_padding};
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const int row = sample_of_[i] / n, col = sample_of_[i] % n;
+    x.x[i] = level.right.x(row, col);
+    x.y[i] = level.right.y(row, col);
+    x.z[i] = level.right.z(row, col);
+  }
+  kernels.substitute({static_cast<int>(rows_.size()), inverse_diagonal_.data(), by_rows_.data(),
+                      by_columns_.data(), row_start_.data(), column_start_.data()},
+                     x);
   for (int r = 0; r < n; ++r)
-    for (int c = 0; c < n; ++c)
-      result(r, c) = level.inverse_diagonal(r, c) == 0 ? 0.0F : x[unknown_of_[r * n + c]];
-}
-
-void CoarseFactor::solve(FilterLevel& level, Range coordinates) {
-  const std::array<const Grid<float>*, 3> right{&level.right.x, &level.right.y, &level.right.z};
-  const std::array<Grid<float>*, 3> result{&level.result.x, &level.result.y, &level.result.z};
-  for (int i = coordinates.first; i < coordinates.last; ++i)
-    solve_plane(level, *right[i], work_[i], *result[i]);
+    for (int c = 0; c < n; ++c) {
+      const int i = unknown_of_[r * n + c];
+      const bool still = level.inverse_diagonal(r, c) == 0;
+      level.result.set(r, c, still ? Vec3f{} : Vec3f{x.x[i], x.y[i], x.z[i]});
+    }
 }
 
 }  // namespace weft

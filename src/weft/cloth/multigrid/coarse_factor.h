@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
+#include "weft/cloth/kernels/kernel_table.h"
 #include "weft/cloth/multigrid/filter_level.h"
 #include "weft/core/thread_team.h"
 
@@ -22,9 +22,8 @@ class CoarseFactor {
   [[nodiscard]] bool fits() const { return !rows_.empty(); }
   /// Factors anew, in doubles. Requires fits().
   void renew(const FilterLevel& level);
-  /// level.result = A^-1 level.right, of coordinates 0, 1, 2 those within the range: they are
-  /// apart, so that any team gives the same bits.
-  void solve(FilterLevel& level, Range coordinates);
+  /// level.result = A^-1 level.right, by one worker.
+  void solve(FilterLevel& level, const KernelTable& kernels);
 
  private:
   /// Where a row's entries are: columns `first` .. the diagonal, from `start` in the factor.
@@ -34,16 +33,16 @@ class CoarseFactor {
   };
   void assemble(const FilterLevel& level);
   void factor();
-  void substitute(float* x) const;
-  void solve_plane(const FilterLevel& level, const Grid<float>& right, std::vector<float>& x,
-                   Grid<float>& result) const;
+  void place_runs();
 
   std::vector<int> unknown_of_;  // [n n] by sample
   std::vector<int> sample_of_;   // by unknown: its least sample
   std::vector<Row> rows_;
-  std::vector<double> exact_;               // the lower factor, row by row
-  std::vector<float> lower_;                // the same, rounded; diagonals inverted
-  std::array<std::vector<float>, 3> work_;  // by unknown, one a coordinate
+  std::vector<double> exact_;  // the lower factor, row by row
+  // The same, rounded, as an Envelope.
+  std::vector<float> by_rows_, by_columns_, inverse_diagonal_;
+  std::vector<std::ptrdiff_t> row_start_, column_start_;
+  Grid<float> work_;  // [3 x unknowns and their padding]
 };
 
 }  // namespace weft

@@ -23,6 +23,7 @@ void add_right(int n, const float* share, const float* inverse, ConstRow3 right,
 double sweep(int n, const SweepRow& row, Row3 out);
 void restrict_rows(int n, const StencilRows& fine, Row3 lines, Row3 out);
 void interpolate(int n, ConstRow3 a, ConstRow3 b, const float* inverse, Row3 lines, Row3 out);
+void substitute(const Envelope& factor, Row3 x);
 bool breaks_limit(const LimitedRows& rows);
 void limit(const LimitedRows& rows);
 RowMotion motion(int n, const float* mass, ConstRow3 position, ConstRow3 velocity);
