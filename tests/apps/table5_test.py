@@ -1,4 +1,5 @@
 """The contract of table5: rows, fields, what is null."""
+import re
 import unittest
 
 from program import ProgramTest
@@ -22,11 +23,13 @@ class Table5(ProgramTest):
             self.assertEqual([row[field] for field in FIELDS[-3:]], [None] * 3)
         self.assertEqual((rows[-1]["ng"], rows[-1]["nl"], rows[-1]["paper_integration_s"]), (41, 5, 0.932329))
 
-    def test_text_has_a_line_a_row(self):
+    def test_text_has_two_lines_a_row(self):
         lines = self.run_weft("table5", "--frames", "1").stdout.splitlines()
-        self.assertEqual([line.split(" x ")[0] for line in lines[2:] if line[:1].isdigit()],
-                         [str(n) for n in sorted(set(SIZES))])
-        self.assertEqual(len(lines), 2 + len(SIZES) + 4)
+        named = [line.split(" x ")[0] for line in lines if line[:1].isdigit()]
+        sizes = [str(n) for n in sorted(set(SIZES))]
+        self.assertEqual(named, sizes + ["17", "33", "65", "129"] + sizes)
+        measured = [line for line in lines if re.search(r"\d\.\d", line)]
+        self.assertEqual(len(measured), 2 * len(SIZES) + 4)
         self.assertEqual(self.run_weft("table5", "--frames", "1", "--quiet").stdout, "")
 
     def test_words_out_of_range_are_usage_errors(self):
