@@ -91,6 +91,44 @@ TEST(Desbrun, HeldParticlesPullLikeAWall) {
   EXPECT_FLOAT_EQ(w(0, 0), 2 / 2.75F);
 }
 
+TEST(Desbrun, FilteringForcesInsteadOfAccelerationsLosesMomentum) {
+  // Unequal masses on a chain of springs: W keeps sum m a, its transpose M W M^-1 sum f.
+  FilterGrid grid;
+  grid.size = 3;
+  for (int s = 0; s < 9; ++s) {
+    grid.particle_of.push_back(s);
+    grid.mass.push_back(1 + s);
+  }
+  for (Grid<double>& plane : grid.stiffness) plane = Grid<double>(3, 3, 2.0);
+  grid.time_step = 1;
+  ThreadTeam team(1);
+  const Grid<float> w = filter_matrix(grid, team);
+  double momentum = 0, filtered = 0, filtered_as_force = 0;
+  for (int i = 0; i < 9; ++i) {
+    const auto acceleration = [](int k) { return k % 3 - 0.5 * k; };
+    momentum += grid.mass[i] * acceleration(i);
+    for (int j = 0; j < 9; ++j) {
+      filtered += grid.mass[i] * double{w(i, j)} * acceleration(j);
+      filtered_as_force += double{w(i, j)} * grid.mass[j] * acceleration(j);
+    }
+  }
+  EXPECT_NEAR(filtered, momentum, 1e-5 * std::abs(momentum));
+  EXPECT_GT(std::abs(filtered_as_force - momentum), 0.05 * std::abs(momentum));
+}
+
+TEST(Desbrun, KeepsAngularMomentum) {
+  const Cloth cloth = torus_cloth(13);
+  ThreadTeam team(1);
+  const StepInput input{1.0 / 240, {}};
+  const auto integrator = make_integrator(DesbrunOptions{}, cloth, input, team);
+  ClothState state = rest_state(cloth);
+  shake(cloth, 0.005, state.position);
+  run(*integrator, input, 20, state);
+  const double scale = std::sqrt(2 * kinetic_energy(cloth, state) * total_mass(cloth));
+  EXPECT_GT(scale, 1e-4);
+  EXPECT_LT(length(angular_momentum(cloth, state)), 1e-3 * scale);
+}
+
 TEST(Desbrun, StaysBoundedHoweverStiff) {
   for (const double stretch : {2e3, 2e5}) {
     const Cloth cloth = sheet_cloth(13, {.stretch = stretch, .shear = stretch});

@@ -7,6 +7,7 @@
 #include "weft/cloth/integrate/global_filter.h"
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/integrate/local_filter.h"
+#include "weft/cloth/integrate/mass_springs.h"
 #include "weft/cloth/integrate/momentum.h"
 #include "weft/cloth/measure.h"
 
@@ -117,6 +118,57 @@ TEST(TwoLevel, GlobalFilterLeavesUniformFieldsAlone) {
     for (int r = 0; r < 17; ++r) filter.add_row(out, r);
     for (int r = 0; r < 17; ++r)
       for (int c = 0; c < 17; ++c) EXPECT_NEAR(out.y(r, c), difference ? 0 : 2, 1e-5);
+  }
+}
+
+/// W of the whole cloth with the springs of two_level, by one dense matrix.
+Grid<float> exact_filter(const Cloth& cloth, double ratio) {
+  const int n = cloth.size;
+  FilterGrid grid = patch(n, 0);
+  for (int s = 0; s < n * n; ++s) grid.mass[s] = cloth.mass(s / n, s % n);
+  for (int d = 0; d < spring_directions; ++d)
+    mass_springs(
+        spring_offsets[d], ratio, [&](int r, int c) { return double{cloth.mass(r, c)}; },
+        grid.stiffness[d]);
+  return matrix_of(grid);
+}
+
+TEST(TwoLevel, FiltersAsTheExactMatrixDoesWherePrintedDoublesSmoothFields) {
+  const int n = 21;
+  const double ratio = 0.1, step = 1.0 / 60;
+  const Cloth cloth = sheet_cloth(n);
+  const double stiffness = ratio * total_mass(cloth) / cloth.particles / (step * step);
+  const Grid<float> exact = exact_filter(cloth, ratio);
+  ThreadTeam team(2);
+  LocalFilter local(n, 9, ratio, team);
+  // Relative to the exact result, of a field with `waves` waves a side.
+  const auto error = [&](double waves, bool as_printed) {
+    GlobalFilter global(
+        cloth, {.size = 6, .stiffness = stiffness, .time_step = step, .difference = !as_printed},
+        team);
+    Planes3 in(n), out(n);
+    for (int s = 0; s < n * n; ++s)
+      in.set(s, {0, static_cast<float>(sine(2 * pi * waves * (s % n) / (n - 1) + 1)), 0});
+    team.run([&](Worker& worker) {
+      const Range mine = worker.share(n);
+      for (int r = mine.first; r < mine.last; ++r) local.apply_row(in, out, r, worker);
+      worker.barrier();
+      global.filter(out, worker);
+      worker.barrier();
+      for (int r = mine.first; r < mine.last; ++r) global.add_row(out, r);
+    });
+    double wrong = 0, size = 0;
+    for (int i = 0; i < n * n; ++i) {
+      double right = 0;
+      for (int j = 0; j < n * n; ++j) right += double{exact(i, j)} * in.at(j).y;
+      wrong += (out.at(i).y - right) * (out.at(i).y - right);
+      size += right * right;
+    }
+    return std::sqrt(wrong / size);
+  };
+  for (const double waves : {0.5, 1.0, 2.0}) {
+    EXPECT_LT(error(waves, false), 0.06) << waves;
+    EXPECT_GT(error(waves, true), 0.6) << waves;
   }
 }
 
