@@ -19,10 +19,10 @@ constexpr double margin = 1.25, short_share = 0.8;
 /// Of a cloth of so many samples.
 struct ClothBytes {
   double samples;
-  double operator()(const ExplicitOptions&) const { return 340 * samples; }
-  double operator()(const TwoLevelOptions&) const { return 400 * samples; }
-  double operator()(const MultigridOptions&) const { return 515 * samples; }
-  double operator()(const ImplicitOptions&) const { return 735 * samples; }
+  double operator()(const ExplicitOptions&) const { return 385 * samples; }
+  double operator()(const TwoLevelOptions&) const { return 445 * samples; }
+  double operator()(const MultigridOptions&) const { return 565 * samples; }
+  double operator()(const ImplicitOptions&) const { return 785 * samples; }
   /// Its filter is one dense matrix.
   double operator()(const DesbrunOptions&) const {
     return 500 * samples + sizeof(float) * samples * samples;
