@@ -201,16 +201,23 @@ int Simulation::Parts::step(std::size_t index, FrameReport& report) {
   const Planes3& start = cloth.state.position;
   if (mover.wind) mover.wind->blow(time_step, cloth.state, team);
   mover.integrator->begin(input, cloth.state);
-  ClothState* next = &mover.integrator->iterate({});
-
   StageClock clock;
-  // Only implicit methods heed contacts; the others are pushed out at the end of the step.
-  if (std::holds_alternative<ImplicitOptions>(scene.integrator) ||
-      std::holds_alternative<MultigridOptions>(scene.integrator)) {
-    const auto contacts = mover.collider->detect(
-        {start, next->position, next->velocity, cloth.cloth.inverse_mass}, team);
+  const auto detect = [&](ClothState& proposed) {
+    clock.lap();
+    const auto found = mover.collider->detect(
+        {start, proposed.position, proposed.velocity, cloth.cloth.inverse_mass}, team);
     report.collide_ms += clock.lap();
-    if (!contacts.empty()) next = &mover.integrator->iterate(contacts);
+    return found;
+  };
+  // Only implicit methods heed contacts; the others are pushed out at the end of the step.
+  ClothState* next = nullptr;
+  if (std::holds_alternative<MultigridOptions>(scene.integrator)) {
+    next = &mover.integrator->iterate(detect(mover.integrator->proposal()));
+  } else {
+    next = &mover.integrator->iterate({});
+    if (std::holds_alternative<ImplicitOptions>(scene.integrator))
+      if (const auto found = detect(*next); !found.empty())
+        next = &mover.integrator->iterate(found);
   }
   clock.lap();
   int contacts = 0;

@@ -13,6 +13,9 @@ namespace {
 
 /// Of the secant: directions are as long as the filter, which is too stiff, makes them.
 constexpr double most_way = 4;
+/// What presses on a cloth from outside moves it out of its surface, where springs give way; the
+/// filter, which takes them for stiff in every direction, needs more iterations for it.
+constexpr int iterations_under_contact = 4;
 
 void copy_row(ConstRow3 from, Row3 to, int n) {
   std::copy(from.x, from.x + n, to.x);
@@ -59,19 +62,24 @@ void Descent::begin(const StepInput& input, const ClothState& state) {
   team_.run([&](Worker& worker) {
     copy_rows(state, start_, worker);
     const Range mine = worker.share(cloth_.size);
-    for (int r = mine.first; r < mine.last; ++r) fall_row(r);
+    for (int r = mine.first; r < mine.last; ++r) {
+      fall_row(r);
+      place_row(0, r);
+    }
   });
   hold_pins();
 }
 
 void Descent::run(std::span<const Contact> contacts, const MultigridOptions& options) {
-  contacts_.choose(cloth_, contacts, next_.position);
+  contacts_.choose(cloth_, contacts, next_.position, filter_.finest().inverse_diagonal);
   team_.run([&](Worker& worker) {
     const Range mine = worker.share(cloth_.size);
     const auto pending = static_cast<float>(pending_way_);
-    for (int r = mine.first; r < mine.last; ++r) settle_row(pending, r);
-    worker.barrier();
-    contacts_.push_out(cloth_, fall_, move_, worker);
+    for (int r = mine.first; r < mine.last; ++r) {
+      settle_row(pending, r);
+      place_row(0, r);
+    }
+    filter_.renew_contacts(contacts_, worker);
     const Course course = descend(options, worker);
     if (worker.rank() != 0) return;
     pending_way_ = course.way;
@@ -135,6 +143,8 @@ double Descent::look(Worker& worker) {
     const Row3 out = row_of(far_residual_, r);
     copy_row(springs_.row(motion, r, worker), out, cloth_.size);
     bending_.add_row(1, r, far_residual_);
+    if (contacts_.row(r))
+      contacts_.add_force(r, filter_.finest().share_row(r), next_.position, out);
     return kernels_.inertia(cloth_.size, filter_.mass_weight().row(r),
                             row_of(std::as_const(move_), r), row_of(std::as_const(direction_), r),
                             out);
@@ -143,8 +153,6 @@ double Descent::look(Worker& worker) {
     sum_over_mates(cloth_.mates, worker, {&far_residual_.x, &far_residual_.y, &far_residual_.z});
     worker.barrier();
   }
-  const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) contacts_.filter_row(far_residual_, r);
   return along;
 }
 
@@ -168,7 +176,6 @@ double Descent::turn(Course& course, Worker& worker) {
   if (!(beta <= 1) || !(slope + beta * course.left > 0)) beta = 0;
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {
-    contacts_.filter_row(filter_.value(), r);
     largest_[static_cast<std::size_t>(r)] = kernels_.turn(
         cloth_.size, {static_cast<float>(course.way), static_cast<float>(beta),
                       row_of(std::as_const(fall_), r), row_of(std::as_const(filter_.value()), r),
@@ -193,16 +200,15 @@ void Descent::go(double slope, Course& course, Worker& worker) {
 }
 
 Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker) {
-  const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) place_row(0, r);
-  worker.barrier();
   look(worker);
   Course course;
-  while (course.iterations < options.max_iterations) {
+  const int most = options.max_iterations * (contacts_.empty() ? 1 : iterations_under_contact);
+  while (course.iterations < most) {
     take_residual(course, worker);
     go(turn(course, worker), course, worker);
     if (!(course.correction > options.tolerance)) break;
   }
+  const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) place_row(static_cast<float>(course.way), r);
   return course;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "weft/cloth/bending.h"
-#include "weft/cloth/integrate/contact_filter.h"
+#include "weft/cloth/integrate/contact_springs.h"
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/integrate/spring_rows.h"
 #include "weft/cloth/multigrid/filter.h"
@@ -13,7 +13,8 @@
 namespace weft {
 
 /// One step of implicit Euler with the springs as they are, by descending in its energy
-///   E(x) = |x - y|^2_M / (2 h^2) + springs(x) + bending(x) + damping(x),  y = x0 + h v + h^2 g,
+///   E(x) = |x - y|^2_M / (2 h^2) + springs(x) + bending(x) + damping(x) + contacts(x),  y = x0 + h
+///   v + h^2 g,
 /// from x = y on: conjugate gradients [fletcher64], preconditioned by the multigrid filter, with a
 /// secant step along each direction. The gradient at the step's end is taken as linear between
 /// those at both ends of the secant, so an iteration costs one V-cycle and one pass over the
@@ -26,7 +27,7 @@ class Descent {
 
   /// Starts a step: next() falls freely.
   void begin(const StepInput& input, const ClothState& state);
-  /// Puts particles onto the contacts' surfaces and descends along them.
+  /// Descends, with particles that are beyond contacts' surfaces pushed back by springs.
   void run(std::span<const Contact> contacts, const MultigridOptions& options);
 
   /// Where the descent stands. What the caller changes here decides which contacts the next run
@@ -71,7 +72,7 @@ class Descent {
   const KernelTable& kernels_;
   double time_step_;  // [s] that the filter was made for
   MultigridFilter filter_;
-  ContactFilter contacts_;
+  ContactSprings contacts_;
   SpringRows springs_;
   BendingPass bending_;
   StepInput input_;

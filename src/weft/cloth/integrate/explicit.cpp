@@ -42,6 +42,8 @@ class Explicit final : public Integrator {
     seconds_ = watch.seconds();
   }
 
+  ClothState& proposal() noexcept override { return next_; }
+
   /// Contacts are left to what the collider does with the proposal.
   ClothState& iterate(std::span<const Contact> /*contacts*/) noexcept override { return next_; }
 

@@ -13,6 +13,7 @@ class FilteredIntegrator : public Integrator {
  public:
   void begin(const StepInput& input, const ClothState& state) noexcept final;
   /// Contacts are left to what the collider does with the proposal.
+  ClothState& proposal() noexcept final { return next_; }
   ClothState& iterate(std::span<const Contact> /*contacts*/) noexcept final { return next_; }
   StepReport end(ClothState& state) noexcept final;
   /// A material's bending is none of the springs that are filtered.

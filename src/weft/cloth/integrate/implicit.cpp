@@ -62,6 +62,8 @@ class Implicit final : public Integrator {
     report_.forces_seconds = watch.seconds();
   }
 
+  ClothState& proposal() noexcept override { return next_; }
+
   ClothState& iterate(std::span<const Contact> contacts) noexcept override {
     const Stopwatch watch;
     contacts_.choose(contacts, start_.position, next_.position, input_.time_step);

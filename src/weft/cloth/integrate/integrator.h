@@ -49,7 +49,7 @@ struct TwoLevelOptions {
 /// frame they bring the fall of a hanging sheet within 5 mm of the converged one, whatever its size
 /// (docs/measured.md).
 struct MultigridOptions {
-  int max_iterations = 2;
+  int max_iterations = 2;  ///< a step; four times as many while something presses on the cloth
   /// Stop when the correction of an iteration falls below this times the rest spacing.
   double tolerance = 1e-3;
 };
@@ -73,6 +73,9 @@ class Integrator {
 
   /// Takes the state at the start of the step and computes what does not depend on contacts.
   virtual void begin(const StepInput& input, const ClothState& state) noexcept = 0;
+  /// The proposal as it stands. Before the first iterate, multigrid's is where the step leads
+  /// without the cloth's own forces: there contacts show what weighs on them.
+  [[nodiscard]] virtual ClothState& proposal() noexcept = 0;
   /// Proposes the state at the end of the step; the caller may change it in place (limit strain,
   /// truncate, push out of bodies) before the next iterate or end.
   virtual ClothState& iterate(std::span<const Contact> contacts) noexcept = 0;

@@ -24,6 +24,8 @@ class Multigrid final : public Integrator {
     report_.forces_seconds = watch.seconds();
   }
 
+  ClothState& proposal() noexcept override { return descent_.next(); }
+
   ClothState& iterate(std::span<const Contact> contacts) noexcept override {
     const Stopwatch watch;
     descent_.run(contacts, options_);

@@ -74,7 +74,6 @@ struct SweepRow {
   const float* inverse;        ///< of the diagonal; 0 where nothing moves
   const float *share, *count;  ///< of mates: one over their number, their number; null: 1
   ConstRow3 right, value;
-  bool wants_dot;
 };
 
 /// Springs that share no particle: from column c of `here` to column c + shift of `there` for c =
@@ -135,7 +134,7 @@ struct KernelTable {
   void (*apply)(int n, const OperatorRow& row, const StencilRows& x, Row3 out);
   /// out = out + share right where something moves, else 0. @param share  null: 1
   void (*add_right)(int n, const float* share, const float* inverse, ConstRow3 right, Row3 out);
-  /// out = value + factor inverse (right + count out). @return share right . out where wanted
+  /// out = value + factor inverse (right + count out). @return share right . out
   double (*sweep)(int n, const SweepRow& row, Row3 out);
   /// The transpose of interpolation: a coarse row of three fine ones of n samples.
   void (*restrict_rows)(int n, const StencilRows& fine, Row3 lines, Row3 out);

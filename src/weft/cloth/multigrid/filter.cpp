@@ -61,6 +61,7 @@ MultigridFilter::MultigridFilter(const Cloth& cloth, const Options& options, con
       levels_(make_filter_levels(cloth, options.time_step)),
       moves_(cloth.size, cloth.size),
       factor_(levels_.back()),
+      block_factor_(levels_.back()),
       kernels_(&kernels_for(team.instructions())),
       lines_(3 * lines_a_worker * team.size(), cloth.size),
       sums_(cloth.size) {
@@ -81,31 +82,64 @@ bool MultigridFilter::knows_pins(const Cloth& cloth) const {
                     [](const Pin& held, int sample) { return held.sample == sample; });
 }
 
-Row3 MultigridFilter::lines(const Crew& crew, int index) {
-  const int first = 3 * (lines_a_worker * crew.worker.rank() + index);
+Row3 MultigridFilter::lines(const Worker& worker, int index) {
+  const int first = 3 * (lines_a_worker * worker.rank() + index);
   return {lines_.row(first), lines_.row(first + 1), lines_.row(first + 2)};
 }
 
+void MultigridFilter::renew_contacts(const ContactSprings& contacts, Worker& worker) {
+  const bool touching = !contacts.empty();
+  const bool idle = !touching && !touching_;
+  worker.barrier();
+  if (idle) return;
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    FilterLevel& level = levels_[i];
+    const Range mine = worker.share(level.size());
+    for (int r = mine.first; r < mine.last; ++r) {
+      if (i == 0)
+        level.contacts.take_row(contacts, r, level.share_row(r));
+      else
+        level.contacts.restrict_row(levels_[i - 1].contacts, r, lines(worker, 3).x);
+      level.contacts.invert_row(r, level.inverse_diagonal.row(r));
+    }
+    worker.barrier();
+    level.contacts.join_mates(level.mates, level.inverse_diagonal,
+                              worker.share(level.mates.class_count()));
+  }
+  if (worker.rank() == 0) {
+    touching_ = touching;
+    if (touching && block_factor_.fits()) block_factor_.renew(levels_.back());
+  }
+  worker.barrier();
+}
+
 void MultigridFilter::first_sweep_row(const FilterLevel& level, int row, Row3 out) const {
+  if (level.contacts.row(row))
+    return level.contacts.precondition(row, factors_.front(), row_of(level.right, row), out);
   kernels_->first_sweep(level.size(), factors_.front(), level.inverse_diagonal.row(row),
                         row_of(level.right, row), out);
+}
+
+void MultigridFilter::apply_row(const FilterLevel& level, int row, const StencilRows& x,
+                                Row3 out) const {
+  kernels_->apply(level.size(), level.operator_row(row), x, out);
+  if (level.contacts.row(row)) level.contacts.subtract_product(row, x.here, out);
 }
 
 /// The residual of a first sweep from zero, which is never stored: three lines hold it.
 void MultigridFilter::lone_sweep_residual(FilterLevel& level, const Crew& crew) {
   const int n = level.size();
   const Range mine = crew.share(n);
-  const auto smooth = [&](int r) { first_sweep_row(level, r, lines(crew, r % 3)); };
+  const auto smooth = [&](int r) { first_sweep_row(level, r, lines(crew.worker, r % 3)); };
   const auto read = [&](int r) {
-    const Row3 row = lines(crew, r % 3);
+    const Row3 row = lines(crew.worker, r % 3);
     return ConstRow3{row.x, row.y, row.z};
   };
   for (int r = std::max(0, mine.first - 1); r < std::min(n, mine.first + 1); ++r) smooth(r);
   for (int r = mine.first; r < mine.last; ++r) {
     if (r + 1 < n) smooth(r + 1);
     const Row3 out = row_of(level.result, r);
-    kernels_->apply(n, level.operator_row(r),
-                    {read(std::max(0, r - 1)), read(r), read(std::min(n - 1, r + 1))}, out);
+    apply_row(level, r, {read(std::max(0, r - 1)), read(r), read(std::min(n - 1, r + 1))}, out);
     kernels_->add_right(n, level.share_row(r), level.inverse_diagonal.row(r),
                         row_of(std::as_const(level.right), r), out);
   }
@@ -122,7 +156,7 @@ void MultigridFilter::two_sweeps_residual(FilterLevel& level, const Crew& crew) 
   exchange(level, crew);
   for (int r = mine.first; r < mine.last; ++r) {
     const Row3 out = row_of(level.result, r);
-    kernels_->apply(n, level.operator_row(r), level.stencil_rows(r), out);
+    apply_row(level, r, level.stencil_rows(r), out);
     kernels_->add_right(n, level.share_row(r), level.inverse_diagonal.row(r),
                         row_of(std::as_const(level.right), r), out);
   }
@@ -143,7 +177,7 @@ void MultigridFilter::down(FilterLevel& fine, FilterLevel& coarse, const Crew& c
   for (int r = mine.first; r < mine.last; ++r) {
     const StencilRows rows{r > 0 ? row_of(residual, 2 * r - 1) : none, row_of(residual, 2 * r),
                            2 * r + 1 < n ? row_of(residual, 2 * r + 1) : none};
-    kernels_->restrict_rows(n, rows, lines(crew, 3), row_of(coarse.right, r));
+    kernels_->restrict_rows(n, rows, lines(crew.worker, 3), row_of(coarse.right, r));
   }
   crew.barrier();
   crew.sum(coarse.mates, coarse.right);
@@ -156,36 +190,63 @@ void MultigridFilter::up(const FilterLevel& coarse, FilterLevel& fine, const Cre
     const float* inverse = fine.inverse_diagonal.row(r);
     if (factors_.size() == 1) first_sweep_row(fine, r, row_of(fine.value, r));
     kernels_->interpolate(n, row_of(coarse.result, r / 2), row_of(coarse.result, (r + 1) / 2),
-                          inverse, lines(crew, 3), row_of(fine.value, r));
+                          inverse, lines(crew.worker, 3), row_of(fine.value, r));
   }
   crew.barrier();
   if (!coarse.matched) crew.average(fine.mates, fine.value);
 }
 
-double MultigridFilter::sweep_row(FilterLevel& level, int row, float factor, bool wants_dot) {
+/// @return right . result of the row
+double MultigridFilter::sweep_row(FilterLevel& level, int row, float factor, const Crew& crew) {
   const int n = level.size();
   const Row3 out = row_of(level.result, row);
-  kernels_->apply(n, level.operator_row(row), level.stencil_rows(row), out);
+  apply_row(level, row, level.stencil_rows(row), out);
+  if (level.contacts.row(row)) return contact_sweep_row(level, row, factor, lines(crew.worker, 3));
   return kernels_->sweep(
       n,
       {factor, level.inverse_diagonal.row(row), level.share_row(row), level.count_row(row),
-       row_of(std::as_const(level.right), row), row_of(std::as_const(level.value), row), wants_dot},
+       row_of(std::as_const(level.right), row), row_of(std::as_const(level.value), row)},
       out);
+}
+
+/// The same with blocks in place of a diagonal; `result` holds -A x.
+double MultigridFilter::contact_sweep_row(FilterLevel& level, int row, float factor, Row3 scratch) {
+  const int n = level.size();
+  const Row3 out = row_of(level.result, row);
+  const ConstRow3 right = row_of(std::as_const(level.right), row);
+  const ConstRow3 value = row_of(std::as_const(level.value), row);
+  const float* count = level.count_row(row);
+#pragma omp simd
+  for (int c = 0; c < n; ++c) {
+    const float copies = count == nullptr ? 1.0F : count[c];
+    scratch.x[c] = right.x[c] + copies * out.x[c];
+    scratch.y[c] = right.y[c] + copies * out.y[c];
+    scratch.z[c] = right.z[c] + copies * out.z[c];
+  }
+  level.contacts.precondition(row, factor, {scratch.x, scratch.y, scratch.z}, out);
+#pragma omp simd
+  for (int c = 0; c < n; ++c) {
+    out.x[c] += value.x[c];
+    out.y[c] += value.y[c];
+    out.z[c] += value.z[c];
+  }
+  return kernels_->dot(n, level.share_row(row), right, {out.x, out.y, out.z});
 }
 
 /// Every sample takes what its own part makes of its class, and the mean is what the class makes.
 void MultigridFilter::level_sweep(FilterLevel& level, float factor, const Crew& crew) {
   const Range mine = crew.share(level.size());
-  for (int r = mine.first; r < mine.last; ++r) sweep_row(level, r, factor, false);
+  for (int r = mine.first; r < mine.last; ++r) sweep_row(level, r, factor, crew);
   crew.barrier();
   crew.average(level.mates, level.result);
 }
 
 double MultigridFilter::finest_sweep(Worker& worker) {
   FilterLevel& level = levels_.front();
+  const Crew crew{worker, false};
   const double slope =
-      sums_.sum(worker, [&](int r) { return sweep_row(level, r, factors_.front(), true); });
-  Crew{worker, false}.average(level.mates, level.result);
+      sums_.sum(worker, [&](int r) { return sweep_row(level, r, factors_.front(), crew); });
+  crew.average(level.mates, level.result);
   return slope;
 }
 
@@ -195,7 +256,11 @@ void MultigridFilter::exchange(FilterLevel& level, const Crew& crew) {
 }
 
 void MultigridFilter::solve_coarsest(FilterLevel& level, const Crew& crew) {
-  if (factor_.fits()) {
+  if (touching_ && block_factor_.fits()) {
+    if (crew.alone || crew.worker.rank() == 0) block_factor_.solve(level);
+    return crew.barrier();
+  }
+  if (!touching_ && factor_.fits()) {
     // The coordinates go together, since what one of them takes is spent waiting.
     const Range mine = crew.share(1);
     if (mine.last > mine.first) factor_.solve(level, *kernels_);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "weft/cloth/multigrid/block_factor.h"
 #include "weft/cloth/multigrid/coarse_factor.h"
 #include "weft/cloth/multigrid/filter_level.h"
 #include "weft/core/ordered_sum.h"
@@ -33,6 +34,10 @@ class MultigridFilter {
   void renew_pins(const Cloth& cloth);
   [[nodiscard]] bool knows_pins(const Cloth& cloth) const;
 
+  /// Takes over the contacts, or that there are none any more. To be called by every worker of the
+  /// team; ends with a barrier.
+  void renew_contacts(const ContactSprings& contacts, Worker& worker);
+
   /// One V-cycle from zero: value() = about A^-1 right(). To be called by every worker of the team;
   /// ends with a barrier. @return right . value [N m]
   double cycle(Worker& worker);
@@ -41,9 +46,10 @@ class MultigridFilter {
   [[nodiscard]] Planes3& right() { return levels_.front().right; }
   /// The correction [m]; mates equal, 0 where held.
   [[nodiscard]] const Planes3& value() const { return levels_.front().result; }
-  [[nodiscard]] Planes3& value() { return levels_.front().result; }
+
   /// [n x n] own part of M / h^2 [N/m]
   [[nodiscard]] const Grid<float>& mass_weight() const { return levels_.front().own_weight; }
+  [[nodiscard]] const FilterLevel& finest() const { return levels_.front(); }
 
  private:
   struct Crew;
@@ -51,20 +57,24 @@ class MultigridFilter {
   void down(FilterLevel& fine, FilterLevel& coarse, const Crew& crew);
   void up(const FilterLevel& coarse, FilterLevel& fine, const Crew& crew);
   void first_sweep_row(const FilterLevel& level, int row, Row3 out) const;
+  void apply_row(const FilterLevel& level, int row, const StencilRows& x, Row3 out) const;
+  double contact_sweep_row(FilterLevel& level, int row, float factor, Row3 scratch);
   void lone_sweep_residual(FilterLevel& level, const Crew& crew);
   void two_sweeps_residual(FilterLevel& level, const Crew& crew);
-  double sweep_row(FilterLevel& level, int row, float factor, bool wants_dot);
+  double sweep_row(FilterLevel& level, int row, float factor, const Crew& crew);
   double finest_sweep(Worker& worker);
   void level_sweep(FilterLevel& level, float factor, const Crew& crew);
   void exchange(FilterLevel& level, const Crew& crew);
   void solve_coarsest(FilterLevel& level, const Crew& crew);
-  [[nodiscard]] Row3 lines(const Crew& crew, int index);
+  [[nodiscard]] Row3 lines(const Worker& worker, int index);
 
   std::vector<float> factors_;  // of the sweeps, in the order before the coarse correction
   std::vector<FilterLevel> levels_;
   Grid<float> moves_;
-  std::vector<int> pinned_;  // samples
-  CoarseFactor factor_;      // of the coarsest level
+  std::vector<int> pinned_;   // samples
+  CoarseFactor factor_;       // of the coarsest level
+  BlockFactor block_factor_;  // of the same with contacts
+  bool touching_ = false;     // whether there are contacts
   const KernelTable* kernels_;
   Grid<float> lines_;  // scratch of every worker
   RowSums sums_;

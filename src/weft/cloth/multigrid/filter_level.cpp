@@ -11,7 +11,7 @@ namespace weft {
 namespace {
 
 // Below, a direct solve costs less than the barriers of smoothing.
-constexpr int coarsest_size = 9;
+constexpr int coarsest_size = 5;
 
 FilterLevel empty_level(const BorderMates& mates) {
   const int n = mates.size();
@@ -20,6 +20,7 @@ FilterLevel empty_level(const BorderMates& mates) {
   for (Grid<float>* plane : {&level.own_weight, &level.own_diagonal, &level.inverse_diagonal})
     *plane = Grid<float>(n, n);
   level.zeros = Grid<float>(1, n);
+  level.contacts = ContactBlocks(n);
   if (mates.class_count() > 0) level.share = level.count = Grid<float>(n, n, 1);
   for (int index = 0; index < mates.class_count(); ++index)
     for (const int s : mates.mates(index)) {

@@ -5,6 +5,7 @@
 
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/kernels/kernel_table.h"
+#include "weft/cloth/multigrid/contact_blocks.h"
 
 namespace weft {
 
@@ -21,6 +22,8 @@ struct FilterLevel {
   Grid<float> share, count;  ///< [n x n] one over the number of mates, and that; empty: no mates
   Grid<float> zeros;         ///< [1 x n] the edges above the first row
   bool matched = true;  ///< the finer level's mates are this level's; else it is cut along the seam
+
+  ContactBlocks contacts;  ///< beside A
 
   Planes3 right;  ///< the right side, mates equal [N]
   Planes3 value;  ///< the iterate before the last sweep [m]

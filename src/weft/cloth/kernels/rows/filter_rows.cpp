@@ -111,7 +111,7 @@ double sweep(int n, const SweepRow& row, Row3 out) {
     y[c] = v.y[c] + step * (b.y[c] + copies * y[c]);
     z[c] = v.z[c] + step * (b.z[c] + copies * z[c]);
   }
-  return row.wants_dot ? lane_dot(n, row.share, b, {x, y, z}) : 0;
+  return lane_dot(n, row.share, b, {x, y, z});
 }
 
 void restrict_rows(int n, const StencilRows& fine, Row3 lines, Row3 out) {

@@ -1,0 +1,121 @@
+#include "weft/cloth/multigrid/contact_blocks.h"
+
+#include <algorithm>
+
+#include "weft/cloth/mip_levels.h"
+
+namespace weft {
+namespace {
+
+/// xx, xy, xz, yy, yz, zz
+using Block = std::array<float, 6>;
+
+/// (d 1 + c)^-1, by cofactors: d > 0 and c has no negative eigenvalue.
+Block inverse_of(float d, const Block& c) {
+  const double xx = double{c[0]} + d, yy = double{c[3]} + d, zz = double{c[5]} + d;
+  const double xy = c[1], xz = c[2], yz = c[4];
+  const double a = yy * zz - yz * yz, b = xz * yz - xy * zz, e = xy * yz - xz * yy;
+  const double scale = 1 / (xx * a + xy * b + xz * e);
+  const auto entry = [&](double cofactor) { return static_cast<float>(scale * cofactor); };
+  return {entry(a),
+          entry(b),
+          entry(e),
+          entry(xx * zz - xz * xz),
+          entry(xy * xz - xx * yz),
+          entry(xx * yy - xy * xy)};
+}
+
+}  // namespace
+
+ContactBlocks::ContactBlocks(int size) : size_(size), rows_(static_cast<std::size_t>(size)) {
+  for (Grid<float>& plane : own_) plane = Grid<float>(size, size);
+  for (Grid<float>& plane : inverse_) plane = Grid<float>(size, size);
+}
+
+Block ContactBlocks::block(int sample) const {
+  Block block{};
+  for (std::size_t i = 0; i < block.size(); ++i) block[i] = own_[i](sample / size_, sample % size_);
+  return block;
+}
+
+void ContactBlocks::clear_row(int row) {
+  if (rows_[row] == 0) return;
+  for (Grid<float>& plane : own_) std::fill(plane.row(row), plane.row(row) + size_, 0.0F);
+  rows_[row] = 0;
+}
+
+void ContactBlocks::take_row(const ContactSprings& contacts, int row, const float* share) {
+  clear_row(row);
+  if (!contacts.row(row)) return;
+  rows_[row] = 1;
+  const float* stiffness = contacts.stiffness().row(row);
+  const ConstRow3 n = contacts.normal_row(row);
+  for (int c = 0; c < size_; ++c) {
+    const float k = stiffness[c] * (share == nullptr ? 1.0F : share[c]);
+    own_[0].row(row)[c] = k * n.x[c] * n.x[c];
+    own_[1].row(row)[c] = k * n.x[c] * n.y[c];
+    own_[2].row(row)[c] = k * n.x[c] * n.z[c];
+    own_[3].row(row)[c] = k * n.y[c] * n.y[c];
+    own_[4].row(row)[c] = k * n.y[c] * n.z[c];
+    own_[5].row(row)[c] = k * n.z[c] * n.z[c];
+  }
+}
+
+void ContactBlocks::restrict_row(const ContactBlocks& fine, int row, float* line) {
+  clear_row(row);
+  bool any = fine.row(2 * row);
+  if (row > 0) any = any || fine.row(2 * row - 1);
+  if (2 * row + 1 < fine.size_) any = any || fine.row(2 * row + 1);
+  if (!any) return;
+  rows_[row] = 1;
+  for (std::size_t i = 0; i < own_.size(); ++i)
+    restrict_plane_row(fine.own_[i], nullptr, row, line, own_[i].row(row));
+}
+
+void ContactBlocks::invert_row(int row, const float* inverse_diagonal) {
+  if (rows_[row] == 0) return;
+  for (int c = 0; c < size_; ++c) {
+    const float inverse = inverse_diagonal[c];
+    const Block found = inverse > 0 ? inverse_of(1 / inverse, block(row * size_ + c)) : Block{};
+    for (std::size_t i = 0; i < found.size(); ++i) inverse_[i].row(row)[c] = found[i];
+  }
+}
+
+void ContactBlocks::join_mates(const BorderMates& mates, const Grid<float>& inverse_diagonal,
+                               Range classes) {
+  for (int index = classes.first; index < classes.last; ++index) {
+    const std::span<const int> samples = mates.mates(index);
+    Block sum{};
+    for (const int s : samples)
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own_[i](s / size_, s % size_);
+    const float inverse = inverse_diagonal(samples.front() / size_, samples.front() % size_);
+    const Block found = inverse > 0 ? inverse_of(1 / inverse, sum) : Block{};
+    for (const int s : samples)
+      for (std::size_t i = 0; i < found.size(); ++i) inverse_[i](s / size_, s % size_) = found[i];
+  }
+}
+
+void ContactBlocks::subtract_product(int row, ConstRow3 x, Row3 out) const {
+  const float *xx = own_[0].row(row), *xy = own_[1].row(row), *xz = own_[2].row(row);
+  const float *yy = own_[3].row(row), *yz = own_[4].row(row), *zz = own_[5].row(row);
+#pragma omp simd
+  for (int c = 0; c < size_; ++c) {
+    out.x[c] -= xx[c] * x.x[c] + xy[c] * x.y[c] + xz[c] * x.z[c];
+    out.y[c] -= xy[c] * x.x[c] + yy[c] * x.y[c] + yz[c] * x.z[c];
+    out.z[c] -= xz[c] * x.x[c] + yz[c] * x.y[c] + zz[c] * x.z[c];
+  }
+}
+
+void ContactBlocks::precondition(int row, float factor, ConstRow3 in, Row3 out) const {
+  const float *xx = inverse_[0].row(row), *xy = inverse_[1].row(row), *xz = inverse_[2].row(row);
+  const float *yy = inverse_[3].row(row), *yz = inverse_[4].row(row), *zz = inverse_[5].row(row);
+#pragma omp simd
+  for (int c = 0; c < size_; ++c) {
+    const float x = factor * in.x[c], y = factor * in.y[c], z = factor * in.z[c];
+    out.x[c] = xx[c] * x + xy[c] * y + xz[c] * z;
+    out.y[c] = xy[c] * x + yy[c] * y + yz[c] * z;
+    out.z[c] = xz[c] * x + yz[c] * y + zz[c] * z;
+  }
+}
+
+}  // namespace weft
