@@ -110,7 +110,7 @@ TEST(Bending, AffineMapsOfFlatClothFeelNone) {
 }
 
 TEST(Bending, LaplacianDoesNotDependOnTheParameterization) {
-  // |u|^2 / 2 of y = x^2 / 2 + x z / 3 + z^2, whose Laplacian is 3, is B/2 9 times the area.
+  // y = x^2 / 2 + x z / 3 + z^2 has the Laplacian 3 and the Gaussian curvature 2 - 1/9.
   const auto bowl = [](Vec3d p) {
     return Vec3d{p.x, 0.5 * p.x * p.x + p.x * p.z / 3 + p.z * p.z, p.z};
   };
@@ -119,7 +119,8 @@ TEST(Bending, LaplacianDoesNotDependOnTheParameterization) {
     const double area = total_mass(cloth) / cloth.material.density;
     const double energy = bending_energy(cloth, mapped(rest, bowl));
     // Along the border only the second derivative there counts.
-    EXPECT_NEAR(energy / (0.5 * stiff.bending * 9 * area), 1, 0.05);
+    const double density = 0.5 * stiff.bending * (9 - 2 * 0.75 * (2 - 1.0 / 9));
+    EXPECT_NEAR(energy / (density * area), 1, 0.05);
   }
 }
 
@@ -136,6 +137,48 @@ TEST(Bending, RolledStripHasTheEnergyOfItsCurvature) {
   const double energy = bending_energy(cloth, mapped(cloth.rest, roll));
   const double wanted = 0.5 * stiff.bending * 4 * (1 - 1.0 / (n - 1));
   EXPECT_NEAR(energy / wanted, 1, 1e-3);
+}
+
+TEST(Bending, SaddleHasTheEnergyOfItsTwist) {
+  // z = c x y bends nowhere on average; three quarters of its twist count: (1 - nu) B c^2 area.
+  const auto saddle = [](Vec3d p) { return Vec3d{p.x, 0.8 * p.x * p.z, p.z}; };
+  const auto relative_energy = [&](const Planes3& rest) {
+    const Cloth cloth = flat_cloth(rest);
+    const double area = total_mass(cloth) / cloth.material.density;
+    return bending_energy(cloth, mapped(rest, saddle)) / (0.75 * stiff.bending * 0.64 * area);
+  };
+  EXPECT_NEAR(relative_energy(flat_sheet(9)), 1, 1e-4);
+  EXPECT_NEAR(relative_energy(uneven_sheet(33)), 1, 0.05);
+  EXPECT_NEAR(relative_energy(disk(33)), 1, 0.05);
+}
+
+TEST(Bending, NoShapeHasNegativeEnergy) {
+  // The lowest eigenvalue, by the powers of what the highest one is more than the matrix.
+  const auto narrow = [](Vec3d p) { return Vec3d{p.x, 0, 0.25 * p.z}; };
+  for (const Planes3& rest :
+       {flat_sheet(9), uneven_sheet(9), disk(9), uneven_sheet(17), mapped(flat_sheet(9), narrow)}) {
+    const Cloth cloth = flat_cloth(rest);
+    Planes3 way(cloth.size);
+    shake(cloth, 1, way);
+    const auto normalize = [&](Planes3& planes) {
+      const auto scale = static_cast<float>(1 / std::sqrt(dot_product(cloth, planes, planes)));
+      for (int s = 0; s < cloth.size * cloth.size; ++s) planes.set(s, scale * planes.at(s));
+    };
+    const auto power = [&](double shift, int count) {
+      double value = 0;
+      for (int i = 0; i < count; ++i) {
+        normalize(way);
+        const Planes3 image = forces(cloth, way, true);
+        value = -dot_product(cloth, way, image);
+        for (int s = 0; s < cloth.size * cloth.size; ++s)
+          way.set(s, static_cast<float>(shift) * way.at(s) + image.at(s));
+      }
+      return value;
+    };
+    const double highest = power(0, 50);
+    shake(cloth, 1, way, 2);
+    EXPECT_GT(power(0.6 * highest, 2000), -1e-5 * highest);
+  }
 }
 
 TEST(Bending, ForcesAreMinusTheGradientOfFlatCloth) {

@@ -48,6 +48,22 @@ void add_corner_row(const Planes3& position, BendingOffset a, BendingOffset b, i
   }
 }
 
+/// Edges of negative stiffness bound nothing; an edge between second neighbours along the border is
+/// bounded by twice the two between.
+void add_border_bound(const BorderBending& border, SpringDirection direction, Grid<float>& bound) {
+  const auto [down, right] = spring_offsets[direction];
+  for (int r = 0; r + 1 < static_cast<int>(border.starts.size()); ++r)
+    for (int i = border.starts[r]; i < border.starts[r + 1]; ++i) {
+      const BorderBending::Edge& edge = border.edges[i];
+      const int way_down = edge.other_row - r, way_right = edge.other_col - edge.col;
+      const float stiffness = std::max(edge.stiffness, 0.0F);
+      if (way_down == down && way_right == right) bound(r, edge.col) += stiffness;
+      if (way_down != 2 * down || way_right != 2 * right) continue;
+      bound(r, edge.col) += 2 * stiffness;
+      bound(r + down, edge.col + right) += 2 * stiffness;
+    }
+}
+
 }  // namespace
 
 BendingPass::BendingPass(const Cloth& cloth, InstructionSet instructions)
@@ -58,6 +74,7 @@ BendingPass::BendingPass(const Cloth& cloth, InstructionSet instructions)
 
 void BendingPass::curve(const Planes3& position, Worker& worker) {
   if (!active()) return;
+  if (worker.rank() == 0) field_ = &position;
   const Range mine = worker.share(cloth_.size);
   const bool turned = cloth_.bending.curved;
   for (int r = mine.first; r < mine.last; ++r) {
@@ -77,6 +94,7 @@ void BendingPass::curve(const Planes3& position, Worker& worker) {
 
 void BendingPass::curve_change(const Planes3& change, Worker& worker) {
   if (!active()) return;
+  if (worker.rank() == 0) field_ = &change;
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) curve_row(change, r);
   worker.barrier();
@@ -129,6 +147,7 @@ void BendingPass::subtract_rest_row(int row) {
 
 void BendingPass::add_row(float factor, int row, Planes3& out) const {
   if (!active()) return;
+  add_border_row(factor, row, out);
   const Row3 sum = row_of(out, row);
   const ConstRow3 u = row_of(curved_, row);
   for (int k = 0; k < used_neighbours(cloth_.bending); ++k) {
@@ -145,12 +164,31 @@ void BendingPass::add_row(float factor, int row, Planes3& out) const {
   }
 }
 
+void BendingPass::add_border_row(float factor, int row, Planes3& out) const {
+  const BorderBending& border = cloth_.bending.border;
+  if (border.starts.empty()) return;
+  for (int i = border.starts[row]; i < border.starts[row + 1]; ++i) {
+    const BorderBending::Edge& edge = border.edges[i];
+    const float k = factor * edge.stiffness;
+    const Vec3f pull = k * (field_->at(edge.other_row, edge.other_col) - field_->at(row, edge.col));
+    out.set(row, edge.col, out.at(row, edge.col) + pull);
+  }
+}
+
 double BendingPass::energy() const {
   if (!active()) return 0;
   double energy = 0;
-  for (int r = 0; r < cloth_.size; ++r)
+  for (int r = 0; r < cloth_.size; ++r) {
     for (int c = 0; c < cloth_.size; ++c)
       energy += 0.5 * cloth_.counted(r, c) * squared_length(vec_cast<double>(curved_.at(r, c)));
+    const BorderBending& border = cloth_.bending.border;
+    if (border.starts.empty()) continue;
+    for (int i = border.starts[r]; i < border.starts[r + 1]; ++i) {
+      const BorderBending::Edge& edge = border.edges[i];
+      const Vec3f way = field_->at(edge.other_row, edge.other_col) - field_->at(r, edge.col);
+      energy += 0.25 * edge.stiffness * squared_length(vec_cast<double>(way));
+    }
+  }
   return energy;
 }
 
@@ -174,6 +212,7 @@ Grid<float> bending_bound(const Cloth& cloth, SpringDirection direction) {
     for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c)
       bound(r, c) = total(r, c) * std::abs(forth(r, c)) +
                     total(r + down, c + right) * std::abs(back(r + down, c + right));
+  add_border_bound(cloth.bending.border, direction, bound);
   return bound;
 }
 

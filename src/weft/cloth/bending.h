@@ -27,26 +27,29 @@ class BendingPass {
   /// worker meets no barrier in them.
   [[nodiscard]] bool active() const { return cloth_.bending.active; }
 
-  /// u of the positions. To be called by every worker when all positions are in place; ends with a
-  /// barrier. Rows of the last call must not be in use any more.
+  /// u of the positions, which are kept by reference until the rows are added. To be called by
+  /// every worker when all positions are in place; ends with a barrier. Rows of the last call must
+  /// not be in use any more.
   /// @param position  [n x n] [m]
   void curve(const Planes3& position, Worker& worker);
   /// u = M change: what a small move changes in u.
   void curve_change(const Planes3& change, Worker& worker);
-  /// Adds -factor M^T u to a row, each sample's own part: with 1 the bending forces [N], after
-  /// curve_change with -h^2 a row of h^2 M^T M change.
+  /// Adds -factor M^T u, and what free borders add, to a row, each sample's own part: with 1 the
+  /// bending forces [N], after curve_change with -h^2 a row of h^2 M^T M change.
   void add_row(float factor, int row, Planes3& out) const;
-  /// |u|^2 / 2 of the last curve, over all particles [J].
+  /// The energy of the last curve, over all particles [J].
   [[nodiscard]] double energy() const;
 
  private:
   void curve_row(const Planes3& position, int row);
   void turn_row(const Planes3& position, int row);
   void subtract_rest_row(int row);
+  void add_border_row(float factor, int row, Planes3& out) const;
 
   const Cloth& cloth_;
   const KernelTable* kernels_;
-  Planes3 curved_;  // u
+  const Planes3* field_ = nullptr;  // what was curved last
+  Planes3 curved_;                  // u
   Planes3 normal_;  // of the surface, as long as the area around [m^2]; empty for flat rest shapes
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "weft/cloth/bending_border.h"
 #include "weft/cloth/bending_ring.h"
 
 namespace weft {
@@ -239,6 +240,12 @@ double reach_of(const Planes3& position) {
   return reach;
 }
 
+void add_to_diagonal(const BorderBending& border, Grid<float>& diagonal) {
+  for (int r = 0; r + 1 < static_cast<int>(border.starts.size()); ++r)
+    for (int i = border.starts[r]; i < border.starts[r + 1]; ++i)
+      diagonal(r, border.edges[i].col) += border.edges[i].stiffness;
+}
+
 }  // namespace
 
 BendingPlanes make_bending(const RestShape& shape, const Material& material) {
@@ -261,6 +268,10 @@ BendingPlanes make_bending(const RestShape& shape, const Material& material) {
   for (int s = 0; s < n * n; ++s)
     if (!has_mates[static_cast<std::size_t>(s)]) add(std::span(&s, 1));
   writer.finish();
+  if (planes.active && !planes.curved) {
+    planes.border = make_border_bending(shape, material.bending);
+    add_to_diagonal(planes.border, planes.diagonal);
+  }
   return planes;
 }
 

@@ -25,6 +25,18 @@ enum SpringDirection { stretch_u, stretch_v, shear_1, shear_2, bend_u, bend_v, s
 /// Samples around one, in the order of the planes of bending.
 inline constexpr int bending_neighbours = 8, straight_bending_neighbours = 4;
 
+/// Edges of Dirichlet energy k |x_j - x_i|^2 / 2 between samples near a free border, k of either
+/// sign, sorted by row; each is there from both of its ends.
+struct BorderBending {
+  struct Edge {
+    int col = 0;                       ///< of the end in this row
+    int other_row = 0, other_col = 0;  ///< the other end
+    float stiffness = 0;               ///< k [N/m]
+  };
+  std::vector<Edge> edges;
+  std::vector<int> starts;  ///< [n + 1] where each row's begin; empty without edges
+};
+
 /// Resistance to bending, B/2 sum area |L x - R|^2, as |u|^2 / 2 with u = M x - sqrt(B area) R and
 /// M = sqrt(B area) L: element (r, c) of a weight plane belongs to a neighbour of sample (r, c),
 /// (M x)_i = sum_j weight_j (x_j - x_i), a class of mates adding up what its samples see. L is a
@@ -33,7 +45,9 @@ inline constexpr int bending_neighbours = 8, straight_bending_neighbours = 4;
 struct BendingPlanes {
   std::array<Grid<float>, bending_neighbours> weight;  ///< [n x n] each [sqrt(N/m)]
   Grid<float> rest;        ///< [n x n] sqrt(B area) H0, the same on all of a class [sqrt(N m)]
-  Grid<float> diagonal;    ///< [n x n] of M^T M, of the class on its representative, else 0 [N/m]
+  BorderBending border;    ///< added to it, so that free borders resist saddles
+  Grid<float> diagonal;    ///< [n x n] of M^T M and what borders add, of the class on its
+                           ///< representative, else 0 [N/m]
   bool active = false;     ///< whether any weight is not 0
   bool diagonals = false;  ///< whether any weight beyond the four straight neighbours is not 0
   bool curved = false;     ///< whether any rest curvature is not 0

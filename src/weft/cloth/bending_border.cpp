@@ -1,0 +1,135 @@
+#include "weft/cloth/bending_border.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace weft {
+namespace {
+
+/// Of fabrics bent two ways at once; also the margin by which uneven grids stay stable.
+constexpr double poisson_ratio = 0.25;
+/// Twice its area over its longest squared edge, below which a triangle is a sliver.
+constexpr double least_fatness = 0.05;
+/// Where a border turns less at a corner of the image, that is a corner of the image alone: the
+/// cosine of 60 degrees.
+constexpr double most_turn = 0.5;
+
+/// The gradient of a linear function on a triangle: sum of factor times value.
+struct Gradient {
+  std::array<int, 3> sample{};
+  std::array<Vec2d, 3> factor{};
+};
+
+class BorderWalk {
+ public:
+  explicit BorderWalk(const RestShape& shape) : shape_(shape), n_(shape.size()) {
+    // Samples in rows and columns turn the same way round as their border positions.
+    const Vec3d u = place(n_ - 1) - place(0), v = place(n_ * (n_ - 1)) - place(0);
+    normal_ = normalized(cross(u, v));
+    along_ = normalized(u);
+    across_ = cross(normal_, along_);
+  }
+
+  /// Both triangles on each border edge, in order.
+  [[nodiscard]] std::optional<std::vector<Gradient>> gradients() const {
+    std::vector<Gradient> all;
+    const int count = 4 * (n_ - 1);
+    for (int p = 0; p < count; ++p)
+      for (const int end : {p, (p + 1) % count}) {
+        const int other = end == p ? (p + 1) % count : p;
+        const int apex = apex_of(end, other);
+        const auto one = gradient(border_sample(n_, p), border_sample(n_, (p + 1) % count), apex);
+        if (!one) return std::nullopt;
+        all.push_back(*one);
+      }
+    return all;
+  }
+
+ private:
+  [[nodiscard]] Vec3d place(int sample) const {
+    return vec_cast<double>(shape_.position.at(sample));
+  }
+  [[nodiscard]] Vec2d flat(int sample) const {
+    return {dot(place(sample), along_), dot(place(sample), across_)};
+  }
+
+  /// The neighbour of a border sample that lies off its border: inward, or at a corner the next
+  /// sample round it.
+  [[nodiscard]] int apex_of(int position, int other) const {
+    const int sample = border_sample(n_, position), count = 4 * (n_ - 1);
+    const int row = sample / n_, col = sample % n_, last = n_ - 1;
+    const int inner_row = std::clamp(row, 1, last - 1), inner_col = std::clamp(col, 1, last - 1);
+    const bool corner = (row == 0 || row == last) && (col == 0 || col == last);
+    const int inward = inner_row * n_ + inner_col;
+    if (!corner) return inward;
+    const int before = (position + count - 1) % count, after = (position + 1) % count;
+    const int round = border_sample(n_, other == before ? after : before);
+    const Vec3d here = place(sample);
+    const Vec3d a = normalized(place(border_sample(n_, before)) - here);
+    const Vec3d b = normalized(place(border_sample(n_, after)) - here);
+    return -dot(a, b) < most_turn ? round : inward;
+  }
+
+  [[nodiscard]] std::optional<Gradient> gradient(int a, int b, int c) const {
+    const std::array<int, 3> sample{a, b, c};
+    const std::array<Vec2d, 3> at{flat(a), flat(b), flat(c)};
+    const double twice_area = cross(at[1] - at[0], at[2] - at[0]);
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Vec2d edge = at[(i + 1) % 3] - at[i];
+      longest = std::max(longest, dot(edge, edge));
+    }
+    if (!(std::abs(twice_area) > least_fatness * longest)) return std::nullopt;
+    Gradient result{sample, {}};
+    for (int i = 0; i < 3; ++i) {
+      const Vec2d edge = at[(i + 2) % 3] - at[(i + 1) % 3];
+      result.factor[i] = {-edge.y / twice_area, edge.x / twice_area};
+    }
+    return result;
+  }
+
+  const RestShape& shape_;
+  int n_;
+  Vec3d normal_, along_, across_;
+};
+
+/// The matrix K of energy x . K x / 2, by pairs of samples.
+std::map<std::pair<int, int>, double> border_matrix(const std::vector<Gradient>& gradients,
+                                                    double strength) {
+  std::map<std::pair<int, int>, double> matrix;
+  for (std::size_t k = 0; k < gradients.size(); ++k) {
+    const Gradient &a = gradients[k], &b = gradients[(k + 1) % gradients.size()];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const double product = -0.5 * strength * cross(a.factor[i], b.factor[j]);
+        matrix[{a.sample[i], b.sample[j]}] += product;
+        matrix[{b.sample[j], a.sample[i]}] += product;
+      }
+  }
+  return matrix;
+}
+
+}  // namespace
+
+BorderBending make_border_bending(const RestShape& shape, double bending) {
+  BorderBending border;
+  const int n = shape.size();
+  if (shape.mates.class_count() > 0 || n < 3) return border;
+  const auto gradients = BorderWalk(shape).gradients();
+  if (!gradients) return border;
+  border.starts.assign(static_cast<std::size_t>(n) + 1, 0);
+  for (const auto& [pair, value] : border_matrix(*gradients, (1 - poisson_ratio) * bending)) {
+    const auto [from, to] = pair;
+    if (from == to || value == 0) continue;
+    border.edges.push_back({from % n, to / n, to % n, static_cast<float>(-value)});
+    ++border.starts[static_cast<std::size_t>(from / n) + 1];
+  }
+  for (int r = 0; r < n; ++r) border.starts[r + 1] += border.starts[r];
+  return border;
+}
+
+}  // namespace weft

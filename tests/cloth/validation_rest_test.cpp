@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include "tests/cloth/validation.h"
+
+namespace weft {
+namespace {
+
+using namespace testing;
+
+struct Tip {
+  double drop = 0, reach = 0;  ///< over the free length
+};
+
+/// Where a heavy sheet comes to rest that is clamped level by its first two columns: its bending
+/// starts halfway between them.
+/// @param load  area density * g L^3 / B
+Tip hang_cantilever(double load, int n) {
+  const double length = 0.3, spacing = length / (n - 1), free = length - 0.5 * spacing;
+  Material material{.density = 0.2, .stretch = 2e4, .shear = 5e3, .damping = 0};
+  material.bending = material.density * 9.81 * free * free * free / load;
+  Cloth cloth = make_cloth(flat_strip(n, length, length), no_mates(n), material);
+  for (int r = 0; r < n; ++r)
+    for (const int c : {0, 1}) pin_at(cloth, r, c, cloth.rest);
+  ClothState state = rest_state(cloth);
+  come_to_rest(cloth, 0.1, load > 8 ? 150 : 80, state);
+  const Vec3f tip = state.position.at(n / 2, n - 1);
+  return {-tip.y / free, (tip.x - 0.5 * spacing) / free};
+}
+
+/// The heavy elastica's boundary value problem, solved to all digits given.
+struct HeavyElastica {
+  double load = 0, drop = 0, reach = 0;
+};
+
+void compare(const HeavyElastica& wanted, int n) {
+  const Tip tip = hang_cantilever(wanted.load, n);
+  check(fmt::format("cantilever, G = {}: drop/L", wanted.load), wanted.drop, tip.drop, 0.01);
+  check(fmt::format("cantilever, G = {}: x/L", wanted.load), wanted.reach, tip.reach, 0.01);
+}
+
+TEST(ValidationRest, CantileverIsTheHeavyElastica) {
+  compare({1, 0.123471, 0.991246}, 25);
+  compare({8, 0.640631, 0.724425}, 25);
+}
+
+TEST(ValidationRest, DISABLED_LongCantileverIsTheHeavyElastica) {
+  compare({16, 0.797020, 0.509995}, 33);
+  compare({40, 0.894643, 0.283519}, 33);
+  compare({100, 0.937524, 0.159223}, 33);
+}
+
+TEST(ValidationRest, CantileverTestFindsTheBendingLength) {
+  // An overhang of twice the bending length points down by 41.5 degrees [astmd1388].
+  const Tip tip = hang_cantilever(8, 25);
+  const double angle = 180 / pi * arc_tangent(tip.drop, tip.reach);
+  check("ASTM D1388: angle of an overhang of 2 c [degrees]", 41.5, angle, 0.5);
+}
+
+TEST(ValidationRest, SheetBetweenTwoEdgesIsACatenary) {
+  const int n = 49;
+  const double span = 0.8;
+  Cloth cloth = make_cloth(flat_strip(n, 1, 0.5), no_mates(n),
+                           {.density = 0.2, .stretch = 5e3, .shear = 100, .bending = 0});
+  ClothState state = rest_state(cloth);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const double s = c / (n - 1.0);
+      state.position.set(r, c, vec_cast<float>(Vec3d{span * s, -s * (1 - s), 0.5 * r / (n - 1)}));
+    }
+  for (int r = 0; r < n; ++r)
+    for (const int c : {0, n - 1}) pin_at(cloth, r, c, state.position);
+  come_to_rest(cloth, 0.1, 60, state);
+  check("catenary, span/L = 0.8: sag/L", 0.26543751, -state.position.y(n / 2, n / 2), 1e-3);
+  // All columns pull alike along x, so rounding averages out; each end holds half the weight.
+  const SpringPlane& plane = cloth.springs[stretch_u];
+  double pull = 0;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c + 1 < n; ++c) {
+      const Vec3f link = state.position.at(r, c + 1) - state.position.at(r, c);
+      const double strained = length(link) - plane.rest_length(r, c);
+      pull += plane.stiffness(r, c) * strained * link.x / length(link) / (n - 1);
+    }
+  const double relative = pull / (9.81 * total_mass(cloth));
+  check("catenary, span/L = 0.8: tension at its end over weight", 0.603639,
+        std::sqrt(relative * relative + 0.25), 0.006);
+}
+
+/// A square that hangs from four points of it, halfway between its middle and its corners: it sags
+/// between them and droops outside.
+struct Draped {
+  double mean_drop = 0, corner_drop = 0;  ///< over the half width
+};
+
+/// Where sample (u, v) lies on the square of side 1; uneven and sheared, but for the four points.
+Vec2d uneven_place(double u, double v) {
+  const double both = sine(4 * pi * u) * sine(4 * pi * v);
+  return {u + 0.02 * sine(4 * pi * u) + 0.015 * both, v - 0.015 * sine(4 * pi * v) + 0.01 * both};
+}
+
+Draped drape(int n, bool uneven) {
+  const double side = 0.6;
+  Planes3 rest(n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const double u = c / (n - 1.0), v = r / (n - 1.0);
+      const Vec2d at = uneven ? uneven_place(u, v) : Vec2d{u, v};
+      rest.set(r, c, vec_cast<float>(Vec3d{side * (at.x - 0.5), 0, side * (at.y - 0.5)}));
+    }
+  Cloth cloth = make_cloth(rest, no_mates(n),
+                           {.density = 0.41, .stretch = 500, .shear = 150, .bending = 2e-3});
+  for (const int r : {(n - 1) / 4, 3 * (n - 1) / 4})
+    for (const int c : {(n - 1) / 4, 3 * (n - 1) / 4}) pin_at(cloth, r, c, rest);
+  ClothState state = rest_state(cloth);
+  come_to_rest(cloth, 0.1, 60, state);
+  return {-centre_of_mass(cloth, state).y / (side / 2), -state.position.y(0, 0) / (side / 2)};
+}
+
+/// Within 2 % of half the width.
+void compare_drapes(const std::string& what, const Draped& wanted, const Draped& measured) {
+  check(what + ": mean drop over half its width", wanted.mean_drop, measured.mean_drop, 0.02);
+  check(what + ": drop of a corner over half its width", wanted.corner_drop, measured.corner_drop,
+        0.02);
+}
+
+TEST(ValidationRest, ClothDrapesAlikeAtEveryResolutionAndParameterization) {
+  const Draped even = drape(65, false);
+  EXPECT_GT(even.corner_drop, 0.1);
+  compare_drapes("draped square, n = 33 against 65", even, drape(33, false));
+  compare_drapes("draped square, uneven n = 33 against 65", even, drape(33, true));
+}
+
+TEST(ValidationRest, DISABLED_FineClothDrapesAlike) {
+  const Draped finest = drape(129, false);
+  compare_drapes("draped square, n = 65 against 129", finest, drape(65, false));
+  compare_drapes("draped square, uneven n = 65 against 129", finest, drape(65, true));
+}
+
+}  // namespace
+}  // namespace weft
