@@ -56,9 +56,13 @@ TEST(ValidationRest, CantileverTestFindsTheBendingLength) {
   check("ASTM D1388: angle of an overhang of 2 c [degrees]", 41.5, angle, 0.5);
 }
 
-TEST(ValidationRest, SheetBetweenTwoEdgesIsACatenary) {
+struct Catenary {
+  double sag = 0, tension = 0;  ///< over its length, over its weight
+};
+
+/// A sheet between two level edges, by its middle and by what its columns pull with.
+Catenary hang_between(double span) {
   const int n = 49;
-  const double span = 0.8;
   Cloth cloth = make_cloth(flat_strip(n, 1, 0.5), no_mates(n),
                            {.density = 0.2, .stretch = 5e3, .shear = 100, .bending = 0});
   ClothState state = rest_state(cloth);
@@ -70,7 +74,6 @@ TEST(ValidationRest, SheetBetweenTwoEdgesIsACatenary) {
   for (int r = 0; r < n; ++r)
     for (const int c : {0, n - 1}) pin_at(cloth, r, c, state.position);
   come_to_rest(cloth, 0.1, 60, state);
-  check("catenary, span/L = 0.8: sag/L", 0.26543751, -state.position.y(n / 2, n / 2), 1e-3);
   // All columns pull alike along x, so rounding averages out; each end holds half the weight.
   const SpringPlane& plane = cloth.springs[stretch_u];
   double pull = 0;
@@ -81,8 +84,18 @@ TEST(ValidationRest, SheetBetweenTwoEdgesIsACatenary) {
       pull += plane.stiffness(r, c) * strained * link.x / length(link) / (n - 1);
     }
   const double relative = pull / (9.81 * total_mass(cloth));
-  check("catenary, span/L = 0.8: tension at its end over weight", 0.603639,
-        std::sqrt(relative * relative + 0.25), 0.006);
+  return {-state.position.y(n / 2, n / 2), std::sqrt(relative * relative + 0.25)};
+}
+
+TEST(ValidationRest, SheetBetweenTwoEdgesIsACatenary) {
+  for (const auto& [span, sag] :
+       {std::pair{0.5, 0.39819418}, std::pair{0.8, 0.26543751}, std::pair{0.9, 0.19070900}}) {
+    const Catenary measured = hang_between(span);
+    check(fmt::format("catenary, span/L = {}: sag/L", span), sag, measured.sag, 1e-3);
+    if (span == 0.8)
+      check("catenary, span/L = 0.8: tension at its end over weight", 0.603639, measured.tension,
+            0.006);
+  }
 }
 
 /// A square that hangs from four points of it, halfway between its middle and its corners: it sags
@@ -115,11 +128,10 @@ Draped drape(int n, bool uneven) {
   return {-centre_of_mass(cloth, state).y / (side / 2), -state.position.y(0, 0) / (side / 2)};
 }
 
-/// Within 2 % of half the width.
 void compare_drapes(const std::string& what, const Draped& wanted, const Draped& measured) {
   check(what + ": mean drop over half its width", wanted.mean_drop, measured.mean_drop, 0.02);
   check(what + ": drop of a corner over half its width", wanted.corner_drop, measured.corner_drop,
-        0.02);
+        0.02 * wanted.corner_drop);
 }
 
 TEST(ValidationRest, ClothDrapesAlikeAtEveryResolutionAndParameterization) {
