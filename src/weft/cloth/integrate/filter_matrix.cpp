@@ -14,6 +14,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 Sparse system_of(const FilterGrid& grid) {
   const auto count = static_cast<int>(grid.mass.size());
   std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(std::size_t{25} * grid.mass.size());  // its own, and four of each of six springs
   for (int i = 0; i < count; ++i) entries.emplace_back(i, i, grid.mass[i]);
   const int n = grid.size;
   const double squared_step = grid.time_step * grid.time_step;

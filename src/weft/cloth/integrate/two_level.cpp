@@ -65,10 +65,10 @@ class TwoLevel final : public FilteredIntegrator {
   /// The limiter may keep a filter that grows within bounds: then nothing runs away, the cloth
   /// trembles.
   [[nodiscard]] std::string caution() const override {
-    const std::string general = FilteredIntegrator::caution();
-    if (stiffness_ <= largest_stable_stiffness(filter_step_)) return general;
-    return "this may tremble or run away: " + stability_advice(filter_step_) +
-           (general.empty() ? "" : "; " + general);
+    std::string text = FilteredIntegrator::caution();
+    if (stiffness_ <= largest_stable_stiffness(filter_step_)) return text;
+    if (!text.empty()) text += "; ";
+    return text + "this may tremble or run away: " + stability_advice(filter_step_);
   }
 
  private:

@@ -12,13 +12,13 @@ inline float folded(float* sums) {
   return sums[0];
 }
 
-/// `together` rows, so that the vectors are read once for all.
-template <int together>
+/// `Together` rows, so that the vectors are read once for all.
+template <int Together>
 inline __attribute__((always_inline)) void rows_times(const float* matrix, std::ptrdiff_t stride,
                                                       ConstRow3 v, int first, Row3 out) {
-  float sx[together][lanes] = {}, sy[together][lanes] = {}, sz[together][lanes] = {};
+  float sx[Together][lanes] = {}, sy[Together][lanes] = {}, sz[Together][lanes] = {};
   for (std::ptrdiff_t j = 0; j < stride; j += lanes)
-    for (int r = 0; r < together; ++r) {
+    for (int r = 0; r < Together; ++r) {
       const float* row = matrix + (first + r) * stride + j;
 #pragma omp simd
       for (int i = 0; i < lanes; ++i) {
@@ -27,7 +27,7 @@ inline __attribute__((always_inline)) void rows_times(const float* matrix, std::
         sz[r][i] += row[i] * v.z[j + i];
       }
     }
-  for (int r = 0; r < together; ++r) {
+  for (int r = 0; r < Together; ++r) {
     out.x[first + r] = folded(sx[r]);
     out.y[first + r] = folded(sy[r]);
     out.z[first + r] = folded(sz[r]);

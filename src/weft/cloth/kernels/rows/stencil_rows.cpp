@@ -15,20 +15,20 @@ constexpr int most_distances = 6;
 inline int padded(int n) { return (n + width - 1) / width * width; }
 
 /// lines[l] = the rows weighed for distance first + l, l < count.
-template <int count>
+template <int Count>
 inline void weigh_columns(int n, const float* const* rows, const PatchWeights& patch, int first,
                           float* lines, std::ptrdiff_t stride) {
   for (int c = 0; c < n; c += width) {
-    float sums[count][width] = {};
+    float sums[Count][width] = {};
     const float* w = patch.centred + first;
     for (int k = 0; k < patch.rows; ++k, w += patch.half + 1) {
       const float* row = rows[k] + c;
-      for (int l = 0; l < count; ++l) {
+      for (int l = 0; l < Count; ++l) {
 #pragma omp simd
         for (int i = 0; i < width; ++i) sums[l][i] += w[l] * row[i];
       }
     }
-    for (int l = 0; l < count; ++l) {
+    for (int l = 0; l < Count; ++l) {
       float* line = lines + (first + l) * stride + c;
 #pragma omp simd
       for (int i = 0; i < width; ++i) line[i] = sums[l][i];
@@ -57,27 +57,27 @@ inline void weigh_distances(int n, const float* const* rows, const PatchWeights&
   }
 }
 
-template <int columns>
+template <int Columns>
 inline __attribute__((always_inline)) void add_block(int half, const float* lines,
                                                      std::ptrdiff_t stride, int c, float* out) {
-  float sum[columns];
+  float sum[Columns];
 #pragma omp simd
-  for (int i = 0; i < columns; ++i) sum[i] = lines[c + i];
+  for (int i = 0; i < Columns; ++i) sum[i] = lines[c + i];
   for (int l = 1; l <= half; ++l) {
     const float* line = lines + l * stride + c;
 #pragma omp simd
-    for (int i = 0; i < columns; ++i) sum[i] += line[i - l] + line[i + l];
+    for (int i = 0; i < Columns; ++i) sum[i] += line[i - l] + line[i + l];
   }
 #pragma omp simd
-  for (int i = 0; i < columns; ++i) out[c + i] = sum[i];
+  for (int i = 0; i < Columns; ++i) out[c + i] = sum[i];
 }
 
 /// The last block laps over the one before, which gives the same sums again.
-template <int columns>
+template <int Columns>
 inline void add_blocks(int n, int half, const float* lines, std::ptrdiff_t stride, float* out) {
   const int last = n - half;
-  for (int c = half; c < last; c += columns)
-    add_block<columns>(half, lines, stride, c + columns <= last ? c : last - columns, out);
+  for (int c = half; c < last; c += Columns)
+    add_block<Columns>(half, lines, stride, c + Columns <= last ? c : last - Columns, out);
 }
 
 inline void add_along(int n, int half, const float* lines, std::ptrdiff_t stride, float* out) {
@@ -90,12 +90,12 @@ inline void add_along(int n, int half, const float* lines, std::ptrdiff_t stride
 }
 
 /// Columns `column` .. of the left side and their mirror images of the right.
-template <int columns>
+template <int Columns>
 inline __attribute__((always_inline)) void beside(int n, const float* const* rows,
                                                   const PatchWeights& patch, int column,
                                                   float* out) {
   // Two sums each: one alone would wait for itself.
-  float left[2][columns] = {}, right[2][columns] = {};
+  float left[2][Columns] = {}, right[2][Columns] = {};
   const int side = 2 * patch.half + 1;
   const float* w = patch.beside + column;
   for (int k = 0; k < patch.rows; ++k) {
@@ -104,9 +104,9 @@ inline __attribute__((always_inline)) void beside(int n, const float* const* row
       const float* weights = w + l * patch.lanes;
       const float a = from_left[l], b = from_right[-l];
 #pragma omp simd
-      for (int i = 0; i < columns; ++i) left[which][i] += weights[i] * a;
+      for (int i = 0; i < Columns; ++i) left[which][i] += weights[i] * a;
 #pragma omp simd
-      for (int i = 0; i < columns; ++i) right[which][i] += weights[i] * b;
+      for (int i = 0; i < Columns; ++i) right[which][i] += weights[i] * b;
     };
     for (int l = 0; l + 1 < side; l += 2) {
       add(0, l);
@@ -115,7 +115,7 @@ inline __attribute__((always_inline)) void beside(int n, const float* const* row
     add(0, side - 1);
     w += side * patch.lanes;
   }
-  for (int i = 0; i < columns && column + i < patch.half; ++i) {
+  for (int i = 0; i < Columns && column + i < patch.half; ++i) {
     out[column + i] = left[0][i] + left[1][i];
     out[n - 1 - column - i] = right[0][i] + right[1][i];
   }
