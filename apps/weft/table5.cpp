@@ -51,8 +51,11 @@ Json row_json(const Table5Row& row) {
 }
 
 Json table_json(const std::vector<Table5Row>& rows, const std::vector<SizeTime>& sizes,
-                int threads) {
-  Json json{{"rows", Json::array()}, {"multigrid_sizes", Json::array()}, {"threads", threads}};
+                const TeamOptions& team) {
+  Json json{{"rows", Json::array()},
+            {"multigrid_sizes", Json::array()},
+            {"threads", team.size},
+            {"instructions", name_of(team.instructions)}};
   for (const Table5Row& row : rows) json["rows"].push_back(row_json(row));
   for (const SizeTime& size : sizes)
     json["multigrid_sizes"].push_back({{"n", size.n}, {"multigrid_integration_s", size.seconds}});
@@ -128,7 +131,7 @@ void table5(const Table5Words& words, const Context& context) {
   options.errors = words.full;
   options.frames = words.frames;
   // The paper's machine had one core.
-  options.threads = words.threads->count() > 0 ? context.threads : 1;
+  options.team = {words.threads->count() > 0 ? context.threads : 1, context.instructions};
   std::vector<Table5Row> rows;
   std::vector<SizeTime> sizes;
   {
@@ -139,7 +142,7 @@ void table5(const Table5Words& words, const Context& context) {
     for (const int n : multigrid_sizes) sizes.push_back({n, measure_multigrid(n, options)});
   }
   say_table(context, rows, sizes);
-  print_report(context, table_json(rows, sizes, options.threads));
+  print_report(context, table_json(rows, sizes, options.team));
 }
 
 }  // namespace

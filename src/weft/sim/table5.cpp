@@ -200,7 +200,7 @@ Table5Row Size::measure(const Figure5Row& row, int index) {
 std::span<const Figure5Row> figure5() { return printed; }
 
 std::vector<Table5Row> measure_table5(const Table5Options& options) {
-  ThreadTeam team(options.threads);
+  ThreadTeam team(options.team);
   std::vector<Table5Row> rows;
   std::unique_ptr<Size> size;
   for (const Figure5Row& row : options.rows) {
@@ -212,7 +212,7 @@ std::vector<Table5Row> measure_table5(const Table5Options& options) {
 }
 
 double measure_multigrid(int n, const Table5Options& options) {
-  ThreadTeam team(options.threads);
+  ThreadTeam team(options.team);
   const Sheet sheet = make_sheet(n);
   Runner multigrid = make_runner(sheet, MultigridOptions{}, team);
   for (int round = 0; round < options.rounds; ++round) multigrid.run(options.frames, team);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "weft/core/progress.h"
+#include "weft/core/thread_team.h"
 
 namespace weft {
 
@@ -36,7 +37,7 @@ struct Table5Options {
   int frames = 60;
   int rounds = 3;       ///< runs of each method; the least mean counts, since other work disturbs
   bool errors = false;  ///< RMS distance after all frames to a converged implicit solution
-  int threads = 1;
+  TeamOptions team = 1;
   Progress* progress = nullptr;
 };
 
