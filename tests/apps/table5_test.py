@@ -1,8 +1,11 @@
 """The contract of table5: rows, fields, what is null."""
 import re
+import signal
+import subprocess
+import time
 import unittest
 
-from program import ProgramTest
+from program import PROGRAM, ProgramTest
 
 FIELDS = ["n", "particles", "ng", "nl", "precompute_wg_s", "precompute_wl_s", "integration_s", "desbrun_precompute_s",
           "desbrun_integration_s", "multigrid_integration_s", "paper_integration_s", "paper_desbrun_integration_s",
@@ -31,6 +34,16 @@ class Table5(ProgramTest):
         measured = [line for line in lines if re.search(r"\d\.\d", line)]
         self.assertEqual(len(measured), 2 * len(SIZES) + 4)
         self.assertEqual(self.run_weft("table5", "--frames", "1", "--quiet").stdout, "")
+
+    def test_interrupted_it_ends_soon_with_130(self):
+        process = subprocess.Popen([PROGRAM, "table5", "--frames", "1000000"], cwd=self.folder,
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        begun = time.monotonic()
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, errors), (130, "weft: error: interrupted\n"))
+        self.assertLess(time.monotonic() - begun, 3)
 
     def test_words_out_of_range_are_usage_errors(self):
         self.error_of("table5", "--frames", "0", code=2)

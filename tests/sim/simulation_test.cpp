@@ -223,6 +223,22 @@ TEST(Simulation, InstabilityNamesFrameClothParticleAndTheStableStep) {
   }
 }
 
+TEST(Simulation, RunawayFilterNamesTheStableStiffness) {
+  Scene scene = free_fall(TwoLevelOptions{.local_size = 5, .filter_stiffness = 1000});
+  scene.limiter_passes = 0;
+  scene.cloths[0].pins = {ImagePin{{0, 0}}};
+  Simulation simulation(scene, "scene.json", 1);
+  try {
+    for (int frame = 0; frame < 60; ++frame) simulation.advance();
+    FAIL() << "did not run away";
+  } catch (const SceneError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("ran away at frame "), std::string::npos) << text;
+    EXPECT_NE(text.find("the largest stiffness known to be stable"), std::string::npos) << text;
+    EXPECT_NE(text.find("filter_stiffness is 1e+03 N/m"), std::string::npos) << text;
+  }
+}
+
 TEST(Simulation, StiffFiltersAreCautionedAgainst) {
   Scene scene = free_fall(TwoLevelOptions{.local_size = 5, .filter_stiffness = 0.1});
   scene.cloths[0].material.bending = 0;

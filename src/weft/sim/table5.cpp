@@ -44,6 +44,8 @@ constexpr double density = 0.2;  // [kg/m^2]
 /// h^2 k / m.
 constexpr double filter_ratio = 0.1;
 constexpr double wavelength = 0.5, height = 0.01, sway = 0.002;  // of the start [m]
+constexpr int limiter_passes = 10;
+constexpr double strain_limit = 0.05;
 const StepInput step_input{frame_step, {0, -9.81F, 0}};
 
 double seconds_of(const auto& work) {
@@ -95,6 +97,7 @@ Sheet make_sheet(int n) {
   material.bending = 0;  // the paper's springs alone
   material.bend_springs = sheet.stiffness;
   material.damping = 0;
+  material.strain_limit = strain_limit;
   sheet.cloth = make_cloth(flat_positions(n), BorderMates(n, {}), material);
   sheet.start = rest_state(sheet.cloth);
   sheet.start.position = waved(sheet.cloth.rest);
@@ -114,7 +117,7 @@ struct Runner {
     const double seconds = seconds_of([&] {
       for (int frame = 0; frame < frames; ++frame) {
         integrator->begin(step_input, state);
-        limit->limit({}, frame_step, integrator->iterate({}), team);
+        limit->limit({.passes = limiter_passes}, frame_step, integrator->iterate({}), team);
         integrator->end(state);
       }
     });
