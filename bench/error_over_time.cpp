@@ -1,5 +1,7 @@
 // How far every method is off a converged run, over what it costs: as a table and as a plot.
 #include <algorithm>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -139,7 +141,7 @@ void measure(const Words& words) {
 }  // namespace
 }  // namespace weft::bench
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   weft::bench::Words words;
   CLI::App program{"Error of every method against a converged run, over its time."};
   program.add_option("--size", words.size, "Samples a side")->capture_default_str();
@@ -149,4 +151,7 @@ int main(int argc, char** argv) {
   program.add_option("-o,--picture", words.picture, "PNG of the plot");
   CLI11_PARSE(program, argc, argv);
   weft::bench::measure(words);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "bench: error: %s\n", error.what());
+  return 1;
 }

@@ -2,6 +2,8 @@
 // use, beside a triad over as many bytes as each of them works on.
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
@@ -200,7 +202,7 @@ void measure(const std::vector<int>& sizes, int threads) {
 }  // namespace
 }  // namespace weft::bench
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   std::vector<int> sizes{41, 65, 81, 129, 257, 513, 1025};
   int threads = 1;
   CLI::App program{"Cost of the inner loops of stepping, beside the memory's bandwidth."};
@@ -208,4 +210,7 @@ int main(int argc, char** argv) {
   program.add_option("--threads", threads)->capture_default_str();
   CLI11_PARSE(program, argc, argv);
   weft::bench::measure(sizes, threads);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "bench: error: %s\n", error.what());
+  return 1;
 }
