@@ -154,6 +154,8 @@ class Memory(SceneTest):
             with self.subTest(f"{integrator} {size}"):
                 scene = sheet_scene(frames=1, substeps=1, integrator={"type": integrator}, bodies=bodies)
                 scene["cloths"][0]["size"] = size
+                if integrator == "explicit":  # a step that is too large costs a search for the largest
+                    scene["cloths"][0]["material"] = {"stretch": 1e-3, "shear": 1e-3, "bending": 0, "damping": 0}
                 report = self.run_json("simulate", self.write_scene(scene), "-o", "run")
                 ratio = report["estimated_memory_mb"] / report["peak_memory_mb"]
                 self.assertGreater(ratio, 0.75)

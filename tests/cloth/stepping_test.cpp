@@ -90,6 +90,13 @@ TEST_P(StableStep, ExplicitBreaksOnlyAboveIt) {
   EXPECT_LT(energy_after(0.5 * largest), 2);
   const auto integrator = make_integrator(ExplicitOptions{}, cloth, {}, team);
   EXPECT_NE(integrator->stability_advice(1.0 / 240).find("largest stable step"), std::string::npos);
+  EXPECT_FALSE(is_surely_stable(cloth, largest));
+  EXPECT_TRUE(is_surely_stable(cloth, 0.5 * largest));
+  const auto caution_of = [&](double step) {
+    return make_integrator(ExplicitOptions{}, cloth, {step, {}}, team)->caution();
+  };
+  EXPECT_EQ(caution_of(0.98 * largest), "");
+  EXPECT_NE(caution_of(1.02 * largest).find("largest stable step"), std::string::npos);
 }
 
 TEST(Stepping, LargestStepOfOneSpringIsTwoOverItsFrequency) {

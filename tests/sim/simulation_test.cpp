@@ -252,6 +252,15 @@ TEST(Simulation, StiffFiltersAreCautionedAgainst) {
   EXPECT_NE(Simulation(scene, "bends", 1).notes().at(0).find("bending"), std::string::npos);
 }
 
+TEST(Simulation, ExplicitStepsBeyondTheLargestStableAreCautionedAgainst) {
+  Scene scene = free_fall(ExplicitOptions{});
+  scene.substeps = 100;
+  EXPECT_TRUE(Simulation(scene, "small steps", 1).notes().empty());
+  scene.substeps = 5;
+  EXPECT_NE(Simulation(scene, "large steps", 1).notes().at(0).find("the largest stable step"),
+            std::string::npos);
+}
+
 TEST(Simulation, RegionWithoutSamplesIsRefused) {
   Scene scene = free_fall(ImplicitOptions{});
   scene.cloths[0].pins = {RegionPin{{0.01, 0.01}, {0.02, 0.02}}};

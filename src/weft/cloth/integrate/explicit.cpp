@@ -16,8 +16,9 @@ namespace {
 /// that of implicit Euler, and springs keep their energy below the largest stable step [provot95].
 class Explicit final : public Integrator {
  public:
-  Explicit(const Cloth& cloth, ThreadTeam& team)
+  Explicit(const Cloth& cloth, const StepInput& typical, ThreadTeam& team)
       : cloth_(cloth),
+        typical_step_(typical.time_step),
         team_(team),
         force_(cloth.size),
         bending_(cloth, team.instructions()),
@@ -58,6 +59,13 @@ class Explicit final : public Integrator {
         largest_stable_step(cloth_, team_), time_step);
   }
 
+  /// The limiter may keep springs that shake the cloth within bounds: then nothing runs away.
+  [[nodiscard]] std::string caution() const override {
+    if (is_surely_stable(cloth_, typical_step_)) return {};
+    if (largest_stable_step(cloth_, team_) >= typical_step_) return {};
+    return "this may tremble or run away: " + stability_advice(typical_step_);
+  }
+
  private:
   void advance_row(const StepInput& input, const ClothState& state, int row) {
     const auto h = static_cast<float>(input.time_step);
@@ -78,6 +86,7 @@ class Explicit final : public Integrator {
   }
 
   const Cloth& cloth_;
+  double typical_step_;  // [s]
   ThreadTeam& team_;
   Planes3 force_;
   BendingPass bending_;
@@ -87,8 +96,9 @@ class Explicit final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_explicit(const Cloth& cloth, ThreadTeam& team) {
-  return std::make_unique<Explicit>(cloth, team);
+std::unique_ptr<Integrator> make_explicit(const Cloth& cloth, const StepInput& typical,
+                                          ThreadTeam& team) {
+  return std::make_unique<Explicit>(cloth, typical, team);
 }
 
 }  // namespace weft

@@ -18,7 +18,7 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, co
                                             const StepInput& typical, ThreadTeam& team) {
   return std::visit(
       Overloaded{[&](const ImplicitOptions& chosen) { return make_implicit(chosen, cloth, team); },
-                 [&](const ExplicitOptions&) { return make_explicit(cloth, team); },
+                 [&](const ExplicitOptions&) { return make_explicit(cloth, typical, team); },
                  [&](const DesbrunOptions&) { return make_desbrun(cloth, typical, team); },
                  [&](const TwoLevelOptions& chosen) {
                    return make_two_level(chosen, cloth, typical, team);

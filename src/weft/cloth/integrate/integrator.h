@@ -92,7 +92,8 @@ class Integrator {
 };
 
 /// @param cloth    kept by reference, as is the team; its pins may change between steps
-/// @param typical  the step that the filters of desbrun and two_level are made for
+/// @param typical  the step that the filters of desbrun and two_level are made for, and that
+/// caution is about
 /// @throws SceneError when options do not fit the cloth (even local_size, n - 1 not a multiple, too
 /// many particles for a dense matrix, ...)
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Cloth& cloth,

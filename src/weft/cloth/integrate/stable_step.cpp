@@ -93,14 +93,18 @@ double highest_squared_frequency(const Cloth& cloth, ThreadTeam& team) {
   return result;
 }
 
-/// Twice the sum of the damping coefficients at a particle over its mass, the largest of all [1/s].
-double damping_bound(const Cloth& cloth) {
+/// Twice the sum of what `coefficient` gives each direction's edges at a particle over its mass,
+/// the largest of all.
+template <class Coefficient>
+double largest_sum(const Cloth& cloth, const Coefficient& coefficient) {
   Planes3 sum(cloth.size);
-  for (int r = 0; r < cloth.size; ++r)
-    for (const NeighbourRow& to : NeighbourRows(cloth.size, r)) {
-      const float* damping = cloth.springs[to.direction].damping.row(to.spring_row);
-      for (int c = to.first; c < to.last; ++c) sum.x(r, c) += damping[c + to.spring_shift];
-    }
+  for (int d = 0; d < spring_directions; ++d) {
+    const Grid<float> edges = coefficient(static_cast<SpringDirection>(d));
+    for (int r = 0; r < cloth.size; ++r)
+      for (const NeighbourRow& to : NeighbourRows(cloth.size, r))
+        for (int c = to.first; to.direction == d && c < to.last; ++c)
+          sum.x(r, c) += edges(to.spring_row, c + to.spring_shift);
+  }
   ThreadTeam alone(1);
   alone.run([&](Worker& worker) { sum_over_mates(cloth.mates, worker, {&sum.x}); });
   double bound = 0;
@@ -110,6 +114,11 @@ double damping_bound(const Cloth& cloth) {
   return bound;
 }
 
+/// Of the damping rate [1/s].
+double damping_bound(const Cloth& cloth) {
+  return largest_sum(cloth, [&](SpringDirection d) { return cloth.springs[d].damping; });
+}
+
 }  // namespace
 
 double largest_stable_step(const Cloth& cloth, ThreadTeam& team) {
@@ -117,6 +126,14 @@ double largest_stable_step(const Cloth& cloth, ThreadTeam& team) {
   const double c = damping_bound(cloth);
   if (w2 <= 0) return c > 0 ? 2 / c : HUGE_VAL;
   return (std::sqrt(c * c + 4 * w2) - c) / w2;
+}
+
+bool is_surely_stable(const Cloth& cloth, double time_step) {
+  const double c = damping_bound(cloth);
+  const double w2 =
+      largest_sum(cloth, [&](SpringDirection d) { return cloth.springs[d].stiffness; }) +
+      largest_sum(cloth, [&](SpringDirection d) { return bending_bound(cloth, d); });
+  return time_step * time_step * w2 + 2 * time_step * c < 4;
 }
 
 }  // namespace weft
