@@ -16,6 +16,8 @@ constexpr double most_way = 4;
 /// What presses on a cloth from outside moves it out of its surface, where springs give way; the
 /// filter, which takes them for stiff in every direction, needs more iterations for it.
 constexpr int iterations_under_contact = 4;
+/// Residuals interpolated along secants drift away from the gradient.
+constexpr int iterations_between_restarts = 4;
 
 void copy_row(ConstRow3 from, Row3 to, int n) {
   std::copy(from.x, from.x + n, to.x);
@@ -156,16 +158,17 @@ double Descent::look(Worker& worker) {
   return along;
 }
 
-void Descent::take_residual(const Course& course, Worker& worker) {
+void Descent::take_residual(Course& course, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {
     const ConstRow3 far = row_of(std::as_const(far_residual_), r);
-    if (course.iterations == 0)
+    if (course.exact)
       copy_row(far, row_of(filter_.right(), r), cloth_.size);
     else
       kernels_.step_residual(cloth_.size, static_cast<float>(course.way), far,
                              row_of(filter_.right(), r));
   }
+  course.exact = false;
   worker.barrier();
 }
 
@@ -199,11 +202,25 @@ void Descent::go(double slope, Course& course, Worker& worker) {
   ++course.iterations;
 }
 
+void Descent::restart(Course& course, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    settle_row(static_cast<float>(course.way), r);
+    place_row(0, r);
+  }
+  worker.barrier();
+  look(worker);
+  course.slope = course.left = course.way = 0;
+  course.exact = true;
+}
+
 Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker) {
   look(worker);
   Course course;
   const int most = options.max_iterations * (contacts_.empty() ? 1 : iterations_under_contact);
   while (course.iterations < most) {
+    if (course.iterations > 0 && course.iterations % iterations_between_restarts == 0)
+      restart(course, worker);
     take_residual(course, worker);
     go(turn(course, worker), course, worker);
     if (!(course.correction > options.tolerance)) break;

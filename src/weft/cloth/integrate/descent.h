@@ -46,6 +46,7 @@ class Descent {
     double way = 0;    ///< of the last step along its direction
     double correction = 0;
     int iterations = 0;
+    bool exact = true;  ///< whether the last residual was looked up, not interpolated
   };
   void renew_filter();
   void hold_pins();
@@ -58,13 +59,15 @@ class Descent {
   /// @return its dot product with d [N m]
   double look(Worker& worker);
   /// Ends with a barrier.
-  void take_residual(const Course& course, Worker& worker);
+  void take_residual(Course& course, Worker& worker);
   /// d = what the filter makes of the residual, and of the last direction what keeps it conjugate;
   /// next = y + z + d. Ends with a barrier. @return the slope along d [N m]
   double turn(Course& course, Worker& worker);
   /// Goes along d to where its slope would vanish if that fell linearly.
   void go(double slope, Course& course, Worker& worker);
   [[nodiscard]] double largest_direction() const;
+  /// Looks up the residual where the descent stands, and forgets the direction.
+  void restart(Course& course, Worker& worker);
   Course descend(const MultigridOptions& options, Worker& worker);
 
   const Cloth& cloth_;
