@@ -16,6 +16,7 @@
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/integrate/spring_rows.h"
 #include "weft/cloth/multigrid/filter.h"
+#include "weft/cloth/multigrid/filter_level.h"
 #include "weft/cloth/neighbours.h"
 #include "weft/cloth/strain_limit.h"
 
@@ -88,6 +89,7 @@ class Sheet {
         row_energy_(static_cast<std::size_t>(size)),
         team_(threads),
         springs_(cloth_, team_),
+        level_(std::move(make_filter_levels(cloth_, step_seconds).front())),
         filter_(cloth_, {.time_step = step_seconds}, team_),
         limit_(cloth_, team_),
         coarse_limit_(cloth_, team_),
@@ -97,15 +99,18 @@ class Sheet {
     proposal_ = state_;
     gather_forces();
     filter_.right() = force_;
+    level_.right = force_;
   }
 
   /// What each reads and writes, four bytes a plane: position and start, rest length, stiffness and
-  /// damping of six directions, force | right side three times, the operator's five planes twice,
+  /// damping of six directions, force | right side, value before and after, the operator's five
+  /// planes, inverse diagonal | right side three times, the operator's five planes twice,
   /// inverse diagonal four times, residual and value written and read twice, coarse levels |
   /// position and velocity, mass | position, rest length of four directions, inverse mass |
   /// positions and velocities changed by a correction that is made and read, and what moves.
   std::vector<Kernel> kernels() {
     return {{"spring forces", 24 + 6 * 12 + 12, [this] { gather_forces(); }},
+            {"smoothing sweep", 36 + 20 + 4, [this] { sweep(); }},
             {"V-cycle", (36 + 40 + 16 + 60) * 4.0 / 3, [this] { cycle(); }},
             {"motion", 24 + 4, [this] { look_at_motion(); }},
             {"limiter, a pass over springs", 12 + 16 + 4, [this] { limit(); }},
@@ -138,6 +143,22 @@ class Sheet {
       }
     });
   }
+  void sweep() {
+    const KernelTable& table = kernels_for(team_.instructions());
+    const int n = cloth_.size;
+    team_.run([&](Worker& worker) {
+      const Range mine = worker.share(n);
+      for (int r = mine.first; r < mine.last; ++r) {
+        const Row3 out = row_of(level_.result, r);
+        table.apply(n, level_.operator_row(r), level_.stencil_rows(r), out);
+        (void)table.sweep(
+            n,
+            {0.85F, level_.inverse_diagonal.row(r), level_.share_row(r), level_.count_row(r),
+             row_of(std::as_const(level_.right), r), row_of(std::as_const(level_.value), r), false},
+            out);
+      }
+    });
+  }
   void cycle() {
     team_.run([&](Worker& worker) { (void)filter_.cycle(worker); });
   }
@@ -167,6 +188,7 @@ class Sheet {
   std::vector<double> row_energy_;
   ThreadTeam team_;
   SpringRows springs_;
+  FilterLevel level_;
   MultigridFilter filter_;
   StrainLimit limit_;
   CoarseLimit coarse_limit_;
