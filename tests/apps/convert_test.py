@@ -233,10 +233,6 @@ class BadInput(ProgramTest):
         line = self.error_of("convert", "builtin:sphere", "-o", "m.exr", "--seed-triangle", "-1", code=2)
         self.assertLess(len(line), 120)
 
-    def test_options_of_later_versions_are_usage_errors(self):
-        self.error_of("table5", code=2)
-        self.assert_nothing_left()
-
     def test_surfaces_without_area(self):
         self.refuse("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "area")
         self.refuse("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "area")
