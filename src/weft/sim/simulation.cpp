@@ -19,6 +19,8 @@ namespace weft {
 namespace {
 
 constexpr int body_normal_map_size = 257;
+/// Smaller cloths are stepped by one thread: what others would save they would spend waiting.
+constexpr int least_shared_size = 97;
 /// Only samples are pushed out of bodies, so a sharp edge between two of them would show: the gap
 /// that is kept grows from the fabric's thickness to this part of the cloth's rest spacing, but to
 /// no more than a few thicknesses, lest coarse cloths float.
@@ -84,6 +86,7 @@ struct Simulation::Parts {
         name(std::move(given_name)),
         progress(given_progress),
         team(given_team),
+        lone_team({1, given_team.instructions}),
         time_step(1 / (scene.frame_rate * scene.substeps)),
         soft(std::holds_alternative<TwoLevelOptions>(scene.integrator)),
         limiter{scene.limiter_passes.value_or(soft ? passes_of_soft_springs
@@ -103,11 +106,15 @@ struct Simulation::Parts {
   /// may tame the motion.
   void check_springs(std::size_t index, double kinetic, double springs) const;
   [[nodiscard]] Vec3d centre() const;
+  /// Who steps a cloth.
+  [[nodiscard]] ThreadTeam& solvers(std::size_t index) {
+    return cloths[index].cloth.size < least_shared_size ? lone_team : team;
+  }
 
   Scene scene;
   std::string name;
   Progress* progress;
-  ThreadTeam team;
+  ThreadTeam team, lone_team;
   double time_step;  // [s]
   bool soft;         // springs that leave all stretch to the limiter
   LimitOptions limiter;
@@ -180,11 +187,11 @@ void Simulation::Parts::make_movers() {
     const SimulatedCloth& cloth = cloths[i];
     const Guarded guarded{gap_of(cloth.cloth), scene.cloths[i].friction};
     movers.push_back(
-        {make_integrator(scene.integrator, cloth.cloth, typical, team),
+        {make_integrator(scene.integrator, cloth.cloth, typical, solvers(i)),
          make_collider(scene.collider, obstacles, guarded),
          scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
          RunawayCheck(cloth.cloth, cloth.state, scene.gravity, drive_of(i)),
-         StrainLimit(cloth.cloth, team), CoarseLimit(cloth.cloth, team)});
+         StrainLimit(cloth.cloth, solvers(i)), CoarseLimit(cloth.cloth, solvers(i))});
     if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
       notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }
@@ -199,7 +206,7 @@ int Simulation::Parts::step(std::size_t index, FrameReport& report) {
   Mover& mover = movers[index];
   const StepInput input{time_step, vec_cast<float>(scene.gravity)};
   const Planes3& start = cloth.state.position;
-  if (mover.wind) mover.wind->blow(time_step, cloth.state, team);
+  if (mover.wind) mover.wind->blow(time_step, cloth.state, solvers(index));
   mover.integrator->begin(input, cloth.state);
   StageClock clock;
   const auto detect = [&](ClothState& proposed) {
@@ -223,8 +230,9 @@ int Simulation::Parts::step(std::size_t index, FrameReport& report) {
   int contacts = 0;
   for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
     if (soft)
-      mover.coarse_limit.limit(std::min(coarse_passes, limiter.passes), time_step, *next, team);
-    mover.limit.limit(limiter, time_step, *next, team);
+      mover.coarse_limit.limit(std::min(coarse_passes, limiter.passes), time_step, *next,
+                               solvers(index));
+    mover.limit.limit(limiter, time_step, *next, solvers(index));
     report.limit_ms += clock.lap();
     const int touched = mover.collider->correct(
         {start, next->position, next->velocity, cloth.cloth.inverse_mass}, time_step, team);
@@ -318,7 +326,7 @@ FrameReport Simulation::advance() {
       contacts += parts_->step(i, report);
       const SimulatedCloth& cloth = parts_->cloths[i];
       if (const auto bad =
-              parts_->movers[i].runaway.find(cloth.cloth, cloth.state, seconds, parts_->team))
+              parts_->movers[i].runaway.find(cloth.cloth, cloth.state, seconds, parts_->solvers(i)))
         parts_->stop_unstable(i, *bad);
     }
     report.contacts = std::max(report.contacts, contacts);
