@@ -154,7 +154,7 @@ class Sheet {
         (void)table.sweep(
             n,
             {0.85F, level_.inverse_diagonal.row(r), level_.share_row(r), level_.count_row(r),
-             row_of(std::as_const(level_.right), r), row_of(std::as_const(level_.value), r), false},
+             row_of(std::as_const(level_.right), r), row_of(std::as_const(level_.value), r)},
             out);
       }
     });

@@ -21,7 +21,7 @@ struct ClothBytes {
   double samples;
   double operator()(const ExplicitOptions&) const { return 385 * samples; }
   double operator()(const TwoLevelOptions&) const { return 445 * samples; }
-  double operator()(const MultigridOptions&) const { return 565 * samples; }
+  double operator()(const MultigridOptions&) const { return 640 * samples; }
   double operator()(const ImplicitOptions&) const { return 785 * samples; }
   /// Its filter is one dense matrix.
   double operator()(const DesbrunOptions&) const {
