@@ -68,9 +68,13 @@ TEST(Kernels, SpringsOfARowActOnBothEndsAlike) {
   for (const InstructionSet set : instruction_sets()) {
     if (!has_instruction_set(set)) continue;
     Planes3 out(n), lines(n);
-    kernels_for(set).springs_across(
-        n, 1, {plane.rest_length.row(3), plane.stiffness.row(3), plane.damping.row(3)}, 240,
-        {{row_of(std::as_const(x), 3), row_of(cloth.rest, 3)},
+    kernels_for(set).springs(
+        {0,
+         n - 1,
+         1,
+         240,
+         {plane.rest_length.row(3), plane.stiffness.row(3), plane.damping.row(3)},
+         {row_of(std::as_const(x), 3), row_of(cloth.rest, 3)},
          {row_of(std::as_const(x), 4), row_of(cloth.rest, 4)}},
         row_of(lines, 0), row_of(out, 0), row_of(out, 1));
     Vec3d sum;

@@ -113,8 +113,8 @@ void BendingPass::curve_row(const Planes3& position, int row) {
     const Range with = columns_with(to, row, cloth_.size);
     if (with.first >= with.last) continue;
     const ConstRow3 there = row_of(position, row + to.down);
-    kernels_->add_differences(with.first, with.last, to.right, cloth_.bending.weight[k].row(row),
-                              here, there, u);
+    kernels_->add_differences(
+        {with.first, with.last, to.right, cloth_.bending.weight[k].row(row), here, there}, u);
   }
 }
 

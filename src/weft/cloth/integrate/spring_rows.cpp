@@ -55,11 +55,9 @@ void SpringRows::add_row(const Motion& motion, int row, Worker& worker) {
   for (int d = 0; d < (bends_ ? spring_directions : bend_u); ++d) {
     const auto [down, right] = spring_offsets[d];
     if (row + down >= n) continue;
-    if (down == 0)
-      kernels_.springs_along(n, right, springs(d, row), per_step, at(row), scratch, out);
-    else
-      kernels_.springs_across(n, right, springs(d, row), per_step, {at(row), at(row + down)},
-                              scratch, out, under_way(row + down));
+    const int first = std::max(0, -right), last = n - std::max(0, right);
+    kernels_.springs({first, last, right, per_step, springs(d, row), at(row), at(row + down)},
+                     scratch, out, under_way(row + down));
   }
 }
 

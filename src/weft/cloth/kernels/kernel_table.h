@@ -47,9 +47,20 @@ struct TransposedRow {
   ConstRow3 here, there;
 };
 
-/// Two rows that springs join.
-struct RowPair {
+/// Springs from columns first .. last - 1 of a row to the columns `shift` further of the same or
+/// another.
+struct SpringRun {
+  int first, last, shift;
+  float per_step;  ///< [1/s]
+  SpringRow springs;
   MovingRow here, there;
+};
+
+/// The same columns of two rows, and what each difference between them weighs.
+struct DifferenceRow {
+  int first, last, shift;
+  const float* weight;
+  ConstRow3 here, there;
 };
 
 /// z += way d; then d = w + beta d; then x = y + z + d.
@@ -106,15 +117,10 @@ inline constexpr int envelope_padding = 16;
 
 /// Scratch `lines` are three rows of n values that are overwritten.
 struct KernelTable {
-  /// out += forces of the springs from column c to c + gap of a row [N].
-  void (*springs_along)(int n, int gap, const SpringRow& springs, float per_step,
-                        const MovingRow& row, Row3 lines, Row3 out);
-  /// The same from column c of a row to column c + shift of one below it.
-  void (*springs_across)(int n, int shift, const SpringRow& springs, float per_step,
-                         const RowPair& rows, Row3 lines, Row3 out, Row3 out_there);
-  /// out += weight (there - here) for columns first .. last - 1, `there` shifted by `shift`.
-  void (*add_differences)(int first, int last, int shift, const float* weight, ConstRow3 here,
-                          ConstRow3 there, Row3 out);
+  /// Adds the forces of springs to both ends [N]; `out` and `out_there` may be one row.
+  void (*springs)(const SpringRun& run, Row3 lines, Row3 out, Row3 out_there);
+  /// out += weight (there - here).
+  void (*add_differences)(const DifferenceRow& row, Row3 out);
   /// The transpose: out += factor (own u - theirs u there), both weights those of one pair.
   void (*add_transposed)(const TransposedRow& row, Row3 out);
   /// force -= weight (z + d). @return its dot product with d [N m]

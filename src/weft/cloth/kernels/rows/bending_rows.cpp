@@ -2,11 +2,13 @@
 
 namespace weft::WEFT_KERNEL_SET {
 
-void add_differences(int first, int last, int shift, const float* weight, ConstRow3 here,
-                     ConstRow3 there, Row3 out) {
+void add_differences(const DifferenceRow& row, Row3 out) {
+  const ConstRow3 here = row.here, there = row.there;
+  const float* weight = row.weight;
+  const int shift = row.shift;
   float* __restrict x = out.x, * __restrict y = out.y, * __restrict z = out.z;
 #pragma omp simd
-  for (int c = first; c < last; ++c) {
+  for (int c = row.first; c < row.last; ++c) {
     x[c] += weight[c] * (there.x[c + shift] - here.x[c]);
     y[c] += weight[c] * (there.y[c + shift] - here.y[c]);
     z[c] += weight[c] * (there.z[c + shift] - here.z[c]);

@@ -6,18 +6,18 @@ namespace {
 
 /// One coordinate of -A x at column c, with the neighbours on the sides that there are.
 /// Differences, since the weight of a particle drowns in the sum of its springs' stiffness.
-template <bool left, bool right>
+template <bool Left, bool Right>
 inline __attribute__((always_inline)) float minus_ax(const OperatorRow& a, int c,
                                                      const float* above, const float* here,
                                                      const float* below) {
   const float x = here[c];
   float sum = a.below[c] * (below[c] - x) + a.above[c] * (above[c] - x);
-  if (right) {
+  if (Right) {
     sum += a.right[c] * (here[c + 1] - x);
     sum += a.below_right[c] * (below[c + 1] - x);
     sum += a.above_right[c + 1] * (above[c + 1] - x);
   }
-  if (left) {
+  if (Left) {
     sum += a.right[c - 1] * (here[c - 1] - x);
     sum += a.below_left[c] * (below[c - 1] - x);
     sum += a.above_left[c - 1] * (above[c - 1] - x);
@@ -25,12 +25,12 @@ inline __attribute__((always_inline)) float minus_ax(const OperatorRow& a, int c
   return sum - a.weight[c] * x;
 }
 
-template <bool left, bool right>
+template <bool Left, bool Right>
 inline __attribute__((always_inline)) void apply_at(const OperatorRow& a, const StencilRows& x,
                                                     int c, Row3 out) {
-  out.x[c] = minus_ax<left, right>(a, c, x.above.x, x.here.x, x.below.x);
-  out.y[c] = minus_ax<left, right>(a, c, x.above.y, x.here.y, x.below.y);
-  out.z[c] = minus_ax<left, right>(a, c, x.above.z, x.here.z, x.below.z);
+  out.x[c] = minus_ax<Left, Right>(a, c, x.above.x, x.here.x, x.below.x);
+  out.y[c] = minus_ax<Left, Right>(a, c, x.above.y, x.here.y, x.below.y);
+  out.z[c] = minus_ax<Left, Right>(a, c, x.above.z, x.here.z, x.below.z);
 }
 
 /// line = a / 2 + b + c / 2.

@@ -12,7 +12,7 @@ inline __attribute__((always_inline)) float correction(float squared, float low,
   return squared > 0 && inverse_masses > 0 ? shift : 0.0F;
 }
 
-template <int step>
+template <int Step>
 bool breaks(const LimitedRows& rows) {
   const ConstRow3 a{rows.here.x, rows.here.y, rows.here.z};
   const ConstRow3 b{rows.there.x, rows.there.y, rows.there.z};
@@ -21,7 +21,7 @@ bool breaks(const LimitedRows& rows) {
   const int shift = rows.shift;
   int broken = 0;
 #pragma omp simd reduction(| : broken)
-  for (int c = rows.first; c < rows.last; c += step) {
+  for (int c = rows.first; c < rows.last; c += Step) {
     const int d = c + shift;
     const float dx = b.x[d] - a.x[c], dy = b.y[d] - a.y[c], dz = b.z[d] - a.z[c];
     const float squared = dx * dx + dy * dy + dz * dz;
@@ -32,7 +32,7 @@ bool breaks(const LimitedRows& rows) {
 }
 
 /// No two of the springs share a particle.
-template <int step>
+template <int Step>
 void limit_run(const LimitedRows& rows) {
   const Row3 a = rows.here, b = rows.there, va = rows.here_velocity, vb = rows.there_velocity;
   const float *wa = rows.here_inverse_mass, *wb = rows.there_inverse_mass;
@@ -41,7 +41,7 @@ void limit_run(const LimitedRows& rows) {
   const float relaxation = rows.relaxation;
   const int shift = rows.shift;
 #pragma omp simd
-  for (int c = rows.first; c < rows.last; c += step) {
+  for (int c = rows.first; c < rows.last; c += Step) {
     const int d = c + shift;
     const float dx = b.x[d] - a.x[c], dy = b.y[d] - a.y[c], dz = b.z[d] - a.z[c];
     const float squared = dx * dx + dy * dy + dz * dz;

@@ -5,12 +5,8 @@
 // The kernels of one instruction set, whose name WEFT_KERNEL_SET is.
 namespace weft::WEFT_KERNEL_SET {
 
-void springs_along(int n, int gap, const SpringRow& springs, float per_step, const MovingRow& row,
-                   Row3 lines, Row3 out);
-void springs_across(int n, int shift, const SpringRow& springs, float per_step, const RowPair& rows,
-                    Row3 lines, Row3 out, Row3 out_there);
-void add_differences(int first, int last, int shift, const float* weight, ConstRow3 here,
-                     ConstRow3 there, Row3 out);
+void springs(const SpringRun& run, Row3 lines, Row3 out, Row3 out_there);
+void add_differences(const DifferenceRow& row, Row3 out);
 void add_transposed(const TransposedRow& row, Row3 out);
 double inertia(int n, const float* weight, ConstRow3 move, ConstRow3 direction, Row3 force);
 float turn(int n, const TurningRow& row);

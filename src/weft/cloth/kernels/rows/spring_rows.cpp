@@ -7,56 +7,49 @@ namespace {
 /// Springs of no length have no direction: their pull is bounded instead of infinite. [m^2]
 constexpr float least_squared_length = 1e-24F;
 
-/// Force of a spring over its vector (dx, dy, dz) [N/m]; (ex, ey, ez) is how that changed in the
-/// step [m].
-template <bool damped>
-inline __attribute__((always_inline)) float pull(float dx, float dy, float dz, float ex, float ey,
-                                                 float ez, float k, float rest, float damping) {
-  const float squared = dx * dx + dy * dy + dz * dz;
+struct Vector {
+  float x, y, z;
+};
+
+/// Force of a spring over its vector d [N/m]; e is how that changed in the step [m].
+template <bool Damped>
+inline __attribute__((always_inline)) float pull(Vector d, Vector e, float k, float rest,
+                                                 float damping) {
+  const float squared = d.x * d.x + d.y * d.y + d.z * d.z;
   const float length =
       __builtin_sqrtf(squared > least_squared_length ? squared : least_squared_length);
   const float inverse = 1 / length;
   const float elastic = k * (length - rest);
-  if (!damped) return elastic * inverse;
-  const float along = dx * ex + dy * ey + dz * ez;
+  if (!Damped) return elastic * inverse;
+  const float along = d.x * e.x + d.y * e.y + d.z * e.z;
   return (elastic + damping * (along * inverse)) * inverse;
 }
 
-/// The forces of the springs from a[c] to b[c + shift], first <= c < last.
-template <bool damped>
-inline __attribute__((always_inline)) void spring_forces(int first, int last, int shift,
-                                                         const SpringRow& springs, float per_step,
-                                                         const MovingRow& a, const MovingRow& b,
-                                                         Row3 force) {
-  const float* __restrict k = springs.stiffness;
-  const float* __restrict rest = springs.rest_length;
-  const float* __restrict damping = springs.damping;
-  const ConstRow3 p = a.position, q = b.position, p0 = a.start, q0 = b.start;
+template <bool Damped>
+void spring_forces(const SpringRun& run, Row3 force) {
+  const float* __restrict k = run.springs.stiffness;
+  const float* __restrict rest = run.springs.rest_length;
+  const float* __restrict damping = run.springs.damping;
+  const ConstRow3 p = run.here.position, q = run.there.position;
+  const ConstRow3 p0 = run.here.start, q0 = run.there.start;
+  const int shift = run.shift;
+  const float per_step = run.per_step;
   float* __restrict fx = force.x, * __restrict fy = force.y, * __restrict fz = force.z;
 #pragma omp simd
-  for (int c = first; c < last; ++c) {
-    const int d = c + shift;
-    const float dx = q.x[d] - p.x[c], dy = q.y[d] - p.y[c], dz = q.z[d] - p.z[c];
-    float ex = 0, ey = 0, ez = 0, damp = 0;
-    if (damped) {
-      ex = dx - (q0.x[d] - p0.x[c]);
-      ey = dy - (q0.y[d] - p0.y[c]);
-      ez = dz - (q0.z[d] - p0.z[c]);
+  for (int c = run.first; c < run.last; ++c) {
+    const int j = c + shift;
+    const Vector d{q.x[j] - p.x[c], q.y[j] - p.y[c], q.z[j] - p.z[c]};
+    Vector e{0, 0, 0};
+    float damp = 0;
+    if (Damped) {
+      e = {d.x - (q0.x[j] - p0.x[c]), d.y - (q0.y[j] - p0.y[c]), d.z - (q0.z[j] - p0.z[c])};
       damp = per_step * damping[c];
     }
-    const float s = pull<damped>(dx, dy, dz, ex, ey, ez, k[c], rest[c], damp);
-    fx[c] = s * dx;
-    fy[c] = s * dy;
-    fz[c] = s * dz;
+    const float s = pull<Damped>(d, e, k[c], rest[c], damp);
+    fx[c] = s * d.x;
+    fy[c] = s * d.y;
+    fz[c] = s * d.z;
   }
-}
-
-inline void forces(int first, int last, int shift, const SpringRow& springs, float per_step,
-                   const MovingRow& a, const MovingRow& b, Row3 force) {
-  if (springs.damping == nullptr)
-    spring_forces<false>(first, last, shift, springs, per_step, a, b, force);
-  else
-    spring_forces<true>(first, last, shift, springs, per_step, a, b, force);
 }
 
 inline void add(int first, int last, const float* __restrict from, float* __restrict to) {
@@ -70,7 +63,8 @@ inline void subtract(int first, int last, int shift, const float* __restrict fro
   for (int c = first; c < last; ++c) to[c + shift] -= from[c];
 }
 
-inline void share_out(int first, int last, int shift, Row3 force, Row3 here, Row3 there) {
+inline void share_out(const SpringRun& run, Row3 force, Row3 here, Row3 there) {
+  const int first = run.first, last = run.last, shift = run.shift;
   add(first, last, force.x, here.x);
   add(first, last, force.y, here.y);
   add(first, last, force.z, here.z);
@@ -81,17 +75,12 @@ inline void share_out(int first, int last, int shift, Row3 force, Row3 here, Row
 
 }  // namespace
 
-void springs_along(int n, int gap, const SpringRow& springs, float per_step, const MovingRow& row,
-                   Row3 lines, Row3 out) {
-  forces(0, n - gap, gap, springs, per_step, row, row, lines);
-  share_out(0, n - gap, gap, lines, out, out);
-}
-
-void springs_across(int n, int shift, const SpringRow& springs, float per_step, const RowPair& rows,
-                    Row3 lines, Row3 out, Row3 out_there) {
-  const int first = shift < 0 ? -shift : 0, last = shift > 0 ? n - shift : n;
-  forces(first, last, shift, springs, per_step, rows.here, rows.there, lines);
-  share_out(first, last, shift, lines, out, out_there);
+void springs(const SpringRun& run, Row3 lines, Row3 out, Row3 out_there) {
+  if (run.springs.damping == nullptr)
+    spring_forces<false>(run, lines);
+  else
+    spring_forces<true>(run, lines);
+  share_out(run, lines, out, out_there);
 }
 
 double inertia(int n, const float* weight, ConstRow3 move, ConstRow3 direction, Row3 force) {
