@@ -39,9 +39,9 @@ constexpr double ground_friction = 0.5;
 /// springs are so soft that the limiter carries the cloth: there both take turns, the collider
 /// last.
 constexpr int rounds_of_soft_springs = 4;
-/// Stiff springs leave the limiter a few samples about pins, which it has to bring up the whole
-/// cloth's weight by: many passes, that cost little.
-constexpr int passes_of_soft_springs = 10, passes_of_stiff_springs = 60;
+/// Stiff springs leave the limiter a few samples about pins, more of them in finer images, which it
+/// has to bring up the whole cloth's weight by: many passes, that cost little.
+LimitOptions suitable_limit(bool soft, int size) { return {soft ? 10 : std::max(60, size / 2)}; }
 /// Of the limiter on each coarse level.
 constexpr int coarse_passes = 2;
 
@@ -88,9 +88,7 @@ struct Simulation::Parts {
         team(given_team),
         lone_team({1, given_team.instructions}),
         time_step(1 / (scene.frame_rate * scene.substeps)),
-        soft(std::holds_alternative<TwoLevelOptions>(scene.integrator)),
-        limiter{scene.limiter_passes.value_or(soft ? passes_of_soft_springs
-                                                   : passes_of_stiff_springs)} {}
+        soft(std::holds_alternative<TwoLevelOptions>(scene.integrator)) {}
 
   LoadedSurface load(const std::string& surface, ConvertOptions options, const std::string& what);
   void load_cloths();
@@ -117,7 +115,6 @@ struct Simulation::Parts {
   ThreadTeam team, lone_team;
   double time_step;  // [s]
   bool soft;         // springs that leave all stretch to the limiter
-  LimitOptions limiter;
   std::vector<SimulatedCloth> cloths;
   std::vector<PlacedBody> bodies;
   std::vector<std::string> notes;
@@ -227,6 +224,8 @@ int Simulation::Parts::step(std::size_t index, FrameReport& report) {
         next = &mover.integrator->iterate(found);
   }
   clock.lap();
+  LimitOptions limiter = suitable_limit(soft, cloth.cloth.size);
+  limiter.passes = scene.limiter_passes.value_or(limiter.passes);
   int contacts = 0;
   for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
     if (soft)

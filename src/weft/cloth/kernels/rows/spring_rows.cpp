@@ -13,8 +13,8 @@ struct Vector {
 
 /// Force of a spring over its vector d [N/m]; e is how that changed in the step [m].
 template <bool Damped>
-inline __attribute__((always_inline)) float pull(Vector d, Vector e, float k, float rest,
-                                                 float damping) {
+inline __attribute__((always_inline)) float pull(const Vector& d, const Vector& e, float k,
+                                                 float rest, float damping) {
   const float squared = d.x * d.x + d.y * d.y + d.z * d.z;
   const float length =
       __builtin_sqrtf(squared > least_squared_length ? squared : least_squared_length);
@@ -38,17 +38,18 @@ void spring_forces(const SpringRun& run, Row3 force) {
 #pragma omp simd
   for (int c = run.first; c < run.last; ++c) {
     const int j = c + shift;
-    const Vector d{q.x[j] - p.x[c], q.y[j] - p.y[c], q.z[j] - p.z[c]};
-    Vector e{0, 0, 0};
-    float damp = 0;
+    const float dx = q.x[j] - p.x[c], dy = q.y[j] - p.y[c], dz = q.z[j] - p.z[c];
+    float ex = 0, ey = 0, ez = 0, damp = 0;
     if (Damped) {
-      e = {d.x - (q0.x[j] - p0.x[c]), d.y - (q0.y[j] - p0.y[c]), d.z - (q0.z[j] - p0.z[c])};
+      ex = dx - (q0.x[j] - p0.x[c]);
+      ey = dy - (q0.y[j] - p0.y[c]);
+      ez = dz - (q0.z[j] - p0.z[c]);
       damp = per_step * damping[c];
     }
-    const float s = pull<Damped>(d, e, k[c], rest[c], damp);
-    fx[c] = s * d.x;
-    fy[c] = s * d.y;
-    fz[c] = s * d.z;
+    const float s = pull<Damped>({dx, dy, dz}, {ex, ey, ez}, k[c], rest[c], damp);
+    fx[c] = s * dx;
+    fy[c] = s * dy;
+    fz[c] = s * dz;
   }
 }
 
