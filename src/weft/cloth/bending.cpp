@@ -26,28 +26,6 @@ void clear(Row3 row, int size) {
   std::fill(row.z, row.z + size, 0.0F);
 }
 
-/// The part of an area vector that the cell towards two straight neighbours has: a, then b counter
-/// to rows times columns.
-void add_corner_row(const Planes3& position, BendingOffset a, BendingOffset b, int row,
-                    Row3 normal) {
-  const int n = position.size();
-  const Range with_a = columns_with(a, row, n), with_b = columns_with(b, row, n);
-  const int first = std::max(with_a.first, with_b.first);
-  const int last = std::min(with_a.last, with_b.last);
-  if (first >= last) return;
-  const ConstRow3 here = row_of(position, row);
-  const ConstRow3 to_a = row_of(position, row + a.down), to_b = row_of(position, row + b.down);
-#pragma omp simd
-  for (int c = first; c < last; ++c) {
-    const float ax = to_a.x[c + a.right] - here.x[c], bx = to_b.x[c + b.right] - here.x[c];
-    const float ay = to_a.y[c + a.right] - here.y[c], by = to_b.y[c + b.right] - here.y[c];
-    const float az = to_a.z[c + a.right] - here.z[c], bz = to_b.z[c + b.right] - here.z[c];
-    normal.x[c] += ay * bz - az * by;
-    normal.y[c] += az * bx - ax * bz;
-    normal.z[c] += ax * by - ay * bx;
-  }
-}
-
 /// Edges of negative stiffness bound nothing; an edge between second neighbours along the border is
 /// bounded by twice the two between.
 void add_border_bound(const BorderBending& border, SpringDirection direction, Grid<float>& bound) {
@@ -67,36 +45,26 @@ void add_border_bound(const BorderBending& border, SpringDirection direction, Gr
 }  // namespace
 
 BendingPass::BendingPass(const Cloth& cloth, InstructionSet instructions)
-    : cloth_(cloth), kernels_(&kernels_for(instructions)) {
+    : cloth_(cloth), kernels_(&kernels_for(instructions)), normals_(cloth) {
   if (cloth.bending.active) curved_ = Planes3(cloth.size);
-  if (cloth.bending.curved) normal_ = Planes3(cloth.size);
 }
 
 void BendingPass::curve(const Planes3& position, Worker& worker) {
   if (!active()) return;
-  if (worker.rank() == 0) field_ = &position;
-  const Range mine = worker.share(cloth_.size);
-  const bool turned = cloth_.bending.curved;
-  for (int r = mine.first; r < mine.last; ++r) {
-    curve_row(position, r);
-    if (turned) turn_row(position, r);
-  }
-  worker.barrier();
-  if (cloth_.mates.class_count() > 0) {
-    sum_over_mates(cloth_.mates, worker, {&curved_.x, &curved_.y, &curved_.z});
-    if (turned) sum_over_mates(cloth_.mates, worker, {&normal_.x, &normal_.y, &normal_.z});
-    worker.barrier();
-  }
-  if (!turned) return;
-  for (int r = mine.first; r < mine.last; ++r) subtract_rest_row(r);
-  worker.barrier();
+  gather(position, worker);
+  if (cloth_.bending.curved) normals_.subtract(position, curved_, worker);
 }
 
 void BendingPass::curve_change(const Planes3& change, Worker& worker) {
   if (!active()) return;
-  if (worker.rank() == 0) field_ = &change;
+  gather(change, worker);
+  if (cloth_.bending.curved) normals_.subtract_change(change, curved_, worker);
+}
+
+void BendingPass::gather(const Planes3& field, Worker& worker) {
+  if (worker.rank() == 0) field_ = &field;
   const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) curve_row(change, r);
+  for (int r = mine.first; r < mine.last; ++r) curve_row(field, r);
   worker.barrier();
   if (cloth_.mates.class_count() == 0) return;
   sum_over_mates(cloth_.mates, worker, {&curved_.x, &curved_.y, &curved_.z});
@@ -118,36 +86,10 @@ void BendingPass::curve_row(const Planes3& position, int row) {
   }
 }
 
-/// A row of area vectors, each sample's own part.
-void BendingPass::turn_row(const Planes3& position, int row) {
-  constexpr BendingOffset right{0, 1}, left{0, -1}, below{1, 0}, above{-1, 0};
-  const Row3 normal = row_of(normal_, row);
-  clear(normal, cloth_.size);
-  add_corner_row(position, right, below, row, normal);
-  add_corner_row(position, below, left, row, normal);
-  add_corner_row(position, left, above, row, normal);
-  add_corner_row(position, above, right, row, normal);
-}
-
-void BendingPass::subtract_rest_row(int row) {
-  constexpr float least_squared = 1e-36F;
-  const Row3 u = row_of(curved_, row);
-  const ConstRow3 normal = row_of(std::as_const(normal_), row);
-  const float* rest = cloth_.bending.rest.row(row);
-#pragma omp simd
-  for (int c = 0; c < cloth_.size; ++c) {
-    const float squared =
-        normal.x[c] * normal.x[c] + normal.y[c] * normal.y[c] + normal.z[c] * normal.z[c];
-    const float scale = rest[c] / std::sqrt(squared > least_squared ? squared : least_squared);
-    u.x[c] -= scale * normal.x[c];
-    u.y[c] -= scale * normal.y[c];
-    u.z[c] -= scale * normal.z[c];
-  }
-}
-
 void BendingPass::add_row(float factor, int row, Planes3& out) const {
   if (!active()) return;
   add_border_row(factor, row, out);
+  if (cloth_.bending.curved) normals_.add_row(factor, row, out);
   const Row3 sum = row_of(out, row);
   const ConstRow3 u = row_of(curved_, row);
   for (int k = 0; k < used_neighbours(cloth_.bending); ++k) {

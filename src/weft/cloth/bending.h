@@ -1,5 +1,6 @@
 #pragma once
 
+#include "weft/cloth/bending_normals.h"
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/kernels/kernel_table.h"
 #include "weft/core/thread_team.h"
@@ -13,11 +14,10 @@ struct BendingOffset {
 inline constexpr std::array<BendingOffset, bending_neighbours> bending_offsets{
     {{0, 1}, {0, -1}, {1, 0}, {-1, 0}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
 
-/// The forces of quadratic bending, -M^T (M x - sqrt(B area) H0 n(x)), in two passes over the rows
-/// with a scratch field between: first u = M x - ..., then its transpose. Each sample gathers in
-/// both. The normals n are those of the positions given and held: forces are minus the gradient at
-/// fixed normals, and M^T M is their derivative [bergou06]. A cloth that is flat at rest needs no
-/// normals and keeps its angular momentum.
+/// The forces of quadratic bending, minus the gradient of |u|^2 / 2 with u = M x - sqrt(B area) H0
+/// n [bergou06], in two passes over the rows with a scratch field between: first u, then its
+/// transposed derivative. Each sample gathers in both. Their own derivative is taken as that of u
+/// twice, which is exact for cloth that is flat at rest and leaves rotations free of force.
 class BendingPass {
  public:
   /// @param cloth  kept by reference
@@ -32,25 +32,26 @@ class BendingPass {
   /// not be in use any more.
   /// @param position  [n x n] [m]
   void curve(const Planes3& position, Worker& worker);
-  /// u = M change: what a small move changes in u.
+  /// What a small move changes in u, from the positions of the last curve, which must still stand.
   void curve_change(const Planes3& change, Worker& worker);
-  /// Adds -factor M^T u, and what free borders add, to a row, each sample's own part: with 1 the
-  /// bending forces [N], after curve_change with -h^2 a row of h^2 M^T M change.
+  /// Adds -factor (du/dx)^T u, and what free borders add, to a row, each sample's own part: with 1
+  /// the bending forces [N], after curve_change with -h^2 a row of h^2 times the bending matrix and
+  /// the change.
   void add_row(float factor, int row, Planes3& out) const;
   /// The energy of the last curve, over all particles [J].
   [[nodiscard]] double energy() const;
 
  private:
+  /// M field, whole. Ends with a barrier.
+  void gather(const Planes3& field, Worker& worker);
   void curve_row(const Planes3& position, int row);
-  void turn_row(const Planes3& position, int row);
-  void subtract_rest_row(int row);
   void add_border_row(float factor, int row, Planes3& out) const;
 
   const Cloth& cloth_;
   const KernelTable* kernels_;
   const Planes3* field_ = nullptr;  // what was curved last
   Planes3 curved_;                  // u
-  Planes3 normal_;  // of the surface, as long as the area around [m^2]; empty for flat rest shapes
+  BendingNormals normals_;
 };
 
 /// Conductances of the edges of one direction of stretch or shear whose Dirichlet energy bounds

@@ -43,7 +43,8 @@ class Implicit final : public Integrator {
     contacts_.clear();
     team_.run([&](Worker& worker) {
       copy_rows(state, start_, worker);
-      bending_.curve(state.position, worker);
+      worker.barrier();
+      bending_.curve(start_.position, worker);
       const Range mine = worker.share(cloth_.size);
       for (int r = mine.first; r < mine.last; ++r) {
         springs_.linearise_row(cloth_, state.position, input.time_step, r);

@@ -86,6 +86,7 @@ double highest_squared_frequency(const Cloth& cloth, ThreadTeam& team) {
   double result = 0;
   team.run([&](Worker& worker) {
     double norm = 0;
+    stiffness.bending.curve(cloth.rest, worker);
     for (int i = 0; i < iterations; ++i)
       norm = iterate_power(cloth, stiffness, v, kv, sums, worker);
     if (worker.rank() == 0) result = norm;

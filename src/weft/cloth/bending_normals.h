@@ -1,0 +1,38 @@
+#pragma once
+
+#include "weft/cloth/cloth.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// The part that the rest curvature has in bending: u = M x - r n, r = sqrt(B area) H0 along the
+/// normal n = N / |N|, N the sum of the cross products of the edges around a particle. Both n and
+/// its derivative count, dn = (1 - n n^T) dN / |N|, so forces are the gradient of an energy and
+/// keep angular momentum.
+class BendingNormals {
+ public:
+  /// @param cloth  kept by reference
+  explicit BendingNormals(const Cloth& cloth);
+
+  /// u -= r n, from rows of M x that are whole. To be called by every worker when all positions are
+  /// in place, ends with a barrier. The positions are kept by reference.
+  void subtract(const Planes3& position, Planes3& u, Worker& worker);
+  /// u -= r dn, what a change of the positions of the last subtract makes of it.
+  void subtract_change(const Planes3& change, Planes3& u, Worker& worker);
+  /// Adds factor (r dn/dx)^T u to a row, of the u that was last returned, each sample's own part.
+  void add_row(float factor, int row, Planes3& out) const;
+
+ private:
+  void share_areas(Planes3& areas, Worker& worker) const;
+  void subtract_row(int row, Planes3& u);
+  void subtract_change_row(int row, Planes3& u);
+  void project_row(int row, const Planes3& u);
+
+  const Cloth& cloth_;
+  const Planes3* position_ = nullptr;
+  Planes3 area_;     // N of the positions [m^2]
+  Planes3 turn_;     // dN [m^2]
+  Planes3 project_;  // r / |N| (1 - n n^T) u
+};
+
+}  // namespace weft
