@@ -41,7 +41,9 @@ constexpr double ground_friction = 0.5;
 constexpr int rounds_of_soft_springs = 4;
 /// Stiff springs leave the limiter a few samples about pins, more of them in finer images, which it
 /// has to bring up the whole cloth's weight by: many passes, that cost little.
-LimitOptions suitable_limit(bool soft, int size) { return {soft ? 10 : std::max(60, size / 2)}; }
+LimitOptions suitable_limit(bool soft, int size) {
+  return {soft ? 10 : std::clamp(size / 2, 60, 128)};
+}
 /// Of the limiter on each coarse level.
 constexpr int coarse_passes = 2;
 
