@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -50,8 +52,35 @@ TEST(ThreadTeam, BarrierMakesEarlierWritesVisible) {
 TEST(ThreadTeam, RunsManyRegionsInTurn) {
   ThreadTeam team(3);
   std::array<int, 3> counts{};
-  for (int i = 0; i < 2000; ++i) team.run([&](Worker& worker) { ++counts[worker.rank()]; });
+  for (int i = 0; i < 2000; ++i)
+    team.run([&](Worker& worker) {
+      const Range mine = worker.share(3);
+      for (int part = mine.first; part < mine.last; ++part) ++counts[part];
+    });
   EXPECT_EQ(counts, (std::array{2000, 2000, 2000}));
+}
+
+TEST(ThreadTeam, CallerGoesAloneForAWhileWhereOthersKeepItWaiting) {
+  ThreadTeam team(2);
+  RowSums sums(10);
+  const auto crowded = [](Worker& worker) {
+    if (worker.rank() == 1) std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    worker.barrier();
+  };
+  const auto is_alone = [&] {
+    bool alone = false;
+    team.run([&](Worker& worker) {
+      const double sum = sums.sum(worker, [](int r) { return r + 1.0; });
+      EXPECT_EQ(sum, 55);
+      if (worker.rank() == 0) alone = worker.alone();
+    });
+    return alone;
+  };
+  team.run(crowded);
+  EXPECT_TRUE(is_alone());
+  bool together = false;
+  for (int i = 0; i < 10'000 && !together; ++i) together = !is_alone();
+  EXPECT_TRUE(together);
 }
 
 TEST(OrderedSum, GivesTheSameBitsForAnyTeam) {

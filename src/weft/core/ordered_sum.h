@@ -30,6 +30,7 @@ class RowSums {
   /// To be called by every worker of the team; all get the same sum. row_sum(r) returns double.
   template <class RowSum>
   double sum(Worker& worker, const RowSum& row_sum) {
+    if (worker.alone()) return lone_sum(row_sum);
     // Two sets of slots in turn, so that one barrier a sum is enough. Each worker counts for
     // itself.
     std::vector<double>& slots = slots_[turn_of(worker)];
@@ -43,6 +44,13 @@ class RowSums {
   }
 
  private:
+  /// In the same order. Turns stay as they are, lest they differ between workers afterwards.
+  template <class RowSum>
+  double lone_sum(const RowSum& row_sum) const {
+    double total = 0;
+    for (int r = 0; r < static_cast<int>(slots_[0].size()); ++r) total += row_sum(r);
+    return total;
+  }
   static constexpr int most_workers = 256;
   struct alignas(64) Turn {
     unsigned value = 0;

@@ -1,8 +1,26 @@
 #include "weft/core/thread_team.h"
 
+#include <algorithm>
+#include <chrono>
+
 #include "weft/core/assert.h"
 
 namespace weft {
+namespace {
+
+constexpr int spins_before_yield = 2000;
+/// In one region, below which nothing is said about the machine. [s]
+constexpr double least_loss = 2e-4;
+/// Regions that the caller runs alone after a crowded one: more each time, fewer after others.
+constexpr int least_alone = 32, most_alone = 1024;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
 
 ThreadTeam::ThreadTeam(const TeamOptions& options)
     : size_(options.size), set_(options.instructions) {
@@ -22,17 +40,29 @@ ThreadTeam::~ThreadTeam() {
 }
 
 void ThreadTeam::run_task(Task task) {
-  if (size_ > 1) {
-    {
-      const std::lock_guard lock(mutex_);
-      task_ = task;
-      ++region_;
-    }
-    wake_.notify_all();
+  if (size_ == 1 || alone_ > 0) {
+    alone_ = std::max(0, alone_ - 1);
+    Worker self(*this, 0, 1);
+    return task.call(task.context, self);
   }
+  const Clock::time_point start = Clock::now();
+  lost_seconds_ = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    task_ = task;
+    ++region_;
+  }
+  wake_.notify_all();
   Worker self(*this, 0, size_);
   task.call(task.context, self);
-  wait_for_all();
+  wait_for_all(true);
+  judge(seconds_since(start));
+}
+
+void ThreadTeam::judge(double seconds) {
+  const bool crowded = lost_seconds_ > least_loss && lost_seconds_ > 0.5 * seconds;
+  next_alone_ = crowded ? std::clamp(2 * next_alone_, least_alone, most_alone) : next_alone_ / 2;
+  if (crowded) alone_ = next_alone_;
 }
 
 void ThreadTeam::serve(int rank) {
@@ -48,21 +78,23 @@ void ThreadTeam::serve(int rank) {
     }
     Worker self(*this, rank, size_);
     task.call(task.context, self);
-    wait_for_all();
+    wait_for_all(false);
   }
 }
 
-void ThreadTeam::wait_for_all() {
-  if (size_ == 1) return;
-  constexpr int spins_before_yield = 2000;
+void ThreadTeam::wait_for_all(bool caller) {
   const std::uint64_t phase = phase_.load(std::memory_order_acquire);
   if (arrived_.fetch_add(1, std::memory_order_acq_rel) == size_ - 1) {
     arrived_.store(0, std::memory_order_relaxed);
     phase_.store(phase + 1, std::memory_order_release);
     return;
   }
-  for (int spins = 0; phase_.load(std::memory_order_acquire) == phase; ++spins)
-    if (spins > spins_before_yield) std::this_thread::yield();
+  const auto here = [&] { return phase_.load(std::memory_order_acquire) != phase; };
+  for (int spins = 0; spins < spins_before_yield; ++spins)
+    if (here()) return;
+  const Clock::time_point start = Clock::now();
+  while (!here()) std::this_thread::yield();
+  if (caller) lost_seconds_ += seconds_since(start);
 }
 
 }  // namespace weft

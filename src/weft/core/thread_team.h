@@ -41,6 +41,8 @@ class Worker {
     return {part(rank_), part(rank_ + 1)};
   }
   [[nodiscard]] int rank() const { return rank_; }
+  /// Whether nobody else works on this region, which a team may decide anew for each.
+  [[nodiscard]] bool alone() const { return size_ == 1; }
   /// Waits until every worker of the team is here.
   void barrier();
 
@@ -54,6 +56,10 @@ class Worker {
 /// A fixed team of threads that runs parallel regions; whole algorithms with many barriers stay
 /// inside one region. `run` allocates nothing. The caller is worker 0, so a team of one starts no
 /// thread.
+///
+/// Where other programs want the same processors, each barrier may wait for a worker that is not
+/// running. A region that lost most of its time so is followed by some that the caller runs alone;
+/// since no result depends on the team, nobody notices but the clock.
 class ThreadTeam {
  public:
   explicit ThreadTeam(const TeamOptions& options);
@@ -80,7 +86,8 @@ class ThreadTeam {
   };
   void run_task(Task task);
   void serve(int rank);
-  void wait_for_all();
+  void wait_for_all(bool caller);
+  void judge(double seconds);
 
   int size_;
   InstructionSet set_;
@@ -93,8 +100,14 @@ class ThreadTeam {
   std::atomic<int> arrived_{0};
   std::atomic<std::uint64_t> phase_{0};
   std::vector<std::thread> threads_;
+  // Of the caller alone.
+  double lost_seconds_ = 0;  // waiting in this region beyond what spinning covers
+  int alone_ = 0;            // regions yet to be run by the caller alone
+  int next_alone_ = 0;       // how many the next crowded region costs
 };
 
-inline void Worker::barrier() { team_->wait_for_all(); }
+inline void Worker::barrier() {
+  if (size_ > 1) team_->wait_for_all(rank_ == 0);
+}
 
 }  // namespace weft
