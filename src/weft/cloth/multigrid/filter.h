@@ -18,7 +18,7 @@ namespace weft {
 /// Jacobi's sweeps, damped by Chebyshev's roots, come before the coarse correction and in the
 /// opposite order after it. With one of each, of which the first starts from zero and needs no
 /// neighbours, a cycle on a uniform sheet leaves 0.26 of the error, with two of each 0.15 for twice
-/// the work: one does where few iterations are made. The coarsest level, of at most 9 samples a
+/// the work: one does where few iterations are made. The coarsest level, of at most 5 samples a
 /// side or the size that no longer halves, is solved directly. A cycle is a symmetric operator and
 /// may precondition conjugate gradients.
 class MultigridFilter {
@@ -49,6 +49,7 @@ class MultigridFilter {
 
   /// [n x n] own part of M / h^2 [N/m]
   [[nodiscard]] const Grid<float>& mass_weight() const { return levels_.front().own_weight; }
+  /// Level 0: its operator, diagonals and shares.
   [[nodiscard]] const FilterLevel& finest() const { return levels_.front(); }
 
  private:
