@@ -17,7 +17,7 @@ struct Pressed {
     for (int r = 0; r < of.size / 2; ++r)
       for (int c = 0; c < of.size / 2; ++c)
         contacts.push_back(
-            {r * of.size + c, normal, dot(normal, of.rest.at(r, c)) + 0.01F, 0, {}});
+            {{r * of.size + c}, {1}, normal, dot(normal, of.rest.at(r, c)) + 0.01F, 0, {}});
     springs.choose(of, contacts, of.rest, filter.finest().inverse_diagonal);
     team.run([&](Worker& worker) { filter.renew_contacts(springs, worker); });
   }
@@ -95,8 +95,7 @@ TEST(ContactBlocks, AreGoneWhenContactsAre) {
   Planes3 b(n);
   shake(cloth, 1, b);
   pressed.springs.clear();
-  pressed.team.run(
-      [&](Worker& worker) { pressed.filter.renew_contacts(pressed.springs, worker); });
+  pressed.team.run([&](Worker& worker) { pressed.filter.renew_contacts(pressed.springs, worker); });
   const Planes3 again = pressed.cycle(b);
   fresh.right() = b;
   team.run([&](Worker& worker) { fresh.cycle(worker); });

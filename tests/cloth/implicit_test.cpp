@@ -96,7 +96,7 @@ TEST(Implicit, SolvesWithManyContactsWellBelowItsCap) {
   ClothState state = rest_state(cloth, {0, -1, 0});
   shake(cloth, 0.001, state.position);
   std::vector<Contact> contacts;
-  for (int s = 0; s < n * n / 2; ++s) contacts.push_back({s, {0, 1, 0}, 0, 0, {}});
+  for (int s = 0; s < n * n / 2; ++s) contacts.push_back({{s}, {1}, {0, 1, 0}, 0, 0, {}});
   integrator->begin(input, state);
   const int free = (integrator->iterate({}), integrator->end(state).iterations);
   state = rest_state(cloth, {0, -1, 0});

@@ -193,7 +193,7 @@ TEST(Stepping, ContactsHoldAParticleAtTheirSurface) {
     ClothState state = rest_state(cloth, {0, -1, 0});
     std::vector<Contact> contacts;
     for (int s = 0; s < 81; ++s)
-      contacts.push_back({s, {0, 1, 0}, cloth.rest.at(s).y - 0.001F, 0, {}});
+      contacts.push_back({{s}, {1}, {0, 1, 0}, cloth.rest.at(s).y - 0.001F, 0, {}});
     integrator->begin(input, state);
     const ClothState& free = integrator->iterate({});
     EXPECT_LT(free.position.y(4, 4), cloth.rest.y(4, 4) - 0.015F);

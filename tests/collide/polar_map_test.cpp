@@ -154,8 +154,7 @@ TEST(PolarMap, NoClothVertexUnderASphereAfterThePush) {
   const PolarMap map(body, {});
   Obstacles obstacles;
   obstacles.bodies.push_back(body);
-  const auto collider =
-      make_collider(PolarMapOptions{}, obstacles, {.thickness = 0.004, .friction = 0.3});
+  const auto collider = test::guarding(obstacles, 0.004, 0.3);
   TestCloth cloth(n);
   // Bent through the sphere: most of the sheet lies up to 4 cm under its surface.
   cloth.place([](int r, int c) {
@@ -163,7 +162,7 @@ TEST(PolarMap, NoClothVertexUnderASphereAfterThePush) {
     return Vec3d{p.x, 0.46 + std::sqrt(std::max(0.0, 0.25 - p.x * p.x - p.z * p.z)), p.z};
   });
   ThreadTeam team(1);
-  EXPECT_GT(collider->correct(cloth.moving(), 1.0 / 240, team), n * n / 2);
+  EXPECT_GT(collider->correct(0, cloth.moving(), {}, 1.0 / 240, team), n * n / 2);
   for (int s = 0; s < n * n; ++s) {
     const Vec3d p = vec_cast<double>(cloth.position.at(s));
     EXPECT_FALSE(map.inside(p));

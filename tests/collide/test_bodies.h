@@ -49,6 +49,14 @@ inline Body torus(int n, double ring, double tube) {
   return body;
 }
 
+/// A polar map that guards one cloth without seams.
+inline std::unique_ptr<Collider> guarding(const Obstacles& obstacles, double thickness,
+                                          double friction) {
+  static const BorderMates no_mates;
+  const GuardedCloth cloth{.mates = no_mates, .thickness = thickness, .friction = friction};
+  return make_collider(PolarMapOptions{}, obstacles, std::span(&cloth, 1));
+}
+
 /// Four planes of a moving cloth that a test owns.
 struct TestCloth {
   explicit TestCloth(int n) : start(n), position(n), velocity(n), inverse_mass(n, n, 1.0F) {}

@@ -59,10 +59,12 @@ struct Step {
     integrator.begin(input, state);
     ClothState* next = &integrator.iterate({});
     const MovingCloth moving{state.position, next->position, next->velocity, cloth.inverse_mass};
-    next = &integrator.iterate(collider.detect(moving, team));
+    collider.detect(std::span(&moving, 1), input.time_step, team);
+    next = &integrator.iterate(collider.contacts(0));
     coarse.limit(2, input.time_step, *next, team);
     limit.limit({}, input.time_step, *next, team);
-    collider.correct(moving, input.time_step, team);
+    collider.correct(0, moving, integrator.contact_forces(), input.time_step, team);
+    collider.guard(std::span(&moving, 1), input.time_step, team);
     integrator.end(state);
   }
 };
@@ -85,7 +87,7 @@ TEST(Allocation, SteppingAllocatesNothingOnceWarm) {
       const StepInput input{1e-4, {0, -9.81F, 0}};
       const auto integrator = make_integrator(options, cloth, input, team);
       const Obstacles ball{{test::octahedral_sphere(17, 0.3, {0, -0.35, 0})}, -0.5, 0.5};
-      const auto collider = make_collider(PolarMapOptions{}, ball, {});
+      const auto collider = test::guarding(ball, 0.002, 0.4);
       Wind wind({{1, 2, 0}}, cloth);
       CoarseLimit coarse(cloth, team);
       StrainLimit limit(cloth, team);

@@ -20,18 +20,25 @@ constexpr double left_surface = 0.1;
 
 double pair_friction(double a, double b) { return std::sqrt(a * b); }
 
-class PushCollider final : public Collider {
- public:
-  PushCollider(const PolarMapOptions& options, const Obstacles& obstacles, const Guarded& cloth)
-      : thickness_(cloth.thickness),
-        ground_(obstacles.ground),
-        ground_friction_(pair_friction(obstacles.ground_friction, cloth.friction)) {
-    for (const Body& body : obstacles.bodies)
-      bodies_.push_back({PolarMap(body, options), pair_friction(body.friction, cloth.friction)});
-  }
+/// A body as every cloth meets it.
+struct MappedBody {
+  PolarMap map;
+  double friction = 0;
+};
 
-  std::span<const Contact> detect(const MovingCloth& cloth, ThreadTeam& team) noexcept override {
-    if (nothing_there()) return {};
+/// Pushes one cloth out of bodies.
+class Pusher {
+ public:
+  Pusher(const std::vector<MappedBody>& bodies, const Obstacles& obstacles,
+         const GuardedCloth& cloth)
+      : bodies_(bodies),
+        thickness_(cloth.thickness),
+        friction_(cloth.friction),
+        ground_(obstacles.ground),
+        ground_friction_(pair_friction(obstacles.ground_friction, cloth.friction)) {}
+
+  void detect(const MovingCloth& cloth, ThreadTeam& team) noexcept {
+    if (nothing_there()) return;
     const int n = cloth.position.size();
     slots_.resize(static_cast<std::size_t>(n) * n);
     contacts_.reserve(slots_.size());
@@ -43,11 +50,11 @@ class PushCollider final : public Collider {
     detected_ = true;
     contacts_.clear();
     for (const Contact& contact : slots_)
-      if (contact.sample != no_sample) contacts_.push_back(contact);
-    return contacts_;
+      if (contact.samples[0] != no_sample) contacts_.push_back(contact);
   }
+  [[nodiscard]] std::span<const Contact> contacts() const noexcept { return contacts_; }
 
-  int correct(const MovingCloth& cloth, double time_step, ThreadTeam& team) noexcept override {
+  int correct(const MovingCloth& cloth, double time_step, ThreadTeam& team) noexcept {
     if (nothing_there()) return 0;
     const int n = cloth.position.size();
     touched_.resize(n);
@@ -64,7 +71,7 @@ class PushCollider final : public Collider {
     return total;
   }
 
-  double smallest_gap(const Planes3& positions, ThreadTeam& team) noexcept override {
+  double smallest_gap(const Planes3& positions, ThreadTeam& team) noexcept {
     const int n = positions.size();
     row_gaps_.resize(n);
     team.run([&](Worker& worker) {
@@ -82,10 +89,6 @@ class PushCollider final : public Collider {
   }
 
  private:
-  struct Guard {
-    PolarMap map;
-    double friction = 0;
-  };
   struct Nearest {
     SurfacePoint point;
     double friction = 0;
@@ -97,9 +100,10 @@ class PushCollider final : public Collider {
   [[nodiscard]] std::optional<Nearest> deepest(Vec3d point, Vec3d start,
                                                double reach) const noexcept {
     std::optional<Nearest> found;
-    for (const Guard& body : bodies_) {
+    for (const MappedBody& body : bodies_) {
       const auto contact = body.map.contact(point, start, reach);
-      if (contact && (!found || contact->gap < found->point.gap)) found = {*contact, body.friction};
+      if (contact && (!found || contact->gap < found->point.gap))
+        found = {*contact, pair_friction(body.friction, friction_)};
     }
     const double gap = ground_ ? point.y - *ground_ : HUGE_VAL;
     if (gap < reach && (!found || gap < found->point.gap))
@@ -110,13 +114,13 @@ class PushCollider final : public Collider {
   [[nodiscard]] Contact contact_of(const MovingCloth& cloth, int sample) noexcept {
     Contact contact;
     detected_depth_[sample] = 0;
-    contact.sample = no_sample;
+    contact.samples[0] = no_sample;
     const int n = cloth.position.size();
     if (cloth.inverse_mass(sample / n, sample % n) <= 0) return contact;
     const auto found = deepest(vec_cast<double>(cloth.position.at(sample)),
                                vec_cast<double>(cloth.start.at(sample)), thickness_);
     if (!found) return contact;
-    contact.sample = sample;
+    contact.samples[0] = sample;
     contact.normal = vec_cast<float>(found->point.normal);
     contact.offset =
         static_cast<float>(dot(found->point.normal, found->point.position) + thickness_);
@@ -158,8 +162,8 @@ class PushCollider final : public Collider {
     return 1;
   }
 
-  double thickness_;
-  std::vector<Guard> bodies_;
+  const std::vector<MappedBody>& bodies_;
+  double thickness_, friction_;
   std::optional<double> ground_;
   double ground_friction_;
   std::vector<Contact> slots_, contacts_;  // slots: [n * n], one a sample
@@ -169,11 +173,48 @@ class PushCollider final : public Collider {
   std::vector<double> row_gaps_;           // [n]
 };
 
+/// The paper's: bodies stand still, cloths ignore each other and themselves.
+class PushCollider final : public Collider {
+ public:
+  PushCollider(const PolarMapOptions& options, const Obstacles& obstacles,
+               std::span<const GuardedCloth> cloths) {
+    for (const Body& body : obstacles.bodies)
+      bodies_.push_back({PolarMap(body, options), body.friction});
+    for (const GuardedCloth& cloth : cloths) pushers_.emplace_back(bodies_, obstacles, cloth);
+  }
+
+  void move_bodies(std::span<const Planes3* const> /*ends*/) noexcept override {}
+  void detect(std::span<const MovingCloth> cloths, double /*time_step*/,
+              ThreadTeam& team) noexcept override {
+    for (std::size_t i = 0; i < cloths.size(); ++i) pushers_[i].detect(cloths[i], team);
+  }
+  [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const noexcept override {
+    return pushers_[cloth].contacts();
+  }
+  int correct(std::size_t cloth, const MovingCloth& moving, std::span<const float> /*forces*/,
+              double time_step, ThreadTeam& team) noexcept override {
+    return pushers_[cloth].correct(moving, time_step, team);
+  }
+  int guard(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
+            ThreadTeam& /*team*/) noexcept override {
+    return 0;
+  }
+  [[nodiscard]] int self_contacts() const noexcept override { return 0; }
+  double smallest_gap(std::size_t cloth, const Planes3& positions,
+                      ThreadTeam& team) noexcept override {
+    return pushers_[cloth].smallest_gap(positions, team);
+  }
+
+ private:
+  std::vector<MappedBody> bodies_;
+  std::vector<Pusher> pushers_;  // one a cloth
+};
+
 }  // namespace
 
 std::unique_ptr<Collider> make_collider(const ColliderOptions& options, const Obstacles& obstacles,
-                                        const Guarded& cloth) {
-  return std::make_unique<PushCollider>(std::get<PolarMapOptions>(options), obstacles, cloth);
+                                        std::span<const GuardedCloth> cloths) {
+  return std::make_unique<PushCollider>(std::get<PolarMapOptions>(options), obstacles, cloths);
 }
 
 }  // namespace weft

@@ -32,10 +32,13 @@ struct PolarMapOptions {
 using ColliderOptions = std::variant<PolarMapOptions>;
 std::string_view name_of(const ColliderOptions& options);
 
-/// What a collider needs to know of the cloth it guards.
-struct Guarded {
+/// What a collider needs to know of a cloth it guards.
+struct GuardedCloth {
+  const BorderMates& mates;
   double thickness = 0.002;  ///< the gap that is kept [m]
   double friction = 0.4;     ///< of the cloth; of a pair: the geometric mean
+  double rest_spacing = 0;   ///< mean distance of neighbouring samples at rest [m]
+  bool self_collision = false;
 };
 
 /// The state of a cloth during a step, as far as a collider touches it.
@@ -46,24 +49,42 @@ struct MovingCloth {
   const Grid<float>& inverse_mass;  ///< 0: pinned, never moved
 };
 
-/// Keeps a cloth out of bodies. Nothing allocates or throws once warmed up.
+/// Keeps the cloths of a scene out of its bodies, and out of each other and themselves where it
+/// can. Cloths come in the order in which they were given. Nothing allocates or throws once warmed
+/// up. In a step: move_bodies where bodies move; detect; after the integrators' work correct, any
+/// number of times; guard.
 class Collider {
  public:
   Collider() = default;
   Collider(const Collider&) = delete;
   Collider& operator=(const Collider&) = delete;
   virtual ~Collider() = default;
-  /// Contacts for the integrator's next iteration, from the proposal; empty for methods that only
-  /// push. Ordered by sample. Valid until the next call.
-  virtual std::span<const Contact> detect(const MovingCloth& cloth, ThreadTeam& team) noexcept = 0;
-  /// The last change of positions in a step: pushes out what is inside, stops its inward velocity,
-  /// and holds it by friction. Mates are treated alike, so they stay equal.
-  /// @return how many particles (mates once or as samples: samples) were in contact
-  virtual int correct(const MovingCloth& cloth, double time_step, ThreadTeam& team) noexcept = 0;
+  /// Begins a step at whose end the bodies stand at `ends`; they start from where the last step
+  /// left them. @param ends  of each body [n x n] world [m], mates equal; valid until guard is done
+  virtual void move_bodies(std::span<const Planes3* const> ends) noexcept = 0;
+  /// Finds the contacts of a step from the proposals.
+  virtual void detect(std::span<const MovingCloth> cloths, double time_step,
+                      ThreadTeam& team) noexcept = 0;
+  /// What detect found for one cloth, for its integrator; empty for methods that only push.
+  [[nodiscard]] virtual std::span<const Contact> contacts(std::size_t cloth) const noexcept = 0;
+  /// Pushes out what is inside, stops its inward velocity, and holds it by friction. Mates are
+  /// treated alike, so they stay equal.
+  /// @param forces  normal forces of contacts(cloth) as solved, in their order; empty where the
+  ///                integrator does not tell [N]
+  /// @return how many samples were in contact with obstacles
+  virtual int correct(std::size_t cloth, const MovingCloth& moving, std::span<const float> forces,
+                      double time_step, ThreadTeam& team) noexcept = 0;
+  /// The last change of positions in a step: what would pass through something stays before it.
+  /// @return how many samples were held back; 0 for methods that promise nothing
+  virtual int guard(std::span<const MovingCloth> cloths, double time_step,
+                    ThreadTeam& team) noexcept = 0;
+  /// How many contacts of a cloth with itself or another the last detect found.
+  [[nodiscard]] virtual int self_contacts() const noexcept = 0;
   /// The least signed distance of a particle to an obstacle (negative inside), for reports. Gaps to
   /// bodies are known up to twice the thickness only; infinite where nothing is known to be near.
   /// [m]
-  virtual double smallest_gap(const Planes3& positions, ThreadTeam& team) noexcept = 0;
+  virtual double smallest_gap(std::size_t cloth, const Planes3& positions,
+                              ThreadTeam& team) noexcept = 0;
 };
 
 /// @param ground  height of the ground plane, if any; its friction is `ground_friction`
@@ -72,7 +93,8 @@ struct Obstacles {
   std::optional<double> ground;
   double ground_friction = 0.5;
 };
+/// @param cloths  their mates are kept by reference
 std::unique_ptr<Collider> make_collider(const ColliderOptions& options, const Obstacles& obstacles,
-                                        const Guarded& cloth);
+                                        std::span<const GuardedCloth> cloths);
 
 }  // namespace weft

@@ -1,17 +1,24 @@
 #pragma once
 
+#include <array>
+
 #include "weft/core/vec.h"
 
 namespace weft {
 
-/// A half-space that one particle must not enter, found by a collider and heeded by an integrator,
-/// which do not know each other: dot(normal, position) >= offset.
+/// A half-space that a point of the cloth must not enter, found by a collider and heeded by an
+/// integrator, which do not know each other: dot(normal, p) >= offset for
+/// p = sum of weights[i] * position(samples[i]).
+/// Against an obstacle the weights sum to 1: (1, 0, 0, 0) for a particle, several for a point of an
+/// edge or a triangle. Between two parts of one cloth those of the other side are negative, so that
+/// they sum to 0 and the offset is a distance.
 struct Contact {
-  int sample = 0;          ///< row * n + col of the particle
-  Vec3f normal;            ///< unit, away from the obstacle
-  float offset = 0;        ///< [m]
-  float friction = 0;      ///< Coulomb coefficient of the pair
-  Vec3f surface_velocity;  ///< of the obstacle there [m/s]
+  std::array<int, 4> samples{};  ///< row * n + col each; where the weight is 0, any
+  std::array<float, 4> weights{1, 0, 0, 0};
+  Vec3f normal;        ///< unit, away from the obstacle or the negative side
+  float offset = 0;    ///< at the end of the step [m]
+  float friction = 0;  ///< Coulomb coefficient of the pair
+  Vec3f slide;         ///< how far the obstacle's surface moves there during the step [m]
 };
 
 }  // namespace weft

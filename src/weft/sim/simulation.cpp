@@ -72,7 +72,6 @@ double mass_of(const Cloth& cloth) {
 /// What moves one cloth.
 struct Mover {
   std::unique_ptr<Integrator> integrator;
-  std::unique_ptr<Collider> collider;
   std::optional<Wind> wind;
   RunawayCheck runaway;
   StrainLimit limit;
@@ -98,14 +97,28 @@ struct Simulation::Parts {
   void make_movers();
   /// The speed that wind and moving pins may lend a cloth [m/s].
   [[nodiscard]] double drive_of(std::size_t index) const;
-  /// @return particles in contact
-  int step(std::size_t index, FrameReport& report);
+  /// Advances all cloths. @return particles in contact
+  int step(FrameReport& report);
+  /// Begins a cloth's step, up to its first proposal.
+  void propose(std::size_t index);
+  /// Solves a cloth's step with the contacts that were found.
+  void solve(std::size_t index);
+  /// Limits strain and pushes out. @return particles in contact
+  int correct(std::size_t index, ClothState& next, FrameReport& report);
+  /// Every cloth at its proposal, for the collider.
+  void gather_moving();
+  void finish(std::size_t index, FrameReport& report);
   [[noreturn]] void stop_unstable(std::size_t index, BadParticle particle) const;
   void measure(FrameReport& report);
   /// Springs that hold far more energy than the cloth can have gained ran away, though a limiter
   /// may tame the motion.
   void check_springs(std::size_t index, double kinetic, double springs) const;
   [[nodiscard]] Vec3d centre() const;
+  /// Only implicit methods heed contacts; the others are pushed out at the end of the step.
+  [[nodiscard]] bool heeds_contacts() const {
+    return std::holds_alternative<MultigridOptions>(scene.integrator) ||
+           std::holds_alternative<ImplicitOptions>(scene.integrator);
+  }
   /// Who steps a cloth.
   [[nodiscard]] ThreadTeam& solvers(std::size_t index) {
     return cloths[index].cloth.size < least_shared_size ? lone_team : team;
@@ -122,6 +135,8 @@ struct Simulation::Parts {
   std::vector<std::string> notes;
   std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
   std::vector<Mover> movers;                        // one a cloth
+  std::unique_ptr<Collider> collider;
+  std::vector<MovingCloth> moving;  // of this step
   int frame = 0;
 };
 
@@ -182,72 +197,98 @@ void Simulation::Parts::make_movers() {
   obstacles.ground = scene.ground;
   obstacles.ground_friction = ground_friction;
   const StepInput typical{time_step, vec_cast<float>(scene.gravity)};
+  std::vector<GuardedCloth> guarded;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
-    const Guarded guarded{gap_of(cloth.cloth), scene.cloths[i].friction};
+    guarded.push_back({cloth.cloth.mates, gap_of(cloth.cloth), scene.cloths[i].friction,
+                       cloth.cloth.rest_spacing, false});
     movers.push_back(
         {make_integrator(scene.integrator, cloth.cloth, typical, solvers(i)),
-         make_collider(scene.collider, obstacles, guarded),
          scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
          RunawayCheck(cloth.cloth, cloth.state, scene.gravity, drive_of(i)),
          StrainLimit(cloth.cloth, solvers(i)), CoarseLimit(cloth.cloth, solvers(i))});
     if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
       notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }
+  collider = make_collider(scene.collider, obstacles, guarded);
+  moving.reserve(cloths.size());
 }
 
 double Simulation::Parts::drive_of(std::size_t index) const {
   return (scene.wind ? length(scene.wind->velocity) : 0) + fastest_pin(pin_motions[index]);
 }
 
-int Simulation::Parts::step(std::size_t index, FrameReport& report) {
+void Simulation::Parts::propose(std::size_t index) {
   SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
-  const StepInput input{time_step, vec_cast<float>(scene.gravity)};
-  const Planes3& start = cloth.state.position;
   if (mover.wind) mover.wind->blow(time_step, cloth.state, solvers(index));
-  mover.integrator->begin(input, cloth.state);
+  mover.integrator->begin({time_step, vec_cast<float>(scene.gravity)}, cloth.state);
+  // Multigrid's contacts are looked for where the step leads without the cloth's own forces.
+  if (!std::holds_alternative<MultigridOptions>(scene.integrator)) mover.integrator->iterate({});
+}
+
+void Simulation::Parts::solve(std::size_t index) {
+  const std::span<const Contact> found = collider->contacts(index);
+  if (std::holds_alternative<MultigridOptions>(scene.integrator) ||
+      (heeds_contacts() && !found.empty()))
+    movers[index].integrator->iterate(found);
+}
+
+int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport& report) {
+  const SimulatedCloth& cloth = cloths[index];
+  Mover& mover = movers[index];
   StageClock clock;
-  const auto detect = [&](ClothState& proposed) {
-    clock.lap();
-    const auto found = mover.collider->detect(
-        {start, proposed.position, proposed.velocity, cloth.cloth.inverse_mass}, team);
-    report.collide_ms += clock.lap();
-    return found;
-  };
-  // Only implicit methods heed contacts; the others are pushed out at the end of the step.
-  ClothState* next = nullptr;
-  if (std::holds_alternative<MultigridOptions>(scene.integrator)) {
-    next = &mover.integrator->iterate(detect(mover.integrator->proposal()));
-  } else {
-    next = &mover.integrator->iterate({});
-    if (std::holds_alternative<ImplicitOptions>(scene.integrator))
-      if (const auto found = detect(*next); !found.empty())
-        next = &mover.integrator->iterate(found);
-  }
-  clock.lap();
   LimitOptions limiter = suitable_limit(soft, cloth.cloth.size);
   limiter.passes = scene.limiter_passes.value_or(limiter.passes);
   int contacts = 0;
   for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
     if (soft)
-      mover.coarse_limit.limit(std::min(coarse_passes, limiter.passes), time_step, *next,
+      mover.coarse_limit.limit(std::min(coarse_passes, limiter.passes), time_step, next,
                                solvers(index));
-    mover.limit.limit(limiter, time_step, *next, solvers(index));
+    mover.limit.limit(limiter, time_step, next, solvers(index));
     report.limit_ms += clock.lap();
-    const int touched = mover.collider->correct(
-        {start, next->position, next->velocity, cloth.cloth.inverse_mass}, time_step, team);
+    const int touched = collider->correct(index, moving[index], mover.integrator->contact_forces(),
+                                          time_step, team);
     report.collide_ms += clock.lap();
     contacts = std::max(contacts, touched);
     if (touched == 0) break;
   }
+  return contacts;
+}
 
-  const StepReport stepped = mover.integrator->end(cloth.state);
+void Simulation::Parts::gather_moving() {
+  moving.clear();
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    ClothState& next = movers[i].integrator->proposal();
+    moving.push_back(
+        {cloths[i].state.position, next.position, next.velocity, cloths[i].cloth.inverse_mass});
+  }
+}
+
+int Simulation::Parts::step(FrameReport& report) {
+  for (std::size_t i = 0; i < cloths.size(); ++i) propose(i);
+  gather_moving();
+  StageClock clock;
+  if (heeds_contacts()) collider->detect(moving, time_step, team);
+  report.collide_ms += clock.lap();
+  for (std::size_t i = 0; i < cloths.size(); ++i) solve(i);
+  gather_moving();
+  int contacts = 0;
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    contacts += correct(i, movers[i].integrator->proposal(), report);
+  clock.lap();
+  collider->guard(moving, time_step, team);
+  report.collide_ms += clock.lap();
+  for (std::size_t i = 0; i < cloths.size(); ++i) finish(i, report);
+  return contacts;
+}
+
+void Simulation::Parts::finish(std::size_t index, FrameReport& report) {
+  const StepReport stepped = movers[index].integrator->end(cloths[index].state);
   report.forces_ms += 1000 * stepped.forces_seconds;
   report.solve_ms += 1000 * stepped.solve_seconds;
   report.iterations += stepped.iterations;
   report.residual = std::max(report.residual, stepped.residual);
-  return contacts;
 }
 
 void Simulation::Parts::stop_unstable(std::size_t index, BadParticle particle) const {
@@ -290,7 +331,7 @@ void Simulation::Parts::measure(FrameReport& report) {
     report.kinetic_energy += kinetic;
     report.potential_energy += potential;
     report.smallest_gap =
-        std::min(report.smallest_gap, movers[i].collider->smallest_gap(cloth.state.position, team));
+        std::min(report.smallest_gap, collider->smallest_gap(i, cloth.state.position, team));
     const StrainSummary strain = measure_strain(cloth.cloth, cloth.state);
     report.strain.mean += strain.mean * cloth.cloth.particles;
     report.strain.p99 = std::max(report.strain.p99, strain.p99);
@@ -320,11 +361,11 @@ FrameReport Simulation::advance() {
     update(parts_->progress, "simulate",
            (parts_->frame + static_cast<double>(substep) / substeps) /
                std::max(parts_->frame + 1, parts_->scene.frames));
-    int contacts = 0;
     const double seconds = parts_->time_step * (parts_->frame * substeps + substep + 1);
-    for (std::size_t i = 0; i < parts_->cloths.size(); ++i) {
+    for (std::size_t i = 0; i < parts_->cloths.size(); ++i)
       move_pins(parts_->pin_motions[i], seconds, parts_->cloths[i].cloth);
-      contacts += parts_->step(i, report);
+    const int contacts = parts_->step(report);
+    for (std::size_t i = 0; i < parts_->cloths.size(); ++i) {
       const SimulatedCloth& cloth = parts_->cloths[i];
       if (const auto bad =
               parts_->movers[i].runaway.find(cloth.cloth, cloth.state, seconds, parts_->solvers(i)))

@@ -45,12 +45,12 @@ void ContactSprings::choose(const Cloth& cloth, std::span<const Contact> contact
     rows_[r] = 1;
   };
   for (const Contact& contact : contacts) {
-    const int r = contact.sample / n, c = contact.sample % n;
+    const int r = contact.samples[0] / n, c = contact.samples[0] % n;
     const float depth = contact.offset - dot(contact.normal, proposed.at(r, c));
     if (!(depth > depth_(r, c))) continue;
     ++active_;
     depth_(r, c) = depth;
-    put(contact.sample, contact.normal, contact.offset);
+    put(contact.samples[0], contact.normal, contact.offset);
   }
   if (active_ == 0) return;
   // A class is one particle: it heeds the contact that any of its samples violates most.

@@ -22,7 +22,7 @@ void ContactTerms::choose(std::span<const Contact> contacts, const Planes3& star
   clear();
   const int n = target_.rows();
   for (const Contact& contact : contacts) {
-    const int r = contact.sample / n, c = contact.sample % n;
+    const int r = contact.samples[0] / n, c = contact.samples[0] % n;
     const float depth = contact.offset - dot(contact.normal, proposed.at(r, c));
     if (!(depth > depth_(r, c))) continue;
     ++active_;

@@ -46,9 +46,9 @@ struct TwoLevelOptions {
 };
 /// Implicit Euler solved by descent, preconditioned by the exact filter on the image's mip pyramid.
 /// Two iterations a step, and a tolerance that only cloth near rest meets before: with four steps a
-/// frame they bring the fall of a hanging sheet within 1 cm of the converged one, whatever its size.
-/// Three swing farther from it than two at some sizes, four lie within a millimetre for 1.6 times
-/// the time (docs/measured.md).
+/// frame they bring the fall of a hanging sheet within 1 cm of the converged one, whatever its
+/// size. Three swing farther from it than two at some sizes, four lie within a millimetre for 1.6
+/// times the time (docs/measured.md).
 struct MultigridOptions {
   int max_iterations = 2;  ///< a step; four times as many while something presses on the cloth
   /// Stop when the correction of an iteration falls below this times the rest spacing.
@@ -80,6 +80,9 @@ class Integrator {
   /// Proposes the state at the end of the step; the caller may change it in place (limit strain,
   /// truncate, push out of bodies) before the next iterate or end.
   virtual ClothState& iterate(std::span<const Contact> contacts) noexcept = 0;
+  /// Normal forces of the contacts of the last iterate, in their order; empty where the method
+  /// does not solve for contacts. [N]
+  [[nodiscard]] virtual std::span<const float> contact_forces() const noexcept { return {}; }
   /// Makes the proposal the state (pins at their targets, mates equal).
   virtual StepReport end(ClothState& state) noexcept = 0;
 
