@@ -13,13 +13,16 @@ using namespace testing;
 /// A cloth of which the upper left part lies deep within a slanted half-space.
 struct Pressed {
   explicit Pressed(const Cloth& of, Vec3f slant = {0.6F, 0.8F, 0})
-      : cloth(of), normal(slant), filter(of, {1.0 / 60}, team), springs(of.size) {
+      : cloth(of), normal(slant), filter(of, {1.0 / 60}, team), springs(of) {
     for (int r = 0; r < of.size / 2; ++r)
       for (int c = 0; c < of.size / 2; ++c)
         contacts.push_back(
             {{r * of.size + c}, {1}, normal, dot(normal, of.rest.at(r, c)) + 0.01F, 0, {}});
-    springs.choose(of, contacts, of.rest, filter.finest().inverse_diagonal);
-    team.run([&](Worker& worker) { filter.renew_contacts(springs, worker); });
+    springs.take(contacts);
+    team.run([&](Worker& worker) {
+      springs.heed(of.rest, of.rest, filter.finest().inverse_diagonal, worker);
+      filter.renew_contacts(springs, worker);
+    });
   }
   Planes3 cycle(const Planes3& right) {
     filter.right() = right;
@@ -100,20 +103,6 @@ TEST(ContactBlocks, AreGoneWhenContactsAre) {
   fresh.right() = b;
   team.run([&](Worker& worker) { fresh.cycle(worker); });
   for (int s = 0; s < n * n; ++s) ASSERT_EQ(again.at(s), fresh.value().at(s));
-}
-
-TEST(ContactSprings, PushBackOnlyWhatIsBeyondTheSurface) {
-  const int n = 9;
-  const Cloth cloth = sheet_cloth(n);
-  const Pressed pressed(cloth, {0, 1, 0});
-  Planes3 force(n), above = cloth.rest;
-  for (int s = 0; s < n * n; ++s) above.set(s, above.at(s) + Vec3f{0, 0.02F, 0});
-  pressed.springs.add_force(2, nullptr, cloth.rest, row_of(force, 2));
-  pressed.springs.add_force(3, nullptr, above, row_of(force, 3));
-  EXPECT_NEAR(force.y(2, 1), 0.01 * pressed.springs.stiffness()(2, 1), 1e-3);
-  EXPECT_GT(force.y(2, 1), 1);
-  EXPECT_EQ(force.y(3, 1), 0);
-  EXPECT_EQ(force.at(2, n - 1), Vec3f{});
 }
 
 }  // namespace

@@ -73,7 +73,8 @@ TEST(Multigrid, HeldParticleStaysOnItsSurfaceAndSlides) {
     // A floor just below every particle, of no friction.
     std::vector<Contact> contacts;
     for (int s = 0; s < n * n; ++s)
-      contacts.push_back({{s}, {1}, {0, 1, 0}, cloth.rest.at(s).y - 0.001F, 0, {}});
+      if (cloth.counted(s / n, s % n) > 0)
+        contacts.push_back({{s}, {1}, {0, 1, 0}, cloth.rest.at(s).y - 0.001F, 0, {}});
     integrator->begin(input, state);
     EXPECT_LT(integrator->iterate({}).position.y(4, 4), cloth.rest.y(4, 4) - 0.015F);
     integrator->iterate(contacts);

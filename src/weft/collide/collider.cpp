@@ -32,6 +32,7 @@ class Pusher {
   Pusher(const std::vector<MappedBody>& bodies, const Obstacles& obstacles,
          const GuardedCloth& cloth)
       : bodies_(bodies),
+        mates_(cloth.mates),
         thickness_(cloth.thickness),
         friction_(cloth.friction),
         ground_(obstacles.ground),
@@ -49,8 +50,9 @@ class Pusher {
     });
     detected_ = true;
     contacts_.clear();
-    for (const Contact& contact : slots_)
-      if (contact.samples[0] != no_sample) contacts_.push_back(contact);
+    for (int s = 0; s < n * n; ++s)
+      if (slots_[s].samples[0] == s && mates_.representative(s) == s)
+        contacts_.push_back(slots_[s]);
   }
   [[nodiscard]] std::span<const Contact> contacts() const noexcept { return contacts_; }
 
@@ -163,6 +165,7 @@ class Pusher {
   }
 
   const std::vector<MappedBody>& bodies_;
+  const BorderMates& mates_;
   double thickness_, friction_;
   std::optional<double> ground_;
   double ground_friction_;

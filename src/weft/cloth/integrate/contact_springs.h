@@ -1,45 +1,75 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/kernels/row_pointers.h"
 #include "weft/core/contact.h"
+#include "weft/core/contact_uses.h"
+#include "weft/core/thread_team.h"
 
 namespace weft {
 
-/// Contacts as one-sided springs along their normals: a particle beyond its half-space is pushed
-/// back by k times its depth, k several times what the cloth holds it by, so that it comes to rest
-/// within a small part of a micrometre, while a particle that leaves is not held. Of several
-/// contacts a particle heeds the one that its proposal violates most; friction is the collider's.
+/// Contacts as one-sided springs along their normals, of energy k/2 max(0, depth)^2: a point beyond
+/// its half-space is pushed back by k times its depth, k several times what the cloth holds it by,
+/// so that it comes to rest within a small part of a micrometre, while a point that leaves is not
+/// held. The forces on a point's samples, weights[i] of it each, are computed by contact, then
+/// gathered by sample. A class of mates is one particle: what a contact does to one of its samples
+/// is shared out among all.
 class ContactSprings {
  public:
-  explicit ContactSprings(int size);
+  /// @param cloth  kept by reference
+  explicit ContactSprings(const Cloth& cloth);
 
   void clear();
-  /// @param proposed          [n x n] positions [m]
+  /// Knows of contacts, but heeds none yet. @param contacts  must stay until the last press
+  void take(std::span<const Contact> contacts);
+
+  // To be called by every worker of the team, of any size.
+
+  /// Heeds, besides those that it heeds already, the contacts that may press: whose point is beyond
+  /// the half-space, or touches it, when each of the two sides is where it presses more, at the
+  /// start of the step or now. Ends with a barrier.
   /// @param inverse_diagonal  [n x n] of the filter, 0 where held [m/N]
-  void choose(const Cloth& cloth, std::span<const Contact> contacts, const Planes3& proposed,
-              const Grid<float>& inverse_diagonal);
-  [[nodiscard]] bool empty() const { return active_ == 0; }
+  /// @return whether there were any such
+  bool heed(const Planes3& start, const Planes3& now, const Grid<float>& inverse_diagonal,
+            Worker& worker);
+  /// Computes all forces. Ends with a barrier.
+  void press(const Planes3& position, Worker& worker);
 
-  /// Whether a row has contacts.
+  /// Whether no contact is heeded.
+  [[nodiscard]] bool empty() const { return heeded_ == 0; }
+  /// Whether a row has contacts that are heeded.
   [[nodiscard]] bool row(int r) const { return rows_[static_cast<std::size_t>(r)] != 0; }
-  /// [n x n] 0 where there is none, whole particles [N/m]
-  [[nodiscard]] const Grid<float>& stiffness() const { return stiffness_; }
-  [[nodiscard]] ConstRow3 normal_row(int row) const;
+  /// Adds each sample's own part of the forces to a row.
+  void add_force(int row, Row3 force) const;
+  /// Adds to a row each sample's own part of 3 x 3 blocks (xx, xy, xz, yy, yz, zz) that together
+  /// bound the second derivative from above: w w^T is at most sum |w| times the diagonal of |w|, so
+  /// a sample gets k sum |w| |w_i| n n^T. [N/m]
+  void add_blocks(int row, const std::array<float*, 6>& block) const;
 
-  /// force += share of k depth normal. @param share  [n] of mates; null: 1
-  void add_force(int row, const float* share, const Planes3& position, Row3 force) const;
+  /// Of each contact, in the order in which they were taken [N/m]; 0 where it is not heeded.
+  [[nodiscard]] std::span<const float> stiffness() const { return stiffness_; }
+  /// Of each contact, from the last press [N].
+  [[nodiscard]] std::span<const float> forces() const { return force_; }
 
  private:
-  Planes3 normal_;
-  Grid<float> offset_;     // [m]
-  Grid<float> stiffness_;  // [N/m]
-  Grid<float> depth_;      // of the proposal [m]
+  void use(int sample, ContactUses::Use use);
+  [[nodiscard]] bool may_press(const Contact& contact, const Planes3& start,
+                               const Planes3& now) const;
+  void mark_rows(Worker& worker);
+
+  const Cloth& cloth_;
+  std::vector<int> class_at_;  // of border positions, -1 where a sample is alone
+  std::span<const Contact> contacts_;
+  ContactUses uses_;
+  std::vector<int> row_starts_;  // [n + 1] into uses_.samples()
+  std::vector<float> stiffness_, force_;
   std::vector<char> rows_;
-  int active_ = 0;
+  int heeded_ = 0;
+  bool grown_ = false;
 };
 
 }  // namespace weft

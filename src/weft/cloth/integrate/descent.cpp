@@ -33,7 +33,7 @@ Descent::Descent(const Cloth& cloth, double time_step, ThreadTeam& team)
       kernels_(kernels_for(team.instructions())),
       time_step_(time_step),
       filter_(cloth, {time_step}, team),
-      contacts_(cloth.size),
+      contacts_(cloth),
       springs_(cloth, team),
       bending_(cloth, team.instructions()),
       start_(rest_state(cloth)),
@@ -73,8 +73,9 @@ void Descent::begin(const StepInput& input, const ClothState& state) {
 }
 
 void Descent::run(std::span<const Contact> contacts, const MultigridOptions& options) {
-  contacts_.choose(cloth_, contacts, next_.position, filter_.finest().inverse_diagonal);
+  contacts_.take(contacts);
   team_.run([&](Worker& worker) {
+    heed_contacts(worker);
     const Range mine = worker.share(cloth_.size);
     const auto pending = static_cast<float>(pending_way_);
     for (int r = mine.first; r < mine.last; ++r) {
@@ -141,12 +142,12 @@ double Descent::look(Worker& worker) {
   const SpringRows::Motion motion{next_.position, start_.position, input_.time_step};
   bending_.curve(next_.position, worker);
   springs_.begin(motion, worker);
+  if (!contacts_.empty()) contacts_.press(next_.position, worker);
   const double along = sums_.sum(worker, [&](int r) {
     const Row3 out = row_of(far_residual_, r);
     copy_row(springs_.row(motion, r, worker), out, cloth_.size);
     bending_.add_row(1, r, far_residual_);
-    if (contacts_.row(r))
-      contacts_.add_force(r, filter_.finest().share_row(r), next_.position, out);
+    if (contacts_.row(r)) contacts_.add_force(r, out);
     return kernels_.inertia(cloth_.size, filter_.mass_weight().row(r),
                             row_of(std::as_const(move_), r), row_of(std::as_const(direction_), r),
                             out);
@@ -209,9 +210,14 @@ void Descent::restart(Course& course, Worker& worker) {
     place_row(0, r);
   }
   worker.barrier();
+  if (heed_contacts(worker)) filter_.renew_contacts(contacts_, worker);
   look(worker);
   course.slope = course.left = course.way = 0;
   course.exact = true;
+}
+
+bool Descent::heed_contacts(Worker& worker) {
+  return contacts_.heed(start_.position, next_.position, filter_.finest().inverse_diagonal, worker);
 }
 
 Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker) {
@@ -227,6 +233,8 @@ Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker
   }
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) place_row(static_cast<float>(course.way), r);
+  worker.barrier();
+  if (!contacts_.empty()) contacts_.press(next_.position, worker);
   return course;
 }
 

@@ -27,12 +27,15 @@ class Descent {
 
   /// Starts a step: next() falls freely.
   void begin(const StepInput& input, const ClothState& state);
-  /// Descends, with particles that are beyond contacts' surfaces pushed back by springs.
+  /// Descends, with what is beyond contacts' surfaces pushed back by springs.
+  /// @param contacts  of samples of the cloth
   void run(std::span<const Contact> contacts, const MultigridOptions& options);
 
   /// Where the descent stands. What the caller changes here decides which contacts the next run
   /// heeds; that goes on from where the last one ended.
   [[nodiscard]] ClothState& next() { return next_; }
+  /// Normal forces of the contacts of the last run, in their order [N].
+  [[nodiscard]] std::span<const float> contact_forces() const { return contacts_.forces(); }
   /// Iterations since begin.
   [[nodiscard]] int iterations() const { return iterations_; }
   /// The last iteration's largest correction over the rest spacing.
@@ -68,6 +71,9 @@ class Descent {
   [[nodiscard]] double largest_direction() const;
   /// Looks up the residual where the descent stands, and forgets the direction.
   void restart(Course& course, Worker& worker);
+  /// Looks for contacts that press where `next` is. Ends with a barrier. @return whether there are
+  /// new ones
+  bool heed_contacts(Worker& worker);
   Course descend(const MultigridOptions& options, Worker& worker);
 
   const Cloth& cloth_;

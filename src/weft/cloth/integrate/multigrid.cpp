@@ -35,6 +35,10 @@ class Multigrid final : public Integrator {
     return descent_.next();
   }
 
+  [[nodiscard]] std::span<const float> contact_forces() const noexcept override {
+    return descent_.contact_forces();
+  }
+
   StepReport end(ClothState& state) noexcept override {
     accept(cloth_, descent_.next(), time_step_, state, team_);
     return report_;

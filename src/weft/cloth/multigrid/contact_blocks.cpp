@@ -44,21 +44,12 @@ void ContactBlocks::clear_row(int row) {
   rows_[row] = 0;
 }
 
-void ContactBlocks::take_row(const ContactSprings& contacts, int row, const float* share) {
+void ContactBlocks::take_row(const ContactSprings& contacts, int row) {
   clear_row(row);
   if (!contacts.row(row)) return;
   rows_[row] = 1;
-  const float* stiffness = contacts.stiffness().row(row);
-  const ConstRow3 n = contacts.normal_row(row);
-  for (int c = 0; c < size_; ++c) {
-    const float k = stiffness[c] * (share == nullptr ? 1.0F : share[c]);
-    own_[0].row(row)[c] = k * n.x[c] * n.x[c];
-    own_[1].row(row)[c] = k * n.x[c] * n.y[c];
-    own_[2].row(row)[c] = k * n.x[c] * n.z[c];
-    own_[3].row(row)[c] = k * n.y[c] * n.y[c];
-    own_[4].row(row)[c] = k * n.y[c] * n.z[c];
-    own_[5].row(row)[c] = k * n.z[c] * n.z[c];
-  }
+  contacts.add_blocks(row, {own_[0].row(row), own_[1].row(row), own_[2].row(row), own_[3].row(row),
+                            own_[4].row(row), own_[5].row(row)});
 }
 
 void ContactBlocks::restrict_row(const ContactBlocks& fine, int row, float* line) {

@@ -8,9 +8,9 @@
 
 namespace weft {
 
-/// What contacts add to a level's operator: a symmetric 3 x 3 block for every sample, k n n^T on
-/// the finest level, on coarser ones what restriction gathers of it. They hold along normals and
-/// leave sliding free. Rows without contact stay with the scalar operator.
+/// What contacts add to a level's operator: a symmetric 3 x 3 block for every sample, a sum
+/// of k n n^T on the finest level, on coarser ones what restriction gathers of it. They hold along
+/// normals and leave sliding free. Rows without contact stay with the scalar operator.
 class ContactBlocks {
  public:
   ContactBlocks() = default;
@@ -20,8 +20,7 @@ class ContactBlocks {
   [[nodiscard]] bool row(int r) const { return rows_[static_cast<std::size_t>(r)] != 0; }
 
   // Renewing goes row by row, by any team: each of these in turn, with barriers between.
-  /// @param share  [n] of mates; null: 1
-  void take_row(const ContactSprings& contacts, int row, const float* share);
+  void take_row(const ContactSprings& contacts, int row);
   void restrict_row(const ContactBlocks& fine, int row, float* line);
   /// (D + C)^-1 of the row's samples, which for samples with mates is wrong until join_mates.
   /// @param inverse_diagonal  [n] D^-1, 0 where held
