@@ -30,7 +30,8 @@ struct Springs {
   }
   /// Whole particles'.
   Planes3 forces(const Planes3& position) {
-    team.run([&](Worker& worker) { springs.press(position, worker); });
+    const Planes3 none(cloth.size);
+    team.run([&](Worker& worker) { springs.press({position, none, none}, worker); });
     Planes3 force(cloth.size);
     for (int r = 0; r < cloth.size; ++r)
       if (springs.row(r)) springs.add_force(r, row_of(force, r));

@@ -13,6 +13,7 @@
 #include "weft/cloth/strain_limit.h"
 #include "weft/cloth/wind.h"
 #include "weft/collide/collider.h"
+#include "weft/collide/contact_response.h"
 
 // The whole program's allocations are counted: the standard lets a program replace these.
 
@@ -99,6 +100,44 @@ TEST(Allocation, SteppingAllocatesNothingOnceWarm) {
       for (int i = 0; i < 5; ++i) step.take(input, state);
       EXPECT_EQ(allocations - before, 0) << name_of(options);
     }
+}
+
+/// Each particle of a row against a triangle two rows farther on, and all against a floor.
+std::vector<Contact> contacts_of(const Cloth& cloth) {
+  const int n = cloth.size;
+  const Vec3f up{0, 1, 0};
+  std::vector<Contact> contacts;
+  for (int s = 0; s < n * (n - 4); ++s) {
+    const int at = s + 2 * n;
+    contacts.push_back({{s, at, at + 1, at + n}, {1, -0.5F, -0.3F, -0.2F}, up, 0.001F, 0.4F, {}});
+    contacts.push_back({{s}, {1}, up, cloth.rest.at(s).y - 0.001F, 0.4F, {}});
+  }
+  return contacts;
+}
+
+TEST(Allocation, SolvingForContactsAllocatesNothingOnceWarm) {
+  const int n = 17;
+  for (const Cloth& cloth : {sheet_cloth(n), torus_cloth(n)}) {
+    ThreadTeam team(2);
+    const StepInput input;
+    const auto integrator = make_integrator(MultigridOptions{}, cloth, input, team);
+    ContactResponse response(cloth.mates);
+    const std::vector<Contact> contacts = contacts_of(cloth);
+    ClothState state = rest_state(cloth);
+    const auto step = [&] {
+      integrator->begin(input, state);
+      ClothState& next = integrator->iterate(contacts);
+      const MovingCloth moving{state.position, next.position, next.velocity, cloth.inverse_mass};
+      EXPECT_GT(
+          response.respond(moving, {contacts, integrator->contact_forces()}, input.time_step, team),
+          0);
+      integrator->end(state);
+    };
+    step();
+    const long before = allocations;
+    for (int i = 0; i < 5; ++i) step();
+    EXPECT_EQ(allocations - before, 0);
+  }
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ class Pusher {
     const int n = cloth.position.size();
     slots_.resize(static_cast<std::size_t>(n) * n);
     contacts_.reserve(slots_.size());
-    detected_depth_.resize(slots_.size());
+    pressed_depth_.resize(slots_.size());
     team.run([&](Worker& worker) {
       const Range rows = worker.share(n);
       for (int s = rows.first * n; s < rows.last * n; ++s) slots_[s] = contact_of(cloth, s);
@@ -56,9 +56,11 @@ class Pusher {
   }
   [[nodiscard]] std::span<const Contact> contacts() const noexcept { return contacts_; }
 
-  int correct(const MovingCloth& cloth, double time_step, ThreadTeam& team) noexcept {
+  int correct(const MovingCloth& cloth, std::span<const float> forces, double time_step,
+              ThreadTeam& team) noexcept {
     if (nothing_there()) return 0;
     const int n = cloth.position.size();
+    if (detected_) take_forces(cloth, forces, time_step);
     touched_.resize(n);
     team.run([&](Worker& worker) {
       const Range rows = worker.share(n);
@@ -115,7 +117,7 @@ class Pusher {
 
   [[nodiscard]] Contact contact_of(const MovingCloth& cloth, int sample) noexcept {
     Contact contact;
-    detected_depth_[sample] = 0;
+    pressed_depth_[sample] = 0;
     contact.samples[0] = no_sample;
     const int n = cloth.position.size();
     if (cloth.inverse_mass(sample / n, sample % n) <= 0) return contact;
@@ -127,14 +129,27 @@ class Pusher {
     contact.offset =
         static_cast<float>(dot(found->point.normal, found->point.position) + thickness_);
     contact.friction = static_cast<float>(found->friction);
-    detected_depth_[sample] = thickness_ - found->point.gap;
+    pressed_depth_[sample] = thickness_ - found->point.gap;
     return contact;
+  }
+
+  /// Where the solver tells forces, what counts is how far they moved the particles.
+  void take_forces(const MovingCloth& cloth, std::span<const float> forces, double time_step) {
+    const int n = cloth.position.size();
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      const int s = contacts_[i].samples[0];
+      pressed_depth_[s] =
+          double{forces[i]} * time_step * time_step * double{cloth.inverse_mass(s / n, s % n)};
+    }
+    for (int index = 0; index < mates_.class_count() && !forces.empty(); ++index)
+      for (const int s : mates_.mates(index))
+        pressed_depth_[s] = pressed_depth_[mates_.mates(index)[0]];
   }
 
   /// The solve has lifted what detect found, so it was pressed by that much: friction is owed for
   /// it, unless the particle has left the surface.
   bool hold_pressed(int sample, double time_step, StruckParticle& particle) const noexcept {
-    const double pressed = detected_ ? detected_depth_[sample] : 0;
+    const double pressed = detected_ ? pressed_depth_[sample] : 0;
     if (pressed <= 0) return false;
     const Contact& contact = slots_[sample];
     const Vec3d normal = vec_cast<double>(contact.normal);
@@ -170,10 +185,11 @@ class Pusher {
   std::optional<double> ground_;
   double ground_friction_;
   std::vector<Contact> slots_, contacts_;  // slots: [n * n], one a sample
-  std::vector<double> detected_depth_;     // [n * n] depth of the proposal that detect saw [m]
-  bool detected_ = false;                  // in this step
-  std::vector<int> touched_;               // [n] per row
-  std::vector<double> row_gaps_;           // [n]
+  std::vector<double>
+      pressed_depth_;  // [n * n] what the solver lifts: the depth that detect saw, or as told [m]
+  bool detected_ = false;         // in this step
+  std::vector<int> touched_;      // [n] per row
+  std::vector<double> row_gaps_;  // [n]
 };
 
 /// The paper's: bodies stand still, cloths ignore each other and themselves.
@@ -194,9 +210,9 @@ class PushCollider final : public Collider {
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const noexcept override {
     return pushers_[cloth].contacts();
   }
-  int correct(std::size_t cloth, const MovingCloth& moving, std::span<const float> /*forces*/,
+  int correct(std::size_t cloth, const MovingCloth& moving, std::span<const float> forces,
               double time_step, ThreadTeam& team) noexcept override {
-    return pushers_[cloth].correct(moving, time_step, team);
+    return pushers_[cloth].correct(moving, forces, time_step, team);
   }
   int guard(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
             ThreadTeam& /*team*/) noexcept override {

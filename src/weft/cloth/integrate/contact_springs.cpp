@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "weft/core/contact_point.h"
-
 namespace weft {
 namespace {
 
@@ -119,12 +117,25 @@ void ContactSprings::mark_rows(Worker& worker) {
         if (stiffness_[use.contact] > 0) rows_[r] = 1;
 }
 
-void ContactSprings::press(const Planes3& position, Worker& worker) {
+double ContactSprings::depth_at(const Contact& contact, const Place& place) {
+  const Vec3d n = vec_cast<double>(contact.normal);
+  double depth = contact.offset;
+  for (std::size_t i = 0; i < contact.samples.size(); ++i) {
+    const double w = contact.weights[i];
+    if (w == 0) continue;
+    const int s = contact.samples[i];
+    depth -= w * dot(n, vec_cast<double>(place.from.at(s)) + vec_cast<double>(place.move.at(s)) +
+                            double{place.way} * vec_cast<double>(place.direction.at(s)));
+  }
+  return depth;
+}
+
+void ContactSprings::press(const Place& place, Worker& worker) {
   const Range mine = worker.share(static_cast<int>(contacts_.size()));
   for (int i = mine.first; i < mine.last; ++i)
     if (stiffness_[i] > 0)
-      force_[i] = static_cast<float>(double{stiffness_[i]} *
-                                     std::max(0.0, depth_of(contacts_[i], position)));
+      force_[i] =
+          static_cast<float>(double{stiffness_[i]} * std::max(0.0, depth_at(contacts_[i], place)));
   worker.barrier();
 }
 

@@ -36,8 +36,14 @@ class ContactSprings {
   /// @return whether there were any such
   bool heed(const Planes3& start, const Planes3& now, const Grid<float>& inverse_diagonal,
             Worker& worker);
+  /// Where particles are: at from + move + way * direction, the parts of the sum apart, since
+  /// depths are so small that rounding positions would drown them. [m]
+  struct Place {
+    const Planes3 &from, &move, &direction;
+    float way = 1;
+  };
   /// Computes all forces. Ends with a barrier.
-  void press(const Planes3& position, Worker& worker);
+  void press(const Place& place, Worker& worker);
 
   /// Whether no contact is heeded.
   [[nodiscard]] bool empty() const { return heeded_ == 0; }
@@ -59,6 +65,7 @@ class ContactSprings {
   void use(int sample, ContactUses::Use use);
   [[nodiscard]] bool may_press(const Contact& contact, const Planes3& start,
                                const Planes3& now) const;
+  [[nodiscard]] static double depth_at(const Contact& contact, const Place& place);
   void mark_rows(Worker& worker);
 
   const Cloth& cloth_;

@@ -142,7 +142,7 @@ double Descent::look(Worker& worker) {
   const SpringRows::Motion motion{next_.position, start_.position, input_.time_step};
   bending_.curve(next_.position, worker);
   springs_.begin(motion, worker);
-  if (!contacts_.empty()) contacts_.press(next_.position, worker);
+  if (!contacts_.empty()) contacts_.press({fall_, move_, direction_, 1}, worker);
   const double along = sums_.sum(worker, [&](int r) {
     const Row3 out = row_of(far_residual_, r);
     copy_row(springs_.row(motion, r, worker), out, cloth_.size);
@@ -234,7 +234,8 @@ Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) place_row(static_cast<float>(course.way), r);
   worker.barrier();
-  if (!contacts_.empty()) contacts_.press(next_.position, worker);
+  if (!contacts_.empty())
+    contacts_.press({fall_, move_, direction_, static_cast<float>(course.way)}, worker);
   return course;
 }
 
