@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/collide/guarding_collider.h"
 #include "weft/collide/polar_map.h"
+#include "weft/collide/pyramid_pairs.h"
 #include "weft/collide/response.h"
 
 namespace weft {
@@ -229,11 +231,19 @@ class PushCollider final : public Collider {
   std::vector<Pusher> pushers_;  // one a cloth
 };
 
+template <class Pairs>
+std::unique_ptr<BroadPhase> make_broad_phase(std::span<const SurfaceGrid* const> grids,
+                                             std::size_t cloths) {
+  return std::make_unique<Pairs>(grids, cloths);
+}
+
 }  // namespace
 
 std::unique_ptr<Collider> make_collider(const ColliderOptions& options, const Obstacles& obstacles,
                                         std::span<const GuardedCloth> cloths) {
-  return std::make_unique<PushCollider>(std::get<PolarMapOptions>(options), obstacles, cloths);
+  if (const auto* polar_map = std::get_if<PolarMapOptions>(&options))
+    return std::make_unique<PushCollider>(*polar_map, obstacles, cloths);
+  return std::make_unique<GuardingCollider>(make_broad_phase<PyramidPairs>, obstacles, cloths);
 }
 
 }  // namespace weft

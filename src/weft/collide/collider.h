@@ -10,6 +10,7 @@
 #include "weft/core/contact.h"
 #include "weft/core/planes.h"
 #include "weft/core/thread_team.h"
+#include "weft/image/diagonals.h"
 #include "weft/image/geometry_image.h"
 
 namespace weft {
@@ -19,7 +20,11 @@ struct Body {
   Planes3 positions;  ///< [n x n] world [m]
   BorderMates mates;
   double friction = 0.4;
+  Grid<Diagonal> diagonals{};  ///< [(n - 1) x (n - 1)]; empty: all rising
 };
+
+/// The default: mip pyramids as bounding hierarchies, planes that nothing passes.
+struct PyramidOptions {};
 
 /// The paper's angular table [zink07, section 5].
 struct PolarMapOptions {
@@ -29,15 +34,17 @@ struct PolarMapOptions {
   /// radial point may lie far from the closest one, so that single pushes are far too deep.
   bool walk = true;
 };
-using ColliderOptions = std::variant<PolarMapOptions>;
+using ColliderOptions = std::variant<PyramidOptions, PolarMapOptions>;
 std::string_view name_of(const ColliderOptions& options);
 
 /// What a collider needs to know of a cloth it guards.
 struct GuardedCloth {
   const BorderMates& mates;
-  double thickness = 0.002;  ///< the gap that is kept [m]
-  double friction = 0.4;     ///< of the cloth; of a pair: the geometric mean
-  double rest_spacing = 0;   ///< mean distance of neighbouring samples at rest [m]
+  int size = 0;                ///< n: samples a side
+  Grid<Diagonal> diagonals{};  ///< as of a body
+  double thickness = 0.002;    ///< the gap that is kept [m]
+  double friction = 0.4;       ///< of the cloth; of a pair: the geometric mean
+  double rest_spacing = 0;     ///< mean distance of neighbouring samples at rest [m]
   bool self_collision = false;
 };
 

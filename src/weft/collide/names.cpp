@@ -3,6 +3,8 @@
 
 namespace weft {
 
-std::string_view name_of(const ColliderOptions&) { return "polar_map"; }
+std::string_view name_of(const ColliderOptions& options) {
+  return std::holds_alternative<PyramidOptions>(options) ? "pyramid" : "polar_map";
+}
 
 }  // namespace weft

@@ -55,7 +55,8 @@ struct SceneCloth {
   Placement placement;
   Material material;
   double friction = 0.4;
-  Vec3d velocity;  ///< at the start [m/s]
+  bool self_collision = true;  ///< where the collider can
+  Vec3d velocity;              ///< at the start [m/s]
   std::vector<ScenePin> pins;
 };
 
@@ -77,7 +78,7 @@ struct Scene {
   std::optional<WindOptions> wind;  ///< none: no air
   IntegratorOptions integrator;
   std::optional<int> limiter_passes;  ///< a step; none: what suits the integrator
-  ColliderOptions collider = PolarMapOptions{};
+  ColliderOptions collider;
   std::vector<SceneCloth> cloths;
   std::vector<SceneBody> bodies;
 };

@@ -46,6 +46,7 @@ struct IntegratorWriter {
 };
 
 Json collider_json(const ColliderOptions& options) {
+  if (std::holds_alternative<PyramidOptions>(options)) return {{"type", name_of(options)}};
   const auto& o = std::get<PolarMapOptions>(options);
   return {{"type", name_of(options)}, {"size", o.size}, {"walk", o.walk}};
 }
@@ -85,7 +86,7 @@ Json cloth_json(const SceneCloth& cloth, const fs::path& folder) {
       {"name", cloth.name}, {"surface", surface_text(cloth.surface, folder)}, {"size", cloth.size}};
   add_placement(json, cloth.placement);
   json["material"] = material_json(cloth.material);
-  json["self_collision"] = false;
+  json["self_collision"] = cloth.self_collision;
   json["friction"] = cloth.friction;
   json["velocity"] = to_json(cloth.velocity);
   json["pins"] = Json::array();

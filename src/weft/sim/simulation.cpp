@@ -192,16 +192,17 @@ void Simulation::Parts::load_bodies() {
 void Simulation::Parts::make_movers() {
   Obstacles obstacles;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    obstacles.bodies.push_back(
-        {bodies[i].positions, bodies[i].image.mates, scene.bodies[i].friction});
+    obstacles.bodies.push_back({bodies[i].positions, bodies[i].image.mates,
+                                scene.bodies[i].friction, choose_diagonals(bodies[i].image)});
   obstacles.ground = scene.ground;
   obstacles.ground_friction = ground_friction;
   const StepInput typical{time_step, vec_cast<float>(scene.gravity)};
   std::vector<GuardedCloth> guarded;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
-    guarded.push_back({cloth.cloth.mates, gap_of(cloth.cloth), scene.cloths[i].friction,
-                       cloth.cloth.rest_spacing, false});
+    guarded.push_back({cloth.cloth.mates, cloth.cloth.size, choose_diagonals(cloth.image),
+                       gap_of(cloth.cloth), scene.cloths[i].friction, cloth.cloth.rest_spacing,
+                       scene.cloths[i].self_collision});
     movers.push_back(
         {make_integrator(scene.integrator, cloth.cloth, typical, solvers(i)),
          scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
@@ -269,7 +270,8 @@ int Simulation::Parts::step(FrameReport& report) {
   for (std::size_t i = 0; i < cloths.size(); ++i) propose(i);
   gather_moving();
   StageClock clock;
-  if (heeds_contacts()) collider->detect(moving, time_step, team);
+  if (heeds_contacts() || !std::holds_alternative<PolarMapOptions>(scene.collider))
+    collider->detect(moving, time_step, team);
   report.collide_ms += clock.lap();
   for (std::size_t i = 0; i < cloths.size(); ++i) solve(i);
   gather_moving();

@@ -78,8 +78,13 @@ IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& 
 
 ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place) {
   const std::string type = type_of(value, place, name_of(ColliderOptions{}));
+  if (type == name_of(PyramidOptions{})) {
+    const JsonObject object(value, place, scene_keys::pyramid_collider);
+    return PyramidOptions{};
+  }
   if (type != name_of(PolarMapOptions{}))
-    place.key("type").fail(fmt::format("unknown collider '{}'", type), "known is: polar_map");
+    place.key("type").fail(fmt::format("unknown collider '{}'", type),
+                           "known are: pyramid, polar_map");
   const JsonObject object(value, place, scene_keys::collider);
   PolarMapOptions options;
   options.size = object.integer("size", options.size, 0, largest_table);

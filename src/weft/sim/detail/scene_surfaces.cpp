@@ -170,9 +170,7 @@ SceneCloth read_cloth(const nlohmann::json& value, const JsonPlace& place, const
   cloth.friction = object.number("friction", cloth.friction, friction_range);
   cloth.velocity = object.vector("velocity", {});
   cloth.pins = read_pins(object);
-  if (object.boolean("self_collision", false))
-    place.key("self_collision")
-        .fail("true is not available with collider polar_map", "false is wanted");
+  cloth.self_collision = object.boolean("self_collision", cloth.self_collision);
   object.refuse("attach", "cloths hang on pins here; leave the key out");
   return cloth;
 }

@@ -1,0 +1,103 @@
+#include "weft/collide/body_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Of the gap: how much of what is missing to it a step may win back, so that cloth that starts
+/// inside something is pushed out and not shot out.
+constexpr double most_recovery = 0.25;
+
+double pair_friction(double a, double b) { return std::sqrt(a * b); }
+
+Vec3d displaced(const ContactBody& body, const BodyPoint& at) {
+  if (body.start == body.end) return {};
+  Vec3d moved;
+  for (std::size_t k = 0; k < 3; ++k)
+    moved += at.weights[k] * (vec_cast<double>(body.end->at(at.samples[k])) -
+                              vec_cast<double>(body.start->at(at.samples[k])));
+  return moved;
+}
+
+}  // namespace
+
+BodyContacts::BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
+    : grid_(grid),
+      gap_(cloth.thickness),
+      friction_(cloth.friction),
+      inside_(static_cast<std::size_t>(grid.size()) * grid.size(), 0) {}
+
+double BodyContacts::target_gap(double gap_at_start) const {
+  return std::min(gap_, gap_at_start + most_recovery * gap_);
+}
+
+void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, bool deep,
+                             int sample, std::vector<Contact>& out) {
+  const Vec3d start = vec_cast<double>(cloth.start.at(sample));
+  const Vec3d way = vec_cast<double>(cloth.position.at(sample)) - start;
+  const double reach = deep ? HUGE_VAL : gap_ + length(way) + body.most_moved;
+  const auto found = body.query->closest(start, reach);
+  if (!found) return;
+  const bool behind = body.query->closed() && body.query->behind(start, *found);
+  if (behind) inside_[sample] = body.number;
+  const double distance = std::sqrt(found->squared_distance);
+  // On the surface itself rounding would choose the direction.
+  constexpr double touching = 1e-9;
+  const Vec3d normal = distance > touching
+                           ? ((behind ? -1 : 1) / distance) * (start - found->position)
+                           : body.query->normal_at(*found);
+  const double gap = behind ? -distance : distance;
+  const Vec3d slide = displaced(body, *found);
+  if (gap + dot(normal, way - slide) >= gap_) return;
+  Contact contact;
+  contact.samples[0] = sample;
+  contact.normal = vec_cast<float>(normal);
+  contact.offset = static_cast<float>(dot(normal, found->position + slide) + target_gap(gap));
+  contact.friction = static_cast<float>(pair_friction(friction_, body.friction));
+  contact.slide = vec_cast<float>(slide);
+  out.push_back(contact);
+}
+
+void BodyContacts::find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
+                               std::vector<Contact>& out) const {
+  if (cloth.position.at(sample).y >= ground.height + gap_) return;
+  Contact contact;
+  contact.samples[0] = sample;
+  contact.normal = {0, 1, 0};
+  contact.offset = static_cast<float>(ground.height +
+                                      target_gap(double{cloth.start.at(sample).y} - ground.height));
+  contact.friction = static_cast<float>(pair_friction(friction_, ground.friction));
+  out.push_back(contact);
+}
+
+void BodyContacts::find_for_sample(const MovingCloth& cloth, std::span<const ContactBody> bodies,
+                                   const Ground* ground, int sample, std::vector<Contact>& out) {
+  const int was_inside = inside_[sample];
+  inside_[sample] = 0;
+  for (const ContactBody& body : bodies) {
+    const bool deep = body.query->closed() && (!looked_ || was_inside == body.number);
+    find_body(cloth, body, deep, sample, out);
+  }
+  if (ground != nullptr) find_ground(cloth, *ground, sample, out);
+}
+
+void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> bodies,
+                        const Ground* ground, ThreadTeam& team) {
+  found_.resize(static_cast<std::size_t>(team.size()));
+  for (std::vector<Contact>& mine : found_) mine.clear();
+  const int n = grid_.size();
+  team.run([&](Worker& worker) {
+    std::vector<Contact>& mine = found_[static_cast<std::size_t>(worker.rank())];
+    const Range rows = worker.share(n);
+    for (int s = rows.first * n; s < rows.last * n; ++s)
+      if (grid_.point(s) == s) find_for_sample(cloth, bodies, ground, s, mine);
+  });
+  contacts_.clear();
+  for (const std::vector<Contact>& mine : found_)
+    contacts_.insert(contacts_.end(), mine.begin(), mine.end());
+  looked_ = true;
+}
+
+}  // namespace weft

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "weft/collide/body_query.h"
+#include "weft/collide/collider.h"
+#include "weft/core/contact.h"
+
+namespace weft {
+
+/// A body as contacts are looked for, in the step's motion.
+struct ContactBody {
+  int number = 0;                    ///< >= 1, what marks call it
+  const BodyQuery* query = nullptr;  ///< placed at the start of the step
+  const Planes3* start = nullptr;
+  const Planes3* end = nullptr;  ///< the start where it stands still
+  double friction = 0;           ///< of the body
+  double most_moved = 0;         ///< by any sample during the step [m]
+};
+
+/// Which of a cloth's samples are behind the surface of a closed body: its number, or 0.
+using InsideMarks = std::vector<int>;
+
+/// Contacts of a cloth's samples with bodies and the ground: the half-space before the point of a
+/// surface that was closest at the start of the step. Outside, a sample cannot have changed sides,
+/// so the way from there to it tells the side, also of open surfaces. Samples inside closed bodies
+/// are pushed out, gently.
+class BodyContacts {
+ public:
+  struct Ground {
+    double height = 0, friction = 0;
+  };
+  /// @param grid  kept by reference
+  BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth);
+
+  /// @param ground  none: null
+  void find(const MovingCloth& cloth, std::span<const ContactBody> bodies, const Ground* ground,
+            ThreadTeam& team);
+  [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
+  [[nodiscard]] const InsideMarks& inside() const { return inside_; }
+  /// Forgets what is inside: it is looked for anew, however deep.
+  void restart() { looked_ = false; }
+
+ private:
+  void find_for_sample(const MovingCloth& cloth, std::span<const ContactBody> bodies,
+                       const Ground* ground, int sample, std::vector<Contact>& out);
+  void find_body(const MovingCloth& cloth, const ContactBody& body, bool deep, int sample,
+                 std::vector<Contact>& out);
+  void find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
+                   std::vector<Contact>& out) const;
+  /// Where a step may bring a sample that starts at a gap below the one that is kept.
+  [[nodiscard]] double target_gap(double gap_at_start) const;
+
+  const SurfaceGrid& grid_;
+  double gap_, friction_;
+  InsideMarks inside_;  // [n * n]
+  bool looked_ = false;
+  std::vector<std::vector<Contact>> found_;  // one a worker
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace weft

@@ -1,0 +1,107 @@
+#include "weft/collide/cell_planes.h"
+
+#include <algorithm>
+
+namespace weft {
+namespace {
+
+using Samples = std::array<int, 3>;
+
+MovingFeature feature_of(const PlaneSide& side, const Samples& samples, int count) {
+  MovingFeature feature;
+  feature.count = count;
+  feature.body = side.body;
+  for (int k = 0; k < count; ++k) {
+    feature.start[k] = vec_cast<double>(side.surface.start->at(samples[k]));
+    feature.end[k] = vec_cast<double>(side.surface.end->at(samples[k]));
+    feature.points[k] = side.first_point + side.surface.grid->point(samples[k]);
+  }
+  return feature;
+}
+
+class Finder {
+ public:
+  Finder(const PlaneSearch& search, std::vector<SeparatingPlane>& out)
+      : search_(search), out_(out) {}
+
+  /// @return features that met
+  int look_at(const CellPair& cells) {
+    meeting_ = 0;
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        triangles(search_.a.surface.grid->triangle(cells.a, i),
+                  search_.b.surface.grid->triangle(cells.b, j));
+    return meeting_;
+  }
+
+ private:
+  void triangles(const Samples& a, const Samples& b) {
+    if (search_.a.surface.grid->folded(a) || search_.b.surface.grid->folded(b)) return;
+    if (!search_.same) {
+      if (is_inside(a)) return;
+      return add(feature_of(search_.a, a, 3), feature_of(search_.b, b, 3));
+    }
+    Samples order_a = a, order_b = b;
+    const int shared = bring_shared_first(order_a, order_b);
+    if (shared == 0) return add(feature_of(search_.a, a, 3), feature_of(search_.b, b, 3));
+    if (shared > 1) return;
+    add(feature_of(search_.a, {order_a[1], order_a[2], 0}, 2), feature_of(search_.b, b, 3));
+    add(feature_of(search_.b, {order_b[1], order_b[2], 0}, 2), feature_of(search_.a, a, 3));
+  }
+
+  /// @return how many points two triangles share; the (last) one comes first in both
+  int bring_shared_first(Samples& a, Samples& b) const {
+    const SurfaceGrid& grid = *search_.a.surface.grid;
+    int shared = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (grid.point(a[i]) != grid.point(b[j])) continue;
+        if (++shared > 1) return shared;
+        std::swap(a[0], a[i]);
+        std::swap(b[0], b[j]);
+      }
+    return shared;
+  }
+
+  [[nodiscard]] bool is_inside(const Samples& samples) const {
+    return search_.inside != nullptr && std::any_of(samples.begin(), samples.end(), [&](int s) {
+             return (*search_.inside)[search_.a.surface.grid->point(s)] == search_.body_number;
+           });
+  }
+
+  void add(const MovingFeature& a, const MovingFeature& b) {
+    SeparatingPlane plane;
+    const Separation found = separate(a, b, {search_.slack}, plane);
+    if (found == Separation::plane) out_.push_back(plane);
+    if (found == Separation::meeting) ++meeting_;
+  }
+
+  const PlaneSearch& search_;
+  std::vector<SeparatingPlane>& out_;
+  int meeting_ = 0;
+};
+
+}  // namespace
+
+int CellPlanes::find(const PlaneSearch& search, std::span<const CellPair> cells, ThreadTeam& team,
+                     std::vector<SeparatingPlane>& out) {
+  found_.resize(static_cast<std::size_t>(team.size()));
+  for (Found& mine : found_) {
+    mine.planes.clear();
+    mine.meeting = 0;
+  }
+  team.run([&](Worker& worker) {
+    Found& mine = found_[static_cast<std::size_t>(worker.rank())];
+    Finder finder(search, mine.planes);
+    const Range share = worker.share(static_cast<int>(cells.size()));
+    for (int i = share.first; i < share.last; ++i) mine.meeting += finder.look_at(cells[i]);
+  });
+  int meeting = 0;
+  for (const Found& mine : found_) {
+    out.insert(out.end(), mine.planes.begin(), mine.planes.end());
+    meeting += mine.meeting;
+  }
+  return meeting;
+}
+
+}  // namespace weft

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "weft/collide/body_contacts.h"
+#include "weft/collide/cell_pairs.h"
+#include "weft/collide/separating_planes.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// A surface as planes are looked for.
+struct PlaneSide {
+  MovingSurface surface;
+  int first_point = 0;  ///< number of its sample 0 among all cloths' samples
+  bool body = false;
+};
+
+/// What is looked at together.
+struct PlaneSearch {
+  PlaneSide a, b;
+  bool same = false;
+  double slack = 0;                     ///< see PlaneOptions [m]
+  const InsideMarks* inside = nullptr;  ///< of a, where b is a body
+  int body_number = 0;                  ///< samples of a marked with it are not kept out
+};
+
+/// Planes between the triangles of pairs of cells: whole triangles that share no point; of those
+/// that share one, each with the other's far edge. Triangles that share an edge cannot cross.
+class CellPlanes {
+ public:
+  /// Adds to `out`. @return how many features met at the start of the step, so that nothing could
+  /// be put between them
+  int find(const PlaneSearch& search, std::span<const CellPair> cells, ThreadTeam& team,
+           std::vector<SeparatingPlane>& out);
+
+ private:
+  struct Found {
+    std::vector<SeparatingPlane> planes;
+    int meeting = 0;
+  };
+  std::vector<Found> found_;  // one a worker
+};
+
+}  // namespace weft

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "weft/collide/body_contacts.h"
+#include "weft/collide/cell_pairs.h"
+#include "weft/collide/cell_planes.h"
+#include "weft/collide/collider.h"
+#include "weft/collide/contact_response.h"
+#include "weft/collide/pair_contacts.h"
+#include "weft/collide/plane_guard.h"
+
+namespace weft {
+
+/// The collider that keeps its promise: contacts for the solve, a response that pushes out and
+/// holds by friction, and at the end of a step planes between all that came near, which nothing
+/// passes. Broad phases may differ.
+class GuardingCollider final : public Collider {
+ public:
+  using MakeBroadPhase = std::unique_ptr<BroadPhase> (*)(std::span<const SurfaceGrid* const> grids,
+                                                         std::size_t cloths);
+  GuardingCollider(MakeBroadPhase make_broad_phase, const Obstacles& obstacles,
+                   std::span<const GuardedCloth> cloths);
+
+  void move_bodies(std::span<const Planes3* const> ends) noexcept override;
+  void detect(std::span<const MovingCloth> cloths, double time_step,
+              ThreadTeam& team) noexcept override;
+  [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const noexcept override {
+    return cloths_[cloth].contacts;
+  }
+  int correct(std::size_t cloth, const MovingCloth& moving, std::span<const float> forces,
+              double time_step, ThreadTeam& team) noexcept override;
+  int guard(std::span<const MovingCloth> cloths, double time_step,
+            ThreadTeam& team) noexcept override;
+  [[nodiscard]] int self_contacts() const noexcept override { return self_contacts_; }
+  double smallest_gap(std::size_t cloth, const Planes3& positions,
+                      ThreadTeam& team) noexcept override;
+
+ private:
+  struct GuardedOne {
+    SurfaceGrid grid;
+    GuardedCloth facts;
+    std::unique_ptr<BodyContacts> body_contacts;
+    ContactResponse response;
+    std::vector<Contact> contacts;
+    int first_point = 0;
+    std::vector<double> row_gaps;
+  };
+  struct GuardedBody {
+    SurfaceGrid grid;
+    std::unique_ptr<BodyQuery> query;
+    Planes3 start;                 // where the last step left it
+    const Planes3* end = nullptr;  // of this step; start where it stands still
+    double friction = 0;
+    double most_moved = 0;  // this step [m]
+    bool moved = true;      // since its query was placed
+  };
+  struct Round {
+    PlaneGuard::Result held;
+    int meeting = 0;
+  };
+
+  void gather_surfaces(std::span<const MovingCloth> cloths);
+  void place_bodies(ThreadTeam& team);
+  void find_pair_contacts(std::span<const MovingCloth> cloths, ThreadTeam& team);
+  void find_planes(ThreadTeam& team);
+  void add_ground_planes(std::span<const MovingCloth> cloths);
+  PlaneGuard::Result hold(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team);
+  [[nodiscard]] PlaneSide side_of(std::size_t surface) const;
+  void finish_bodies();
+
+  std::vector<GuardedOne> cloths_;
+  std::vector<GuardedBody> bodies_;
+  std::optional<BodyContacts::Ground> ground_;
+  std::unique_ptr<BroadPhase> broad_phase_;
+  int points_ = 0;    // samples of all cloths
+  double slack_ = 0;  // see PlaneGuard [m]
+  int self_contacts_ = 0;
+  // Of one step:
+  std::vector<MovingSurface> surfaces_;  // cloths, then bodies
+  std::vector<ContactBody> contact_bodies_;
+  std::vector<CellPair> cells_;
+  std::vector<SeparatingPlane> planes_;
+  std::vector<std::size_t> cloth_of_;  // [points]
+  PairContacts pair_contacts_;
+  CellPlanes cell_planes_;
+  PlaneGuard plane_guard_;
+};
+
+}  // namespace weft

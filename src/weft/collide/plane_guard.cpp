@@ -1,0 +1,150 @@
+#include "weft/collide/plane_guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Turns over all planes of a point; where they meet at sharp angles more would be needed, and the
+/// point is stopped instead.
+constexpr int most_turns = 12;
+/// Put this much farther than a plane asks for, in its margins, so that rounding keeps to it.
+constexpr double overshoot = 0.5e-6;
+
+double largest_difference(Vec3f a, Vec3f b) {
+  return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
+}
+
+}  // namespace
+
+void PlaneGuard::gather(std::span<const SeparatingPlane> planes, int count) {
+  index_.resize(static_cast<std::size_t>(count), -1);
+  for (const int point : involved_) index_[point] = -1;
+  involved_.clear();
+  for (const SeparatingPlane& plane : planes)
+    for (int k = 0; k < plane.count_a + plane.count_b; ++k)
+      if (int& index = index_[plane.points[k]]; index < 0) {
+        index = 0;
+        involved_.push_back(plane.points[k]);
+      }
+  std::sort(involved_.begin(), involved_.end());
+  for (std::size_t i = 0; i < involved_.size(); ++i) index_[involved_[i]] = static_cast<int>(i);
+  starts_.assign(involved_.size() + 1, 0);
+  for (const SeparatingPlane& plane : planes)
+    for (int k = 0; k < plane.count_a + plane.count_b; ++k) ++starts_[index_[plane.points[k]] + 1];
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  sides_.resize(static_cast<std::size_t>(starts_.back()));
+  next_.assign(starts_.begin(), starts_.end() - 1);
+  for (int p = 0; p < static_cast<int>(planes.size()); ++p)
+    for (int k = 0; k < planes[p].count_a + planes[p].count_b; ++k)
+      sides_[next_[index_[planes[p].points[k]]]++] = {p, k < planes[p].count_a ? 1 : -1};
+  still_.assign(planes.size(), 0);
+  held_.assign(involved_.size(), 0);
+  anew_.assign(involved_.size(), 0);
+}
+
+bool PlaneGuard::heeds_all(int involved, std::span<const SeparatingPlane> planes,
+                           Vec3f point) const {
+  const Vec3d at = vec_cast<double>(point);
+  return std::all_of(sides(involved).begin(), sides(involved).end(), [&](const Side& side) {
+    return beyond(planes[side.plane], side.sign, at) <= 0;
+  });
+}
+
+bool PlaneGuard::put_aside(int involved, std::span<const SeparatingPlane> planes, double slack,
+                           GuardedPoint& point) const {
+  Vec3d at = vec_cast<double>(point.end);
+  for (int turn = 0; turn < most_turns; ++turn) {
+    bool moved = false;
+    for (const Side& side : sides(involved)) {
+      const SeparatingPlane& plane = planes[side.plane];
+      const double way = beyond(plane, side.sign, at);
+      if (way <= 0) continue;
+      at += (side.sign * (way + overshoot * (1 + std::abs(plane.offset_a)))) * plane.normal;
+      moved = true;
+    }
+    if (!moved) break;
+  }
+  const Vec3f rounded = vec_cast<float>(at);
+  if (!(largest_difference(rounded, point.end) <= slack)) return false;
+  if (!heeds_all(involved, planes, rounded)) return false;
+  point.end = rounded;
+  return true;
+}
+
+bool PlaneGuard::stop(int involved, std::span<const SeparatingPlane> planes,
+                      GuardedPoint& point) const {
+  const Vec3d start = vec_cast<double>(point.start), way = vec_cast<double>(point.end) - start;
+  double share = 1;
+  for (const Side& side : sides(involved)) {
+    const double at_start = beyond(planes[side.plane], side.sign, start);
+    const double at_end = beyond(planes[side.plane], side.sign, start + way);
+    if (at_end > 0 && at_end > at_start) share = std::min(share, -at_start / (at_end - at_start));
+  }
+  // A little less, lest rounding puts it beyond.
+  const Vec3f rounded = vec_cast<float>(start + (0.9 * std::max(0.0, share)) * way);
+  point.end = share > 0 && heeds_all(involved, planes, rounded) ? rounded : point.start;
+  return heeds_all(involved, planes, point.end);
+}
+
+PlaneGuard::Fate PlaneGuard::place(int involved, std::span<const SeparatingPlane> planes,
+                                   double slack, const GuardedPoint& point, Vec3f& end) const {
+  end = point.end;
+  if (held_[involved] == 0 && heeds_all(involved, planes, end)) return Fate::free;
+  GuardedPoint tried = point;
+  if (held_[involved] == 0 && put_aside(involved, planes, slack, tried)) {
+    end = tried.end;
+    return Fate::aside;
+  }
+  tried = point;
+  const bool kept = stop(involved, planes, tried);
+  end = tried.end;
+  return kept ? Fate::stopped : Fate::lost;
+}
+
+bool PlaneGuard::make_still(std::span<SeparatingPlane> planes, int involved) {
+  bool changed = false;
+  for (const Side& side : sides(involved)) {
+    if (still_[side.plane] != 0) continue;
+    still_[side.plane] = 1;
+    SeparatingPlane& plane = planes[side.plane];
+    if (plane.offset_a == plane.still_a) continue;
+    plane.offset_a = plane.still_a;
+    plane.offset_b = plane.still_b;
+    changed = true;
+    const int members = plane.count_a + plane.count_b;
+    for (int k = 0; k < members; ++k) anew_[index_[plane.points[k]]] = 1;
+  }
+  return changed;
+}
+
+void PlaneGuard::settle(std::span<SeparatingPlane> planes, double slack) {
+  const int points = static_cast<int>(involved_.size());
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int i = 0; i < points; ++i) {
+      if (held_[i] != 0 || (fates_[i] != Fate::stopped && fates_[i] != Fate::lost)) continue;
+      held_[i] = 1;
+      changed = make_still(planes, i) || changed;
+    }
+    // Whoever a plane that has changed holds is placed anew.
+    for (int i = 0; i < points; ++i) {
+      if (anew_[i] == 0) continue;
+      anew_[i] = 0;
+      fates_[i] = place(i, planes, slack, points_[i], ends_[i]);
+    }
+  }
+}
+
+PlaneGuard::Result PlaneGuard::count_fates() const {
+  Result result;
+  for (const Fate fate : fates_) {
+    if (fate == Fate::aside) ++result.aside;
+    if (fate == Fate::stopped) ++result.stopped;
+    if (fate == Fate::lost) ++result.lost;
+  }
+  return result;
+}
+
+}  // namespace weft

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "weft/core/planes.h"
+#include "weft/image/border_mates.h"
+#include "weft/image/diagonals.h"
+
+namespace weft {
+
+/// How a grid of samples is a surface: what joins its samples, the same at every moment.
+class SurfaceGrid {
+ public:
+  SurfaceGrid() = default;
+  /// @param diagonals  [(n - 1) x (n - 1)]; empty: all rising
+  SurfaceGrid(int size, const BorderMates& mates, const Grid<Diagonal>& diagonals);
+
+  [[nodiscard]] int size() const { return size_; }       ///< n: samples a side
+  [[nodiscard]] int cells() const { return size_ - 1; }  ///< cells a side
+  /// The sample that stands for a sample's class.
+  [[nodiscard]] int point(int sample) const { return point_[static_cast<std::size_t>(sample)]; }
+  /// The samples of a cell's two triangles. @param half  0 or 1
+  [[nodiscard]] std::array<int, 3> triangle(int cell, int half) const;
+  /// The four samples of a cell.
+  [[nodiscard]] std::array<int, 4> corners(int cell) const {
+    const int s = first_sample(cell);
+    return {s, s + 1, s + size_, s + size_ + 1};
+  }
+  [[nodiscard]] int first_sample(int cell) const { return cell / cells() * size_ + cell % cells(); }
+  /// True when two corners of a triangle are one surface point: it has no inside.
+  [[nodiscard]] bool folded(const std::array<int, 3>& triangle) const {
+    const int a = point(triangle[0]), b = point(triangle[1]), c = point(triangle[2]);
+    return a == b || b == c || c == a;
+  }
+
+ private:
+  int size_ = 0;
+  std::vector<int> point_;              // [n * n]
+  std::vector<unsigned char> falling_;  // [(n - 1)^2]
+};
+
+/// A surface during a step: every sample goes straight from start to end.
+struct MovingSurface {
+  const SurfaceGrid* grid = nullptr;
+  const Planes3* start = nullptr;  ///< [n x n] [m]
+  const Planes3* end = nullptr;    ///< [n x n] [m]; the start where it stands still
+};
+
+}  // namespace weft
