@@ -47,7 +47,9 @@ TEST(Simulation, FreeFallIsTheFormulaOfTheStep) {
 
 TEST(Simulation, InstabilityThatTheLimiterTamesIsStillFound) {
   // At this step explicit Euler shakes the sheet to pieces of twice their size, slowly.
-  Simulation simulation(free_fall(ExplicitOptions{}), "shake", 1);
+  Scene scene = free_fall(ExplicitOptions{});
+  scene.cloths[0].self_collision = false;
+  Simulation simulation(scene, "shake", 1);
   EXPECT_THROW(
       {
         for (int frame = 0; frame < 30; ++frame) simulation.advance();

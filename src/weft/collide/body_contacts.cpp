@@ -29,8 +29,9 @@ BodyContacts::BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
       friction_(cloth.friction),
       inside_(static_cast<std::size_t>(grid.size()) * grid.size(), 0) {}
 
-double BodyContacts::target_gap(double gap_at_start) const {
-  return std::min(gap_, gap_at_start + most_recovery * gap_);
+void BodyContacts::put_offset(double surface, double gap_at_start, Contact& contact) const {
+  contact.offset = static_cast<float>(surface + std::min(gap_, gap_at_start));
+  contact.lift = static_cast<float>(std::clamp(gap_ - gap_at_start, 0.0, most_recovery * gap_));
 }
 
 void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, bool deep,
@@ -54,7 +55,7 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
   Contact contact;
   contact.samples[0] = sample;
   contact.normal = vec_cast<float>(normal);
-  contact.offset = static_cast<float>(dot(normal, found->position + slide) + target_gap(gap));
+  put_offset(dot(normal, found->position + slide), gap, contact);
   contact.friction = static_cast<float>(pair_friction(friction_, body.friction));
   contact.slide = vec_cast<float>(slide);
   out.push_back(contact);
@@ -66,8 +67,7 @@ void BodyContacts::find_ground(const MovingCloth& cloth, const Ground& ground, i
   Contact contact;
   contact.samples[0] = sample;
   contact.normal = {0, 1, 0};
-  contact.offset = static_cast<float>(ground.height +
-                                      target_gap(double{cloth.start.at(sample).y} - ground.height));
+  put_offset(ground.height, double{cloth.start.at(sample).y} - ground.height, contact);
   contact.friction = static_cast<float>(pair_friction(friction_, ground.friction));
   out.push_back(contact);
 }

@@ -48,8 +48,9 @@ class BodyContacts {
                  std::vector<Contact>& out);
   void find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
                    std::vector<Contact>& out) const;
-  /// Where a step may bring a sample that starts at a gap below the one that is kept.
-  [[nodiscard]] double target_gap(double gap_at_start) const;
+  /// A sample that starts closer than the gap that is kept may come no closer, and is lifted.
+  /// @param surface  along the contact's normal [m]
+  void put_offset(double surface, double gap_at_start, Contact& contact) const;
 
   const SurfaceGrid& grid_;
   double gap_, friction_;

@@ -93,7 +93,8 @@ void ContactResponse::place_point(const Contact& contact, double force_squared_s
   point.normal = vec_cast<double>(contact.normal);
   point.slide = vec_cast<double>(contact.slide);
   point.friction = contact.friction;
-  point.target = contact.offset;
+  point.target = double{contact.offset} + contact.lift;
+  point.lift = contact.lift;
   point.reference = start + point.slide;
   point.force_way = force_squared_step * point.compliance;
   point.hold = point.friction * point.force_way;
@@ -153,8 +154,12 @@ double ContactResponse::press(Point& point) const {
   if (!(point.compliance > 0)) return 0;
   if (point.depth > 0) {
     point.impulse += (point.depth / push_compliance) * point.normal;
-    if (point.gains)
-      point.hold += point.friction * point.depth * point.compliance / push_compliance;
+    if (point.gains) {
+      const double pushed = point.depth * point.compliance / push_compliance;
+      const double lifted = std::min(pushed, point.lift);
+      point.lift -= lifted;
+      point.hold += point.friction * (pushed - lifted);
+    }
     point.pushed = true;
   }
   if (hold_compliance > 0 && point.hold > 0) {

@@ -50,6 +50,7 @@ class ContactResponse {
     Vec3d normal, slide;
     double friction = 0, compliance = 0;  // sum of w^2 / m [1/kg]
     double target = 0;                    // least n . value
+    double lift = 0;                      // left of the contact's
     Vec3d reference, value;               // what friction would restore, what is
     double depth = 0;                     // target - n . value
     double force_way = 0;                 // what the force moved it by [m]

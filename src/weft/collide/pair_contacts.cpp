@@ -29,6 +29,11 @@ struct Side {
   [[nodiscard]] Vec3d way() const { return mean(cloth->position) - start(); }
 };
 
+/// See Contact.
+struct Offset {
+  double offset, lift;
+};
+
 Vec3d cell_normal(const SurfaceGrid& grid, const Planes3& at, int cell) {
   const std::array<int, 4> s = grid.corners(cell);
   return normalized(cross(vec_cast<double>(at.at(s[1])) - vec_cast<double>(at.at(s[2])),
@@ -129,18 +134,20 @@ class Finder {
     const Vec3d normal = (1 / distance) * apart;
     const Vec3d own_way = own.way(), other_way = other.way();
     if (distance + dot(normal, own_way - other_way) >= pair_.gap) return;
-    const double target = std::min(pair_.gap, distance + most_recovery * pair_.gap);
+    const double target = std::min(pair_.gap, distance);
+    const double lift = std::clamp(pair_.gap - distance, 0.0, most_recovery * pair_.gap);
     if (pair_.same) {
-      add_joint(own, other, normal, target);
+      add_joint(own, other, normal, {target, lift});
     } else {
       const Vec3d middle = 0.5 * (own.start() + other.start() + own_way + other_way);
-      add_half(own, normal, dot(normal, middle) + 0.5 * target, other_way, swapped ? of_b_ : of_a_);
-      add_half(other, -normal, -dot(normal, middle) + 0.5 * target, own_way,
+      add_half(own, normal, {dot(normal, middle) + 0.5 * target, 0.5 * lift}, other_way,
+               swapped ? of_b_ : of_a_);
+      add_half(other, -normal, {-dot(normal, middle) + 0.5 * target, 0.5 * lift}, own_way,
                swapped ? of_a_ : of_b_);
     }
   }
 
-  void add_joint(const Side& own, const Side& other, Vec3d normal, double target) {
+  void add_joint(const Side& own, const Side& other, Vec3d normal, const Offset& offset) {
     Contact contact;
     contact.weights = {};
     std::size_t count = 0;
@@ -154,12 +161,13 @@ class Finder {
     put(own, 1);
     put(other, -1);
     contact.normal = vec_cast<float>(normal);
-    contact.offset = static_cast<float>(target);
+    contact.offset = static_cast<float>(offset.offset);
+    contact.lift = static_cast<float>(offset.lift);
     contact.friction = static_cast<float>(pair_.friction);
     of_a_.push_back(contact);
   }
 
-  void add_half(const Side& side, Vec3d normal, double offset, Vec3d slide,
+  void add_half(const Side& side, Vec3d normal, const Offset& offset, Vec3d slide,
                 std::vector<Contact>& out) const {
     Contact contact;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -168,7 +176,8 @@ class Finder {
     }
     contact.weights[3] = 0;
     contact.normal = vec_cast<float>(normal);
-    contact.offset = static_cast<float>(offset);
+    contact.offset = static_cast<float>(offset.offset);
+    contact.lift = static_cast<float>(offset.lift);
     contact.friction = static_cast<float>(pair_.friction);
     contact.slide = vec_cast<float>(slide);
     out.push_back(contact);

@@ -19,6 +19,8 @@ struct Contact {
   float offset = 0;    ///< at the end of the step [m]
   float friction = 0;  ///< Coulomb coefficient of the pair
   Vec3f slide;         ///< how far the obstacle's surface moves there during the step [m]
+  /// Beyond the offset, what a response may move the point without speeding it up or pressing [m].
+  float lift = 0;
 };
 
 }  // namespace weft
