@@ -136,6 +136,15 @@ TEST(ContactSprings, PushBackOnlyWhatIsBeyondTheSurface) {
   EXPECT_EQ(springs.forces(above).at(20), Vec3f{});
 }
 
+TEST(ContactSprings, DoNotShootOutWhatWasDeepWhenTheStepBegan) {
+  const Cloth cloth = sheet_cloth(9);
+  const Vec3f slide{0, 0.001F, 0};  // the floor comes up by 1 mm, so only 9 mm are old
+  Springs springs(cloth, {{{20}, {1}, up, 0.01F, 0, slide}});
+  springs.springs.take(springs.contacts, 0.003);
+  springs.heed(cloth.rest, cloth.rest);
+  EXPECT_NEAR(springs.forces(cloth.rest).y(2, 2), 0.004 * springs.springs.stiffness()[0], 1e-2);
+}
+
 TEST(ContactSprings, HeedWhatPressesWhenOneSideIsStopped) {
   const int n = 9;
   const Cloth cloth = sheet_cloth(n);

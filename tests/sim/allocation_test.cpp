@@ -109,8 +109,8 @@ std::vector<Contact> contacts_of(const Cloth& cloth) {
   std::vector<Contact> contacts;
   for (int s = 0; s < n * (n - 4); ++s) {
     const int at = s + 2 * n;
-    contacts.push_back({{s, at, at + 1, at + n}, {1, -0.5F, -0.3F, -0.2F}, up, 0.001F, 0.4F, {}});
-    contacts.push_back({{s}, {1}, up, cloth.rest.at(s).y - 0.001F, 0.4F, {}});
+    contacts.push_back({{s, at, at + 1, at + n}, {1, -0.5F, -0.3F, -0.2F}, up, -0.001F, 0.4F, {}});
+    contacts.push_back({{s}, {1}, up, cloth.rest.at(s).y, 0.4F, {}});
   }
   return contacts;
 }

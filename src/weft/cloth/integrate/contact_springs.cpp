@@ -1,7 +1,8 @@
 #include "weft/cloth/integrate/contact_springs.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "weft/core/contact_point.h"
 
 namespace weft {
 namespace {
@@ -54,10 +55,12 @@ void ContactSprings::use(int sample, ContactUses::Use use) {
   for (const int s : samples) uses_.add(s, use);
 }
 
-void ContactSprings::take(std::span<const Contact> contacts) {
+void ContactSprings::take(std::span<const Contact> contacts, double farthest) {
+  farthest_ = farthest;
   contacts_ = contacts;
   stiffness_.assign(contacts.size(), 0.0F);
   force_.assign(contacts.size(), 0.0F);
+  offset_.resize(contacts.size());
   std::fill(rows_.begin(), rows_.end(), char{0});
   heeded_ = 0;
   uses_.clear();
@@ -93,10 +96,14 @@ bool ContactSprings::heed(const Planes3& start, const Planes3& now,
                           const Grid<float>& inverse_diagonal, Worker& worker) {
   if (contacts_.empty()) return false;
   const Range mine = worker.share(static_cast<int>(contacts_.size()));
-  for (int i = mine.first; i < mine.last; ++i)
-    if (stiffness_[i] == 0 && may_press(contacts_[i], start, now))
-      stiffness_[i] =
-          static_cast<float>(relative_stiffness * own_stiffness(contacts_[i], inverse_diagonal));
+  for (int i = mine.first; i < mine.last; ++i) {
+    const Contact& contact = contacts_[i];
+    if (stiffness_[i] > 0 || !may_press(contact, start, now)) continue;
+    stiffness_[i] =
+        static_cast<float>(relative_stiffness * own_stiffness(contact, inverse_diagonal));
+    const double before = depth_of(contact, start) - double{dot(contact.normal, contact.slide)};
+    offset_[i] = contact.offset - std::max(0.0, before - farthest_);
+  }
   worker.barrier();
   if (worker.rank() == 0) {
     const auto heeded = std::count_if(stiffness_.begin(), stiffness_.end(),
@@ -117,9 +124,10 @@ void ContactSprings::mark_rows(Worker& worker) {
         if (stiffness_[use.contact] > 0) rows_[r] = 1;
 }
 
-double ContactSprings::depth_at(const Contact& contact, const Place& place) {
+double ContactSprings::depth_at(int index, const Place& place) const {
+  const Contact& contact = contacts_[index];
   const Vec3d n = vec_cast<double>(contact.normal);
-  double depth = contact.offset;
+  double depth = offset_[index];
   for (std::size_t i = 0; i < contact.samples.size(); ++i) {
     const double w = contact.weights[i];
     if (w == 0) continue;
@@ -134,8 +142,7 @@ void ContactSprings::press(const Place& place, Worker& worker) {
   const Range mine = worker.share(static_cast<int>(contacts_.size()));
   for (int i = mine.first; i < mine.last; ++i)
     if (stiffness_[i] > 0)
-      force_[i] =
-          static_cast<float>(double{stiffness_[i]} * std::max(0.0, depth_at(contacts_[i], place)));
+      force_[i] = static_cast<float>(double{stiffness_[i]} * std::max(0.0, depth_at(i, place)));
   worker.barrier();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -18,14 +19,18 @@ namespace weft {
 /// held. The forces on a point's samples, weights[i] of it each, are computed by contact, then
 /// gathered by sample. A class of mates is one particle: what a contact does to one of its samples
 /// is shared out among all.
+///
+/// What was beyond the half-space when the step began is not pushed out of it at any speed.
 class ContactSprings {
  public:
   /// @param cloth  kept by reference
   explicit ContactSprings(const Cloth& cloth);
 
   void clear();
-  /// Knows of contacts, but heeds none yet. @param contacts  must stay until the last press
-  void take(std::span<const Contact> contacts);
+  /// Knows of contacts, but heeds none yet.
+  /// @param contacts  must stay until the last press
+  /// @param farthest  what was deeper when the step began is pushed out by no more than this [m]
+  void take(std::span<const Contact> contacts, double farthest = HUGE_VAL);
 
   // To be called by every worker of the team, of any size.
 
@@ -65,15 +70,17 @@ class ContactSprings {
   void use(int sample, ContactUses::Use use);
   [[nodiscard]] bool may_press(const Contact& contact, const Planes3& start,
                                const Planes3& now) const;
-  [[nodiscard]] static double depth_at(const Contact& contact, const Place& place);
+  [[nodiscard]] double depth_at(int contact, const Place& place) const;
   void mark_rows(Worker& worker);
 
   const Cloth& cloth_;
   std::vector<int> class_at_;  // of border positions, -1 where a sample is alone
   std::span<const Contact> contacts_;
+  double farthest_ = HUGE_VAL;  // [m]
   ContactUses uses_;
   std::vector<int> row_starts_;  // [n + 1] into uses_.samples()
   std::vector<float> stiffness_, force_;
+  std::vector<double> offset_;  // that is held, where heeded [m]
   std::vector<char> rows_;
   int heeded_ = 0;
   bool grown_ = false;

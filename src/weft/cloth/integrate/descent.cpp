@@ -16,6 +16,9 @@ constexpr double most_way = 4;
 /// What presses on a cloth from outside moves it out of its surface, where springs give way; the
 /// filter, which takes them for stiff in every direction, needs more iterations for it.
 constexpr int iterations_under_contact = 4;
+/// What is inside something when a step begins, having been put or pressed there, leaves at this
+/// speed at most, lest it be shot out. [m/s]
+constexpr double fastest_way_out = 0.5;
 /// Residuals interpolated along secants drift away from the gradient.
 constexpr int iterations_between_restarts = 4;
 
@@ -73,7 +76,7 @@ void Descent::begin(const StepInput& input, const ClothState& state) {
 }
 
 void Descent::run(std::span<const Contact> contacts, const MultigridOptions& options) {
-  contacts_.take(contacts);
+  contacts_.take(contacts, fastest_way_out * input_.time_step);
   team_.run([&](Worker& worker) {
     heed_contacts(worker);
     const Range mine = worker.share(cloth_.size);
