@@ -188,7 +188,7 @@ def checkpoint_files():
         return struct.pack("<Q", len(words)) + words
 
     def checkpoint(identity, frames, sizes):
-        body = text(b"0.1.0") + text(identity) + struct.pack("<3di", 0, 1, 2, 0) + struct.pack("<Q", frames)
+        body = text(b"0.1.0") + text(identity) + struct.pack("<3di4q", 0, 1, 2, 1, 3, 4, 5, 6) + struct.pack("<Q", frames)
         for k in range(frames):
             body += struct.pack("<5di6di4d", 9, 1, 2, 3, 4, 5, 1e-3, 0, 0.1, 0.2, 3, 4, k, 0.5, 0, 1, 0)
         body += struct.pack("<I", len(sizes))
@@ -197,7 +197,7 @@ def checkpoint_files():
         value = 0xcbf29ce484222325
         for byte in body:
             value = (value ^ byte) * 0x100000001b3 % 2 ** 64
-        return b"WEFTCKPT" + struct.pack("<IQQ", 1, len(body), value) + body
+        return b"WEFTCKPT" + struct.pack("<IQQ", 2, len(body), value) + body
 
     yield "least", checkpoint(b"{}", 0, [5])
     yield "two_cloths", checkpoint(b'{"substeps":4}', 3, [5, 6])

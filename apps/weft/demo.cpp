@@ -106,7 +106,7 @@ void show_drape(Demo& demo, const Shown& shown) {
   say(demo.context,
       fmt::format(
           "cloth   {}: {} particles, {} frames, strain p99 {:.2f} %, {} intersections at the end",
-          name, run.particles, run.frames, 100 * run.strain.p99, run.intersections));
+          name, run.particles, run.frames, 100 * run.strain.p99, run.intersections.counts.total()));
 }
 
 void run_demo(const fs::path& folder, const Context& context) {

@@ -37,8 +37,8 @@ void print_summary(const Context& context, const RunReport& report) {
   say(context,
       fmt::format("strain  mean {:.2f} %, p99 {:.2f} %, largest {:.2f} %", 100 * report.strain.mean,
                   100 * report.strain.p99, 100 * report.strain.max));
-  say(context, fmt::format("touch   {} contacts at most, {} intersecting triangle pairs",
-                           report.contacts_max, report.intersections));
+  say(context, fmt::format("touch   {} contacts at most, {} intersections", report.contacts_max,
+                           report.intersections.counts.total()));
   say(context, "state   " + report.state_hash);
   for (const auto& path : report.outputs) say(context, "wrote   " + path.string());
 }
@@ -125,10 +125,15 @@ void run_and_report(Scene scene, const std::string& name, const RunWords& words,
   const std::optional<double> memory = peak_memory_mb();
   json["peak_memory_mb"] = memory ? nlohmann::ordered_json(*memory) : nlohmann::ordered_json();
   print_report(context, json);
-  if (words.verify && report.intersections > 0)
-    throw Error(ExitCode::check_failed, name,
-                fmt::format("{} triangle pairs intersect in the worst frame", report.intersections),
-                "none is wanted");
+  const auto& [frame, counts] = report.intersections;
+  if (words.verify && counts.total() > 0)
+    throw Error(
+        ExitCode::check_failed, name,
+        fmt::format("{} intersections in frame {}: {} pairs of triangles within a cloth, {} "
+                    "of two cloths, {} with bodies, {} triangles below the ground",
+                    counts.total(), frame, counts.self, counts.cloths, counts.bodies,
+                    counts.ground),
+        "none is wanted");
 }
 
 }  // namespace weft::app

@@ -174,7 +174,9 @@ TEST(Crossings, BarThroughABoxIsCountedByHand) {
   EXPECT_TRUE(self_crossings(cube).empty());
   const TriangleMesh bar = box({-1, 3, 1}, {5, 3.5, 1.5});
   EXPECT_EQ(self_crossings(test::together(cube, bar)).size(), 2U * 4 * 2);
-  EXPECT_EQ(count_crossings(corners_of(cube), corners_of(bar)), 16);
+  const CrossingSurface box_surface(corners_of(cube)), bar_surface(corners_of(bar));
+  EXPECT_EQ(box_surface.count_crossings(bar_surface), 16);
+  EXPECT_EQ(bar_surface.count_crossings(box_surface), 16);
 }
 
 TEST(Crossings, BuiltInShapesHaveNone) {

@@ -31,7 +31,7 @@ Checkpoint sample() {
   Checkpoint checkpoint;
   checkpoint.identity = R"({"substeps":4})";
   checkpoint.start_centre = {1, 2, 3};
-  checkpoint.intersections = 7;
+  checkpoint.intersections = {2, {.self = 7, .cloths = 1LL << 40, .bodies = 9, .ground = 10}};
   for (int i = 1; i <= 3; ++i) {
     FrameReport frame;
     frame.milliseconds = 0.1 * i;
@@ -66,6 +66,9 @@ TEST(Checkpoint, ReadsBackBitByBit) {
   ASSERT_TRUE(read);
   EXPECT_EQ(read->identity, written.identity);
   EXPECT_EQ(read->state.frame, 3);
+  EXPECT_EQ(read->intersections.frame, 2);
+  EXPECT_EQ(read->intersections.counts.cloths, 1LL << 40);
+  EXPECT_EQ(read->intersections.counts.ground, 10);
   EXPECT_EQ(read->history[1].strain.max, written.history[1].strain.max);
   EXPECT_EQ(read->history[2].smallest_gap, HUGE_VAL);
   ASSERT_EQ(read->state.cloths.size(), 2);
@@ -102,7 +105,7 @@ TEST(Checkpoint, RefusalsSayWhatIsWrong) {
   EXPECT_NE(refusal("").find("is no checkpoint"), std::string::npos);
   std::string other_format = whole;
   other_format[8] = 9;
-  EXPECT_NE(refusal(other_format).find("format 9 instead of 1"), std::string::npos);
+  EXPECT_NE(refusal(other_format).find("format 9 instead of 2"), std::string::npos);
   std::string other_version = whole;
   other_version[header_bytes + 8] = '7';
   EXPECT_NE(refusal(hashed_again(other_version)).find("written by weft 7"), std::string::npos);

@@ -1,23 +1,78 @@
 #include "weft/collide/intersections.h"
 
-#include "weft/mesh/crossings.h"
+#include <algorithm>
 
 namespace weft {
 namespace {
 
-std::vector<Corners> corners_of(const GridTriangles& surface) {
-  const auto position = [&](int sample) { return vec_cast<double>(surface.positions->at(sample)); };
+Corners corners_of(const GridTriangles& grid, const Triangle& triangle) {
+  const auto position = [&](int sample) { return vec_cast<double>(grid.positions->at(sample)); };
+  return {position(triangle[0]), position(triangle[1]), position(triangle[2])};
+}
+
+std::vector<Corners> corners_of(const GridTriangles& grid) {
   std::vector<Corners> corners;
-  corners.reserve(surface.triangles->size());
-  for (const auto& [a, b, c] : *surface.triangles)
-    corners.push_back({position(a), position(b), position(c)});
+  corners.reserve(grid.triangles->size());
+  for (const Triangle& triangle : *grid.triangles) corners.push_back(corners_of(grid, triangle));
   return corners;
+}
+
+std::vector<Vec3f> samples_of(const Planes3& positions) {
+  std::vector<Vec3f> samples;
+  const int count = positions.size() * positions.size();
+  samples.reserve(count);
+  for (int s = 0; s < count; ++s) samples.push_back(positions.at(s));
+  return samples;
 }
 
 }  // namespace
 
-int count_intersections(const GridTriangles& a, const GridTriangles& b) {
-  return static_cast<int>(count_crossings(corners_of(a), corners_of(b)));
+IntersectionCheck::Surface::Surface(const GridTriangles& grid)
+    : grid_(grid), seen_(samples_of(*grid.positions)), crossing_(corners_of(grid)) {}
+
+void IntersectionCheck::Surface::follow() {
+  const int n = grid_.positions->size();
+  bool moved = false;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const Vec3f now = grid_.positions->at(r, c);
+      moved |= !(now == seen_[r * n + c]);
+      seen_[r * n + c] = now;
+    }
+  if (!moved) return;
+  const std::span<Corners> corners = crossing_.triangles();
+  for (std::size_t t = 0; t < corners.size(); ++t)
+    for (int k = 0; k < 3; ++k) corners[t][k] = vec_cast<double>(seen_[(*grid_.triangles)[t][k]]);
+  crossing_.moved();
+}
+
+std::int64_t IntersectionCheck::Surface::count_below(double height) {
+  const std::span<const Corners> corners = crossing_.triangles();
+  return std::count_if(corners.begin(), corners.end(), [height](const Corners& t) {
+    return std::min({t[0].y, t[1].y, t[2].y}) < height;
+  });
+}
+
+IntersectionCheck::IntersectionCheck(std::span<const GridTriangles> cloths,
+                                     std::span<const GridTriangles> bodies,
+                                     std::optional<double> ground)
+    : cloths_(cloths.begin(), cloths.end()),
+      bodies_(bodies.begin(), bodies.end()),
+      ground_(ground) {}
+
+IntersectionCounts IntersectionCheck::count() {
+  for (std::vector<Surface>* surfaces : {&cloths_, &bodies_})
+    for (Surface& surface : *surfaces) surface.follow();
+  IntersectionCounts counts;
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    const CrossingSurface& cloth = cloths_[i].crossing();
+    counts.self += cloth.count_self_crossings();
+    for (std::size_t other = 0; other < i; ++other)
+      counts.cloths += cloth.count_crossings(cloths_[other].crossing());
+    for (const Surface& body : bodies_) counts.bodies += cloth.count_crossings(body.crossing());
+    if (ground_) counts.ground += cloths_[i].count_below(*ground_);
+  }
+  return counts;
 }
 
 }  // namespace weft

@@ -1,21 +1,62 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "weft/core/planes.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh/crossings.h"
 
 namespace weft {
 
-/// A triangulated grid at one moment.
+/// A triangulated grid, as it stands whenever it is looked at. Triangles whose corners coincide
+/// have no inside and meet nothing.
 struct GridTriangles {
-  const Planes3* positions = nullptr;                ///< [n x n] world [m]
+  const Planes3* positions = nullptr;                ///< [n x n] world, mates equal [m]
   const std::vector<Triangle>* triangles = nullptr;  ///< corners as samples
 };
 
-/// How many pairs of triangles, one of each surface, cross each other (weft/mesh/crossings.h): an
-/// exact count for the positions as they are. Touching pairs do not count, pairs that overlap in
-/// one plane do. @pre finite positions
-int count_intersections(const GridTriangles& a, const GridTriangles& b);
+/// What cloths pass through.
+struct IntersectionCounts {
+  std::int64_t self = 0;    ///< pairs of triangles of one cloth
+  std::int64_t cloths = 0;  ///< of two cloths
+  std::int64_t bodies = 0;  ///< of a cloth and a body
+  std::int64_t ground = 0;  ///< triangles of cloths with a corner below the ground
+  [[nodiscard]] std::int64_t total() const { return self + cloths + bodies + ground; }
+};
+
+/// Counts the pairs of triangles that cross each other (weft/mesh/crossings.h): exact for the
+/// positions as they are. Touching pairs do not count, so that neighbours are no special case;
+/// pairs that overlap in one plane do. Independent of every collider: none of their code is used
+/// here.
+class IntersectionCheck {
+ public:
+  /// Surfaces are kept by reference and looked at in every count. @pre finite positions
+  /// @param ground  height of the ground, if there is one [m]
+  IntersectionCheck(std::span<const GridTriangles> cloths, std::span<const GridTriangles> bodies,
+                    std::optional<double> ground);
+  /// As everything stands now.
+  [[nodiscard]] IntersectionCounts count();
+
+ private:
+  /// A grid with the tree over its triangles, which is refitted only when a sample has moved.
+  class Surface {
+   public:
+    explicit Surface(const GridTriangles& grid);
+    void follow();
+    [[nodiscard]] const CrossingSurface& crossing() const { return crossing_; }
+    /// @return triangles with a corner below it
+    [[nodiscard]] std::int64_t count_below(double height);
+
+   private:
+    GridTriangles grid_;
+    std::vector<Vec3f> seen_;  // [n * n] where the samples were when the tree was fitted
+    CrossingSurface crossing_;
+  };
+
+  std::vector<Surface> cloths_, bodies_;
+  std::optional<double> ground_;
+};
 
 }  // namespace weft

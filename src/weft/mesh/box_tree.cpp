@@ -49,9 +49,10 @@ void BoxTree::build(std::span<const Vec3d> centres, int first, int last) {
   build(centres, middle, last);
 }
 
-void BoxTree::fit_boxes(std::span<const Corners> triangles) {
+void BoxTree::fit_boxes(std::span<const Corners> triangles) noexcept {
   for (int i = static_cast<int>(nodes.size()) - 1; i >= 0; --i) {
     Node& node = nodes[i];
+    node.box = {};
     if (node.right < 0) {
       for (int place = node.first; place < node.last; ++place)
         for (const Vec3d corner : triangles[triangle_at[place]]) node.box.add(corner);

@@ -31,10 +31,11 @@ struct BoxTree {
   std::vector<int> triangle_at;  ///< [F] from place in the tree to triangle
 
   explicit BoxTree(std::span<const Corners> triangles);
+  /// Fits the boxes to triangles that have moved; what is below what stays. Allocates nothing.
+  void fit_boxes(std::span<const Corners> triangles) noexcept;
 
  private:
   void build(std::span<const Vec3d> centres, int first, int last);
-  void fit_boxes(std::span<const Corners> triangles);
 };
 
 }  // namespace weft

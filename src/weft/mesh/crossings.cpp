@@ -146,10 +146,22 @@ void for_self_crossings(std::span<const Corners> surface,
   PairSearch(surface, surface, ordered).within(tree, 0);
 }
 
-std::int64_t count_crossings(std::span<const Corners> a, std::span<const Corners> b) {
-  if (a.empty() || b.empty()) return 0;
+CrossingSurface::CrossingSurface(std::vector<Corners> triangles)
+    : triangles_(std::move(triangles)), tree_(triangles_) {}
+
+std::int64_t CrossingSurface::count_self_crossings() const {
+  if (triangles_.empty()) return 0;
   std::int64_t count = 0;
-  PairSearch(a, b, [&](int, int) { ++count; }).between(BoxTree(a), 0, BoxTree(b), 0);
+  PairSearch(triangles_, triangles_, [&](int, int) { ++count; }).within(tree_, 0);
+  return count;
+}
+
+std::int64_t CrossingSurface::count_crossings(const CrossingSurface& other) const {
+  if (triangles_.empty() || other.triangles_.empty()) return 0;
+  std::int64_t count = 0;
+  PairSearch(triangles_, other.triangles_, [&](int, int) {
+    ++count;
+  }).between(tree_, 0, other.tree_, 0);
   return count;
 }
 

@@ -24,7 +24,23 @@ bool has_no_area(const Corners& triangle);
 void for_self_crossings(std::span<const Corners> surface,
                         const std::function<void(int s, int t)>& visit);
 
-/// How many pairs of triangles, one of each surface, cross. @pre finite corners
-std::int64_t count_crossings(std::span<const Corners> a, std::span<const Corners> b);
+/// A surface in a tree of boxes that is kept while it moves: its order stays, its boxes are fitted.
+class CrossingSurface {
+ public:
+  /// @pre finite corners, here and below
+  explicit CrossingSurface(std::vector<Corners> triangles);
+  /// The triangles for writing new corners into, [F]; `moved` must follow.
+  [[nodiscard]] std::span<Corners> triangles() { return triangles_; }
+  void moved() noexcept { tree_.fit_boxes(triangles_); }
+
+  /// How many pairs of its triangles cross.
+  [[nodiscard]] std::int64_t count_self_crossings() const;
+  /// How many pairs of triangles, one of each surface, cross.
+  [[nodiscard]] std::int64_t count_crossings(const CrossingSurface& other) const;
+
+ private:
+  std::vector<Corners> triangles_;
+  BoxTree tree_;
+};
 
 }  // namespace weft

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "WEFTCKPT";
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr std::size_t size_at = magic.size() + sizeof(format_version);
 constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
 constexpr std::size_t header_bytes = hash_at + sizeof(std::uint64_t);
@@ -51,6 +51,11 @@ void each_plane(State& state, const Visit& visit) {
     for (auto* plane : {&planes->x, &planes->y, &planes->z}) visit(*plane);
 }
 
+template <class Counts, class Visit>
+void each_count(Counts& counts, const Visit& visit) {
+  for (auto* count : {&counts.self, &counts.cloths, &counts.bodies, &counts.ground}) visit(*count);
+}
+
 void add_cloth(const ClothState& cloth, ByteWriter& out) {
   out.add(static_cast<std::int32_t>(cloth.position.size()));
   each_plane(cloth, [&](const Grid<float>& plane) {
@@ -76,7 +81,8 @@ void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   out.add_text(checkpoint.identity);
   const Vec3d centre = checkpoint.start_centre;
   out.add(centre.x), out.add(centre.y), out.add(centre.z);
-  out.add(static_cast<std::int32_t>(checkpoint.intersections));
+  out.add(static_cast<std::int32_t>(checkpoint.intersections.frame));
+  each_count(checkpoint.intersections.counts, [&](std::int64_t count) { out.add(count); });
   out.add(static_cast<std::uint64_t>(checkpoint.history.size()));
   for (const FrameReport& frame : checkpoint.history)
     each_field(frame, [&](auto value) { out.add(value); });
@@ -90,7 +96,8 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
   checkpoint.identity = in.next_text();
   Vec3d& centre = checkpoint.start_centre;
   in.read(centre.x), in.read(centre.y), in.read(centre.z);
-  in.read(checkpoint.intersections);
+  in.read(checkpoint.intersections.frame);
+  each_count(checkpoint.intersections.counts, [&](std::int64_t& count) { in.read(count); });
   const auto frames = in.next<std::uint64_t>();
   if (frames > in.left() / frame_bytes) return std::nullopt;
   checkpoint.history.resize(frames);

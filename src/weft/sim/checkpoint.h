@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "weft/sim/frame_intersections.h"
 #include "weft/sim/simulation.h"
 
 namespace weft {
@@ -14,7 +15,7 @@ namespace weft {
 struct Checkpoint {
   std::string identity;              ///< of the run, see run_identity
   Vec3d start_centre;                ///< centre of mass at frame 0 [m]
-  int intersections = 0;             ///< of the worst frame so far, where every frame is looked at
+  FrameIntersections intersections;  ///< of the worst frame so far, where every frame is looked at
   std::vector<FrameReport> history;  ///< one a frame, from frame 1
   SimulationState state;
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <ostream>
 
-#include "weft/collide/intersections.h"
 #include "weft/core/files.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image/io/image_file.h"
@@ -114,18 +113,16 @@ void Recorder::finish(RunReport& report) {
   report.outputs.push_back(manifest);
 }
 
-int Recorder::intersections() const {
-  int total = 0;
-  for (std::size_t i = 0; i < cloths_.size(); ++i) {
-    const GridTriangles cloth{&simulation_.cloths()[i].state.position, &cloths_[i].triangles};
-    for (std::size_t b = 0; b < bodies_.size(); ++b)
-      total +=
-          count_intersections(cloth, {&simulation_.bodies()[b].positions, &bodies_[b].triangles});
-    for (std::size_t other = 0; other < i; ++other)
-      total += count_intersections(
-          cloth, {&simulation_.cloths()[other].state.position, &cloths_[other].triangles});
+IntersectionCounts Recorder::intersections() {
+  if (!check_) {
+    std::vector<GridTriangles> cloths, bodies;
+    for (std::size_t i = 0; i < cloths_.size(); ++i)
+      cloths.push_back({&simulation_.cloths()[i].state.position, &cloths_[i].triangles});
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      bodies.push_back({&simulation_.bodies()[i].positions, &bodies_[i].triangles});
+    check_.emplace(cloths, bodies, scene_.ground);
   }
-  return total;
+  return check_->count();
 }
 
 }  // namespace weft

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "weft/collide/intersections.h"
 #include "weft/sim/export/pc2_writer.h"
 #include "weft/sim/export/surface_points.h"
 #include "weft/sim/run.h"
@@ -32,9 +34,9 @@ class Recorder {
   /// Puts the files that grew in their places and names everything in the report.
   void finish(RunReport& report);
 
-  /// Pairs of crossing triangles between cloths and bodies, and between different cloths, as they
-  /// stand now.
-  [[nodiscard]] int intersections() const;
+  /// What cloths pass through as everything stands now: each itself, the others, bodies, the
+  /// ground.
+  [[nodiscard]] IntersectionCounts intersections();
 
  private:
   [[nodiscard]] std::filesystem::path file(const std::string& name,
@@ -50,6 +52,7 @@ class Recorder {
   std::vector<SurfacePoints> cloths_, bodies_;
   std::vector<std::unique_ptr<Pc2Writer>> caches_;  // one a cloth, where they are wanted
   std::vector<std::filesystem::path> outputs_;
+  std::optional<IntersectionCheck> check_;  // made where it is asked for
 };
 
 }  // namespace weft

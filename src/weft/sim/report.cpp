@@ -39,6 +39,14 @@ Json milliseconds(const RunReport& report) {
           {"limit", median(&FrameReport::limit_ms)}};
 }
 
+Json kinds_json(const FrameIntersections& found) {
+  return {{"frame", found.frame},
+          {"self", found.counts.self},
+          {"cloths", found.counts.cloths},
+          {"bodies", found.counts.bodies},
+          {"ground", found.counts.ground}};
+}
+
 }  // namespace
 
 std::string to_json(const RunReport& report) {
@@ -56,10 +64,11 @@ std::string to_json(const RunReport& report) {
       {"residual", {{"median", quantile(residuals, 0.5)}, {"max", quantile(residuals, 1)}}},
       {"contacts_max", report.contacts_max},
       {"self_contacts_max", report.self_contacts_max},
-      {"intersections", report.intersections}};
+      {"intersections", report.intersections.counts.total()}};
   json["centre_of_mass"] = Json::array();
   for (const Vec3d& c : report.centre_of_mass) json["centre_of_mass"].push_back({c.x, c.y, c.z});
   json["state_hash"] = report.state_hash;
+  json["intersections_found"] = kinds_json(report.intersections);
   json["estimated_memory_mb"] = 1e-6 * static_cast<double>(report.estimated_memory);
   json["outputs"] = Json::array();
   for (const auto& path : report.outputs) json["outputs"].push_back(path.string());

@@ -115,7 +115,7 @@ class Run {
     try {
       while (simulation_.frame() < scene_.frames) take_frame();
       update(options_.progress, "simulate", 1);
-      if (!options_.verify) report_.intersections = recorder_->intersections();
+      if (!options_.verify) count_intersections();
       report_.state_hash = simulation_.state_hash();
     } catch (const OutputError&) {
       keep_what_fits();
@@ -153,12 +153,18 @@ class Run {
                        fmt::format("at least {} frames are wanted", from.state.frame));
   }
 
+  void count_intersections() {
+    const IntersectionCounts counts = recorder_->intersections();
+    if (!options_.verify) report_.intersections = {};
+    if (counts.total() > report_.intersections.counts.total())
+      report_.intersections = {simulation_.frame(), counts};
+  }
+
   void take_frame() {
     const FrameReport done = simulation_.advance();
     recorder_->add_frame();
     add_to_report(report_, done);
-    if (options_.verify)
-      report_.intersections = std::max(report_.intersections, recorder_->intersections());
+    if (options_.verify) count_intersections();
     if (clock_.off()) return;
     simulation_.save(point_.state);
     if (!clock_.is_due(report_.frames)) return;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "weft/core/progress.h"
+#include "weft/sim/frame_intersections.h"
 #include "weft/sim/simulation.h"
 
 namespace weft {
@@ -34,7 +35,7 @@ struct RunReport {
   std::vector<FrameReport> history;  ///< one a frame, from frame 1
   StrainSummary strain;              ///< last frame
   int contacts_max = 0, self_contacts_max = 0;
-  int intersections = 0;  ///< triangle pairs, last frame; with verify: of the worst frame
+  FrameIntersections intersections;   ///< of the last frame; with verify: of the worst one
   std::vector<Vec3d> centre_of_mass;  ///< frame 0 first
   std::string state_hash;
   std::uint64_t estimated_memory = 0;  ///< before the start [bytes]
