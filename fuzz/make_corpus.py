@@ -163,6 +163,21 @@ def image_files():
     yield "sheet.png", png(6, metadata(6, []), False)
 
 
+def cache_files():
+    def pc2(points, samples, count):
+        return (b"POINTCACHE2\0" + struct.pack("<iiffi", 1, points, 0, 1, samples)
+                + struct.pack(f"<{count}f", *(i / 8 for i in range(count))))
+
+    def mdd(points, times, count):
+        return struct.pack(f">ii{len(times)}f{count}f", len(times), points, *times, *(i / 8 for i in range(count)))
+
+    yield "two.pc2", pc2(2, 3, 18)
+    yield "cut.pc2", pc2(2, 3, 17)
+    yield "false_count.pc2", pc2(2**31 - 1, 2**31 - 1, 3)
+    yield "one.mdd", mdd(1, [0, 0.04, 0.08], 9)
+    yield "backward.mdd", mdd(1, [1, 0], 6)
+
+
 def scene_files():
     yield "least", {"cloths": [{}]}
     yield "pins", {"cloths": [{"size": 65, "pins": [{"image": [0, 0]}, {"nearest": [1, 0, 1]},
@@ -180,6 +195,10 @@ def scene_files():
                     "self_collision": False, "friction": 0.4, "velocity": [0, 0, 1]},
                    {"name": "second", "material": "cotton", "surface": "builtin:torus"}],
         "bodies": [{"name": "figure", "surface": "builtin:mannequin", "friction": 0.4, "scale": 0.5}]}
+    yield "moving", {"cloths": [{"attach": [{"body": "b", "region": [[0, 0], [1, 0]]}]}],
+                     "bodies": [{"name": "b", "surface": "builtin:rod", "lead_in": 0.5,
+                                 "motion": [{"time": 0}, {"time": 1, "rotate": [0, 9, 0], "translate": [0, 1, 0]}]},
+                                {"name": "c", "surface": "c.obj", "animation": "c.pc2"}]}
     yield "explicit", {"integrator": {"type": "explicit"}, "ground": -1, "cloths": [{"name": "a"}, {"name": "a"}]}
 
 
@@ -207,7 +226,7 @@ def checkpoint_files():
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parent / "corpus"
     kinds = {"obj": obj_files, "off": off_files, "ply": ply_files, "stl": stl_files, "glb": glb_files,
-             "image": image_files, "scene": scene_files, "checkpoint": checkpoint_files}
+             "image": image_files, "cache": cache_files, "scene": scene_files, "checkpoint": checkpoint_files}
     for kind, files in kinds.items():
         (folder / kind).mkdir(parents=True, exist_ok=True)
         for name, content in files():

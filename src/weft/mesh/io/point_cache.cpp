@@ -1,0 +1,131 @@
+#include "weft/mesh/io/point_cache.h"
+
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/mesh/io/byte_reader.h"
+#include "weft/mesh/io/number.h"
+
+namespace weft {
+namespace {
+
+constexpr std::string_view pc2_signature{"POINTCACHE2\0", 12};
+constexpr std::size_t pc2_header = 32, mdd_header = 8;
+constexpr std::size_t word = 4, point_size = 3 * word;
+
+std::string ending_of(const std::filesystem::path& name) {
+  std::string ending = name.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+/// What a header says that the rest of the file holds.
+struct Counts {
+  std::uint64_t points, samples;
+};
+
+/// Before anything is allocated: counts are believed only as far as there are bytes for them.
+/// @param bytes_per_sample  besides its points
+void check_length(std::string_view bytes, std::string_view name, Counts counts, std::size_t header,
+                  std::size_t bytes_per_sample) {
+  constexpr std::uint64_t most = INT32_MAX;
+  if (counts.points < 1 || counts.points > most || counts.samples < 1 || counts.samples > most)
+    throw InputError(name, fmt::format("{} points and {} samples", counts.points, counts.samples),
+                     "at least one of each is wanted");
+  const std::uint64_t sample_bytes = bytes_per_sample + point_size * counts.points;
+  const std::uint64_t body = bytes.size() - header;
+  if (body / sample_bytes == counts.samples && body % sample_bytes == 0) return;
+  throw InputError(name,
+                   fmt::format("is {} bytes long with {} points and {} samples", bytes.size(),
+                               counts.points, counts.samples),
+                   "a whole point cache is wanted");
+}
+
+/// @param bytes  exactly the points
+void read_points(std::string_view bytes, std::string_view name, bool big_endian,
+                 PointCache& cache) {
+  cache.positions.reserve(bytes.size() / point_size);
+  for (std::size_t at = 0; at < bytes.size(); at += point_size) {
+    const Vec3f p{load_float(bytes.substr(at), big_endian),
+                  load_float(bytes.substr(at + word), big_endian),
+                  load_float(bytes.substr(at + 2 * word), big_endian)};
+    for (const float x : {p.x, p.y, p.z}) {
+      const std::string_view fault = coordinate_fault(x);
+      if (fault.empty()) continue;
+      const std::size_t index = at / point_size, points = cache.points;
+      throw InputError(name,
+                       fmt::format("a coordinate of point {} in sample {} {}", index % points,
+                                   index / points, fault),
+                       "finite numbers are wanted");
+    }
+    cache.positions.push_back(p);
+  }
+}
+
+}  // namespace
+
+PointCache parse_pc2(std::string_view bytes, std::string_view name) {
+  if (bytes.size() < pc2_header || !bytes.starts_with(pc2_signature))
+    throw InputError(name, "does not begin as a PC2 file does", "a point cache is wanted");
+  const auto number = [&](std::size_t at) {
+    return load_integer<std::uint32_t>(bytes.substr(at), false);
+  };
+  if (number(12) != 1)
+    throw InputError(name, fmt::format("PC2 version {}", number(12)), "version 1 is wanted");
+  const Counts counts{number(16), number(28)};
+  check_length(bytes, name, counts, pc2_header, 0);
+  const double step = load_float(bytes.substr(24), false);
+  if (!(step > 0 && step <= 1e6))
+    throw InputError(name, fmt::format("{} frames between two samples", step),
+                     "a number > 0 is wanted");
+  PointCache cache;
+  cache.points = static_cast<int>(counts.points);
+  cache.times_in_frames = true;
+  for (std::uint64_t k = 0; k < counts.samples; ++k)
+    cache.times.push_back(step * static_cast<double>(k));
+  read_points(bytes.substr(pc2_header), name, false, cache);
+  return cache;
+}
+
+PointCache parse_mdd(std::string_view bytes, std::string_view name) {
+  if (bytes.size() < mdd_header)
+    throw InputError(name, fmt::format("is {} bytes long", bytes.size()),
+                     "a whole MDD file is wanted");
+  const Counts counts{load_integer<std::uint32_t>(bytes.substr(word), true),
+                      load_integer<std::uint32_t>(bytes, true)};
+  check_length(bytes, name, counts, mdd_header, word);
+  PointCache cache;
+  cache.points = static_cast<int>(counts.points);
+  const double first = load_float(bytes.substr(mdd_header), true);
+  for (std::uint64_t k = 0; k < counts.samples; ++k) {
+    const double time = load_float(bytes.substr(mdd_header + word * k), true) - first;
+    if (!(k == 0 ? time == 0 : time > cache.times.back() && time <= 1e9))
+      throw InputError(name, fmt::format("the time of sample {} does not follow", k),
+                       "ascending times are wanted");
+    cache.times.push_back(time);
+  }
+  read_points(bytes.substr(mdd_header + word * counts.samples), name, true, cache);
+  return cache;
+}
+
+bool is_point_cache_name(const std::filesystem::path& name) {
+  const std::string ending = ending_of(name);
+  return ending == ".pc2" || ending == ".mdd";
+}
+
+PointCache read_point_cache(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  const std::string ending = ending_of(path);
+  if (ending == ".pc2") return parse_pc2(bytes, path.string());
+  if (ending == ".mdd") return parse_mdd(bytes, path.string());
+  throw InputError(path.string(), "the ending '" + ending + "' is not that of a point cache",
+                   ".pc2 or .mdd is wanted");
+}
+
+}  // namespace weft

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "weft/core/vec.h"
+
+namespace weft {
+
+/// Vertices that move: the positions of all of them at ascending times.
+struct PointCache {
+  int points = 0;
+  bool times_in_frames = false;  ///< whose length the file does not tell; otherwise seconds
+  std::vector<double> times;     ///< [samples] from the first sample's, which is 0
+  std::vector<Vec3f> positions;  ///< [samples * points], sample by sample, in the mesh's unit
+
+  [[nodiscard]] int samples() const { return static_cast<int>(times.size()); }
+  [[nodiscard]] std::span<const Vec3f> sample(int index) const {
+    const auto count = static_cast<std::size_t>(points);
+    return std::span(positions).subspan(static_cast<std::size_t>(index) * count, count);
+  }
+};
+
+/// Reads PC2 or MDD by the ending of the name. Where the first sample lies in its own program's
+/// time is not asked: playing begins with it.
+/// @throws InputError for what is missing, not whole, longer than it says, not finite or above
+/// 1e30, without points or samples, or with times that do not ascend
+PointCache read_point_cache(const std::filesystem::path& path);
+
+/// The same from memory; `name` is what errors call it. PC2 is little-endian and counts frames, MDD
+/// is big-endian and tells seconds.
+PointCache parse_pc2(std::string_view bytes, std::string_view name);
+PointCache parse_mdd(std::string_view bytes, std::string_view name);
+
+/// True when a name ends as point caches do: .pc2 or .mdd.
+bool is_point_cache_name(const std::filesystem::path& name);
+
+}  // namespace weft
