@@ -19,18 +19,19 @@ double aspect(const ViewFrom& options) {
   return static_cast<double>(options.width) / options.height;
 }
 
-// The bodies and the given frames of the cloths.
+// The given frames of bodies and cloths.
 Camera camera_of(const RunFolder& run, std::initializer_list<int> frames, const ViewFrom& options) {
   Box3d box;
-  for (const PlacedBody& body : run.bodies) add(box, bounds(body.positions));
-  for (std::size_t k = 0; k < run.cloths.size(); ++k)
-    for (const int frame : frames) add(box, bounds(run.positions(k, frame)));
+  for (const int frame : frames) {
+    for (const RecordedBody& body : run.bodies) add(box, bounds(body.positions_at(frame)));
+    for (const RecordedCloth& cloth : run.cloths) add(box, bounds(cloth.recorded.positions(frame)));
+  }
   return frame_box(box, options.azimuth, options.elevation, aspect(options));
 }
 
 // A scene points at its surfaces: this holds them while it is drawn.
 struct RunFrame {
-  std::vector<Planes3> cloths;
+  std::vector<Planes3> cloths, bodies;
   DrawnScene scene;
 };
 
@@ -42,16 +43,18 @@ RunFrame frame_of(const RunFolder& run, int frame, const Camera& camera) {
   drawn.scene.ground = run.ground;
   drawn.cloths.reserve(run.cloths.size());
   for (std::size_t k = 0; k < run.cloths.size(); ++k) {
-    drawn.cloths.push_back(run.positions(k, frame));
+    drawn.cloths.push_back(run.cloths[k].recorded.positions(frame));
     DrawnSurface surface;
     surface.positions = &drawn.cloths.back();
     surface.mates = &run.cloths[k].image.mates;
     surface.colour = colours[k % std::size(colours)];
     drawn.scene.surfaces.push_back(surface);
   }
-  for (const PlacedBody& body : run.bodies) {
+  drawn.bodies.reserve(run.bodies.size());
+  for (const RecordedBody& body : run.bodies) {
+    drawn.bodies.push_back(body.positions_at(frame));
     DrawnSurface surface;
-    surface.positions = &body.positions;
+    surface.positions = &drawn.bodies.back();
     surface.mates = &body.image.mates;
     surface.normals = body.normals ? &*body.normals : nullptr;
     surface.colour = {0.62F, 0.60F, 0.57F};

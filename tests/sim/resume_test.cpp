@@ -48,7 +48,9 @@ Scene two_cloths(const IntegratorOptions& integrator = MultigridOptions{}) {
   body.size = 17;
   body.placement.scale = {0.5, 0.5, 0.5};
   body.placement.translate = {0.1, 0.25, 0.1};
+  body.motion = {{0, {}, {}}, {0.1, {0, 30, 0}, {0, 0.02, 0}}};
   scene.bodies = {body};
+  scene.cloths[0].attach = {{"body", ImagePin{{0.5, 1}}}};
   return scene;
 }
 

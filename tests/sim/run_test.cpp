@@ -117,12 +117,33 @@ TEST(Run, FolderOpensAgainWithTheSamePositions) {
   EXPECT_EQ(run.frames, 3);
   EXPECT_EQ(run.frame_rate, 60);
   EXPECT_EQ(run.ground, 0.0);
-  const Planes3 positions = run.positions(0, 1);
+  const Planes3 positions = run.cloths.at(0).recorded.positions(1);
   for (int s = 0; s < 17 * 17; ++s)
     EXPECT_EQ(positions.at(s), again.cloths()[0].state.position.at(s));
   ASSERT_EQ(run.bodies.size(), 1);
   EXPECT_EQ(run.bodies[0].positions.at(5, 5), again.bodies()[0].positions.at(5, 5));
-  EXPECT_THROW((void)run.positions(0, 3), UsageError);
+  EXPECT_THROW((void)run.cloths[0].recorded.positions(3), UsageError);
+}
+
+TEST(Run, BodiesThatMoveAreRecordedFrameByFrame) {
+  const test::TemporaryFolder place;
+  const fs::path folder = place / "run";
+  Scene scene = ring(2);
+  scene.bodies[0].motion = {{0, {}, {0, 0.5, 0}}, {1, {}, {6, 0.5, 0}}};
+  run_scene(scene, "ring.json", {.folder = folder});
+  const RunFolder run = open_run_folder(folder);
+  ASSERT_EQ(run.bodies.size(), 1);
+  const Vec3f rest = run.bodies[0].positions.at(5, 5);
+  for (int frame = 0; frame <= 2; ++frame) {
+    const Vec3f there = run.bodies[0].positions_at(frame).at(5, 5);
+    EXPECT_NEAR(there.x, rest.x + 0.1F * static_cast<float>(frame), 1e-6);
+    EXPECT_EQ(there.y, rest.y + 0.5F);
+  }
+  const TriangleMesh start = read_mesh(folder / "plate.obj");
+  EXPECT_EQ(value_at<float>(read_file(folder / "plate.pc2"), 32),
+            static_cast<float>(start.positions[0].x));
+  fs::remove(folder / "plate.pc2");
+  EXPECT_THROW(open_run_folder(folder), InputError);
 }
 
 TEST(Run, InterruptedRunKeepsItsFrames) {

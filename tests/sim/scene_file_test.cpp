@@ -41,13 +41,16 @@ TEST(SceneFile, EveryKeyIsRead) {
     "wind": {"velocity": [1, 0, 2], "drag": 0.5, "lift": 0},
     "integrator": {"type": "two_level", "local_size": 7, "global_size": 9, "as_printed": true,
                    "filter_stiffness": 12, "limiter_passes": 3},
-    "collider": {"type": "polar_map", "size": 99, "walk": false},
+    "collider": {"type": "pyramid"},
     "cloths": [{"name": "a", "surface": "builtin:torus", "size": 33, "scale": [1, 2, 3], "rotate": [10, 20, 30],
                 "translate": [1, 0, -1], "material": {"density": 0.3, "stretch": 5, "shear": 6, "bending": 2e-5,
                 "bend_springs": 7, "damping": 8, "strain_limit": 0.1, "thickness": 0.003},
                 "self_collision": false, "friction": 0.1, "velocity": [3, 2, 1],
+                "attach": [{"body": "b", "region": [[0, 0], [1, 0]]}],
                 "pins": [{"image": [0, 1], "path": [{"time": 0}, {"time": 2, "rotate": [0, 90, 0], "translate": [1, 0, 0]}]}, {"nearest": [1, 2, 3]}, {"region": [[0, 0], [1, 0.5]]}]}],
-    "bodies": [{"name": "b", "surface": "builtin:sphere", "size": 65, "scale": 2, "friction": 0.7}]})",
+    "bodies": [{"name": "b", "surface": "builtin:sphere", "size": 65, "scale": 2, "friction": 0.7,
+                "motion": [{"time": 1}, {"time": 2, "rotate": [1, 2, 3], "translate": [4, 5, 6]}], "lead_in": 0.5},
+               {"name": "c", "surface": "c.obj", "animation": "c.MDD"}]})",
                                   "s.json", "");
   EXPECT_EQ(scene.gravity, (Vec3d{0, -1.6, 0}));
   EXPECT_EQ(scene.frames, 7);
@@ -62,9 +65,7 @@ TEST(SceneFile, EveryKeyIsRead) {
   EXPECT_TRUE(two_level.as_printed);
   EXPECT_EQ(two_level.filter_stiffness, 12);
   EXPECT_EQ(scene.limiter_passes, 3);
-  const auto& polar_map = std::get<PolarMapOptions>(scene.collider);
-  EXPECT_EQ(polar_map.size, 99);
-  EXPECT_FALSE(polar_map.walk);
+  EXPECT_TRUE(std::holds_alternative<PyramidOptions>(scene.collider));
   const SceneCloth& cloth = scene.cloths.at(0);
   EXPECT_EQ(cloth.placement.scale, (Vec3d{1, 2, 3}));
   EXPECT_EQ(cloth.placement.rotate, (Vec3d{10, 20, 30}));
@@ -79,7 +80,27 @@ TEST(SceneFile, EveryKeyIsRead) {
   EXPECT_EQ(cloth.pins[0].path[1].time, 2);
   EXPECT_EQ(cloth.pins[0].path[1].rotate, (Vec3d{0, 90, 0}));
   EXPECT_EQ(cloth.pins[0].path[1].translate, (Vec3d{1, 0, 0}));
+  EXPECT_EQ(cloth.self_collision, false);
+  ASSERT_EQ(cloth.attach.size(), 1);
+  EXPECT_EQ(cloth.attach[0].body, "b");
+  EXPECT_EQ(std::get<RegionPin>(cloth.attach[0].place).upper, (Vec2d{1, 0}));
   EXPECT_EQ(scene.bodies.at(0).placement.scale, (Vec3d{2, 2, 2}));
+  ASSERT_EQ(scene.bodies[0].motion.size(), 2);
+  EXPECT_EQ(scene.bodies[0].motion[1].rotate, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(scene.bodies[0].lead_in, 0.5);
+  EXPECT_TRUE(scene.bodies.at(1).animation.ends_with("/c.MDD"));
+}
+
+TEST(SceneFile, PolarMapsKeysAreReadAndWritten) {
+  const Scene scene = parse_scene(
+      R"({"collider":{"type":"polar_map","size":99,"walk":false},"cloths":[{}]})", "s.json", "");
+  const Scene back = parse_scene(scene_text(scene, "s.json"), "s.json", "");
+  for (const Scene& one : {scene, back}) {
+    const auto& polar_map = std::get<PolarMapOptions>(one.collider);
+    EXPECT_EQ(polar_map.size, 99);
+    EXPECT_FALSE(polar_map.walk);
+  }
+  EXPECT_EQ(back.cloths[0].self_collision, false);
 }
 
 TEST(SceneFile, UnknownKeyNamesItsPathAndTheNearestKey) {
@@ -128,22 +149,57 @@ TEST(SceneFile, UnknownNamesListWhatIsKnown) {
   EXPECT_EQ(error_of(R"({"cloths":[{}],"integrator":{"type":"midpoint"}})"),
             "s.json:integrator.type: unknown integrator 'midpoint'; known are: implicit, "
             "explicit, desbrun, two_level, multigrid");
-  EXPECT_EQ(error_of(R"({"cloths":[{}],"collider":{"type":"pyramid"}})"),
-            "s.json:collider.type: unknown collider 'pyramid'; known is: polar_map");
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"collider":{"type":"octree"}})"),
+            "s.json:collider.type: unknown collider 'octree'; known are: pyramid, polar_map");
   EXPECT_EQ(error_of(with_cloth(R"("material":"coton")")),
             "s.json:cloths[0].material: unknown material 'coton'; the nearest known is 'cotton'");
   EXPECT_EQ(error_of(R"({"cloths":[{}],"version":2})"),
             "s.json:version: unknown version; 1 is wanted");
 }
 
-TEST(SceneFile, WhatThisVersionLacksIsRefused) {
-  for (const std::string key : {"motion", "animation", "lead_in"})
-    EXPECT_NE(error_of(R"({"cloths":[{}],"bodies":[{"surface":"x",")" + key + R"(":1}]})")
-                  .find("s.json:bodies[0]." + key + ": is not supported by this version"),
-              std::string::npos);
-  EXPECT_EQ(error_of(with_cloth(R"("self_collision":true)")),
+TEST(SceneFile, MotionsThatMakeNoSenseAreRefused) {
+  const auto error_with = [](const std::string& keys) {
+    return error_of(R"({"cloths":[{}],"bodies":[{"surface":"builtin:rod",)" + keys + "}]}");
+  };
+  EXPECT_EQ(error_with(R"("motion":[{"time":1},{"time":0}])"),
+            "s.json:bodies[0].motion[1].time: 0 after 1; ascending times are wanted");
+  EXPECT_EQ(error_with(R"("animation":"a.abc")"),
+            "s.json:bodies[0].animation: 'a.abc'; a point cache, .pc2 or .mdd, is wanted");
+  EXPECT_EQ(error_with(R"("motion":[{"time":0}],"animation":"a.pc2")"),
+            "s.json:bodies[0].animation: is there beside motion; one of both is wanted");
+  EXPECT_EQ(error_with(R"("lead_in":1)"),
+            "s.json:bodies[0].lead_in: leads to nothing; motion or animation beside it is wanted");
+  EXPECT_EQ(error_with(R"("motion":[{"time":0}],"lead_in":-1)"),
+            "s.json:bodies[0].lead_in: -1; a number >= 0 is wanted");
+}
+
+TEST(SceneFile, AttachmentsNameABodyOfTheScene) {
+  const auto error_with = [](const std::string& attachment) {
+    return error_of(R"({"cloths":[{"attach":[)" + attachment +
+                    R"(]}],"bodies":[{"name":"figure","surface":"builtin:mannequin"}]})");
+  };
+  EXPECT_EQ(error_with(R"({"body":"figur","image":[0,0]})"),
+            "s.json:cloths[0].attach[0].body: no body is called 'figur'; the nearest known is "
+            "'figure'");
+  EXPECT_EQ(error_with(R"({"image":[0,0]})"),
+            "s.json:cloths[0].attach[0].body: no body; the name of a body is wanted");
+  EXPECT_EQ(error_with(R"({"body":"figure"})"),
+            "s.json:cloths[0].attach[0]: 0 places; one of \"image\", \"nearest\" and "
+            "\"region\" is wanted");
+  EXPECT_EQ(error_of(with_cloth(R"("attach":[{"body":"a","image":[0,0]}])")),
+            "s.json:cloths[0].attach[0].body: no body is called 'a'; a scene with a body is "
+            "wanted");
+}
+
+TEST(SceneFile, WhatAColliderLacksIsRefusedOnlyWhereItIsAskedFor) {
+  EXPECT_EQ(error_of(R"({"collider":{"type":"polar_map"},"cloths":[{"self_collision":true}]})"),
             "s.json:cloths[0].self_collision: true is not available with collider polar_map; false "
             "is wanted");
+  EXPECT_EQ(error_of(R"({"collider":{"type":"polar_map"},"cloths":[{}],"bodies":[
+                {"surface":"builtin:rod","motion":[{"time":0}]}]})"),
+            "s.json:bodies[0].motion: moving bodies are not available with collider polar_map; "
+            "another collider, or bodies that stand still, are wanted");
+  EXPECT_EQ(error_of(R"({"collider":{"type":"polar_map"},"cloths":[{}]})"), "");
 }
 
 TEST(SceneFile, StillAirIsNoneUnlessItsCoefficientsAreGiven) {
@@ -184,7 +240,6 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
       .local_size = 5, .global_size = 3, .as_printed = true, .filter_stiffness = 0.7};
   scene.limiter_passes = 4;
   scene.wind = WindOptions{{}, 2, 0.25};
-  scene.collider = PolarMapOptions{.size = 12, .walk = false};
   SceneCloth cloth;
   const test::TemporaryFolder folder;
   cloth.surface = (folder / "mesh.obj").string();
@@ -194,8 +249,19 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   cloth.pins = {ImagePin{{0, 1}}, NearestPin{{1, 2, 3}}, RegionPin{{0, 0.25}, {0.5, 1}}};
   cloth.pins[1].path = {{0.5, {0, 0, 10}, {1, 2, 3}}, {1.5, {}, {4, 5, 6}}};
   scene.cloths = {cloth};
-  scene.bodies.push_back(
-      {.name = "b", .surface = "builtin:sphere", .size = 65, .placement = {}, .friction = 0.2});
+  scene.cloths[0].attach = {{"b", ImagePin{{1, 0.5}}}};
+  SceneBody body;
+  body.name = "b";
+  body.surface = "builtin:sphere";
+  body.size = 65;
+  body.friction = 0.2;
+  body.motion = {{0.25, {}, {1, 2, 3}}, {2, {0, 90, 0}, {}}};
+  body.lead_in = 0.125;
+  scene.bodies.push_back(body);
+  body.name = "c";
+  body.motion.clear();
+  body.animation = (folder / "mesh.pc2").string();
+  scene.bodies.push_back(body);
 
   const std::string first = (folder / "first.json").string();
   const std::string second = (folder / "second.json").string();
@@ -208,6 +274,10 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   EXPECT_EQ(std::get<TwoLevelOptions>(back.integrator).filter_stiffness, 0.7);
   EXPECT_EQ(std::get<RegionPin>(back.cloths[0].pins[2].place).lower, (Vec2d{0, 0.25}));
   EXPECT_EQ(back.cloths[0].pins[1].path.at(1).translate, (Vec3d{4, 5, 6}));
+  EXPECT_EQ(back.cloths[0].attach.at(0).body, "b");
+  EXPECT_EQ(back.bodies.at(0).motion.at(1).rotate, (Vec3d{0, 90, 0}));
+  EXPECT_EQ(back.bodies.at(0).lead_in, 0.125);
+  EXPECT_EQ(back.bodies.at(1).animation, body.animation);
   ASSERT_TRUE(back.wind.has_value());
   EXPECT_EQ(back.wind->lift, 0.25);
   EXPECT_FALSE(back.ground.has_value());
@@ -246,11 +316,13 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
   EXPECT_EQ(properties_of(parts["desbrun"]), as_set(scene_keys::desbrun_integrator));
   EXPECT_EQ(properties_of(parts["multigrid"]), as_set(scene_keys::multigrid_integrator));
   EXPECT_EQ(properties_of(parts["two_level"]), as_set(scene_keys::two_level_integrator));
-  EXPECT_EQ(properties_of(parts["collider"]), as_set(scene_keys::collider));
+  EXPECT_EQ(properties_of(parts["pyramid"]), as_set(scene_keys::pyramid_collider));
+  EXPECT_EQ(properties_of(parts["polar_map"]), as_set(scene_keys::polar_map_collider));
   EXPECT_EQ(properties_of(parts["cloth"]), as_set(scene_keys::cloth));
   EXPECT_EQ(properties_of(parts["body"]), as_set(scene_keys::body));
   EXPECT_EQ(properties_of(parts["material"]), as_set(scene_keys::material));
   EXPECT_EQ(properties_of(parts["pin"]), as_set(scene_keys::pin));
+  EXPECT_EQ(properties_of(parts["attachment"]), as_set(scene_keys::attachment));
   EXPECT_EQ(properties_of(parts["motion_key"]), as_set(scene_keys::motion_key));
 }
 
@@ -278,7 +350,10 @@ TEST(SceneSchema, DefaultsAreTheReadersDefaults) {
   check(schema["$defs"]["cloth"]["properties"], json["cloths"][0]);
   check(schema["$defs"]["material"]["properties"], json["cloths"][0]["material"]);
   check(schema["$defs"]["multigrid"]["properties"], json["integrator"]);
-  check(schema["$defs"]["collider"]["properties"], json["collider"]);
+  EXPECT_EQ(json["collider"]["type"], schema["$defs"]["pyramid"]["properties"]["type"]["const"]);
+  scene.collider = PolarMapOptions{};
+  const nlohmann::json polar_map = nlohmann::json::parse(scene_text(scene, path));
+  check(schema["$defs"]["polar_map"]["properties"], polar_map["collider"]);
 }
 
 }  // namespace

@@ -263,6 +263,47 @@ TEST(Simulation, ExplicitStepsBeyondTheLargestStableAreCautionedAgainst) {
             std::string::npos);
 }
 
+TEST(Simulation, AttachedClothGoesWithItsBody) {
+  Scene scene;
+  scene.ground.reset();
+  scene.gravity = {};
+  scene.cloths = {sheet(9, {0, 1, 0})};
+  scene.cloths[0].attach = {{"rod", RegionPin{{0, 0}, {1, 0}}}};
+  SceneBody rod;
+  rod.name = "rod";
+  rod.surface = "builtin:cylinder";
+  rod.size = 17;
+  rod.placement = {{0.1, 1, 0.1}, {0, 0, 90}, {0, 1.05, -0.5}};
+  rod.motion = {{0, {}, {}}, {0.1, {}, {0, 0.3, 0}}};
+  scene.bodies = {rod};
+  Simulation simulation(scene, "tied", 1);
+  const ClothState before = simulation.cloths()[0].state;
+  for (int frame = 0; frame < 6; ++frame) simulation.advance();
+  const ClothState& after = simulation.cloths()[0].state;
+  for (int c = 0; c < 9; ++c) {
+    EXPECT_NEAR(after.position.y(0, c), before.position.y(0, c) + 0.3, 1e-5);
+    EXPECT_NEAR(after.position.x(0, c), before.position.x(0, c), 1e-5);
+  }
+  EXPECT_NEAR(simulation.bodies()[0].positions.at(3, 3).y, 1.35, 0.03);
+}
+
+TEST(Simulation, FastBodiesAreNoRunaway) {
+  Scene scene;
+  scene.ground.reset();
+  scene.gravity = {};
+  scene.cloths = {sheet(9, {0, 1, 0})};
+  scene.cloths[0].attach = {{"ball", ImagePin{{0.5, 0.5}}}};
+  SceneBody ball;
+  ball.name = "ball";
+  ball.surface = "builtin:torus";
+  ball.size = 17;
+  ball.motion = {{0, {}, {}}, {0.2, {}, {0, 20, 0}}};
+  scene.bodies = {ball};
+  Simulation simulation(scene, "fast", 1);
+  for (int frame = 0; frame < 12; ++frame) EXPECT_NO_THROW(simulation.advance());
+  EXPECT_GT(simulation.centre_of_mass().y, 15);
+}
+
 TEST(Simulation, RegionWithoutSamplesIsRefused) {
   Scene scene = free_fall(ImplicitOptions{});
   scene.cloths[0].pins = {RegionPin{{0.01, 0.01}, {0.02, 0.02}}};

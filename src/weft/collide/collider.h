@@ -36,6 +36,10 @@ struct PolarMapOptions {
 };
 using ColliderOptions = std::variant<PyramidOptions, PolarMapOptions>;
 std::string_view name_of(const ColliderOptions& options);
+/// Whether it can keep a cloth from passing through itself.
+bool knows_self_collision(const ColliderOptions& options);
+/// Whether it can keep cloth out of bodies that move.
+bool knows_moving_bodies(const ColliderOptions& options);
 
 /// What a collider needs to know of a cloth it guards.
 struct GuardedCloth {
@@ -67,7 +71,8 @@ class Collider {
   Collider& operator=(const Collider&) = delete;
   virtual ~Collider() = default;
   /// Begins a step at whose end the bodies stand at `ends`; they start from where the last step
-  /// left them. @param ends  of each body [n x n] world [m], mates equal; valid until guard is done
+  /// left them. @param ends  of each body [n x n] world [m], mates equal, valid until guard is done;
+  /// null where it stands still
   virtual void move_bodies(std::span<const Planes3* const> ends) noexcept = 0;
   /// Finds the contacts of a step from the proposals.
   virtual void detect(std::span<const MovingCloth> cloths, double time_step,

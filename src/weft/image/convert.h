@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,8 +24,9 @@ struct ConvertOptions {
   int seed_triangle = -1;    ///< of the input, before repair; -1: choose
   std::optional<Seam> seam;  ///< cut here, and elsewhere only as far as it must be for a disk
   bool augment = true;
-  int normal_map_size = 0;  ///< 0: none
-  bool keep_uv = false;     ///< sample the mesh's own texture coordinates too
+  int normal_map_size = 0;   ///< 0: none
+  bool keep_uv = false;      ///< sample the mesh's own texture coordinates too
+  bool keep_places = false;  ///< tell where on the mesh each sample lies (load_surface)
   bool fit_samples =
       false;               ///< move samples so that the triangles between them fit, see fit_samples
   bool measure = true;     ///< stage 11
@@ -83,12 +85,25 @@ struct Conversion {
 Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
                         const ConvertOptions& options);
 
+/// A sample of an image as a blend of vertices.
+struct BlendedVertex {
+  std::array<int, 3> vertices{};
+  std::array<double, 3> weights{1, 0, 0};
+};
+
+/// How the samples of an image follow the vertices of the mesh that it was made from.
+struct SampleBlends {
+  int vertices = 0;                   ///< of the mesh as it was read
+  std::vector<BlendedVertex> blends;  ///< [n * n]; mates are equal
+};
+
 /// A surface as users name it: builtin:NAME, a geometry image (.exr, .png), or a mesh that is
 /// converted.
 struct LoadedSurface {
   GeometryImage image;
-  std::optional<NormalMap> normals;  ///< where it came from a mesh
-  std::vector<std::string> notes;    ///< repairs and the like
+  std::optional<NormalMap> normals;     ///< where it came from a mesh
+  std::vector<std::string> notes;       ///< repairs and the like
+  std::optional<SampleBlends> follows;  ///< with keep_places, where it came from a mesh
 };
 /// @throws InputError, TopologyError, UsageError as the stages
 LoadedSurface load_surface(const std::string& name, const ConvertOptions& options);

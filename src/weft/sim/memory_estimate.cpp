@@ -1,5 +1,8 @@
 #include "weft/sim/memory_estimate.h"
 
+#include <filesystem>
+#include <system_error>
+
 #include <fmt/format.h>
 
 #include "weft/core/error.h"
@@ -14,6 +17,8 @@ constexpr double program_bytes = 10e6;
 constexpr double body_bytes_per_sample = 370;
 /// Every cloth has a table of every body.
 constexpr double table_bytes_per_sample = 110;
+/// Its rest and both ends of a step, and what each sample is a blend of.
+constexpr double moving_bytes_per_sample = 64;
 constexpr double margin = 1.25, short_share = 0.8;
 
 /// Of a cloth of so many samples.
@@ -29,6 +34,12 @@ struct ClothBytes {
   }
 };
 
+double animation_bytes(const std::string& path) {
+  std::error_code missing;  // is told when it is read
+  const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
+  return missing ? 0 : static_cast<double>(bytes);
+}
+
 double samples_of(const std::string& surface, int size) {
   const double side = is_image_name(surface) ? read_image(surface).size() : size;
   return side * side;
@@ -42,8 +53,12 @@ std::uint64_t estimate_memory(const Scene& scene) {
     bytes += std::visit(ClothBytes{samples_of(cloth.surface, cloth.size)}, scene.integrator);
   const double per_body_sample =
       body_bytes_per_sample + table_bytes_per_sample * static_cast<double>(scene.cloths.size());
-  for (const SceneBody& body : scene.bodies)
-    bytes += per_body_sample * samples_of(body.surface, body.size);
+  for (const SceneBody& body : scene.bodies) {
+    const double samples = samples_of(body.surface, body.size);
+    bytes += per_body_sample * samples;
+    if (!body.motion.empty() || !body.animation.empty()) bytes += moving_bytes_per_sample * samples;
+    if (!body.animation.empty()) bytes += animation_bytes(body.animation);
+  }
   return static_cast<std::uint64_t>(bytes);
 }
 

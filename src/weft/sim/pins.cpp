@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "weft/core/error.h"
-#include "weft/core/math.h"
+#include "weft/sim/motion_path.h"
 #include "weft/sim/placement.h"
 
 namespace weft {
@@ -52,8 +52,6 @@ struct Pinner {
 
 /// Whose rest places are the targets still.
 PinMotion motion_of(const Cloth& cloth, const ScenePin& place, std::vector<int> held) {
-  std::sort(held.begin(), held.end());
-  held.erase(std::unique(held.begin(), held.end()), held.end());
   PinMotion motion;
   motion.path = place.path;
   for (const int index : held) {
@@ -64,18 +62,6 @@ PinMotion motion_of(const Cloth& cloth, const ScenePin& place, std::vector<int> 
   return motion;
 }
 
-/// A pin belongs to the last place that names it.
-void let_go(const std::vector<int>& held, std::vector<PinMotion>& motions) {
-  for (PinMotion& motion : motions)
-    for (std::size_t i = motion.pins.size(); i-- > 0;)
-      if (std::find(held.begin(), held.end(), motion.pins[i]) != held.end()) {
-        motion.pins.erase(motion.pins.begin() + static_cast<std::ptrdiff_t>(i));
-        motion.rest.erase(motion.rest.begin() + static_cast<std::ptrdiff_t>(i));
-      }
-}
-
-Vec3d between(double part, Vec3d a, Vec3d b) { return a + part * (b - a); }
-
 }  // namespace
 
 int sample_at(int size, Vec2d uv) {
@@ -84,26 +70,31 @@ int sample_at(int size, Vec2d uv) {
   return row * size + col;
 }
 
+std::vector<int> pin_place(Cloth& cloth, const PinPlace& place) {
+  std::vector<int> held;
+  std::visit(Pinner{cloth, held}, place);
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  return held;
+}
+
+void let_go(std::span<const int> held, std::vector<PinMotion>& motions) {
+  for (PinMotion& motion : motions)
+    for (std::size_t i = motion.pins.size(); i-- > 0;)
+      if (std::find(held.begin(), held.end(), motion.pins[i]) != held.end()) {
+        motion.pins.erase(motion.pins.begin() + static_cast<std::ptrdiff_t>(i));
+        motion.rest.erase(motion.rest.begin() + static_cast<std::ptrdiff_t>(i));
+      }
+}
+
 std::vector<PinMotion> pin_places(Cloth& cloth, std::span<const ScenePin> places) {
   std::vector<PinMotion> motions;
   for (const ScenePin& place : places) {
-    std::vector<int> held;
-    std::visit(Pinner{cloth, held}, place.place);
+    std::vector<int> held = pin_place(cloth, place.place);
     let_go(held, motions);
     if (!place.path.empty()) motions.push_back(motion_of(cloth, place, std::move(held)));
   }
   return motions;
-}
-
-MotionKey key_at(std::span<const MotionKey> path, double seconds) {
-  if (seconds <= path.front().time) return path.front();
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const MotionKey &a = path[i - 1], &b = path[i];
-    if (seconds > b.time) continue;
-    const double part = (seconds - a.time) / (b.time - a.time);
-    return {seconds, between(part, a.rotate, b.rotate), between(part, a.translate, b.translate)};
-  }
-  return path.back();
 }
 
 void move_pins(std::span<const PinMotion> motions, double seconds, Cloth& cloth) {
@@ -121,12 +112,7 @@ double fastest_pin(std::span<const PinMotion> motions) {
   for (const PinMotion& motion : motions) {
     double reach = 0;
     for (const Vec3d& place : motion.rest) reach = std::max(reach, length(place - motion.centre));
-    for (std::size_t i = 1; i < motion.path.size(); ++i) {
-      const MotionKey &a = motion.path[i - 1], &b = motion.path[i];
-      const double way =
-          length(b.translate - a.translate) + reach * pi / 180 * length(b.rotate - a.rotate);
-      fastest = std::max(fastest, way / (b.time - a.time));
-    }
+    fastest = std::max(fastest, fastest_on(motion.path, reach));
   }
   return fastest;
 }

@@ -21,14 +21,17 @@ struct PinMotion {
 /// @throws SceneError when a region holds no sample
 std::vector<PinMotion> pin_places(Cloth& cloth, std::span<const ScenePin> places);
 
-/// Where a path stands: linear between its keys, still before the first and after the last.
-MotionKey key_at(std::span<const MotionKey> path, double seconds);
-
 /// Sets the targets of pins that move to where they are at a time.
 void move_pins(std::span<const PinMotion> motions, double seconds, Cloth& cloth);
 
 /// The fastest that any of these pins goes [m/s].
 double fastest_pin(std::span<const PinMotion> motions);
+
+/// Pins the samples of one place where the cloth's rest shape is.
+/// @return which of the cloth's pins hold them, ascending  @throws SceneError as pin_places
+std::vector<int> pin_place(Cloth& cloth, const PinPlace& place);
+/// Takes pins from the motions: something else moves them from now on.
+void let_go(std::span<const int> held, std::vector<PinMotion>& motions);
 
 /// The sample nearest to a point of the square.
 int sample_at(int size, Vec2d uv);

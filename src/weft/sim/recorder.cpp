@@ -27,14 +27,18 @@ Recorder::Recorder(const Simulation& simulation, const Scene& scene, const RunOp
     write_surface(cloth.name, cloth.image, cloth.state.position, cloths_.back());
   }
   for (const PlacedBody& body : simulation.bodies()) write_body(body);
+  if (!asks_for(options, "pc2")) return;
+  for (std::size_t i = 0; i < cloths_.size(); ++i)
+    moving_.push_back(
+        {simulation.cloths()[i].name, &cloths_[i], &simulation.cloths()[i].state.position});
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (simulation.bodies()[i].moves)
+      moving_.push_back(
+          {simulation.bodies()[i].name, &bodies_[i], &simulation.bodies()[i].positions});
 }
 
 fs::path Recorder::file(const std::string& name, const std::string& ending) const {
   return options_.folder / (name + ending);
-}
-
-std::vector<Vec3f> Recorder::points(std::size_t cloth) const {
-  return cloths_[cloth].gather(simulation_.cloths()[cloth].state.position);
 }
 
 void Recorder::write_surface(const std::string& name, const GeometryImage& image,
@@ -59,20 +63,17 @@ void Recorder::write_body(const PlacedBody& body) {
 }
 
 void Recorder::start() {
-  if (!asks_for(options_, "pc2")) return;
-  for (std::size_t i = 0; i < cloths_.size(); ++i)
-    caches_.push_back(std::make_unique<Pc2Writer>(file(simulation_.cloths()[i].name, ".pc2"),
-                                                  static_cast<int>(cloths_[i].sample_of.size()),
+  for (const Moving& moving : moving_)
+    caches_.push_back(std::make_unique<Pc2Writer>(file(moving.name, ".pc2"),
+                                                  static_cast<int>(moving.points->sample_of.size()),
                                                   TemporaryName::of_the_file));
   add_frame();
 }
 
 void Recorder::resume(bool finished) {
-  if (!asks_for(options_, "pc2")) return;
   const int frames = simulation_.frame() + 1;
   const auto each = [&](const auto& visit) {
-    for (std::size_t i = 0; i < cloths_.size(); ++i)
-      visit(file(simulation_.cloths()[i].name, ".pc2"), points(i));
+    for (const Moving& moving : moving_) visit(file(moving.name, ".pc2"), moving.gather());
   };
   // All are looked at before the first is cut back.
   each([&](const fs::path& path, const std::vector<Vec3f>& last) {
@@ -88,7 +89,7 @@ void Recorder::resume(bool finished) {
 }
 
 void Recorder::add_frame() {
-  for (std::size_t i = 0; i < caches_.size(); ++i) caches_[i]->add(points(i));
+  for (std::size_t i = 0; i < caches_.size(); ++i) caches_[i]->add(moving_[i].gather());
 }
 
 void Recorder::flush() {

@@ -41,7 +41,13 @@ class Recorder {
  private:
   [[nodiscard]] std::filesystem::path file(const std::string& name,
                                            const std::string& ending) const;
-  [[nodiscard]] std::vector<Vec3f> points(std::size_t cloth) const;
+  /// What has a point cache: cloths, and bodies that move.
+  struct Moving {
+    std::string name;
+    const SurfacePoints* points;
+    const Planes3* positions;  ///< now [m]
+    [[nodiscard]] std::vector<Vec3f> gather() const { return points->gather(*positions); }
+  };
   void write_surface(const std::string& name, const GeometryImage& image, const Planes3& positions,
                      const SurfacePoints& points);
   void write_body(const PlacedBody& body);
@@ -50,7 +56,8 @@ class Recorder {
   const Scene& scene_;
   const RunOptions& options_;
   std::vector<SurfacePoints> cloths_, bodies_;
-  std::vector<std::unique_ptr<Pc2Writer>> caches_;  // one a cloth, where they are wanted
+  std::vector<Moving> moving_;                      // where caches are wanted
+  std::vector<std::unique_ptr<Pc2Writer>> caches_;  // one for each that is not whole yet
   std::vector<std::filesystem::path> outputs_;
   std::optional<IntersectionCheck> check_;  // made where it is asked for
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -46,13 +47,13 @@ Placement placement_of(const JsonObject& object) {
 constexpr std::array<std::string_view, 8> manifest_keys{"version", "scene",  "unit",   "frame_rate",
                                                         "frames",  "ground", "cloths", "bodies"};
 constexpr std::array<std::string_view, 4> cloth_keys{"name", "image", "cache", "unwelded"};
-constexpr std::array<std::string_view, 6> body_keys{"name",  "image",  "normals",
-                                                    "scale", "rotate", "translate"};
+constexpr std::array<std::string_view, 8> body_keys{"name",   "image",     "normals", "scale",
+                                                    "rotate", "translate", "cache",   "unwelded"};
 
 /// Points and frames that a PC2 file says it holds, checked against its length.
-void read_cache_header(RecordedCloth& cloth) {
-  const std::string where = cloth.cache.string();
-  std::ifstream in(cloth.cache, std::ios::binary);
+void read_cache_header(RecordedPoints& recorded) {
+  const std::string where = recorded.cache.string();
+  std::ifstream in(recorded.cache, std::ios::binary);
   std::array<char, pc2_header_bytes> header{};
   if (!in || !in.read(header.data(), header.size()) ||
       std::string_view(header.data(), 11) != "POINTCACHE2")
@@ -61,15 +62,32 @@ void read_cache_header(RecordedCloth& cloth) {
   std::memcpy(&points, header.data() + 16, 4);
   std::memcpy(&frames, header.data() + 28, 4);
   std::error_code error;
-  const std::uintmax_t bytes = fs::file_size(cloth.cache, error);
+  const std::uintmax_t bytes = fs::file_size(recorded.cache, error);
   const auto wanted = static_cast<std::uintmax_t>(pc2_header_bytes) +
                       12 * static_cast<std::uintmax_t>(std::max(points, 0)) * std::max(frames, 0);
   if (points < 1 || frames < 0 || error || bytes != wanted)
     throw InputError(where,
                      fmt::format("{} bytes for {} points and {} frames", bytes, points, frames),
                      fmt::format("{} bytes are wanted", wanted));
-  cloth.points = points;
-  cloth.frames = frames;
+  recorded.points = points;
+  recorded.frames = frames;
+}
+
+/// @param object  of a cloth or body that names its cache
+RecordedPoints open_cache(const fs::path& folder, const JsonObject& object,
+                          const GeometryImage& image) {
+  RecordedPoints recorded;
+  const std::string cache = object.text("cache", "");
+  if (cache.empty())
+    object.place().key("cache").fail("no cache", "a run that exports pc2 is wanted");
+  recorded.cache = folder / cache;
+  SurfacePoints points = surface_points(image, object.boolean("unwelded", false));
+  recorded.vertex_of = std::move(points.vertex_of);
+  read_cache_header(recorded);
+  if (recorded.points != static_cast<int>(points.sample_of.size()))
+    throw InputError(recorded.cache.string(), fmt::format("{} points", recorded.points),
+                     fmt::format("the image makes {}", points.sample_of.size()));
+  return recorded;
 }
 
 RecordedCloth open_cloth(const fs::path& folder, const Json& value, const JsonPlace& place) {
@@ -77,25 +95,21 @@ RecordedCloth open_cloth(const fs::path& folder, const Json& value, const JsonPl
   RecordedCloth cloth;
   cloth.name = object.text("name", "");
   cloth.image = read_image(folder / object.text("image", ""));
-  const std::string cache = object.text("cache", "");
-  if (cache.empty()) place.key("cache").fail("no cache", "a run that exports pc2 is wanted");
-  cloth.cache = folder / cache;
-  SurfacePoints points = surface_points(cloth.image, object.boolean("unwelded", false));
-  cloth.vertex_of = std::move(points.vertex_of);
-  read_cache_header(cloth);
-  if (cloth.points != static_cast<int>(points.sample_of.size()))
-    throw InputError(cloth.cache.string(), fmt::format("{} points", cloth.points),
-                     fmt::format("the image makes {}", points.sample_of.size()));
+  cloth.recorded = open_cache(folder, object, cloth.image);
   return cloth;
 }
 
-PlacedBody open_body(const fs::path& folder, const Json& value, const JsonPlace& place) {
+RecordedBody open_body(const fs::path& folder, const Json& value, const JsonPlace& place) {
   const JsonObject object(value, place, body_keys);
-  PlacedBody body;
+  RecordedBody body;
   body.name = object.text("name", "");
   body.image = read_image(folder / object.text("image", ""));
   const PlacementMap map = placement_map(placement_of(object));
   body.positions = placed_positions(body.image, map);
+  if (object.has("cache")) {
+    body.recorded = open_cache(folder, object, body.image);
+    return body;
+  }
   const std::string normals = object.text("normals", "");
   if (!normals.empty()) {
     const fs::path path = folder / normals;
@@ -134,26 +148,29 @@ RunFolder read_manifest(const fs::path& folder, const Json& json, const JsonPlac
   each("bodies", [&](const Json& value, const JsonPlace& at) {
     run.bodies.push_back(open_body(folder, value, at));
   });
-  for (const RecordedCloth& cloth : run.cloths) run.frames = std::min(run.frames, cloth.frames);
+  for (const RecordedCloth& cloth : run.cloths)
+    run.frames = std::min(run.frames, cloth.recorded.frames);
+  for (const RecordedBody& body : run.bodies)
+    if (body.recorded) run.frames = std::min(run.frames, body.recorded->frames);
   return run;
 }
 
 }  // namespace
 
-Planes3 RunFolder::positions(std::size_t cloth, int frame) const {
-  const RecordedCloth& recorded = cloths.at(cloth);
-  if (frame < 0 || frame >= recorded.frames)
-    throw UsageError(recorded.cache.string(), fmt::format("no frame {}", frame),
-                     fmt::format("frames 0 to {} are there", recorded.frames - 1));
-  std::vector<Vec3f> points(recorded.points);
-  const auto bytes = static_cast<std::streamoff>(points.size() * sizeof(Vec3f));
-  std::ifstream in(recorded.cache, std::ios::binary);
+Planes3 RecordedPoints::positions(int frame) const {
+  if (frame < 0 || frame >= frames)
+    throw UsageError(cache.string(), fmt::format("no frame {}", frame),
+                     fmt::format("frames 0 to {} are there", frames - 1));
+  std::vector<Vec3f> read(static_cast<std::size_t>(points));
+  const auto bytes = static_cast<std::streamoff>(read.size() * sizeof(Vec3f));
+  std::ifstream in(cache, std::ios::binary);
   in.seekg(pc2_header_bytes + frame * bytes);
-  if (!in.read(reinterpret_cast<char*>(points.data()), bytes))
-    throw InputError(recorded.cache.string(), "ends early", "a whole point cache is wanted");
-  Planes3 positions(recorded.image.size());
-  for (int s = 0; s < static_cast<int>(recorded.vertex_of.size()); ++s)
-    positions.set(s, points[recorded.vertex_of[s]]);
+  if (!in.read(reinterpret_cast<char*>(read.data()), bytes))
+    throw InputError(cache.string(), "ends early", "a whole point cache is wanted");
+  const auto side = static_cast<int>(std::lround(std::sqrt(vertex_of.size())));
+  Planes3 positions(side);
+  for (std::size_t s = 0; s < vertex_of.size(); ++s)
+    positions.set(static_cast<int>(s), read[static_cast<std::size_t>(vertex_of[s])]);
   return positions;
 }
 
@@ -191,6 +208,10 @@ void write_run_manifest(const fs::path& path, const Scene& scene, const RunRepor
     Json placed = placed_json(body.name, body.placement);
     const fs::path normals = normals_path(options.folder, body.name);
     if (fs::exists(normals)) placed["normals"] = normals.filename().string();
+    if (!body.motion.empty() || !body.animation.empty()) {
+      placed["cache"] = cached ? body.name + ".pc2" : "";
+      placed["unwelded"] = options.unwelded;
+    }
     json["bodies"].push_back(std::move(placed));
   }
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "weft/core/files.h"
 #include "weft/core/hash.h"
 #include "weft/sim/scene_file.h"
 
@@ -18,6 +19,14 @@ std::string surface_name(const Planes3& placed, const BorderMates& mates) {
   Hash hash;
   for (const Grid<float>* plane : {&placed.x, &placed.y, &placed.z}) hash.add(*plane);
   for (int i = 0; i < mates.class_count(); ++i) hash.add(mates.mates(i));
+  return std::string("/").append(hash.text());
+}
+
+/// The same of a file's bytes.
+std::string file_name(const std::string& path) {
+  const std::string bytes = read_file(path);
+  Hash hash;
+  hash.add(std::span<const char>(bytes));
   return std::string("/").append(hash.text());
 }
 
@@ -37,6 +46,8 @@ std::string run_identity(const Scene& scene, const Simulation& simulation,
   for (std::size_t i = 0; i < named.bodies.size(); ++i) {
     const PlacedBody& body = simulation.bodies()[i];
     named.bodies[i].surface = surface_name(body.positions, body.image.mates);
+    if (!named.bodies[i].animation.empty())
+      named.bodies[i].animation = file_name(named.bodies[i].animation);
   }
   Json json = Json::parse(scene_text(named, "/scene.json"));
   json.erase("frames");

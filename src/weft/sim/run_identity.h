@@ -7,8 +7,8 @@
 namespace weft {
 
 /// What makes a run the one that it is, as JSON: the scene with every key but the number of frames,
-/// surfaces by a hash of the samples that they became (so that a changed mesh is another scene, a
-/// moved one is not), and what is recorded.
+/// surfaces by a hash of the samples that they became and animations by one of their bytes (so that
+/// a changed file is another scene, a moved one is not), and what is recorded.
 std::string run_identity(const Scene& scene, const Simulation& simulation,
                          const RunOptions& options);
 

@@ -48,6 +48,12 @@ struct ScenePin {
   std::vector<MotionKey> path;
 };
 
+/// Samples of a cloth that are tied to a body's surface, as a scene names them.
+struct SceneAttachment {
+  std::string body;  ///< its name
+  PinPlace place;
+};
+
 struct SceneCloth {
   std::string name = "cloth";
   std::string surface = "builtin:sheet";
@@ -55,9 +61,11 @@ struct SceneCloth {
   Placement placement;
   Material material;
   double friction = 0.4;
-  bool self_collision = true;  ///< where the collider can
-  Vec3d velocity;              ///< at the start [m/s]
+  std::optional<bool> self_collision;  ///< none: where the collider can
+  Vec3d velocity;                      ///< at the start [m/s]
   std::vector<ScenePin> pins;
+  /// A sample that a pin holds too follows the body.
+  std::vector<SceneAttachment> attach;
 };
 
 struct SceneBody {
@@ -66,6 +74,13 @@ struct SceneBody {
   int size = 257;
   Placement placement;
   double friction = 0.4;
+  /// From the placed body, turned about its placed origin (its placement's translate); ascending
+  /// times. Only one of motion and animation.
+  std::vector<MotionKey> motion;
+  std::string animation;  ///< a point cache (PC2, MDD) of the surface's vertices; empty: none
+  /// Eases the body from its rest place to where motion or animation begin, which start after it.
+  /// [s]
+  double lead_in = 0;
 };
 
 /// A scene file as a value; every default is the file's default.

@@ -1,12 +1,15 @@
 #include "weft/sim/scene_file.h"
 
+#include <algorithm>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "weft/core/error.h"
 #include "weft/core/files.h"
+#include "weft/core/nearest_name.h"
 #include "weft/core/parse_json.h"
 #include "weft/sim/detail/scene_parts.h"
 #include "weft/sim/scene_keys.h"
@@ -73,6 +76,22 @@ void check_names(const Scene& scene, const JsonPlace& place) {
     check(scene.bodies[i].name + ".normals", "bodies", i);
 }
 
+/// Where a cloth is tied to what is not there.
+void check_attachments(const Scene& scene, const JsonPlace& place) {
+  std::vector<std::string_view> names;
+  for (const SceneBody& body : scene.bodies) names.push_back(body.name);
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    const std::vector<SceneAttachment>& attach = scene.cloths[i].attach;
+    for (std::size_t k = 0; k < attach.size(); ++k)
+      if (std::find(names.begin(), names.end(), attach[k].body) == names.end())
+        place.key("cloths").element(i).key("attach").element(k).key("body").fail(
+            fmt::format("no body is called '{}'", attach[k].body),
+            names.empty()
+                ? "a scene with a body is wanted"
+                : fmt::format("the nearest known is '{}'", nearest_name(attach[k].body, names)));
+  }
+}
+
 void read_ground(const JsonObject& root, Scene& scene) {
   const nlohmann::json* ground = root.find("ground");
   if (ground != nullptr && ground->is_null()) {
@@ -109,7 +128,29 @@ Scene parse_scene(std::string_view text, const std::string& name,
   });
   if (scene.cloths.empty()) root.place().key("cloths").fail("no cloth", "at least one is wanted");
   check_names(scene, root.place());
+  check_attachments(scene, root.place());
+  check_abilities(scene, name);
   return scene;
+}
+
+void check_abilities(const Scene& scene, const std::string& name) {
+  const JsonPlace root{name, ""};
+  const auto refuse = [&](const JsonPlace& place, std::string_view what, std::string_view wanted) {
+    place.fail(fmt::format("{} not available with collider {}", what, name_of(scene.collider)),
+               wanted);
+  };
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+    if (scene.cloths[i].self_collision.value_or(false) && !knows_self_collision(scene.collider))
+      refuse(root.key("cloths").element(i).key("self_collision"), "true is", "false is wanted");
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const SceneBody& body = scene.bodies[i];
+    if (knows_moving_bodies(scene.collider)) continue;
+    for (const auto& [key, given] : {std::pair{"motion", !body.motion.empty()},
+                                     std::pair{"animation", !body.animation.empty()}})
+      if (given)
+        refuse(root.key("bodies").element(i).key(key), "moving bodies are",
+               "another collider, or bodies that stand still, are wanted");
+  }
 }
 
 Scene read_scene(const std::filesystem::path& path) {

@@ -16,6 +16,10 @@ Scene read_scene(const std::filesystem::path& path);
 Scene parse_scene(std::string_view text, const std::string& name,
                   const std::filesystem::path& folder);
 
+/// Checks that the scene's collider can do what the scene asks for, which reading does, too.
+/// @param name  of the scene, for the error  @throws SceneError FILE:KEY
+void check_abilities(const Scene& scene, const std::string& name);
+
 /// Writes a scene with every key, so that reading it back gives the same scene. @throws OutputError
 void write_scene(const std::filesystem::path& path, const Scene& scene);
 /// The same in memory: what a file at that path would hold.

@@ -21,7 +21,7 @@ inline constexpr std::array<std::string_view, 4> multigrid_integrator{
 inline constexpr std::array<std::string_view, 6> two_level_integrator{
     "type", "limiter_passes", "local_size", "global_size", "as_printed", "filter_stiffness"};
 inline constexpr std::array<std::string_view, 1> pyramid_collider{"type"};
-inline constexpr std::array<std::string_view, 3> collider{"type", "size", "walk"};
+inline constexpr std::array<std::string_view, 3> polar_map_collider{"type", "size", "walk"};
 inline constexpr std::array<std::string_view, 12> cloth{
     "name",     "surface",        "size",     "scale",    "rotate", "translate",
     "material", "self_collision", "friction", "velocity", "pins",   "attach"};
@@ -33,5 +33,6 @@ inline constexpr std::array<std::string_view, 8> material{"density",      "stret
                                                           "strain_limit", "thickness"};
 inline constexpr std::array<std::string_view, 3> motion_key{"time", "rotate", "translate"};
 inline constexpr std::array<std::string_view, 4> pin{"image", "nearest", "region", "path"};
+inline constexpr std::array<std::string_view, 4> attachment{"body", "image", "nearest", "region"};
 
 }  // namespace weft::scene_keys

@@ -66,12 +66,22 @@ struct PinWriter {
   }
 };
 
+void add_motion(Json& json, const char* name, const std::vector<MotionKey>& motion) {
+  for (const MotionKey& key : motion)
+    json[name].push_back({{"time", key.time},
+                          {"rotate", to_json(key.rotate)},
+                          {"translate", to_json(key.translate)}});
+}
+
 Json pin_json(const ScenePin& pin) {
   Json json = std::visit(PinWriter{}, pin.place);
-  for (const MotionKey& key : pin.path)
-    json["path"].push_back({{"time", key.time},
-                            {"rotate", to_json(key.rotate)},
-                            {"translate", to_json(key.translate)}});
+  add_motion(json, "path", pin.path);
+  return json;
+}
+
+Json attachment_json(const SceneAttachment& attachment) {
+  Json json = std::visit(PinWriter{}, attachment.place);
+  json["body"] = attachment.body;
   return json;
 }
 
@@ -81,16 +91,19 @@ void add_placement(Json& json, const Placement& placement) {
   json["translate"] = to_json(placement.translate);
 }
 
-Json cloth_json(const SceneCloth& cloth, const fs::path& folder) {
+Json cloth_json(const SceneCloth& cloth, bool self_collision, const fs::path& folder) {
   Json json{
       {"name", cloth.name}, {"surface", surface_text(cloth.surface, folder)}, {"size", cloth.size}};
   add_placement(json, cloth.placement);
   json["material"] = material_json(cloth.material);
-  json["self_collision"] = cloth.self_collision;
+  json["self_collision"] = self_collision;
   json["friction"] = cloth.friction;
   json["velocity"] = to_json(cloth.velocity);
   json["pins"] = Json::array();
   for (const ScenePin& pin : cloth.pins) json["pins"].push_back(pin_json(pin));
+  json["attach"] = Json::array();
+  for (const SceneAttachment& attachment : cloth.attach)
+    json["attach"].push_back(attachment_json(attachment));
   return json;
 }
 
@@ -99,6 +112,9 @@ Json body_json(const SceneBody& body, const fs::path& folder) {
       {"name", body.name}, {"surface", surface_text(body.surface, folder)}, {"size", body.size}};
   add_placement(json, body.placement);
   json["friction"] = body.friction;
+  add_motion(json, "motion", body.motion);
+  if (!body.animation.empty()) json["animation"] = surface_text(body.animation, folder);
+  if (!body.motion.empty() || !body.animation.empty()) json["lead_in"] = body.lead_in;
   return json;
 }
 
@@ -118,7 +134,10 @@ Json scene_json(const Scene& scene, const fs::path& folder) {
   if (scene.limiter_passes) json["integrator"]["limiter_passes"] = *scene.limiter_passes;
   json["collider"] = collider_json(scene.collider);
   json["cloths"] = Json::array();
-  for (const SceneCloth& cloth : scene.cloths) json["cloths"].push_back(cloth_json(cloth, folder));
+  const bool able = knows_self_collision(scene.collider);
+  for (const SceneCloth& cloth : scene.cloths)
+    json["cloths"].push_back(
+        cloth_json(cloth, able && cloth.self_collision.value_or(true), folder));
   json["bodies"] = Json::array();
   for (const SceneBody& body : scene.bodies) json["bodies"].push_back(body_json(body, folder));
   return json;

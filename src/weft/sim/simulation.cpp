@@ -11,9 +11,13 @@
 #include "weft/core/assert.h"
 #include "weft/core/error.h"
 #include "weft/core/hash.h"
+#include "weft/image/rebuild.h"
+#include "weft/sim/attachments.h"
+#include "weft/sim/driven_bodies.h"
 #include "weft/sim/pins.h"
 #include "weft/sim/placement.h"
 #include "weft/sim/runaway.h"
+#include "weft/sim/scene_file.h"
 
 namespace weft {
 namespace {
@@ -94,9 +98,17 @@ struct Simulation::Parts {
   LoadedSurface load(const std::string& surface, ConvertOptions options, const std::string& what);
   void load_cloths();
   void load_bodies();
+  /// Ties cloths to bodies, which stand where they begin.
+  void tie_cloths();
   void make_movers();
-  /// The speed that wind and moving pins may lend a cloth [m/s].
+  /// With the bodies where they are.
+  void make_guard();
+  /// The speed that wind, bodies and moving pins may lend a cloth [m/s].
   [[nodiscard]] double drive_of(std::size_t index) const;
+  /// Begins a step that ends at a time: bodies and pins go there.
+  void move_driven(double seconds);
+  /// Ends the step: bodies are where it took them.
+  void bodies_arrive();
   /// Advances all cloths. @return particles in contact
   int step(FrameReport& report);
   /// Begins a cloth's step, up to its first proposal.
@@ -132,8 +144,10 @@ struct Simulation::Parts {
   bool soft;         // springs that leave all stretch to the limiter
   std::vector<SimulatedCloth> cloths;
   std::vector<PlacedBody> bodies;
+  DrivenBodies driven;
   std::vector<std::string> notes;
   std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
+  std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
   std::vector<Mover> movers;                        // one a cloth
   std::unique_ptr<Collider> collider;
   std::vector<MovingCloth> moving;  // of this step
@@ -176,33 +190,70 @@ void Simulation::Parts::load_bodies() {
     ConvertOptions options;
     options.size = wanted.size;
     options.normal_map_size = body_normal_map_size;
+    options.keep_places = !wanted.animation.empty();
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
+    BodyMotion motion(wanted, loaded, scene.frame_rate);
     const PlacementMap map = placement_map(wanted.placement);
     PlacedBody body;
     body.name = wanted.name;
-    if (loaded.normals) body.normals = placed_normals(*loaded.normals, map);
+    body.moves = motion.moves();
+    if (loaded.normals && !body.moves) body.normals = placed_normals(*loaded.normals, map);
     body.image_normals = std::move(loaded.normals);
     body.positions = placed_positions(loaded.image, map);
     body.image = std::move(loaded.image);
+    driven.add(std::move(motion));
     bodies.push_back(std::move(body));
+  }
+  driven.go(0, team);
+  bodies_arrive();
+}
+
+void Simulation::Parts::bodies_arrive() {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].moves) bodies[i].positions = *driven.ends()[i];
+}
+
+void Simulation::Parts::tie_cloths() {
+  std::vector<TiedSurface> surfaces;
+  for (const PlacedBody& body : bodies)
+    surfaces.push_back({body.name, &body.positions, grid_triangles(body.image)});
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    tied_pins.push_back(
+        tie_places(cloths[i].cloth, scene.cloths[i].attach, surfaces, pin_motions[i]));
+}
+
+void Simulation::Parts::move_driven(double seconds) {
+  driven.go(seconds, team);
+  if (driven.any_moves()) collider->move_bodies(driven.ends());
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    move_pins(pin_motions[i], seconds, cloths[i].cloth);
+    move_tied(tied_pins[i], driven.ends(), cloths[i].cloth);
   }
 }
 
-void Simulation::Parts::make_movers() {
+void Simulation::Parts::make_guard() {
   Obstacles obstacles;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     obstacles.bodies.push_back({bodies[i].positions, bodies[i].image.mates,
                                 scene.bodies[i].friction, choose_diagonals(bodies[i].image)});
   obstacles.ground = scene.ground;
   obstacles.ground_friction = ground_friction;
-  const StepInput typical{time_step, vec_cast<float>(scene.gravity)};
   std::vector<GuardedCloth> guarded;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
-    guarded.push_back({cloth.cloth.mates, cloth.cloth.size, choose_diagonals(cloth.image),
-                       gap_of(cloth.cloth), scene.cloths[i].friction, cloth.cloth.rest_spacing,
-                       scene.cloths[i].self_collision});
+    guarded.push_back(
+        {cloth.cloth.mates, cloth.cloth.size, choose_diagonals(cloth.image), gap_of(cloth.cloth),
+         scene.cloths[i].friction, cloth.cloth.rest_spacing,
+         knows_self_collision(scene.collider) && scene.cloths[i].self_collision.value_or(true)});
+  }
+  collider = make_collider(scene.collider, obstacles, guarded);
+}
+
+void Simulation::Parts::make_movers() {
+  const StepInput typical{time_step, vec_cast<float>(scene.gravity)};
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const SimulatedCloth& cloth = cloths[i];
     movers.push_back(
         {make_integrator(scene.integrator, cloth.cloth, typical, solvers(i)),
          scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
@@ -211,12 +262,12 @@ void Simulation::Parts::make_movers() {
     if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
       notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }
-  collider = make_collider(scene.collider, obstacles, guarded);
   moving.reserve(cloths.size());
 }
 
 double Simulation::Parts::drive_of(std::size_t index) const {
-  return (scene.wind ? length(scene.wind->velocity) : 0) + fastest_pin(pin_motions[index]);
+  return (scene.wind ? length(scene.wind->velocity) : 0) +
+         std::max(fastest_pin(pin_motions[index]), driven.fastest());
 }
 
 void Simulation::Parts::propose(std::size_t index) {
@@ -347,10 +398,13 @@ void Simulation::Parts::measure(FrameReport& report) {
 Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOptions& team,
                        Progress* progress)
     : parts_(std::make_unique<Parts>(scene, name, team, progress)) {
+  check_abilities(scene, name);
   if (scene.cloths.empty()) throw SceneError(name, "no cloth", "at least one is wanted");
   parts_->load_cloths();
   parts_->load_bodies();
+  parts_->tie_cloths();
   parts_->make_movers();
+  parts_->make_guard();
 }
 
 Simulation::~Simulation() = default;
@@ -364,9 +418,9 @@ FrameReport Simulation::advance() {
            (parts_->frame + static_cast<double>(substep) / substeps) /
                std::max(parts_->frame + 1, parts_->scene.frames));
     const double seconds = parts_->time_step * (parts_->frame * substeps + substep + 1);
-    for (std::size_t i = 0; i < parts_->cloths.size(); ++i)
-      move_pins(parts_->pin_motions[i], seconds, parts_->cloths[i].cloth);
+    parts_->move_driven(seconds);
     const int contacts = parts_->step(report);
+    parts_->bodies_arrive();
     for (std::size_t i = 0; i < parts_->cloths.size(); ++i) {
       const SimulatedCloth& cloth = parts_->cloths[i];
       if (const auto bad =
@@ -391,6 +445,11 @@ void Simulation::restore(const SimulationState& state) {
   WEFT_ASSERT(state.cloths.size() == parts_->cloths.size());
   parts_->frame = state.frame;
   for (std::size_t i = 0; i < state.cloths.size(); ++i) parts_->cloths[i].state = state.cloths[i];
+  if (!parts_->driven.any_moves()) return;
+  parts_->driven.go(parts_->time_step * (parts_->frame * parts_->scene.substeps), parts_->team);
+  parts_->bodies_arrive();
+  // A new guard, for which this is no motion.
+  parts_->make_guard();
 }
 
 int Simulation::frame() const { return parts_->frame; }

@@ -34,9 +34,11 @@ struct SimulatedCloth {
 struct PlacedBody {
   std::string name;
   GeometryImage image;
-  std::optional<NormalMap> normals;  ///< rotated into the world, where the surface came from a mesh
+  /// Rotated into the world, where the surface came from a mesh and the body stands still.
+  std::optional<NormalMap> normals;
   std::optional<NormalMap> image_normals;  ///< the same as loaded
-  Planes3 positions;                       ///< world [m]
+  Planes3 positions;                       ///< world, now [m]
+  bool moves = false;                      ///< by motion or animation
 };
 
 /// All that the next frame depends on besides the scene: integrators and colliders carry nothing

@@ -101,10 +101,6 @@ Vec3d JsonObject::vector(std::string_view key, Vec3d fallback) const {
   return {v[0], v[1], v[2]};
 }
 
-void JsonObject::refuse(std::string_view key, std::string_view wanted) const {
-  if (has(key)) place_.key(key).fail("is not supported by this version", wanted);
-}
-
 std::vector<double> numbers_of(const nlohmann::json& value, const JsonPlace& place,
                                std::size_t count) {
   std::vector<double> numbers;

@@ -47,8 +47,6 @@ class JsonObject {
   [[nodiscard]] bool boolean(std::string_view key, bool fallback) const;
   [[nodiscard]] std::string text(std::string_view key, std::string_view fallback) const;
   [[nodiscard]] Vec3d vector(std::string_view key, Vec3d fallback) const;
-  /// @throws SceneError when the key is there: for what this version does not offer
-  void refuse(std::string_view key, std::string_view wanted) const;
 
  private:
   const nlohmann::json& value_;

@@ -85,7 +85,7 @@ ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& plac
   if (type != name_of(PolarMapOptions{}))
     place.key("type").fail(fmt::format("unknown collider '{}'", type),
                            "known are: pyramid, polar_map");
-  const JsonObject object(value, place, scene_keys::collider);
+  const JsonObject object(value, place, scene_keys::polar_map_collider);
   PolarMapOptions options;
   options.size = object.integer("size", options.size, 0, largest_table);
   options.walk = object.boolean("walk", options.walk);

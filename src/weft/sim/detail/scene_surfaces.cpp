@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/nearest_name.h"
+#include "weft/mesh/io/point_cache.h"
 #include "weft/sim/detail/scene_parts.h"
 #include "weft/sim/materials.h"
 #include "weft/sim/scene_keys.h"
@@ -47,6 +48,17 @@ std::string read_surface(const JsonObject& object, std::string_view fallback,
   return resolved(surface, folder);
 }
 
+/// Empty where there is none.
+std::string read_animation(const JsonObject& object, const fs::path& folder) {
+  if (!object.has("animation")) return {};
+  const std::string name = object.text("animation", "");
+  if (!is_point_cache_name(name))
+    object.place()
+        .key("animation")
+        .fail(fmt::format("'{}'", name), "a point cache, .pc2 or .mdd, is wanted");
+  return resolved(name, folder);
+}
+
 /// Names become file names, so they must be plain.
 std::string read_name(const JsonObject& object, std::string_view fallback) {
   std::string name = object.text("name", fallback);
@@ -59,77 +71,6 @@ std::string read_name(const JsonObject& object, std::string_view fallback) {
         fmt::format("'{}'", name),
         "a name of letters, digits, '_', '-' and '.' is wanted: files are named by it");
   return name;
-}
-
-Vec2d read_image_point(const nlohmann::json& value, const JsonPlace& place) {
-  const std::vector<double> uv = numbers_of(value, place, 2);
-  for (const double x : uv)
-    if (x < 0 || x > 1)
-      place.fail(fmt::format("[{}, {}]", uv[0], uv[1]), "u and v from 0 to 1 are wanted");
-  return {uv[0], uv[1]};
-}
-
-MotionKey read_motion_key(const nlohmann::json& value, const JsonPlace& place) {
-  const JsonObject object(value, place, scene_keys::motion_key);
-  MotionKey key;
-  key.time = object.number("time", 0, not_negative);
-  key.rotate = object.vector("rotate", {});
-  key.translate = object.vector("translate", {});
-  return key;
-}
-
-/// Keys at ascending times; empty where there are none.
-std::vector<MotionKey> read_path(const JsonObject& object) {
-  std::vector<MotionKey> path;
-  const nlohmann::json* list = object.find("path");
-  if (list == nullptr) return path;
-  const JsonPlace place = object.place().key("path");
-  if (!list->is_array() || list->empty())
-    place.fail("no list of keys", "[{\"time\", \"rotate\", \"translate\"}, ...] is wanted");
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    path.push_back(read_motion_key((*list)[i], place.element(i)));
-    if (i > 0 && path[i].time <= path[i - 1].time)
-      place.element(i).key("time").fail(fmt::format("{} after {}", path[i].time, path[i - 1].time),
-                                        "ascending times are wanted");
-  }
-  return path;
-}
-
-PinPlace read_pin_place(const JsonObject& object) {
-  const JsonPlace& place = object.place();
-  const int ways = (object.has("image") ? 1 : 0) + (object.has("nearest") ? 1 : 0) +
-                   (object.has("region") ? 1 : 0);
-  if (ways != 1)
-    place.fail(fmt::format("{} places", ways),
-               "one of \"image\", \"nearest\" and \"region\" is wanted");
-  if (const nlohmann::json* image = object.find("image"))
-    return ImagePin{read_image_point(*image, place.key("image"))};
-  if (object.has("nearest")) return NearestPin{object.vector("nearest", {})};
-  const nlohmann::json& region = *object.find("region");
-  const JsonPlace at = place.key("region");
-  if (!region.is_array() || region.size() != 2)
-    at.fail("no pair of points", "[[u0, v0], [u1, v1]] is wanted");
-  const RegionPin pin{read_image_point(region[0], at.element(0)),
-                      read_image_point(region[1], at.element(1))};
-  if (pin.lower.x > pin.upper.x || pin.lower.y > pin.upper.y)
-    at.fail("an empty region", "the first point below the second is wanted");
-  return pin;
-}
-
-ScenePin read_pin(const nlohmann::json& value, const JsonPlace& place) {
-  const JsonObject object(value, place, scene_keys::pin);
-  return {read_pin_place(object), read_path(object)};
-}
-
-std::vector<ScenePin> read_pins(const JsonObject& object) {
-  std::vector<ScenePin> pins;
-  const nlohmann::json* list = object.find("pins");
-  if (list == nullptr) return pins;
-  const JsonPlace place = object.place().key("pins");
-  if (!list->is_array()) place.fail("no list", "a list of pins is wanted");
-  for (std::size_t i = 0; i < list->size(); ++i)
-    pins.push_back(read_pin((*list)[i], place.element(i)));
-  return pins;
 }
 
 Material material_by_name(const std::string& name, const JsonPlace& place) {
@@ -170,8 +111,8 @@ SceneCloth read_cloth(const nlohmann::json& value, const JsonPlace& place, const
   cloth.friction = object.number("friction", cloth.friction, friction_range);
   cloth.velocity = object.vector("velocity", {});
   cloth.pins = read_pins(object);
-  cloth.self_collision = object.boolean("self_collision", cloth.self_collision);
-  object.refuse("attach", "cloths hang on pins here; leave the key out");
+  cloth.attach = read_attachments(object);
+  if (object.has("self_collision")) cloth.self_collision = object.boolean("self_collision", false);
   return cloth;
 }
 
@@ -183,8 +124,13 @@ SceneBody read_body(const nlohmann::json& value, const JsonPlace& place, const f
   body.size = object.integer("size", body.size, least_image_size, largest_image_size);
   body.placement = read_placement(object);
   body.friction = object.number("friction", body.friction, friction_range);
-  for (const std::string_view key : {"motion", "animation", "lead_in"})
-    object.refuse(key, "bodies stand still here; leave the key out");
+  body.motion = read_motion(object, "motion");
+  body.animation = read_animation(object, folder);
+  if (!body.motion.empty() && !body.animation.empty())
+    place.key("animation").fail("is there beside motion", "one of both is wanted");
+  body.lead_in = object.number("lead_in", body.lead_in, not_negative);
+  if (object.has("lead_in") && body.motion.empty() && body.animation.empty())
+    place.key("lead_in").fail("leads to nothing", "motion or animation beside it is wanted");
   return body;
 }
 
