@@ -9,6 +9,9 @@ namespace {
 /// Of the gap: how much of what is missing to it a step may win back, so that cloth that starts
 /// inside something is pushed out and not shot out.
 constexpr double most_recovery = 0.25;
+/// The solve may bring cloth closer than its proposal, by springs: contacts begin this many gaps
+/// before the one that is kept.
+constexpr double foresight = 2;
 
 double pair_friction(double a, double b) { return std::sqrt(a * b); }
 
@@ -38,7 +41,7 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
                              int sample, std::vector<Contact>& out) {
   const Vec3d start = vec_cast<double>(cloth.start.at(sample));
   const Vec3d way = vec_cast<double>(cloth.position.at(sample)) - start;
-  const double reach = deep ? HUGE_VAL : gap_ + length(way) + body.most_moved;
+  const double reach = deep ? HUGE_VAL : foresight * gap_ + length(way) + body.most_moved;
   const auto found = body.query->closest(start, reach);
   if (!found) return;
   const bool behind = body.query->closed() && body.query->behind(start, *found);
@@ -51,7 +54,7 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
                            : body.query->normal_at(*found);
   const double gap = behind ? -distance : distance;
   const Vec3d slide = displaced(body, *found);
-  if (gap + dot(normal, way - slide) >= gap_) return;
+  if (gap + dot(normal, way - slide) >= foresight * gap_) return;
   Contact contact;
   contact.samples[0] = sample;
   contact.normal = vec_cast<float>(normal);
@@ -63,7 +66,7 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
 
 void BodyContacts::find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
                                std::vector<Contact>& out) const {
-  if (cloth.position.at(sample).y >= ground.height + gap_) return;
+  if (cloth.position.at(sample).y >= ground.height + foresight * gap_) return;
   Contact contact;
   contact.samples[0] = sample;
   contact.normal = {0, 1, 0};

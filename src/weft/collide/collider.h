@@ -50,6 +50,7 @@ struct GuardedCloth {
   double friction = 0.4;       ///< of the cloth; of a pair: the geometric mean
   double rest_spacing = 0;     ///< mean distance of neighbouring samples at rest [m]
   bool self_collision = false;
+  double self_thickness = 0.002;  ///< the gap that is kept to other cloth, below rest_spacing [m]
 };
 
 /// The state of a cloth during a step, as far as a collider touches it.
@@ -71,8 +72,8 @@ class Collider {
   Collider& operator=(const Collider&) = delete;
   virtual ~Collider() = default;
   /// Begins a step at whose end the bodies stand at `ends`; they start from where the last step
-  /// left them. @param ends  of each body [n x n] world [m], mates equal, valid until guard is done;
-  /// null where it stands still
+  /// left them. @param ends  of each body [n x n] world [m], mates equal, valid until guard is
+  /// done; null where it stands still
   virtual void move_bodies(std::span<const Planes3* const> ends) noexcept = 0;
   /// Finds the contacts of a step from the proposals.
   virtual void detect(std::span<const MovingCloth> cloths, double time_step,

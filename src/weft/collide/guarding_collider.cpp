@@ -12,6 +12,8 @@ constexpr double slack_in_gaps = 0.2, slack_in_spacings = 0.03;
 /// Points that were held back may lead others astray, so all is looked at again, this many times at
 /// most; then every point that anything came near stays where it was.
 constexpr int most_rounds = 8;
+/// Pairs are looked at that come within this many gaps, see PairContacts.
+constexpr double foresight = 1.5;
 /// Before the ground, against rounding [m].
 constexpr double ground_margin = 2e-6;
 
@@ -30,8 +32,8 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
                        points_,
                        {}});
     points_ += cloth.size * cloth.size;
-    slack_ =
-        std::min({slack_, slack_in_gaps * cloth.thickness, slack_in_spacings * cloth.rest_spacing});
+    slack_ = std::min(
+        {slack_, slack_in_gaps * cloth.self_thickness, slack_in_spacings * cloth.rest_spacing});
   }
   for (GuardedOne& one : cloths_)
     one.body_contacts = std::make_unique<BodyContacts>(one.grid, one.facts);
@@ -120,14 +122,14 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, T
     for (std::size_t j = i; j < cloths.size(); ++j) {
       GuardedOne &a = cloths_[i], &b = cloths_[j];
       if (i == j && !a.facts.self_collision) continue;
-      const double gap = 0.5 * (a.facts.thickness + b.facts.thickness);
+      const double gap = 0.5 * (a.facts.self_thickness + b.facts.self_thickness);
       cells_.clear();
       const int first = static_cast<int>(i), second = static_cast<int>(j);
       if (i == j) {
-        broad_phase_->find_self(first, static_cast<float>(gap), static_cast<float>(slack_), team,
-                                cells_);
+        broad_phase_->find_self(first, static_cast<float>(foresight * gap),
+                                static_cast<float>(slack_), team, cells_);
       } else {
-        broad_phase_->find(first, second, static_cast<float>(gap), team, cells_);
+        broad_phase_->find(first, second, static_cast<float>(foresight * gap), team, cells_);
       }
       pair_contacts_.find({&a.grid, &b.grid, &cloths[i], &cloths[j], i == j, gap,
                            std::sqrt(a.facts.friction * b.facts.friction)},
@@ -140,7 +142,32 @@ int GuardingCollider::correct(std::size_t cloth, const MovingCloth& moving,
                               std::span<const float> forces, double time_step,
                               ThreadTeam& team) noexcept {
   GuardedOne& one = cloths_[cloth];
-  return one.response.respond(moving, {one.contacts, forces}, time_step, team);
+  const int touching = one.response.respond(moving, {one.contacts, forces}, time_step, team);
+  push_out_of_obstacles(one, moving);
+  return touching;
+}
+
+/// Cloth between an obstacle and other cloth cannot heed both at once: the obstacle has the last
+/// word.
+void GuardingCollider::push_out_of_obstacles(const GuardedOne& one, const MovingCloth& moving) {
+  for (const Contact& contact : one.body_contacts->contacts()) {
+    const int sample = contact.samples[0], n = one.facts.size;
+    if (!(moving.inverse_mass(sample / n, sample % n) > 0)) continue;
+    const Vec3f at = moving.position.at(sample);
+    const float depth = contact.offset + contact.lift - dot(contact.normal, at);
+    if (!(depth > 0)) continue;
+    moving.position.set(sample, at + depth * contact.normal);
+  }
+  copy_to_mates(one, moving);
+}
+
+void GuardingCollider::copy_to_mates(const GuardedOne& one, const MovingCloth& moving) {
+  const BorderMates& mates = one.facts.mates;
+  for (int k = 0; k < mates.class_count(); ++k)
+    for (const int s : mates.mates(k).subspan(1)) {
+      moving.position.set(s, moving.position.at(mates.mates(k)[0]));
+      moving.velocity.set(s, moving.velocity.at(mates.mates(k)[0]));
+    }
 }
 
 PlaneSide GuardingCollider::side_of(std::size_t surface) const {
@@ -216,14 +243,7 @@ int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_ste
     find_planes(team);
     add_ground_planes(cloths);
     const PlaneGuard::Result held = hold(cloths, time_step, team);
-    for (std::size_t i = 0; i < cloths_.size(); ++i) {
-      const BorderMates& mates = cloths_[i].facts.mates;
-      for (int k = 0; k < mates.class_count(); ++k)
-        for (const int s : mates.mates(k)) {
-          cloths[i].position.set(s, cloths[i].position.at(mates.mates(k)[0]));
-          cloths[i].velocity.set(s, cloths[i].velocity.at(mates.mates(k)[0]));
-        }
-    }
+    for (std::size_t i = 0; i < cloths_.size(); ++i) copy_to_mates(cloths_[i], cloths[i]);
     stopped += held.stopped + held.lost;
     if (held.stopped == 0) break;
   }

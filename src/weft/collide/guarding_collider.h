@@ -64,6 +64,8 @@ class GuardingCollider final : public Collider {
   void gather_surfaces(std::span<const MovingCloth> cloths);
   void place_bodies(ThreadTeam& team);
   void find_pair_contacts(std::span<const MovingCloth> cloths, ThreadTeam& team);
+  static void push_out_of_obstacles(const GuardedOne& one, const MovingCloth& moving);
+  static void copy_to_mates(const GuardedOne& one, const MovingCloth& moving);
   void find_planes(ThreadTeam& team);
   void add_ground_planes(std::span<const MovingCloth> cloths);
   PlaneGuard::Result hold(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team);

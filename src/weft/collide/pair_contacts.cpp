@@ -10,6 +10,8 @@ namespace {
 
 /// Of the gap, as for bodies: what a step may win back.
 constexpr double most_recovery = 0.25;
+/// As for bodies: contacts begin this many gaps before the one that is kept.
+constexpr double foresight = 1.5;
 /// Edges that cross in layers lying flat on each other are left to samples and triangles.
 constexpr double flat = 0.8;
 
@@ -133,7 +135,7 @@ class Finder {
     if (!(distance > 0)) return;
     const Vec3d normal = (1 / distance) * apart;
     const Vec3d own_way = own.way(), other_way = other.way();
-    if (distance + dot(normal, own_way - other_way) >= pair_.gap) return;
+    if (distance + dot(normal, own_way - other_way) >= foresight * pair_.gap) return;
     const double target = std::min(pair_.gap, distance);
     const double lift = std::clamp(pair_.gap - distance, 0.0, most_recovery * pair_.gap);
     if (pair_.same) {

@@ -12,10 +12,6 @@ constexpr int most_turns = 12;
 /// Put this much farther than a plane asks for, in its margins, so that rounding keeps to it.
 constexpr double overshoot = 0.5e-6;
 
-double largest_difference(Vec3f a, Vec3f b) {
-  return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
-}
-
 }  // namespace
 
 void PlaneGuard::gather(std::span<const SeparatingPlane> planes, int count) {
@@ -67,7 +63,7 @@ bool PlaneGuard::put_aside(int involved, std::span<const SeparatingPlane> planes
     if (!moved) break;
   }
   const Vec3f rounded = vec_cast<float>(at);
-  if (!(largest_difference(rounded, point.end) <= slack)) return false;
+  if (!(length(vec_cast<double>(rounded) - vec_cast<double>(point.end)) <= slack)) return false;
   if (!heeds_all(involved, planes, rounded)) return false;
   point.end = rounded;
   return true;

@@ -6,10 +6,12 @@
 namespace weft {
 namespace {
 
-/// Rounding of positions in single precision, relative to their size, times a few.
+/// Rounding of positions in single precision, relative to their size, times a few: kept free on
+/// either side of a plane.
 constexpr double rounding = 1e-6;
-/// Of the gap at the start, on either side of a plane.
-constexpr double most_margin = 0.125;
+/// Of the gap at the start: what is no wider than the margins may hardly shrink, lest it vanish
+/// within a few steps.
+constexpr double most_margin = 0.4999;
 
 double least_along(Vec3d n, const std::array<Vec3d, 3>& corners, int count) {
   double least = dot(n, corners[0]);

@@ -36,6 +36,13 @@ double gap_of(const Cloth& cloth) {
                     most_gap_in_thicknesses * thickness);
 }
 
+/// Between parts of cloth a gap of more than this part of the rest spacing would lock folds.
+constexpr double most_self_gap_in_spacings = 0.25;
+
+double self_gap_of(const Cloth& cloth) {
+  return std::min(cloth.material.thickness, most_self_gap_in_spacings * cloth.rest_spacing);
+}
+
 /// Of the ground, which scenes do not name a coefficient for.
 constexpr double ground_friction = 0.5;
 
@@ -245,7 +252,8 @@ void Simulation::Parts::make_guard() {
     guarded.push_back(
         {cloth.cloth.mates, cloth.cloth.size, choose_diagonals(cloth.image), gap_of(cloth.cloth),
          scene.cloths[i].friction, cloth.cloth.rest_spacing,
-         knows_self_collision(scene.collider) && scene.cloths[i].self_collision.value_or(true)});
+         knows_self_collision(scene.collider) && scene.cloths[i].self_collision.value_or(true),
+         self_gap_of(cloth.cloth)});
   }
   collider = make_collider(scene.collider, obstacles, guarded);
 }
