@@ -221,8 +221,9 @@ TEST_F(Refused, AnotherSceneIsNamedByItsKey) {
   other.cloths[1].material.stretch = 51;
   EXPECT_NE(refusal(other).find("cloths/1/material/stretch is 50"), std::string::npos);
   other = scene_;
-  other.bodies.clear();
-  EXPECT_NE(refusal(other).find("bodies"), std::string::npos);
+  other.bodies[0].motion[1].time = 0.2;
+  EXPECT_NE(refusal(other).find("bodies/0/motion/1/time is 0.1 there and 0.2 here"),
+            std::string::npos);
   EXPECT_NE(refusal(scene_, {.verify = true}).find("--verify"), std::string::npos);
   EXPECT_NE(refusal(scene_, {.unwelded = true}).find("--unwelded"), std::string::npos);
   EXPECT_NE(refusal(scene_, {.exports = {"obj"}}).find("--export"), std::string::npos);

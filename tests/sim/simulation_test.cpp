@@ -297,11 +297,12 @@ TEST(Simulation, FastBodiesAreNoRunaway) {
   ball.name = "ball";
   ball.surface = "builtin:torus";
   ball.size = 17;
-  ball.motion = {{0, {}, {}}, {0.2, {}, {0, 20, 0}}};
+  ball.placement.scale = {0.1, 0.1, 0.1};
+  ball.motion = {{0, {}, {}}, {0.2, {}, {4, 0, 0}}};
   scene.bodies = {ball};
   Simulation simulation(scene, "fast", 1);
-  for (int frame = 0; frame < 12; ++frame) EXPECT_NO_THROW(simulation.advance());
-  EXPECT_GT(simulation.centre_of_mass().y, 15);
+  for (int frame = 0; frame < 12; ++frame) ASSERT_NO_THROW(simulation.advance());
+  EXPECT_GT(simulation.centre_of_mass().x, 3);
 }
 
 TEST(Simulation, RegionWithoutSamplesIsRefused) {
