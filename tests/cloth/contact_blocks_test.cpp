@@ -2,6 +2,7 @@
 
 #include "tests/cloth/filter_residual.h"
 #include "tests/cloth/sheets.h"
+#include "weft/cloth/integrate/contact_springs.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/multigrid/filter.h"
 
@@ -21,7 +22,7 @@ struct Pressed {
     springs.take(contacts);
     team.run([&](Worker& worker) {
       springs.heed(of.rest, of.rest, filter.finest().inverse_diagonal, worker);
-      filter.renew_contacts(springs, worker);
+      filter.renew_contacts(springs.loads(), worker);
     });
   }
   Planes3 cycle(const Planes3& right) {
@@ -98,7 +99,8 @@ TEST(ContactBlocks, AreGoneWhenContactsAre) {
   Planes3 b(n);
   shake(cloth, 1, b);
   pressed.springs.clear();
-  pressed.team.run([&](Worker& worker) { pressed.filter.renew_contacts(pressed.springs, worker); });
+  pressed.team.run(
+      [&](Worker& worker) { pressed.filter.renew_contacts(pressed.springs.loads(), worker); });
   const Planes3 again = pressed.cycle(b);
   fresh.right() = b;
   team.run([&](Worker& worker) { fresh.cycle(worker); });

@@ -1,3 +1,5 @@
+#include "weft/cloth/integrate/contact_springs.h"
+
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
@@ -34,7 +36,7 @@ struct Springs {
     team.run([&](Worker& worker) { springs.press({position, none, none}, worker); });
     Planes3 force(cloth.size);
     for (int r = 0; r < cloth.size; ++r)
-      if (springs.row(r)) springs.add_force(r, row_of(force, r));
+      if (springs.loads().row(r)) springs.loads().add_row(r, row_of(force, r));
     sum_over_mates(cloth.mates, {&force.x, &force.y, &force.z});
     return force;
   }
@@ -42,7 +44,7 @@ struct Springs {
     double sum = 0;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const double depth = std::max(0.0, depth_of(contacts[i], position));
-      sum += springs.stiffness()[i] * depth * depth / 2;
+      sum += springs.loads().stiffness()[i] * depth * depth / 2;
     }
     return sum;
   }
@@ -130,7 +132,8 @@ TEST(ContactSprings, PushBackOnlyWhatIsBeyondTheSurface) {
   const int n = 9;
   const Cloth cloth = sheet_cloth(n);
   Springs springs(cloth, {{{20}, {1}, up, 0.01F, 0, {}}});
-  EXPECT_NEAR(springs.forces(cloth.rest).y(2, 2), 0.01 * springs.springs.stiffness()[0], 1e-3);
+  EXPECT_NEAR(springs.forces(cloth.rest).y(2, 2), 0.01 * springs.springs.loads().stiffness()[0],
+              1e-3);
   Planes3 above = cloth.rest;
   above.set(20, above.at(20) + Vec3f{0, 0.02F, 0});
   EXPECT_EQ(springs.forces(above).at(20), Vec3f{});
@@ -142,7 +145,8 @@ TEST(ContactSprings, DoNotShootOutWhatWasDeepWhenTheStepBegan) {
   Springs springs(cloth, {{{20}, {1}, up, 0.01F, 0, slide}});
   springs.springs.take(springs.contacts, 0.003);
   springs.heed(cloth.rest, cloth.rest);
-  EXPECT_NEAR(springs.forces(cloth.rest).y(2, 2), 0.004 * springs.springs.stiffness()[0], 1e-2);
+  EXPECT_NEAR(springs.forces(cloth.rest).y(2, 2), 0.004 * springs.springs.loads().stiffness()[0],
+              1e-2);
 }
 
 TEST(ContactSprings, HeedWhatPressesWhenOneSideIsStopped) {
@@ -172,8 +176,8 @@ TEST(ContactSprings, BlocksBoundWhatForcesChangeBy) {
     std::array<Grid<float>, 6> block;
     for (Grid<float>& plane : block) plane = Grid<float>(n, n);
     for (int r = 0; r < n; ++r)
-      springs.springs.add_blocks(r, {block[0].row(r), block[1].row(r), block[2].row(r),
-                                     block[3].row(r), block[4].row(r), block[5].row(r)});
+      springs.springs.loads().add_blocks(r, {block[0].row(r), block[1].row(r), block[2].row(r),
+                                             block[3].row(r), block[4].row(r), block[5].row(r)});
     const Planes3 before = springs.forces(cloth.rest);
     for (int seed = 1; seed < 20; ++seed) {
       Planes3 place = cloth.rest;

@@ -105,7 +105,8 @@ TEST(Implicit, SolvesWithManyContactsWellBelowItsCap) {
   integrator->iterate({});
   integrator->iterate(contacts);
   const StepReport report = integrator->end(state);
-  EXPECT_LT(report.iterations - free, 60);
+  // Three solves at most, until it is known which contacts hold.
+  EXPECT_LT(report.iterations - free, 3 * 60);
   EXPECT_LT(report.residual, 1e-4);
 }
 

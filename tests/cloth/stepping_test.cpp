@@ -204,6 +204,34 @@ TEST(Stepping, ContactsHoldAParticleAtTheirSurface) {
   }
 }
 
+TEST(Stepping, ContactForcesCarryTheWeight) {
+  const int n = 17;
+  for (const IntegratorOptions& options : {IntegratorOptions(MultigridOptions{.max_iterations = 4}),
+                                           IntegratorOptions(ImplicitOptions{})})
+    for (const Cloth& cloth : {sheet_cloth(n), make_cloth(flat_sheet(n), torus_mates(n), {})}) {
+      ThreadTeam team(1);
+      const StepInput input;
+      const auto integrator = make_integrator(options, cloth, input, team);
+      // Every particle lies on the floor, by itself or by points of triangles.
+      std::vector<Contact> contacts;
+      for (int s = 0; s < n * n; ++s)
+        if (cloth.counted(s / n, s % n) > 0) contacts.push_back({{s}, {1}, {0, 1, 0}, 0, 0, {}});
+      for (int r = 1; r + 2 < n; r += 3)
+        for (int s = r * n + 1; s + 1 < (r + 1) * n; s += 2)
+          contacts.push_back({{s, s + 1, s + n}, {0.5F, 0.2F, 0.3F}, {0, 1, 0}, 0, 0, {}});
+      ClothState state = rest_state(cloth);
+      integrator->begin(input, state);
+      integrator->iterate(contacts);
+      double sum = 0;
+      for (const float force : integrator->contact_forces()) {
+        EXPECT_GE(force, 0);
+        sum += force;
+      }
+      const double weight = 9.81 * total_mass(cloth);
+      EXPECT_NEAR(sum, weight, 0.02 * weight) << name_of(options);
+    }
+}
+
 TEST(Stepping, VeryUnevenCellsStayFinite) {
   const int n = 33;
   Planes3 rest = flat_sheet(n);

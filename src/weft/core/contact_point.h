@@ -19,4 +19,11 @@ inline double depth_of(const Contact& contact, const Planes3& planes) {
   return double{contact.offset} - dot(vec_cast<double>(contact.normal), point_of(contact, planes));
 }
 
+/// The offset that a step may bring about, in which nothing that was beyond the half-space when the
+/// step began is pushed out of it by more than `farthest`.
+inline double attainable_offset(const Contact& contact, const Planes3& start, double farthest) {
+  const double before = depth_of(contact, start) - double{dot(contact.normal, contact.slide)};
+  return contact.offset - (before > farthest ? before - farthest : 0);
+}
+
 }  // namespace weft

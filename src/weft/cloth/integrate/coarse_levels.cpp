@@ -72,15 +72,9 @@ void CoarseLevels::take_row(const Blocks& diagonal, int row) {
 }
 
 void CoarseLevels::take_contacts_row(const ContactTerms& contacts, int row) {
-  const ConstRow3 s = row_of(contacts.axis(), row);
-  Blocks& block = finest_.contact;
-  for (int c = 0; c < cloth_.size; ++c) {
-    block[0](row, c) = s.x[c] * s.x[c];
-    block[1](row, c) = s.x[c] * s.y[c];
-    block[2](row, c) = s.x[c] * s.z[c];
-    block[3](row, c) = s.y[c] * s.y[c];
-    block[4](row, c) = s.y[c] * s.z[c];
-    block[5](row, c) = s.z[c] * s.z[c];
+  for (int i = 0; i < 6; ++i) {
+    const float* block = contacts.blocks()[i].row(row);
+    std::copy(block, block + cloth_.size, finest_.contact[i].row(row));
   }
 }
 
@@ -137,13 +131,6 @@ void CoarseLevels::prepare(const Blocks& diagonal, const ContactTerms& contacts,
     if (held) take_contacts_row(contacts, r);
   }
   worker.barrier();
-  if (held) {
-    // A contact acts on a representative alone.
-    Blocks& block = finest_.contact;
-    sum_over_mates(cloth_.mates, worker,
-                   {&block[0], &block[1], &block[2], &block[3], &block[4], &block[5]});
-    worker.barrier();
-  }
   const Level* fine = &finest_;
   for (Level& level : levels_) {
     const Range mine = worker.share(level.size());

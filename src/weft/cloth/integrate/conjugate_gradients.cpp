@@ -43,13 +43,17 @@ void ConjugateGradients::invert_row(const System& system, int row) {
     in[i] = system.diagonal[i].row(row);
     out[i] = inverse_[i].row(row);
   }
-  const ConstRow3 s = row_of(system.contacts.axis(), row);
+  const bool held = !system.contacts.empty();
+  std::array<const float*, 6> contact = in;
+  for (int i = 0; i < 6 && held; ++i) contact[i] = system.contacts.blocks()[i].row(row);
+  const float scale = held ? 1 : 0;
   const float* inverse_mass = cloth_.inverse_mass.row(row);
 #pragma omp simd
   for (int c = 0; c < cloth_.size; ++c) {
-    const Symmetric3 block = inverse({in[0][c] + s.x[c] * s.x[c], in[1][c] + s.x[c] * s.y[c],
-                                      in[2][c] + s.x[c] * s.z[c], in[3][c] + s.y[c] * s.y[c],
-                                      in[4][c] + s.y[c] * s.z[c], in[5][c] + s.z[c] * s.z[c]});
+    const Symmetric3 block =
+        inverse({in[0][c] + scale * contact[0][c], in[1][c] + scale * contact[1][c],
+                 in[2][c] + scale * contact[2][c], in[3][c] + scale * contact[3][c],
+                 in[4][c] + scale * contact[4][c], in[5][c] + scale * contact[5][c]});
     const bool moves = inverse_mass[c] > 0;
     out[0][c] = moves ? block.xx : 0.0F;
     out[1][c] = moves ? block.xy : 0.0F;
@@ -60,8 +64,8 @@ void ConjugateGradients::invert_row(const System& system, int row) {
   }
 }
 
-/// Row of out = (M + S + bending + contacts) in, each sample's own part. Bending has been curved by
-/// `in`.
+/// Row of out = (M + S + bending + contacts) in, each sample's own part. Bending has been curved,
+/// contacts multiplied by `in`.
 void ConjugateGradients::apply_row(const System& system, const Planes3& in, Planes3& out,
                                    int row) const {
   system.springs.multiply_row(in, out, row);
@@ -75,15 +79,7 @@ void ConjugateGradients::apply_row(const System& system, const Planes3& in, Plan
     sum.y[c] += mass[c] * v.y[c];
     sum.z[c] += mass[c] * v.z[c];
   }
-  if (system.contacts.empty()) return;
-  const ConstRow3 s = row_of(system.contacts.axis(), row);
-#pragma omp simd
-  for (int c = 0; c < cloth_.size; ++c) {
-    const float along = s.x[c] * v.x[c] + s.y[c] * v.y[c] + s.z[c] * v.z[c];
-    sum.x[c] += along * s.x[c];
-    sum.y[c] += along * s.y[c];
-    sum.z[c] += along * s.z[c];
-  }
+  if (system.contacts.loads().row(row)) system.contacts.loads().add_row(row, sum);
 }
 
 /// z = P^-1 r on a row.
@@ -162,6 +158,7 @@ double ConjugateGradients::largest_step() const {
 void ConjugateGradients::start(const System& system, Planes3& r, const Planes3& v, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   system.bending.curve_change(v, worker);
+  if (!system.contacts.empty()) system.contacts.multiply(v, worker);
   for (int row = mine.first; row < mine.last; ++row) {
     invert_row(system, row);
     apply_row(system, v, image_, row);
@@ -175,10 +172,6 @@ void ConjugateGradients::start(const System& system, Planes3& r, const Planes3& 
   }
   worker.barrier();
   sum_over_mates(cloth_.mates, worker, {&r.x, &r.y, &r.z});
-  // A contact acts on a representative alone, so its mates' blocks must become its own.
-  copy_to_mates(
-      cloth_.mates, worker,
-      {&inverse_[0], &inverse_[1], &inverse_[2], &inverse_[3], &inverse_[4], &inverse_[5]});
   worker.barrier();
   if (!coarse_.empty()) coarse_.prepare(system.diagonal, system.contacts, worker);
 }
@@ -192,6 +185,7 @@ SolveReport ConjugateGradients::iterate(const System& system, const Stop& stop, 
   SolveReport report;
   while (report.iterations < stop.max_iterations && rz > 0) {
     system.bending.curve_change(direction_, worker);
+    if (!system.contacts.empty()) system.contacts.multiply(direction_, worker);
     const double pq = sums_.sum(worker, [&](int row) {
       apply_row(system, direction_, image_, row);
       const ConstRow3 p = const_row_of(direction_, row), q = const_row_of(image_, row);

@@ -27,7 +27,7 @@ class ConjugateGradients {
 
   struct System {
     const SpringMatrix& springs;
-    const ContactTerms& contacts;
+    ContactTerms& contacts;
     const Blocks& diagonal;  ///< of M + S + bending, summed over mates
     BendingPass& bending;
     float squared_step = 0;  ///< h^2, what bending counts by [s^2]

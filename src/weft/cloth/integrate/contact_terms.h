@@ -1,37 +1,65 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
+#include "weft/cloth/integrate/contact_loads.h"
 #include "weft/cloth/integrate/spring_matrix.h"
 #include "weft/core/contact.h"
 
 namespace weft {
 
-/// Contacts as part of implicit Euler's system: a particle whose proposal is beyond its half-space
-/// is held to its surface by a spring along the normal that is `contact_stiffness` times stiffer
-/// than the particle's own diagonal block. In terms of the velocity v at the end of the step the
-/// term is s s^T v = s t with s = sqrt(stiffness) n. Of several contacts a particle heeds the one
-/// that it violates most. What is left of the depth, and friction, are the collider's.
+/// Contacts as part of implicit Euler's system: the point of a contact that presses is held to its
+/// surface by a spring along the normal, `contact_stiffness` times stiffer than what the cloth
+/// holds it by. In terms of the velocity v at the end of the step the term of a contact is
+///   k (w n) (w n)^T v = k (w n) t,   t = how far the point may go along n, over h.
+/// Which contacts hold is found by turns: after a solve those that it violates join and those that
+/// would pull leave.
 class ContactTerms {
  public:
-  explicit ContactTerms(int size);
+  /// @param cloth  kept by reference
+  explicit ContactTerms(const Cloth& cloth);
 
-  /// Chooses the contacts that hold. @param start  positions at the start of the step
-  void choose(std::span<const Contact> contacts, const Planes3& start, const Planes3& proposed,
-              double time_step);
   /// Forgets all contacts.
-  void clear();
-  [[nodiscard]] bool empty() const { return active_ == 0; }
+  void clear() { loads_.take({}); }
+  /// None of them holds as yet. @param contacts  must stay until the last use
+  /// @param start  positions at the start of the step [m]
+  void take(std::span<const Contact> contacts, const Planes3& start, double time_step);
 
-  /// Moves every class's contact to its representative and scales it by the diagonal blocks there.
-  void scale(const Cloth& cloth, const Blocks& diagonal);
-  [[nodiscard]] const Planes3& axis() const { return axis_; }          ///< s [sqrt(kg)]
-  [[nodiscard]] const Grid<float>& target() const { return target_; }  ///< t [sqrt(kg) m/s]
+  // To be called by every worker; each ends with a barrier.
+
+  /// Chooses anew which contacts hold. @param diagonal  blocks of the cloth's own, summed over
+  /// mates
+  /// @return whether that changed
+  bool choose(const Planes3& velocity, const Blocks& diagonal, Worker& worker);
+  /// The loads become the right side's. [kg m/s]
+  void aim(Worker& worker);
+  /// The loads become the terms' product with velocities. [kg m/s]
+  void multiply(const Planes3& velocity, Worker& worker);
+  /// Computes the forces that a solution stands for.
+  void measure(const Planes3& velocity, Worker& worker);
+
+  [[nodiscard]] bool empty() const { return loads_.stiff() == 0; }
+  /// Holding contacts are stiff [kg].
+  [[nodiscard]] const ContactLoads& loads() const { return loads_; }
+  /// What bounds the terms on the system's diagonal, summed over mates; where none holds, anything.
+  [[nodiscard]] const Blocks& blocks() const { return blocks_; }
+  /// Of each contact, in the order in which they were taken [N].
+  [[nodiscard]] std::span<const float> forces() const { return force_; }
 
  private:
-  Planes3 axis_;
-  Grid<float> target_, depth_;
-  int active_ = 0;
+  [[nodiscard]] double speed(int contact, const Planes3& velocity) const;
+  void renew_blocks(Worker& worker);
+
+  const Cloth& cloth_;
+  ContactLoads loads_;
+  double time_step_ = 0;        // [s]
+  std::vector<double> target_;  // t [m/s]
+  std::vector<float> force_;
+  std::vector<char> changed_;  // of each contact: whether it joined or left
+  bool any_changed_ = false;
+  Grid<float> inverse_diagonal_;  // [1/kg]
+  Blocks blocks_;
 };
 
 }  // namespace weft

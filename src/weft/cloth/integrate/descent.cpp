@@ -16,6 +16,8 @@ constexpr double most_way = 4;
 /// What presses on a cloth from outside moves it out of its surface, where springs give way; the
 /// filter, which takes them for stiff in every direction, needs more iterations for it.
 constexpr int iterations_under_contact = 4;
+/// Times the tolerance: contacts are so stiff that forces are off where positions are good enough.
+constexpr double tolerance_under_contact = 0.01;
 /// What is inside something when a step begins, having been put or pressed there, leaves at this
 /// speed at most, lest it be shot out. [m/s]
 constexpr double fastest_way_out = 0.5;
@@ -85,7 +87,7 @@ void Descent::run(std::span<const Contact> contacts, const MultigridOptions& opt
       settle_row(pending, r);
       place_row(0, r);
     }
-    filter_.renew_contacts(contacts_, worker);
+    filter_.renew_contacts(contacts_.loads(), worker);
     const Course course = descend(options, worker);
     if (worker.rank() != 0) return;
     pending_way_ = course.way;
@@ -150,7 +152,7 @@ double Descent::look(Worker& worker) {
     const Row3 out = row_of(far_residual_, r);
     copy_row(springs_.row(motion, r, worker), out, cloth_.size);
     bending_.add_row(1, r, far_residual_);
-    if (contacts_.row(r)) contacts_.add_force(r, out);
+    if (contacts_.loads().row(r)) contacts_.loads().add_row(r, out);
     return kernels_.inertia(cloth_.size, filter_.mass_weight().row(r),
                             row_of(std::as_const(move_), r), row_of(std::as_const(direction_), r),
                             out);
@@ -213,7 +215,7 @@ void Descent::restart(Course& course, Worker& worker) {
     place_row(0, r);
   }
   worker.barrier();
-  if (heed_contacts(worker)) filter_.renew_contacts(contacts_, worker);
+  if (heed_contacts(worker)) filter_.renew_contacts(contacts_.loads(), worker);
   look(worker);
   course.slope = course.left = course.way = 0;
   course.exact = true;
@@ -226,13 +228,15 @@ bool Descent::heed_contacts(Worker& worker) {
 Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker) {
   look(worker);
   Course course;
-  const int most = options.max_iterations * (contacts_.empty() ? 1 : iterations_under_contact);
+  const bool pressed = !contacts_.empty();
+  const int most = options.max_iterations * (pressed ? iterations_under_contact : 1);
+  const double tolerance = options.tolerance * (pressed ? tolerance_under_contact : 1);
   while (course.iterations < most) {
     if (course.iterations > 0 && course.iterations % iterations_between_restarts == 0)
       restart(course, worker);
     take_residual(course, worker);
     go(turn(course, worker), course, worker);
-    if (!(course.correction > options.tolerance)) break;
+    if (!(course.correction > tolerance)) break;
   }
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) place_row(static_cast<float>(course.way), r);

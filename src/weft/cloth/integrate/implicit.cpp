@@ -14,6 +14,11 @@
 namespace weft {
 namespace {
 
+/// Times the tolerance: the forces of contacts, which are stiff, show errors that positions hide.
+constexpr double contact_tolerance = 0.1;
+/// How often at most the system is solved for the contacts that hold to be found.
+constexpr int most_turns = 3;
+
 /// One linearised step of implicit Euler [baraff98],
 ///   (M - h df/dv - h^2 df/dx) dv = h (f + h df/dx v).
 /// With S = -h df/dv - h^2 df/dx and v1 = v + dv it reads (M + S) v1 = M (v + h g) + h f, f the
@@ -31,7 +36,7 @@ class Implicit final : public Integrator {
         right_(cloth.size),
         springs_(cloth.size),
         bending_(cloth, team.instructions()),
-        contacts_(cloth.size),
+        contacts_(cloth),
         solver_(cloth) {
     for (Grid<float>& plane : diagonal_) plane = Grid<float>(cloth.size, cloth.size);
   }
@@ -67,26 +72,23 @@ class Implicit final : public Integrator {
 
   ClothState& iterate(std::span<const Contact> contacts) noexcept override {
     const Stopwatch watch;
-    contacts_.choose(contacts, start_.position, next_.position, input_.time_step);
-    if (!contacts_.empty()) contacts_.scale(cloth_, diagonal_);
+    contacts_.take(contacts, start_.position, input_.time_step);
     set_pins(cloth_, start_, input_.time_step, next_);
+    choose_contacts();
+    solve();
+    for (int turn = 1; turn < most_turns && choose_contacts(); ++turn) solve();
     team_.run([&](Worker& worker) {
-      const Range mine = worker.share(cloth_.size);
-      for (int r = mine.first; r < mine.last; ++r) right_row(r);
-    });
-    const double to_residual = input_.time_step / cloth_.rest_spacing;
-    const SolveReport solved = solver_.solve(
-        {springs_, contacts_, diagonal_, bending_, squared_step()},
-        {options_.max_iterations, options_.tolerance / to_residual}, right_, next_.velocity, team_);
-    team_.run([&](Worker& worker) {
+      contacts_.measure(next_.velocity, worker);
       const Range mine = worker.share(cloth_.size);
       for (int r = mine.first; r < mine.last; ++r) move_row(r);
     });
     set_pins(cloth_, start_, input_.time_step, next_);
-    report_.iterations += solved.iterations;
-    report_.residual = solved.correction * to_residual;
     report_.solve_seconds += watch.seconds();
     return next_;
+  }
+
+  [[nodiscard]] std::span<const float> contact_forces() const noexcept override {
+    return contacts_.forces();
   }
 
   StepReport end(ClothState& state) noexcept override {
@@ -99,6 +101,32 @@ class Implicit final : public Integrator {
  private:
   [[nodiscard]] float squared_step() const {
     return static_cast<float>(input_.time_step * input_.time_step);
+  }
+
+  /// @return whether they changed
+  bool choose_contacts() {
+    bool changed = false;
+    team_.run([&](Worker& worker) {
+      const bool mine = contacts_.choose(next_.velocity, diagonal_, worker);
+      if (worker.rank() == 0) changed = mine;
+    });
+    return changed;
+  }
+
+  /// Finds the velocities at the end of the step, with the contacts that were chosen.
+  void solve() {
+    team_.run([&](Worker& worker) {
+      if (!contacts_.empty()) contacts_.aim(worker);
+      const Range mine = worker.share(cloth_.size);
+      for (int r = mine.first; r < mine.last; ++r) right_row(r);
+    });
+    const double to_residual = input_.time_step / cloth_.rest_spacing;
+    const double tolerance = options_.tolerance * (contacts_.empty() ? 1 : contact_tolerance);
+    const SolveReport solved = solver_.solve(
+        {springs_, contacts_, diagonal_, bending_, squared_step()},
+        {options_.max_iterations, tolerance / to_residual}, right_, next_.velocity, team_);
+    report_.iterations += solved.iterations;
+    report_.residual = solved.correction * to_residual;
   }
 
   /// The guess: v + h g, and where it leads.
@@ -139,16 +167,15 @@ class Implicit final : public Integrator {
     const Vec3f g = input_.gravity;
     const ConstRow3 v = row_of(std::as_const(start_.velocity), row);
     const ConstRow3 f = row_of(std::as_const(force_), row);
-    const ConstRow3 s = row_of(contacts_.axis(), row);
-    const float* target = contacts_.target().row(row);
     const float *mass = cloth_.mass.row(row), *counted = cloth_.counted.row(row);
     const Row3 b = row_of(right_, row);
     for (int c = 0; c < cloth_.size; ++c) {
       const float own = mass[c] * counted[c];
-      b.x[c] = own * (v.x[c] + h * g.x) + h * f.x[c] + target[c] * s.x[c];
-      b.y[c] = own * (v.y[c] + h * g.y) + h * f.y[c] + target[c] * s.y[c];
-      b.z[c] = own * (v.z[c] + h * g.z) + h * f.z[c] + target[c] * s.z[c];
+      b.x[c] = own * (v.x[c] + h * g.x) + h * f.x[c];
+      b.y[c] = own * (v.y[c] + h * g.y) + h * f.y[c];
+      b.z[c] = own * (v.z[c] + h * g.z) + h * f.z[c];
     }
+    if (contacts_.loads().row(row)) contacts_.loads().add_row(row, b);
   }
 
   void move_row(int row) {

@@ -31,7 +31,8 @@ struct ExplicitOptions {};
 /// Linearised implicit Euler, conjugate gradients without a matrix [baraff98].
 struct ImplicitOptions {
   int max_iterations = 200;
-  /// Stop when the correction of an iteration falls below this times the rest spacing.
+  /// Stop when the correction of an iteration falls below this times the rest spacing; a tenth
+  /// of it while something presses on the cloth.
   double tolerance = 1e-4;
 };
 /// One dense filter W of the cloth's own springs [desbrun99].
@@ -51,7 +52,8 @@ struct TwoLevelOptions {
 /// times the time (docs/measured.md).
 struct MultigridOptions {
   int max_iterations = 2;  ///< a step; four times as many while something presses on the cloth
-  /// Stop when the correction of an iteration falls below this times the rest spacing.
+  /// Stop when the correction of an iteration falls below this times the rest spacing; a hundredth
+  /// of it while something presses on the cloth.
   double tolerance = 1e-3;
 };
 using IntegratorOptions = std::variant<MultigridOptions, ImplicitOptions, ExplicitOptions,

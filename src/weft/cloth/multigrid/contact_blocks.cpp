@@ -44,7 +44,7 @@ void ContactBlocks::clear_row(int row) {
   rows_[row] = 0;
 }
 
-void ContactBlocks::take_row(const ContactSprings& contacts, int row) {
+void ContactBlocks::take_row(const ContactLoads& contacts, int row) {
   clear_row(row);
   if (!contacts.row(row)) return;
   rows_[row] = 1;

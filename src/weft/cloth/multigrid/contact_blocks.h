@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "weft/cloth/integrate/contact_springs.h"
+#include "weft/cloth/integrate/contact_loads.h"
 #include "weft/core/thread_team.h"
 
 namespace weft {
@@ -20,7 +20,7 @@ class ContactBlocks {
   [[nodiscard]] bool row(int r) const { return rows_[static_cast<std::size_t>(r)] != 0; }
 
   // Renewing goes row by row, by any team: each of these in turn, with barriers between.
-  void take_row(const ContactSprings& contacts, int row);
+  void take_row(const ContactLoads& contacts, int row);
   void restrict_row(const ContactBlocks& fine, int row, float* line);
   /// (D + C)^-1 of the row's samples, which for samples with mates is wrong until join_mates.
   /// @param inverse_diagonal  [n] D^-1, 0 where held

@@ -87,8 +87,8 @@ Row3 MultigridFilter::lines(const Worker& worker, int index) {
   return {lines_.row(first), lines_.row(first + 1), lines_.row(first + 2)};
 }
 
-void MultigridFilter::renew_contacts(const ContactSprings& contacts, Worker& worker) {
-  const bool touching = !contacts.empty();
+void MultigridFilter::renew_contacts(const ContactLoads& contacts, Worker& worker) {
+  const bool touching = contacts.stiff() > 0;
   const bool idle = !touching && !touching_;
   worker.barrier();
   if (idle) return;

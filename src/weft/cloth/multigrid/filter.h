@@ -36,7 +36,7 @@ class MultigridFilter {
 
   /// Takes over the contacts, or that there are none any more. To be called by every worker of the
   /// team; ends with a barrier.
-  void renew_contacts(const ContactSprings& contacts, Worker& worker);
+  void renew_contacts(const ContactLoads& contacts, Worker& worker);
 
   /// One V-cycle from zero: value() = about A^-1 right(). To be called by every worker of the team;
   /// ends with a barrier. @return right . value [N m]
