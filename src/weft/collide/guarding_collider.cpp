@@ -9,9 +9,13 @@ namespace {
 /// How far the guard may move a point aside before the rest has to be looked at again: parts of the
 /// gap that is kept, and of the rest spacing.
 constexpr double slack_in_gaps = 0.2, slack_in_spacings = 0.03;
-/// Points that were held back may lead others astray, so all is looked at again, this many times at
-/// most; then every point that anything came near stays where it was.
-constexpr int most_rounds = 8;
+/// Points that were held back or moved far may lead others astray, so all is looked at again, this
+/// many times at most.
+constexpr int most_rounds = 12;
+/// In the first rounds points may be moved by this part of the rest spacing, which leaves them
+/// their motion along what they meet; afterwards they are held back on their way, which soon ends.
+constexpr int rounds_aside = 4;
+constexpr double aside_in_spacings = 1;
 /// Pairs are looked at that come within this many gaps, see PairContacts.
 constexpr double foresight = 1.5;
 /// Before the ground, against rounding [m].
@@ -21,7 +25,7 @@ constexpr double ground_margin = 2e-6;
 
 GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstacles& obstacles,
                                    std::span<const GuardedCloth> cloths) {
-  slack_ = HUGE_VAL;
+  slack_ = most_aside_ = HUGE_VAL;
   cloths_.reserve(cloths.size());
   for (const GuardedCloth& cloth : cloths) {
     cloths_.push_back({SurfaceGrid(cloth.size, cloth.mates, cloth.diagonals),
@@ -35,6 +39,8 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
     slack_ = std::min(
         {slack_, slack_in_gaps * cloth.self_thickness, slack_in_spacings * cloth.rest_spacing});
   }
+  for (const GuardedCloth& cloth : cloths)
+    most_aside_ = std::min(most_aside_, aside_in_spacings * cloth.rest_spacing);
   for (GuardedOne& one : cloths_)
     one.body_contacts = std::make_unique<BodyContacts>(one.grid, one.facts);
   bodies_.reserve(obstacles.bodies.size());
@@ -96,7 +102,7 @@ void GuardingCollider::place_bodies(ThreadTeam& team) {
   }
 }
 
-void GuardingCollider::detect(std::span<const MovingCloth> cloths, double /*time_step*/,
+void GuardingCollider::detect(std::span<const MovingCloth> cloths, double time_step,
                               ThreadTeam& team) noexcept {
   place_bodies(team);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
@@ -107,10 +113,11 @@ void GuardingCollider::detect(std::span<const MovingCloth> cloths, double /*time
   }
   gather_surfaces(cloths);
   broad_phase_->refit(surfaces_, team);
-  find_pair_contacts(cloths, team);
+  find_pair_contacts(cloths, time_step, team);
 }
 
-void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, ThreadTeam& team) {
+void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, double time_step,
+                                          ThreadTeam& team) {
   self_contacts_ = 0;
   const auto before = [&] {
     int count = 0;
@@ -132,7 +139,7 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, T
         broad_phase_->find(first, second, static_cast<float>(foresight * gap), team, cells_);
       }
       pair_contacts_.find({&a.grid, &b.grid, &cloths[i], &cloths[j], i == j, gap,
-                           std::sqrt(a.facts.friction * b.facts.friction)},
+                           std::sqrt(a.facts.friction * b.facts.friction), time_step},
                           cells_, team, a.contacts, b.contacts);
     }
   self_contacts_ = before() - with_bodies;
@@ -142,23 +149,10 @@ int GuardingCollider::correct(std::size_t cloth, const MovingCloth& moving,
                               std::span<const float> forces, double time_step,
                               ThreadTeam& team) noexcept {
   GuardedOne& one = cloths_[cloth];
-  const int touching = one.response.respond(moving, {one.contacts, forces}, time_step, team);
-  push_out_of_obstacles(one, moving);
-  return touching;
-}
-
-/// Cloth between an obstacle and other cloth cannot heed both at once: the obstacle has the last
-/// word.
-void GuardingCollider::push_out_of_obstacles(const GuardedOne& one, const MovingCloth& moving) {
-  for (const Contact& contact : one.body_contacts->contacts()) {
-    const int sample = contact.samples[0], n = one.facts.size;
-    if (!(moving.inverse_mass(sample / n, sample % n) > 0)) continue;
-    const Vec3f at = moving.position.at(sample);
-    const float depth = contact.offset + contact.lift - dot(contact.normal, at);
-    if (!(depth > 0)) continue;
-    moving.position.set(sample, at + depth * contact.normal);
-  }
-  copy_to_mates(one, moving);
+  // Those with obstacles come first; layers are soft and stay as they were solved.
+  const std::span<const Contact> hard = one.body_contacts->contacts();
+  return one.response.respond(moving, {hard, forces.first(std::min(forces.size(), hard.size()))},
+                              time_step, team);
 }
 
 void GuardingCollider::copy_to_mates(const GuardedOne& one, const MovingCloth& moving) {
@@ -217,7 +211,7 @@ void GuardingCollider::add_ground_planes(std::span<const MovingCloth> cloths) {
 }
 
 PlaneGuard::Result GuardingCollider::hold(std::span<const MovingCloth> cloths, double time_step,
-                                          ThreadTeam& team) {
+                                          double farthest, ThreadTeam& team) {
   const auto at = [&](int point) {
     const std::size_t cloth = cloth_of_[point];
     const int sample = point - cloths_[cloth].first_point;
@@ -231,7 +225,7 @@ PlaneGuard::Result GuardingCollider::hold(std::span<const MovingCloth> cloths, d
     moving.position.set(sample, end);
     moving.velocity.set(sample, moving.velocity.at(sample) + change);
   };
-  return plane_guard_.hold(planes_, points_, slack_, at, put, team);
+  return plane_guard_.hold(planes_, points_, {slack_, farthest}, at, put, team);
 }
 
 int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_step,
@@ -242,10 +236,11 @@ int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_ste
     broad_phase_->refit(surfaces_, team);
     find_planes(team);
     add_ground_planes(cloths);
-    const PlaneGuard::Result held = hold(cloths, time_step, team);
+    const PlaneGuard::Result held =
+        hold(cloths, time_step, round < rounds_aside ? most_aside_ : slack_, team);
     for (std::size_t i = 0; i < cloths_.size(); ++i) copy_to_mates(cloths_[i], cloths[i]);
     stopped += held.stopped + held.lost;
-    if (held.stopped == 0) break;
+    if (held.stopped + held.far == 0) break;
   }
   finish_bodies();
   return stopped;

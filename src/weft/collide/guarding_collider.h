@@ -63,12 +63,12 @@ class GuardingCollider final : public Collider {
 
   void gather_surfaces(std::span<const MovingCloth> cloths);
   void place_bodies(ThreadTeam& team);
-  void find_pair_contacts(std::span<const MovingCloth> cloths, ThreadTeam& team);
-  static void push_out_of_obstacles(const GuardedOne& one, const MovingCloth& moving);
+  void find_pair_contacts(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team);
   static void copy_to_mates(const GuardedOne& one, const MovingCloth& moving);
   void find_planes(ThreadTeam& team);
   void add_ground_planes(std::span<const MovingCloth> cloths);
-  PlaneGuard::Result hold(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team);
+  PlaneGuard::Result hold(std::span<const MovingCloth> cloths, double time_step, double farthest,
+                          ThreadTeam& team);
   [[nodiscard]] PlaneSide side_of(std::size_t surface) const;
   void finish_bodies();
 
@@ -76,8 +76,8 @@ class GuardingCollider final : public Collider {
   std::vector<GuardedBody> bodies_;
   std::optional<BodyContacts::Ground> ground_;
   std::unique_ptr<BroadPhase> broad_phase_;
-  int points_ = 0;    // samples of all cloths
-  double slack_ = 0;  // see PlaneGuard [m]
+  int points_ = 0;                     // samples of all cloths
+  double slack_ = 0, most_aside_ = 0;  // see PlaneGuard [m]
   int self_contacts_ = 0;
   // Of one step:
   std::vector<MovingSurface> surfaces_;  // cloths, then bodies

@@ -8,8 +8,10 @@
 namespace weft {
 namespace {
 
-/// Of the gap, as for bodies: what a step may win back.
-constexpr double most_recovery = 0.25;
+/// Layers press on each other like soft springs, of this part of the stiffness that inertia has
+/// against a step: hard ones of many layers, linearised anew each step, could hardly be satisfied
+/// together, and strained the cloth by several percent. What they do not stop the guard does.
+constexpr double softness = 100;
 /// As for bodies: contacts begin this many gaps before the one that is kept.
 constexpr double foresight = 1.5;
 /// Edges that cross in layers lying flat on each other are left to samples and triangles.
@@ -28,12 +30,21 @@ struct Side {
     return sum;
   }
   [[nodiscard]] Vec3d start() const { return mean(cloth->start); }
+  /// How far the point gives way to an impulse. [1/kg]
+  [[nodiscard]] double compliance() const {
+    double sum = 0;
+    const int n = cloth->start.size();
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += weights[k] * weights[k] * cloth->inverse_mass(samples[k] / n, samples[k] % n);
+    return sum;
+  }
   [[nodiscard]] Vec3d way() const { return mean(cloth->position) - start(); }
 };
 
-/// See Contact.
-struct Offset {
-  double offset, lift;
+/// What stands against one side: where, and how it moves.
+struct Plane {
+  double offset;
+  Vec3d slide;
 };
 
 Vec3d cell_normal(const SurfaceGrid& grid, const Planes3& at, int cell) {
@@ -81,8 +92,9 @@ class Finder {
         if (pair_.same && shares_point(sample, triangle)) return;
         const std::array<double, 3> weights =
             closest_weights(vec_cast<double>(cloth(swapped).start.at(sample)), corners);
-        // The corner of a triangle has triangles around it that are as close.
-        if (std::count(weights.begin(), weights.end(), 0.0) > 1) return;
+        // Before an edge or a corner the way to it may lie along the cloth, where a push would
+        // strain it: that is left to edges and to the guard.
+        if (std::any_of(weights.begin(), weights.end(), [](double w) { return !(w > 0); })) return;
         add({&cloth(swapped), {sample, sample, sample}, {1, 0, 0}},
             {&cloth(!swapped), triangle, weights}, swapped);
       });
@@ -136,20 +148,17 @@ class Finder {
     const Vec3d normal = (1 / distance) * apart;
     const Vec3d own_way = own.way(), other_way = other.way();
     if (distance + dot(normal, own_way - other_way) >= foresight * pair_.gap) return;
-    const double target = std::min(pair_.gap, distance);
-    const double lift = std::clamp(pair_.gap - distance, 0.0, most_recovery * pair_.gap);
     if (pair_.same) {
-      add_joint(own, other, normal, {target, lift});
+      add_joint(own, other, normal);
     } else {
       const Vec3d middle = 0.5 * (own.start() + other.start() + own_way + other_way);
-      add_half(own, normal, {dot(normal, middle) + 0.5 * target, 0.5 * lift}, other_way,
-               swapped ? of_b_ : of_a_);
-      add_half(other, -normal, {-dot(normal, middle) + 0.5 * target, 0.5 * lift}, own_way,
-               swapped ? of_a_ : of_b_);
+      const double half = 0.5 * pair_.gap, along = dot(normal, middle);
+      add_half(own, normal, {along + half, other_way}, swapped ? of_b_ : of_a_);
+      add_half(other, -normal, {-along + half, own_way}, swapped ? of_a_ : of_b_);
     }
   }
 
-  void add_joint(const Side& own, const Side& other, Vec3d normal, const Offset& offset) {
+  void add_joint(const Side& own, const Side& other, Vec3d normal) {
     Contact contact;
     contact.weights = {};
     std::size_t count = 0;
@@ -162,14 +171,12 @@ class Finder {
     };
     put(own, 1);
     put(other, -1);
-    contact.normal = vec_cast<float>(normal);
-    contact.offset = static_cast<float>(offset.offset);
-    contact.lift = static_cast<float>(offset.lift);
-    contact.friction = static_cast<float>(pair_.friction);
+    contact.offset = static_cast<float>(pair_.gap);
+    finish(normal, own.compliance() + other.compliance(), contact);
     of_a_.push_back(contact);
   }
 
-  void add_half(const Side& side, Vec3d normal, const Offset& offset, Vec3d slide,
+  void add_half(const Side& side, Vec3d normal, const Plane& plane,
                 std::vector<Contact>& out) const {
     Contact contact;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -177,12 +184,18 @@ class Finder {
       contact.weights[k] = static_cast<float>(side.weights[k]);
     }
     contact.weights[3] = 0;
-    contact.normal = vec_cast<float>(normal);
-    contact.offset = static_cast<float>(offset.offset);
-    contact.lift = static_cast<float>(offset.lift);
-    contact.friction = static_cast<float>(pair_.friction);
-    contact.slide = vec_cast<float>(slide);
+    contact.offset = static_cast<float>(plane.offset);
+    contact.slide = vec_cast<float>(plane.slide);
+    finish(normal, side.compliance(), contact);
     out.push_back(contact);
+  }
+
+  void finish(Vec3d normal, double compliance, Contact& contact) const {
+    contact.normal = vec_cast<float>(normal);
+    contact.friction = static_cast<float>(pair_.friction);
+    const double inertia =
+        compliance > 0 ? 1 / (compliance * pair_.time_step * pair_.time_step) : 0;
+    contact.stiffness = static_cast<float>(softness * inertia);
   }
 
   const ClothPair& pair_;

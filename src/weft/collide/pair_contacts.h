@@ -14,8 +14,9 @@ struct ClothPair {
   const SurfaceGrid *grid_a = nullptr, *grid_b = nullptr;
   const MovingCloth *a = nullptr, *b = nullptr;
   bool same = false;
-  double gap = 0;       ///< that is kept [m]
-  double friction = 0;  ///< of the pair
+  double gap = 0;        ///< that is kept [m]
+  double friction = 0;   ///< of the pair
+  double time_step = 0;  ///< [s]
 };
 
 /// Contacts between parts of cloths that come closer than their gap during a step: samples and

@@ -48,8 +48,8 @@ bool PlaneGuard::heeds_all(int involved, std::span<const SeparatingPlane> planes
   });
 }
 
-bool PlaneGuard::put_aside(int involved, std::span<const SeparatingPlane> planes, double slack,
-                           GuardedPoint& point) const {
+double PlaneGuard::put_aside(int involved, std::span<const SeparatingPlane> planes, double farthest,
+                             GuardedPoint& point) const {
   Vec3d at = vec_cast<double>(point.end);
   for (int turn = 0; turn < most_turns; ++turn) {
     bool moved = false;
@@ -63,10 +63,10 @@ bool PlaneGuard::put_aside(int involved, std::span<const SeparatingPlane> planes
     if (!moved) break;
   }
   const Vec3f rounded = vec_cast<float>(at);
-  if (!(length(vec_cast<double>(rounded) - vec_cast<double>(point.end)) <= slack)) return false;
-  if (!heeds_all(involved, planes, rounded)) return false;
+  const double way = length(vec_cast<double>(rounded) - vec_cast<double>(point.end));
+  if (!(way <= farthest) || !heeds_all(involved, planes, rounded)) return HUGE_VAL;
   point.end = rounded;
-  return true;
+  return way;
 }
 
 bool PlaneGuard::stop(int involved, std::span<const SeparatingPlane> planes,
@@ -85,13 +85,16 @@ bool PlaneGuard::stop(int involved, std::span<const SeparatingPlane> planes,
 }
 
 PlaneGuard::Fate PlaneGuard::place(int involved, std::span<const SeparatingPlane> planes,
-                                   double slack, const GuardedPoint& point, Vec3f& end) const {
+                                   const Aside& aside, const GuardedPoint& point,
+                                   Vec3f& end) const {
   end = point.end;
   if (held_[involved] == 0 && heeds_all(involved, planes, end)) return Fate::free;
   GuardedPoint tried = point;
-  if (held_[involved] == 0 && put_aside(involved, planes, slack, tried)) {
+  const double way =
+      held_[involved] == 0 ? put_aside(involved, planes, aside.farthest, tried) : HUGE_VAL;
+  if (way < HUGE_VAL) {
     end = tried.end;
-    return Fate::aside;
+    return way <= aside.slack ? Fate::aside : Fate::far;
   }
   tried = point;
   const bool kept = stop(involved, planes, tried);
@@ -115,7 +118,7 @@ bool PlaneGuard::make_still(std::span<SeparatingPlane> planes, int involved) {
   return changed;
 }
 
-void PlaneGuard::settle(std::span<SeparatingPlane> planes, double slack) {
+void PlaneGuard::settle(std::span<SeparatingPlane> planes, const Aside& aside) {
   const int points = static_cast<int>(involved_.size());
   for (bool changed = true; changed;) {
     changed = false;
@@ -128,7 +131,7 @@ void PlaneGuard::settle(std::span<SeparatingPlane> planes, double slack) {
     for (int i = 0; i < points; ++i) {
       if (anew_[i] == 0) continue;
       anew_[i] = 0;
-      fates_[i] = place(i, planes, slack, points_[i], ends_[i]);
+      fates_[i] = place(i, planes, aside, points_[i], ends_[i]);
     }
   }
 }
@@ -137,6 +140,7 @@ PlaneGuard::Result PlaneGuard::count_fates() const {
   Result result;
   for (const Fate fate : fates_) {
     if (fate == Fate::aside) ++result.aside;
+    if (fate == Fate::far) ++result.far;
     if (fate == Fate::stopped) ++result.stopped;
     if (fate == Fate::lost) ++result.lost;
   }

@@ -14,22 +14,28 @@ struct GuardedPoint {
 };
 
 /// Moves the ends of points so that each lies on its sides of all its planes. A point is put onto
-/// the planes that it is beyond, by no more than the slack; where that does not do, it stays on its
+/// the planes that it is beyond, if they are not too far; where that does not do, it stays on its
 /// way from start to end as far as its planes let it [chen25], and these planes, which from then on
 /// stay where they were at the start, hold back what is on their other side too. So every plane is
 /// heeded in the end, unless a body moves onto a point that has nowhere to go.
 class PlaneGuard {
  public:
   struct Result {
-    int aside = 0;    ///< points that were moved aside
+    int aside = 0;    ///< points that were moved aside within the slack
+    int far = 0;      ///< points that were moved farther
     int stopped = 0;  ///< points that were held back on their way
     int lost = 0;     ///< points that could not be kept on their sides
+  };
+  /// How far points may be moved aside.
+  struct Aside {
+    double slack = 0;     ///< what planes reckon with [m]
+    double farthest = 0;  ///< at least the slack; what moves farther has to be looked at again [m]
   };
   /// @param planes  changed: those that had to stay still get their still offsets
   /// @param count   points in all; planes name them by number
   /// @param at      start and end of a point; put(point, end) changes the end
   template <class At, class Put>
-  Result hold(std::span<SeparatingPlane> planes, int count, double slack, const At& at,
+  Result hold(std::span<SeparatingPlane> planes, int count, const Aside& aside, const At& at,
               const Put& put, ThreadTeam& team);
 
  private:
@@ -37,7 +43,7 @@ class PlaneGuard {
     int plane = 0;
     int sign = 1;  ///< +1: side a
   };
-  enum class Fate : char { free, aside, stopped, lost };
+  enum class Fate : char { free, aside, far, stopped, lost };
 
   void gather(std::span<const SeparatingPlane> planes, int count);
   [[nodiscard]] std::span<const Side> sides(int involved) const {
@@ -50,14 +56,14 @@ class PlaneGuard {
   }
   [[nodiscard]] bool heeds_all(int involved, std::span<const SeparatingPlane> planes,
                                Vec3f point) const;
-  /// @return whether a place within the slack was found
-  bool put_aside(int involved, std::span<const SeparatingPlane> planes, double slack,
-                 GuardedPoint& point) const;
+  /// @return how far aside a place was found, infinity: nowhere [m]
+  double put_aside(int involved, std::span<const SeparatingPlane> planes, double farthest,
+                   GuardedPoint& point) const;
   /// @return whether its planes let it stay on its way at all
   bool stop(int involved, std::span<const SeparatingPlane> planes, GuardedPoint& point) const;
-  Fate place(int involved, std::span<const SeparatingPlane> planes, double slack,
+  Fate place(int involved, std::span<const SeparatingPlane> planes, const Aside& aside,
              const GuardedPoint& point, Vec3f& end) const;
-  void settle(std::span<SeparatingPlane> planes, double slack);
+  void settle(std::span<SeparatingPlane> planes, const Aside& aside);
   bool make_still(std::span<SeparatingPlane> planes, int involved);
   [[nodiscard]] Result count_fates() const;
 
@@ -74,8 +80,9 @@ class PlaneGuard {
 };
 
 template <class At, class Put>
-PlaneGuard::Result PlaneGuard::hold(std::span<SeparatingPlane> planes, int count, double slack,
-                                    const At& at, const Put& put, ThreadTeam& team) {
+PlaneGuard::Result PlaneGuard::hold(std::span<SeparatingPlane> planes, int count,
+                                    const Aside& aside, const At& at, const Put& put,
+                                    ThreadTeam& team) {
   if (planes.empty()) return {};
   gather(planes, count);
   const int points = static_cast<int>(involved_.size());
@@ -86,10 +93,10 @@ PlaneGuard::Result PlaneGuard::hold(std::span<SeparatingPlane> planes, int count
     const Range mine = worker.share(points);
     for (int i = mine.first; i < mine.last; ++i) {
       points_[i] = at(involved_[i]);
-      fates_[i] = place(i, planes, slack, points_[i], ends_[i]);
+      fates_[i] = place(i, planes, aside, points_[i], ends_[i]);
     }
   });
-  settle(planes, slack);
+  settle(planes, aside);
   for (int i = 0; i < points; ++i)
     if (fates_[i] != Fate::free) put(involved_[i], ends_[i]);
   return count_fates();

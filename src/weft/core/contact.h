@@ -21,6 +21,9 @@ struct Contact {
   Vec3f slide;         ///< how far the obstacle's surface moves there during the step [m]
   /// Beyond the offset, what a response may move the point without speeding it up or pressing [m].
   float lift = 0;
+  /// Of a soft contact: the solve gives way by force over stiffness, and what is left of its depth
+  /// stays. 0: hard [N/m].
+  float stiffness = 0;
 };
 
 }  // namespace weft

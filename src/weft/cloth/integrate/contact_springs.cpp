@@ -50,6 +50,11 @@ bool ContactSprings::heed(const Planes3& start, const Planes3& now,
   const Range mine = worker.share(static_cast<int>(contacts.size()));
   for (int i = mine.first; i < mine.last; ++i) {
     if (stiffness[i] > 0 || !may_press(contacts[i], start, now)) continue;
+    if (contacts[i].stiffness > 0) {
+      stiffness[i] = contacts[i].stiffness;
+      offset_[i] = contacts[i].offset;
+      continue;
+    }
     stiffness[i] = static_cast<float>(relative_stiffness *
                                       ContactLoads::own_stiffness(contacts[i], inverse_diagonal));
     offset_[i] = attainable_offset(contacts[i], start, farthest_);
