@@ -146,6 +146,42 @@ TEST(Run, BodiesThatMoveAreRecordedFrameByFrame) {
   EXPECT_THROW(open_run_folder(folder), InputError);
 }
 
+/// A ball that flies into a hanging sheet, many times the gap that is kept in a substep.
+Scene hit_sheet(double speed) {
+  Scene scene;
+  scene.frames = 14;
+  scene.ground.reset();
+  SceneCloth sheet;
+  sheet.size = 33;
+  sheet.placement.rotate = {90, 0, 0};
+  sheet.pins = {RegionPin{{0, 0}, {1, 0}}};
+  scene.cloths = {sheet};
+  SceneBody ball;
+  ball.surface = "builtin:sphere";
+  ball.size = 33;
+  ball.placement = {{0.4, 0.4, 0.4}, {}, {0, 0, -0.3}};
+  ball.motion = {{0.05, {}, {}}, {0.05 + 0.8 / speed, {}, {0, 0, 0.8}}};
+  scene.bodies = {ball};
+  return scene;
+}
+
+TEST(Run, FastBodiesPushClothAndDoNotPassIt) {
+  const test::TemporaryFolder place;
+  const RunReport report =
+      run_scene(hit_sheet(6), "hit.json", {.folder = place / "run", .verify = true});
+  EXPECT_EQ(report.intersections.counts.total(), 0);
+  EXPECT_GT(report.centre_of_mass.back().z, 0.1);
+  EXPECT_TRUE(report.notes.empty()) << report.notes[0];
+}
+
+TEST(Run, BodiesThatAreTooFastAreTold) {
+  const Simulation simulation(hit_sheet(200), "hit.json", 1);
+  ASSERT_EQ(simulation.notes().size(), 1);
+  EXPECT_EQ(simulation.notes()[0],
+            "bodies go up to 200 m/s, faster than cloth can be kept from them; 44 substeps or more "
+            "are wanted");
+}
+
 TEST(Run, InterruptedRunKeepsItsFrames) {
   const test::TemporaryFolder place;
   const fs::path folder = place / "run";

@@ -58,6 +58,11 @@ LimitOptions suitable_limit(bool soft, int size) {
 /// Of the limiter on each coarse level.
 constexpr int coarse_passes = 2;
 
+/// Bodies go at most this part of the least gap in a step, so that cloth is pushed before it is
+/// passed: faster ones take more steps, to a limit.
+constexpr double most_way_in_gaps = 0.4;
+constexpr int most_pieces = 32;
+
 class StageClock {
  public:
   /// Milliseconds since the last call.
@@ -99,7 +104,8 @@ struct Simulation::Parts {
         progress(given_progress),
         team(given_team),
         lone_team({1, given_team.instructions}),
-        time_step(1 / (scene.frame_rate * scene.substeps)),
+        substep_time(1 / (scene.frame_rate * scene.substeps)),
+        time_step(substep_time),
         soft(std::holds_alternative<TwoLevelOptions>(scene.integrator)) {}
 
   LoadedSurface load(const std::string& surface, ConvertOptions options, const std::string& what);
@@ -110,12 +116,17 @@ struct Simulation::Parts {
   void make_movers();
   /// With the bodies where they are.
   void make_guard();
+  void note_too_fast();
   /// The speed that wind, bodies and moving pins may lend a cloth [m/s].
   [[nodiscard]] double drive_of(std::size_t index) const;
   /// Begins a step that ends at a time: bodies and pins go there.
   void move_driven(double seconds);
   /// Ends the step: bodies are where it took them.
   void bodies_arrive();
+  /// Advances by one substep, in as many pieces as fast bodies ask for. @param number  from 0
+  void substep(int number, FrameReport& report);
+  /// A power of 2: of a substep that ends at a time.
+  [[nodiscard]] int pieces_until(double seconds);
   /// Advances all cloths. @return particles in contact
   int step(FrameReport& report);
   /// Begins a cloth's step, up to its first proposal.
@@ -147,8 +158,10 @@ struct Simulation::Parts {
   std::string name;
   Progress* progress;
   ThreadTeam team, lone_team;
-  double time_step;  // [s]
-  bool soft;         // springs that leave all stretch to the limiter
+  double substep_time;  // [s]
+  double time_step;     // of the step: a substep or a piece of one [s]
+  double most_way = 0;  // of bodies in a step [m]
+  bool soft;            // springs that leave all stretch to the limiter
   std::vector<SimulatedCloth> cloths;
   std::vector<PlacedBody> bodies;
   DrivenBodies driven;
@@ -247,8 +260,10 @@ void Simulation::Parts::make_guard() {
   obstacles.ground = scene.ground;
   obstacles.ground_friction = ground_friction;
   std::vector<GuardedCloth> guarded;
+  most_way = HUGE_VAL;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
+    most_way = std::min(most_way, most_way_in_gaps * gap_of(cloth.cloth));
     guarded.push_back(
         {cloth.cloth.mates, cloth.cloth.size, choose_diagonals(cloth.image), gap_of(cloth.cloth),
          scene.cloths[i].friction, cloth.cloth.rest_spacing,
@@ -256,6 +271,14 @@ void Simulation::Parts::make_guard() {
          self_gap_of(cloth.cloth)});
   }
   collider = make_collider(scene.collider, obstacles, guarded);
+}
+
+void Simulation::Parts::note_too_fast() {
+  if (driven.fastest() * substep_time <= most_pieces * most_way) return;
+  notes.push_back(fmt::format(
+      "bodies go up to {:.3g} m/s, faster than cloth can be kept from them; {} substeps "
+      "or more are wanted",
+      driven.fastest(), std::ceil(driven.fastest() / (scene.frame_rate * most_pieces * most_way))));
 }
 
 void Simulation::Parts::make_movers() {
@@ -323,6 +346,38 @@ void Simulation::Parts::gather_moving() {
     moving.push_back(
         {cloths[i].state.position, next.position, next.velocity, cloths[i].cloth.inverse_mass});
   }
+}
+
+void Simulation::Parts::substep(int number, FrameReport& report) {
+  const double begin = substep_time * number, end = substep_time * (number + 1);
+  const int pieces = pieces_until(end);
+  time_step = substep_time / pieces;
+  for (int piece = 1; piece <= pieces; ++piece) {
+    const double seconds = piece < pieces ? begin + time_step * piece : end;
+    move_driven(seconds);
+    report.contacts = std::max(report.contacts, step(report));
+    bodies_arrive();
+    for (std::size_t i = 0; i < cloths.size(); ++i)
+      if (const auto bad =
+              movers[i].runaway.find(cloths[i].cloth, cloths[i].state, seconds, solvers(i)))
+        stop_unstable(i, *bad);
+  }
+}
+
+int Simulation::Parts::pieces_until(double seconds) {
+  if (!driven.any_moves()) return 1;
+  driven.go(seconds, team);
+  float farthest = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].moves) continue;
+    const Planes3 &from = bodies[i].positions, &to = *driven.ends()[i];
+    for (int s = 0; s < from.size() * from.size(); ++s)
+      farthest = std::max(farthest, squared_length(to.at(s) - from.at(s)));
+  }
+  const double way = std::sqrt(double{farthest});
+  int pieces = 1;
+  while (pieces < most_pieces && way > pieces * most_way) pieces *= 2;
+  return pieces;
 }
 
 int Simulation::Parts::step(FrameReport& report) {
@@ -413,6 +468,7 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
   parts_->tie_cloths();
   parts_->make_movers();
   parts_->make_guard();
+  parts_->note_too_fast();
 }
 
 Simulation::~Simulation() = default;
@@ -425,17 +481,7 @@ FrameReport Simulation::advance() {
     update(parts_->progress, "simulate",
            (parts_->frame + static_cast<double>(substep) / substeps) /
                std::max(parts_->frame + 1, parts_->scene.frames));
-    const double seconds = parts_->time_step * (parts_->frame * substeps + substep + 1);
-    parts_->move_driven(seconds);
-    const int contacts = parts_->step(report);
-    parts_->bodies_arrive();
-    for (std::size_t i = 0; i < parts_->cloths.size(); ++i) {
-      const SimulatedCloth& cloth = parts_->cloths[i];
-      if (const auto bad =
-              parts_->movers[i].runaway.find(cloth.cloth, cloth.state, seconds, parts_->solvers(i)))
-        parts_->stop_unstable(i, *bad);
-    }
-    report.contacts = std::max(report.contacts, contacts);
+    parts_->substep(parts_->frame * substeps + substep, report);
   }
   report.milliseconds = clock.lap();
   parts_->measure(report);
@@ -454,7 +500,7 @@ void Simulation::restore(const SimulationState& state) {
   parts_->frame = state.frame;
   for (std::size_t i = 0; i < state.cloths.size(); ++i) parts_->cloths[i].state = state.cloths[i];
   if (!parts_->driven.any_moves()) return;
-  parts_->driven.go(parts_->time_step * (parts_->frame * parts_->scene.substeps), parts_->team);
+  parts_->driven.go(parts_->substep_time * (parts_->frame * parts_->scene.substeps), parts_->team);
   parts_->bodies_arrive();
   // A new guard, for which this is no motion.
   parts_->make_guard();
