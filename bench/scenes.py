@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""Runs every scene of examples/scenes and drapes a sheet over shared meshes, each frame verified; draws each last frame.
+
+Usage: bench/scenes.py [--frames N] [--threads N] [--meshes FOLDER] [--pictures FOLDER] [--write] [NAME ...]
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import program
+
+MESHES = ("ode_spot.obj", "c3d_rocker-arm.obj", "igl_fertility.off", "bff_kitten.obj", "ode_human_woman.obj")
+COLUMNS = ("scene", "samples", "frames", "intersections, worst frame", "strain mean %", "p99 %", "largest %", "ms a frame",
+           "solve", "collide", "limit", "contacts", "self contacts", "fall of the centre, m", "its way in the last second, mm",
+           "wall time, s")
+
+
+def scenes(folder):
+    """Name and the words that run it; what is generated goes into the folder."""
+    made = pathlib.Path(folder)
+    for path in sorted((program.ROOT / "examples/scenes").glob("*.json")):
+        if "walk.pc2" in path.read_text():
+            subprocess.run([sys.executable, program.ROOT / "examples/walk.py", made / "walk.pc2", "--weft", program.PROGRAM],
+                           check=True)
+            path = pathlib.Path(made / path.name).write_text(path.read_text()) and made / path.name
+        yield path.stem, ("simulate", path)
+
+
+def drapes(meshes):
+    for name in MESHES:
+        yield f"sheet on {name}", ("drape", "builtin:sheet", meshes / name)
+
+
+def verified(words):
+    """(report, None), also where intersections were found; or (None, the error in one line)."""
+    done = subprocess.run([program.PROGRAM, *map(str, words), "--verify", "--json", "--quiet"],
+                          capture_output=True, text=True)
+    if done.returncode in (0, 4):
+        return json.loads(done.stdout), None
+    return None, f"exit {done.returncode}: {done.stderr.strip().removeprefix('weft: error: ')}"
+
+
+def way_in_last_second(centres, time_step, substeps):
+    frames = round(1 / (time_step * substeps))
+    before, after = centres[max(0, len(centres) - 1 - frames)], centres[-1]
+    return sum((a - b) ** 2 for a, b in zip(after, before)) ** 0.5
+
+
+def row_of(name, words, options, run):
+    began = time.monotonic()
+    limits = ["--threads", options.threads] + (["--frames", options.frames] if options.frames else [])
+    report, error = verified([*words, "-o", run, *limits, "--checkpoint", 0])
+    seconds = time.monotonic() - began
+    options.pictures.mkdir(parents=True, exist_ok=True)
+    subprocess.run([program.PROGRAM, "render", run, "-o", options.pictures / f"{name.replace(' ', '_')}.png"],
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    if error:
+        return [name, f"**{error.split('.json: ')[-1]}**"] + [""] * (len(COLUMNS) - 2)
+    strain, times, centres = report["strain"], report["ms_per_frame"], report["centre_of_mass"]
+    crossing = report["intersections"]
+    return [name, report["particles"], report["frames"], f"**{crossing}**" if crossing else 0,
+            f"{100 * strain['mean']:.2f}", f"{100 * strain['p99']:.1f}", f"{100 * strain['max']:.0f}",
+            *(f"{times[key]:.1f}" for key in ("median", "solve", "collide", "limit")), report["contacts_max"],
+            report["self_contacts_max"], f"{centres[0][1] - centres[-1][1]:.4f}",
+            f"{1000 * way_in_last_second(centres, report['time_step'], report['substeps']):.2f}", f"{seconds:.0f}"]
+
+
+def options_of():
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("names", nargs="*", metavar="NAME", help="only scenes whose name holds one of these")
+    words.add_argument("--frames", type=int, help="instead of each scene's own")
+    words.add_argument("--threads", type=int, default=2)
+    words.add_argument("--meshes", type=pathlib.Path, default=program.ROOT.parent / "shared/meshes")
+    words.add_argument("--pictures", type=pathlib.Path, default=program.ROOT / "out/scenes")
+    words.add_argument("--write", action="store_true", help="renew the table of docs/measured.md")
+    return words.parse_args()
+
+
+def main():
+    options = options_of()
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, words in (*scenes(folder), *drapes(options.meshes)):
+            if options.names and not any(part in name for part in options.names):
+                continue
+            rows.append(row_of(name, words, options, pathlib.Path(folder) / "run"))
+            print(*rows[-1], sep="\t", flush=True)
+    if options.write:
+        program.write_between_marks("docs/measured.md", "scenes", program.table(COLUMNS, rows))
+    if any("**" in str(cell) for row in rows for cell in row):
+        sys.exit("bench: error: a scene fails")
+
+
+if __name__ == "__main__":
+    main()
