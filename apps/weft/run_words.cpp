@@ -83,7 +83,7 @@ void add_run_options(CLI::App& command, RunWords& words) {
       .add_option("--integrator", words.integrator, "Instead of the scene's, with default options")
       ->check(CLI::IsMember({"implicit", "explicit", "desbrun", "two_level", "multigrid"}));
   command.add_option("--collider", words.collider, "Instead of the scene's")
-      ->check(CLI::IsMember({"pyramid", "polar_map"}));
+      ->check(CLI::IsMember({"pyramid", "polar_map", "sphere_tree", "spatial_hash"}));
   command.add_option("--export", words.exports, "What to write, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember({"obj", "pc2"}))
@@ -107,8 +107,7 @@ void apply_run_words(const RunWords& words, Scene& scene) {
   if (words.integrator == "explicit") scene.integrator = ExplicitOptions{};
   if (words.integrator == "desbrun") scene.integrator = DesbrunOptions{};
   if (words.integrator == "two_level") scene.integrator = TwoLevelOptions{};
-  if (words.collider == "pyramid") scene.collider = PyramidOptions{};
-  if (words.collider == "polar_map") scene.collider = PolarMapOptions{};
+  if (const auto collider = collider_named(words.collider)) scene.collider = *collider;
 }
 
 void run_and_report(Scene scene, const std::string& name, const RunWords& words,

@@ -150,7 +150,8 @@ TEST(SceneFile, UnknownNamesListWhatIsKnown) {
             "s.json:integrator.type: unknown integrator 'midpoint'; known are: implicit, "
             "explicit, desbrun, two_level, multigrid");
   EXPECT_EQ(error_of(R"({"cloths":[{}],"collider":{"type":"octree"}})"),
-            "s.json:collider.type: unknown collider 'octree'; known are: pyramid, polar_map");
+            "s.json:collider.type: unknown collider 'octree'; known are: pyramid, polar_map, "
+            "sphere_tree, spatial_hash");
   EXPECT_EQ(error_of(with_cloth(R"("material":"coton")")),
             "s.json:cloths[0].material: unknown material 'coton'; the nearest known is 'cotton'");
   EXPECT_EQ(error_of(R"({"cloths":[{}],"version":2})"),
@@ -316,7 +317,8 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
   EXPECT_EQ(properties_of(parts["desbrun"]), as_set(scene_keys::desbrun_integrator));
   EXPECT_EQ(properties_of(parts["multigrid"]), as_set(scene_keys::multigrid_integrator));
   EXPECT_EQ(properties_of(parts["two_level"]), as_set(scene_keys::two_level_integrator));
-  EXPECT_EQ(properties_of(parts["pyramid"]), as_set(scene_keys::pyramid_collider));
+  for (const char* type : {"pyramid", "sphere_tree", "spatial_hash"})
+    EXPECT_EQ(properties_of(parts[type]), as_set(scene_keys::guarding_collider));
   EXPECT_EQ(properties_of(parts["polar_map"]), as_set(scene_keys::polar_map_collider));
   EXPECT_EQ(properties_of(parts["cloth"]), as_set(scene_keys::cloth));
   EXPECT_EQ(properties_of(parts["body"]), as_set(scene_keys::body));

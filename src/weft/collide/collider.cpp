@@ -7,6 +7,8 @@
 #include "weft/collide/polar_map.h"
 #include "weft/collide/pyramid_pairs.h"
 #include "weft/collide/response.h"
+#include "weft/collide/spatial_hash.h"
+#include "weft/collide/sphere_tree.h"
 
 namespace weft {
 namespace {
@@ -243,7 +245,11 @@ std::unique_ptr<Collider> make_collider(const ColliderOptions& options, const Ob
                                         std::span<const GuardedCloth> cloths) {
   if (const auto* polar_map = std::get_if<PolarMapOptions>(&options))
     return std::make_unique<PushCollider>(*polar_map, obstacles, cloths);
-  return std::make_unique<GuardingCollider>(make_broad_phase<PyramidPairs>, obstacles, cloths);
+  GuardingCollider::MakeBroadPhase make = make_broad_phase<PyramidPairs>;
+  if (std::holds_alternative<SphereTreeOptions>(options)) make = make_broad_phase<SphereTreePairs>;
+  if (std::holds_alternative<SpatialHashOptions>(options))
+    make = make_broad_phase<SpatialHashPairs>;
+  return std::make_unique<GuardingCollider>(make, obstacles, cloths);
 }
 
 }  // namespace weft

@@ -26,6 +26,11 @@ struct Body {
 /// The default: mip pyramids as bounding hierarchies, planes that nothing passes.
 struct PyramidOptions {};
 
+/// The same with other broad phases, to compare with: spheres in a tree over the image [benes05],
+/// and a hashed grid of space [teschner03].
+struct SphereTreeOptions {};
+struct SpatialHashOptions {};
+
 /// The paper's angular table [zink07, section 5].
 struct PolarMapOptions {
   int size = 0;  ///< cells a side of the table; 0: the body's image size
@@ -34,8 +39,11 @@ struct PolarMapOptions {
   /// radial point may lie far from the closest one, so that single pushes are far too deep.
   bool walk = true;
 };
-using ColliderOptions = std::variant<PyramidOptions, PolarMapOptions>;
+using ColliderOptions =
+    std::variant<PyramidOptions, PolarMapOptions, SphereTreeOptions, SpatialHashOptions>;
 std::string_view name_of(const ColliderOptions& options);
+/// The collider of that name, with default options; nothing where there is none.
+std::optional<ColliderOptions> collider_named(std::string_view name);
 /// Whether it can keep a cloth from passing through itself.
 bool knows_self_collision(const ColliderOptions& options);
 /// Whether it can keep cloth out of bodies that move.

@@ -20,7 +20,7 @@ inline constexpr std::array<std::string_view, 4> multigrid_integrator{
     "type", "limiter_passes", "max_iterations", "tolerance"};
 inline constexpr std::array<std::string_view, 6> two_level_integrator{
     "type", "limiter_passes", "local_size", "global_size", "as_printed", "filter_stiffness"};
-inline constexpr std::array<std::string_view, 1> pyramid_collider{"type"};
+inline constexpr std::array<std::string_view, 1> guarding_collider{"type"};
 inline constexpr std::array<std::string_view, 3> polar_map_collider{"type", "size", "walk"};
 inline constexpr std::array<std::string_view, 12> cloth{
     "name",     "surface",        "size",     "scale",    "rotate", "translate",

@@ -46,9 +46,12 @@ struct IntegratorWriter {
 };
 
 Json collider_json(const ColliderOptions& options) {
-  if (std::holds_alternative<PyramidOptions>(options)) return {{"type", name_of(options)}};
-  const auto& o = std::get<PolarMapOptions>(options);
-  return {{"type", name_of(options)}, {"size", o.size}, {"walk", o.walk}};
+  Json json{{"type", name_of(options)}};
+  if (const auto* polar_map = std::get_if<PolarMapOptions>(&options)) {
+    json["size"] = polar_map->size;
+    json["walk"] = polar_map->walk;
+  }
+  return json;
 }
 
 Json material_json(const Material& m) {

@@ -78,13 +78,14 @@ IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& 
 
 ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place) {
   const std::string type = type_of(value, place, name_of(ColliderOptions{}));
-  if (type == name_of(PyramidOptions{})) {
-    const JsonObject object(value, place, scene_keys::pyramid_collider);
-    return PyramidOptions{};
-  }
-  if (type != name_of(PolarMapOptions{}))
+  const std::optional<ColliderOptions> named = collider_named(type);
+  if (!named)
     place.key("type").fail(fmt::format("unknown collider '{}'", type),
-                           "known are: pyramid, polar_map");
+                           "known are: pyramid, polar_map, sphere_tree, spatial_hash");
+  if (!std::holds_alternative<PolarMapOptions>(*named)) {
+    const JsonObject object(value, place, scene_keys::guarding_collider);
+    return *named;
+  }
   const JsonObject object(value, place, scene_keys::polar_map_collider);
   PolarMapOptions options;
   options.size = object.integer("size", options.size, 0, largest_table);
