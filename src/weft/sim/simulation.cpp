@@ -18,6 +18,7 @@
 #include "weft/sim/placement.h"
 #include "weft/sim/runaway.h"
 #include "weft/sim/scene_file.h"
+#include "weft/sim/step_pieces.h"
 
 namespace weft {
 namespace {
@@ -57,11 +58,6 @@ LimitOptions suitable_limit(bool soft, int size) {
 }
 /// Of the limiter on each coarse level.
 constexpr int coarse_passes = 2;
-
-/// Bodies go at most this part of the least gap in a step, so that cloth is pushed before it is
-/// passed: faster ones take more steps, to a limit.
-constexpr double most_way_in_gaps = 0.4;
-constexpr int most_pieces = 32;
 
 class StageClock {
  public:
@@ -367,17 +363,14 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
 int Simulation::Parts::pieces_until(double seconds) {
   if (!driven.any_moves()) return 1;
   driven.go(seconds, team);
-  float farthest = 0;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].moves) continue;
-    const Planes3 &from = bodies[i].positions, &to = *driven.ends()[i];
-    for (int s = 0; s < from.size() * from.size(); ++s)
-      farthest = std::max(farthest, squared_length(to.at(s) - from.at(s)));
+  double way = 0;
+  for (std::size_t c = 0; c < cloths.size(); ++c) {
+    const Box3d near = swept_box(cloths[c].state, substep_time, gap_of(cloths[c].cloth));
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (bodies[i].moves)
+        way = std::max(way, farthest_way(bodies[i].positions, *driven.ends()[i], near));
   }
-  const double way = std::sqrt(double{farthest});
-  int pieces = 1;
-  while (pieces < most_pieces && way > pieces * most_way) pieces *= 2;
-  return pieces;
+  return pieces_for(way, most_way);
 }
 
 int Simulation::Parts::step(FrameReport& report) {
