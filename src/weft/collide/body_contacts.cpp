@@ -11,7 +11,11 @@ namespace {
 constexpr double most_recovery = 0.25;
 /// The solve may bring cloth closer than its proposal, by springs: contacts begin this many gaps
 /// before the one that is kept.
-constexpr double foresight = 2;
+constexpr double foresight = 1.5;
+/// Steps as long as the present one that a look reckons with.
+constexpr double ahead = 1;
+/// Of distances in single precision, generously.
+constexpr double rounding = 1e-5;
 
 double pair_friction(double a, double b) { return std::sqrt(a * b); }
 
@@ -37,12 +41,27 @@ void BodyContacts::put_offset(double surface, double gap_at_start, Contact& cont
   contact.lift = static_cast<float>(std::clamp(gap_ - gap_at_start, 0.0, most_recovery * gap_));
 }
 
+std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, Vec3f start, double reach,
+                                            Known& known) {
+  const Vec3d point = vec_cast<double>(start);
+  const double since = length(point - vec_cast<double>(known.place));
+  if (known.distance - since > reach * (1 + rounding)) return std::nullopt;
+  // Farther than need be, so that the next steps need not look again.
+  const double wider = reach + ahead * (reach - foresight * gap_) + foresight * gap_;
+  const auto found = body.query->closest(point, wider, known.triangle);
+  known = {start, static_cast<float>(found ? std::sqrt(found->squared_distance) : wider),
+           found ? found->triangle : known.triangle};
+  if (!found || !(found->squared_distance < reach * reach)) return std::nullopt;
+  return found;
+}
+
 void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, bool deep,
                              int sample, std::vector<Contact>& out) {
   const Vec3d start = vec_cast<double>(cloth.start.at(sample));
   const Vec3d way = vec_cast<double>(cloth.position.at(sample)) - start;
   const double reach = deep ? HUGE_VAL : foresight * gap_ + length(way) + body.most_moved;
-  const auto found = body.query->closest(start, reach);
+  const auto found =
+      look(body, cloth.start.at(sample), reach, known_[body.number - 1].samples[sample]);
   if (!found) return;
   const bool behind = body.query->closed() && body.query->behind(start, *found);
   if (behind) inside_[sample] = body.number;
@@ -86,11 +105,23 @@ void BodyContacts::find_for_sample(const MovingCloth& cloth, std::span<const Con
   if (ground != nullptr) find_ground(cloth, *ground, sample, out);
 }
 
+void BodyContacts::forget_moved(std::span<const ContactBody> bodies) {
+  known_.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    KnownBody& known = known_[i];
+    known.samples.resize(inside_.size());
+    if (known.placed == bodies[i].placed) continue;
+    known.placed = bodies[i].placed;
+    for (Known& sample : known.samples) sample.distance = 0;
+  }
+}
+
 void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> bodies,
                         const Ground* ground, ThreadTeam& team) {
   found_.resize(static_cast<std::size_t>(team.size()));
   for (std::vector<Contact>& mine : found_) mine.clear();
   const int n = grid_.size();
+  forget_moved(bodies);
   team.run([&](Worker& worker) {
     std::vector<Contact>& mine = found_[static_cast<std::size_t>(worker.rank())];
     const Range rows = worker.share(n);

@@ -16,6 +16,7 @@ struct ContactBody {
   const Planes3* end = nullptr;  ///< the start where it stands still
   double friction = 0;           ///< of the body
   double most_moved = 0;         ///< by any sample during the step [m]
+  int placed = 0;                ///< how often it has been placed
 };
 
 /// Which of a cloth's samples are behind the surface of a closed body: its number, or 0.
@@ -52,9 +53,24 @@ class BodyContacts {
   /// @param surface  along the contact's normal [m]
   void put_offset(double surface, double gap_at_start, Contact& contact) const;
 
+  /// What is known of a sample and a body: how far it was from where.
+  struct Known {
+    Vec3f place;
+    float distance = 0;  // at least; 0: nothing is known [m]
+    int triangle = -1;   // that was closest
+  };
+  void forget_moved(std::span<const ContactBody> bodies);
+  /// The closest point, if it matters; remembers what there was to be known.
+  std::optional<BodyPoint> look(const ContactBody& body, Vec3f start, double reach, Known& known);
+
   const SurfaceGrid& grid_;
   double gap_, friction_;
-  InsideMarks inside_;  // [n * n]
+  struct KnownBody {
+    int placed = 0;
+    std::vector<Known> samples;  // [n * n]
+  };
+  std::vector<KnownBody> known_;  // one a body
+  InsideMarks inside_;            // [n * n]
   bool looked_ = false;
   std::vector<std::vector<Contact>> found_;  // one a worker
   std::vector<Contact> contacts_;

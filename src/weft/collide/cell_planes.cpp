@@ -27,6 +27,7 @@ class Finder {
   /// @return features that met
   int look_at(const CellPair& cells) {
     meeting_ = 0;
+    if (certain(cells)) return 0;
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j)
         triangles(search_.a.surface.grid->triangle(cells.a, i),
@@ -35,6 +36,41 @@ class Finder {
   }
 
  private:
+  /// Whether the normal direction of one cell keeps the two as wholes apart, whatever their points
+  /// do within the slack: spares looking at their triangles.
+  [[nodiscard]] bool certain(const CellPair& cells) const {
+    const std::array<int, 4> a = search_.a.surface.grid->corners(cells.a);
+    const std::array<int, 4> b = search_.b.surface.grid->corners(cells.b);
+    return certain_along(normal_of(search_.b, b), a, b) ||
+           certain_along(normal_of(search_.a, a), a, b);
+  }
+  static Vec3d normal_of(const PlaneSide& side, const std::array<int, 4>& s) {
+    const auto at = [&](int k) { return vec_cast<double>(side.surface.start->at(s[k])); };
+    return normalized(cross(at(1) - at(2), at(3) - at(0)));
+  }
+  [[nodiscard]] bool certain_along(Vec3d n, const std::array<int, 4>& a,
+                                   const std::array<int, 4>& b) const {
+    const double wanted = (search_.b.body ? 1 : 2) * search_.slack;
+    const Bounds start_a = bounds(n, *search_.a.surface.start, a);
+    const Bounds start_b = bounds(n, *search_.b.surface.start, b);
+    const bool above = start_a.least > start_b.most, below = start_b.least > start_a.most;
+    if (!above && !below) return false;
+    const Bounds end_a = bounds(n, *search_.a.surface.end, a);
+    const Bounds end_b = bounds(n, *search_.b.surface.end, b);
+    return (above ? end_a.least - end_b.most : end_b.least - end_a.most) >= wanted;
+  }
+  struct Bounds {
+    double least = HUGE_VAL, most = -HUGE_VAL;
+  };
+  static Bounds bounds(Vec3d n, const Planes3& at, const std::array<int, 4>& samples) {
+    Bounds found;
+    for (const int s : samples) {
+      const double along = dot(n, vec_cast<double>(at.at(s)));
+      found = {std::min(found.least, along), std::max(found.most, along)};
+    }
+    return found;
+  }
+
   void triangles(const Samples& a, const Samples& b) {
     if (search_.a.surface.grid->folded(a) || search_.b.surface.grid->folded(b)) return;
     if (!search_.same) {

@@ -62,46 +62,48 @@ void fill(const Row& row, const Planes3& start, const Planes3& end, ExtentLevels
   worker.barrier();
 }
 
-/// A row of the next coarser level; `second` is null where the finer has no such row.
-template <class Pick>
-void halve_row(const Pick& pick, int fine_cols, const float* first, const float* second,
-               float* out) {
-  const int pairs = fine_cols / 2;
-  for (int c = 0; c < pairs; ++c)
-    out[c] = pick(pick(first[2 * c], first[2 * c + 1]), pick(second[2 * c], second[2 * c + 1]));
-  if (fine_cols % 2 != 0) out[pairs] = pick(first[fine_cols - 1], second[fine_cols - 1]);
-}
-
 /// Levels of fewer nodes than this a side are fitted by one worker.
 constexpr int least_shared_side = 32;
 
 }  // namespace
 
 ExtentLevels::ExtentLevels(int cells) : sides_(level_sides(cells)) {
-  for (const int side : sides_) {
-    levels_.emplace_back();
-    for (Grid<float>& plane : levels_.back()) plane = Grid<float>(side, side);
+  for (Grid<float>& plane : finest_) plane = Grid<float>(cells, cells);
+  for (const int side : sides_) boxes_.emplace_back(static_cast<std::size_t>(side) * side);
+}
+
+void ExtentLevels::pack_row(int row) {
+  const int cells = sides_.front();
+  const auto& [x0, y0, z0, x1, y1, z1] = finest_;
+  Box3f* out = &boxes_.front()[static_cast<std::size_t>(row) * cells];
+  for (int c = 0; c < cells; ++c)
+    out[c] = {{x0.row(row)[c], y0.row(row)[c], z0.row(row)[c]},
+              {x1.row(row)[c], y1.row(row)[c], z1.row(row)[c]}};
+}
+
+void ExtentLevels::fit_row(std::size_t level, int row) {
+  const int fine = sides_[level - 1], side = sides_[level];
+  const Box3f* first = &boxes_[level - 1][static_cast<std::size_t>(2 * row) * fine];
+  const Box3f* second = 2 * row + 1 < fine ? first + fine : first;
+  Box3f* out = &boxes_[level][static_cast<std::size_t>(row) * side];
+  for (int c = 0; c < side; ++c) {
+    const int left = 2 * c, right = 2 * c + 1 < fine ? left + 1 : left;
+    out[c] = {min(min(first[left].lower, first[right].lower),
+                  min(second[left].lower, second[right].lower)),
+              max(max(first[left].upper, first[right].upper),
+                  max(second[left].upper, second[right].upper))};
   }
 }
 
 void ExtentLevels::fit(Worker& worker) {
-  for (std::size_t l = 1; l < levels_.size(); ++l) {
-    const int fine = sides_[l - 1], side = sides_[l];
-    const bool shared = side >= least_shared_side;
+  const Range rows = worker.share(sides_.front());
+  for (int r = rows.first; r < rows.last; ++r) pack_row(r);
+  worker.barrier();
+  for (std::size_t level = 1; level < sides_.size(); ++level) {
+    const bool shared = sides_[level] >= least_shared_side;
     if (!shared && worker.rank() != 0) break;
-    const Range mine = shared ? worker.share(side) : Range{0, side};
-    for (int r = mine.first; r < mine.last; ++r)
-      for (std::size_t k = 0; k < 6; ++k) {
-        const Grid<float>& from = levels_[l - 1][k];
-        const float* first = from.row(2 * r);
-        const float* second = 2 * r + 1 < fine ? from.row(2 * r + 1) : first;
-        float* out = levels_[l][k].row(r);
-        if (k < 3) {
-          halve_row(least, fine, first, second, out);
-        } else {
-          halve_row(largest, fine, first, second, out);
-        }
-      }
+    const Range mine = shared ? worker.share(sides_[level]) : Range{0, sides_[level]};
+    for (int r = mine.first; r < mine.last; ++r) fit_row(level, r);
     if (shared) worker.barrier();
   }
   worker.barrier();

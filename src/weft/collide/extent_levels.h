@@ -18,23 +18,24 @@ class ExtentLevels {
   explicit ExtentLevels(int cells);
 
   /// The cells' own, for the caller to fill: least x, y, z, largest x, y, z. [cells x cells]
-  [[nodiscard]] std::array<Grid<float>, 6>& finest() { return levels_.front(); }
-  /// Fits the coarser levels, all of them. To be called by every worker after a barrier; ends with
-  /// one.
+  [[nodiscard]] std::array<Grid<float>, 6>& finest() { return finest_; }
+  /// Fits all levels from it. To be called by every worker after a barrier; ends with one.
   void fit(Worker& worker);
 
   [[nodiscard]] const std::vector<int>& sides() const { return sides_; }
   [[nodiscard]] int top() const { return static_cast<int>(sides_.size()) - 1; }
-  [[nodiscard]] Box3f at(const Node& node) const {
-    const auto& l = levels_[static_cast<std::size_t>(node.level)];
-    const std::ptrdiff_t i = node.row * l[0].stride() + node.col;
-    return {{l[0].row(0)[i], l[1].row(0)[i], l[2].row(0)[i]},
-            {l[3].row(0)[i], l[4].row(0)[i], l[5].row(0)[i]}};
+  [[nodiscard]] const Box3f& at(const Node& node) const {
+    const auto level = static_cast<std::size_t>(node.level);
+    return boxes_[level][static_cast<std::size_t>(node.row) * sides_[level] + node.col];
   }
 
  private:
+  void pack_row(int row);
+  void fit_row(std::size_t level, int row);
+
   std::vector<int> sides_;
-  std::vector<std::array<Grid<float>, 6>> levels_;
+  std::array<Grid<float>, 6> finest_;
+  std::vector<std::vector<Box3f>> boxes_;  // of each level [side * side]: one's six lie together
 };
 
 /// Fills the boxes of a surface's cells over a step. To be called by every worker; ends with a

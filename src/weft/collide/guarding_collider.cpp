@@ -9,13 +9,14 @@ namespace {
 /// How far the guard may move a point aside before the rest has to be looked at again: parts of the
 /// gap that is kept, and of the rest spacing.
 constexpr double slack_in_gaps = 0.2, slack_in_spacings = 0.03;
-/// Points that were held back or moved far may lead others astray, so all is looked at again, this
-/// many times at most.
-constexpr int most_rounds = 12;
-/// In the first rounds points may be moved by this part of the rest spacing, which leaves them
-/// their motion along what they meet; afterwards they are held back on their way, which soon ends.
-constexpr int rounds_aside = 4;
+/// Points that were held back or moved far may lead others astray, so all is looked at again. In
+/// the first rounds points may be moved by this part of the rest spacing, which leaves them their
+/// motion along what they meet; in the next ones they are held back on their way.
+constexpr int rounds_aside = 4, rounds_on_the_way = 6;
 constexpr double aside_in_spacings = 1;
+/// Then whoever is stopped stays where it was with all around it, in squares that double from round
+/// to round; at last the cloths stay where they were as a whole, where nothing meets.
+constexpr int most_rounds = 14;
 /// Pairs are looked at that come within this many gaps, see PairContacts.
 constexpr double foresight = 1.5;
 /// Before the ground, against rounding [m].
@@ -95,10 +96,13 @@ void GuardingCollider::gather_surfaces(std::span<const MovingCloth> cloths) {
 void GuardingCollider::place_bodies(ThreadTeam& team) {
   contact_bodies_.clear();
   for (GuardedBody& body : bodies_) {
-    if (body.moved) body.query->place(body.start, team);
+    if (body.moved) {
+      body.query->place(body.start, team);
+      ++body.placed;
+    }
     body.moved = false;
     contact_bodies_.push_back({static_cast<int>(contact_bodies_.size()) + 1, body.query.get(),
-                               &body.start, body.end, body.friction, body.most_moved});
+                               &body.start, body.end, body.friction, body.most_moved, body.placed});
   }
 }
 
@@ -228,6 +232,28 @@ PlaneGuard::Result GuardingCollider::hold(std::span<const MovingCloth> cloths, d
   return plane_guard_.hold(planes_, points_, {slack_, farthest}, at, put, team);
 }
 
+void GuardingCollider::stay(std::span<const MovingCloth> cloths, double time_step, int around,
+                            bool all) {
+  const auto stay_at_start = [&](const MovingCloth& cloth, int row, int col) {
+    const Vec3f start = cloth.start.at(row, col);
+    const Vec3f change = static_cast<float>(1 / time_step) * (start - cloth.position.at(row, col));
+    cloth.position.set(row, col, start);
+    cloth.velocity.set(row, col, cloth.velocity.at(row, col) + change);
+  };
+  for (std::size_t i = 0; all && i < cloths.size(); ++i)
+    for (int r = 0; r < cloths_[i].facts.size; ++r)
+      for (int c = 0; c < cloths_[i].facts.size; ++c) stay_at_start(cloths[i], r, c);
+  if (all) return;
+  for (const int point : plane_guard_.stopped()) {
+    const std::size_t cloth = cloth_of_[point];
+    const int n = cloths_[cloth].facts.size, sample = point - cloths_[cloth].first_point;
+    const int row = sample / n, col = sample % n;
+    for (int r = std::max(0, row - around); r <= std::min(n - 1, row + around); ++r)
+      for (int c = std::max(0, col - around); c <= std::min(n - 1, col + around); ++c)
+        stay_at_start(cloths[cloth], r, c);
+  }
+}
+
 int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_step,
                             ThreadTeam& team) noexcept {
   gather_surfaces(cloths);
@@ -238,9 +264,12 @@ int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_ste
     add_ground_planes(cloths);
     const PlaneGuard::Result held =
         hold(cloths, time_step, round < rounds_aside ? most_aside_ : slack_, team);
-    for (std::size_t i = 0; i < cloths_.size(); ++i) copy_to_mates(cloths_[i], cloths[i]);
     stopped += held.stopped + held.lost;
-    if (held.stopped + held.far == 0) break;
+    const bool settled = held.stopped + held.far == 0;
+    if (!settled && round >= rounds_on_the_way)
+      stay(cloths, time_step, 1 << (round - rounds_on_the_way), round + 1 == most_rounds);
+    for (std::size_t i = 0; i < cloths_.size(); ++i) copy_to_mates(cloths_[i], cloths[i]);
+    if (settled) break;
   }
   finish_bodies();
   return stopped;

@@ -55,6 +55,7 @@ class GuardingCollider final : public Collider {
     double friction = 0;
     double most_moved = 0;  // this step [m]
     bool moved = true;      // since its query was placed
+    int placed = 0;         // how often it was
   };
   struct Round {
     PlaneGuard::Result held;
@@ -69,6 +70,8 @@ class GuardingCollider final : public Collider {
   void add_ground_planes(std::span<const MovingCloth> cloths);
   PlaneGuard::Result hold(std::span<const MovingCloth> cloths, double time_step, double farthest,
                           ThreadTeam& team);
+  /// Leaves the points that were stopped, and those around them, where they started; or all.
+  void stay(std::span<const MovingCloth> cloths, double time_step, int around, bool all);
   [[nodiscard]] PlaneSide side_of(std::size_t surface) const;
   void finish_bodies();
 

@@ -60,12 +60,47 @@ class Finder {
       : pair_(pair), of_a_(of_a), of_b_(of_b) {}
 
   void look_at(const CellPair& cells) {
+    if (pair_.same && adjacent(cells)) return;
+    if (apart(cells)) return;
     samples_with_triangles(*pair_.grid_a, cells.a, *pair_.grid_b, cells.b, false);
     samples_with_triangles(*pair_.grid_b, cells.b, *pair_.grid_a, cells.a, true);
     edges(cells);
   }
 
  private:
+  /// Cells that share a corner fold onto each other at the crease only, where bending and the guard
+  /// see to them.
+  [[nodiscard]] bool adjacent(const CellPair& cells) const {
+    const SurfaceGrid& grid = *pair_.grid_a;
+    const std::array<int, 4> a = grid.corners(cells.a), b = grid.corners(cells.b);
+    return std::any_of(a.begin(), a.end(), [&](int s) {
+      return std::any_of(b.begin(), b.end(), [&](int t) { return grid.point(s) == grid.point(t); });
+    });
+  }
+
+  /// Whether one cell's normal direction keeps them apart at both ends by more than contacts reach.
+  [[nodiscard]] bool apart(const CellPair& cells) const {
+    return apart_along(cell_normal(*pair_.grid_a, pair_.a->start, cells.a), cells) ||
+           apart_along(cell_normal(*pair_.grid_b, pair_.b->start, cells.b), cells);
+  }
+  [[nodiscard]] bool apart_along(Vec3d n, const CellPair& cells) const {
+    const auto bounds = [&](const Planes3& at, const std::array<int, 4>& corners) {
+      std::array<double, 2> least_most{HUGE_VAL, -HUGE_VAL};
+      for (const int s : corners) {
+        const double along = dot(n, vec_cast<double>(at.at(s)));
+        least_most = {std::min(least_most[0], along), std::max(least_most[1], along)};
+      }
+      return least_most;
+    };
+    const std::array<int, 4> a = pair_.grid_a->corners(cells.a), b = pair_.grid_b->corners(cells.b);
+    const double reach = foresight * pair_.gap;
+    const auto start_a = bounds(pair_.a->start, a), start_b = bounds(pair_.b->start, b);
+    const bool above = start_a[0] - start_b[1] > reach, below = start_b[0] - start_a[1] > reach;
+    if (!above && !below) return false;
+    const auto end_a = bounds(pair_.a->position, a), end_b = bounds(pair_.b->position, b);
+    return above ? end_a[0] - end_b[1] > reach : end_b[0] - end_a[1] > reach;
+  }
+
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }
   [[nodiscard]] const SurfaceGrid& grid(bool b) const { return b ? *pair_.grid_b : *pair_.grid_a; }
 

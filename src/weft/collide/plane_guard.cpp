@@ -136,13 +136,15 @@ void PlaneGuard::settle(std::span<SeparatingPlane> planes, const Aside& aside) {
   }
 }
 
-PlaneGuard::Result PlaneGuard::count_fates() const {
+PlaneGuard::Result PlaneGuard::count_fates() {
   Result result;
-  for (const Fate fate : fates_) {
+  for (std::size_t i = 0; i < fates_.size(); ++i) {
+    const Fate fate = fates_[i];
     if (fate == Fate::aside) ++result.aside;
     if (fate == Fate::far) ++result.far;
     if (fate == Fate::stopped) ++result.stopped;
     if (fate == Fate::lost) ++result.lost;
+    if (fate == Fate::stopped || fate == Fate::lost) stopped_.push_back(involved_[i]);
   }
   return result;
 }

@@ -26,6 +26,8 @@ class PlaneGuard {
     int stopped = 0;  ///< points that were held back on their way
     int lost = 0;     ///< points that could not be kept on their sides
   };
+  /// Numbers of the points that the last hold stopped or lost, ascending.
+  [[nodiscard]] std::span<const int> stopped() const { return stopped_; }
   /// How far points may be moved aside.
   struct Aside {
     double slack = 0;     ///< what planes reckon with [m]
@@ -65,7 +67,7 @@ class PlaneGuard {
              const GuardedPoint& point, Vec3f& end) const;
   void settle(std::span<SeparatingPlane> planes, const Aside& aside);
   bool make_still(std::span<SeparatingPlane> planes, int involved);
-  [[nodiscard]] Result count_fates() const;
+  Result count_fates();
 
   std::vector<int> involved_;  // points that planes name, ascending
   std::vector<int> index_;     // [count] of a point among them, -1: none
@@ -76,13 +78,15 @@ class PlaneGuard {
   std::vector<Fate> fates_;
   std::vector<char> still_;  // of planes
   std::vector<char> held_;   // of involved points: to be stopped
-  std::vector<char> anew_;   // of involved points: to be placed anew
+  std::vector<int> stopped_;
+  std::vector<char> anew_;  // of involved points: to be placed anew
 };
 
 template <class At, class Put>
 PlaneGuard::Result PlaneGuard::hold(std::span<SeparatingPlane> planes, int count,
                                     const Aside& aside, const At& at, const Put& put,
                                     ThreadTeam& team) {
+  stopped_.clear();
   if (planes.empty()) return {};
   gather(planes, count);
   const int points = static_cast<int>(involved_.size());

@@ -77,7 +77,7 @@ void PyramidPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& te
 }
 
 bool PyramidPairs::apart(const Search& search, const NodePair& pair) const {
-  const Box3f a = levels_[search.a].boxes.at(pair.a), b = levels_[search.b].boxes.at(pair.b);
+  const Box3f &a = levels_[search.a].boxes.at(pair.a), &b = levels_[search.b].boxes.at(pair.b);
   return !overlap(a, b, search.reach);
 }
 

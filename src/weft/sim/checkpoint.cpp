@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "WEFTCKPT";
-constexpr std::uint32_t format_version = 2;
+constexpr std::uint32_t format_version = 3;
 constexpr std::size_t size_at = magic.size() + sizeof(format_version);
 constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
 constexpr std::size_t header_bytes = hash_at + sizeof(std::uint64_t);
@@ -33,7 +33,7 @@ void each_field(Report& f, const Visit& visit) {
   visit(f.iterations), visit(f.residual);
   visit(f.strain.mean), visit(f.strain.p99), visit(f.strain.max);
   visit(f.kinetic_energy), visit(f.potential_energy);
-  visit(f.contacts), visit(f.smallest_gap);
+  visit(f.contacts), visit(f.self_contacts), visit(f.smallest_gap);
   visit(f.centre_of_mass.x), visit(f.centre_of_mass.y), visit(f.centre_of_mass.z);
 }
 static_assert(sizeof(FrameReport) == 17 * 8, "a new field goes into each_field, and this count up");

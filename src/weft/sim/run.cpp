@@ -67,6 +67,7 @@ void add_to_report(RunReport& report, const FrameReport& frame) {
   report.history.push_back(frame);
   report.strain = frame.strain;
   report.contacts_max = std::max(report.contacts_max, frame.contacts);
+  report.self_contacts_max = std::max(report.self_contacts_max, frame.self_contacts);
   report.centre_of_mass.push_back(frame.centre_of_mass);
 }
 

@@ -352,6 +352,7 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
     const double seconds = piece < pieces ? begin + time_step * piece : end;
     move_driven(seconds);
     report.contacts = std::max(report.contacts, step(report));
+    report.self_contacts = std::max(report.self_contacts, collider->self_contacts());
     bodies_arrive();
     for (std::size_t i = 0; i < cloths.size(); ++i)
       if (const auto bad =

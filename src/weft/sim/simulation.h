@@ -19,7 +19,8 @@ struct FrameReport {
   double residual = 0;  ///< largest of its steps
   StrainSummary strain;
   double kinetic_energy = 0, potential_energy = 0;  ///< [J]
-  int contacts = 0;                                 ///< largest of its steps
+  int contacts = 0;                                 ///< with obstacles, largest of its steps
+  int self_contacts = 0;                            ///< of cloth with cloth, largest of its steps
   double smallest_gap = HUGE_VAL;                   ///< see Collider::smallest_gap [m]
   Vec3d centre_of_mass;                             ///< all cloths together [m]
 };
