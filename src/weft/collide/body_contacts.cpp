@@ -118,19 +118,15 @@ void BodyContacts::forget_moved(std::span<const ContactBody> bodies) {
 
 void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> bodies,
                         const Ground* ground, ThreadTeam& team) {
-  found_.resize(static_cast<std::size_t>(team.size()));
-  for (std::vector<Contact>& mine : found_) mine.clear();
-  const int n = grid_.size();
   forget_moved(bodies);
+  const int n = grid_.size();
   team.run([&](Worker& worker) {
-    std::vector<Contact>& mine = found_[static_cast<std::size_t>(worker.rank())];
-    const Range rows = worker.share(n);
-    for (int s = rows.first * n; s < rows.last * n; ++s)
-      if (grid_.point(s) == s) find_for_sample(cloth, bodies, ground, s, mine);
+    found_.fill(n * n, worker, [&](int s, std::vector<Contact>& out) {
+      if (grid_.point(s) == s) find_for_sample(cloth, bodies, ground, s, out);
+    });
   });
   contacts_.clear();
-  for (const std::vector<Contact>& mine : found_)
-    contacts_.insert(contacts_.end(), mine.begin(), mine.end());
+  append(found_, contacts_);
   looked_ = true;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "weft/collide/body_query.h"
+#include "weft/collide/chunks.h"
 #include "weft/collide/collider.h"
 #include "weft/core/contact.h"
 
@@ -72,7 +73,7 @@ class BodyContacts {
   std::vector<KnownBody> known_;  // one a body
   InsideMarks inside_;            // [n * n]
   bool looked_ = false;
-  std::vector<std::vector<Contact>> found_;  // one a worker
+  ChunkedLists<std::vector<Contact>> found_;
   std::vector<Contact> contacts_;
 };
 

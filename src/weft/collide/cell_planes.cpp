@@ -41,8 +41,17 @@ class Finder {
   [[nodiscard]] bool certain(const CellPair& cells) const {
     const std::array<int, 4> a = search_.a.surface.grid->corners(cells.a);
     const std::array<int, 4> b = search_.b.surface.grid->corners(cells.b);
-    return certain_along(normal_of(search_.b, b), a, b) ||
+    // Neighbours in one layer lie beside each other, layers above each other.
+    return (search_.same && certain_along(way_between(a, b), a, b)) ||
+           certain_along(normal_of(search_.b, b), a, b) ||
            certain_along(normal_of(search_.a, a), a, b);
+  }
+  [[nodiscard]] Vec3d way_between(const std::array<int, 4>& a, const std::array<int, 4>& b) const {
+    Vec3d way;
+    for (std::size_t k = 0; k < 4; ++k)
+      way += vec_cast<double>(search_.a.surface.start->at(a[k])) -
+             vec_cast<double>(search_.b.surface.start->at(b[k]));
+    return normalized(way);
   }
   static Vec3d normal_of(const PlaneSide& side, const std::array<int, 4>& s) {
     const auto at = [&](int k) { return vec_cast<double>(side.surface.start->at(s[k])); };
@@ -121,19 +130,13 @@ class Finder {
 
 int CellPlanes::find(const PlaneSearch& search, std::span<const CellPair> cells, ThreadTeam& team,
                      std::vector<SeparatingPlane>& out) {
-  found_.resize(static_cast<std::size_t>(team.size()));
-  for (Found& mine : found_) {
-    mine.planes.clear();
-    mine.meeting = 0;
-  }
   team.run([&](Worker& worker) {
-    Found& mine = found_[static_cast<std::size_t>(worker.rank())];
-    Finder finder(search, mine.planes);
-    const Range share = worker.share(static_cast<int>(cells.size()));
-    for (int i = share.first; i < share.last; ++i) mine.meeting += finder.look_at(cells[i]);
+    found_.fill(static_cast<int>(cells.size()), worker, [&](int i, Found& mine) {
+      mine.meeting += Finder(search, mine.planes).look_at(cells[i]);
+    });
   });
   int meeting = 0;
-  for (const Found& mine : found_) {
+  for (const Found& mine : found_.lists()) {
     out.insert(out.end(), mine.planes.begin(), mine.planes.end());
     meeting += mine.meeting;
   }

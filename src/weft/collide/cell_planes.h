@@ -5,6 +5,7 @@
 
 #include "weft/collide/body_contacts.h"
 #include "weft/collide/cell_pairs.h"
+#include "weft/collide/chunks.h"
 #include "weft/collide/separating_planes.h"
 #include "weft/core/thread_team.h"
 
@@ -39,8 +40,12 @@ class CellPlanes {
   struct Found {
     std::vector<SeparatingPlane> planes;
     int meeting = 0;
+    void clear() {
+      planes.clear();
+      meeting = 0;
+    }
   };
-  std::vector<Found> found_;  // one a worker
+  ChunkedLists<Found> found_;
 };
 
 }  // namespace weft

@@ -74,6 +74,7 @@ void GuardingCollider::move_bodies(std::span<const Planes3* const> ends) noexcep
     for (int s = 0; s < n * n; ++s)
       most = std::max(most, double{squared_length(body.end->at(s) - body.start.at(s))});
     body.most_moved = std::sqrt(most);
+    if (most == 0) body.end = &body.start;
   }
 }
 

@@ -29,7 +29,9 @@ Box3f extent_of(const ExtentLevels& edges, const Cells& of) {
 
 void LocalFolds::fit(const MovingSurface& surface, Worker& worker) {
   fill_edge_extents(EdgeWay::along_row, *surface.start, *surface.end, row_edges_, worker);
+  row_edges_.fit(worker);
   fill_edge_extents(EdgeWay::along_column, *surface.start, *surface.end, column_edges_, worker);
+  column_edges_.fit(worker);
 }
 
 bool LocalFolds::unfolded(const CellPair& pair, float slack) const {

@@ -80,8 +80,15 @@ class Finder {
 
   /// Whether one cell's normal direction keeps them apart at both ends by more than contacts reach.
   [[nodiscard]] bool apart(const CellPair& cells) const {
-    return apart_along(cell_normal(*pair_.grid_a, pair_.a->start, cells.a), cells) ||
+    return apart_along(way_between(cells), cells) ||
+           apart_along(cell_normal(*pair_.grid_a, pair_.a->start, cells.a), cells) ||
            apart_along(cell_normal(*pair_.grid_b, pair_.b->start, cells.b), cells);
+  }
+  [[nodiscard]] Vec3d way_between(const CellPair& cells) const {
+    Vec3d way;
+    for (const int s : pair_.grid_a->corners(cells.a)) way += vec_cast<double>(pair_.a->start.at(s));
+    for (const int s : pair_.grid_b->corners(cells.b)) way -= vec_cast<double>(pair_.b->start.at(s));
+    return normalized(way);
   }
   [[nodiscard]] bool apart_along(Vec3d n, const CellPair& cells) const {
     const auto bounds = [&](const Planes3& at, const std::array<int, 4>& corners) {
@@ -241,18 +248,12 @@ class Finder {
 
 void PairContacts::find(const ClothPair& pair, std::span<const CellPair> cells, ThreadTeam& team,
                         std::vector<Contact>& of_a, std::vector<Contact>& of_b) {
-  found_.resize(static_cast<std::size_t>(team.size()));
-  for (Found& mine : found_) {
-    mine.of_a.clear();
-    mine.of_b.clear();
-  }
   team.run([&](Worker& worker) {
-    Found& mine = found_[static_cast<std::size_t>(worker.rank())];
-    Finder finder(pair, mine.of_a, mine.of_b);
-    const Range share = worker.share(static_cast<int>(cells.size()));
-    for (int i = share.first; i < share.last; ++i) finder.look_at(cells[i]);
+    found_.fill(static_cast<int>(cells.size()), worker, [&](int i, Found& mine) {
+      Finder(pair, mine.of_a, mine.of_b).look_at(cells[i]);
+    });
   });
-  for (const Found& mine : found_) {
+  for (const Found& mine : found_.lists()) {
     of_a.insert(of_a.end(), mine.of_a.begin(), mine.of_a.end());
     of_b.insert(of_b.end(), mine.of_b.begin(), mine.of_b.end());
   }

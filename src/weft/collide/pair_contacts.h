@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "weft/collide/cell_pairs.h"
+#include "weft/collide/chunks.h"
 #include "weft/collide/collider.h"
 #include "weft/core/contact.h"
 
@@ -32,8 +33,12 @@ class PairContacts {
  private:
   struct Found {
     std::vector<Contact> of_a, of_b;
+    void clear() {
+      of_a.clear();
+      of_b.clear();
+    }
   };
-  std::vector<Found> found_;  // one a worker
+  ChunkedLists<Found> found_;
 };
 
 }  // namespace weft

@@ -53,7 +53,6 @@ PyramidPairs::PyramidPairs(std::span<const SurfaceGrid* const> grids, std::size_
 
 void PyramidPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
   surfaces_.assign(surfaces.begin(), surfaces.end());
-  found_.resize(static_cast<std::size_t>(team.size()));
   team.run([&](Worker& worker) {
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
       const MovingSurface& of = surfaces_[i];
@@ -155,20 +154,18 @@ void PyramidPairs::descend_self(const Search& search, const NodePair& pair, cons
 template <class Descend>
 void PyramidPairs::share_out(const Search& search, ThreadTeam& team, std::vector<CellPair>& out,
                              const Descend& descend) {
-  for (std::vector<CellPair>& mine : found_) mine.clear();
-  const int cells_a = surfaces_[search.a].grid->cells(),
-            cells_b = surfaces_[search.b].grid->cells();
+  const int cells_a = surfaces_[search.a].grid->cells();
+  const int cells_b = surfaces_[search.b].grid->cells();
   team.run([&](Worker& worker) {
-    std::vector<CellPair>& mine = found_[static_cast<std::size_t>(worker.rank())];
-    const Range share = worker.share(static_cast<int>(tasks_.size()));
-    for (int i = share.first; i < share.last; ++i)
+    found_.fill(static_cast<int>(tasks_.size()), worker, [&](int i, std::vector<CellPair>& mine) {
       descend(tasks_[i], [&](const NodePair& pair) {
         const int a = pair.a.row * cells_a + pair.a.col, b = pair.b.row * cells_b + pair.b.col;
         // Of a cloth with itself the order of nodes need not be that of cells.
         mine.push_back(search.a == search.b && b < a ? CellPair{b, a} : CellPair{a, b});
       });
+    });
   });
-  for (const std::vector<CellPair>& mine : found_) out.insert(out.end(), mine.begin(), mine.end());
+  append(found_, out);
 }
 
 void PyramidPairs::find(int surface_a, int surface_b, float reach, ThreadTeam& team,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "weft/collide/cell_pairs.h"
+#include "weft/collide/chunks.h"
 #include "weft/collide/extent_levels.h"
 #include "weft/collide/slab_levels.h"
 
@@ -52,7 +53,7 @@ class PyramidPairs final : public BroadPhase {
   std::vector<Levels> levels_;  // one a surface
   std::vector<MovingSurface> surfaces_;
   std::vector<NodePair> tasks_;
-  std::vector<std::vector<CellPair>> found_;  // one a worker
+  ChunkedLists<std::vector<CellPair>> found_;
 };
 
 }  // namespace weft

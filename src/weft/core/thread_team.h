@@ -41,6 +41,8 @@ class Worker {
     return {part(rank_), part(rank_ + 1)};
   }
   [[nodiscard]] int rank() const { return rank_; }
+  /// How many work on this region, which a team may decide anew for each.
+  [[nodiscard]] int size() const { return size_; }
   /// Whether nobody else works on this region, which a team may decide anew for each.
   [[nodiscard]] bool alone() const { return size_ == 1; }
   /// Waits until every worker of the team is here.
