@@ -178,7 +178,7 @@ TEST(Run, BodiesThatAreTooFastAreTold) {
   const Simulation simulation(hit_sheet(200), "hit.json", 1);
   ASSERT_EQ(simulation.notes().size(), 1);
   EXPECT_EQ(simulation.notes()[0],
-            "bodies go up to 200 m/s, faster than cloth can be kept from them; 24 substeps or more "
+            "bodies go up to 200 m/s, faster than cloth can be kept from them; 12 substeps or more "
             "are wanted");
 }
 

@@ -10,7 +10,7 @@ namespace weft {
 /// pushed before it is passed: faster ones take more steps.
 inline constexpr double most_way_in_gaps = 0.75;
 /// Of a substep.
-inline constexpr int most_pieces = 32;
+inline constexpr int most_pieces = 64;
 
 /// What a cloth sweeps as it flies on, and somewhat more. @param padding  [m]
 Box3d swept_box(const ClothState& cloth, double seconds, double padding) noexcept;
