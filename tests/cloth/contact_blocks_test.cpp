@@ -19,9 +19,9 @@ struct Pressed {
       for (int c = 0; c < of.size / 2; ++c)
         contacts.push_back(
             {{r * of.size + c}, {1}, normal, dot(normal, of.rest.at(r, c)) + 0.01F, 0, {}});
-    springs.take(contacts);
+    springs.take(contacts, of.rest, 1.0 / 60);
     team.run([&](Worker& worker) {
-      springs.heed(of.rest, of.rest, filter.finest().inverse_diagonal, worker);
+      springs.heed(of.rest, filter.finest().inverse_diagonal, worker);
       filter.renew_contacts(springs.loads(), worker);
     });
   }

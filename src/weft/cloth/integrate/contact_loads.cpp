@@ -48,6 +48,7 @@ void ContactLoads::use(int sample, ContactUses::Use use) {
 void ContactLoads::take(std::span<const Contact> contacts) {
   contacts_ = contacts;
   stiffness_.assign(contacts.size(), 0.0F);
+  grip_.assign(contacts.size(), 0.0F);
   load_.assign(contacts.size(), Vec3f{});
   std::fill(rows_.begin(), rows_.end(), char{0});
   stiff_ = 0;
@@ -96,14 +97,16 @@ void ContactLoads::add_blocks(int row, const std::array<float*, 6>& block) const
     const int col = uses_.samples()[at] - row * cloth_.size;
     for (const ContactUses::Use& use : uses_.of(at)) {
       const Contact& contact = contacts_[use.contact];
-      const float k = stiffness_[use.contact] * sum_of_weights(contact) * std::abs(use.weight);
+      const float part = sum_of_weights(contact) * std::abs(use.weight);
+      const float grip = part * grip_[use.contact];
+      const float k = part * stiffness_[use.contact] - grip;
       const Vec3f n = contact.normal;
-      block[0][col] += k * n.x * n.x;
+      block[0][col] += k * n.x * n.x + grip;
       block[1][col] += k * n.x * n.y;
       block[2][col] += k * n.x * n.z;
-      block[3][col] += k * n.y * n.y;
+      block[3][col] += k * n.y * n.y + grip;
       block[4][col] += k * n.y * n.z;
-      block[5][col] += k * n.z * n.z;
+      block[5][col] += k * n.z * n.z + grip;
     }
   }
 }

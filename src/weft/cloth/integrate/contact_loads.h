@@ -28,6 +28,8 @@ class ContactLoads {
   /// Of each contact along its normal, 0: it does nothing. [N/m], [kg] or the like
   [[nodiscard]] std::span<float> stiffness() { return stiffness_; }
   [[nodiscard]] std::span<const float> stiffness() const { return stiffness_; }
+  /// The same against sliding.
+  [[nodiscard]] std::span<float> grip() { return grip_; }
   /// Of each contact on its point, in any unit.
   [[nodiscard]] std::span<Vec3f> loads() { return load_; }
 
@@ -43,7 +45,7 @@ class ContactLoads {
   void add_row(int row, Row3 out) const;
   /// Adds to a row each sample's own part of 3 x 3 blocks (xx, xy, xz, yy, yz, zz) that together
   /// bound the springs' matrix from above: w w^T is at most sum |w| times the diagonal of |w|, so a
-  /// sample gets stiffness * sum |w| |w_i| n n^T.
+  /// sample gets sum |w| |w_i| times stiffness * n n^T + grip * (1 - n n^T).
   void add_blocks(int row, const std::array<float*, 6>& block) const;
 
   /// The stiffness of what holds a contact's point against a push along its normal: springs of 1 /
@@ -58,7 +60,7 @@ class ContactLoads {
   std::span<const Contact> contacts_;
   ContactUses uses_;
   std::vector<int> row_starts_;  // [n + 1] into uses_.samples()
-  std::vector<float> stiffness_;
+  std::vector<float> stiffness_, grip_;
   std::vector<Vec3f> load_;
   std::vector<char> rows_;
   int stiff_ = 0;

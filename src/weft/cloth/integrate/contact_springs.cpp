@@ -13,68 +13,124 @@ constexpr double relative_stiffness = 4;
 /// Nearer to the half-space than this part of the rest spacing counts as touching it.
 constexpr double touching = 1e-3;
 
+/// What is inside something when a step begins, having been put or pressed there, leaves at this
+/// speed at most, lest it be shot out. [m/s]
+constexpr double fastest_way_out = 0.5;
+
 }  // namespace
 
 ContactSprings::ContactSprings(const Cloth& cloth) : cloth_(cloth), loads_(cloth) {}
 
-void ContactSprings::clear() { take({}); }
-
-void ContactSprings::take(std::span<const Contact> contacts, double farthest) {
-  farthest_ = farthest;
+void ContactSprings::take(std::span<const Contact> contacts, const Planes3& start,
+                          double time_step) {
   loads_.take(contacts);
-  force_.assign(contacts.size(), 0.0F);
-  offset_.resize(contacts.size());
+  start_ = &start;
+  time_step_ = time_step;
+  slack_.resize(contacts.size());
+  sticks_.assign(contacts.size(), 0);
+  for (std::vector<float>* values :
+       {&force_, &friction_, &spare_, &most_friction_, &stick_stiffness_})
+    values->assign(contacts.size(), 0.0F);
 }
 
-bool ContactSprings::may_press(const Contact& contact, const Planes3& start,
-                               const Planes3& now) const {
+bool ContactSprings::may_press(const Contact& contact, const Planes3& now) const {
   const Vec3d n = vec_cast<double>(contact.normal);
   std::array<double, 2> before{}, after{};  // the heights of both sides
   for (std::size_t i = 0; i < contact.samples.size(); ++i) {
     const double w = contact.weights[i];
     if (w == 0) continue;
     const std::size_t side = w > 0 ? 0 : 1;
-    before[side] += w * dot(n, vec_cast<double>(start.at(contact.samples[i])));
+    before[side] += w * dot(n, vec_cast<double>(start_->at(contact.samples[i])));
     after[side] += w * dot(n, vec_cast<double>(now.at(contact.samples[i])));
   }
   const double least = std::min(before[0], after[0]) + std::min(before[1], after[1]);
   return contact.offset - least > -touching * cloth_.rest_spacing;
 }
 
-bool ContactSprings::heed(const Planes3& start, const Planes3& now,
-                          const Grid<float>& inverse_diagonal, Worker& worker) {
+bool ContactSprings::heed(const Planes3& now, const Grid<float>& inverse_diagonal, Worker& worker) {
   const std::span<const Contact> contacts = loads_.contacts();
   if (contacts.empty()) return false;
   const std::span<float> stiffness = loads_.stiffness();
   const int before = loads_.stiff();
   const Range mine = worker.share(static_cast<int>(contacts.size()));
   for (int i = mine.first; i < mine.last; ++i) {
-    if (stiffness[i] > 0 || !may_press(contacts[i], start, now)) continue;
-    if (contacts[i].stiffness > 0) {
-      stiffness[i] = contacts[i].stiffness;
-      offset_[i] = contacts[i].offset;
-      continue;
-    }
-    stiffness[i] = static_cast<float>(relative_stiffness *
-                                      ContactLoads::own_stiffness(contacts[i], inverse_diagonal));
-    offset_[i] = attainable_offset(contacts[i], start, farthest_);
+    const Contact& contact = contacts[i];
+    if (stiffness[i] > 0 || !may_press(contact, now)) continue;
+    const double own = ContactLoads::own_stiffness(contact, inverse_diagonal);
+    stick_stiffness_[i] = static_cast<float>(relative_stiffness * own);
+    const bool soft = contact.stiffness > 0;
+    stiffness[i] = soft ? contact.stiffness : stick_stiffness_[i];
+    const double offset = soft ? double{contact.offset}
+                               : attainable_offset(contact, *start_, fastest_way_out * time_step_);
+    slack_[i] = dot(vec_cast<double>(contact.normal), point_of(contact, *start_)) - offset;
   }
   loads_.count(worker);
   return loads_.stiff() > before;
 }
 
-double ContactSprings::depth_at(int index, const Place& place) const {
+/// How far a contact's point is from where it started.
+Vec3d ContactSprings::moved(int index, const Place& place) const {
   const Contact& contact = loads_.contacts()[index];
-  const Vec3d n = vec_cast<double>(contact.normal);
-  double depth = offset_[index];
+  Vec3d way;
   for (std::size_t i = 0; i < contact.samples.size(); ++i) {
     const double w = contact.weights[i];
     if (w == 0) continue;
     const int s = contact.samples[i];
-    depth -= w * dot(n, vec_cast<double>(place.from.at(s)) + vec_cast<double>(place.move.at(s)) +
-                            double{place.way} * vec_cast<double>(place.direction.at(s)));
+    way += w * (vec_cast<double>(place.from.at(s)) - vec_cast<double>(start_->at(s)) +
+                vec_cast<double>(place.move.at(s)) +
+                double{place.way} * vec_cast<double>(place.direction.at(s)));
   }
-  return depth;
+  return way;
+}
+
+double ContactSprings::depth_at(int index, const Place& place) const {
+  return -slack_[index] -
+         dot(vec_cast<double>(loads_.contacts()[index].normal), moved(index, place));
+}
+
+/// How far a contact's point slid along the obstacle.
+Vec3d ContactSprings::slid(int index, const Place& place) const {
+  const Contact& contact = loads_.contacts()[index];
+  const Vec3d n = vec_cast<double>(contact.normal);
+  const Vec3d way = moved(index, place) - vec_cast<double>(contact.slide);
+  return way - dot(n, way) * n;
+}
+
+void ContactSprings::judge(int index, const Place& place) {
+  const Contact& contact = loads_.contacts()[index];
+  const float k = stick_stiffness_[index];
+  if (k == 0 || contact.friction == 0) return;
+  double compliance = 0;  // h^2 over the mass of the point
+  for (std::size_t i = 0; i < contact.samples.size(); ++i) {
+    const double w = contact.weights[i];
+    const int s = contact.samples[i], n = cloth_.size;
+    compliance += w * w * double{cloth_.inverse_mass(s / n, s % n)} * time_step_ * time_step_;
+  }
+  if (!(compliance > 0)) return;
+  const double force = force_[index] > 0 ? double{force_[index]}
+                                         : std::max(0.0, depth_at(index, place)) / compliance;
+  const double most = contact.friction * force, way = length(slid(index, place));
+  // What sticks is let go when it pulls too hard, what slips is caught when that could stop it.
+  const bool sticks = sticks_[index] != 0 ? k * way <= most : way <= most * compliance;
+  sticks_[index] = sticks && most > 0 ? 1 : 0;
+  most_friction_[index] = static_cast<float>(most);
+  loads_.grip()[index] = sticks ? (most > 0 ? k : 0.0F) : static_cast<float>(most / way);
+}
+
+void ContactSprings::judge(const Place& place, Worker& worker) {
+  const Range mine = worker.share(static_cast<int>(force_.size()));
+  for (int i = mine.first; i < mine.last; ++i) judge(i, place);
+  worker.barrier();
+}
+
+Vec3f ContactSprings::friction_at(int index, const Place& place) const {
+  const float most = most_friction_[index];
+  if (most == 0) return {};
+  const Vec3d way = slid(index, place);
+  const double k = stick_stiffness_[index], distance = length(way);
+  // Slipping reverses smoothly.
+  const bool spring = sticks_[index] != 0 || k * distance <= most;
+  return vec_cast<float>((spring ? -k : -most / distance) * way);
 }
 
 void ContactSprings::press(const Place& place, Worker& worker) {
@@ -84,7 +140,19 @@ void ContactSprings::press(const Place& place, Worker& worker) {
     const float k = loads_.stiffness()[i];
     if (k == 0) continue;
     force_[i] = static_cast<float>(double{k} * std::max(0.0, depth_at(i, place)));
-    loads_.loads()[i] = force_[i] * contacts[i].normal;
+    const Vec3f friction = friction_at(i, place);
+    friction_[i] = length(friction);
+    loads_.loads()[i] = force_[i] * contacts[i].normal + friction;
+  }
+  worker.barrier();
+}
+
+void ContactSprings::spare(Worker& worker) {
+  const std::span<const Contact> contacts = loads_.contacts();
+  const Range mine = worker.share(static_cast<int>(contacts.size()));
+  for (int i = mine.first; i < mine.last; ++i) {
+    const float mu = contacts[i].friction;
+    spare_[i] = mu > 0 ? std::max(0.0F, force_[i] - friction_[i] / mu) : force_[i];
   }
   worker.barrier();
 }

@@ -13,17 +13,22 @@ namespace weft {
 /// so that it comes to rest within a small part of a micrometre, while a point that leaves is not
 /// held.
 ///
+/// Coulomb's friction: a contact that presses either sticks, held by a spring as stiff along the
+/// surface as along the normal, or slips, with its coefficient times the normal force against the
+/// sliding. Which it does, and how hard it presses for that, is looked up now and then only, so
+/// that in between the forces have a potential [li20].
+///
 /// What was beyond the half-space when the step began is not pushed out of it at any speed.
 class ContactSprings {
  public:
   /// @param cloth  kept by reference
   explicit ContactSprings(const Cloth& cloth);
 
-  void clear();
+  void clear() { loads_.take({}); }
   /// Knows of contacts, but heeds none yet.
   /// @param contacts  must stay until the last press
-  /// @param farthest  what was deeper when the step began is pushed out by no more than this [m]
-  void take(std::span<const Contact> contacts, double farthest = HUGE_VAL);
+  /// @param start  positions then, by reference until the last press [m]
+  void take(std::span<const Contact> contacts, const Planes3& start, double time_step);
 
   // To be called by every worker of the team, of any size.
 
@@ -32,14 +37,16 @@ class ContactSprings {
   /// start of the step or now. Ends with a barrier.
   /// @param inverse_diagonal  [n x n] of the filter, 0 where held [m/N]
   /// @return whether there were any such
-  bool heed(const Planes3& start, const Planes3& now, const Grid<float>& inverse_diagonal,
-            Worker& worker);
+  bool heed(const Planes3& now, const Grid<float>& inverse_diagonal, Worker& worker);
   /// Where particles are: at from + move + way * direction, the parts of the sum apart, since
   /// depths are so small that rounding positions would drown them. [m]
   struct Place {
     const Planes3 &from, &move, &direction;
     float way = 1;
   };
+  /// Decides which contacts stick and which slip, by their forces from the last press, or, where
+  /// there was none, by what would stop their points if they were alone. Ends with a barrier.
+  void judge(const Place& place, Worker& worker);
   /// Computes all forces. Ends with a barrier.
   void press(const Place& place, Worker& worker);
 
@@ -47,19 +54,29 @@ class ContactSprings {
   [[nodiscard]] bool empty() const { return loads_.stiff() == 0; }
   /// The heeded contacts are stiff [N/m]; loads are forces [N].
   [[nodiscard]] const ContactLoads& loads() const { return loads_; }
-  /// Of each contact, in the order in which they were taken, from the last press [N].
-  [[nodiscard]] std::span<const float> forces() const { return force_; }
+  /// To be called by every worker after the last press. Ends with a barrier.
+  void spare(Worker& worker);
+  /// Of each contact, in the order in which they were taken: the part of the normal force, from the
+  /// last press, that friction has left to spare, N - |friction| / coefficient [N].
+  [[nodiscard]] std::span<const float> forces() const { return spare_; }
 
  private:
-  [[nodiscard]] bool may_press(const Contact& contact, const Planes3& start,
-                               const Planes3& now) const;
+  [[nodiscard]] bool may_press(const Contact& contact, const Planes3& now) const;
+  [[nodiscard]] Vec3d moved(int contact, const Place& place) const;
   [[nodiscard]] double depth_at(int contact, const Place& place) const;
+  [[nodiscard]] Vec3d slid(int contact, const Place& place) const;
+  void judge(int contact, const Place& place);
+  [[nodiscard]] Vec3f friction_at(int contact, const Place& place) const;
 
   const Cloth& cloth_;
   ContactLoads loads_;
-  double farthest_ = HUGE_VAL;  // [m]
-  std::vector<float> force_;
-  std::vector<double> offset_;  // that is held, where heeded [m]
+  const Planes3* start_ = nullptr;
+  double time_step_ = 0;  // [s]
+  std::vector<float> force_, friction_, spare_;
+  std::vector<float> most_friction_;    // as judged [N]
+  std::vector<float> stick_stiffness_;  // 0 where not heeded [N/m]
+  std::vector<char> sticks_;
+  std::vector<double> slack_;  // how far from its start a point may go against the normal [m]
 };
 
 }  // namespace weft

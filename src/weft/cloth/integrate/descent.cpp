@@ -17,10 +17,7 @@ constexpr double most_way = 4;
 /// filter, which takes them for stiff in every direction, needs more iterations for it.
 constexpr int iterations_under_contact = 4;
 /// Times the tolerance: contacts are so stiff that forces are off where positions are good enough.
-constexpr double tolerance_under_contact = 0.01;
-/// What is inside something when a step begins, having been put or pressed there, leaves at this
-/// speed at most, lest it be shot out. [m/s]
-constexpr double fastest_way_out = 0.5;
+constexpr double tolerance_under_contact = 1e-4;
 /// Residuals interpolated along secants drift away from the gradient.
 constexpr int iterations_between_restarts = 4;
 
@@ -78,16 +75,17 @@ void Descent::begin(const StepInput& input, const ClothState& state) {
 }
 
 void Descent::run(std::span<const Contact> contacts, const MultigridOptions& options) {
-  contacts_.take(contacts, fastest_way_out * input_.time_step);
+  contacts_.take(contacts, start_.position, input_.time_step);
   team_.run([&](Worker& worker) {
-    heed_contacts(worker);
+    contacts_.heed(next_.position, filter_.finest().inverse_diagonal, worker);
     const Range mine = worker.share(cloth_.size);
     const auto pending = static_cast<float>(pending_way_);
     for (int r = mine.first; r < mine.last; ++r) {
       settle_row(pending, r);
       place_row(0, r);
     }
-    filter_.renew_contacts(contacts_.loads(), worker);
+    worker.barrier();
+    judge_contacts(worker);
     const Course course = descend(options, worker);
     if (worker.rank() != 0) return;
     pending_way_ = course.way;
@@ -215,14 +213,16 @@ void Descent::restart(Course& course, Worker& worker) {
     place_row(0, r);
   }
   worker.barrier();
-  if (heed_contacts(worker)) filter_.renew_contacts(contacts_.loads(), worker);
+  judge_contacts(worker);
   look(worker);
   course.slope = course.left = course.way = 0;
   course.exact = true;
 }
 
-bool Descent::heed_contacts(Worker& worker) {
-  return contacts_.heed(start_.position, next_.position, filter_.finest().inverse_diagonal, worker);
+void Descent::judge_contacts(Worker& worker) {
+  contacts_.heed(next_.position, filter_.finest().inverse_diagonal, worker);
+  if (!contacts_.empty()) contacts_.judge({fall_, move_, direction_, 0}, worker);
+  filter_.renew_contacts(contacts_.loads(), worker);
 }
 
 Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker) {
@@ -241,8 +241,10 @@ Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) place_row(static_cast<float>(course.way), r);
   worker.barrier();
-  if (!contacts_.empty())
+  if (!contacts_.empty()) {
     contacts_.press({fall_, move_, direction_, static_cast<float>(course.way)}, worker);
+    contacts_.spare(worker);
+  }
   return course;
 }
 

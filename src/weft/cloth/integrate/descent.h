@@ -34,7 +34,8 @@ class Descent {
   /// Where the descent stands. What the caller changes here decides which contacts the next run
   /// heeds; that goes on from where the last one ended.
   [[nodiscard]] ClothState& next() { return next_; }
-  /// Normal forces of the contacts of the last run, in their order [N].
+  /// Normal forces of the contacts of the last run, in their order, as far as friction has not
+  /// spent them [N].
   [[nodiscard]] std::span<const float> contact_forces() const { return contacts_.forces(); }
   /// Iterations since begin.
   [[nodiscard]] int iterations() const { return iterations_; }
@@ -71,9 +72,9 @@ class Descent {
   [[nodiscard]] double largest_direction() const;
   /// Looks up the residual where the descent stands, and forgets the direction.
   void restart(Course& course, Worker& worker);
-  /// Looks for contacts that press where `next` is. Ends with a barrier. @return whether there are
-  /// new ones
-  bool heed_contacts(Worker& worker);
+  /// Looks for contacts that press where `next` is and which of them stick, and lets the filter
+  /// know. Ends with a barrier.
+  void judge_contacts(Worker& worker);
   Course descend(const MultigridOptions& options, Worker& worker);
 
   const Cloth& cloth_;

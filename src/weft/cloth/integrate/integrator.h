@@ -52,8 +52,8 @@ struct TwoLevelOptions {
 /// times the time (docs/measured.md).
 struct MultigridOptions {
   int max_iterations = 2;  ///< a step; four times as many while something presses on the cloth
-  /// Stop when the correction of an iteration falls below this times the rest spacing; a hundredth
-  /// of it while something presses on the cloth.
+  /// Stop when the correction of an iteration falls below this times the rest spacing; a ten
+  /// thousandth of it while something presses on the cloth.
   double tolerance = 1e-3;
 };
 using IntegratorOptions = std::variant<MultigridOptions, ImplicitOptions, ExplicitOptions,
