@@ -17,6 +17,11 @@ constexpr double touching = 1e-3;
 /// speed at most, lest it be shot out. [m/s]
 constexpr double fastest_way_out = 0.5;
 
+/// Weights sum to 1 there, between parts of the cloth to 0.
+bool against_obstacle(const Contact& contact) {
+  return contact.weights[0] + contact.weights[1] + contact.weights[2] + contact.weights[3] > 0.5F;
+}
+
 }  // namespace
 
 ContactSprings::ContactSprings(const Cloth& cloth) : cloth_(cloth), loads_(cloth) {}
@@ -99,7 +104,7 @@ Vec3d ContactSprings::slid(int index, const Place& place) const {
 void ContactSprings::judge(int index, const Place& place) {
   const Contact& contact = loads_.contacts()[index];
   const float k = stick_stiffness_[index];
-  if (k == 0 || contact.friction == 0) return;
+  if (k == 0 || contact.friction == 0 || !against_obstacle(contact)) return;
   double compliance = 0;  // h^2 over the mass of the point
   for (std::size_t i = 0; i < contact.samples.size(); ++i) {
     const double w = contact.weights[i];
@@ -110,8 +115,10 @@ void ContactSprings::judge(int index, const Place& place) {
   const double force = force_[index] > 0 ? double{force_[index]}
                                          : std::max(0.0, depth_at(index, place)) / compliance;
   const double most = contact.friction * force, way = length(slid(index, place));
-  // What sticks is let go when it pulls too hard, what slips is caught when that could stop it.
-  const bool sticks = sticks_[index] != 0 ? k * way <= most : way <= most * compliance;
+  // Before friction has acted, what it could stop sticks; afterwards what no longer moves by more
+  // than it gives way.
+  const bool untouched = sticks_[index] == 0 && friction_[index] == 0;
+  const bool sticks = way <= most * (untouched ? compliance : 1.0 / k);
   sticks_[index] = sticks && most > 0 ? 1 : 0;
   most_friction_[index] = static_cast<float>(most);
   loads_.grip()[index] = sticks ? (most > 0 ? k : 0.0F) : static_cast<float>(most / way);

@@ -49,7 +49,7 @@ class Explicit final : public Integrator {
   ClothState& iterate(std::span<const Contact> /*contacts*/) noexcept override { return next_; }
 
   StepReport end(ClothState& state) noexcept override {
-    accept(cloth_, next_, time_step_, state, team_);
+    accept(cloth_, next_, state, team_);
     return {0, 0, seconds_, 0};
   }
 

@@ -35,7 +35,7 @@ void FilteredIntegrator::begin(const StepInput& input, const ClothState& state) 
 }
 
 StepReport FilteredIntegrator::end(ClothState& state) noexcept {
-  accept(cloth_, next_, input_.time_step, state, team_);
+  accept(cloth_, next_, state, team_);
   return report_;
 }
 

@@ -92,7 +92,7 @@ class Implicit final : public Integrator {
   }
 
   StepReport end(ClothState& state) noexcept override {
-    accept(cloth_, next_, input_.time_step, state, team_);
+    accept(cloth_, next_, state, team_);
     return report_;
   }
 

@@ -85,7 +85,7 @@ class Integrator {
   /// Normal forces of the contacts of the last iterate, in their order; empty where the method
   /// does not solve for contacts. [N]
   [[nodiscard]] virtual std::span<const float> contact_forces() const noexcept { return {}; }
-  /// Makes the proposal the state (pins at their targets, mates equal).
+  /// Makes the proposal the state; mates equal, pins where the proposal has them.
   virtual StepReport end(ClothState& state) noexcept = 0;
 
   /// Largest stable time step for explicit methods, or largest stable stiffness for two_level, as a

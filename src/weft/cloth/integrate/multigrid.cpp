@@ -40,7 +40,7 @@ class Multigrid final : public Integrator {
   }
 
   StepReport end(ClothState& state) noexcept override {
-    accept(cloth_, descent_.next(), time_step_, state, team_);
+    accept(cloth_, descent_.next(), state, team_);
     return report_;
   }
 

@@ -34,9 +34,7 @@ void set_pins(const Cloth& cloth, const ClothState& start, double time_step, Clo
     }
 }
 
-void accept(const Cloth& cloth, ClothState& next, double time_step, ClothState& state,
-            ThreadTeam& team) {
-  set_pins(cloth, state, time_step, next);
+void accept(const Cloth& cloth, ClothState& next, ClothState& state, ThreadTeam& team) {
   team.run([&](Worker& worker) {
     copy_to_mates(cloth.mates, worker,
                   {&next.position.x, &next.position.y, &next.position.z, &next.velocity.x,

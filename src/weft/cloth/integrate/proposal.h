@@ -13,9 +13,9 @@ void copy_rows(const ClothState& from, ClothState& to, Worker& worker);
 /// Puts every pinned sample at its target, with the velocity that takes it there in one step.
 void set_pins(const Cloth& cloth, const ClothState& start, double time_step, ClothState& next);
 
-/// Makes a proposal the state, after whatever was done to it: pins at their targets, mates equal.
-void accept(const Cloth& cloth, ClothState& next, double time_step, ClothState& state,
-            ThreadTeam& team);
+/// Makes a proposal the state, after whatever was done to it; mates equal. Pins are where they were
+/// left: a guard may have stopped them before their targets.
+void accept(const Cloth& cloth, ClothState& next, ClothState& state, ThreadTeam& team);
 
 /// Seconds since it was made.
 class Stopwatch {
