@@ -63,7 +63,10 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
   const auto found =
       look(body, cloth.start.at(sample), reach, known_[body.number - 1].samples[sample]);
   if (!found) return;
-  const bool behind = body.query->closed() && body.query->behind(start, *found);
+  // What was outside of a body that stands still cannot be inside now, whatever the normals of an
+  // image say that folds or crosses itself somewhere.
+  const bool may_be_inside = deep || (body.query->closed() && body.most_moved > 0);
+  const bool behind = may_be_inside && body.query->behind(start, *found);
   if (behind) inside_[sample] = body.number;
   const double distance = std::sqrt(found->squared_distance);
   // On the surface itself rounding would choose the direction.
