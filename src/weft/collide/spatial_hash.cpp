@@ -105,8 +105,10 @@ void HashedCells::fill_table() {
 }
 
 void HashedCells::fit(const MovingSurface& surface, ThreadTeam& team) {
-  team.run(
-      [&](Worker& worker) { fill_position_extents(*surface.start, *surface.end, boxes_, worker); });
+  team.run([&](Worker& worker) {
+    fill_position_extents(*surface.start, *surface.end, boxes_, worker);
+    boxes_.fit(worker);
+  });
   choose_side(surface);
   fill_table();
 }

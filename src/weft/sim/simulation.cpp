@@ -123,8 +123,9 @@ struct Simulation::Parts {
   void substep(int number, FrameReport& report);
   /// A power of 2: of a substep that ends at a time.
   [[nodiscard]] int pieces_until(double seconds);
-  /// Advances all cloths. @return particles in contact
-  int step(FrameReport& report);
+  /// Advances all cloths. @param seconds  at the end of the step @return particles in contact
+  int step(double seconds, FrameReport& report);
+  void check_for_runaway(double seconds);
   /// Begins a cloth's step, up to its first proposal.
   void propose(std::size_t index);
   /// Solves a cloth's step with the contacts that were found.
@@ -351,13 +352,9 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
   for (int piece = 1; piece <= pieces; ++piece) {
     const double seconds = piece < pieces ? begin + time_step * piece : end;
     move_driven(seconds);
-    report.contacts = std::max(report.contacts, step(report));
+    report.contacts = std::max(report.contacts, step(seconds, report));
     report.self_contacts = std::max(report.self_contacts, collider->self_contacts());
     bodies_arrive();
-    for (std::size_t i = 0; i < cloths.size(); ++i)
-      if (const auto bad =
-              movers[i].runaway.find(cloths[i].cloth, cloths[i].state, seconds, solvers(i)))
-        stop_unstable(i, *bad);
   }
 }
 
@@ -374,7 +371,15 @@ int Simulation::Parts::pieces_until(double seconds) {
   return pieces_for(way, most_way);
 }
 
-int Simulation::Parts::step(FrameReport& report) {
+/// Before the guard: what it stops would look calm.
+void Simulation::Parts::check_for_runaway(double seconds) {
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    if (const auto bad = movers[i].runaway.find(
+            cloths[i].cloth, movers[i].integrator->proposal(), seconds, solvers(i)))
+      stop_unstable(i, *bad);
+}
+
+int Simulation::Parts::step(double seconds, FrameReport& report) {
   for (std::size_t i = 0; i < cloths.size(); ++i) propose(i);
   gather_moving();
   StageClock clock;
@@ -386,6 +391,7 @@ int Simulation::Parts::step(FrameReport& report) {
   int contacts = 0;
   for (std::size_t i = 0; i < cloths.size(); ++i)
     contacts += correct(i, movers[i].integrator->proposal(), report);
+  check_for_runaway(seconds);
   clock.lap();
   collider->guard(moving, time_step, team);
   report.collide_ms += clock.lap();
