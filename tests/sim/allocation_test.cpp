@@ -140,5 +140,32 @@ TEST(Allocation, SolvingForContactsAllocatesNothingOnceWarm) {
   }
 }
 
+TEST(Allocation, GuardingAllocatesNothingOnceWarm) {
+  const int n = 17;
+  const Cloth cloth = sheet_cloth(n);
+  const Obstacles ball{{test::octahedral_sphere(17, 0.3, {0, -0.35, 0})}, -0.5, 0.5};
+  const GuardedCloth facts{
+      .mates = cloth.mates, .size = n, .rest_spacing = cloth.rest_spacing, .self_collision = true};
+  const auto collider = make_collider(PyramidOptions{}, ball, std::span(&facts, 1));
+  ThreadTeam team(2);
+  ClothState start = rest_state(cloth), next = rest_state(cloth);
+  shake(cloth, 0.02, start.position);
+  const auto step = [&] {
+    next = start;
+    for (int s = 0; s < n * n; ++s)
+      next.position.set(s, start.position.at(s) + Vec3f{0, -0.08F, 0.001F * (s % 7)});
+    const MovingCloth moving{start.position, next.position, next.velocity, cloth.inverse_mass};
+    collider->detect(std::span(&moving, 1), 1.0 / 240, team);
+    collider->correct(0, moving, {}, 1.0 / 240, team);
+    collider->guard(std::span(&moving, 1), 1.0 / 240, team);
+    return collider->contacts(0).size();
+  };
+  EXPECT_GT(step(), 10U);
+  step();
+  const long before = allocations;
+  for (int i = 0; i < 5; ++i) step();
+  EXPECT_EQ(allocations - before, 0);
+}
+
 }  // namespace
 }  // namespace weft
