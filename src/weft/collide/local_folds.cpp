@@ -1,26 +1,25 @@
 #include "weft/collide/local_folds.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "weft/collide/unfolded.h"
 
 namespace weft {
 namespace {
 
-/// Farther apart in the image, cells share no sample.
-constexpr int near_cells = 2;
+/// Nodes up to this far apart on their level are looked at as one rectangle.
+constexpr int near_nodes = 2;
 
-struct Cells {
-  int first_row, last_row, first_col, last_col;
+struct Rectangle {
+  int level, first_row, last_row, first_col, last_col;
 };
 
-Box3f extent_of(const ExtentLevels& edges, const Cells& of) {
-  Box3f box = edges.at({0, of.first_row, of.first_col});
+Box3f extent_of(const ExtentLevels& edges, const Rectangle& of) {
+  Box3f box = edges.at({of.level, of.first_row, of.first_col});
   for (int r = of.first_row; r <= of.last_row; ++r)
     for (int c = of.first_col; c <= of.last_col; ++c) {
-      const Box3f cell = edges.at({0, r, c});
-      box = {min(box.lower, cell.lower), max(box.upper, cell.upper)};
+      const Box3f node = edges.at({of.level, r, c});
+      box = {min(box.lower, node.lower), max(box.upper, node.upper)};
     }
   return box;
 }
@@ -36,10 +35,14 @@ void LocalFolds::fit(const MovingSurface& surface, Worker& worker) {
 
 bool LocalFolds::unfolded(const CellPair& pair, float slack) const {
   const int side = row_edges_.sides().front();
-  const auto rows = std::minmax({pair.a / side, pair.b / side});
-  const auto cols = std::minmax({pair.a % side, pair.b % side});
-  if (rows.second - rows.first > near_cells || cols.second - cols.first > near_cells) return false;
-  const Cells both{rows.first, rows.second, cols.first, cols.second};
+  auto rows = std::minmax({pair.a / side, pair.b / side});
+  auto cols = std::minmax({pair.a % side, pair.b % side});
+  int level = 0;
+  for (; rows.second - rows.first > near_nodes || cols.second - cols.first > near_nodes; ++level) {
+    rows = {rows.first / 2, rows.second / 2};
+    cols = {cols.first / 2, cols.second / 2};
+  }
+  const Rectangle both{level, rows.first, rows.second, cols.first, cols.second};
   return certainly_unfolded(extent_of(row_edges_, both), extent_of(column_edges_, both), 2 * slack);
 }
 

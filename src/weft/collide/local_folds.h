@@ -7,19 +7,21 @@
 
 namespace weft {
 
-/// Judges pairs of cells that lie next to each other in the image: they share samples, so boxes and
-/// spheres always meet, and what counts is whether the surface can fold between them.
+/// Judges pairs of cells that lie near each other in the image: what holds them always meets, the
+/// more of them the farther they move in a step, and what counts is whether the surface can fold
+/// between them.
 class LocalFolds {
  public:
   explicit LocalFolds(int cells) : row_edges_(cells), column_edges_(cells) {}
   /// Takes a step's motion. To be called by every worker; ends with a barrier.
   void fit(const MovingSurface& surface, Worker& worker);
-  /// True when the two cells are near each other in the image and the rectangle around them
-  /// certainly stays unfolded while every sample keeps within `slack` of its path.
+  /// True when a rectangle of the image around the two cells certainly stays unfolded while every
+  /// sample keeps within `slack` of its path. Looked at are the nodes of the least level on which
+  /// the two are within two nodes of each other, so that it costs the same for all pairs.
   [[nodiscard]] bool unfolded(const CellPair& pair, float slack) const;
 
  private:
-  ExtentLevels row_edges_, column_edges_;  // the finest level alone is used
+  ExtentLevels row_edges_, column_edges_;
 };
 
 /// Gives what every worker found in the order of the workers, which is that of the work.

@@ -7,9 +7,8 @@
 namespace weft {
 namespace {
 
-/// A cell that moves far in a step passes many cubes: they are doubled until a cell of the image
-/// takes no more than this many on average.
-constexpr double most_cubes_a_cell = 32;
+/// Cells that pass more cubes than this in a step are kept apart and compared with all others.
+constexpr double most_cubes_a_cell = 256;
 /// Places beyond it count as the last one.
 constexpr double largest_place = 1 << 30;
 
@@ -44,11 +43,15 @@ double mean_edge(const MovingSurface& surface) {
 }  // namespace
 
 HashedCells::HashedCells(int cells)
-    : boxes_(cells),
+    : extents_(cells),
       starts_(prime_from(2 * static_cast<std::size_t>(cells) * cells) + 1),
       next_(starts_.size() - 1) {}
 
-Box3f HashedCells::box(int cell) const { return boxes_.at({0, cell / cells(), cell % cells()}); }
+double HashedCells::CubeRange::count() const {
+  double product = 1;
+  for (std::size_t k = 0; k < 3; ++k) product *= 1.0 + last[k] - first[k];
+  return product;
+}
 
 HashedCells::CubeRange HashedCells::cubes_of(const Box3f& box, double reach) const {
   if (!is_finite(box.lower) || !is_finite(box.upper)) return {{0, 0, 0}, {-1, -1, -1}};
@@ -73,58 +76,71 @@ void HashedCells::for_cubes(const CubeRange& range, const Visit& visit) {
       for (int k = range.first[2]; k <= range.last[2]; ++k) visit(Cube{i, j, k});
 }
 
+template <class Visit>
+void HashedCells::for_entries(const Visit& visit) const {
+  for (int cell = 0; cell < count(); ++cell) {
+    const CubeRange range = cubes_of(box(cell), 0);
+    if (range.count() > most_cubes_a_cell) continue;
+    for_cubes(range, [&](const Cube& cube) { visit(cell, cube); });
+  }
+}
+
 void HashedCells::choose_side(const MovingSurface& surface) {
-  const int count = cells() * cells();
+  lengths_.clear();
+  for (int cell = 0; cell < count(); ++cell) {
+    const float length = longest_side(box(cell));
+    if (std::isfinite(length)) lengths_.push_back(length);
+  }
+  // What most cells pass in a step, where that is more than an edge, lest all pass many cubes.
+  double median = 0;
+  if (!lengths_.empty()) {
+    const auto middle = lengths_.begin() + static_cast<std::ptrdiff_t>(lengths_.size() / 2);
+    std::nth_element(lengths_.begin(), middle, lengths_.end());
+    median = *middle;
+  }
   const double edge = mean_edge(surface);
-  const auto cubes = [&] {
-    double sum = 0;
-    for (int cell = 0; cell < count; ++cell) {
-      const CubeRange range = cubes_of(box(cell), 0);
-      double product = 1;
-      for (std::size_t k = 0; k < 3; ++k) product *= 1.0 + range.last[k] - range.first[k];
-      sum += product;
-    }
-    return sum;
-  };
-  side_ = edge > 0 && std::isfinite(edge) ? edge : 1;
-  while (cubes() > most_cubes_a_cell * count) side_ *= 2;
+  side_ = std::max({std::isfinite(edge) ? edge : 0, median, 1e-30});
 }
 
 void HashedCells::fill_table() {
-  const int count = cells() * cells();
   std::fill(starts_.begin(), starts_.end(), 0);
-  for (int cell = 0; cell < count; ++cell)
-    for_cubes(cubes_of(box(cell), 0), [&](const Cube& cube) { ++starts_[bucket(cube) + 1]; });
+  for_entries([&](int /*cell*/, const Cube& cube) { ++starts_[bucket(cube) + 1]; });
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   std::copy(starts_.begin(), starts_.end() - 1, next_.begin());
   entries_.resize(starts_.back());
-  for (int cell = 0; cell < count; ++cell)
-    for_cubes(cubes_of(box(cell), 0), [&](const Cube& cube) {
-      entries_[next_[bucket(cube)]++] = {cube, cell};
-    });
+  for_entries([&](int cell, const Cube& cube) { entries_[next_[bucket(cube)]++] = {cube, cell}; });
+  large_.clear();
+  for (int cell = 0; cell < count(); ++cell)
+    if (cubes_of(box(cell), 0).count() > most_cubes_a_cell) large_.push_back(cell);
 }
 
 void HashedCells::fit(const MovingSurface& surface, ThreadTeam& team) {
   team.run([&](Worker& worker) {
-    fill_position_extents(*surface.start, *surface.end, boxes_, worker);
-    boxes_.fit(worker);
+    fill_position_extents(*surface.start, *surface.end, extents_, worker);
+    extents_.fit(worker);
   });
   choose_side(surface);
   fill_table();
 }
 
 template <class Visit>
-void HashedCells::for_near(const Box3f& box, float reach, const Visit& visit) const {
-  const CubeRange range = cubes_of(box, reach);
+void HashedCells::for_near(const Box3f& other, float reach, const Visit& visit) const {
+  const CubeRange range = cubes_of(other, reach);
+  const auto near = [&](int cell) { return overlap(other, box(cell), reach); };
+  if (range.count() > most_cubes_a_cell) {
+    for (int cell = 0; cell < count(); ++cell)
+      if (near(cell)) visit(cell);
+    return;
+  }
+  for (const int cell : large_)
+    if (near(cell)) visit(cell);
   for_cubes(range, [&](const Cube& cube) {
     const std::size_t in = bucket(cube);
     for (std::size_t i = starts_[in]; i < starts_[in + 1]; ++i) {
       const Entry& entry = entries_[i];
-      if (entry.cube != cube) continue;
-      const Box3f other = this->box(entry.cell);
-      if (!overlap(box, other, reach)) continue;
+      if (entry.cube != cube || !near(entry.cell)) continue;
       // Two boxes may share many cubes: the first of them counts.
-      const CubeRange its = cubes_of(other, 0);
+      const CubeRange its = cubes_of(box(entry.cell), 0);
       bool first = true;
       for (std::size_t k = 0; k < 3; ++k)
         first = first && cube[k] == std::max(range.first[k], its.first[k]);
@@ -159,25 +175,22 @@ void SpatialHashPairs::find(int surface_a, int surface_b, float reach, ThreadTea
   // The smaller look up the larger, which take fewer cubes each.
   const bool swapped = a.side() > b.side();
   const HashedCells &small = swapped ? b : a, &large = swapped ? a : b;
-  shared_.collect(small.cells() * small.cells(), team, out,
-                  [&](int cell, std::vector<CellPair>& mine) {
-                    large.for_near(small.box(cell), reach, [&](int other) {
-                      mine.push_back(swapped ? CellPair{other, cell} : CellPair{cell, other});
-                    });
-                  });
+  shared_.collect(small.count(), team, out, [&](int cell, std::vector<CellPair>& mine) {
+    large.for_near(small.box(cell), reach, [&](int other) {
+      mine.push_back(swapped ? CellPair{other, cell} : CellPair{cell, other});
+    });
+  });
 }
 
 void SpatialHashPairs::find_self(int surface, float reach, float slack, ThreadTeam& team,
                                  std::vector<CellPair>& out) {
   const HashedCells& table = tables_[static_cast<std::size_t>(surface)];
   const LocalFolds& folds = folds_[static_cast<std::size_t>(surface)];
-  shared_.collect(table.cells() * table.cells(), team, out,
-                  [&](int cell, std::vector<CellPair>& mine) {
-                    table.for_near(table.box(cell), reach, [&](int other) {
-                      if (cell < other && !folds.unfolded({cell, other}, slack))
-                        mine.push_back({cell, other});
-                    });
-                  });
+  shared_.collect(table.count(), team, out, [&](int cell, std::vector<CellPair>& mine) {
+    table.for_near(table.box(cell), reach, [&](int other) {
+      if (cell < other && !folds.unfolded({cell, other}, slack)) mine.push_back({cell, other});
+    });
+  });
 }
 
 }  // namespace weft

@@ -18,17 +18,21 @@ class HashedCells {
 
   /// The side of a cube of space [m].
   [[nodiscard]] double side() const { return side_; }
-  [[nodiscard]] Box3f box(int cell) const;
-  [[nodiscard]] int cells() const { return boxes_.sides().front(); }
+  [[nodiscard]] int count() const { return extents_.sides().front() * extents_.sides().front(); }
+  [[nodiscard]] const Box3f& box(int cell) const {
+    const int side = extents_.sides().front();
+    return extents_.at({0, cell / side, cell % side});
+  }
   /// Calls visit(cell) for each of its cells whose box comes within `reach` of another, once.
   template <class Visit>
-  void for_near(const Box3f& box, float reach, const Visit& visit) const;
+  void for_near(const Box3f& other, float reach, const Visit& visit) const;
 
  private:
   /// A cube of space by its place in the grid.
   using Cube = std::array<int, 3>;
   struct CubeRange {
     Cube first, last;
+    [[nodiscard]] double count() const;
   };
   struct Entry {
     Cube cube{};
@@ -39,14 +43,19 @@ class HashedCells {
   [[nodiscard]] std::size_t bucket(const Cube& cube) const;
   template <class Visit>
   static void for_cubes(const CubeRange& range, const Visit& visit);
+  /// Calls visit(cell, cube) for all cubes of cells that are not large.
+  template <class Visit>
+  void for_entries(const Visit& visit) const;
   void choose_side(const MovingSurface& surface);
   void fill_table();
 
-  ExtentLevels boxes_;  // the finest level alone is used
+  ExtentLevels extents_;
+  std::vector<float> lengths_;  // of the boxes' longest sides
   double side_ = 1;
   std::vector<std::size_t> starts_;  // [buckets + 1]
   std::vector<std::size_t> next_;    // [buckets]
   std::vector<Entry> entries_;       // compressed rows, cells ascending in each
+  std::vector<int> large_;           // cells that pass too many cubes to enter them
 };
 
 /// Spatial hashing [teschner03]: in a first pass the vertices of a surface enter a hash table, by
