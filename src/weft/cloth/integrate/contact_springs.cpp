@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "weft/core/contact_point.h"
 
@@ -13,6 +14,8 @@ constexpr double relative_stiffness = 4;
 /// Nearer to the half-space than this part of the rest spacing counts as touching it.
 constexpr double touching = 1e-3;
 
+/// Forces that differ by this part of them are alike.
+constexpr double same_force = 0.02;
 /// What is inside something when a step begins, having been put or pressed there, leaves at this
 /// speed at most, lest it be shot out. [m/s]
 constexpr double fastest_way_out = 0.5;
@@ -33,6 +36,7 @@ void ContactSprings::take(std::span<const Contact> contacts, const Planes3& star
   time_step_ = time_step;
   slack_.resize(contacts.size());
   sticks_.assign(contacts.size(), 0);
+  changed_.resize(contacts.size());
   for (std::vector<float>* values :
        {&force_, &friction_, &spare_, &most_friction_, &stick_stiffness_})
     values->assign(contacts.size(), 0.0F);
@@ -101,33 +105,43 @@ Vec3d ContactSprings::slid(int index, const Place& place) const {
   return way - dot(n, way) * n;
 }
 
-void ContactSprings::judge(int index, const Place& place) {
-  const Contact& contact = loads_.contacts()[index];
-  const float k = stick_stiffness_[index];
-  if (k == 0 || contact.friction == 0 || !against_obstacle(contact)) return;
-  double compliance = 0;  // h^2 over the mass of the point
+double ContactSprings::lone_compliance(const Contact& contact) const {
+  double compliance = 0;
   for (std::size_t i = 0; i < contact.samples.size(); ++i) {
     const double w = contact.weights[i];
     const int s = contact.samples[i], n = cloth_.size;
     compliance += w * w * double{cloth_.inverse_mass(s / n, s % n)} * time_step_ * time_step_;
   }
-  if (!(compliance > 0)) return;
+  return compliance;
+}
+
+bool ContactSprings::judge(int index, const Place& place) {
+  const Contact& contact = loads_.contacts()[index];
+  const float k = stick_stiffness_[index];
+  if (k == 0 || contact.friction == 0 || !against_obstacle(contact)) return false;
+  const double compliance = lone_compliance(contact);
+  if (!(compliance > 0)) return false;
   const double force = force_[index] > 0 ? double{force_[index]}
                                          : std::max(0.0, depth_at(index, place)) / compliance;
   const double most = contact.friction * force, way = length(slid(index, place));
-  // Before friction has acted, what it could stop sticks; afterwards what no longer moves by more
-  // than it gives way.
-  const bool untouched = sticks_[index] == 0 && friction_[index] == 0;
-  const bool sticks = way <= most * (untouched ? compliance : 1.0 / k);
-  sticks_[index] = sticks && most > 0 ? 1 : 0;
+  // Without friction as yet, what friction could stop sticks; with it, what hardly moves.
+  const bool stuck = sticks_[index] != 0;
+  const double before = most_friction_[index];
+  const bool sticks = most > 0 && (before > 0 ? k * way <= most : way <= most * compliance);
+  sticks_[index] = sticks ? 1 : 0;
   most_friction_[index] = static_cast<float>(most);
-  loads_.grip()[index] = sticks ? (most > 0 ? k : 0.0F) : static_cast<float>(most / way);
+  loads_.grip()[index] = sticks ? k : most > 0 ? static_cast<float>(most / way) : 0.0F;
+  return sticks != stuck || (!sticks && std::abs(most - before) > same_force * most);
 }
 
-void ContactSprings::judge(const Place& place, Worker& worker) {
+bool ContactSprings::judge(const Place& place, Worker& worker) {
   const Range mine = worker.share(static_cast<int>(force_.size()));
-  for (int i = mine.first; i < mine.last; ++i) judge(i, place);
+  for (int i = mine.first; i < mine.last; ++i) changed_[i] = judge(i, place) ? 1 : 0;
   worker.barrier();
+  if (worker.rank() == 0)
+    any_changed_ = std::find(changed_.begin(), changed_.end(), 1) != changed_.end();
+  worker.barrier();
+  return any_changed_;
 }
 
 Vec3f ContactSprings::friction_at(int index, const Place& place) const {

@@ -47,7 +47,8 @@ class ContactSprings {
   };
   /// Decides which contacts stick and which slip, by their forces from the last press, or, where
   /// there was none, by what would stop their points if they were alone. Ends with a barrier.
-  void judge(const Place& place, Worker& worker);
+  /// @return whether any is judged otherwise than before
+  bool judge(const Place& place, Worker& worker);
   /// Computes all forces. Ends with a barrier.
   void press(const Place& place, Worker& worker);
 
@@ -66,7 +67,9 @@ class ContactSprings {
   [[nodiscard]] Vec3d moved(int contact, const Place& place) const;
   [[nodiscard]] double depth_at(int contact, const Place& place) const;
   [[nodiscard]] Vec3d slid(int contact, const Place& place) const;
-  void judge(int contact, const Place& place);
+  /// h^2 over the mass of a contact's point. [m/N]
+  [[nodiscard]] double lone_compliance(const Contact& contact) const;
+  bool judge(int contact, const Place& place);
   [[nodiscard]] Vec3f friction_at(int contact, const Place& place) const;
 
   const Cloth& cloth_;
@@ -76,7 +79,8 @@ class ContactSprings {
   std::vector<float> force_, friction_, spare_;
   std::vector<float> most_friction_;    // as judged [N]
   std::vector<float> stick_stiffness_;  // 0 where not heeded [N/m]
-  std::vector<char> sticks_;
+  std::vector<char> sticks_, changed_;
+  bool any_changed_ = false;
   std::vector<double> slack_;  // how far from its start a point may go against the normal [m]
 };
 

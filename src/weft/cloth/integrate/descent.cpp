@@ -206,23 +206,26 @@ void Descent::go(double slope, Course& course, Worker& worker) {
   ++course.iterations;
 }
 
-void Descent::restart(Course& course, Worker& worker) {
+bool Descent::restart(Course& course, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {
     settle_row(static_cast<float>(course.way), r);
     place_row(0, r);
   }
   worker.barrier();
-  judge_contacts(worker);
+  const bool changed = judge_contacts(worker);
   look(worker);
   course.slope = course.left = course.way = 0;
   course.exact = true;
+  return changed;
 }
 
-void Descent::judge_contacts(Worker& worker) {
-  contacts_.heed(next_.position, filter_.finest().inverse_diagonal, worker);
-  if (!contacts_.empty()) contacts_.judge({fall_, move_, direction_, 0}, worker);
+bool Descent::judge_contacts(Worker& worker) {
+  bool changed = contacts_.heed(next_.position, filter_.finest().inverse_diagonal, worker);
+  if (!contacts_.empty())
+    changed = contacts_.judge({fall_, move_, direction_, 0}, worker) || changed;
   filter_.renew_contacts(contacts_.loads(), worker);
+  return changed;
 }
 
 Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker) {
@@ -231,12 +234,16 @@ Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker
   const bool pressed = !contacts_.empty();
   const int most = options.max_iterations * (pressed ? iterations_under_contact : 1);
   const double tolerance = options.tolerance * (pressed ? tolerance_under_contact : 1);
+  bool converged = false;
   while (course.iterations < most) {
-    if (course.iterations > 0 && course.iterations % iterations_between_restarts == 0)
-      restart(course, worker);
+    const bool stale =
+        course.iterations > 0 && course.iterations % iterations_between_restarts == 0;
+    // Under contact it has converged when contacts are found to be what they were taken for.
+    if ((stale || converged) && !restart(course, worker) && converged) break;
     take_residual(course, worker);
     go(turn(course, worker), course, worker);
-    if (!(course.correction > tolerance)) break;
+    converged = !(course.correction > tolerance);
+    if (converged && !pressed) break;
   }
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) place_row(static_cast<float>(course.way), r);

@@ -71,10 +71,11 @@ class Descent {
   void go(double slope, Course& course, Worker& worker);
   [[nodiscard]] double largest_direction() const;
   /// Looks up the residual where the descent stands, and forgets the direction.
-  void restart(Course& course, Worker& worker);
+  /// @return whether contacts are taken otherwise than before
+  bool restart(Course& course, Worker& worker);
   /// Looks for contacts that press where `next` is and which of them stick, and lets the filter
-  /// know. Ends with a barrier.
-  void judge_contacts(Worker& worker);
+  /// know. Ends with a barrier. @return whether that changed
+  bool judge_contacts(Worker& worker);
   Course descend(const MultigridOptions& options, Worker& worker);
 
   const Cloth& cloth_;
