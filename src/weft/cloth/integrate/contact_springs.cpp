@@ -20,11 +20,6 @@ constexpr double same_force = 0.02;
 /// speed at most, lest it be shot out. [m/s]
 constexpr double fastest_way_out = 0.5;
 
-/// Weights sum to 1 there, between parts of the cloth to 0.
-bool against_obstacle(const Contact& contact) {
-  return contact.weights[0] + contact.weights[1] + contact.weights[2] + contact.weights[3] > 0.5F;
-}
-
 }  // namespace
 
 ContactSprings::ContactSprings(const Cloth& cloth) : cloth_(cloth), loads_(cloth) {}
@@ -66,8 +61,8 @@ bool ContactSprings::heed(const Planes3& now, const Grid<float>& inverse_diagona
     const Contact& contact = contacts[i];
     if (stiffness[i] > 0 || !may_press(contact, now)) continue;
     const double own = ContactLoads::own_stiffness(contact, inverse_diagonal);
-    stick_stiffness_[i] = static_cast<float>(relative_stiffness * own);
     const bool soft = contact.stiffness > 0;
+    stick_stiffness_[i] = soft ? contact.stiffness : static_cast<float>(relative_stiffness * own);
     stiffness[i] = soft ? contact.stiffness : stick_stiffness_[i];
     const double offset = soft ? double{contact.offset}
                                : attainable_offset(contact, *start_, fastest_way_out * time_step_);
@@ -118,7 +113,7 @@ double ContactSprings::lone_compliance(const Contact& contact) const {
 bool ContactSprings::judge(int index, const Place& place) {
   const Contact& contact = loads_.contacts()[index];
   const float k = stick_stiffness_[index];
-  if (k == 0 || contact.friction == 0 || !against_obstacle(contact)) return false;
+  if (k == 0 || contact.friction == 0) return false;
   const double compliance = lone_compliance(contact);
   if (!(compliance > 0)) return false;
   const double force = force_[index] > 0 ? double{force_[index]}

@@ -13,11 +13,10 @@ namespace weft {
 /// so that it comes to rest within a small part of a micrometre, while a point that leaves is not
 /// held.
 ///
-/// Coulomb's friction against obstacles: a contact that presses either sticks, held by a spring
-/// along the surface, or slips, with its coefficient times the normal force against the sliding.
-/// Which it does, and how hard it presses for that, is looked up now and then only, so that in
-/// between the forces have a potential [li20]. Friction between parts of the cloth is left to the
-/// collider: springs between layers that move along strain them.
+/// Coulomb's friction: a contact that presses either sticks, held by a spring along the surface, or
+/// slips, with its coefficient times the normal force against the sliding. Which it does, and how
+/// hard it presses for that, is looked up now and then only, so that in between the forces have a
+/// potential [li20].
 ///
 /// What was beyond the half-space when the step began is not pushed out of it at any speed.
 class ContactSprings {
