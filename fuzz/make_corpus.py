@@ -223,10 +223,23 @@ def checkpoint_files():
     yield "false_count", checkpoint(b"{}", 1, []).replace(struct.pack("<I", 0), struct.pack("<I", 2 ** 31))
 
 
+def query_files():
+    def query(rows, truth=1):
+        return "".join(",".join(map(str, [*row, truth])) + "\n" for row in rows)
+
+    face = [(-1, 1, 0, 1, -1, 1), (1, 1, 0, 1, -1, 1), (0, 1, 0, 1, 2, 3)]
+    falls = [(0, 1, 1, 1, 0, 1), *face, (0, 1, -1, 1, 0, 1), *face]
+    huge = [(10 ** 29, 1, -3 * 10 ** 33, 10 ** 9, 1, 10 ** 40)] * 3 + [(0, 1, 0, 7, -0, 1)] * 5
+    yield "falls", query(falls)
+    yield "two", query(falls) + query(huge, 0)
+    yield "cut", query(falls)[:-9]
+
+
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parent / "corpus"
     kinds = {"obj": obj_files, "off": off_files, "ply": ply_files, "stl": stl_files, "glb": glb_files,
-             "image": image_files, "cache": cache_files, "scene": scene_files, "checkpoint": checkpoint_files}
+             "image": image_files, "cache": cache_files, "scene": scene_files, "checkpoint": checkpoint_files,
+             "queries": query_files}
     for kind, files in kinds.items():
         (folder / kind).mkdir(parents=True, exist_ok=True)
         for name, content in files():

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
+#include <utility>
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <fmt/format.h>
@@ -22,8 +22,7 @@ constexpr std::size_t most_digits = 1000;
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, std::string_view text)
-      : name_(path.string()), rest_(text) {}
+  Reader(std::string_view text, std::string name) : name_(std::move(name)), rest_(text) {}
 
   std::vector<Query> read() {
     std::vector<Query> queries;
@@ -117,10 +116,13 @@ QueryKind kind_of(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::vector<Query> parse_queries(std::string_view text, const std::string& name) {
+  return Reader(text, name).read();
+}
+
 QueryFile read_queries(const std::filesystem::path& path) {
   const QueryKind kind = kind_of(path);
-  const std::string text = read_file(path);
-  return {kind, Reader(path, text).read()};
+  return {kind, parse_queries(read_file(path), path.string())};
 }
 
 std::optional<Impact> answer(const Query& query, QueryKind kind, CcdOptions options) {

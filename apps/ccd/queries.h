@@ -3,6 +3,8 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "weft/collide/ccd.h"
@@ -31,6 +33,8 @@ struct QueryFile {
 /// @throws InputError for a file that cannot be read, whose name has neither `edge-edge` nor
 /// `vertex-face` in it, or that is not of that form
 QueryFile read_queries(const std::filesystem::path& path);
+/// The same from memory; `name` is what errors call it.
+std::vector<Query> parse_queries(std::string_view text, const std::string& name);
 
 /// Asks time_of_impact.
 std::optional<Impact> answer(const Query& query, QueryKind kind, CcdOptions options);
