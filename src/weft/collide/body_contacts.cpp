@@ -34,7 +34,8 @@ BodyContacts::BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
     : grid_(grid),
       gap_(cloth.thickness),
       friction_(cloth.friction),
-      inside_(static_cast<std::size_t>(grid.size()) * grid.size(), 0) {}
+      inside_(static_cast<std::size_t>(grid.size()) * grid.size(), 0),
+      doubted_(inside_.size(), 0) {}
 
 void BodyContacts::put_offset(double surface, double gap_at_start, Contact& contact) const {
   contact.offset = static_cast<float>(surface + std::min(gap_, gap_at_start));
@@ -63,10 +64,9 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
   const auto found =
       look(body, cloth.start.at(sample), reach, known_[body.number - 1].samples[sample]);
   if (!found) return;
-  // What was outside of a body that stands still cannot be inside now, whatever the normals of an
-  // image say that folds or crosses itself somewhere.
-  const bool may_be_inside = deep || (body.query->closed() && body.most_moved > 0);
-  const bool behind = may_be_inside && body.query->behind(start, *found);
+  // What was outside and kept out cannot be inside now, whatever the normals of an image say that
+  // folds or crosses itself somewhere.
+  const bool behind = deep && body.query->behind(start, *found);
   if (behind) inside_[sample] = body.number;
   const double distance = std::sqrt(found->squared_distance);
   // On the surface itself rounding would choose the direction.
@@ -102,9 +102,10 @@ void BodyContacts::find_for_sample(const MovingCloth& cloth, std::span<const Con
   const int was_inside = inside_[sample];
   inside_[sample] = 0;
   for (const ContactBody& body : bodies) {
-    const bool deep = body.query->closed() && (!looked_ || was_inside == body.number);
-    find_body(cloth, body, deep, sample, out);
+    const bool doubt = !looked_ || was_inside == body.number || doubted_[sample] != 0;
+    find_body(cloth, body, doubt && body.query->closed(), sample, out);
   }
+  doubted_[sample] = 0;
   if (ground != nullptr) find_ground(cloth, *ground, sample, out);
 }
 

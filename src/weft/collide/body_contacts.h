@@ -40,6 +40,8 @@ class BodyContacts {
             ThreadTeam& team);
   [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
   [[nodiscard]] const InsideMarks& inside() const { return inside_; }
+  /// A body moved onto this sample in the last step, so it may be inside now.
+  void doubt(int sample) { doubted_[sample] = 1; }
   /// Forgets what is inside: it is looked for anew, however deep.
   void restart() { looked_ = false; }
 
@@ -72,6 +74,7 @@ class BodyContacts {
   };
   std::vector<KnownBody> known_;  // one a body
   InsideMarks inside_;            // [n * n]
+  std::vector<char> doubted_;     // [n * n]
   bool looked_ = false;
   ChunkedLists<std::vector<Contact>> found_;
   std::vector<Contact> contacts_;

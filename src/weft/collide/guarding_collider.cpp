@@ -266,6 +266,10 @@ int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_ste
     const PlaneGuard::Result held =
         hold(cloths, time_step, round < rounds_aside ? most_aside_ : slack_, team);
     stopped += held.stopped + held.lost;
+    for (const int point : plane_guard_.lost()) {
+      GuardedOne& one = cloths_[cloth_of_[point]];
+      one.body_contacts->doubt(point - one.first_point);
+    }
     const bool settled = held.stopped + held.far == 0;
     if (!settled && round >= rounds_on_the_way)
       stay(cloths, time_step, 1 << (round - rounds_on_the_way), round + 1 == most_rounds);

@@ -145,6 +145,7 @@ PlaneGuard::Result PlaneGuard::count_fates() {
     if (fate == Fate::stopped) ++result.stopped;
     if (fate == Fate::lost) ++result.lost;
     if (fate == Fate::stopped || fate == Fate::lost) stopped_.push_back(involved_[i]);
+    if (fate == Fate::lost) lost_.push_back(involved_[i]);
   }
   return result;
 }

@@ -28,6 +28,8 @@ class PlaneGuard {
   };
   /// Numbers of the points that the last hold stopped or lost, ascending.
   [[nodiscard]] std::span<const int> stopped() const { return stopped_; }
+  /// Those that it lost, ascending.
+  [[nodiscard]] std::span<const int> lost() const { return lost_; }
   /// How far points may be moved aside.
   struct Aside {
     double slack = 0;     ///< what planes reckon with [m]
@@ -78,7 +80,7 @@ class PlaneGuard {
   std::vector<Fate> fates_;
   std::vector<char> still_;  // of planes
   std::vector<char> held_;   // of involved points: to be stopped
-  std::vector<int> stopped_;
+  std::vector<int> stopped_, lost_;
   std::vector<char> anew_;  // of involved points: to be placed anew
 };
 
@@ -87,6 +89,7 @@ PlaneGuard::Result PlaneGuard::hold(std::span<SeparatingPlane> planes, int count
                                     const Aside& aside, const At& at, const Put& put,
                                     ThreadTeam& team) {
   stopped_.clear();
+  lost_.clear();
   if (planes.empty()) return {};
   gather(planes, count);
   const int points = static_cast<int>(involved_.size());
