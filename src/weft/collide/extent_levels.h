@@ -19,6 +19,7 @@ class ExtentLevels {
 
   /// The cells' own, for the caller to fill: least x, y, z, largest x, y, z. [cells x cells]
   [[nodiscard]] std::array<Grid<float>, 6>& finest() { return finest_; }
+  [[nodiscard]] const std::array<Grid<float>, 6>& finest() const { return finest_; }
   /// Fits all levels from it. To be called by every worker after a barrier; ends with one.
   void fit(Worker& worker);
 

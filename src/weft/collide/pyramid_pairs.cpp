@@ -45,6 +45,7 @@ PyramidPairs::PyramidPairs(std::span<const SurfaceGrid* const> grids, std::size_
     if (i < cloths) {
       levels_.back().row_edges = ExtentLevels(cells);
       levels_.back().column_edges = ExtentLevels(cells);
+      levels_.back().flat_windows = Grid<float>(cells, cells);
     } else {
       levels_.back().slabs = SlabLevels(cells);
     }
@@ -71,6 +72,7 @@ void PyramidPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& te
       }
     }
   });
+  for (std::size_t i = 0; i < cloths_; ++i) levels_[i].windows_slack = -1;
   for (std::size_t i = cloths_; i < surfaces_.size(); ++i)
     levels_[i].fitted = surfaces_[i].start == surfaces_[i].end;
 }
@@ -100,7 +102,36 @@ bool PyramidPairs::apart_by_slab(const Search& search, const NodePair& pair) con
          (slab.lower_start - most_start >= reach && slab.lower_end - most_end >= reach);
 }
 
+void PyramidPairs::find_flat_windows(int surface, float slack, ThreadTeam& team) {
+  Levels& levels = levels_[surface];
+  if (levels.windows_slack == slack) return;
+  levels.windows_slack = slack;
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(levels.boxes.sides().front() - 1);
+    for (int r = mine.first; r < mine.last; ++r)
+      find_unfolded_windows(levels.row_edges, levels.column_edges, r, 2 * slack,
+                            levels.flat_windows.row(r));
+  });
+}
+
+bool PyramidPairs::flat_window(int surface, int row, int col) const {
+  const Grid<float>& windows = levels_[surface].flat_windows;
+  return row >= 0 && col >= 0 && row + 1 < windows.rows() && col + 1 < windows.cols() &&
+         windows(row, col) != 0;
+}
+
+bool PyramidPairs::neighbours_unfolded(int surface, const Node& a, const Node& b) const {
+  const int row = std::min(a.row, b.row), col = std::min(a.col, b.col);
+  return flat_window(surface, row, col) || (a.row == b.row && flat_window(surface, row - 1, col)) ||
+         (a.col == b.col && flat_window(surface, row, col - 1));
+}
+
 bool PyramidPairs::unfolded(const Search& search, const NodePair& pair) const {
+  if (pair.a.level == 0) {
+    const bool side_by_side =
+        std::abs(pair.a.row - pair.b.row) <= 1 && std::abs(pair.a.col - pair.b.col) <= 1;
+    return side_by_side && neighbours_unfolded(search.a, pair.a, pair.b);
+  }
   if (std::abs(pair.a.row - pair.b.row) > near_nodes ||
       std::abs(pair.a.col - pair.b.col) > near_nodes)
     return false;
@@ -137,10 +168,10 @@ template <class Stop, class Emit>
 void PyramidPairs::descend_self(const Search& search, const NodePair& pair, const Stop& stop,
                                 const Emit& emit) const {
   const bool same = pair.a == pair.b;
+  if (same && pair.a.level == 0) return;  // the two triangles of a cell share an edge
   if (!same && apart(search, pair)) return;
   if (unfolded(search, pair)) return;
   if (stop(pair) || (pair.a.level == 0 && !same)) return emit(pair);
-  if (pair.a.level == 0) return;  // the two triangles of a cell share an edge
   const std::vector<int>& sides = levels_[search.a].boxes.sides();
   for_children(pair.a, sides, [&](const Node& first) {
     for_children(pair.b, sides, [&](const Node& second) {
@@ -184,6 +215,7 @@ void PyramidPairs::find(int surface_a, int surface_b, float reach, ThreadTeam& t
 
 void PyramidPairs::find_self(int surface, float reach, float slack, ThreadTeam& team,
                              std::vector<CellPair>& out) {
+  find_flat_windows(surface, slack, team);
   const Search search{surface, surface, reach, slack};
   const auto never = [](const NodePair&) { return false; };
   const Node root{levels_[surface].boxes.top(), 0, 0};

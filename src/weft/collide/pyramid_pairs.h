@@ -23,6 +23,8 @@ class PyramidPairs final : public BroadPhase {
  private:
   struct Levels {
     ExtentLevels boxes, row_edges, column_edges;  // edges: of cloths
+    Grid<float> flat_windows;                     // of cloths, 2 x 2 cells: 1 where unfolded
+    float windows_slack = -1;                     // for which; negative: for none
     SlabLevels slabs;                             // of bodies
     bool fitted = false;                          // of bodies that stand still
   };
@@ -38,6 +40,10 @@ class PyramidPairs final : public BroadPhase {
   [[nodiscard]] bool apart(const Search& search, const NodePair& pair) const;
   [[nodiscard]] bool apart_by_slab(const Search& search, const NodePair& pair) const;
   [[nodiscard]] bool unfolded(const Search& search, const NodePair& pair) const;
+  void find_flat_windows(int surface, float slack, ThreadTeam& team);
+  [[nodiscard]] bool flat_window(int surface, int row, int col) const;
+  /// The same for two cells side by side, by windows that hold both.
+  [[nodiscard]] bool neighbours_unfolded(int surface, const Node& a, const Node& b) const;
   /// Splits a pair until `stop(pair)` holds, and hands out what may meet.
   template <class Stop, class Emit>
   void descend(const Search& search, const NodePair& pair, const Stop& stop,

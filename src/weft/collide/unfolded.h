@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/collide/node_levels.h"
+#include "weft/collide/extent_levels.h"
 
 namespace weft {
 
@@ -15,5 +15,11 @@ namespace weft {
 /// cones of normals this needs no test of contours.
 /// @param slack  by which any edge may yet differ [m]
 bool certainly_unfolded(const Box3f& along_rows, const Box3f& along_columns, float slack);
+
+/// The same for all windows of 2 x 2 cells that begin in a row of cells but the last, at once.
+/// @param along_rows, along_columns  extents of a cloth's edges, finest level
+/// @param out  [cells - 1] 1 where the window is certainly unfolded, else 0
+void find_unfolded_windows(const ExtentLevels& along_rows, const ExtentLevels& along_columns,
+                           int row, float slack, float* out);
 
 }  // namespace weft
