@@ -15,8 +15,12 @@ namespace {
 // Measured as the most that a run held, by size; the test of the program compares them again.
 constexpr double program_bytes = 10e6;
 constexpr double body_bytes_per_sample = 370;
-/// Every cloth has a table of every body.
+/// Every cloth has a polar table of every body.
 constexpr double table_bytes_per_sample = 110;
+/// The other colliders keep trees of both.
+constexpr double guarded_cloth_bytes_per_sample = 110, guarded_body_bytes_per_sample = 190;
+/// What intersections are counted with.
+constexpr double counted_cloth_bytes_per_sample = 330;
 /// Its rest and both ends of a step, and what each sample is a blend of.
 constexpr double moving_bytes_per_sample = 64;
 constexpr double margin = 1.25, short_share = 0.8;
@@ -49,10 +53,17 @@ double samples_of(const std::string& surface, int size) {
 
 std::uint64_t estimate_memory(const Scene& scene) {
   double bytes = program_bytes;
-  for (const SceneCloth& cloth : scene.cloths)
-    bytes += std::visit(ClothBytes{samples_of(cloth.surface, cloth.size)}, scene.integrator);
+  const bool guarded = !std::holds_alternative<PolarMapOptions>(scene.collider);
+  for (const SceneCloth& cloth : scene.cloths) {
+    const double samples = samples_of(cloth.surface, cloth.size);
+    bytes += std::visit(ClothBytes{samples}, scene.integrator);
+    bytes += counted_cloth_bytes_per_sample * samples;
+    if (guarded) bytes += guarded_cloth_bytes_per_sample * samples;
+  }
   const double per_body_sample =
-      body_bytes_per_sample + table_bytes_per_sample * static_cast<double>(scene.cloths.size());
+      body_bytes_per_sample +
+      (guarded ? guarded_body_bytes_per_sample
+               : table_bytes_per_sample * static_cast<double>(scene.cloths.size()));
   for (const SceneBody& body : scene.bodies) {
     const double samples = samples_of(body.surface, body.size);
     bytes += per_body_sample * samples;
