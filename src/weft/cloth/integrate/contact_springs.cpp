@@ -20,15 +20,19 @@ constexpr double same_force = 0.02;
 /// speed at most, lest it be shot out. [m/s]
 constexpr double fastest_way_out = 0.5;
 
+/// Against rounding of what just suffices.
+constexpr double way_margin = 1.01;
+
 }  // namespace
 
 ContactSprings::ContactSprings(const Cloth& cloth) : cloth_(cloth), loads_(cloth) {}
 
 void ContactSprings::take(std::span<const Contact> contacts, const Planes3& start,
-                          double time_step) {
+                          const ContactPace& pace) {
   loads_.take(contacts);
   start_ = &start;
-  time_step_ = time_step;
+  time_step_ = pace.time_step;
+  rest_way_ = pace.rest_way;
   slack_.resize(contacts.size());
   sticks_.assign(contacts.size(), 0);
   changed_.resize(contacts.size());
@@ -145,7 +149,7 @@ Vec3f ContactSprings::friction_at(int index, const Place& place) const {
   const Vec3d way = slid(index, place);
   const double k = stick_stiffness_[index], distance = length(way);
   // Slipping reverses smoothly.
-  const bool spring = sticks_[index] != 0 || k * distance <= most;
+  const bool spring = k * distance <= most;
   return vec_cast<float>((spring ? -k : -most / distance) * way);
 }
 
@@ -163,12 +167,21 @@ void ContactSprings::press(const Place& place, Worker& worker) {
   worker.barrier();
 }
 
-void ContactSprings::spare(Worker& worker) {
+void ContactSprings::spare(const Place& place, Worker& worker) {
   const std::span<const Contact> contacts = loads_.contacts();
   const Range mine = worker.share(static_cast<int>(contacts.size()));
   for (int i = mine.first; i < mine.last; ++i) {
     const float mu = contacts[i].friction;
-    spare_[i] = mu > 0 ? std::max(0.0F, force_[i] - friction_[i] / mu) : force_[i];
+    if (!(mu > 0)) {
+      spare_[i] = force_[i];
+      continue;
+    }
+    const float left = std::max(0.0F, force_[i] - friction_[i] / mu);
+    // What iterations left of a motion that friction stops.
+    const double way = length(slid(i, place)), compliance = lone_compliance(contacts[i]);
+    const bool rests = way <= rest_way_ && compliance > 0;
+    const auto stopping = rests ? static_cast<float>(way_margin * way / (mu * compliance)) : 0.0F;
+    spare_[i] = std::max(left, std::min(force_[i], stopping));
   }
   worker.barrier();
 }
