@@ -42,16 +42,18 @@ def material(chance):
             "strain_limit": chance.choice((0, 0.02, 0.05, 0.1)), "thickness": chance.uniform(0.0005, 0.004)}
 
 
-def moved(chance, centre):
-    """Keys of a body that flies and turns, never faster than it may."""
+def moved(chance, centre, radius):
+    """Keys of a body that flies and turns, no point of it faster than it may."""
     keys, place, now = [{"time": 0}], [0, 0, 0], 0
     for _ in range(chance.randint(1, 3)):
         seconds = chance.uniform(0.1, 0.3)
-        way = chance.uniform(0, FASTEST) * seconds
+        speed = chance.uniform(0, FASTEST)
+        way = speed * seconds
+        turn = min(90, math.degrees((FASTEST - speed) / radius * seconds / 4))
         place = [p + way * d for p, d in zip(place, direction(chance))]
         place[1] = max(place[1], 0.55 - centre[1])  # not under the ground
         now += seconds
-        keys.append({"time": now, "translate": place, "rotate": [chance.uniform(-90, 90) for _ in range(3)]})
+        keys.append({"time": now, "translate": place, "rotate": [chance.uniform(-turn, turn) for _ in range(3)]})
     return keys
 
 
@@ -77,7 +79,7 @@ def scene_of(seed):
                 "rotate": [chance.uniform(-180, 180) for _ in range(3)], "translate": place,
                 "friction": chance.uniform(0, 1)}
         if chance.random() < 0.4:
-            body["motion"] = moved(chance, place)
+            body["motion"] = moved(chance, place, radius)
         scene["bodies"].append(body)
     for i in range(chance.choice((1, 1, 1, 2))):
         shape, scale = chance.choice(list(CLOTHS)), chance.uniform(0.5, 1)
