@@ -37,6 +37,20 @@ BodyContacts::BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
       inside_(static_cast<std::size_t>(grid.size()) * grid.size(), 0),
       doubted_(inside_.size(), 0) {}
 
+void BodyContacts::save(std::vector<int>& marks) const {
+  marks.clear();
+  for (std::size_t s = 0; looked_ && s < inside_.size(); ++s)
+    marks.push_back(2 * inside_[s] + doubted_[s]);
+}
+
+void BodyContacts::restore(std::span<const int> marks) {
+  looked_ = marks.size() == inside_.size();
+  for (std::size_t s = 0; looked_ && s < inside_.size(); ++s) {
+    inside_[s] = marks[s] / 2;
+    doubted_[s] = static_cast<char>(marks[s] % 2);
+  }
+}
+
 void BodyContacts::put_offset(double surface, double gap_at_start, Contact& contact) const {
   contact.offset = static_cast<float>(surface + std::min(gap_, gap_at_start));
   contact.lift = static_cast<float>(std::clamp(gap_ - gap_at_start, 0.0, most_recovery * gap_));

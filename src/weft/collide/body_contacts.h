@@ -42,8 +42,10 @@ class BodyContacts {
   [[nodiscard]] const InsideMarks& inside() const { return inside_; }
   /// A body moved onto this sample in the last step, so it may be inside now.
   void doubt(int sample) { doubted_[sample] = 1; }
-  /// Forgets what is inside: it is looked for anew, however deep.
-  void restart() { looked_ = false; }
+  /// What is known of every sample, for going on elsewhere: its mark and whether it is in doubt.
+  /// Empty before the first look.
+  void save(std::vector<int>& marks) const;
+  void restore(std::span<const int> marks);
 
  private:
   void find_for_sample(const MovingCloth& cloth, std::span<const ContactBody> bodies,

@@ -33,6 +33,12 @@ class GuardingCollider final : public Collider {
               double time_step, ThreadTeam& team) noexcept override;
   int guard(std::span<const MovingCloth> cloths, double time_step,
             ThreadTeam& team) noexcept override;
+  void save_marks(std::size_t cloth, std::vector<int>& marks) const override {
+    cloths_[cloth].body_contacts->save(marks);
+  }
+  void restore_marks(std::size_t cloth, std::span<const int> marks) override {
+    cloths_[cloth].body_contacts->restore(marks);
+  }
   [[nodiscard]] int self_contacts() const noexcept override { return self_contacts_; }
   double smallest_gap(std::size_t cloth, const Planes3& positions,
                       ThreadTeam& team) noexcept override;

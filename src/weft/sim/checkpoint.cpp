@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "WEFTCKPT";
-constexpr std::uint32_t format_version = 3;
+constexpr std::uint32_t format_version = 4;
 constexpr std::size_t size_at = magic.size() + sizeof(format_version);
 constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
 constexpr std::size_t header_bytes = hash_at + sizeof(std::uint64_t);
@@ -37,7 +37,7 @@ void each_field(Report& f, const Visit& visit) {
   visit(f.centre_of_mass.x), visit(f.centre_of_mass.y), visit(f.centre_of_mass.z);
 }
 static_assert(sizeof(FrameReport) == 17 * 8, "a new field goes into each_field, and this count up");
-constexpr std::size_t frame_bytes = 15 * sizeof(double) + 2 * sizeof(int);
+constexpr std::size_t frame_bytes = 15 * sizeof(double) + 3 * sizeof(int);
 
 std::uint64_t hash_of(std::string_view bytes) {
   Hash hash;
@@ -76,6 +76,24 @@ std::optional<ClothState> next_cloth(ByteReader& in) {
   return cloth;
 }
 
+void add_marks(const std::vector<int>& marks, ByteWriter& out) {
+  out.add(static_cast<std::uint64_t>(marks.size()));
+  for (const int mark : marks) out.add(static_cast<std::int32_t>(mark));
+}
+
+/// Nothing for a count that does not fit the cloth, or a mark that none is.
+std::optional<std::vector<int>> next_marks(std::size_t samples, ByteReader& in) {
+  const auto count = in.next<std::uint64_t>();
+  if (count != 0 && count != samples) return std::nullopt;
+  if (in.left() < count * sizeof(std::int32_t)) return std::nullopt;
+  std::vector<int> marks(static_cast<std::size_t>(count));
+  for (int& mark : marks) {
+    mark = in.next<std::int32_t>();
+    if (mark < 0) return std::nullopt;
+  }
+  return marks;
+}
+
 void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   out.add_text(weft_version);
   out.add_text(checkpoint.identity);
@@ -88,6 +106,9 @@ void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
     each_field(frame, [&](auto value) { out.add(value); });
   out.add(static_cast<std::uint32_t>(checkpoint.state.cloths.size()));
   for (const ClothState& cloth : checkpoint.state.cloths) add_cloth(cloth, out);
+  for (std::size_t i = 0; i < checkpoint.state.cloths.size(); ++i)
+    add_marks(i < checkpoint.state.marks.size() ? checkpoint.state.marks[i] : std::vector<int>(),
+              out);
 }
 
 /// Nothing when the fields do not fit together, as in no file that Weft wrote.
@@ -109,6 +130,12 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
     std::optional<ClothState> cloth = next_cloth(in);
     if (!cloth) return std::nullopt;
     checkpoint.state.cloths.push_back(std::move(*cloth));
+  }
+  for (const ClothState& cloth : checkpoint.state.cloths) {
+    const auto side = static_cast<std::size_t>(cloth.position.size());
+    std::optional<std::vector<int>> marks = next_marks(side * side, in);
+    if (!marks) return std::nullopt;
+    checkpoint.state.marks.push_back(std::move(*marks));
   }
   if (!in.whole() || in.left() != 0) return std::nullopt;
   return checkpoint;

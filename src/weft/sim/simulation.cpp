@@ -374,8 +374,8 @@ int Simulation::Parts::pieces_until(double seconds) {
 /// Before the guard: what it stops would look calm.
 void Simulation::Parts::check_for_runaway(double seconds) {
   for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (const auto bad = movers[i].runaway.find(
-            cloths[i].cloth, movers[i].integrator->proposal(), seconds, solvers(i)))
+    if (const auto bad = movers[i].runaway.find(cloths[i].cloth, movers[i].integrator->proposal(),
+                                                seconds, solvers(i)))
       stop_unstable(i, *bad);
 }
 
@@ -492,18 +492,26 @@ FrameReport Simulation::advance() {
 void Simulation::save(SimulationState& state) const {
   state.frame = parts_->frame;
   state.cloths.resize(parts_->cloths.size());
-  for (std::size_t i = 0; i < state.cloths.size(); ++i) state.cloths[i] = parts_->cloths[i].state;
+  state.marks.resize(parts_->cloths.size());
+  for (std::size_t i = 0; i < state.cloths.size(); ++i) {
+    state.cloths[i] = parts_->cloths[i].state;
+    parts_->collider->save_marks(i, state.marks[i]);
+  }
 }
 
 void Simulation::restore(const SimulationState& state) {
   WEFT_ASSERT(state.cloths.size() == parts_->cloths.size());
   parts_->frame = state.frame;
   for (std::size_t i = 0; i < state.cloths.size(); ++i) parts_->cloths[i].state = state.cloths[i];
-  if (!parts_->driven.any_moves()) return;
-  parts_->driven.go(parts_->substep_time * (parts_->frame * parts_->scene.substeps), parts_->team);
-  parts_->bodies_arrive();
-  // A new guard, for which this is no motion.
-  parts_->make_guard();
+  if (parts_->driven.any_moves()) {
+    parts_->driven.go(parts_->substep_time * (parts_->frame * parts_->scene.substeps),
+                      parts_->team);
+    parts_->bodies_arrive();
+    // A new guard, for which this is no motion.
+    parts_->make_guard();
+  }
+  for (std::size_t i = 0; i < state.marks.size(); ++i)
+    parts_->collider->restore_marks(i, state.marks[i]);
 }
 
 int Simulation::frame() const { return parts_->frame; }

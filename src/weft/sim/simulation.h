@@ -42,11 +42,13 @@ struct PlacedBody {
   bool moves = false;                      ///< by motion or animation
 };
 
-/// All that the next frame depends on besides the scene: integrators and colliders carry nothing
-/// over from one step to the next.
+/// All that the next frame depends on besides the scene: integrators carry nothing over from one
+/// step to the next, colliders only which samples are inside of bodies.
 struct SimulationState {
   int frame = 0;                   ///< frames done
   std::vector<ClothState> cloths;  ///< in the scene's order
+  /// Of each cloth, what the collider knows of its samples: [n * n] or empty.
+  std::vector<std::vector<int>> marks{};
 };
 
 /// A scene brought to life.
