@@ -124,19 +124,20 @@ TEST(Allocation, SolvingForContactsAllocatesNothingOnceWarm) {
     ContactResponse response(cloth.mates);
     const std::vector<Contact> contacts = contacts_of(cloth);
     ClothState state = rest_state(cloth);
+    int touched = 0;
     const auto step = [&] {
       integrator->begin(input, state);
       ClothState& next = integrator->iterate(contacts);
       const MovingCloth moving{state.position, next.position, next.velocity, cloth.inverse_mass};
-      EXPECT_GT(
-          response.respond(moving, {contacts, integrator->contact_forces()}, input.time_step, team),
-          0);
+      touched +=
+          response.respond(moving, {contacts, integrator->contact_forces()}, input.time_step, team);
       integrator->end(state);
     };
     step();
     const long before = allocations;
     for (int i = 0; i < 5; ++i) step();
     EXPECT_EQ(allocations - before, 0);
+    EXPECT_GT(touched, 0);
   }
 }
 

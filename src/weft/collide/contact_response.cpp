@@ -58,7 +58,6 @@ void ContactResponse::collect(const MovingCloth& cloth, const PressedContacts& p
   for (int i = 0; i < count; ++i) {
     const double force = pressed.forces.empty() ? 0 : double{pressed.forces[i]};
     place_point(pressed.contacts[i], force * time_step * time_step, points_[i]);
-    points_[i].gains = pressed.forces.empty();
   }
 }
 

@@ -9,8 +9,9 @@
 namespace weft {
 namespace {
 
-/// Times what the cloth's own operator holds the contact's point by.
-constexpr double relative_stiffness = 4;
+/// Times what the cloth's own operator holds the contact's point by. Stiffer, rounding and what few
+/// iterations leave show in the forces; softer, what is left to push out shows in the motion.
+constexpr double relative_stiffness = 0.125;
 /// Nearer to the half-space than this part of the rest spacing counts as touching it.
 constexpr double touching = 1e-3;
 
@@ -20,19 +21,15 @@ constexpr double same_force = 0.02;
 /// speed at most, lest it be shot out. [m/s]
 constexpr double fastest_way_out = 0.5;
 
-/// Against rounding of what just suffices.
-constexpr double way_margin = 1.01;
-
 }  // namespace
 
 ContactSprings::ContactSprings(const Cloth& cloth) : cloth_(cloth), loads_(cloth) {}
 
 void ContactSprings::take(std::span<const Contact> contacts, const Planes3& start,
-                          const ContactPace& pace) {
+                          double time_step) {
   loads_.take(contacts);
   start_ = &start;
-  time_step_ = pace.time_step;
-  rest_way_ = pace.rest_way;
+  time_step_ = time_step;
   slack_.resize(contacts.size());
   sticks_.assign(contacts.size(), 0);
   changed_.resize(contacts.size());
@@ -149,7 +146,7 @@ Vec3f ContactSprings::friction_at(int index, const Place& place) const {
   const Vec3d way = slid(index, place);
   const double k = stick_stiffness_[index], distance = length(way);
   // Slipping reverses smoothly.
-  const bool spring = k * distance <= most;
+  const bool spring = sticks_[index] != 0 || k * distance <= most;
   return vec_cast<float>((spring ? -k : -most / distance) * way);
 }
 
@@ -167,21 +164,13 @@ void ContactSprings::press(const Place& place, Worker& worker) {
   worker.barrier();
 }
 
-void ContactSprings::spare(const Place& place, Worker& worker) {
+void ContactSprings::spare(Worker& worker) {
   const std::span<const Contact> contacts = loads_.contacts();
   const Range mine = worker.share(static_cast<int>(contacts.size()));
   for (int i = mine.first; i < mine.last; ++i) {
-    const float mu = contacts[i].friction;
-    if (!(mu > 0)) {
-      spare_[i] = force_[i];
-      continue;
-    }
-    const float left = std::max(0.0F, force_[i] - friction_[i] / mu);
-    // What iterations left of a motion that friction stops.
-    const double way = length(slid(i, place)), compliance = lone_compliance(contacts[i]);
-    const bool rests = way <= rest_way_ && compliance > 0;
-    const auto stopping = rests ? static_cast<float>(way_margin * way / (mu * compliance)) : 0.0F;
-    spare_[i] = std::max(left, std::min(force_[i], stopping));
+    const bool slips = most_friction_[i] > 0 && sticks_[i] == 0;
+    const float spent = most_friction_[i] > 0 ? friction_[i] / contacts[i].friction : 0.0F;
+    spare_[i] = slips ? 0.0F : std::max(0.0F, force_[i] - spent);
   }
   worker.barrier();
 }

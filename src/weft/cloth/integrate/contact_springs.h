@@ -8,18 +8,9 @@
 
 namespace weft {
 
-/// How fast things go where contacts are.
-struct ContactPace {
-  ContactPace(double step, double rest = 0)  // NOLINT(google-explicit-constructor)
-      : time_step(step), rest_way(rest) {}
-  double time_step = 0;  ///< [s]
-  double rest_way = 0;   ///< sliding by no more a step counts as rest [m]
-};
-
 /// Contacts as one-sided springs along their normals, of energy k/2 max(0, depth)^2: a point beyond
-/// its half-space is pushed back by k times its depth, k several times what the cloth holds it by,
-/// so that it comes to rest within a small part of a micrometre, while a point that leaves is not
-/// held.
+/// its half-space is pushed back by k times its depth, k being an eighth of what the cloth holds it
+/// by, so that it comes to rest within micrometres, while a point that leaves is not held.
 ///
 /// Coulomb's friction: a contact that presses either sticks, held by a spring along the surface, or
 /// slips, with its coefficient times the normal force against the sliding. Which it does, and how
@@ -36,7 +27,7 @@ class ContactSprings {
   /// Knows of contacts, but heeds none yet.
   /// @param contacts  must stay until the last press
   /// @param start  positions then, by reference until the last press [m]
-  void take(std::span<const Contact> contacts, const Planes3& start, const ContactPace& pace);
+  void take(std::span<const Contact> contacts, const Planes3& start, double time_step);
 
   // To be called by every worker of the team, of any size.
 
@@ -64,7 +55,7 @@ class ContactSprings {
   /// The heeded contacts are stiff [N/m]; loads are forces [N].
   [[nodiscard]] const ContactLoads& loads() const { return loads_; }
   /// To be called by every worker after the last press. Ends with a barrier.
-  void spare(const Place& place, Worker& worker);
+  void spare(Worker& worker);
   /// Of each contact, in the order in which they were taken: the part of the normal force, from the
   /// last press, that friction has left to spare, N - |friction| / coefficient [N].
   [[nodiscard]] std::span<const float> forces() const { return spare_; }
@@ -83,7 +74,6 @@ class ContactSprings {
   ContactLoads loads_;
   const Planes3* start_ = nullptr;
   double time_step_ = 0;  // [s]
-  double rest_way_ = 0;   // [m]
   std::vector<float> force_, friction_, spare_;
   std::vector<float> most_friction_;    // as judged [N]
   std::vector<float> stick_stiffness_;  // 0 where not heeded [N/m]

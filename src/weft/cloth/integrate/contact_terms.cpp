@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-constexpr double contact_stiffness = 1;
+constexpr double contact_stiffness = 0.125;
 /// What is inside something when a step begins, having been put or pressed there, leaves at this
 /// speed at most, lest it be shot out. [m/s]
 constexpr double fastest_way_out = 0.5;

@@ -10,8 +10,8 @@
 namespace weft {
 
 /// Contacts as part of implicit Euler's system: the point of a contact that presses is held to its
-/// surface by a spring along the normal, `contact_stiffness` times stiffer than what the cloth
-/// holds it by. In terms of the velocity v at the end of the step the term of a contact is
+/// surface by a spring along the normal, an eighth as stiff as what the cloth holds it by. In terms
+/// of the velocity v at the end of the step the term of a contact is
 ///   k (w n) (w n)^T v = k (w n) t,   t = how far the point may go along n, over h.
 /// Which contacts hold is found by turns: after a solve those that it violates join and those that
 /// would pull leave.

@@ -18,9 +18,6 @@ constexpr double most_way = 4;
 constexpr int iterations_under_contact = 4;
 /// Times the tolerance: contacts are so stiff that forces are off where positions are good enough.
 constexpr double tolerance_under_contact = 1e-4;
-/// Sliding by less than this part of what a step of free fall is counts as rest: it is as much as
-/// iterations leave.
-constexpr double rest_in_falls = 0.05;
 /// Residuals interpolated along secants drift away from the gradient.
 constexpr int iterations_between_restarts = 4;
 
@@ -78,9 +75,7 @@ void Descent::begin(const StepInput& input, const ClothState& state) {
 }
 
 void Descent::run(std::span<const Contact> contacts, const MultigridOptions& options) {
-  const double fall =
-      length(vec_cast<double>(input_.gravity)) * input_.time_step * input_.time_step;
-  contacts_.take(contacts, start_.position, {input_.time_step, rest_in_falls * fall});
+  contacts_.take(contacts, start_.position, input_.time_step);
   team_.run([&](Worker& worker) {
     contacts_.heed(next_.position, filter_.finest().inverse_diagonal, worker);
     const Range mine = worker.share(cloth_.size);
@@ -255,7 +250,7 @@ Descent::Course Descent::descend(const MultigridOptions& options, Worker& worker
   worker.barrier();
   if (!contacts_.empty()) {
     contacts_.press({fall_, move_, direction_, static_cast<float>(course.way)}, worker);
-    contacts_.spare({fall_, move_, direction_, static_cast<float>(course.way)}, worker);
+    contacts_.spare(worker);
   }
   return course;
 }
