@@ -3,49 +3,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
-#include "weft/cloth/coarse_limit.h"
 #include "weft/core/assert.h"
 #include "weft/core/error.h"
 #include "weft/core/hash.h"
-#include "weft/image/rebuild.h"
-#include "weft/sim/attachments.h"
-#include "weft/sim/driven_bodies.h"
-#include "weft/sim/pins.h"
-#include "weft/sim/placement.h"
-#include "weft/sim/runaway.h"
+#include "weft/sim/detail/simulation_parts.h"
 #include "weft/sim/scene_file.h"
-#include "weft/sim/step_pieces.h"
 
 namespace weft {
 namespace {
-
-constexpr int body_normal_map_size = 257;
-/// Smaller cloths are stepped by one thread: what others would save they would spend waiting.
-constexpr int least_shared_size = 97;
-/// Only samples are pushed out of bodies, so a sharp edge between two of them would show: the gap
-/// that is kept grows from the fabric's thickness to this part of the cloth's rest spacing, but to
-/// no more than a few thicknesses, lest coarse cloths float.
-constexpr double gap_in_spacings = 1.0 / 3, most_gap_in_thicknesses = 3;
-
-double gap_of(const Cloth& cloth) {
-  const double thickness = cloth.material.thickness;
-  return std::clamp(gap_in_spacings * cloth.rest_spacing, thickness,
-                    most_gap_in_thicknesses * thickness);
-}
-
-/// Between parts of cloth a gap of more than this part of the rest spacing would lock folds.
-constexpr double most_self_gap_in_spacings = 0.25;
-
-double self_gap_of(const Cloth& cloth) {
-  return std::min(cloth.material.thickness, most_self_gap_in_spacings * cloth.rest_spacing);
-}
-
-/// Of the ground, which scenes do not name a coefficient for.
-constexpr double ground_friction = 0.5;
 
 /// The limiter pulls cloth into bodies, the collider stretches it again. The two-level method's
 /// springs are so soft that the limiter carries the cloth: there both take turns, the collider
@@ -81,163 +49,11 @@ double mass_of(const Cloth& cloth) {
   return mass;
 }
 
-/// What moves one cloth.
-struct Mover {
-  std::unique_ptr<Integrator> integrator;
-  std::optional<Wind> wind;
-  RunawayCheck runaway;
-  StrainLimit limit;
-  CoarseLimit coarse_limit;
-};
-
 }  // namespace
-
-struct Simulation::Parts {
-  Parts(const Scene& given_scene, std::string given_name, const TeamOptions& given_team,
-        Progress* given_progress)
-      : scene(given_scene),
-        name(std::move(given_name)),
-        progress(given_progress),
-        team(given_team),
-        lone_team({1, given_team.instructions}),
-        substep_time(1 / (scene.frame_rate * scene.substeps)),
-        time_step(substep_time),
-        soft(std::holds_alternative<TwoLevelOptions>(scene.integrator)) {}
-
-  LoadedSurface load(const std::string& surface, ConvertOptions options, const std::string& what);
-  void load_cloths();
-  void load_bodies();
-  /// Ties cloths to bodies, which stand where they begin.
-  void tie_cloths();
-  void make_movers();
-  /// With the bodies where they are.
-  void make_guard();
-  void note_too_fast();
-  /// The speed that wind, bodies and moving pins may lend a cloth [m/s].
-  [[nodiscard]] double drive_of(std::size_t index) const;
-  /// Begins a step that ends at a time: bodies and pins go there.
-  void move_driven(double seconds);
-  /// Ends the step: bodies are where it took them.
-  void bodies_arrive();
-  /// Advances by one substep, in as many pieces as fast bodies ask for. @param number  from 0
-  void substep(int number, FrameReport& report);
-  /// A power of 2: of a substep that ends at a time.
-  [[nodiscard]] int pieces_until(double seconds);
-  /// Advances all cloths. @param seconds  at the end of the step @return particles in contact
-  int step(double seconds, FrameReport& report);
-  void check_for_runaway(double seconds);
-  /// Begins a cloth's step, up to its first proposal.
-  void propose(std::size_t index);
-  /// Solves a cloth's step with the contacts that were found.
-  void solve(std::size_t index);
-  /// Limits strain and pushes out. @return particles in contact
-  int correct(std::size_t index, ClothState& next, FrameReport& report);
-  /// Every cloth at its proposal, for the collider.
-  void gather_moving();
-  void finish(std::size_t index, FrameReport& report);
-  [[noreturn]] void stop_unstable(std::size_t index, BadParticle particle) const;
-  void measure(FrameReport& report);
-  /// Springs that hold far more energy than the cloth can have gained ran away, though a limiter
-  /// may tame the motion.
-  void check_springs(std::size_t index, double kinetic, double springs) const;
-  [[nodiscard]] Vec3d centre() const;
-  /// Only implicit methods heed contacts; the others are pushed out at the end of the step.
-  [[nodiscard]] bool heeds_contacts() const {
-    return std::holds_alternative<MultigridOptions>(scene.integrator) ||
-           std::holds_alternative<ImplicitOptions>(scene.integrator);
-  }
-  /// Who steps a cloth.
-  [[nodiscard]] ThreadTeam& solvers(std::size_t index) {
-    return cloths[index].cloth.size < least_shared_size ? lone_team : team;
-  }
-
-  Scene scene;
-  std::string name;
-  Progress* progress;
-  ThreadTeam team, lone_team;
-  double substep_time;  // [s]
-  double time_step;     // of the step: a substep or a piece of one [s]
-  double most_way = 0;  // of bodies in a step [m]
-  bool soft;            // springs that leave all stretch to the limiter
-  std::vector<SimulatedCloth> cloths;
-  std::vector<PlacedBody> bodies;
-  DrivenBodies driven;
-  std::vector<std::string> notes;
-  std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
-  std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
-  std::vector<Mover> movers;                        // one a cloth
-  std::unique_ptr<Collider> collider;
-  std::vector<MovingCloth> moving;  // of this step
-  int frame = 0;
-};
-
-LoadedSurface Simulation::Parts::load(const std::string& surface, ConvertOptions options,
-                                      const std::string& what) {
-  update(options.progress, "load " + what, 0);
-  options.threads = team.size();
-  const auto read = [&] {
-    try {
-      return load_surface(surface, options);
-    } catch (const UsageError& error) {
-      // What a command line gets wrong by itself, a scene names in its file.
-      throw SceneError(name, fmt::format("'{}': {}", what, error.what()), "");
-    }
-  };
-  LoadedSurface loaded = read();
-  for (const std::string& note : loaded.notes) notes.push_back(fmt::format("{}: {}", what, note));
-  return loaded;
-}
-
-void Simulation::Parts::load_cloths() {
-  for (const SceneCloth& wanted : scene.cloths) {
-    ConvertOptions options;
-    options.size = wanted.size;
-    options.progress = progress;
-    LoadedSurface loaded = load(wanted.surface, options, wanted.name);
-    const Planes3 rest = placed_positions(loaded.image, placement_map(wanted.placement));
-    Cloth cloth = make_cloth(rest, loaded.image.mates, wanted.material);
-    pin_motions.push_back(pin_places(cloth, wanted.pins));
-    ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
-    cloths.push_back({wanted.name, std::move(loaded.image), std::move(cloth), std::move(state)});
-  }
-}
-
-void Simulation::Parts::load_bodies() {
-  for (const SceneBody& wanted : scene.bodies) {
-    ConvertOptions options;
-    options.size = wanted.size;
-    options.normal_map_size = body_normal_map_size;
-    options.keep_places = !wanted.animation.empty();
-    options.progress = progress;
-    LoadedSurface loaded = load(wanted.surface, options, wanted.name);
-    BodyMotion motion(wanted, loaded, scene.frame_rate);
-    const PlacementMap map = placement_map(wanted.placement);
-    PlacedBody body;
-    body.name = wanted.name;
-    body.moves = motion.moves();
-    if (loaded.normals && !body.moves) body.normals = placed_normals(*loaded.normals, map);
-    body.image_normals = std::move(loaded.normals);
-    body.positions = placed_positions(loaded.image, map);
-    body.image = std::move(loaded.image);
-    driven.add(std::move(motion));
-    bodies.push_back(std::move(body));
-  }
-  driven.go(0, team);
-  bodies_arrive();
-}
 
 void Simulation::Parts::bodies_arrive() {
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].moves) bodies[i].positions = *driven.ends()[i];
-}
-
-void Simulation::Parts::tie_cloths() {
-  std::vector<TiedSurface> surfaces;
-  for (const PlacedBody& body : bodies)
-    surfaces.push_back({body.name, &body.positions, grid_triangles(body.image)});
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    tied_pins.push_back(
-        tie_places(cloths[i].cloth, scene.cloths[i].attach, surfaces, pin_motions[i]));
 }
 
 void Simulation::Parts::move_driven(double seconds) {
@@ -247,55 +63,6 @@ void Simulation::Parts::move_driven(double seconds) {
     move_pins(pin_motions[i], seconds, cloths[i].cloth);
     move_tied(tied_pins[i], driven.ends(), cloths[i].cloth);
   }
-}
-
-void Simulation::Parts::make_guard() {
-  Obstacles obstacles;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    obstacles.bodies.push_back({bodies[i].positions, bodies[i].image.mates,
-                                scene.bodies[i].friction, choose_diagonals(bodies[i].image)});
-  obstacles.ground = scene.ground;
-  obstacles.ground_friction = ground_friction;
-  std::vector<GuardedCloth> guarded;
-  most_way = HUGE_VAL;
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    const SimulatedCloth& cloth = cloths[i];
-    most_way = std::min(most_way, most_way_in_gaps * gap_of(cloth.cloth));
-    guarded.push_back(
-        {cloth.cloth.mates, cloth.cloth.size, choose_diagonals(cloth.image), gap_of(cloth.cloth),
-         scene.cloths[i].friction, cloth.cloth.rest_spacing,
-         knows_self_collision(scene.collider) && scene.cloths[i].self_collision.value_or(true),
-         self_gap_of(cloth.cloth)});
-  }
-  collider = make_collider(scene.collider, obstacles, guarded);
-}
-
-void Simulation::Parts::note_too_fast() {
-  if (driven.fastest() * substep_time <= most_pieces * most_way) return;
-  notes.push_back(fmt::format(
-      "bodies go up to {:.3g} m/s, faster than cloth can be kept from them; {} substeps "
-      "or more are wanted",
-      driven.fastest(), std::ceil(driven.fastest() / (scene.frame_rate * most_pieces * most_way))));
-}
-
-void Simulation::Parts::make_movers() {
-  const StepInput typical{time_step, vec_cast<float>(scene.gravity)};
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    const SimulatedCloth& cloth = cloths[i];
-    movers.push_back(
-        {make_integrator(scene.integrator, cloth.cloth, typical, solvers(i)),
-         scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
-         RunawayCheck(cloth.cloth, cloth.state, scene.gravity, drive_of(i)),
-         StrainLimit(cloth.cloth, solvers(i)), CoarseLimit(cloth.cloth, solvers(i))});
-    if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
-      notes.push_back(fmt::format("{}: {}", cloth.name, caution));
-  }
-  moving.reserve(cloths.size());
-}
-
-double Simulation::Parts::drive_of(std::size_t index) const {
-  return (scene.wind ? length(scene.wind->velocity) : 0) +
-         std::max(fastest_pin(pin_motions[index]), driven.fastest());
 }
 
 void Simulation::Parts::propose(std::size_t index) {
