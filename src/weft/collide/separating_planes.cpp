@@ -9,9 +9,9 @@ namespace {
 /// Rounding of positions in single precision, relative to their size, times a few: kept free on
 /// either side of a plane.
 constexpr double rounding = 1e-6;
-/// Of the gap at the start: what is no wider than the margins may hardly shrink, lest it vanish
-/// within a few steps.
-constexpr double most_margin = 0.4999;
+/// Of the gap at the start, between cloths on either side of the plane, before a body on one: what
+/// is no wider than the margins may hardly shrink, lest it vanish within a few steps.
+constexpr double most_margin = 0.4999, most_margin_before_body = 0.9998;
 
 double least_along(Vec3d n, const std::array<Vec3d, 3>& corners, int count) {
   double least = dot(n, corners[0]);
@@ -58,7 +58,8 @@ void put_offsets(const MovingFeature& a, const MovingFeature& b, SeparatingPlane
                b_start = most_along(n, b.start, b.count);
   const double a_end = least_along(n, a.end, a.count), b_end = most_along(n, b.end, b.count);
   const double size = std::max(std::abs(a_start), std::abs(b_start));
-  const double margin = std::min(rounding * (1 + size), most_margin * (a_start - b_start));
+  const double most = b.body ? most_margin_before_body : most_margin;
+  const double margin = std::min(rounding * (1 + size), most * (a_start - b_start));
   const double still = b.body ? b_end : 0.5 * (a_start + b_start);
   const double moving = b.body ? b_end : 0.5 * (a_end + b_end);
   plane.offset_a = moving + margin;
