@@ -24,15 +24,12 @@ class Finder {
   Finder(const PlaneSearch& search, std::vector<SeparatingPlane>& out)
       : search_(search), out_(out) {}
 
-  /// @return features that met
-  int look_at(const CellPair& cells) {
-    meeting_ = 0;
-    if (certain(cells)) return 0;
+  void look_at(const CellPair& cells) {
+    if (certain(cells)) return;
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j)
         triangles(search_.a.surface.grid->triangle(cells.a, i),
                   search_.b.surface.grid->triangle(cells.b, j));
-    return meeting_;
   }
 
  private:
@@ -116,31 +113,23 @@ class Finder {
 
   void add(const MovingFeature& a, const MovingFeature& b) {
     SeparatingPlane plane;
-    const Separation found = separate(a, b, {search_.slack}, plane);
-    if (found == Separation::plane) out_.push_back(plane);
-    if (found == Separation::meeting) ++meeting_;
+    if (separate(a, b, {search_.slack}, plane) == Separation::plane) out_.push_back(plane);
   }
 
   const PlaneSearch& search_;
   std::vector<SeparatingPlane>& out_;
-  int meeting_ = 0;
 };
 
 }  // namespace
 
-int CellPlanes::find(const PlaneSearch& search, std::span<const CellPair> cells, ThreadTeam& team,
-                     std::vector<SeparatingPlane>& out) {
+void CellPlanes::find(const PlaneSearch& search, std::span<const CellPair> cells, ThreadTeam& team,
+                      std::vector<SeparatingPlane>& out) {
   team.run([&](Worker& worker) {
-    found_.fill(static_cast<int>(cells.size()), worker, [&](int i, Found& mine) {
-      mine.meeting += Finder(search, mine.planes).look_at(cells[i]);
-    });
+    found_.fill(
+        static_cast<int>(cells.size()), worker,
+        [&](int i, std::vector<SeparatingPlane>& mine) { Finder(search, mine).look_at(cells[i]); });
   });
-  int meeting = 0;
-  for (const Found& mine : found_.lists()) {
-    out.insert(out.end(), mine.planes.begin(), mine.planes.end());
-    meeting += mine.meeting;
-  }
-  return meeting;
+  append(found_, out);
 }
 
 }  // namespace weft

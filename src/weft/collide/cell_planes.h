@@ -31,21 +31,13 @@ struct PlaneSearch {
 /// that share one, each with the other's far edge. Triangles that share an edge cannot cross.
 class CellPlanes {
  public:
-  /// Adds to `out`. @return how many features met at the start of the step, so that nothing could
-  /// be put between them
-  int find(const PlaneSearch& search, std::span<const CellPair> cells, ThreadTeam& team,
-           std::vector<SeparatingPlane>& out);
+  /// Adds to `out`, in an order that does not depend on the team. Features that meet at the start
+  /// of the step get no plane: nothing can be put between them.
+  void find(const PlaneSearch& search, std::span<const CellPair> cells, ThreadTeam& team,
+            std::vector<SeparatingPlane>& out);
 
  private:
-  struct Found {
-    std::vector<SeparatingPlane> planes;
-    int meeting = 0;
-    void clear() {
-      planes.clear();
-      meeting = 0;
-    }
-  };
-  ChunkedLists<Found> found_;
+  ChunkedLists<std::vector<SeparatingPlane>> found_;
 };
 
 }  // namespace weft

@@ -63,11 +63,6 @@ class GuardingCollider final : public Collider {
     bool moved = true;      // since its query was placed
     int placed = 0;         // how often it was
   };
-  struct Round {
-    PlaneGuard::Result held;
-    int meeting = 0;
-  };
-
   void gather_surfaces(std::span<const MovingCloth> cloths);
   void place_bodies(ThreadTeam& team);
   void find_pair_contacts(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team);

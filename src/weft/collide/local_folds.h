@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "weft/collide/cell_pairs.h"
 #include "weft/collide/extent_levels.h"
 
@@ -22,27 +20,6 @@ class LocalFolds {
 
  private:
   ExtentLevels row_edges_, column_edges_;
-};
-
-/// Gives what every worker found in the order of the workers, which is that of the work.
-class SharedPairs {
- public:
-  /// Calls find(i, mine) for i in 0 .. count - 1, which adds to `mine`, and adds all to `out`.
-  template <class Find>
-  void collect(int count, ThreadTeam& team, std::vector<CellPair>& out, const Find& find) {
-    found_.resize(static_cast<std::size_t>(team.size()));
-    for (std::vector<CellPair>& mine : found_) mine.clear();
-    team.run([&](Worker& worker) {
-      std::vector<CellPair>& mine = found_[static_cast<std::size_t>(worker.rank())];
-      const Range share = worker.share(count);
-      for (int i = share.first; i < share.last; ++i) find(i, mine);
-    });
-    for (const std::vector<CellPair>& mine : found_)
-      out.insert(out.end(), mine.begin(), mine.end());
-  }
-
- private:
-  std::vector<std::vector<CellPair>> found_;  // one a worker
 };
 
 }  // namespace weft

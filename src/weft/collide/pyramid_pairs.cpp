@@ -187,16 +187,14 @@ void PyramidPairs::share_out(const Search& search, ThreadTeam& team, std::vector
                              const Descend& descend) {
   const int cells_a = surfaces_[search.a].grid->cells();
   const int cells_b = surfaces_[search.b].grid->cells();
-  team.run([&](Worker& worker) {
-    found_.fill(static_cast<int>(tasks_.size()), worker, [&](int i, std::vector<CellPair>& mine) {
-      descend(tasks_[i], [&](const NodePair& pair) {
-        const int a = pair.a.row * cells_a + pair.a.col, b = pair.b.row * cells_b + pair.b.col;
-        // Of a cloth with itself the order of nodes need not be that of cells.
-        mine.push_back(search.a == search.b && b < a ? CellPair{b, a} : CellPair{a, b});
+  shared_.collect(
+      static_cast<int>(tasks_.size()), team, out, [&](int i, std::vector<CellPair>& mine) {
+        descend(tasks_[i], [&](const NodePair& pair) {
+          const int a = pair.a.row * cells_a + pair.a.col, b = pair.b.row * cells_b + pair.b.col;
+          // Of a cloth with itself the order of nodes need not be that of cells.
+          mine.push_back(search.a == search.b && b < a ? CellPair{b, a} : CellPair{a, b});
+        });
       });
-    });
-  });
-  append(found_, out);
 }
 
 void PyramidPairs::find(int surface_a, int surface_b, float reach, ThreadTeam& team,

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "weft/collide/cell_pairs.h"
-#include "weft/collide/chunks.h"
 #include "weft/collide/extent_levels.h"
+#include "weft/collide/shared_pairs.h"
 #include "weft/collide/slab_levels.h"
 
 namespace weft {
@@ -59,7 +59,7 @@ class PyramidPairs final : public BroadPhase {
   std::vector<Levels> levels_;  // one a surface
   std::vector<MovingSurface> surfaces_;
   std::vector<NodePair> tasks_;
-  ChunkedLists<std::vector<CellPair>> found_;
+  SharedPairs shared_;
 };
 
 }  // namespace weft

@@ -6,6 +6,7 @@
 #include "weft/collide/cell_pairs.h"
 #include "weft/collide/local_folds.h"
 #include "weft/collide/node_levels.h"
+#include "weft/collide/shared_pairs.h"
 
 namespace weft {
 
