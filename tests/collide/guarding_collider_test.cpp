@@ -130,6 +130,47 @@ TEST(GuardingCollider, NothingPassesThroughItselfOrABodyHoweverItIsThrown) {
   EXPECT_GT(stopped, 0);
 }
 
+/// Where a body is that turns about z by an angle while it rises.
+Planes3 turned_up(const Planes3& body, double angle, double rise) {
+  Planes3 end(body.size());
+  for (int s = 0; s < body.size() * body.size(); ++s) {
+    const Vec3d p = at(body, s);
+    const Vec3d turned{cosine(angle) * p.x - sine(angle) * p.y,
+                       sine(angle) * p.x + cosine(angle) * p.y + rise, p.z};
+    end.set(s, vec_cast<float>(turned));
+  }
+  return end;
+}
+
+TEST(GuardingCollider, ABodyThatTurnsIntoAPileTakesItAlong) {
+  constexpr int n = 9;
+  const BorderMates none;
+  const SurfaceGrid grid(n, none, {});
+  Obstacles obstacles;
+  obstacles.bodies.push_back(octahedral_sphere(9, 0.25, {0, 0, 0}));
+  const Planes3& body = obstacles.bodies[0].positions;
+  const SurfaceGrid body_grid(9, obstacles.bodies[0].mates, {});
+  const GuardedCloth cloth_facts = facts(none, n);
+  for (int round = 1; round < 8; ++round) {
+    const auto collider = make_collider(PyramidOptions{}, obstacles, std::span(&cloth_facts, 1));
+    // Eight narrow layers, hardly apart, that would rather stay.
+    TestCloth cloth(n);
+    cloth.place([&](int r, int c) {
+      return Vec3d{0.1 * (r % 2) - 0.05, 0.2501 + 1e-5 * r, 0.05 * (c - 4)};
+    });
+    ThreadTeam team(2);
+    const MovingCloth moving = cloth.moving();
+    const Planes3 end = turned_up(body, 0.01 * round, 0.002 * round);
+    const Planes3* const ends[] = {&end};
+    collider->move_bodies(ends);
+    collider->detect(std::span(&moving, 1), step, team);
+    collider->guard(std::span(&moving, 1), step, team);
+    const Primitives pile(grid, cloth.start, cloth.position), sphere(body_grid, body, end);
+    EXPECT_EQ(meetings(pile, pile, true), 0) << round;
+    EXPECT_EQ(meetings(pile, sphere, false), 0) << round;
+  }
+}
+
 TEST(GuardingCollider, WhatMeetsNothingIsLeftAlone) {
   constexpr int n = 17;
   const BorderMates none;

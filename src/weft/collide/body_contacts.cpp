@@ -19,7 +19,9 @@ constexpr double rounding = 1e-5;
 
 double pair_friction(double a, double b) { return std::sqrt(a * b); }
 
-Vec3d displaced(const ContactBody& body, const BodyPoint& at) {
+}  // namespace
+
+Vec3d way_of(const ContactBody& body, const BodyPoint& at) {
   if (body.start == body.end) return {};
   Vec3d moved;
   for (std::size_t k = 0; k < 3; ++k)
@@ -27,8 +29,6 @@ Vec3d displaced(const ContactBody& body, const BodyPoint& at) {
                               vec_cast<double>(body.start->at(at.samples[k])));
   return moved;
 }
-
-}  // namespace
 
 BodyContacts::BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
     : grid_(grid),
@@ -89,7 +89,7 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
                            ? ((behind ? -1 : 1) / distance) * (start - found->position)
                            : body.query->normal_at(*found);
   const double gap = behind ? -distance : distance;
-  const Vec3d slide = displaced(body, *found);
+  const Vec3d slide = way_of(body, *found);
   if (gap + dot(normal, way - slide) >= foresight * gap_) return;
   Contact contact;
   contact.samples[0] = sample;

@@ -20,6 +20,9 @@ struct ContactBody {
   int placed = 0;                ///< how often it has been placed
 };
 
+/// How a point of a body's surface goes during the step. [m]
+[[nodiscard]] Vec3d way_of(const ContactBody& body, const BodyPoint& at);
+
 /// Which of a cloth's samples are behind the surface of a closed body: its number, or 0.
 using InsideMarks = std::vector<int>;
 

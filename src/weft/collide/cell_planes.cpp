@@ -13,6 +13,7 @@ MovingFeature feature_of(const PlaneSide& side, const Samples& samples, int coun
   feature.body = side.body;
   for (int k = 0; k < count; ++k) {
     feature.start[k] = vec_cast<double>(side.surface.start->at(samples[k]));
+    feature.refuge[k] = vec_cast<double>(side.refuge->at(samples[k]));
     feature.end[k] = vec_cast<double>(side.surface.end->at(samples[k]));
     feature.points[k] = side.first_point + side.surface.grid->point(samples[k]);
   }
@@ -56,7 +57,7 @@ class Finder {
   }
   [[nodiscard]] bool certain_along(Vec3d n, const std::array<int, 4>& a,
                                    const std::array<int, 4>& b) const {
-    const double wanted = (search_.b.body ? 1 : 2) * search_.slack;
+    const double wanted = (search_.b.body ? 1 : 2) * search_.options.slack;
     const Bounds start_a = bounds(n, *search_.a.surface.start, a);
     const Bounds start_b = bounds(n, *search_.b.surface.start, b);
     const bool above = start_a.least > start_b.most, below = start_b.least > start_a.most;
@@ -113,7 +114,7 @@ class Finder {
 
   void add(const MovingFeature& a, const MovingFeature& b) {
     SeparatingPlane plane;
-    if (separate(a, b, {search_.slack}, plane) == Separation::plane) out_.push_back(plane);
+    if (separate(a, b, search_.options, plane) == Separation::plane) out_.push_back(plane);
   }
 
   const PlaneSearch& search_;

@@ -16,13 +16,14 @@ struct PlaneSide {
   MovingSurface surface;
   int first_point = 0;  ///< number of its sample 0 among all cloths' samples
   bool body = false;
+  const Planes3* refuge = nullptr;  ///< of its samples, see MovingFeature [n x n] [m]
 };
 
 /// What is looked at together.
 struct PlaneSearch {
   PlaneSide a, b;
   bool same = false;
-  double slack = 0;                     ///< see PlaneOptions [m]
+  PlaneOptions options;
   const InsideMarks* inside = nullptr;  ///< of a, where b is a body
   int body_number = 0;                  ///< samples of a marked with it are not kept out
 };

@@ -9,19 +9,10 @@ namespace {
 /// How far the guard may move a point aside before the rest has to be looked at again: parts of the
 /// gap that is kept, and of the rest spacing.
 constexpr double slack_in_gaps = 0.2, slack_in_spacings = 0.03;
-/// Points that were held back or moved far may lead others astray, so all is looked at again. In
-/// the first rounds points may be moved by this part of the rest spacing, which leaves them their
-/// motion along what they meet; in the next ones they are held back on their way.
-constexpr int rounds_aside = 4, rounds_on_the_way = 6;
+/// And in the first rounds, after which it is.
 constexpr double aside_in_spacings = 1;
-/// Then whoever is stopped stays where it was with all around it, in squares that double from round
-/// to round; at last the cloths stay where they were as a whole, where nothing meets.
-constexpr int most_rounds = 14;
 /// Pairs are looked at that come within this many gaps, see PairContacts.
 constexpr double foresight = 1.5;
-/// Before the ground, against rounding [m].
-constexpr double ground_margin = 2e-6;
-
 }  // namespace
 
 GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstacles& obstacles,
@@ -167,117 +158,6 @@ void GuardingCollider::copy_to_mates(const GuardedOne& one, const MovingCloth& m
       moving.position.set(s, moving.position.at(mates.mates(k)[0]));
       moving.velocity.set(s, moving.velocity.at(mates.mates(k)[0]));
     }
-}
-
-PlaneSide GuardingCollider::side_of(std::size_t surface) const {
-  const bool body = surface >= cloths_.size();
-  return {surfaces_[surface], body ? 0 : cloths_[surface].first_point, body};
-}
-
-void GuardingCollider::find_planes(ThreadTeam& team) {
-  planes_.clear();
-  const float reach = static_cast<float>(2 * slack_), slack = static_cast<float>(slack_);
-  for (std::size_t i = 0; i < cloths_.size(); ++i)
-    for (std::size_t j = i; j < surfaces_.size(); ++j) {
-      if (i == j && !cloths_[i].facts.self_collision) continue;
-      cells_.clear();
-      const int first = static_cast<int>(i), second = static_cast<int>(j);
-      if (i == j) {
-        broad_phase_->find_self(first, reach, slack, team, cells_);
-      } else {
-        broad_phase_->find(first, second, reach, team, cells_);
-      }
-      PlaneSearch search{side_of(i), side_of(j), i == j, slack_, nullptr, 0};
-      if (search.b.body) {
-        search.inside = &cloths_[i].body_contacts->inside();
-        search.body_number = static_cast<int>(j - cloths_.size()) + 1;
-      }
-      cell_planes_.find(search, cells_, team, planes_);
-    }
-}
-
-void GuardingCollider::add_ground_planes(std::span<const MovingCloth> cloths) {
-  if (!ground_) return;
-  const double least = ground_->height + ground_margin;
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    const GuardedOne& one = cloths_[i];
-    for (int s = 0; s < one.facts.size * one.facts.size; ++s) {
-      if (one.grid.point(s) != s || cloths[i].position.at(s).y >= least + slack_ ||
-          cloths[i].start.at(s).y < least)
-        continue;
-      SeparatingPlane plane;
-      plane.normal = {0, 1, 0};
-      plane.offset_a = plane.still_a = least;
-      plane.points[0] = one.first_point + s;
-      plane.count_a = 1;
-      planes_.push_back(plane);
-    }
-  }
-}
-
-PlaneGuard::Result GuardingCollider::hold(std::span<const MovingCloth> cloths, double time_step,
-                                          double farthest, ThreadTeam& team) {
-  const auto at = [&](int point) {
-    const std::size_t cloth = cloth_of_[point];
-    const int sample = point - cloths_[cloth].first_point;
-    return GuardedPoint{cloths[cloth].start.at(sample), cloths[cloth].position.at(sample)};
-  };
-  const auto put = [&](int point, Vec3f end) {
-    const std::size_t cloth = cloth_of_[point];
-    const int sample = point - cloths_[cloth].first_point;
-    const MovingCloth& moving = cloths[cloth];
-    const Vec3f change = static_cast<float>(1 / time_step) * (end - moving.position.at(sample));
-    moving.position.set(sample, end);
-    moving.velocity.set(sample, moving.velocity.at(sample) + change);
-  };
-  return plane_guard_.hold(planes_, points_, {slack_, farthest}, at, put, team);
-}
-
-void GuardingCollider::stay(std::span<const MovingCloth> cloths, double time_step, int around,
-                            bool all) {
-  const auto stay_at_start = [&](const MovingCloth& cloth, int row, int col) {
-    const Vec3f start = cloth.start.at(row, col);
-    const Vec3f change = static_cast<float>(1 / time_step) * (start - cloth.position.at(row, col));
-    cloth.position.set(row, col, start);
-    cloth.velocity.set(row, col, cloth.velocity.at(row, col) + change);
-  };
-  for (std::size_t i = 0; all && i < cloths.size(); ++i)
-    for (int r = 0; r < cloths_[i].facts.size; ++r)
-      for (int c = 0; c < cloths_[i].facts.size; ++c) stay_at_start(cloths[i], r, c);
-  if (all) return;
-  for (const int point : plane_guard_.stopped()) {
-    const std::size_t cloth = cloth_of_[point];
-    const int n = cloths_[cloth].facts.size, sample = point - cloths_[cloth].first_point;
-    const int row = sample / n, col = sample % n;
-    for (int r = std::max(0, row - around); r <= std::min(n - 1, row + around); ++r)
-      for (int c = std::max(0, col - around); c <= std::min(n - 1, col + around); ++c)
-        stay_at_start(cloths[cloth], r, c);
-  }
-}
-
-int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_step,
-                            ThreadTeam& team) noexcept {
-  gather_surfaces(cloths);
-  int stopped = 0;
-  for (int round = 0; round < most_rounds; ++round) {
-    broad_phase_->refit(surfaces_, team);
-    find_planes(team);
-    add_ground_planes(cloths);
-    const PlaneGuard::Result held =
-        hold(cloths, time_step, round < rounds_aside ? most_aside_ : slack_, team);
-    stopped += held.stopped + held.lost;
-    for (const int point : plane_guard_.lost()) {
-      GuardedOne& one = cloths_[cloth_of_[point]];
-      one.body_contacts->doubt(point - one.first_point);
-    }
-    const bool settled = held.stopped + held.far == 0;
-    if (!settled && round >= rounds_on_the_way)
-      stay(cloths, time_step, 1 << (round - rounds_on_the_way), round + 1 == most_rounds);
-    for (std::size_t i = 0; i < cloths_.size(); ++i) copy_to_mates(cloths_[i], cloths[i]);
-    if (settled) break;
-  }
-  finish_bodies();
-  return stopped;
 }
 
 double GuardingCollider::smallest_gap(std::size_t cloth, const Planes3& positions,

@@ -10,6 +10,7 @@
 #include "weft/collide/contact_response.h"
 #include "weft/collide/pair_contacts.h"
 #include "weft/collide/plane_guard.h"
+#include "weft/collide/refuges.h"
 
 namespace weft {
 
@@ -52,6 +53,8 @@ class GuardingCollider final : public Collider {
     std::vector<Contact> contacts;
     int first_point = 0;
     std::vector<double> row_gaps;
+    Planes3 carried{};                // refuges among moving bodies
+    const Planes3* refuge = nullptr;  // of this step; the start while that will do
   };
   struct GuardedBody {
     SurfaceGrid grid;
@@ -71,8 +74,12 @@ class GuardingCollider final : public Collider {
   void add_ground_planes(std::span<const MovingCloth> cloths);
   PlaneGuard::Result hold(std::span<const MovingCloth> cloths, double time_step, double farthest,
                           ThreadTeam& team);
-  /// Leaves the points that were stopped, and those around them, where they started; or all.
-  void stay(std::span<const MovingCloth> cloths, double time_step, int around, bool all);
+  /// Puts the points that were stopped, and those around them, at their refuges; or all.
+  void take_refuge(std::span<const MovingCloth> cloths, double time_step, int around, bool all);
+  /// @param spread  how far the bodies' ways reach, in rest spacings
+  void carry_refuges(std::span<const MovingCloth> cloths, double spread, ThreadTeam& team);
+  [[nodiscard]] bool any_body_moves() const;
+  [[nodiscard]] double fastest_body(double time_step) const;
   [[nodiscard]] PlaneSide side_of(std::size_t surface) const;
   void finish_bodies();
 
@@ -83,6 +90,7 @@ class GuardingCollider final : public Collider {
   int points_ = 0;                     // samples of all cloths
   double slack_ = 0, most_aside_ = 0;  // see PlaneGuard [m]
   int self_contacts_ = 0;
+  bool carried_ = false;  // refuges go along with bodies in this step
   // Of one step:
   std::vector<MovingSurface> surfaces_;  // cloths, then bodies
   std::vector<ContactBody> contact_bodies_;
@@ -92,6 +100,7 @@ class GuardingCollider final : public Collider {
   PairContacts pair_contacts_;
   CellPlanes cell_planes_;
   PlaneGuard plane_guard_;
+  Refuges refuges_;
 };
 
 }  // namespace weft

@@ -10,14 +10,14 @@ namespace weft {
 
 /// A point of a cloth during a step, for the guard.
 struct GuardedPoint {
-  Vec3f start, end;  ///< [m]; the end may be changed
+  Vec3f start, refuge, end;  ///< [m]; the end may be changed
 };
 
 /// Moves the ends of points so that each lies on its sides of all its planes. A point is put onto
 /// the planes that it is beyond, if they are not too far; where that does not do, it stays on its
-/// way from start to end as far as its planes let it [chen25], and these planes, which from then on
-/// stay where they were at the start, hold back what is on their other side too. So every plane is
-/// heeded in the end, unless a body moves onto a point that has nowhere to go.
+/// way from its refuge to its end as far as its planes let it [chen25], and these planes, which
+/// from then on stay where they were at the start, hold back what is on their other side too. So
+/// every plane is heeded in the end, unless a body moves onto a point that has nowhere to go.
 class PlaneGuard {
  public:
   struct Result {
@@ -45,7 +45,8 @@ class PlaneGuard {
  private:
   struct Side {
     int plane = 0;
-    int sign = 1;  ///< +1: side a
+    int sign = 1;          ///< +1: side a
+    bool halfway = false;  ///< what a plane that turns asks for in the middle of the step
   };
   enum class Fate : char { free, aside, far, stopped, lost };
 
@@ -53,13 +54,16 @@ class PlaneGuard {
   [[nodiscard]] std::span<const Side> sides(int involved) const {
     return std::span(sides_).subspan(starts_[involved], starts_[involved + 1] - starts_[involved]);
   }
-  /// How far beyond its plane a point is on the wrong side; <= 0: none.
-  [[nodiscard]] static double beyond(const SeparatingPlane& plane, int sign, Vec3d point) {
-    const double along = dot(plane.normal, point);
-    return sign > 0 ? plane.offset_a - along : along - plane.offset_b;
-  }
+  /// What a plane asks of the end of a point.
+  struct Limit {
+    Vec3d normal;
+    double offset = 0;
+    /// How far on the wrong side; <= 0: not at all. [m]
+    [[nodiscard]] double beyond(Vec3d end) const { return offset - dot(normal, end); }
+  };
+  [[nodiscard]] static Limit limit_of(const SeparatingPlane& plane, const Side& side, Vec3f start);
   [[nodiscard]] bool heeds_all(int involved, std::span<const SeparatingPlane> planes,
-                               Vec3f point) const;
+                               const GuardedPoint& point, Vec3f place) const;
   /// @return how far aside a place was found, infinity: nowhere [m]
   double put_aside(int involved, std::span<const SeparatingPlane> planes, double farthest,
                    GuardedPoint& point) const;

@@ -13,6 +13,11 @@ constexpr double rounding = 1e-6;
 /// is no wider than the margins may hardly shrink, lest it vanish within a few steps.
 constexpr double most_margin = 0.4999, most_margin_before_body = 0.9998;
 
+/// A plane that would have to turn farther stays as it is.
+constexpr double least_cosine = 0.5;
+
+using FeaturePlaces = std::array<Vec3d, 3> MovingFeature::*;
+
 double least_along(Vec3d n, const std::array<Vec3d, 3>& corners, int count) {
   double least = dot(n, corners[0]);
   for (int i = 1; i < count; ++i) least = std::min(least, dot(n, corners[i]));
@@ -51,21 +56,60 @@ void put_points(const MovingFeature& a, const MovingFeature& b, SeparatingPlane&
   std::copy_n(b.points.begin(), plane.count_b, plane.points.begin() + plane.count_a);
 }
 
-/// Where the plane stands: in the middle between two cloths, at the body's surface before one.
-void put_offsets(const MovingFeature& a, const MovingFeature& b, SeparatingPlane& plane) {
-  const Vec3d n = plane.normal;
-  const double a_start = least_along(n, a.start, a.count),
-               b_start = most_along(n, b.start, b.count);
-  const double a_end = least_along(n, a.end, a.count), b_end = most_along(n, b.end, b.count);
-  const double size = std::max(std::abs(a_start), std::abs(b_start));
+/// How far two features reach towards each other along a direction. [m]
+struct Reaches {
+  double a, b;
+  [[nodiscard]] double middle() const { return 0.5 * (a + b); }
+};
+Reaches reaches(Vec3d n, const MovingFeature& a, const MovingFeature& b, FeaturePlaces places) {
+  return {least_along(n, a.*places, a.count), most_along(n, b.*places, b.count)};
+}
+
+/// What is kept free on either side of a plane between features that are so near.
+double margin_for(const MovingFeature& b, Reaches near) {
+  const double size = std::max(std::abs(near.a), std::abs(near.b));
   const double most = b.body ? most_margin_before_body : most_margin;
-  const double margin = std::min(rounding * (1 + size), most * (a_start - b_start));
-  const double still = b.body ? b_end : 0.5 * (a_start + b_start);
-  const double moving = b.body ? b_end : 0.5 * (a_end + b_end);
-  plane.offset_a = moving + margin;
-  plane.offset_b = moving - margin;
-  plane.still_a = still + margin;
-  plane.still_b = still - margin;
+  return std::min(rounding * (1 + size), most * std::max(0.0, near.a - near.b));
+}
+
+/// Where a plane stands: in the middle between two cloths, at the body's surface before one.
+PlaneLevels levels_between(const MovingFeature& b, Reaches reached, double margin) {
+  const double at = b.body ? reached.b : reached.middle();
+  return {at + margin, at - margin};
+}
+
+void put_levels(const MovingFeature& a, const MovingFeature& b, SeparatingPlane& plane) {
+  double margin = margin_for(b, reaches(plane.normal, a, b, &MovingFeature::start));
+  const Reaches refuges = reaches(plane.turned, a, b, &MovingFeature::refuge);
+  if (plane.turns) margin = std::min(margin, margin_for(b, refuges));
+  plane.at_end = levels_between(b, reaches(plane.turned, a, b, &MovingFeature::end), margin);
+  plane.still = b.body ? plane.at_end : levels_between(b, refuges, margin);
+}
+
+/// How far two features reach halfway along a plane that turns, on their ways to their refuges.
+Reaches halfway_reaches(const SeparatingPlane& plane, const MovingFeature& a,
+                        const MovingFeature& b) {
+  const auto along = [&](const MovingFeature& of, int k) {
+    return dot(plane.normal, of.refuge[k]) + dot(plane.turned, of.start[k]);
+  };
+  Reaches found{HUGE_VAL, -HUGE_VAL};
+  for (int k = 0; k < a.count; ++k) found.a = std::min(found.a, along(a, k));
+  for (int k = 0; k < b.count; ++k) found.b = std::max(found.b, along(b, k));
+  return found;
+}
+
+/// Turns it as the way between the features turns from the start to their refuges, between which it
+/// then stands: where it turns there is no room to be shared anew.
+void turn(const MovingFeature& a, const MovingFeature& b, SeparatingPlane& plane) {
+  const ClosestPair closest = closest_points({a.refuge, a.count}, {b.refuge, b.count});
+  const Vec3d turned = normalized(closest.a - closest.b);
+  if (turned == plane.normal || !(dot(turned, plane.normal) > least_cosine)) return;
+  plane.turned = turned;
+  plane.turns = true;
+  put_levels(a, b, plane);
+  plane.at_end = plane.still;
+  const Reaches halfway = halfway_reaches(plane, a, b);
+  plane.halfway = levels_between(b, halfway, margin_for(b, halfway));
 }
 
 }  // namespace
@@ -81,7 +125,9 @@ Separation separate(const MovingFeature& a, const MovingFeature& b, const PlaneO
   if (!(gaps.start > 0)) return Separation::meeting;
   if (gaps.end >= wanted) return Separation::certain;
   put_points(a, b, out);
-  put_offsets(a, b, out);
+  out.turned = out.normal;
+  put_levels(a, b, out);
+  if (options.turn) turn(a, b, out);
   return Separation::plane;
 }
 

@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <cmath>
+
+#include "weft/collide/guarding_collider.h"
+
+namespace weft {
+namespace {
+
+/// Points that were held back or moved far may lead others astray, so all is looked at again. In
+/// the first rounds points may be moved far aside, which leaves them their motion along what they
+/// meet; in the next ones they are held back on their way.
+constexpr int rounds_aside = 4, rounds_on_the_way = 6;
+/// Then whoever is stopped takes refuge with all around it, in squares that double from round
+/// to round; at last the cloths do as a whole.
+constexpr int most_rounds = 14;
+/// Refuges go along with bodies that moved onto points; how far around them doubles, too: twice
+/// this many rest spacings at first, the nearest part of them wholly.
+constexpr double least_spread = 4, most_spread = 64, carried_in_spreads = 0.25;
+/// Up to this one they leave cloth its way along bodies.
+constexpr double most_sliding_spread = 16;
+/// What stands still holds them back, so near.
+constexpr double held_in_spacings = 4;
+/// Before the ground, against rounding [m].
+constexpr double ground_margin = 2e-6;
+
+/// What velocities are limited by.
+struct Pace {
+  double time_step;  // [s]
+  double fastest;    // of bodies [m/s]
+};
+/// Its velocity changes by the same, but makes it no faster than it was or bodies are: what only
+/// makes room lends no energy.
+void move_to(const MovingCloth& cloth, int sample, Vec3f end, const Pace& pace) {
+  const Vec3f change = static_cast<float>(1 / pace.time_step) * (end - cloth.position.at(sample));
+  const Vec3f was = cloth.velocity.at(sample);
+  Vec3f now = was + change;
+  const double most = std::max(std::sqrt(double{squared_length(was)}), pace.fastest);
+  const double speed = std::sqrt(double{squared_length(now)});
+  if (speed > most) now = static_cast<float>(most / speed) * now;
+  cloth.position.set(sample, end);
+  cloth.velocity.set(sample, now);
+}
+
+}  // namespace
+
+PlaneSide GuardingCollider::side_of(std::size_t surface) const {
+  const bool body = surface >= cloths_.size();
+  return {surfaces_[surface], body ? 0 : cloths_[surface].first_point, body,
+          body ? surfaces_[surface].end : cloths_[surface].refuge};
+}
+
+void GuardingCollider::find_planes(ThreadTeam& team) {
+  planes_.clear();
+  const float reach = static_cast<float>(2 * slack_), slack = static_cast<float>(slack_);
+  for (std::size_t i = 0; i < cloths_.size(); ++i)
+    for (std::size_t j = i; j < surfaces_.size(); ++j) {
+      if (i == j && !cloths_[i].facts.self_collision) continue;
+      cells_.clear();
+      const int first = static_cast<int>(i), second = static_cast<int>(j);
+      if (i == j) {
+        broad_phase_->find_self(first, reach, slack, team, cells_);
+      } else {
+        broad_phase_->find(first, second, reach, team, cells_);
+      }
+      PlaneSearch search{side_of(i), side_of(j), i == j, {slack_, carried_}, nullptr, 0};
+      if (search.b.body) {
+        search.inside = &cloths_[i].body_contacts->inside();
+        search.body_number = static_cast<int>(j - cloths_.size()) + 1;
+      }
+      cell_planes_.find(search, cells_, team, planes_);
+    }
+}
+
+void GuardingCollider::add_ground_planes(std::span<const MovingCloth> cloths) {
+  if (!ground_) return;
+  const double least = ground_->height + ground_margin;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const GuardedOne& one = cloths_[i];
+    for (int s = 0; s < one.facts.size * one.facts.size; ++s) {
+      if (one.grid.point(s) != s || cloths[i].position.at(s).y >= least + slack_ ||
+          cloths[i].start.at(s).y < least)
+        continue;
+      SeparatingPlane plane;
+      plane.normal = plane.turned = {0, 1, 0};
+      plane.at_end.a = plane.still.a = least;
+      plane.points[0] = one.first_point + s;
+      plane.count_a = 1;
+      planes_.push_back(plane);
+    }
+  }
+}
+
+PlaneGuard::Result GuardingCollider::hold(std::span<const MovingCloth> cloths, double time_step,
+                                          double farthest, ThreadTeam& team) {
+  const auto at = [&](int point) {
+    const std::size_t cloth = cloth_of_[point];
+    const int sample = point - cloths_[cloth].first_point;
+    return GuardedPoint{cloths[cloth].start.at(sample), cloths_[cloth].refuge->at(sample),
+                        cloths[cloth].position.at(sample)};
+  };
+  const double fastest = fastest_body(time_step);
+  const auto put = [&](int point, Vec3f end) {
+    const std::size_t cloth = cloth_of_[point];
+    const int sample = point - cloths_[cloth].first_point;
+    move_to(cloths[cloth], sample, end, {time_step, fastest});
+  };
+  return plane_guard_.hold(planes_, points_, {slack_, farthest}, at, put, team);
+}
+
+void GuardingCollider::take_refuge(std::span<const MovingCloth> cloths, double time_step,
+                                   int around, bool all) {
+  const double fastest = fastest_body(time_step);
+  const auto take = [&](std::size_t cloth, int row, int col) {
+    const int sample = row * cloths_[cloth].facts.size + col;
+    move_to(cloths[cloth], sample, cloths_[cloth].refuge->at(sample), {time_step, fastest});
+  };
+  for (std::size_t i = 0; all && i < cloths.size(); ++i)
+    for (int r = 0; r < cloths_[i].facts.size; ++r)
+      for (int c = 0; c < cloths_[i].facts.size; ++c) take(i, r, c);
+  if (all) return;
+  for (const int point : plane_guard_.stopped()) {
+    const std::size_t cloth = cloth_of_[point];
+    const int n = cloths_[cloth].facts.size, sample = point - cloths_[cloth].first_point;
+    const int row = sample / n, col = sample % n;
+    for (int r = std::max(0, row - around); r <= std::min(n - 1, row + around); ++r)
+      for (int c = std::max(0, col - around); c <= std::min(n - 1, col + around); ++c)
+        take(cloth, r, c);
+  }
+}
+
+double GuardingCollider::fastest_body(double time_step) const {
+  double fastest = 0;
+  for (const GuardedBody& body : bodies_) fastest = std::max(fastest, body.most_moved / time_step);
+  return fastest;
+}
+
+bool GuardingCollider::any_body_moves() const {
+  return std::any_of(bodies_.begin(), bodies_.end(),
+                     [](const GuardedBody& body) { return body.end != &body.start; });
+}
+
+void GuardingCollider::carry_refuges(std::span<const MovingCloth> cloths, double spread,
+                                     ThreadTeam& team) {
+  carried_ = true;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    GuardedOne& one = cloths_[i];
+    const double spacing = one.facts.rest_spacing;
+    if (one.carried.size() == 0) one.carried = Planes3(one.facts.size);
+    RefugeSurroundings around;
+    around.bodies = contact_bodies_;
+    around.ground = ground_ ? &*ground_ : nullptr;
+    around.reached = spread * spacing;
+    around.carried = carried_in_spreads * around.reached;
+    around.slides = spread <= most_sliding_spread;
+    around.held = held_in_spacings * spacing;
+    refuges_.find(cloths[i].start, around, one.carried, team);
+    one.refuge = &one.carried;
+  }
+}
+
+int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_step,
+                            ThreadTeam& team) noexcept {
+  gather_surfaces(cloths);
+  for (std::size_t i = 0; i < cloths.size(); ++i) cloths_[i].refuge = &cloths[i].start;
+  carried_ = false;
+  const bool moving = any_body_moves();
+  int stopped = 0;
+  double spread = least_spread;
+  for (int round = 0; round < most_rounds; ++round) {
+    broad_phase_->refit(surfaces_, team);
+    find_planes(team);
+    add_ground_planes(cloths);
+    const PlaneGuard::Result held =
+        hold(cloths, time_step, round < rounds_aside ? most_aside_ : slack_, team);
+    stopped += held.stopped + held.lost;
+    for (const int point : plane_guard_.lost()) {
+      GuardedOne& one = cloths_[cloth_of_[point]];
+      one.body_contacts->doubt(point - one.first_point);
+    }
+    if (held.lost > 0 && moving)
+      carry_refuges(cloths, spread = std::min(2 * spread, most_spread), team);
+    const bool settled = held.stopped + held.far == 0 && (held.lost == 0 || !moving);
+    if (!settled && round >= rounds_on_the_way)
+      take_refuge(cloths, time_step, 1 << (round - rounds_on_the_way), round + 1 == most_rounds);
+    for (std::size_t i = 0; i < cloths_.size(); ++i) copy_to_mates(cloths_[i], cloths[i]);
+    if (settled) break;
+  }
+  finish_bodies();
+  return stopped;
+}
+
+}  // namespace weft

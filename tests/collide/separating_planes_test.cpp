@@ -1,0 +1,92 @@
+#include "weft/collide/separating_planes.h"
+
+#include <gtest/gtest.h>
+
+#include "weft/core/math.h"
+#include "weft/core/random.h"
+
+namespace weft {
+namespace {
+
+constexpr double gap = 1e-5;
+
+/// About an axis in the plane of both triangles, half a metre away.
+Vec3d turned(Vec3d p, double angle) {
+  const Vec3d arm = p - Vec3d{0.5, 0, 0};
+  return Vec3d{0.5 + cosine(angle) * arm.x - sine(angle) * arm.y,
+               sine(angle) * arm.x + cosine(angle) * arm.y, p.z};
+}
+
+MovingFeature riding(double height, double angle) {
+  MovingFeature feature;
+  feature.start = {Vec3d{0, height, 0}, Vec3d{0.1, height, 0}, Vec3d{0, height, 0.1}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    feature.refuge[k] = turned(feature.start[k], angle);
+    // Each ends somewhere else, deep in the other.
+    feature.end[k] = feature.refuge[k] - Vec3d{0, height > 0 ? 0.01 : -0.01, 0};
+  }
+  return feature;
+}
+
+double along(Vec3d n, Vec3d p) { return dot(n, p); }
+
+TEST(SeparatingPlanes, HoldTwoThatTurnTogetherApartHoweverCloseTheyAre) {
+  const MovingFeature a = riding(gap, 0.02), b = riding(0, 0.02);
+  SeparatingPlane plane;
+  ASSERT_EQ(separate(a, b, {1e-4, true}, plane), Separation::plane);
+  ASSERT_TRUE(plane.turns);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_GE(along(plane.turned, a.refuge[k]), plane.still.a);
+    EXPECT_LE(along(plane.turned, b.refuge[k]), plane.still.b);
+    EXPECT_GE(along(plane.normal, a.refuge[k]) + along(plane.turned, a.start[k]), plane.halfway.a);
+    EXPECT_LE(along(plane.normal, b.refuge[k]) + along(plane.turned, b.start[k]), plane.halfway.b);
+  }
+}
+
+TEST(SeparatingPlanes, ThatDoNotTurnLeaveNoRoomForThat) {
+  const MovingFeature a = riding(gap, 0.02), b = riding(0, 0.02);
+  SeparatingPlane plane;
+  ASSERT_EQ(separate(a, b, {1e-4, false}, plane), Separation::plane);
+  double least = HUGE_VAL;
+  for (std::size_t k = 0; k < 3; ++k)
+    least = std::min(least, along(plane.turned, a.refuge[k]) - plane.still.a);
+  EXPECT_LT(least, -10 * gap);
+}
+
+TEST(SeparatingPlanes, WhatHeedsATurningPlaneKeepsApartAtEveryTime) {
+  Random random(7);
+  for (int round = 0; round < 200; ++round) {
+    MovingFeature a = riding(gap, random.uniform(0, 0.3)), b = riding(0, 0.1);
+    b.refuge = {};
+    for (std::size_t k = 0; k < 3; ++k) b.refuge[k] = turned(b.start[k], random.uniform(0, 0.3));
+    SeparatingPlane plane;
+    if (separate(a, b, {1e-4, true}, plane) != Separation::plane || !plane.turns) continue;
+    // Ends that just heed it.
+    const auto end_of = [&](const MovingFeature& of, std::size_t k, bool side_a) {
+      Vec3d end = of.refuge[k];
+      for (int turn = 0; turn < 100; ++turn) {
+        const double level = side_a ? plane.at_end.a : plane.at_end.b;
+        const double half =
+            (side_a ? plane.halfway.a : plane.halfway.b) - along(plane.turned, of.start[k]);
+        const double sign = side_a ? 1 : -1;
+        end += sign * std::max(0.0, sign * (level - along(plane.turned, end))) * plane.turned;
+        end += sign * std::max(0.0, sign * (half - along(plane.normal, end))) * plane.normal;
+      }
+      return end;
+    };
+    for (double time = 0; time <= 1; time += 0.125) {
+      const Vec3d normal = (1 - time) * plane.normal + time * plane.turned;
+      double least_a = HUGE_VAL, most_b = -HUGE_VAL;
+      for (std::size_t k = 0; k < 3; ++k) {
+        least_a =
+            std::min(least_a, along(normal, (1 - time) * a.start[k] + time * end_of(a, k, true)));
+        most_b =
+            std::max(most_b, along(normal, (1 - time) * b.start[k] + time * end_of(b, k, false)));
+      }
+      EXPECT_GT(least_a, most_b - 1e-12) << round << " at " << time;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace weft
