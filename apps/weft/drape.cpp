@@ -19,7 +19,9 @@ struct DrapeWords {
 };
 
 void drape(const DrapeWords& words, const Context& context) {
-  const Scene scene = make_drape_scene(words.cloth, words.body, words.options);
+  DrapeOptions options = words.options;
+  options.files = frame_of(words.run, options.files);
+  const Scene scene = make_drape_scene(words.cloth, words.body, options);
   RunWords run = words.run;
   run.scene_file = std::filesystem::path(words.run.folder) / "scene.json";
   run_and_report(scene, run.scene_file.string(), run, context);

@@ -62,6 +62,8 @@ RunOptions options_of(const RunWords& words, const Context& context, Progress& p
   options.folder = words.folder;
   options.exports = words.exports;
   options.unwelded = words.unwelded;
+  for (const WrittenOn on : {WrittenOn::image, WrittenOn::input})
+    if (words.on == name_of(on)) options.on = on;
   options.verify = words.verify;
   options.threads = context.threads;
   options.instructions = context.instructions;
@@ -86,10 +88,23 @@ void add_run_options(CLI::App& command, RunWords& words) {
       ->check(CLI::IsMember({"pyramid", "polar_map", "sphere_tree", "spatial_hash"}));
   command.add_option("--export", words.exports, "What to write, separated by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember({"obj", "pc2"}))
+      ->check(CLI::IsMember({"obj", "pc2", "mdd", "glb", "ply", "vtp", "exr", "usda"}))
+      ->capture_default_str();
+  command
+      .add_option("--on", words.on,
+                  "Whose vertices are written: the image's samples, the input mesh's own, or what "
+                  "suits the format")
+      ->check(CLI::IsMember({"auto", "image", "input"}))
       ->capture_default_str();
   command.add_flag("--unwelded", words.unwelded,
                    "Keep every sample apart instead of joining mates");
+  command
+      .add_option("--unit", words.unit,
+                  "What the numbers of meshes and caches mean, read and written, instead of what "
+                  "the scene says")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
+  command.add_option("--up", words.up, "Which of their axes points up")
+      ->check(CLI::IsMember({"y", "z"}));
   command
       .add_option("--checkpoint", words.checkpoint,
                   "Frames between two checkpoints; 0: none; by default one every 5 s")
@@ -100,6 +115,13 @@ void add_run_options(CLI::App& command, RunWords& words) {
                    "Count intersections in every frame; exit 4 when there are any");
 }
 
+MeshFrame frame_of(const RunWords& words, const MeshFrame& otherwise) {
+  MeshFrame frame = otherwise;
+  if (const auto unit = find_length_unit(words.unit)) frame.unit = *unit;
+  if (!words.up.empty()) frame.z_up = words.up == "z";
+  return frame;
+}
+
 void apply_run_words(const RunWords& words, Scene& scene) {
   if (words.frames > 0) scene.frames = words.frames;
   if (words.integrator == "multigrid") scene.integrator = MultigridOptions{};
@@ -107,6 +129,7 @@ void apply_run_words(const RunWords& words, Scene& scene) {
   if (words.integrator == "explicit") scene.integrator = ExplicitOptions{};
   if (words.integrator == "desbrun") scene.integrator = DesbrunOptions{};
   if (words.integrator == "two_level") scene.integrator = TwoLevelOptions{};
+  scene.files = frame_of(words, scene.files);
   if (const auto collider = collider_named(words.collider)) scene.collider = *collider;
 }
 

@@ -19,11 +19,16 @@ struct RunWords {
   std::string folder, integrator, collider;
   int frames = 0;  ///< 0: as the scene says
   std::vector<std::string> exports{"obj", "pc2"};
+  std::string on = "auto";
+  std::string unit, up;  ///< empty: as the scene says
   bool unwelded = false, verify = false, resume = false;
   std::optional<int> checkpoint;
   std::filesystem::path scene_file;  ///< where the scene is written, if anywhere
 };
 void add_run_options(CLI::App& command, RunWords& words);
+
+/// What the words say of files. @param otherwise  what is not said
+MeshFrame frame_of(const RunWords& words, const MeshFrame& otherwise);
 
 /// Changes the scene as the options ask.
 void apply_run_words(const RunWords& words, Scene& scene);

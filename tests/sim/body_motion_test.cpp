@@ -16,7 +16,7 @@ namespace {
 constexpr int size = 17;
 constexpr double frame_rate = 10;  // [1/s]
 
-LoadedSurface ring_surface() { return {make_image_shape("torus", size), {}, {}, {}}; }
+LoadedSurface ring_surface() { return {make_image_shape("torus", size), {}, {}, {}, {}}; }
 
 SceneBody moved(std::vector<MotionKey> motion) {
   SceneBody body;
@@ -40,7 +40,7 @@ void expect_near(Vec3f a, Vec3d b, double tolerance = 1e-6) {
 TEST(BodyMotion, TurnsAboutThePlacedOriginAndMoves) {
   const SceneBody body = moved({{0, {}, {}}, {2, {0, 180, 0}, {0, 1, 0}}});
   const LoadedSurface surface = ring_surface();
-  const BodyMotion motion(body, surface, frame_rate);
+  const BodyMotion motion(body, surface, {frame_rate, {}});
   EXPECT_TRUE(motion.moves());
   const Planes3 rest = placed_positions(surface.image, placement_map(body.placement));
   const Planes3 half = place_at(motion, 1), end = place_at(motion, 7);
@@ -55,7 +55,7 @@ TEST(BodyMotion, LeadInGoesFromRestToTheBeginningAndDelaysIt) {
   SceneBody body = moved({{0, {}, {0, 4, 0}}, {1, {}, {0, 5, 0}}});
   body.lead_in = 2;
   const LoadedSurface surface = ring_surface();
-  const BodyMotion motion(body, surface, frame_rate);
+  const BodyMotion motion(body, surface, {frame_rate, {}});
   const auto risen = [&](double seconds) {
     const Planes3 rest = placed_positions(surface.image, placement_map(body.placement));
     return place_at(motion, seconds).at(3).y - rest.at(3).y;
@@ -71,7 +71,7 @@ TEST(BodyMotion, LeadInGoesFromRestToTheBeginningAndDelaysIt) {
 TEST(BodyMotion, FastestBoundsEverySpeed) {
   SceneBody body = moved({{0, {}, {0, 1, 0}}, {1, {0, 90, 20}, {1, 0, 2}}, {3, {}, {}}});
   body.lead_in = 0.5;
-  const BodyMotion motion(body, ring_surface(), frame_rate);
+  const BodyMotion motion(body, ring_surface(), {frame_rate, {}});
   constexpr double step = 0.01;
   double fastest = 0;
   for (double seconds = 0; seconds < 4; seconds += step) {
@@ -103,7 +103,7 @@ TEST(BodyMotion, AnimationCarriesTheSamplesOfAMesh) {
   options.size = 33;
   options.keep_places = true;
   const LoadedSurface surface = load_surface(body.surface, options);
-  const BodyMotion motion(body, surface, frame_rate);
+  const BodyMotion motion(body, surface, {frame_rate, {}});
   const Planes3 rest = placed_positions(surface.image, placement_map(body.placement));
   for (const auto& [seconds, by] : {std::pair{0.0, 0.0F}, {0.1, 1.0F}, {0.15, 2.0F}, {9.0, 3.0F}}) {
     const Planes3 there = place_at(motion, seconds, 33);
@@ -129,10 +129,12 @@ TEST(BodyMotion, AnimationOfAnImageHasItsSamplesOrItsVertices) {
   for (const int points : {size * size, 16 * 16}) {
     write(points);
     // Placed as the surface is: twice as large, turned by 90 degrees, moved.
-    expect_near(place_at(BodyMotion(body, surface, frame_rate), 0).at(9), {1, 2, 1});
+    expect_near(place_at(BodyMotion(body, surface, {frame_rate, {}}), 0).at(9), {1, 2, 1});
   }
   write(100);
-  EXPECT_EQ(test::message_of<SceneError>([&] { BodyMotion(body, surface, frame_rate); }),
+  EXPECT_EQ(test::message_of<SceneError>([&] {
+              BodyMotion(body, surface, {frame_rate, {}});
+            }),
             body.animation +
                 ": 100 points; 289 (the samples of builtin:torus), or 256 (mates joined), are "
                 "wanted");
@@ -150,7 +152,9 @@ TEST(BodyMotion, AnimationOfAMeshNeedsItsVertices) {
   options.size = 33;
   options.keep_places = true;
   const LoadedSurface surface = load_surface(body.surface, options);
-  EXPECT_EQ(test::message_of<SceneError>([&] { BodyMotion(body, surface, frame_rate); }),
+  EXPECT_EQ(test::message_of<SceneError>([&] {
+              BodyMotion(body, surface, {frame_rate, {}});
+            }),
             body.animation + ": 7 points; " + std::to_string(make_shape("box").positions.size()) +
                 ", the vertices of builtin:box, are wanted");
 }

@@ -282,12 +282,12 @@ TEST(Resume, ChangedMeshIsAnotherScene) {
 TEST(Resume, FullDiskKeepsWholeFramesAndTheRunGoesOnWhereThereIsRoom) {
   const test::TemporaryFolder place;
   Scene scene = two_cloths();
-  scene.frames = 14;
+  scene.frames = 20;
   run_scene(scene, "s.json", {.folder = place / "whole"});
   rlimit old{};
   getrlimit(RLIMIT_FSIZE, &old);
-  // Room for what does not grow and for ten frames and a half of the sheet.
-  const rlimit small{32 + 21 * 289 * 12 / 2, old.rlim_max};
+  // Room for what does not grow and for 15 frames and a half of the sheet.
+  const rlimit small{32 + 31 * 289 * 12 / 2, old.rlim_max};
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &small);
   const std::string message = test::message_of<OutputError>(
@@ -295,8 +295,8 @@ TEST(Resume, FullDiskKeepsWholeFramesAndTheRunGoesOnWhereThereIsRoom) {
   setrlimit(RLIMIT_FSIZE, &old);
   (void)std::signal(SIGXFSZ, old_handler);
   EXPECT_NE(message.find("sheet.pc2: cannot be written whole"), std::string::npos) << message;
-  EXPECT_EQ(fs::file_size(place / "run/sheet.pc2"), 32 + 10 * 289 * 12);
-  EXPECT_EQ(untimed(place / "run/frames.csv").size(), 10);
+  EXPECT_EQ(fs::file_size(place / "run/sheet.pc2"), 32 + 15 * 289 * 12);
+  EXPECT_EQ(untimed(place / "run/frames.csv").size(), 15);
   run_scene(scene, "s.json", {.folder = place / "run", .resume = true});
   expect_same_files(place / "whole", place / "run");
 }

@@ -12,7 +12,9 @@
 #include "weft/image/automatic_size.h"
 #include "weft/image/geometry_image.h"
 #include "weft/mesh/distance.h"
+#include "weft/mesh/io/mesh_faces.h"
 #include "weft/mesh/repair.h"
+#include "weft/mesh/units.h"
 #include "weft/param/square_map.h"
 
 namespace weft {
@@ -27,6 +29,8 @@ struct ConvertOptions {
   int normal_map_size = 0;   ///< 0: none
   bool keep_uv = false;      ///< sample the mesh's own texture coordinates too
   bool keep_places = false;  ///< tell where on the mesh each sample lies (load_surface)
+  bool keep_source = false;  ///< keep the mesh and where its vertices lie (load_surface)
+  MeshFrame files;           ///< what the numbers of mesh files mean (load_surface)
   bool fit_samples =
       false;               ///< move samples so that the triangles between them fit, see fit_samples
   bool measure = true;     ///< stage 11
@@ -97,6 +101,15 @@ struct SampleBlends {
   std::vector<BlendedVertex> blends;  ///< [n * n]; mates are equal
 };
 
+/// The mesh that an image was made from, as its author knows it.
+struct SourceMesh {
+  std::vector<Vec3d> positions;  ///< [V] as read: y up [m]
+  MeshFaces faces;
+  /// [V] where each vertex lies in the square, in sample units: x along columns, y along rows. On
+  /// the cut it is the first of several places; not finite where a vertex is on no surface.
+  std::vector<Vec2d> places;
+};
+
 /// A surface as users name it: builtin:NAME, a geometry image (.exr, .png), or a mesh that is
 /// converted.
 struct LoadedSurface {
@@ -104,12 +117,17 @@ struct LoadedSurface {
   std::optional<NormalMap> normals;     ///< where it came from a mesh
   std::vector<std::string> notes;       ///< repairs and the like
   std::optional<SampleBlends> follows;  ///< with keep_places, where it came from a mesh
+  std::optional<SourceMesh> source;     ///< with keep_source, where it came from a mesh
 };
 /// @throws InputError, TopologyError, UsageError as the stages
 LoadedSurface load_surface(const std::string& name, const ConvertOptions& options);
 
 /// True when a name ends as geometry images do: .exr or .png.
 bool is_image_name(const std::string& name);
+
+/// True for geometry images and for built-in shapes that are images by nature: what load_surface
+/// makes without a mesh.
+bool is_image_surface(const std::string& name);
 
 /// Reads a mesh from a file or builtin:NAME. @throws InputError, UsageError
 TriangleMesh load_mesh(const std::string& name);

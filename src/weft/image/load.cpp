@@ -5,6 +5,7 @@
 #include "weft/image/convert.h"
 #include "weft/image/io/image_file.h"
 #include "weft/image/surface_places.h"
+#include "weft/image/vertex_places.h"
 #include "weft/mesh/io/read_mesh.h"
 #include "weft/mesh/shapes.h"
 
@@ -30,6 +31,18 @@ SampleBlends blends_of(const Conversion& made, int vertices) {
   return follows;
 }
 
+/// Built-in shapes are in metres with y up; files are what their user says.
+MeshFile load_mesh_file(const std::string& name, const MeshFrame& files) {
+  if (name.starts_with(builtin_prefix)) {
+    MeshFile made{make_shape(name.substr(builtin_prefix.size())), {}};
+    made.faces = faces_of(made.mesh);
+    return made;
+  }
+  MeshFile file = read_mesh_file(name);
+  file.mesh = in_metres_y_up(std::move(file.mesh), files);
+  return file;
+}
+
 }  // namespace
 
 bool is_image_name(const std::string& name) {
@@ -43,21 +56,31 @@ TriangleMesh load_mesh(const std::string& name) {
   return read_mesh(name);
 }
 
+bool is_image_surface(const std::string& name) {
+  return is_image_name(name) || (name.starts_with(builtin_prefix) &&
+                                 is_image_by_nature(name.substr(builtin_prefix.size())));
+}
+
 LoadedSurface load_surface(const std::string& name, const ConvertOptions& options) {
-  if (is_image_name(name)) return {read_image(name), {}, {}, {}};
-  if (name.starts_with(builtin_prefix)) {
-    const std::string shape = name.substr(builtin_prefix.size());
+  if (is_image_name(name)) return {read_image(name), {}, {}, {}, {}};
+  if (is_image_surface(name)) {
     const int size = options.size == automatic_size ? ConvertOptions{}.size : options.size;
-    if (is_image_by_nature(shape)) return {make_image_shape(shape, size), {}, {}, {}};
+    return {make_image_shape(name.substr(builtin_prefix.size()), size), {}, {}, {}, {}};
   }
   ConvertOptions quick = options;
   quick.measure = false;
-  const TriangleMesh mesh = load_mesh(name);
-  Conversion made = convert_mesh(mesh, name, quick);
-  std::optional<SampleBlends> follows;
-  if (options.keep_places) follows = blends_of(made, static_cast<int>(mesh.positions.size()));
-  return {std::move(made.image), std::move(made.normals), std::move(made.input.repairs),
-          std::move(follows)};
+  MeshFile file = load_mesh_file(name, options.files);
+  const auto vertices = static_cast<int>(file.mesh.positions.size());
+  Conversion made = convert_mesh(file.mesh, name, quick);
+  LoadedSurface loaded;
+  if (options.keep_places) loaded.follows = blends_of(made, vertices);
+  if (options.keep_source)
+    loaded.source = {std::move(file.mesh.positions), std::move(file.faces),
+                     vertex_places(made.mapped, made.input.source_vertex, vertices)};
+  loaded.image = std::move(made.image);
+  loaded.normals = std::move(made.normals);
+  loaded.notes = std::move(made.input.repairs);
+  return loaded;
 }
 
 }  // namespace weft

@@ -7,11 +7,14 @@
 namespace weft {
 
 TriangleMesh in_metres_y_up(TriangleMesh mesh, const MeshFrame& frame) {
-  for (Vec3d& p : mesh.positions) {
-    p = frame.unit.metres * p;
-    if (frame.z_up) p = {p.x, p.z, -p.y};
-  }
+  for (Vec3d& p : mesh.positions) p = in_metres_y_up(p, frame);
   return mesh;
+}
+
+std::optional<LengthUnit> find_length_unit(std::string_view name) {
+  for (const LengthUnit& unit : length_units)
+    if (unit.name == name) return unit;
+  return std::nullopt;
 }
 
 std::optional<std::string> implausible_size(const TriangleMesh& mesh, const LengthUnit& taken) {

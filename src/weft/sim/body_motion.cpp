@@ -15,11 +15,13 @@ namespace {
 /// The largest slope of the easing curve.
 constexpr double steepest = 1.5;
 
-PointCache load_animation(const SceneBody& body, double frame_rate) {
+PointCache load_animation(const SceneBody& body, const BodyMotion::Files& files) {
   PointCache cache = read_point_cache(body.animation);
   if (cache.times_in_frames)
-    for (double& time : cache.times) time /= frame_rate;
+    for (double& time : cache.times) time /= files.frame_rate;
   cache.times_in_frames = false;
+  for (Vec3f& p : cache.positions)
+    p = vec_cast<float>(in_metres_y_up(vec_cast<double>(p), files.frame));
   return cache;
 }
 
@@ -66,7 +68,7 @@ double farthest_from(Vec3d centre, const Planes3& positions) {
 
 }  // namespace
 
-BodyMotion::BodyMotion(const SceneBody& body, const LoadedSurface& surface, double frame_rate)
+BodyMotion::BodyMotion(const SceneBody& body, const LoadedSurface& surface, const Files& files)
     : origin_(body.placement.translate),
       map_(placement_map(body.placement)),
       lead_in_(body.lead_in),
@@ -74,7 +76,7 @@ BodyMotion::BodyMotion(const SceneBody& body, const LoadedSurface& surface, doub
   if (path_.empty() && body.animation.empty()) return;
   rest_ = placed_positions(surface.image, map_);
   if (!body.animation.empty()) {
-    animation_ = load_animation(body, frame_rate);
+    animation_ = load_animation(body, files);
     blends_ = blends_of(surface, body, animation_->points);
     fastest_ = fastest_animated();
   } else {

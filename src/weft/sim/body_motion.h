@@ -18,10 +18,14 @@ namespace weft {
 /// eases the body from its rest place to where they begin, and stand still after their end.
 class BodyMotion {
  public:
-  /// @param surface     loaded with keep_places where the body is animated
-  /// @param frame_rate  by which animations that count frames are played [1/s]
+  /// How files of animations are meant.
+  struct Files {
+    double frame_rate = 60;  ///< of those that count frames [1/s]
+    MeshFrame frame;         ///< of their positions
+  };
+  /// @param surface  loaded with keep_places where the body is animated
   /// @throws SceneError when the animation has other vertices than the surface; InputError
-  BodyMotion(const SceneBody& body, const LoadedSurface& surface, double frame_rate);
+  BodyMotion(const SceneBody& body, const LoadedSurface& surface, const Files& files);
 
   [[nodiscard]] bool moves() const { return !path_.empty() || animation_.has_value(); }
   /// n of a body that moves.

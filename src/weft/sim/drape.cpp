@@ -27,12 +27,14 @@ bool is_flat_shape(const std::string& surface) {
   return shape == "sheet" || shape == "disk";
 }
 
-Box3d surface_box(const std::string& surface) {
+Box3d surface_box(const std::string& surface, const MeshFrame& files) {
   Box3d box;
   if (is_image_name(surface)) {
     box = box_of(world_positions(read_image(surface)));
   } else {
-    for (const Vec3d& p : load_mesh(surface).positions) box.add(p);
+    const bool built_in = surface.starts_with(builtin_prefix);
+    for (const Vec3d& p : load_mesh(surface).positions)
+      box.add(built_in ? p : in_metres_y_up(p, files));
   }
   return box;
 }
@@ -73,7 +75,8 @@ double largest_side(const Box3d& box) {
 
 Scene make_drape_scene(const std::string& cloth, const std::string& body,
                        const DrapeOptions& options) {
-  const Box3d cloth_box = surface_box(cloth), body_box = surface_box(body);
+  const Box3d cloth_box = surface_box(cloth, options.files),
+              body_box = surface_box(body, options.files);
   const bool worn = is_worn(cloth, cloth_box, body_box);
   const double scale = options.as_is || worn ? 1 : body_side / largest_side(body_box);
   const Placement standing{all_sides(scale), {}, {0, worn ? 0 : -scale * body_box.lower.y, 0}};
@@ -82,6 +85,7 @@ Scene make_drape_scene(const std::string& cloth, const std::string& body,
 
   Scene scene;
   scene.frames = options.frames;
+  scene.files = options.files;
   scene.ground = placed_body.lower.y;
   SceneCloth dropped;
   dropped.surface = cloth;

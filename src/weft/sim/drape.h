@@ -13,6 +13,7 @@ struct DrapeOptions {
   Material material;
   double friction = 0.4;
   int frames = 120;
+  MeshFrame files;  ///< what the numbers of mesh files mean
 };
 
 /// The scene of the common case: a cloth falls onto a body. The body is scaled so that its largest

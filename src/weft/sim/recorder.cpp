@@ -1,126 +1,149 @@
 #include "weft/sim/recorder.h"
 
-#include <algorithm>
 #include <ostream>
 
 #include "weft/core/files.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image/io/image_file.h"
+#include "weft/sim/export/cache_manifest.h"
 #include "weft/sim/report.h"
 #include "weft/sim/run_folder.h"
 
 namespace weft {
-namespace {
 
 namespace fs = std::filesystem;
 
-bool asks_for(const RunOptions& options, std::string_view format) {
-  return std::find(options.exports.begin(), options.exports.end(), format) != options.exports.end();
-}
-
-}  // namespace
-
 Recorder::Recorder(const Simulation& simulation, const Scene& scene, const RunOptions& options)
     : simulation_(simulation), scene_(scene), options_(options) {
-  for (const SimulatedCloth& cloth : simulation.cloths()) {
-    cloths_.push_back(surface_points(cloth.image, options_.unwelded));
-    write_surface(cloth.name, cloth.image, cloth.state.position, cloths_.back());
+  const ExportOptions exports{options.folder,   options.exports,  options.on,
+                              options.unwelded, scene.frame_rate, scene.files};
+  record_cloths(exports);
+  record_bodies(exports);
+}
+
+void Recorder::record_cloths(const ExportOptions& options) {
+  for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
+    const SimulatedCloth& cloth = simulation_.cloths()[i];
+    const SurfaceRecord::Subject subject{cloth.name,
+                                         &cloth.image,
+                                         &cloth.state.position,
+                                         &cloth.cloth.rest,
+                                         cloth.source ? &*cloth.source : nullptr,
+                                         placement_map(scene_.cloths[i].placement),
+                                         true};
+    write_rest(subject);
+    cloths_.push_back(std::make_unique<SurfaceRecord>(subject, options));
+    cloths_.back()->write_still_files();
   }
-  for (const PlacedBody& body : simulation.bodies()) write_body(body);
-  if (!asks_for(options, "pc2")) return;
-  for (std::size_t i = 0; i < cloths_.size(); ++i)
-    moving_.push_back(
-        {simulation.cloths()[i].name, &cloths_[i], &simulation.cloths()[i].state.position});
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (simulation.bodies()[i].moves)
-      moving_.push_back(
-          {simulation.bodies()[i].name, &bodies_[i], &simulation.bodies()[i].positions});
+}
+
+void Recorder::record_bodies(const ExportOptions& options) {
+  body_rests_.reserve(simulation_.bodies().size());
+  for (std::size_t i = 0; i < simulation_.bodies().size(); ++i) {
+    const PlacedBody& body = simulation_.bodies()[i];
+    const PlacementMap placement = placement_map(scene_.bodies[i].placement);
+    body_rests_.push_back(placed_positions(body.image, placement));
+    const SurfaceRecord::Subject subject{body.name,
+                                         &body.image,
+                                         &body.positions,
+                                         &body_rests_.back(),
+                                         body.source ? &*body.source : nullptr,
+                                         placement,
+                                         body.moves};
+    write_rest(subject);
+    write_normals(body);
+    bodies_.push_back(std::make_unique<SurfaceRecord>(subject, options));
+    bodies_.back()->write_still_files();
+  }
 }
 
 fs::path Recorder::file(const std::string& name, const std::string& ending) const {
   return options_.folder / (name + ending);
 }
 
-void Recorder::write_surface(const std::string& name, const GeometryImage& image,
-                             const Planes3& positions, const SurfacePoints& points) {
-  write_image(file(name, ".exr"), image);
-  outputs_.push_back(file(name, ".exr"));
-  if (!asks_for(options_, "obj")) return;
-  write_obj(file(name, ".obj"), points, positions);
-  outputs_.push_back(file(name, ".obj"));
+void Recorder::write_rest(const SurfaceRecord::Subject& subject) {
+  write_image(file(subject.name, ".exr"), *subject.image);
+  rests_.push_back(file(subject.name, ".exr"));
 }
 
-void Recorder::write_body(const PlacedBody& body) {
-  bodies_.push_back(surface_points(body.image, options_.unwelded));
-  write_surface(body.name, body.image, body.positions, bodies_.back());
+void Recorder::write_normals(const PlacedBody& body) {
   const fs::path path = normals_path(options_.folder, body.name);
   std::error_code ignored;
   fs::remove(path, ignored);  // of an earlier run
   if (!body.image_normals) return;
   const std::string bytes = encode_exr(body.image_normals->normal, "normals");
   write_file(path, [&](std::ostream& out) { out << bytes; });
-  outputs_.push_back(path);
+  rests_.push_back(path);
+}
+
+template <class Visit>
+void Recorder::each(const Visit& visit) const {
+  for (const Records* records : {&cloths_, &bodies_})
+    for (const auto& record : *records) visit(*record);
 }
 
 void Recorder::start() {
-  for (const Moving& moving : moving_)
-    caches_.push_back(std::make_unique<Pc2Writer>(file(moving.name, ".pc2"),
-                                                  static_cast<int>(moving.points->sample_of.size()),
-                                                  TemporaryName::of_the_file));
-  add_frame();
+  each([](SurfaceRecord& record) { record.start(); });
 }
 
 void Recorder::resume(bool finished) {
-  const int frames = simulation_.frame() + 1;
-  const auto each = [&](const auto& visit) {
-    for (const Moving& moving : moving_) visit(file(moving.name, ".pc2"), moving.gather());
-  };
+  const int frame = simulation_.frame();
   // All are looked at before the first is cut back.
-  each([&](const fs::path& path, const std::vector<Vec3f>& last) {
-    Pc2Writer::check_resumable(path, frames, last);
-  });
-  each([&](const fs::path& path, const std::vector<Vec3f>& last) {
-    if (finished && is_whole_pc2(path, frames, last)) {
-      outputs_.push_back(path);
-    } else {
-      caches_.push_back(std::make_unique<Pc2Writer>(Pc2Writer::resume(path, frames, last)));
-    }
-  });
+  each([&](const SurfaceRecord& record) { record.check_resumable(frame); });
+  each([&](SurfaceRecord& record) { record.resume(frame, finished); });
 }
 
 void Recorder::add_frame() {
-  for (std::size_t i = 0; i < caches_.size(); ++i) caches_[i]->add(moving_[i].gather());
+  each([&](SurfaceRecord& record) { record.add(simulation_.frame()); });
 }
 
 void Recorder::flush() {
-  for (const auto& cache : caches_) cache->flush();
+  each([](SurfaceRecord& record) { record.flush(); });
 }
 
 void Recorder::finish(RunReport& report) {
-  for (const auto& cache : caches_) {
-    cache->finish();
-    outputs_.push_back(cache->path());
-  }
+  each([](SurfaceRecord& record) { record.finish(); });
+  report.outputs = rests_;
+  each([&](const SurfaceRecord& record) {
+    for (const fs::path& path : record.outputs()) report.outputs.push_back(path);
+  });
   const fs::path table = options_.folder / "frames.csv";
   write_file(table, [&](std::ostream& out) {
     out << frames_csv_header();
     for (std::size_t i = 0; i < report.history.size(); ++i)
       out << frames_csv_line(static_cast<int>(i) + 1, report.history[i]);
   });
-  outputs_.push_back(table);
-  report.outputs = outputs_;
+  report.outputs.push_back(table);
+  write_manifests(report);
+}
+
+void Recorder::write_manifests(RunReport& report) {
+  CacheManifest exports{scene_.files, scene_.frame_rate,
+                        static_cast<int>(report.centre_of_mass.size())};
+  RunCaches caches{options_.folder, options_.unwelded, {}, {}};
+  for (const auto& record : cloths_) {
+    exports.cloths.push_back(record.get());
+    caches.cloths.push_back(record->image_cache());
+  }
+  for (const auto& record : bodies_) {
+    exports.bodies.push_back(record.get());
+    caches.bodies.push_back(record->image_cache());
+  }
+  const fs::path shown = options_.folder / "caches.json";
+  write_cache_manifest(shown, exports);
   const fs::path manifest = options_.folder / "weft-run.json";
-  write_run_manifest(manifest, scene_, report, options_);
+  write_run_manifest(manifest, scene_, report, caches);
+  report.outputs.push_back(shown);
   report.outputs.push_back(manifest);
 }
 
 IntersectionCounts Recorder::intersections() {
   if (!check_) {
     std::vector<GridTriangles> cloths, bodies;
-    for (std::size_t i = 0; i < cloths_.size(); ++i)
-      cloths.push_back({&simulation_.cloths()[i].state.position, &cloths_[i].triangles});
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-      bodies.push_back({&simulation_.bodies()[i].positions, &bodies_[i].triangles});
+    for (const auto& record : cloths_)
+      cloths.push_back({record->subject().now, &record->grid().triangles});
+    for (const auto& record : bodies_)
+      bodies.push_back({record->subject().now, &record->grid().triangles});
     check_.emplace(cloths, bodies, scene_.ground);
   }
   return check_->count();

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "weft/collide/intersections.h"
-#include "weft/sim/export/pc2_writer.h"
-#include "weft/sim/export/surface_points.h"
+#include "weft/sim/export/surface_record.h"
 #include "weft/sim/run.h"
 
 namespace weft {
@@ -39,27 +38,24 @@ class Recorder {
   [[nodiscard]] IntersectionCounts intersections();
 
  private:
+  using Records = std::vector<std::unique_ptr<SurfaceRecord>>;
   [[nodiscard]] std::filesystem::path file(const std::string& name,
                                            const std::string& ending) const;
-  /// What has a point cache: cloths, and bodies that move.
-  struct Moving {
-    std::string name;
-    const SurfacePoints* points;
-    const Planes3* positions;  ///< now [m]
-    [[nodiscard]] std::vector<Vec3f> gather() const { return points->gather(*positions); }
-  };
-  void write_surface(const std::string& name, const GeometryImage& image, const Planes3& positions,
-                     const SurfacePoints& points);
-  void write_body(const PlacedBody& body);
+  void record_cloths(const ExportOptions& options);
+  void record_bodies(const ExportOptions& options);
+  void write_rest(const SurfaceRecord::Subject& subject);
+  void write_normals(const PlacedBody& body);
+  void write_manifests(RunReport& report);
+  template <class Visit>
+  void each(const Visit& visit) const;
 
   const Simulation& simulation_;
   const Scene& scene_;
   const RunOptions& options_;
-  std::vector<SurfacePoints> cloths_, bodies_;
-  std::vector<Moving> moving_;                      // where caches are wanted
-  std::vector<std::unique_ptr<Pc2Writer>> caches_;  // one for each that is not whole yet
-  std::vector<std::filesystem::path> outputs_;
-  std::optional<IntersectionCheck> check_;  // made where it is asked for
+  std::vector<Planes3> body_rests_;  // placed, where a mesh is written
+  Records cloths_, bodies_;
+  std::vector<std::filesystem::path> rests_;  // outputs that do not grow
+  std::optional<IntersectionCheck> check_;    // made where it is asked for
 };
 
 }  // namespace weft

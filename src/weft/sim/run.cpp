@@ -22,11 +22,28 @@ namespace fs = std::filesystem;
 /// Work that a killed run may lose where nobody says how many frames [s].
 constexpr double default_seconds_between_checkpoints = 5;
 
-void check_exports(const RunOptions& options) {
+std::string listed(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
+void check_exports(const Scene& scene, const RunOptions& options) {
+  const auto known = export_formats();
   for (const std::string& format : options.exports)
-    if (format != "obj" && format != "pc2")
+    if (std::find(known.begin(), known.end(), format) == known.end())
       throw UsageError("--export", fmt::format("unknown format '{}'", format),
-                       "known are: obj, pc2");
+                       "known are: " + listed(known));
+  if (options.on != WrittenOn::input) return;
+  if (options.unwelded)
+    throw UsageError("--unwelded", "goes with the image's samples, --on input with a mesh",
+                     "one of both is wanted");
+  for (const SceneCloth& cloth : scene.cloths)
+    if (is_image_name(cloth.surface))
+      throw UsageError("--on input",
+                       fmt::format("the cloth '{}' is a geometry image, {}, which holds no mesh",
+                                   cloth.name, cloth.surface),
+                       "the mesh that it was made from in its place, or --on image, is wanted");
 }
 
 /// Decides after which frames a checkpoint is written.
@@ -214,7 +231,7 @@ class Run {
 }  // namespace
 
 RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options) {
-  check_exports(options);
+  check_exports(scene, options);
   const std::uint64_t memory = estimate_memory(scene);
   if (const auto available = available_memory()) check_memory(memory, *available, name);
   make_folder(options.folder);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "weft/core/progress.h"
+#include "weft/sim/export/motion_writers.h"
 #include "weft/sim/frame_intersections.h"
 #include "weft/sim/simulation.h"
 
@@ -15,7 +16,8 @@ namespace weft {
 struct RunOptions {
   std::filesystem::path folder{};  ///< where everything is written
   std::vector<std::string> exports{"obj", "pc2"};
-  bool unwelded = false;  ///< write every sample instead of joining mates
+  WrittenOn on = WrittenOn::automatic;  ///< whose vertices are written
+  bool unwelded = false;  ///< write every sample instead of joining mates; none of a mesh's then
   bool verify = false;    ///< count intersections in every frame, not in the last one only
   int threads = 1;
   InstructionSet instructions = best_instruction_set();
@@ -44,12 +46,14 @@ struct RunReport {
 };
 
 /// Runs a whole scene into a folder, which is made when missing: for each cloth and body its
-/// geometry image NAME.exr (at rest, unplaced), NAME.obj and, for cloths, NAME.pc2; frames.csv;
-/// weft-run.json, by which open_run_folder finds them again. When the run stops early by error or
-/// interruption, what was finished is kept: files appear whole, with the frames there are, and a
-/// checkpoint of the last of them. A run that was killed goes on at its last checkpoint; either way
-/// it ends in the bits and the report (but for times) of one that never stopped.
-/// @throws UsageError for an export that is not known; OutputError; what Simulation throws;
+/// geometry image NAME.exr (at rest, unplaced) and what is exported of it; caches.json, which tells
+/// what that is; frames.csv; weft-run.json, by which open_run_folder finds it again. When the run
+/// stops early by error or interruption, what was finished is kept: files appear whole, with the
+/// frames there are, and a checkpoint of the last of them. A run that was killed goes on at its
+/// last checkpoint; either way it ends in the bits and the report (but for times) of one that never
+/// stopped.
+/// @throws UsageError for an export that is not known, or a mesh's vertices asked for where a cloth
+/// is a geometry image; OutputError; what Simulation throws;
 /// SceneError when the memory that is there can certainly not hold it; InputError for a checkpoint
 /// that is damaged, of another version or another scene; Interrupted
 RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options);

@@ -14,6 +14,7 @@ struct RecordedPoints {
   std::vector<int> vertex_of;   ///< [n * n] point of the cache for each sample
   std::filesystem::path cache;  ///< PC2
   int points = 0, frames = 0;   ///< of the cache; frame 0 is the start
+  MeshFrame files;              ///< what its numbers mean
 
   /// Where the surface is at a frame. [n x n] world [m]
   /// @throws InputError when the cache is cut short; UsageError when there is no such frame
@@ -52,9 +53,15 @@ struct RunFolder {
 /// @throws InputError when the folder holds no run, or its files do not fit together
 RunFolder open_run_folder(const std::filesystem::path& folder);
 
-/// The manifest that open_run_folder reads. @param frames  samples in the caches
+/// The point caches of the samples of each surface of a scene, in its order.
+struct RunCaches {
+  std::filesystem::path folder;
+  bool unwelded = false;                    ///< every sample a point
+  std::vector<std::string> cloths, bodies;  ///< file names; empty where there is none
+};
+/// The manifest that open_run_folder reads.
 void write_run_manifest(const std::filesystem::path& path, const Scene& scene,
-                        const RunReport& report, const RunOptions& options);
+                        const RunReport& report, const RunCaches& caches);
 
 /// A body's normal map as it was loaded, beside its image: so that drawing needs no mesh.
 std::filesystem::path normals_path(const std::filesystem::path& folder, const std::string& body);

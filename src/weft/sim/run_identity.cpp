@@ -54,6 +54,7 @@ std::string run_identity(const Scene& scene, const Simulation& simulation,
   std::vector<std::string> exports = options.exports;
   std::sort(exports.begin(), exports.end());
   json["--export"] = exports;
+  json["--on"] = name_of(options.on);
   json["--unwelded"] = options.unwelded;
   json["--verify"] = options.verify;
   return json.dump();

@@ -11,6 +11,7 @@
 #include "weft/cloth/material.h"
 #include "weft/cloth/wind.h"
 #include "weft/collide/collider.h"
+#include "weft/mesh/units.h"
 
 namespace weft {
 
@@ -94,6 +95,7 @@ struct Scene {
   IntegratorOptions integrator;
   std::optional<int> limiter_passes;  ///< a step; none: what suits the integrator
   ColliderOptions collider;
+  MeshFrame files;  ///< what the numbers of meshes and caches mean, read and written
   std::vector<SceneCloth> cloths;
   std::vector<SceneBody> bodies;
 };

@@ -71,7 +71,11 @@ void check_names(const Scene& scene, const JsonPlace& place) {
   };
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) check(scene.cloths[i].name, "cloths", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) check(scene.bodies[i].name, "bodies", i);
-  // A body's normal map lies beside its image.
+  // The samples' cache lies beside that of the mesh, a body's normal map beside its image.
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+    check(scene.cloths[i].name + ".image", "cloths", i);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    check(scene.bodies[i].name + ".image", "bodies", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     check(scene.bodies[i].name + ".normals", "bodies", i);
 }
@@ -120,6 +124,7 @@ Scene parse_scene(std::string_view text, const std::string& name,
         read_integrator(*value, root.place().key("integrator"), scene.limiter_passes);
   if (const auto* value = root.find("collider"))
     scene.collider = read_collider(*value, root.place().key("collider"));
+  scene.files = read_frame(root);
   scene.cloths = read_list<SceneCloth>(root, "cloths", [&](const auto& value, const auto& place) {
     return read_cloth(value, place, folder);
   });

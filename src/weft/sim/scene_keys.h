@@ -8,9 +8,9 @@ namespace weft::scene_keys {
 // What each object of a scene file may hold. `docs/scene.schema.json` lists the same (a test
 // compares).
 
-inline constexpr std::array<std::string_view, 11> scene{
-    "version", "gravity",    "frame_rate", "substeps", "frames", "ground",
-    "wind",    "integrator", "collider",   "cloths",   "bodies"};
+inline constexpr std::array<std::string_view, 13> scene{
+    "version",    "gravity",  "frame_rate", "substeps", "frames", "ground", "wind",
+    "integrator", "collider", "unit",       "up",       "cloths", "bodies"};
 inline constexpr std::array<std::string_view, 3> wind{"velocity", "drag", "lift"};
 inline constexpr std::array<std::string_view, 2> explicit_integrator{"type", "limiter_passes"};
 inline constexpr std::array<std::string_view, 2> desbrun_integrator{"type", "limiter_passes"};

@@ -136,6 +136,8 @@ Json scene_json(const Scene& scene, const fs::path& folder) {
   json["integrator"] = std::visit(IntegratorWriter{}, scene.integrator);
   if (scene.limiter_passes) json["integrator"]["limiter_passes"] = *scene.limiter_passes;
   json["collider"] = collider_json(scene.collider);
+  json["unit"] = scene.files.unit.name;
+  json["up"] = scene.files.up();
   json["cloths"] = Json::array();
   const bool able = knows_self_collision(scene.collider);
   for (const SceneCloth& cloth : scene.cloths)

@@ -31,6 +31,7 @@ struct SimulatedCloth {
   GeometryImage image;  ///< the rest shape as it was loaded
   Cloth cloth;
   ClothState state;
+  std::optional<SourceMesh> source;  ///< unplaced, where the surface came from a mesh
 };
 struct PlacedBody {
   std::string name;
@@ -40,6 +41,7 @@ struct PlacedBody {
   std::optional<NormalMap> image_normals;  ///< the same as loaded
   Planes3 positions;                       ///< world, now [m]
   bool moves = false;                      ///< by motion or animation
+  std::optional<SourceMesh> source;        ///< unplaced, where the surface came from a mesh
 };
 
 /// All that the next frame depends on besides the scene: integrators carry nothing over from one

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "weft/core/error.h"
 #include "weft/mesh/io/line_reader.h"
+#include "weft/mesh/io/mesh_faces.h"
 #include "weft/mesh/io/number.h"
 #include "weft/mesh/io/polygon.h"
 #include "weft/mesh/io/read_mesh.h"
@@ -139,35 +141,49 @@ std::string join_continued_lines(std::string_view bytes) {
 /// Gathers what tinyobjloader calls back with.
 struct FaceSink {
   TriangleMesh* mesh = nullptr;
+  MeshFaces* faces = nullptr;  ///< may be null
   std::span<const Vec2f> all_texture;
   int vertices = 0, texture = 0;  ///< so far, which negative indices count back from
   std::vector<int> polygon;
+  std::vector<int> polygon_texture;
   std::vector<Vec2f> polygon_uv;
 
   void add(std::span<const tinyobj::index_t> corners) {
     polygon.clear();
+    polygon_texture.clear();
     polygon_uv.clear();
     for (const tinyobj::index_t& corner : corners) {
       // No checked index is zero: what reads as zero begins a comment behind the face.
       if (corner.vertex_index == 0) break;
       polygon.push_back(corner.vertex_index > 0 ? corner.vertex_index - 1
                                                 : vertices + corner.vertex_index);
-      polygon_uv.push_back(texture_of(corner.texcoord_index));
+      polygon_texture.push_back(texture_index(corner.texcoord_index));
+      polygon_uv.push_back(texture_of(polygon_texture.back()));
     }
     add_polygon(*mesh, polygon, polygon_uv);
+    if (faces == nullptr || polygon.size() < 3) return;
+    faces->sizes.push_back(static_cast<int>(polygon.size()));
+    faces->corners.insert(faces->corners.end(), polygon.begin(), polygon.end());
+    faces->texture_corners.insert(faces->texture_corners.end(), polygon_texture.begin(),
+                                  polygon_texture.end());
   }
 
-  /// Not finite where the corner has none, index 0, or one that does not exist.
-  [[nodiscard]] Vec2f texture_of(int index) const {
-    constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+  /// From 0; -1 where the corner has none, index 0, or one that does not exist.
+  [[nodiscard]] int texture_index(int index) const {
     const std::int64_t place = index > 0 ? std::int64_t{index} - 1 : std::int64_t{texture} + index;
     const bool exists = index != 0 && place >= 0 && std::cmp_less(place, all_texture.size());
-    return exists ? all_texture[static_cast<std::size_t>(place)] : Vec2f{missing, missing};
+    return exists ? static_cast<int>(place) : -1;
+  }
+  /// Not finite where there is none.
+  [[nodiscard]] Vec2f texture_of(int index) const {
+    constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+    return index >= 0 ? all_texture[static_cast<std::size_t>(index)] : Vec2f{missing, missing};
   }
 };
 
-void load_faces(const std::string& text, std::span<const Vec2f> texture, TriangleMesh& mesh) {
-  FaceSink sink{&mesh, texture, 0, 0, {}, {}};
+void load_faces(const std::string& text, std::span<const Vec2f> texture, TriangleMesh& mesh,
+                MeshFaces* faces) {
+  FaceSink sink{&mesh, faces, texture, 0, 0, {}, {}, {}};
   tinyobj::callback_t callback;
   callback.vertex_cb = [](void* user, float, float, float, float) {
     ++static_cast<FaceSink*>(user)->vertices;
@@ -182,9 +198,25 @@ void load_faces(const std::string& text, std::span<const Vec2f> texture, Triangl
   tinyobj::LoadObjWithCallback(stream, callback, &sink);
 }
 
-}  // namespace
+/// Lines that are not u and v count in the order of all, but nothing may use them.
+void keep_texture(std::vector<Vec2f> texture, MeshFaces& faces) {
+  const auto usable = [&](int index) {
+    const Vec2f uv = index < 0 ? Vec2f{} : texture[static_cast<std::size_t>(index)];
+    return index >= 0 && std::isfinite(uv.x) && std::isfinite(uv.y);
+  };
+  bool any = false;
+  for (int& index : faces.texture_corners) {
+    if (!usable(index)) index = -1;
+    any = any || index >= 0;
+  }
+  if (!any) return faces.texture_corners.clear();
+  for (Vec2f& uv : texture)
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = {};
+  faces.texture = std::move(texture);
+}
 
-TriangleMesh parse_obj(std::string_view bytes, std::string_view name) {
+/// @param faces  where polygons and texture indices go as they are written; null: nowhere
+TriangleMesh parse(std::string_view bytes, std::string_view name, MeshFaces* faces) {
   require_text(bytes, name, "an OBJ text file");
   const std::string text = join_continued_lines(without_mark(bytes));
   ObjScan scan = scan_obj(text, name);
@@ -192,10 +224,23 @@ TriangleMesh parse_obj(std::string_view bytes, std::string_view name) {
     throw InputError(name, "has no vertex lines (v x y z)", "an OBJ mesh is wanted");
   TriangleMesh mesh{std::move(scan.positions), {}};
   mesh.triangles.reserve(scan.faces);
-  load_faces(text, scan.texture, mesh);
+  load_faces(text, scan.texture, mesh, faces);
+  if (faces != nullptr) keep_texture(std::move(scan.texture), *faces);
   keep_whole_texture(mesh);
   require_surface(mesh, name);
   return mesh;
+}
+
+}  // namespace
+
+TriangleMesh parse_obj(std::string_view bytes, std::string_view name) {
+  return parse(bytes, name, nullptr);
+}
+
+MeshFile parse_obj_file(std::string_view bytes, std::string_view name) {
+  MeshFile file;
+  file.mesh = parse(bytes, name, &file.faces);
+  return file;
 }
 
 }  // namespace weft

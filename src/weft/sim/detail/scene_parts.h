@@ -10,6 +10,8 @@ namespace weft {
 IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& place,
                                   std::optional<int>& limiter_passes);
 ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place);
+/// What "unit" and "up" of an object say.
+MeshFrame read_frame(const JsonObject& object);
 Material read_material(const nlohmann::json& value, const JsonPlace& place);
 /// Keys at ascending times; empty where the object has none.
 std::vector<MotionKey> read_motion(const JsonObject& object, std::string_view key);

@@ -40,6 +40,8 @@ LoadedSurface Simulation::Parts::load(const std::string& surface, ConvertOptions
                                       const std::string& what) {
   update(options.progress, "load " + what, 0);
   options.threads = team.size();
+  options.keep_source = true;
+  options.files = scene.files;
   const auto read = [&] {
     try {
       return load_surface(surface, options);
@@ -63,7 +65,8 @@ void Simulation::Parts::load_cloths() {
     Cloth cloth = make_cloth(rest, loaded.image.mates, wanted.material);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
-    cloths.push_back({wanted.name, std::move(loaded.image), std::move(cloth), std::move(state)});
+    cloths.push_back({wanted.name, std::move(loaded.image), std::move(cloth), std::move(state),
+                      std::move(loaded.source)});
   }
 }
 
@@ -75,7 +78,7 @@ void Simulation::Parts::load_bodies() {
     options.keep_places = !wanted.animation.empty();
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
-    BodyMotion motion(wanted, loaded, scene.frame_rate);
+    BodyMotion motion(wanted, loaded, {scene.frame_rate, scene.files});
     const PlacementMap map = placement_map(wanted.placement);
     PlacedBody body;
     body.name = wanted.name;
@@ -84,6 +87,7 @@ void Simulation::Parts::load_bodies() {
     body.image_normals = std::move(loaded.normals);
     body.positions = placed_positions(loaded.image, map);
     body.image = std::move(loaded.image);
+    body.source = std::move(loaded.source);
     driven.add(std::move(motion));
     bodies.push_back(std::move(body));
   }

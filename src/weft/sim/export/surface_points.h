@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "weft/image/geometry_image.h"
@@ -22,9 +21,5 @@ struct SurfacePoints {
 
 /// @param unwelded  every sample a vertex of its own; otherwise mates are one
 SurfacePoints surface_points(const GeometryImage& image, bool unwelded);
-
-/// Writes an OBJ with texture coordinates: u along columns, v along rows. @throws OutputError
-void write_obj(const std::filesystem::path& path, const SurfacePoints& points,
-               const Planes3& positions);
 
 }  // namespace weft

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+
+#include "weft/sim/export/surface_record.h"
+
+namespace weft {
+
+/// What a run's exports are, for programs and people that open them: unit, axes, rate, frame range,
+/// and each file with its format, vertex count and whose vertices they are.
+struct CacheManifest {
+  MeshFrame files;
+  double frame_rate = 60;  ///< [1/s]
+  int frames = 1;          ///< frame 0 included
+  std::vector<const SurfaceRecord*> cloths{}, bodies{};
+};
+/// As JSON. @throws OutputError
+void write_cache_manifest(const std::filesystem::path& path, const CacheManifest& manifest);
+
+}  // namespace weft
