@@ -1,7 +1,9 @@
 # weft_module(NAME [PUBLIC lib...] [PRIVATE lib...])
-# The library weft::NAME from every source below src/weft/NAME.
+# The library weft::NAME from every source below src/weft/NAME. PRIVATE libraries are asked for again
+# by those who link the installed one (cmake/WeftConfig.cmake.in); HEADERS are libraries of headers
+# alone, which are not.
 function(weft_module name)
-  cmake_parse_arguments(MODULE "" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(MODULE "" "" "PUBLIC;PRIVATE;HEADERS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/weft/${name}/*.cpp")
   list(FILTER sources EXCLUDE REGEX "/kernels/rows/")
   add_library(weft_${name} STATIC ${sources})
@@ -10,6 +12,10 @@ function(weft_module name)
   target_link_libraries(weft_${name}
     PUBLIC weft_flags ${MODULE_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:weft_warnings> ${MODULE_PRIVATE})
+  foreach(headers ${MODULE_HEADERS})
+    target_link_libraries(weft_${name} PRIVATE $<BUILD_INTERFACE:${headers}>)
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY WEFT_MODULES weft_${name})
 endfunction()
 
 # Compiles src/weft/NAME/kernels/rows once for every instruction set into the module. Functions get
