@@ -167,6 +167,20 @@ def in_blender(folder, report):
         for k in (0, 1, len(frames) // 2, len(frames) - 1):
             check(f"{what}: OBJ + {cache.suffix[1:].upper()} frame {k}", positions(thing, k), frames[k])
 
+    def check_turned_cache(what, obj, cache, frames):
+        """On a mesh that was modelled with z up and exported with y up, as Blender does by default."""
+        empty()
+        bpy.ops.wm.obj_import(filepath=str(obj))
+        thing = imported()
+        for vertex in thing.data.vertices:
+            x, y, z = vertex.co
+            vertex.co = (x, -z, y)
+        modifier = thing.modifiers.new("cache", "MESH_CACHE")
+        modifier.cache_format, modifier.filepath, modifier.frame_start = "PC2", str(cache), 0
+        modifier.forward_axis, modifier.up_axis = "POS_Z", "NEG_Y"
+        k = len(frames) - 1
+        check(f"{what}: PC2 on a mesh with z up, frame {k}", positions(thing, k), [(x, -z, y) for x, y, z in frames[k]])
+
     def check_glb(what, path, frames, manifest):
         empty()
         bpy.context.scene.render.fps = 60
@@ -200,6 +214,8 @@ def in_blender(folder, report):
             check_obj(what, run / f"{name}.obj", users)
             for ending in (".pc2", ".mdd"):
                 check_cache(what, run / f"{name}.obj", run / f"{name}{ending}", frames)
+            if manifest["up"] == "y":
+                check_turned_cache(what, run / f"{name}.obj", run / f"{name}.pc2", frames)
             check_glb(what, run / f"{name}.glb", frames, manifest)
             if not (run / f"{name}.image.pc2").exists():
                 check_ply(what, run, name, frames)
