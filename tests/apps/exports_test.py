@@ -188,14 +188,27 @@ class ExportsGoOn(ExportTest):
         self.simulate("run", "--export", "ply", "--frames", "2")
         self.assertEqual(len(os.listdir(self.folder / "run/shirt_ply")), 3)
 
-    def test_full_disk_ends_with_one_line_and_whole_files(self):
+    def on_small_disk(self, most, *words):
+        """The one line of a run whose files may have so many bytes."""
         def small_files():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
 
-        done = self.run_weft("simulate", "scene.json", "-o", "run", "--frames", "20", *self.WORDS, code=3, preexec_fn=small_files)
+        done = self.run_weft("simulate", "scene.json", "-o", "run", *words, code=3, preexec_fn=small_files)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertIn("cannot be written whole", done.stderr)
+        return done.stderr
+
+    def test_file_that_is_made_at_the_end_and_finds_no_room_costs_nothing_else(self):
+        words = ("--export", "pc2,glb")
+        self.assertIn("run/ring.glb", self.on_small_disk(30_000, *words))
+        self.assertEqual(len(read_pc2(self.folder / "run/post.pc2")), 5)
+        self.simulate("run", "--resume", *words)
+        self.simulate("whole", *words)
+        self.assertEqual(self.files("run"), self.files("whole"))
+
+    def test_full_disk_ends_with_one_line_and_whole_files(self):
+        self.on_small_disk(60_000, "--frames", "20", *self.WORDS)
         frames = read_pc2(self.folder / "run/shirt.pc2")
         self.assertGreater(len(frames), 1)
         self.assertEqual({len(points) for points in frames}, {84})

@@ -117,6 +117,10 @@ void Recorder::finish(RunReport& report) {
   write_manifests(report);
 }
 
+void Recorder::make_of_caches() {
+  each([](SurfaceRecord& record) { record.make_of_caches(); });
+}
+
 void Recorder::write_manifests(RunReport& report) {
   CacheManifest exports{scene_.files, scene_.frame_rate,
                         static_cast<int>(report.centre_of_mass.size())};

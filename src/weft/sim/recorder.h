@@ -30,8 +30,12 @@ class Recorder {
   void add_frame();
   /// Waits until all frames are on the disk.
   void flush();
-  /// Puts the files that grew in their places and names everything in the report.
+  /// Puts the files that grew in their places and names everything in the report, what
+  /// `make_of_caches` will leave, too.
   void finish(RunReport& report);
+  /// Makes the files that are made of those. They take room that may be missing: whatever tells how
+  /// to go on is better written before.
+  void make_of_caches();
 
   /// What cloths pass through as everything stands now: each itself, the others, bodies, the
   /// ground.

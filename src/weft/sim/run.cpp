@@ -195,9 +195,11 @@ class Run {
     recorder_->finish(report_);
     if (!options_.scene_file.empty())
       report_.outputs.insert(report_.outputs.begin(), options_.scene_file);
-    if (clock_.off()) return;
-    if (last_written_ != report_.frames) write_point();
-    report_.outputs.push_back(path_);
+    if (!clock_.off()) {
+      if (last_written_ != report_.frames) write_point();
+      report_.outputs.push_back(path_);
+    }
+    recorder_->make_of_caches();
   }
 
   /// The first error tells what is the matter; a second of the kind would only hide it.

@@ -96,7 +96,13 @@ void SurfaceRecord::flush() {
 }
 
 void SurfaceRecord::finish() {
-  for (const Writer& writer : writers_) writer.files->finish();
+  for (const Writer& writer : writers_)
+    if (!is_made_of_cache(writer.format)) writer.files->finish();
+}
+
+void SurfaceRecord::make_of_caches() {
+  for (const Writer& writer : writers_)
+    if (is_made_of_cache(writer.format)) writer.files->finish();
 }
 
 std::vector<WrittenFile> SurfaceRecord::written() const {

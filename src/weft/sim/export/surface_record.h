@@ -53,7 +53,10 @@ class SurfaceRecord {
   void resume(int frame, bool finished);
   void add(int frame);
   void flush();
+  /// Puts the files that grew in their places.
   void finish();
+  /// Makes those that are made of them.
+  void make_of_caches();
 
   [[nodiscard]] std::vector<std::filesystem::path> outputs() const;
   [[nodiscard]] std::vector<WrittenFile> written() const;
