@@ -89,10 +89,7 @@ RecordedBody open_body(const RecordedPlace& from, const Json& value, const JsonP
   body.image = read_image(from.folder / object.text("image", ""));
   const PlacementMap map = placement_map(placement_of(object));
   body.positions = placed_positions(body.image, map);
-  if (object.has("cache")) {
-    body.recorded = open_cache(from, object, body.image);
-    return body;
-  }
+  if (object.has("cache")) body.recorded = open_cache(from, object, body.image);
   const std::string normals = object.text("normals", "");
   if (!normals.empty()) {
     const fs::path path = from.folder / normals;

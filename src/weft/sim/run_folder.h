@@ -30,7 +30,7 @@ struct RecordedCloth {
 struct RecordedBody {
   std::string name;
   GeometryImage image;
-  std::optional<NormalMap> normals;        ///< in the world, of a body that stands still
+  std::optional<NormalMap> normals;        ///< in the world, where it is before the start
   Planes3 positions;                       ///< before the start, world [m]
   std::optional<RecordedPoints> recorded;  ///< where it moves
 
