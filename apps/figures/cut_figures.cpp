@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "apps/figures/figures.h"
-#include "apps/figures/panels.h"
 #include "weft/cut/seed_cut.h"
 #include "weft/cut/shortest_paths.h"
 #include "weft/cut/straighten.h"
@@ -11,6 +10,7 @@
 #include "weft/mesh/shapes.h"
 #include "weft/view/border_pictures.h"
 #include "weft/view/palette.h"
+#include "weft/view/panels.h"
 #include "weft/view/surface_values.h"
 
 namespace weft::figures {

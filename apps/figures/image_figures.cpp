@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "apps/figures/figures.h"
-#include "apps/figures/panels.h"
 #include "weft/image/convert.h"
 #include "weft/image/rebuild.h"
 #include "weft/mesh/shapes.h"
@@ -11,6 +10,7 @@
 #include "weft/view/camera.h"
 #include "weft/view/image_pictures.h"
 #include "weft/view/palette.h"
+#include "weft/view/panels.h"
 #include "weft/view/surface_values.h"
 
 namespace weft::figures {

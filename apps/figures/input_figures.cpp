@@ -1,12 +1,13 @@
 #include <algorithm>
 
 #include "apps/figures/figures.h"
-#include "apps/figures/panels.h"
 #include "weft/core/math.h"
 #include "weft/mesh/repair.h"
 #include "weft/mesh/shapes.h"
 #include "weft/view/camera.h"
 #include "weft/view/palette.h"
+#include "weft/view/panels.h"
+#include "weft/view/surface_drawing.h"
 
 namespace weft::figures {
 namespace {

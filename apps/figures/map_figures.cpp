@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include "apps/figures/figures.h"
-#include "apps/figures/panels.h"
 #include "weft/image/convert.h"
 #include "weft/mesh/shapes.h"
 #include "weft/param/chords.h"
 #include "weft/view/border_pictures.h"
 #include "weft/view/image_pictures.h"
+#include "weft/view/panels.h"
 #include "weft/view/surface_values.h"
 
 namespace weft::figures {

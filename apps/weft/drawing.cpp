@@ -1,85 +1,103 @@
 #include "apps/weft/drawing.h"
 
-#include <initializer_list>
+#include <algorithm>
 #include <vector>
 
-#include "weft/view/camera.h"
-#include "weft/view/renderer.h"
+#include "weft/view/carried_normals.h"
+#include "weft/view/movie_writer.h"
 
 namespace weft::app {
 namespace {
 
-void add(Box3d& box, const Box3d& other) {
-  if (other.empty()) return;
-  box.add(other.lower);
-  box.add(other.upper);
-}
+constexpr Vec3f plaster{0.62F, 0.60F, 0.57F};
+constexpr Vec3f cloth_colours[] = {
+    {0.42F, 0.05F, 0.07F}, {0.05F, 0.13F, 0.32F}, {0.50F, 0.33F, 0.06F}};
 
-double aspect(const ViewFrom& options) {
-  return static_cast<double>(options.width) / options.height;
-}
-
-// The given frames of bodies and cloths.
-Camera camera_of(const RunFolder& run, std::initializer_list<int> frames, const ViewFrom& options) {
-  Box3d box;
-  for (const int frame : frames) {
-    for (const RecordedBody& body : run.bodies) add(box, bounds(body.positions_at(frame)));
-    for (const RecordedCloth& cloth : run.cloths) add(box, bounds(cloth.recorded.positions(frame)));
-  }
-  return frame_box(box, options.azimuth, options.elevation, aspect(options));
-}
-
-// A scene points at its surfaces: this holds them while it is drawn.
+/// A scene points at its surfaces: this holds them while it is drawn.
 struct RunFrame {
   std::vector<Planes3> cloths, bodies;
+  std::vector<NormalMap> normals;
   DrawnScene scene;
 };
 
-RunFrame frame_of(const RunFolder& run, int frame, const Camera& camera) {
-  static constexpr Vec3f colours[] = {
-      {0.42F, 0.05F, 0.07F}, {0.05F, 0.13F, 0.32F}, {0.50F, 0.33F, 0.06F}};
-  RunFrame drawn;
-  drawn.scene.camera = camera;
-  drawn.scene.ground = run.ground;
-  drawn.cloths.reserve(run.cloths.size());
-  for (std::size_t k = 0; k < run.cloths.size(); ++k) {
-    drawn.cloths.push_back(run.cloths[k].recorded.positions(frame));
-    DrawnSurface surface;
-    surface.positions = &drawn.cloths.back();
-    surface.mates = &run.cloths[k].image.mates;
-    surface.colour = colours[k % std::size(colours)];
-    drawn.scene.surfaces.push_back(surface);
+void add_cloth(RunFrame& drawn, const RecordedCloth& cloth, int frame) {
+  const std::size_t k = drawn.cloths.size();
+  drawn.cloths.push_back(cloth.recorded.positions(frame));
+  DrawnSurface surface;
+  surface.positions = &drawn.cloths.back();
+  surface.mates = &cloth.image.mates;
+  surface.colour = cloth_colours[k % std::size(cloth_colours)];
+  drawn.scene.surfaces.push_back(surface);
+}
+
+void add_body(RunFrame& drawn, const RecordedBody& body, int frame) {
+  drawn.bodies.push_back(body.positions_at(frame));
+  DrawnSurface surface;
+  surface.positions = &drawn.bodies.back();
+  surface.mates = &body.image.mates;
+  if (body.normals && body.recorded) {
+    drawn.normals.push_back(carried_normals(body.positions, *body.normals, drawn.bodies.back()));
+    surface.normals = &drawn.normals.back();
+  } else if (body.normals) {
+    surface.normals = &*body.normals;
   }
-  drawn.bodies.reserve(run.bodies.size());
-  for (const RecordedBody& body : run.bodies) {
-    drawn.bodies.push_back(body.positions_at(frame));
-    DrawnSurface surface;
-    surface.positions = &drawn.bodies.back();
-    surface.mates = &body.image.mates;
-    surface.normals = body.normals ? &*body.normals : nullptr;
-    surface.colour = {0.62F, 0.60F, 0.57F};
-    surface.look = Look::body;
-    drawn.scene.surfaces.push_back(surface);
-  }
-  return drawn;
+  surface.colour = plaster;
+  surface.look = Look::body;
+  drawn.scene.surfaces.push_back(surface);
 }
 
 }  // namespace
 
-Picture draw_run(const RunFolder& run, int frame, const ViewFrom& options) {
-  Renderer renderer(options.width, options.height);
-  const int shown = frame < 0 ? run.frames - 1 : frame;
-  return renderer.draw(frame_of(run, shown, camera_of(run, {shown}, options)).scene);
+RunSubject::RunSubject(RunFolder run, const ViewFrom& size)
+    : run_(std::move(run)),
+      aspect_(static_cast<double>(size.width) / size.height),
+      renderer_(size.width, size.height) {}
+
+void RunSubject::add_to(Outline& outline, int frame) const {
+  for (const RecordedBody& body : run_.bodies) outline.add(body.positions_at(frame));
+  for (const RecordedCloth& cloth : run_.cloths) outline.add(cloth.recorded.positions(frame));
 }
 
-void film_run(const RunFolder& run, const std::filesystem::path& path, const ViewFrom& options,
+Picture RunSubject::draw(int frame, const Camera& camera) {
+  RunFrame drawn;
+  drawn.scene.camera = camera;
+  drawn.scene.ground = run_.ground;
+  drawn.cloths.reserve(run_.cloths.size());
+  for (const RecordedCloth& cloth : run_.cloths) add_cloth(drawn, cloth, frame);
+  drawn.bodies.reserve(run_.bodies.size());
+  drawn.normals.reserve(run_.bodies.size());
+  for (const RecordedBody& body : run_.bodies) add_body(drawn, body, frame);
+  return renderer_.draw(drawn.scene);
+}
+
+Picture draw_run(const RunFolder& run, const ViewFrom& view) {
+  RunSubject subject(run, view);
+  Outline outline;
+  subject.add_to(outline, run.frames - 1);
+  return subject.draw(run.frames - 1, frame_points(outline.points(), view.azimuth, view.elevation,
+                                                   subject.aspect()));
+}
+
+Outline outline_of(const Subject& subject) {
+  constexpr int most_frames = 48;
+  const int last = subject.frames() - 1, looked_at = std::min(last, most_frames - 1);
+  Outline outline;
+  for (int i = 0; i <= looked_at; ++i)
+    subject.add_to(outline, looked_at == 0
+                                ? last
+                                : static_cast<int>(static_cast<long long>(last) * i / looked_at));
+  return outline;
+}
+
+void film_run(const RunFolder& run, const std::filesystem::path& path, const ViewFrom& view,
               Progress* progress) {
-  MovieWriter movie(path, options.width, options.height, run.frame_rate);
-  Renderer renderer(options.width, options.height);
-  const Camera camera = camera_of(run, {0, run.frames - 1}, options);
+  RunSubject subject(run, view);
+  const Camera camera =
+      frame_points(outline_of(subject).points(), view.azimuth, view.elevation, subject.aspect());
+  MovieWriter movie(path, view.width, view.height, run.frame_rate);
   for (int frame = 0; frame < run.frames; ++frame) {
     update(progress, "drawing", static_cast<double>(frame) / run.frames);
-    movie.add(renderer.draw(frame_of(run, frame, camera).scene));
+    movie.add(subject.draw(frame, camera));
   }
   movie.finish();
 }

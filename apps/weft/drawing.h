@@ -1,21 +1,43 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
+#include "apps/weft/subject.h"
 #include "weft/core/progress.h"
 #include "weft/sim/run_folder.h"
+#include "weft/view/renderer.h"
 #include "weft/view/surface_drawing.h"
 
 namespace weft::app {
 
-/// One frame of a run: cloths and bodies drawn from their images, and the ground. The camera sees
-/// all of it.
-/// @param frame  from 0; -1: the last
-Picture draw_run(const RunFolder& run, int frame, const ViewFrom& options);
+/// A run: cloths and bodies drawn from their images, and the ground.
+class RunSubject : public Subject {
+ public:
+  /// @param size  of the pictures; the rest of the view is the camera's
+  /// @throws Error as Renderer
+  RunSubject(RunFolder run, const ViewFrom& size);
+  [[nodiscard]] int frames() const override { return run_.frames; }
+  [[nodiscard]] double frame_rate() const override { return run_.frame_rate; }
+  [[nodiscard]] double aspect() const override { return aspect_; }
+  void add_to(Outline& outline, int frame) const override;
+  /// @throws as RecordedPoints::positions
+  Picture draw(int frame, const Camera& camera) override;
 
-/// All frames as a movie that appears whole, from one camera that sees the first and the last
-/// frame.
-void film_run(const RunFolder& run, const std::filesystem::path& path, const ViewFrom& options,
+ private:
+  RunFolder run_;
+  double aspect_;
+  Renderer renderer_;
+};
+
+/// The last frame.
+Picture draw_run(const RunFolder& run, const ViewFrom& view);
+
+/// Everything that a camera has to see over all frames (of long runs, 48 of them).
+Outline outline_of(const Subject& subject);
+
+/// All frames as a movie that appears whole, from one camera that sees them all.
+void film_run(const RunFolder& run, const std::filesystem::path& path, const ViewFrom& view,
               Progress* progress);
 
 }  // namespace weft::app

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <climits>
+#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -7,6 +10,7 @@
 #include "apps/weft/commands.h"
 #include "apps/weft/drawing.h"
 #include "apps/weft/reports.h"
+#include "apps/weft/shots.h"
 #include "apps/weft/shown.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/core/error.h"
@@ -16,12 +20,9 @@
 namespace weft::app {
 namespace {
 
-/// One turn of a turntable.
-constexpr int turn_frames = 120;
-constexpr double turn_rate = 30;  // [1/s]
-
 struct RenderWords {
-  ShownWords shown;
+  std::vector<std::string> subjects, labels;
+  ShownWords shown;  // of each mesh and image
   std::string output;
   int frame = -1;
   bool turntable = false;
@@ -33,55 +34,86 @@ bool is_movie(const RenderWords& words) {
   return ending == ".mp4" || ending == ".gif";
 }
 
-void render_run(const RenderWords& words, const Context& context) {
-  if (!words.shown.show.empty() && words.shown.show != "run")
+bool is_run(const std::string& subject) { return std::filesystem::is_directory(subject); }
+
+void check(const RenderWords& words) {
+  const auto runs = std::count_if(words.subjects.begin(), words.subjects.end(), is_run);
+  const bool any_run = runs > 0, only_runs = runs == std::ssize(words.subjects);
+  if (only_runs && !words.shown.show.empty() && words.shown.show != "run")
     throw UsageError("--show", "'" + words.shown.show + "' of a run",
                      "a run shows itself; leave it out");
-  if (words.turntable)
-    throw UsageError("--turntable", "the subject is a run", "a mesh or an image is wanted");
-  const RunFolder run = open_run_folder(words.shown.subject);
-  TerminalProgress progress(context.quiet || context.json);
-  if (is_movie(words)) return film_run(run, words.output, words.shown.view, &progress);
-  write_png(words.output, draw_run(run, words.frame, words.shown.view));
-}
-
-void film_turn(Shown& shown, const RenderWords& words, const Context& context) {
-  const ViewFrom& view = words.shown.view;
-  TerminalProgress progress(context.quiet || context.json);
-  MovieWriter movie(words.output, view.width, view.height, turn_rate);
-  for (int frame = 0; frame < turn_frames; ++frame) {
-    update(&progress, "drawing", static_cast<double>(frame) / turn_frames);
-    movie.add(shown.draw(view.azimuth + 2 * pi * frame / turn_frames));
-  }
-  movie.finish();
-}
-
-void render_still(const RenderWords& words, const Context& context) {
-  if (is_movie(words) && !words.turntable)
+  if (!any_run && is_movie(words) && !words.turntable)
     throw UsageError(words.output, "a movie of something that does not move",
                      "--turntable or a PNG is wanted for images and meshes");
   if (words.turntable && !is_movie(words))
     throw UsageError("--turntable", "the output is a picture", "a .mp4 or .gif is wanted");
-  if (words.frame >= 0)
+  if (!any_run && words.frame >= 0)
     throw UsageError("--frame", "the subject is no run", "a run's folder is wanted");
-  Shown shown(words.shown, context);
-  if (!words.turntable) return write_png(words.output, shown.draw(words.shown.view.azimuth));
-  if (shown.is_flat())
+  if (words.frame >= 0 && is_movie(words) && !words.turntable)
+    throw UsageError("--frame", "a movie of one frame", "--turntable or a PNG is wanted");
+  if (!words.labels.empty() && words.labels.size() != words.subjects.size())
+    throw UsageError("--labels", std::to_string(words.labels.size()) + " names",
+                     std::to_string(words.subjects.size()) + " are wanted, with commas between");
+}
+
+/// The last part of a path without its ending, or the built-in shape's name.
+std::string name_of(const std::string& subject) {
+  if (subject.starts_with("builtin:")) return subject.substr(subject.find(':') + 1);
+  std::filesystem::path path = subject;
+  if (!path.has_filename()) path = path.parent_path();
+  return is_run(subject) ? path.filename().string() : path.stem().string();
+}
+
+Shots open_subjects(const RenderWords& words, const Context& context) {
+  const ViewFrom view = part_of_row(words.shown.view, static_cast<int>(words.subjects.size()));
+  std::vector<std::unique_ptr<Subject>> subjects;
+  std::vector<std::string> labels = words.labels;
+  for (const std::string& name : words.subjects) {
+    if (words.labels.empty() && words.subjects.size() > 1) labels.push_back(name_of(name));
+    if (is_run(name)) {
+      subjects.push_back(std::make_unique<RunSubject>(open_run_folder(name), view));
+    } else {
+      ShownWords shown = words.shown;
+      shown.subject = name;
+      shown.view = view;
+      subjects.push_back(std::make_unique<Shown>(shown, context));
+    }
+  }
+  return {std::move(subjects), std::move(labels), words.shown.view};
+}
+
+void film(const RenderWords& words, Shots& shots, const Context& context) {
+  if (words.turntable && shots.any_flat())
     throw UsageError("--turntable", "a flat picture does not turn",
                      "--show cut, stretch, surface or error is wanted");
-  film_turn(shown, words, context);
+  const auto frame = words.frame >= 0 ? std::optional<int>(words.frame) : std::nullopt;
+  const Shots::Take take = words.turntable ? shots.turning(frame) : shots.playing();
+  TerminalProgress progress(context.quiet || context.json);
+  std::optional<MovieWriter> movie;
+  for (int i = 0; i < take.count; ++i) {
+    update(&progress, "drawing", static_cast<double>(i) / take.count);
+    const Picture picture = shots.draw(take, i);
+    if (!movie) movie.emplace(words.output, picture.width, picture.height, take.rate);
+    movie->add(picture);
+  }
+  movie->finish();
 }
 
 void render(RenderWords& words, const Context& context) {
   check_output(words.output, {".png", ".mp4", ".gif"});
   words.shown.view.azimuth = words.azimuth * pi / 180;
   words.shown.view.elevation = words.elevation * pi / 180;
-  if (std::filesystem::is_directory(words.shown.subject))
-    render_run(words, context);
+  check(words);
+  Shots shots = open_subjects(words, context);
+  if (is_movie(words))
+    film(words, shots, context);
   else
-    render_still(words, context);
+    write_png(words.output, shots.still(words.frame));
   say(context, "wrote   " + words.output);
-  print_report(context, {{"input", {{"path", words.shown.subject}}}, {"outputs", {words.output}}});
+  Json inputs = Json::array();
+  for (const std::string& subject : words.subjects) inputs.push_back({{"path", subject}});
+  print_report(context,
+               {{"input", inputs.front()}, {"inputs", inputs}, {"outputs", {words.output}}});
 }
 
 void add_view_options(CLI::App& command, RenderWords& words) {
@@ -112,17 +144,23 @@ void add_show_options(CLI::App& command, RenderWords& words) {
       ->check(CLI::Range(least_image_size, largest_image_size));
   command.add_option("--parameterizer", words.shown.parameterizer, "How a mesh is mapped then")
       ->check(CLI::IsMember({"floater", "stretch"}));
-  command.add_flag("--turntable", words.turntable, "A movie of one turn around a mesh or an image");
+  command.add_flag("--turntable", words.turntable,
+                   "A movie of one turn around a mesh or an image, or a run as it plays");
+  command
+      .add_option("--labels", words.labels,
+                  "Names below the pictures; those of the files if not given")
+      ->delimiter(',');
 }
 
 }  // namespace
 
 void add_render(CLI::App& program, const Context& context) {
   auto words = std::make_shared<RenderWords>();
-  CLI::App* command = program.add_subcommand("render", "Draw a run, a geometry image or a mesh");
+  CLI::App* command = program.add_subcommand("render", "Draw runs, geometry images or meshes");
   command
-      ->add_option("DIR|IMAGE|MESH", words->shown.subject,
-                   "Folder of a run, geometry image, mesh or builtin:NAME")
+      ->add_option("DIR|IMAGE|MESH", words->subjects,
+                   "Folder of a run, geometry image, mesh or builtin:NAME; several are drawn side "
+                   "by side from one camera")
       ->required();
   command->add_option("-o,--output", words->output, "PICTURE.png, or MOVIE.mp4 or .gif")
       ->required();

@@ -160,6 +160,10 @@ void Shown::show_error(const GeometryImage& image, const TriangleMesh& mesh) {
   show(draw_error(surface_), view_);
 }
 
-Picture Shown::draw(double azimuth) { return painter_ ? painter_->draw(azimuth) : flat_; }
+void Shown::add_to(Outline& outline, int /*frame*/) const { outline.add(surface_.mesh); }
+
+Picture Shown::draw(int /*frame*/, const Camera& camera) {
+  return painter_ ? painter_->draw(camera) : flat_;
+}
 
 }  // namespace weft::app

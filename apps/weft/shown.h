@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/weft/context.h"
+#include "apps/weft/subject.h"
 #include "weft/image/convert.h"
 #include "weft/view/surface_values.h"
 
@@ -22,15 +23,16 @@ struct ShownWords {
 const std::vector<std::string>& shown_of_meshes();
 const std::vector<std::string>& shown_of_images();
 
-/// A flat picture (colours, mates, map), or a surface seen from azimuth to azimuth.
-class Shown {
+/// A mesh or an image: a flat picture (colours, mates, map), or a surface.
+class Shown : public Subject {
  public:
   /// Converts where that is needed. @throws UsageError for words that make no sense together;
   /// whatever loading and converting throw
   Shown(const ShownWords& words, const Context& context);
-  [[nodiscard]] bool is_flat() const { return flat_.width > 0; }
-  /// One picture. @param azimuth  of the eye [rad]; flat pictures have none
-  Picture draw(double azimuth);
+  [[nodiscard]] bool is_flat() const override { return flat_.width > 0; }
+  [[nodiscard]] double aspect() const override { return painter_ ? painter_->aspect() : 1; }
+  void add_to(Outline& outline, int frame) const override;
+  Picture draw(int frame, const Camera& camera) override;
 
  private:
   void show_mesh(const ShownWords& words, const Context& context);

@@ -1,5 +1,6 @@
 """The contract of render: what can be shown of meshes and images, sizes of pictures, errors."""
 import struct
+import subprocess
 import unittest
 
 from program import ProgramTest
@@ -42,6 +43,38 @@ class Render(ProgramTest):
                       "--height", "64")
         self.assertEqual((self.folder / "t.gif").read_bytes()[:3], b"GIF")
 
+    def frames_of(self, name):
+        """Frames that a GIF holds."""
+        done = subprocess.run(["ffprobe", "-loglevel", "error", "-count_frames", "-show_entries",
+                               "stream=nb_read_frames", "-of", "csv=p=0", self.folder / name],
+                              capture_output=True, text=True, check=True)
+        return int(done.stdout)
+
+    def make_runs(self):
+        for name, frames in (("short", 2), ("long", 5)):
+            self.run_weft("drape", "builtin:sheet", "builtin:sphere", "-o", name, "--size", "17", "--frames", frames)
+
+    def test_several_subjects_stand_side_by_side_with_their_names(self):
+        self.make_runs()
+        small = ["--width", "320", "--height", "160"]
+        self.run_weft("render", "short", "long", "builtin:torus", "-o", "all.png", "--show", "surface", *small)
+        self.assertEqual(self.size_of("all.png")[1], 160)
+        self.assertIn(self.size_of("all.png")[0], range(316, 321))
+        self.run_weft("render", "short", "long", "builtin:torus", "-o", "named.png", "--show", "surface", *small,
+                      "--labels", "a,b,c")
+        self.assertNotEqual((self.folder / "all.png").read_bytes(), (self.folder / "named.png").read_bytes())
+        report = self.run_json("render", "short", "long", "-o", "two.gif", *small)
+        self.assertEqual(report["inputs"], [{"path": "short"}, {"path": "long"}])
+        self.assertEqual(report["input"], {"path": "short"})
+        self.assertEqual(self.frames_of("two.gif"), 6)
+
+    def test_a_turntable_of_a_run_plays_it_and_turns_for_four_seconds(self):
+        (self.folder / "slow.json").write_text(
+            '{"frame_rate": 10, "frames": 3, "cloths": [{"surface": "builtin:sheet", "size": 9}]}')
+        self.run_weft("simulate", "slow.json", "-o", "slow")
+        self.run_weft("render", "slow", "-o", "turn.gif", "--turntable", "--width", "64", "--height", "64")
+        self.assertEqual(self.frames_of("turn.gif"), 40)
+
     def test_a_mesh_that_does_not_open_is_drawn_without_a_cut(self):
         (self.folder / "fan.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 2 1 5\n")
         done = self.run_weft("render", "fan.obj", "-o", "fan.png", "--width", "160", "--height", "120")
@@ -58,6 +91,8 @@ class Render(ProgramTest):
                 (["t.exr", "-o", "p.mp4", "--turntable"], "flat"),
                 (["t.exr", "-o", "p.png", "--turntable"], ".mp4"),
                 (["t.exr", "-o", "p.png", "--frame", "3"], "--frame"),
+                (["builtin:torus", "-o", "p.png", "--labels", "one,two"], "1 are wanted"),
+                (["builtin:torus", "builtin:box", "builtin:rod", "-o", "p.png", "--width", "64"], "--width"),
                 (["builtin:torus", "-o", "p.png", "--show", "surface", "--size", "33"], "--size"),
                 (["builtin:torus", "-o", "p.png", "--show", "cut", "--parameterizer", "floater"], "--parameterizer"),
                 (["builtin:torus", "-o", "p.png", "--show", "run"], "cut, map"),

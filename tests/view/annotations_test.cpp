@@ -27,13 +27,37 @@ int dark_pixels(const Picture& picture) {
   return count;
 }
 
-TEST(Text, IsDrawnInWholePixelsOfTheScale) {
-  for (const int scale : {1, 3}) {
-    Picture picture = blank_picture(text_width("1", scale), text_height(scale), {1, 1, 1});
-    draw_text(picture, "1", {0, 0, scale}, {0, 0, 0});
-    EXPECT_EQ(dark_pixels(picture), 10 * scale * scale);
-  }
+TEST(Text, IsDrawnInWholePixelsAtItsOwnSize) {
+  Picture picture = blank_picture(text_width("1", 1), text_height(1), {1, 1, 1});
+  draw_text(picture, "1", {0, 0, 1}, {0, 0, 0});
+  EXPECT_EQ(dark_pixels(picture), 10);
   EXPECT_EQ(text_width("10", 1), 11);
+}
+
+TEST(Text, EnlargedHasStrokesAsWideAsThePenWithSmoothEdges) {
+  constexpr int scale = 20;
+  Picture picture = blank_picture(text_width("l", scale), text_height(scale), {1, 1, 1});
+  draw_text(picture, "l", {0, 0, scale}, {0, 0, 0});
+  int dark = 0, between = 0;  // across the stem, in the third column of five
+  for (int x = 0; x < picture.width; ++x) {
+    const int value = pixel(picture, x, 3 * scale)[0];
+    dark += value < 128 ? 1 : 0;
+    between += value > 0 && value < 255 ? 1 : 0;
+    if (value < 255) {
+      EXPECT_NEAR(x, 2.5 * scale, 0.5 * scale);
+    }
+  }
+  EXPECT_NEAR(dark, 0.84 * scale, 1);
+  EXPECT_LE(between, 2);
+  const Picture thin = [] {
+    Picture slash = blank_picture(text_width("/", 2), text_height(2), {1, 1, 1});
+    draw_text(slash, "/", {0, 0, 2}, {0, 0, 0});
+    return slash;
+  }();
+  int grey = 0;
+  for (std::size_t i = 0; i < thin.rgb.size(); i += 3)
+    grey += thin.rgb[i] > 20 && thin.rgb[i] < 235 ? 1 : 0;
+  EXPECT_GT(grey, 5);
 }
 
 TEST(Text, OutsideThePictureIsLeftOut) {
@@ -44,7 +68,8 @@ TEST(Text, OutsideThePictureIsLeftOut) {
 }
 
 TEST(Text, EveryLetterOfTheLegendsIsThere) {
-  for (const char letter : std::string("0123456789.,-+%:=/()abcdefghijklmnopqrstuvwxyzBLNPRS")) {
+  for (const char letter :
+       std::string("0123456789.,-+%:=/()_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")) {
     Picture picture = blank_picture(5, 9, {1, 1, 1});
     draw_text(picture, std::string(1, letter), {0, 0, 1}, {0, 0, 0});
     EXPECT_GT(dark_pixels(picture), 2) << letter;

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/view/shapes.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
+#include "weft/view/outline.h"
 
 namespace weft {
 namespace {
@@ -56,6 +58,50 @@ TEST(Camera, FramesAnyBoxTightlyFromAnySide) {
     const bool tight_along = std::min(reach.bottom, reach.top) > frame - 1e-9;
     ASSERT_TRUE(tight_across || tight_along) << "trial " << trial;
   }
+}
+
+TEST(Camera, FramesPointsMoreTightlyThanTheirBox) {
+  const Planes3 ball = sphere_grid(65, {1, 2, 3}, 0.5F);
+  Outline outline;
+  outline.add(ball);
+  const Camera around_box = frame_box(bounds(ball), 0.7, 0.4, 1.5);
+  const Camera around_points = frame_points(outline.points(), 0.7, 0.4, 1.5);
+  const auto away = [](const Camera& camera) { return length(camera.eye - Vec3d{1, 2, 3}); };
+  EXPECT_LT(away(around_points), 0.85 * away(around_box));
+  // The ball touches the frame where half the angle of view, less the margin, is its own.
+  const double slope = (1 - frame_margin) * 0.3093362496;  // tan(0.3)
+  EXPECT_NEAR(away(around_points), 0.5 * std::sqrt(1 + 1 / (slope * slope)), 0.03);
+}
+
+TEST(Camera, WhatIsFramedForATurnStaysInTheFrameAllAround) {
+  Outline outline;
+  outline.add(TriangleMesh{{{-2, 0, 0.1}, {2, 1, -0.1}, {0, 3, 0.3}}, {}});
+  const std::vector<Vec3d> turning = outline.points_turning();
+  const Camera first = frame_points(turning, 0, 0.3, 1.2);
+  for (double azimuth = 0; azimuth < 6; azimuth += 0.37) {
+    const Camera camera = frame_points(turning, azimuth, 0.3, 1.2);
+    EXPECT_NEAR(length(camera.eye - camera.target), length(first.eye - first.target), 0.02);
+    const Box3d low{{-2, 0, 0.1}, {-2, 0, 0.1}};
+    const Reach reach = reach_of(camera, low, 1.2);
+    EXPECT_LT(std::max({reach.left, reach.right, reach.bottom, reach.top}), 1);
+  }
+}
+
+TEST(Outline, HoldsTheFarthestPointsAndNothingThatIsNotFinite) {
+  Random random(3);
+  Outline outline;
+  Box3d box;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d p{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    outline.add(p);
+    box.add(p);
+  }
+  outline.add(Vec3d{NAN, 9, 9});
+  Box3d kept;
+  for (const Vec3d p : outline.points()) kept.add(p);
+  EXPECT_EQ(kept.lower, box.lower);
+  EXPECT_EQ(kept.upper, box.upper);
+  EXPECT_TRUE(Outline().points().empty());
 }
 
 TEST(Camera, LooksFromTheAzimuthAskedFor) {

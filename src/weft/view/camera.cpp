@@ -1,6 +1,7 @@
 #include "weft/view/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "weft/core/math.h"
@@ -35,8 +36,11 @@ struct Reach {
 
 }  // namespace
 
-Camera frame_box(const Box3d& box, double azimuth, double elevation, double aspect) {
-  const Box3d seen = usable(box);
+Camera frame_points(std::span<const Vec3d> points, double azimuth, double elevation,
+                    double aspect) {
+  Box3d box;
+  for (const Vec3d p : points) box.add(p);
+  if (box.empty()) return frame_box({}, azimuth, elevation, aspect);
   const Vec3d right{cosine(azimuth), 0, -sine(azimuth)};
   const Vec3d forward{-sine(azimuth) * cosine(elevation), -sine(elevation),
                       -cosine(azimuth) * cosine(elevation)};
@@ -47,18 +51,25 @@ Camera frame_box(const Box3d& box, double azimuth, double elevation, double aspe
   Reach along;
   along.slope = slope * (1 - frame_margin);
   across.slope = along.slope * aspect;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3d p = corner(seen, i) - seen.centre();
+  for (const Vec3d point : points) {
+    const Vec3d p = point - box.centre();
     across.add(dot(p, right), dot(p, forward));
     along.add(dot(p, camera.up), dot(p, forward));
   }
-  // A box that is one point has no depth to stand back from.
-  const double room = seen.diagonal() > 0 ? 0 : 1;
+  // What is one point has no depth to stand back from.
+  const double room = box.diagonal() > 0 ? 0 : 1;
   const double depth = std::min(across.deepest_eye(), along.deepest_eye()) - room;
   camera.eye =
-      seen.centre() + across.middle() * right + along.middle() * camera.up + depth * forward;
+      box.centre() + across.middle() * right + along.middle() * camera.up + depth * forward;
   camera.target = camera.eye - depth * forward;
   return camera;
+}
+
+Camera frame_box(const Box3d& box, double azimuth, double elevation, double aspect) {
+  const Box3d seen = usable(box);
+  std::array<Vec3d, 8> corners;
+  for (int i = 0; i < 8; ++i) corners[i] = corner(seen, i);
+  return frame_points(corners, azimuth, elevation, aspect);
 }
 
 Box3d bounds(const Planes3& positions) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "weft/core/planes.h"
 #include "weft/core/vec.h"
 #include "weft/mesh/triangle_mesh.h"
@@ -17,6 +19,10 @@ struct Camera {
 /// @param azimuth, elevation  of the eye seen from the box [rad]; azimuth 0 looks from +z
 /// @param aspect              width / height
 Camera frame_box(const Box3d& box, double azimuth, double elevation, double aspect);
+
+/// The same for points: the farthest ones touch the frame. None: the unit cube.
+/// @pre points are finite
+Camera frame_points(std::span<const Vec3d> points, double azimuth, double elevation, double aspect);
 
 /// How much of the half picture frame_box leaves free on the tight sides.
 inline constexpr double frame_margin = 0.06;

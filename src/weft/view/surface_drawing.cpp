@@ -7,6 +7,7 @@
 #include "weft/mesh/edge_uses.h"
 #include "weft/mesh/shapes/sphere.h"
 #include "weft/view/camera.h"
+#include "weft/view/outline.h"
 #include "weft/view/palette.h"
 
 namespace weft {
@@ -77,8 +78,8 @@ TriangleMesh tube(std::span<const Vec3d> points, double radius) {
 
 SurfacePainter::SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& view)
     : drawing_(drawing),
-      view_(view),
-      renderer_(view.width, view.height - (drawing.legend ? legend_height(view.width) : 0)) {
+      size_{view.width, view.height - (drawing.legend ? legend_height(view.width) : 0)},
+      renderer_(size_[0], size_[1]) {
   DrawnMesh surface;
   surface.mesh = drawing_.mesh;
   for (const Vec3f colour : drawing_.colours) surface.colours.push_back(linear_light(colour));
@@ -105,17 +106,26 @@ SurfacePainter::SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& vi
   scene_.on_white = drawing_.on_white;
 }
 
-Picture SurfacePainter::draw(double azimuth) {
-  const int height = view_.height - (drawing_.legend ? legend_height(view_.width) : 0);
-  scene_.camera = frame_box(bounds(*drawing_.mesh), azimuth, view_.elevation,
-                            static_cast<double>(view_.width) / height);
+double SurfacePainter::aspect() const { return static_cast<double>(size_[0]) / size_[1]; }
+
+Picture SurfacePainter::draw(const Camera& camera) {
+  scene_.camera = camera;
   Picture picture = renderer_.draw(scene_);
   if (drawing_.legend) add_legend(picture, *drawing_.legend);
   return picture;
 }
 
 Picture draw_surface(const SurfaceDrawing& drawing, const ViewFrom& view) {
-  return SurfacePainter(drawing, view).draw(view.azimuth);
+  SurfacePainter painter(drawing, view);
+  Outline outline;
+  outline.add(*drawing.mesh);
+  return painter.draw(
+      frame_points(outline.points(), view.azimuth, view.elevation, painter.aspect()));
+}
+
+Picture draw_on_white(SurfaceDrawing drawing, const ViewFrom& view) {
+  drawing.on_white = true;
+  return draw_surface(drawing, view);
 }
 
 }  // namespace weft

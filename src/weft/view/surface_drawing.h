@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,22 +38,26 @@ struct ViewFrom {
 /// A round tube along a curve; empty for fewer than two points.
 TriangleMesh tube(std::span<const Vec3d> points, double radius);
 
-/// One picture of the drawing for each azimuth, of the view's size, legend included.
+/// Pictures of a drawing, all of the view's size, legend included.
 class SurfacePainter {
  public:
   /// @throws Error as Renderer
   SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& view);
-  Picture draw(double azimuth);
+  Picture draw(const Camera& camera);
+  /// Width over height of what a camera sees: the picture without its legend.
+  [[nodiscard]] double aspect() const;
 
  private:
   SurfaceDrawing drawing_;
-  ViewFrom view_;
   TriangleMesh marks_;  // tubes and balls
   DrawnScene scene_;
+  std::array<int, 2> size_;  // without the legend
   Renderer renderer_;
 };
 
-/// The drawing seen once.
+/// The drawing seen once, its whole mesh in the picture.
 Picture draw_surface(const SurfaceDrawing& drawing, const ViewFrom& view);
+/// The same on white paper, as figures show surfaces.
+Picture draw_on_white(SurfaceDrawing drawing, const ViewFrom& view);
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "weft/view/palette.h"
@@ -42,12 +43,33 @@ constexpr std::array glyphs{
     Glyph{'9', {0x0e, 0x11, 0x11, 0x0f, 0x01, 0x02, 0x0c}},
     Glyph{':', {0x00, 0x06, 0x06, 0x00, 0x06, 0x06, 0x00}},
     Glyph{'=', {0x00, 0x00, 0x1f, 0x00, 0x1f, 0x00, 0x00}},
+    Glyph{'A', {0x0e, 0x11, 0x11, 0x1f, 0x11, 0x11, 0x11}},
     Glyph{'B', {0x1e, 0x11, 0x11, 0x1e, 0x11, 0x11, 0x1e}},
+    Glyph{'C', {0x0e, 0x11, 0x10, 0x10, 0x10, 0x11, 0x0e}},
+    Glyph{'D', {0x1e, 0x11, 0x11, 0x11, 0x11, 0x11, 0x1e}},
+    Glyph{'E', {0x1f, 0x10, 0x10, 0x1e, 0x10, 0x10, 0x1f}},
+    Glyph{'F', {0x1f, 0x10, 0x10, 0x1e, 0x10, 0x10, 0x10}},
+    Glyph{'G', {0x0e, 0x11, 0x10, 0x17, 0x11, 0x11, 0x0e}},
+    Glyph{'H', {0x11, 0x11, 0x11, 0x1f, 0x11, 0x11, 0x11}},
+    Glyph{'I', {0x0e, 0x04, 0x04, 0x04, 0x04, 0x04, 0x0e}},
+    Glyph{'J', {0x01, 0x01, 0x01, 0x01, 0x01, 0x11, 0x0e}},
+    Glyph{'K', {0x11, 0x12, 0x14, 0x18, 0x14, 0x12, 0x11}},
     Glyph{'L', {0x10, 0x10, 0x10, 0x10, 0x10, 0x10, 0x1f}},
+    Glyph{'M', {0x11, 0x1b, 0x15, 0x15, 0x11, 0x11, 0x11}},
     Glyph{'N', {0x11, 0x19, 0x15, 0x13, 0x11, 0x11, 0x11}},
+    Glyph{'O', {0x0e, 0x11, 0x11, 0x11, 0x11, 0x11, 0x0e}},
     Glyph{'P', {0x1e, 0x11, 0x11, 0x1e, 0x10, 0x10, 0x10}},
+    Glyph{'Q', {0x0e, 0x11, 0x11, 0x11, 0x15, 0x12, 0x0d}},
     Glyph{'R', {0x1e, 0x11, 0x11, 0x1e, 0x14, 0x12, 0x11}},
     Glyph{'S', {0x0f, 0x10, 0x10, 0x0e, 0x01, 0x01, 0x1e}},
+    Glyph{'T', {0x1f, 0x04, 0x04, 0x04, 0x04, 0x04, 0x04}},
+    Glyph{'U', {0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x0e}},
+    Glyph{'V', {0x11, 0x11, 0x11, 0x11, 0x11, 0x0a, 0x04}},
+    Glyph{'W', {0x11, 0x11, 0x11, 0x15, 0x15, 0x1b, 0x11}},
+    Glyph{'X', {0x11, 0x11, 0x0a, 0x04, 0x0a, 0x11, 0x11}},
+    Glyph{'Y', {0x11, 0x11, 0x0a, 0x04, 0x04, 0x04, 0x04}},
+    Glyph{'Z', {0x1f, 0x01, 0x02, 0x04, 0x08, 0x10, 0x1f}},
+    Glyph{'_', {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x1f}},
     Glyph{'a', {0x00, 0x00, 0x0e, 0x01, 0x0f, 0x11, 0x0f}},
     Glyph{'b', {0x10, 0x10, 0x1e, 0x11, 0x11, 0x11, 0x1e}},
     Glyph{'c', {0x00, 0x00, 0x0e, 0x10, 0x10, 0x11, 0x0e}},
@@ -82,6 +104,65 @@ const Glyph* find_glyph(char letter) {
   return found == glyphs.end() ? nullptr : found;
 }
 
+bool is_set(const Glyph& glyph, int x, int y) {
+  return x >= 0 && y >= 0 && x < columns && y < rows &&
+         (glyph.bits[y] >> (columns - 1 - x) & 1) != 0;
+}
+
+double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
+  const Vec2d along = b - a;
+  const double share = std::clamp(dot(p - a, along) / dot(along, along), 0.0, 1.0);
+  const Vec2d apart = p - (a + share * along);
+  return std::sqrt(dot(apart, apart));
+}
+
+/// How far a point is from the pen's way through the set pixels' middles: straight to neighbours in
+/// rows and columns, aslant where no such way leads there. [glyph pixels]
+double distance_to_pen(const Glyph& glyph, Vec2d p) {
+  double nearest = HUGE_VAL;
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      if (!is_set(glyph, x, y)) continue;
+      const Vec2d here{x + 0.5, y + 0.5};
+      nearest = std::min(nearest, std::sqrt(dot(p - here, p - here)));
+      const auto stroke_to = [&](int dx, int dy) {
+        nearest = std::min(nearest, distance_to_segment(p, here, {here.x + dx, here.y + dy}));
+      };
+      if (is_set(glyph, x + 1, y)) stroke_to(1, 0);
+      if (is_set(glyph, x, y + 1)) stroke_to(0, 1);
+      for (const int side : {-1, 1})
+        if (is_set(glyph, x + side, y + 1) && !is_set(glyph, x + side, y) &&
+            !is_set(glyph, x, y + 1))
+          stroke_to(side, 1);
+    }
+  return nearest;
+}
+
+void blend_pixel(Picture& picture, std::array<int, 2> at, Vec3f colour, float share) {
+  if (at[0] < 0 || at[1] < 0 || at[0] >= picture.width || at[1] >= picture.height) return;
+  const std::size_t i = std::size_t{3} * (static_cast<std::size_t>(at[1]) * picture.width + at[0]);
+  const Vec3f below = (1.0F / 255) * Vec3f{static_cast<float>(picture.rgb[i]),
+                                           static_cast<float>(picture.rgb[i + 1]),
+                                           static_cast<float>(picture.rgb[i + 2])};
+  set_pixel(picture, at[0], at[1], (1 - share) * below + share * colour);
+}
+
+/// Whole pixels at scale 1; above that, strokes of a round pen with smooth edges.
+void draw_glyph(Picture& picture, const Glyph& glyph, TextPlace place, Vec3f colour) {
+  constexpr double half_pen = 0.42;  // [glyph pixels]
+  const int scale = place.scale;
+  for (int y = 0; y < rows * scale; ++y)
+    for (int x = 0; x < columns * scale; ++x) {
+      double share = is_set(glyph, x, y) ? 1 : 0;
+      if (scale > 1) {
+        const double apart = distance_to_pen(glyph, {(x + 0.5) / scale, (y + 0.5) / scale});
+        share = std::clamp((half_pen - apart) * scale + 0.5, 0.0, 1.0);
+      }
+      if (share > 0)
+        blend_pixel(picture, {place.x + x, place.y + y}, colour, static_cast<float>(share));
+    }
+}
+
 }  // namespace
 
 int text_width(std::string_view text, int scale) {
@@ -95,10 +176,7 @@ void draw_text(Picture& picture, std::string_view text, TextPlace place, Vec3f c
     const int top =
         place.y + (descending.find(letter) != std::string_view::npos ? descent * place.scale : 0);
     if (const Glyph* glyph = find_glyph(letter))
-      for (int y = 0; y < rows * place.scale; ++y)
-        for (int x = 0; x < columns * place.scale; ++x)
-          if ((glyph->bits[y / place.scale] >> (columns - 1 - x / place.scale) & 1) != 0)
-            set_pixel(picture, place.x + x, top + y, colour);
+      draw_glyph(picture, *glyph, {place.x, top, place.scale}, colour);
     place.x += advance * place.scale;
   }
 }

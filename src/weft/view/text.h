@@ -16,8 +16,9 @@ struct TextPlace {
   int x = 0, y = 0;  ///< of the upper left corner [pixels]; what falls outside is left out
   int scale = 1;
 };
-/// Writes into a picture in a small font of our own: digits, lower-case letters, the capitals of
-/// PSNR, dB and L2, and . , - + % : = / ( ). A character that it lacks leaves its room empty.
+/// Writes into a picture in a small font of our own: digits, letters without accents, and
+/// . , - + % : = / ( ) _. A character that it lacks leaves its room empty. Above scale 1 its edges
+/// are smooth.
 /// @param colour  display space, in [0, 1]
 void draw_text(Picture& picture, std::string_view text, TextPlace place, Vec3f colour);
 

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/weft/subject.h"
+#include "weft/view/surface_drawing.h"
+
+namespace weft::app {
+
+/// Subjects side by side with their names below, all seen from one camera.
+class Shots {
+ public:
+  /// @param labels  a name for each subject, or none at all
+  /// @param view    its size is that of each subject's picture
+  Shots(std::vector<std::unique_ptr<Subject>> subjects, std::vector<std::string> labels,
+        const ViewFrom& view);
+  [[nodiscard]] bool any_flat() const;
+  [[nodiscard]] bool any_moves() const;
+  /// The largest number of frames of a subject, and the rate [1/s] of that which has it.
+  [[nodiscard]] int frames() const;
+  [[nodiscard]] double frame_rate() const;
+
+  /// The same frame of all, of those that have it; the last frame of each for -1. The camera sees
+  /// this alone.
+  Picture still(int frame);
+  /// A movie: how the camera moves, and which frames it sees.
+  struct Take {
+    int count = 1;              ///< of pictures
+    double rate = 30;           ///< [1/s]
+    bool turns = false;         ///< once around
+    bool plays = false;         ///< or stands still at `frame`
+    int frame = -1;             ///< as of `still`
+    std::vector<Vec3d> points;  ///< that stay in sight
+  };
+  /// Runs played at their own rates, those that have ended standing still.
+  [[nodiscard]] Take playing() const;
+  /// One turn of at least four seconds. @param frame  to stand still at; none: what moves is played
+  [[nodiscard]] Take turning(std::optional<int> frame) const;
+  /// Picture i of a take.
+  Picture draw(const Take& take, int i);
+
+ private:
+  [[nodiscard]] Outline outline_at(int frame) const;
+  [[nodiscard]] Outline outline() const;
+  Picture draw(const std::vector<int>& frames, double azimuth, const std::vector<Vec3d>& points);
+
+  std::vector<std::unique_ptr<Subject>> subjects_;
+  std::vector<std::string> labels_;
+  ViewFrom view_;
+};
+
+/// The size of each of `count` pictures of a row with labels, so that the row has the view's size.
+ViewFrom part_of_row(const ViewFrom& view, int count);
+
+}  // namespace weft::app
