@@ -56,6 +56,37 @@ TEST(Renderer, WavySheetOfFabricLooksAsItDid) {
   expect_golden("sheet", Renderer(width, height).draw(scene));
 }
 
+TEST(Renderer, ShadowsOfClothOnABodyAndOnTheGroundLookAsTheyDid) {
+  const Planes3 sheet = wavy_sheet(65, 1.1F);
+  const Planes3 ball = sphere_grid(33, {0.3F, 0.45F, 0}, 0.45F);
+  const BorderMates seam(33, {{32, 0, 32}});
+  DrawnSurface fabric;
+  fabric.positions = &sheet;
+  fabric.threads = 0;
+  DrawnScene scene;
+  scene.surfaces = {fabric, body_of(ball)};
+  scene.surfaces[1].mates = &seam;
+  scene.ground = 0.0;
+  scene.camera = frame_box({{-1, 0, -1}, {1.4, 1.3, 1}}, 0.3, 0.12, 4.0 / 3);
+  expect_golden("shadows", Renderer(width, height).draw(scene));
+}
+
+TEST(Renderer, AWeaveTooFineToBeSeenIsLeftOut) {
+  const Planes3 sheet = wavy_sheet(65, 0.4F);
+  DrawnSurface fabric;
+  fabric.positions = &sheet;
+  DrawnScene scene;
+  scene.surfaces.push_back(fabric);
+  scene.camera = frame_box(bounds(sheet), 0.5, 0.5, 4.0 / 3);
+  Renderer renderer(width, height);
+  const auto drawn_with = [&](float threads) {
+    scene.surfaces[0].threads = threads;
+    return renderer.draw(scene).rgb;
+  };
+  EXPECT_EQ(drawn_with(300), drawn_with(0));
+  EXPECT_NE(drawn_with(12), drawn_with(0));
+}
+
 TEST(Renderer, MeshWithMarkedEdgesLooksAsItDid) {
   const TriangleMesh cube = cube_mesh();
   DrawnMesh mesh;

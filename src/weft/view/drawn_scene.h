@@ -22,7 +22,7 @@ struct DrawnSurface {
   const NormalMap* normals = nullptr;  ///< shading of bodies; null: made from the positions
   Vec3f colour{0.42F, 0.05F, 0.07F};   ///< linear RGB
   Look look = Look::fabric;
-  float threads = 150;  ///< of the weave along a side of the image, for fabric; 0: none
+  float threads = 300;  ///< of the weave along a side of the image, for fabric; 0: none
 };
 
 /// A plain mesh to draw as a body, some of its edges as lines. Pointers must outlive the call to

@@ -49,8 +49,8 @@ uniform sampler2DShadow key_compare;
 uniform mat4 key_texture;
 uniform float key_offset;  // along the normal [m]
 float pixel_turn() { return 6.2831853 * pixel_noise(); }
-const float light_width = 0.17;     // of the key light, as the tangent of its angle
-const float widest_search = 0.03;  // in texture coordinates
+const float light_width = 0.10;     // of the key light, as the tangent of its angle
+const float widest_search = 0.025;  // in texture coordinates
 const float deepest = 0.99999;     // nothing was drawn where the map is deeper
 const vec2 few[8] = vec2[](
   vec2(0.2500, 0.0000), vec2(-0.3193, 0.2925), vec2(0.0489, -0.5569), vec2(0.4024, 0.5249),
@@ -62,34 +62,54 @@ const vec2 many[24] = vec2[](
   vec2(-0.6244, -0.3619), vec2(0.7325, -0.1610), vec2(-0.4470, 0.6359), vec2(-0.1033, -0.7970),
   vec2(0.6340, 0.5343), vec2(-0.8532, 0.0353), vec2(0.6223, -0.6193), vec2(-0.0416, 0.9004),
   vec2(-0.5922, -0.7096), vec2(0.9380, 0.1262), vec2(-0.7948, 0.5530), vec2(0.2172, -0.9654));
-// n: to the side that is asked about; turn: of the spiral [rad]
-float key_visibility(vec3 p, vec3 n, float turn) {
-  vec3 q = (key_texture * vec4(p + key_offset * n, 1.0)).xyz;
-  if (any(lessThan(q.xy, vec2(0.0))) || any(greaterThan(q.xy, vec2(1.0)))) return 1.0;
-  mat2 turned = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
-  // The surface's own plane falls or rises over the search; it must not count as hiding itself.
+vec3 key_place(vec3 p, vec3 n) { return (key_texture * vec4(p + key_offset * n, 1.0)).xyz; }
+bool key_sees(vec3 q) {
+  return all(greaterThan(q.xy, vec2(0.0))) && all(lessThan(q.xy, vec2(1.0)));
+}
+// The surface's own plane falls or rises over the search; it must not count as hiding itself.
+vec2 key_slope(vec3 n) {
   vec3 facing = mat3(key_texture) * n;
-  vec2 slope = -facing.xy / min(facing.z, -0.25 * length(facing));
+  return -facing.xy / min(facing.z, -0.25 * length(facing));
+}
+// Whether anything may throw a shadow near a point.
+bool near_shadow(vec3 p, vec3 n) {
+  vec3 q = key_place(p, n);
+  vec2 slope = key_slope(n);
+  bool hidden = false;
+  for (int i = 0; i < 24; ++i) {
+    vec2 aside = 1.5 * widest_search * many[i];
+    hidden = hidden || texture(key_depth, q.xy + aside).r < min(q.z + dot(slope, aside), deepest);
+  }
+  return hidden && key_sees(q);
+}
+// n: to the side that is asked about; turn: of the spiral [rad]; 1 where not asked. Loops of no
+// turns stand for branches: software drivers walk both ways of every branch.
+float key_visibility(vec3 p, vec3 n, float turn, bool asked) {
+  vec3 q = key_place(p, n);
+  mat2 turned = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
+  vec2 slope = key_slope(n);
   float hidden = 0.0, depth = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    vec2 aside = widest_search * (turned * few[i]);
+  int searched = asked && key_sees(q) ? 8 : 0;
+  for (int i = 0; i < searched; ++i) {
+    vec2 aside = widest_search * (turned * few[i & 7]);
     float d = texture(key_depth, q.xy + aside).r;
     if (d < min(q.z + dot(slope, aside), deepest)) { hidden += 1.0; depth += d; }
   }
-  if (hidden < 0.5) return 1.0;
-  float width = clamp(light_width * (q.z - depth / hidden), 0.0012, widest_search);
+  float width = clamp(light_width * (q.z - depth / max(hidden, 1.0)), 0.003, widest_search);
   float visible = 0.0;
-  for (int i = 0; i < 24; ++i) {
-    vec2 aside = width * (turned * many[i]);
+  int taken = hidden > 0.5 ? 24 : 0;
+  for (int i = 0; i < taken; ++i) {
+    vec2 aside = width * (turned * many[i % 24]);
     visible += texture(key_compare, vec3(q.xy + aside, min(q.z + dot(slope, aside), deepest)));
   }
-  return visible / 24.0;
+  return taken > 0 ? visible / 24.0 : 1.0;
 }
 )";
 
 /// Light in image space: for every sample, what reaches its two sides from each part of the sky
 /// that nothing hides, and from the ground (RGB), and how much it sees of the key light (A). The
-/// image is its own light map.
+/// image is its own light map. Of the ground (FLOOR), A only tells where shadow may fall (0): its
+/// pixels find it for themselves.
 inline constexpr std::string_view skylight_fragment = R"(
 uniform sampler2D positions, normals;
 uniform sampler2DArrayShadow sky_depth;
@@ -125,7 +145,11 @@ void main() {
   float lit = 0.15 + 0.85 * open;
   front.rgb += bounce * (0.5 - 0.5 * n.y) * lit;
   back.rgb += bounce * (0.5 + 0.5 * n.y) * lit;
-  front.a = back.a = key_visibility(p, dot(n, key_direction) < 0.0 ? -n : n, 0.0);
+#ifdef FLOOR
+  front.a = near_shadow(p, n) ? 0.0 : 1.0;
+#else
+  front.a = back.a = key_visibility(p, dot(n, key_direction) < 0.0 ? -n : n, 0.0, true);
+#endif
 }
 )";
 
@@ -135,7 +159,7 @@ uniform vec2 picture_size;
 vec3 backdrop() {
   vec2 at = gl_FragCoord.xy / picture_size - vec2(0.5, 0.52);
   float far = dot(at, at * vec2(1.0, 1.25));
-  return mix(vec3(0.78, 0.79, 0.80), vec3(0.33, 0.345, 0.37), smoothstep(0.0, 0.62, far));
+  return mix(vec3(0.93, 0.935, 0.94), vec3(0.50, 0.515, 0.54), smoothstep(0.0, 0.75, far));
 }
 // Nearly straight in the dark, rolling off towards white [reinhard02, eq. 4], then sRGB.
 vec4 shown(vec3 light) {

@@ -74,10 +74,12 @@ ScenePainter::ScenePainter()
     : depth_(make_program("depth", depth_vertex, {depth_fragment})),
       skylight_(make_program("skylight", fullscreen_vertex,
                              {"const int sky_taps = 2;\n", key_shadow, skylight_fragment})),
-      floor_light_(make_program("floor light", fullscreen_vertex,
-                                {"const int sky_taps = 8;\n", key_shadow, skylight_fragment})),
+      floor_light_(make_program(
+          "floor light", fullscreen_vertex,
+          {"#define FLOOR\nconst int sky_taps = 8;\n", key_shadow, skylight_fragment})),
       backdrop_(make_program("backdrop", fullscreen_vertex, {screen_tools, backdrop_fragment})),
-      surface_(make_program("surface", surface_vertex, {screen_tools, surface_fragment})),
+      surface_(
+          make_program("surface", surface_vertex, {key_shadow, screen_tools, surface_fragment})),
       mesh_(make_program("mesh", std::string(for_meshes).append(surface_vertex),
                          {for_meshes, key_shadow, screen_tools, surface_fragment})),
       ground_(make_program("ground", surface_vertex, {key_shadow, screen_tools, ground_fragment})),

@@ -9,9 +9,9 @@
 namespace weft::gl {
 namespace {
 
-/// Samples along a side of the light map of a grid: twice the grid's own within these bounds.
+/// Samples along a side of the light map of a grid: the grid's own within these bounds.
 constexpr int least_light_samples = 129, most_light_samples = 257;
-constexpr int most_coarse_quads = 64;
+constexpr int most_coarse_quads = 42;
 constexpr int mesh_columns = 1024;
 constexpr int ground_side = 65;
 
@@ -118,6 +118,8 @@ void SurfaceBuffers::load(const DrawnSurface& surface) {
   const Planes3 positions = without_holes(*surface.positions);
   upload_grid(positions, surface.normals != nullptr ? without_holes(surface.normals->normal)
                                                     : grid_normals(positions, surface.mates));
+  const int light = std::clamp(positions.size(), least_light_samples, most_light_samples);
+  make_sky_target(light, light);
 }
 
 void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normals) {
@@ -128,8 +130,6 @@ void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normal
   normals_.upload(packed(normals));
   if (grid_side_ != side) triangles_.clear();
   grid_side_ = side;
-  const int light = std::clamp(2 * side - 1, least_light_samples, most_light_samples);
-  make_sky_target(light, light);
 }
 
 void SurfaceBuffers::load(const DrawnMesh& drawn) {
@@ -161,6 +161,7 @@ void SurfaceBuffers::load_ground(Vec3d centre, double half_side) {
       normals.set(r, c, {0, 1, 0});
     }
   upload_grid(positions, normals);
+  make_sky_target(ground_side, ground_side);
 }
 
 void SurfaceBuffers::make_sky_target(int width, int height) {

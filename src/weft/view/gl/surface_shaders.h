@@ -6,7 +6,8 @@ namespace weft::gl {
 
 /// The geometry image drawn as it is: a vertex is a number, its place in the grid is read off it.
 /// Of a grid, normals and light are read for every pixel, of a mesh (MESH) at the vertices; shadows
-/// are found anew for every pixel of a mesh, whose vertices may be far apart. Two programs, because
+/// are found anew for every pixel of a mesh, whose vertices may be far apart, and at the edges of
+/// shadows on a grid. Two programs, because
 /// software drivers walk both ways of every branch.
 inline constexpr std::string_view surface_vertex = R"(
 uniform sampler2D positions, normals, colours, sky_front, sky_back;
@@ -60,23 +61,29 @@ vec3 outward() { return own_normal; }
 vec3 albedo() { return own_colour; }
 vec4 light_here(vec3 n) {
   vec3 lit_side = dot(flat_normal(), key_direction) < 0.0 ? -flat_normal() : flat_normal();
-  return vec4(gl_FrontFacing ? own_front : own_back, key_visibility(world, lit_side, pixel_turn()));
+  float seen = key_visibility(world, lit_side, pixel_turn(), dot(n, key_direction) > 0.0);
+  return vec4(gl_FrontFacing ? own_front : own_back, seen);
 }
 #else
 uniform sampler2D normals, sky_front, sky_back;
 uniform vec3 colour;
 vec3 albedo() { return colour; }
 vec3 outward() { return texture(normals, aligned(uv, textureSize(normals, 0))).xyz; }
+// The light map tells where all or none of the key light is; in between it is found anew.
 vec4 light_here(vec3 n) {
   vec2 at = aligned(uv, textureSize(sky_front, 0));
-  return gl_FrontFacing ? texture(sky_front, at) : texture(sky_back, at);
+  vec4 light = gl_FrontFacing ? texture(sky_front, at) : texture(sky_back, at);
+  bool between = light.a > 0.004 && light.a < 0.996;
+  vec3 lit_side = dot(n, key_direction) < 0.0 ? -n : n;
+  float seen = key_visibility(world, lit_side, pixel_turn(), between);
+  return vec4(light.rgb, between ? seen : light.a);
 }
 #endif
 // How bright a plain weave is at a point, 1 on average.
 float weave(vec2 at) {
   vec2 q = at * threads;
   float wide = max(length(dFdx(q)), length(dFdy(q)));
-  float seen = 1.0 - smoothstep(0.12, 0.42, wide);
+  float seen = 1.0 - smoothstep(0.06, 0.22, wide);
   if (seen <= 0.0 || threads <= 0.0) return 1.0;
   vec2 across = abs(sin(3.14159265 * q));
   bool warp = mod(floor(q.x) + floor(q.y), 2.0) < 0.5;
@@ -129,10 +136,10 @@ in vec3 world;
 in vec2 uv;
 out vec4 result;
 void main() {
-  vec3 sky = texture(sky_front, aligned(uv, textureSize(sky_front, 0))).rgb;
+  vec4 light = texture(sky_front, aligned(uv, textureSize(sky_front, 0)));
   vec3 key = key_direction.y * key_light;
-  float seen = key_visibility(world, vec3(0.0, 1.0, 0.0), pixel_turn());
-  vec3 kept = (seen * key + sky) / (key + open_sky);
+  float seen = key_visibility(world, vec3(0.0, 1.0, 0.0), pixel_turn(), light.a < 0.999);
+  vec3 kept = (seen * key + light.rgb) / (key + open_sky);
   float outward = length(2.0 * uv - 1.0);
   vec3 share = mix(kept, vec3(1.0), smoothstep(0.45, 1.0, outward));
   result = dithered(shown(backdrop() * share));
