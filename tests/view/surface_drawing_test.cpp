@@ -65,8 +65,9 @@ TEST(SurfaceDrawing, CurvesAreSeenInFrontAndHiddenBehind) {
   drawing.curve_radius = 0.05;
   const Picture bare = draw_surface(drawing, {160, 120, 0, 0});
   drawing.curves = {{{{-0.2, 0, -0.5}, {0.2, 0, -0.5}}, {0, 0.8F, 0}}};
-  EXPECT_EQ(mean_colour(draw_surface(drawing, {160, 120, 0, 0}), 76, 56, 8),
-            mean_colour(bare, 76, 56, 8));
+  const Vec3d apart = mean_colour(draw_surface(drawing, {160, 120, 0, 0}), 76, 56, 8) -
+                      mean_colour(bare, 76, 56, 8);
+  EXPECT_LT(length(apart), 1) << "of 255: no more than it keeps of the sky";
   drawing.curves = {{{{-0.2, 0, 0.5}, {0.2, 0, 0.5}}, {0, 0.8F, 0}}};
   const Vec3d seen = mean_colour(draw_surface(drawing, {160, 120, 0, 0}), 76, 56, 8);
   EXPECT_GT(seen.y, seen.x + 40);

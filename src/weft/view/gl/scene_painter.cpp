@@ -73,7 +73,7 @@ void set_light_colours(const Program& program, const Lights& lights) {
 ScenePainter::ScenePainter()
     : depth_(make_program("depth", depth_vertex, {depth_fragment})),
       skylight_(make_program("skylight", fullscreen_vertex,
-                             {"const int sky_taps = 2;\n", key_shadow, skylight_fragment})),
+                             {"const int sky_taps = 4;\n", key_shadow, skylight_fragment})),
       floor_light_(make_program(
           "floor light", fullscreen_vertex,
           {"#define FLOOR\nconst int sky_taps = 8;\n", key_shadow, skylight_fragment})),
@@ -113,7 +113,7 @@ void ScenePainter::paint(const DrawnScene& scene, const Target& target) {
   draw_key_depth();
   draw_sky_depth();
   glDisable(GL_DEPTH_TEST);
-  for (const SurfaceBuffers& surface : surfaces_) draw_skylight(surface, skylight_, 0.008F);
+  for (const SurfaceBuffers& surface : surfaces_) draw_skylight(surface, skylight_, 0.02F);
   if (scene.ground) draw_skylight(floor_, floor_light_, 0.09F);
   draw_picture(scene, target);
 }
