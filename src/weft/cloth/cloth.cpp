@@ -138,6 +138,13 @@ int pin(Cloth& cloth, int sample, Vec3d target) {
   return static_cast<int>(cloth.pins.size()) - 1;
 }
 
+void unpin_last(Cloth& cloth) {
+  const int n = cloth.size;
+  for (const int copy : cloth.pins.back().copies)
+    cloth.inverse_mass(copy / n, copy % n) = 1 / cloth.mass(copy / n, copy % n);
+  cloth.pins.pop_back();
+}
+
 ClothState rest_state(const Cloth& cloth, Vec3f velocity) {
   ClothState state{cloth.rest, Planes3(cloth.size)};
   state.velocity.x.fill(velocity.x);

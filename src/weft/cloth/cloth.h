@@ -109,6 +109,8 @@ Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& 
 /// @return which of the cloth's pins holds it
 /// @throws SceneError for a sample outside the image
 int pin(Cloth& cloth, int sample, Vec3d target);
+/// Lets the last pin's samples move again and forgets it. @pre there is one
+void unpin_last(Cloth& cloth);
 
 /// At rest in the rest shape; velocity the same everywhere.
 ClothState rest_state(const Cloth& cloth, Vec3f velocity = {});

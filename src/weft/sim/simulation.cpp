@@ -63,6 +63,7 @@ void Simulation::Parts::move_driven(double seconds) {
     move_pins(pin_motions[i], seconds, cloths[i].cloth);
     move_tied(tied_pins[i], driven.ends(), cloths[i].cloth);
   }
+  if (grab.holds()) grab.move(time_step, scene.ground, cloths[grab.cloth()]);
 }
 
 void Simulation::Parts::propose(std::size_t index) {
@@ -226,8 +227,8 @@ void Simulation::Parts::measure(FrameReport& report) {
 }
 
 Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOptions& team,
-                       Progress* progress)
-    : parts_(std::make_unique<Parts>(scene, name, team, progress)) {
+                       const SimulationHelp& help)
+    : parts_(std::make_unique<Parts>(scene, name, team, help)) {
   check_abilities(scene, name);
   if (scene.cloths.empty()) throw SceneError(name, "no cloth", "at least one is wanted");
   parts_->load_cloths();
@@ -268,6 +269,7 @@ void Simulation::save(SimulationState& state) const {
 
 void Simulation::restore(const SimulationState& state) {
   WEFT_ASSERT(state.cloths.size() == parts_->cloths.size());
+  let_go();
   parts_->frame = state.frame;
   for (std::size_t i = 0; i < state.cloths.size(); ++i) parts_->cloths[i].state = state.cloths[i];
   if (parts_->driven.any_moves()) {
@@ -280,6 +282,20 @@ void Simulation::restore(const SimulationState& state) {
   for (std::size_t i = 0; i < state.marks.size(); ++i)
     parts_->collider->restore_marks(i, state.marks[i]);
 }
+
+void Simulation::grab(std::size_t cloth, int sample) {
+  WEFT_ASSERT(cloth < parts_->cloths.size());
+  let_go();
+  parts_->grab.take(cloth, sample, parts_->cloths[cloth]);
+}
+
+void Simulation::pull(Vec3d target) { parts_->grab.pull(target); }
+
+void Simulation::let_go() {
+  if (holds()) parts_->grab.let_go(parts_->cloths[parts_->grab.cloth()].cloth);
+}
+
+bool Simulation::holds() const { return parts_->grab.holds(); }
 
 int Simulation::frame() const { return parts_->frame; }
 const std::vector<SimulatedCloth>& Simulation::cloths() const { return parts_->cloths; }
@@ -301,5 +317,13 @@ int Simulation::particles() const {
 }
 
 Vec3d Simulation::centre_of_mass() const { return parts_->centre(); }
+
+std::span<const Contact> Simulation::contacts(std::size_t cloth) const {
+  return parts_->collider->contacts(cloth);
+}
+
+bool Simulation::last_corrections(std::size_t cloth, Grid<float>& sizes) const {
+  return parts_->movers[cloth].integrator->last_corrections(sizes);
+}
 
 }  // namespace weft

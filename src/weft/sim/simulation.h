@@ -1,14 +1,17 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "weft/cloth/measure.h"
+#include "weft/core/contact.h"
 #include "weft/core/progress.h"
 #include "weft/core/thread_team.h"
 #include "weft/image/convert.h"
 #include "weft/sim/scene.h"
+#include "weft/sim/surface_shelf.h"
 
 namespace weft {
 
@@ -53,12 +56,22 @@ struct SimulationState {
   std::vector<std::vector<int>> marks{};
 };
 
+/// Who helps a scene to life.
+struct SimulationHelp {
+  Progress* progress = nullptr;      ///< told of loading and stepping
+  SurfaceShelf* surfaces = nullptr;  ///< keeps what was loaded for the next simulation
+
+  SimulationHelp(Progress* told = nullptr,  // NOLINT(google-explicit-constructor): most say no more
+                 SurfaceShelf* shelf = nullptr)
+      : progress(told), surfaces(shelf) {}
+};
+
 /// A scene brought to life.
 class Simulation {
  public:
   /// Loads every surface. @throws SceneError, InputError, TopologyError
   Simulation(const Scene& scene, const std::string& name, const TeamOptions& team,
-             Progress* progress = nullptr);
+             const SimulationHelp& help = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
   ~Simulation();
@@ -71,8 +84,20 @@ class Simulation {
 
   /// Copies the state; nothing is allocated when `state` has held it before.
   void save(SimulationState& state) const;
-  /// Goes on from a saved state of the same scene: what follows has the same bits.
+  /// Goes on from a saved state of the same scene: what follows has the same bits. What was grabbed
+  /// is let go.
   void restore(const SimulationState& state);
+
+  /// Holds the surface point of a sample from the next step on, as a pin that follows `pull`. One
+  /// at a time. A sample that is pinned already stays pinned when it is let go, where it was taken
+  /// to.
+  /// @param cloth  of cloths()  @throws SceneError for a sample outside the image
+  void grab(std::size_t cloth, int sample);
+  /// Where what is grabbed shall go. It goes no faster than a hand and no farther from the samples
+  /// around it than cloth stretches, and does not enter the ground. [m]
+  void pull(Vec3d target);
+  void let_go();
+  [[nodiscard]] bool holds() const;
 
   [[nodiscard]] int frame() const;
   [[nodiscard]] const std::vector<SimulatedCloth>& cloths() const;
@@ -82,6 +107,10 @@ class Simulation {
   [[nodiscard]] std::string state_hash() const;
   [[nodiscard]] int particles() const;
   [[nodiscard]] Vec3d centre_of_mass() const;
+  /// What the last step found to press on a cloth.
+  [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const;
+  /// See Integrator::last_corrections, of the last step.
+  bool last_corrections(std::size_t cloth, Grid<float>& sizes) const;
 
  private:
   struct Parts;

@@ -40,6 +40,8 @@ class ConjugateGradients {
   /// @param v      [n x n] the guess, then the solution; mates equal [m/s]
   SolveReport solve(const System& system, const Stop& stop, Planes3& right, Planes3& v,
                     ThreadTeam& team);
+  /// Where the last iteration went, up to a factor. [n x n]
+  [[nodiscard]] const Planes3& direction() const { return direction_; }
 
  private:
   void invert_row(const System& system, int row);

@@ -95,6 +95,12 @@ void Descent::run(std::span<const Contact> contacts, const MultigridOptions& opt
   hold_pins();
 }
 
+void Descent::last_corrections(Grid<float>& sizes) const {
+  const auto scale = static_cast<float>(pending_way_ / cloth_.rest_spacing);
+  for (int r = 0; r < cloth_.size; ++r)
+    for (int c = 0; c < cloth_.size; ++c) sizes(r, c) = scale * length(direction_.at(r, c));
+}
+
 void Descent::hold_pins() {
   for (const Pin& held : cloth_.pins)
     for (const int sample : held.copies) fall_.set(sample, vec_cast<float>(held.target));

@@ -41,6 +41,8 @@ class Descent {
   [[nodiscard]] int iterations() const { return iterations_; }
   /// The last iteration's largest correction over the rest spacing.
   [[nodiscard]] double correction() const { return correction_; }
+  /// That of every sample. @param sizes [n x n]
+  void last_corrections(Grid<float>& sizes) const;
 
  private:
   /// What a descent carries from one iteration to the next; every worker has its own, all alike.

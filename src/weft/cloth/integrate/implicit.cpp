@@ -91,6 +91,19 @@ class Implicit final : public Integrator {
     return contacts_.forces();
   }
 
+  bool last_corrections(Grid<float>& sizes) const override {
+    float largest = 0;
+    for (int r = 0; r < cloth_.size; ++r)
+      for (int c = 0; c < cloth_.size; ++c) {
+        sizes(r, c) = length(solver_.direction().at(r, c));
+        largest = std::max(largest, sizes(r, c));
+      }
+    const float scale = largest > 0 ? static_cast<float>(report_.residual) / largest : 0;
+    for (int r = 0; r < cloth_.size; ++r)
+      for (int c = 0; c < cloth_.size; ++c) sizes(r, c) *= scale;
+    return true;
+  }
+
   StepReport end(ClothState& state) noexcept override {
     accept(cloth_, next_, state, team_);
     return report_;

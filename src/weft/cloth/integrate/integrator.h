@@ -85,6 +85,10 @@ class Integrator {
   /// Normal forces of the contacts of the last iterate, in their order; empty where the method
   /// does not solve for contacts. [N]
   [[nodiscard]] virtual std::span<const float> contact_forces() const noexcept { return {}; }
+  /// The last correction that the last iterate made to each sample, over the rest spacing, the
+  /// largest of which is its residual. @param sizes [n x n]
+  /// @return false where the method does not iterate; sizes are as they were
+  virtual bool last_corrections(Grid<float>& /*sizes*/) const { return false; }
   /// Makes the proposal the state; mates equal, pins where the proposal has them.
   virtual StepReport end(ClothState& state) noexcept = 0;
 

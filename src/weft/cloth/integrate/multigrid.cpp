@@ -39,6 +39,11 @@ class Multigrid final : public Integrator {
     return descent_.contact_forces();
   }
 
+  bool last_corrections(Grid<float>& sizes) const override {
+    descent_.last_corrections(sizes);
+    return true;
+  }
+
   StepReport end(ClothState& state) noexcept override {
     accept(cloth_, descent_.next(), state, team_);
     return report_;

@@ -9,6 +9,7 @@
 #include "weft/cloth/strain_limit.h"
 #include "weft/sim/attachments.h"
 #include "weft/sim/driven_bodies.h"
+#include "weft/sim/grab.h"
 #include "weft/sim/pins.h"
 #include "weft/sim/runaway.h"
 #include "weft/sim/simulation.h"
@@ -32,10 +33,11 @@ struct Mover {
 
 struct Simulation::Parts {
   Parts(const Scene& given_scene, std::string given_name, const TeamOptions& given_team,
-        Progress* given_progress)
+        const SimulationHelp& help)
       : scene(given_scene),
         name(std::move(given_name)),
-        progress(given_progress),
+        progress(help.progress),
+        shelf(help.surfaces),
         team(given_team),
         lone_team({1, given_team.instructions}),
         substep_time(1 / (scene.frame_rate * scene.substeps)),
@@ -92,6 +94,7 @@ struct Simulation::Parts {
   Scene scene;
   std::string name;
   Progress* progress;
+  SurfaceShelf* shelf;  // none: everything is loaded anew
   ThreadTeam team, lone_team;
   double substep_time;  // [s]
   double time_step;     // of the step: a substep or a piece of one [s]
@@ -106,6 +109,7 @@ struct Simulation::Parts {
   std::vector<Mover> movers;                        // one a cloth
   std::unique_ptr<Collider> collider;
   std::vector<MovingCloth> moving;  // of this step
+  Grab grab;
   int frame = 0;
 };
 

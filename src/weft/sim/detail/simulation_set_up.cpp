@@ -44,7 +44,7 @@ LoadedSurface Simulation::Parts::load(const std::string& surface, ConvertOptions
   options.files = scene.files;
   const auto read = [&] {
     try {
-      return load_surface(surface, options);
+      return shelf != nullptr ? shelf->load(surface, options) : load_surface(surface, options);
     } catch (const UsageError& error) {
       // What a command line gets wrong by itself, a scene names in its file.
       throw SceneError(name, fmt::format("'{}': {}", what, error.what()), "");

@@ -1,0 +1,66 @@
+#include "weft/sim/grab.h"
+
+#include <algorithm>
+
+#include "weft/sim/simulation.h"
+
+namespace weft {
+namespace {
+
+/// Of a hand [m/s].
+constexpr double most_speed = 3;
+/// From the samples beside it, in rest lengths: the strain limit lets cloth stretch a little.
+constexpr double most_stretch = 1.08;
+
+/// As far towards b as `most` from a.
+Vec3d towards(Vec3d a, Vec3d b, double most) {
+  const double way = length(b - a);
+  return way > most ? a + (most / way) * (b - a) : b;
+}
+
+/// A place near the wanted one that tears at none of the samples beside a pin, seen from all of its
+/// copies. [m]
+Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, Vec3d wanted) {
+  const int n = held.cloth.size;
+  const auto beside = [&](int copy, int down, int right) {
+    const int r = copy / n + down, c = copy % n + right;
+    if (std::min(r, c) < 0 || std::max(r, c) >= n) return;
+    const Vec3d rest = vec_cast<double>(held.cloth.rest.at(r, c) - held.cloth.rest.at(copy));
+    wanted = towards(vec_cast<double>(held.state.position.at(r, c)), wanted,
+                     most_stretch * length(rest));
+  };
+  for (const int copy : pin.copies) {
+    beside(copy, -1, 0);
+    beside(copy, 1, 0);
+    beside(copy, 0, -1);
+    beside(copy, 0, 1);
+  }
+  return wanted;
+}
+
+}  // namespace
+
+void Grab::take(std::size_t cloth, int sample, SimulatedCloth& held) {
+  const std::size_t pins = held.cloth.pins.size();
+  const Vec3d here = vec_cast<double>(held.state.position.at(sample));
+  pin_ = pin(held.cloth, sample, here);
+  added_ = held.cloth.pins.size() > pins;
+  cloth_ = cloth;
+  wanted_ = here;
+}
+
+void Grab::move(double time_step, std::optional<double> ground, SimulatedCloth& held) const {
+  Pin& pin = held.cloth.pins[static_cast<std::size_t>(pin_)];
+  const Vec3d here = vec_cast<double>(held.state.position.at(pin.sample));
+  Vec3d next = within_reach(held, pin, towards(here, wanted_, most_speed * time_step));
+  const double thickness = held.cloth.material.thickness;
+  if (ground) next.y = std::max(next.y, std::min(here.y, *ground + thickness));
+  pin.target = next;
+}
+
+void Grab::let_go(Cloth& held) {
+  if (added_) unpin_last(held);
+  pin_ = -1;
+}
+
+}  // namespace weft
