@@ -129,6 +129,62 @@ TEST(Renderer, DrawingTheSameSceneTwiceGivesTheSameBytes) {
   EXPECT_EQ(Renderer(width, height).draw(scene).rgb, first.rgb);
 }
 
+TEST(Renderer, ASurfaceOfTheSameRevisionIsNotLookedAtAgain) {
+  const Planes3 sheet = wavy_sheet(33, 0.4F), other = wavy_sheet(33, 0.1F);
+  DrawnScene scene;
+  scene.surfaces = {body_of(sheet)};
+  scene.ground = 0.0;
+  scene.camera = frame_box(bounds(sheet), 0.5, 0.5, 4.0 / 3);
+  scene.surfaces[0].revision = 7;
+  Renderer renderer(width, height);
+  const Picture first = renderer.draw(scene);
+  scene.surfaces[0].positions = &other;
+  EXPECT_EQ(renderer.draw(scene).rgb, first.rgb);
+  scene.surfaces[0].revision = 8;
+  const Picture moved = renderer.draw(scene);
+  EXPECT_NE(moved.rgb, first.rgb);
+  scene.surfaces[0].revision = 0;
+  EXPECT_EQ(Renderer(width, height).draw(scene).rgb, moved.rgb);
+}
+
+TEST(Renderer, KeptLightIsThatOfThePictureBeforeUntilItIsAskedForAnew) {
+  const Planes3 low = wavy_sheet(33, 0.1F), high = wavy_sheet(33, 0.8F);
+  DrawnScene scene;
+  scene.surfaces = {body_of(low)};
+  scene.ground = 0.0;
+  scene.camera = frame_box({{-1, 0, -1}, {1, 1, 1}}, 0.5, 0.5, 4.0 / 3);
+  Renderer renderer(width, height);
+  scene.keep_light = true;  // but there is none yet
+  const Picture first = renderer.draw(scene);
+  EXPECT_EQ(Renderer(width, height).draw(scene).rgb, first.rgb);
+  scene.surfaces[0].positions = &high;
+  const Picture kept = renderer.draw(scene);
+  scene.keep_light = false;
+  const Picture renewed = renderer.draw(scene);
+  EXPECT_NE(kept.rgb, first.rgb);
+  EXPECT_NE(kept.rgb, renewed.rgb);
+  EXPECT_EQ(Renderer(width, height).draw(scene).rgb, renewed.rgb);
+}
+
+TEST(Renderer, ColoursOfSamplesAreTimesTheSurfacesOwn) {
+  const Planes3 sheet = wavy_sheet(33, 0.4F);
+  Planes3 halves(2);
+  for (int r = 0; r < 2; ++r) {
+    halves.set(r, 0, {1, 0, 0});
+    halves.set(r, 1, {0, 0, 1});
+  }
+  DrawnScene scene;
+  scene.surfaces = {body_of(sheet)};
+  scene.surfaces[0].colour = {0.8F, 0.8F, 0.8F};
+  scene.surfaces[0].colours = &halves;
+  scene.camera = frame_box(bounds(sheet), 0, 0.9, 4.0 / 3);
+  const Picture picture = Renderer(width, height).draw(scene);
+  const Vec3d left = mean_colour(picture, 40, 60, 4);
+  const Vec3d right = mean_colour(picture, 120, 60, 4);
+  EXPECT_GT(left.x, left.z + 20);
+  EXPECT_GT(right.z, right.x + 20);
+}
+
 TEST(Renderer, TwoRenderersTakeTurnsAndOneMayGo) {
   const Planes3 sphere = sphere_grid(17, {0, 0, 0}, 0.5F);
   DrawnScene scene;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -21,8 +22,13 @@ struct DrawnSurface {
   const BorderMates* mates = nullptr;  ///< so that normals are smooth across seams
   const NormalMap* normals = nullptr;  ///< shading of bodies; null: made from the positions
   Vec3f colour{0.42F, 0.05F, 0.07F};   ///< linear RGB
+  const Planes3* colours =
+      nullptr;  ///< [m x m], m >= 1, linear RGB that `colour` is times; or null
   Look look = Look::fabric;
   float threads = 300;  ///< of the weave along a side of the image, for fabric; 0: none
+  /// Differs whenever what the pointers lead to does: a surface that was drawn with it before, in
+  /// the same place of the list, is not looked at again. 0: look always.
+  std::uint64_t revision = 0;
 };
 
 /// A plain mesh to draw as a body, some of its edges as lines. Pointers must outlive the call to
@@ -40,6 +46,7 @@ struct DrawnMesh {
 /// +z.
 struct KeyLight {
   double azimuth = -0.75, elevation = 0.92;
+  friend bool operator==(const KeyLight&, const KeyLight&) = default;
 };
 
 struct DrawnScene {
@@ -49,6 +56,9 @@ struct DrawnScene {
   std::vector<DrawnMesh> meshes;
   KeyLight light;
   bool on_white = false;  ///< white paper behind all, instead of a backdrop
+  /// The light of the picture before is good enough, where it was of the same surfaces: for
+  /// windows, as light costs more than the rest where there is no graphics hardware.
+  bool keep_light = false;
 };
 
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "weft/core/error.h"
+#include "weft/view/gl/canvas.h"
 #include "weft/view/gl/context.h"
 #include "weft/view/gl/scene_painter.h"
 
@@ -11,35 +12,6 @@ namespace {
 
 constexpr int samples = 4;
 constexpr int largest_side = 16384;
-
-/// A colour and a depth buffer to draw to. @param count  samples a pixel; 0 for one without
-/// averaging
-struct Canvas {
-  gl::Framebuffer target;
-  gl::Renderbuffer colour, depth;
-};
-
-gl::Renderbuffer attach(GLenum place, GLenum format, int count, std::array<int, 2> size) {
-  GLuint name = 0;
-  glGenRenderbuffers(1, &name);
-  gl::Renderbuffer buffer(name);
-  glBindRenderbuffer(GL_RENDERBUFFER, name);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, format, size[0], size[1]);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, name);
-  return buffer;
-}
-
-Canvas make_canvas(int count, std::array<int, 2> size) {
-  Canvas canvas;
-  canvas.target = gl::make_framebuffer();
-  glBindFramebuffer(GL_FRAMEBUFFER, canvas.target.name());
-  canvas.colour = attach(GL_COLOR_ATTACHMENT0, GL_RGBA8, count, size);
-  canvas.depth = attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, count, size);
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw Error(ExitCode::internal, "OpenGL", "the driver cannot draw pictures of this size",
-                "a smaller one is wanted");
-  return canvas;
-}
 
 std::array<int, 2> checked_size(int width, int height) {
   if (std::min(width, height) < 1 || std::max(width, height) > largest_side)
@@ -54,12 +26,12 @@ struct Renderer::Device {
   std::array<int, 2> size;
   gl::Context context;
   gl::ScenePainter painter;
-  Canvas drawn, averaged;
+  gl::Canvas drawn, averaged;
 
   Device(int width, int height)
       : size(checked_size(width, height)),
-        drawn(make_canvas(samples, size)),
-        averaged(make_canvas(0, size)) {}
+        drawn(gl::make_canvas(samples, size)),
+        averaged(gl::make_canvas(0, size)) {}
 };
 
 Renderer::Renderer(int width, int height) : device_(std::make_unique<Device>(width, height)) {}

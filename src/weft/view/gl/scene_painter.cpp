@@ -47,15 +47,13 @@ Sampler make_sampler(GLenum compare, GLint filter) {
   return Sampler(name);
 }
 
-Box3d bounds(const DrawnScene& scene) {
+Box3d bounds(std::span<const SurfaceBuffers> surfaces) {
   Box3d box;
-  const auto add = [&](const Box3d& part) {
-    if (part.empty()) return;
-    box.add(part.lower);
-    box.add(part.upper);
-  };
-  for (const DrawnSurface& surface : scene.surfaces) add(weft::bounds(*surface.positions));
-  for (const DrawnMesh& mesh : scene.meshes) add(weft::bounds(*mesh.mesh));
+  for (const SurfaceBuffers& surface : surfaces) {
+    if (surface.box().empty()) continue;
+    box.add(surface.box().lower);
+    box.add(surface.box().upper);
+  }
   return box;
 }
 
@@ -103,32 +101,54 @@ ScenePainter::ScenePainter()
 }
 
 void ScenePainter::paint(const DrawnScene& scene, const Target& target) {
-  lights_ = make_lights(scene.light, bounds(scene));
-  load(scene);
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_DEPTH_TEST);
+  load(scene);
+  const bool all_lit = std::all_of(surfaces_.begin(), surfaces_.end(),
+                                   [](const SurfaceBuffers& surface) { return surface.is_lit(); });
+  if (is_light_old_ && !(scene.keep_light && all_lit && scene.ground == ground_height_))
+    renew_light(scene);
+  draw_picture(scene, target);
+}
+
+void ScenePainter::renew_light(const DrawnScene& scene) {
+  is_light_old_ = false;
+  key_light_ = scene.light;
+  ground_height_ = scene.ground;
+  lights_ = make_lights(scene.light, bounds(surfaces_));
+  if (scene.ground) load_floor(*scene.ground);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   draw_key_depth();
   draw_sky_depth();
   glDisable(GL_DEPTH_TEST);
-  for (const SurfaceBuffers& surface : surfaces_) draw_skylight(surface, skylight_, 0.02F);
+  for (SurfaceBuffers& surface : surfaces_) {
+    draw_skylight(surface, skylight_, 0.02F);
+    surface.set_lit();
+  }
   if (scene.ground) draw_skylight(floor_, floor_light_, 0.09F);
-  draw_picture(scene, target);
 }
 
 void ScenePainter::load(const DrawnScene& scene) {
-  surfaces_.resize(scene.surfaces.size() + scene.meshes.size());
+  const std::size_t count = scene.surfaces.size() + scene.meshes.size();
+  if (count != surfaces_.size() || !scene.meshes.empty() || scene.light != key_light_ ||
+      scene.ground != ground_height_)
+    is_light_old_ = true;
+  surfaces_.resize(count);
   auto next = surfaces_.begin();
-  for (const DrawnSurface& surface : scene.surfaces) (next++)->load(surface);
+  for (const DrawnSurface& surface : scene.surfaces)
+    if ((next++)->load(surface)) is_light_old_ = true;
   for (const DrawnMesh& mesh : scene.meshes) (next++)->load(mesh);
-  if (!scene.ground) return;
+}
+
+void ScenePainter::load_floor(double ground) {
   // The shadow of the ball around the scene lies below it, away from the light.
-  const double height = std::max(0.0, lights_.centre.y - *scene.ground);
+  const double height = std::max(0.0, lights_.centre.y - ground);
   const Vec3d towards = lights_.key.back;
   const double away = height / std::max(0.2, towards.y);
-  const Vec3d middle{lights_.centre.x - 0.5 * away * towards.x, *scene.ground,
+  const Vec3d middle{lights_.centre.x - 0.5 * away * towards.x, ground,
                      lights_.centre.z - 0.5 * away * towards.z};
   floor_.load_ground(middle, 2.5 * lights_.radius + 0.7 * away);
 }
@@ -234,6 +254,8 @@ void ScenePainter::draw_surfaces(const DrawnScene& scene, const Matrix& to_clip)
     surface_.set("colour", drawn.colour);
     surface_.set("fabric", drawn.look == Look::fabric ? 1 : 0);
     surface_.set("threads", drawn.threads);
+    surface_.set("colours", unit_colours);
+    surfaces_[i].colours().bind(unit_colours);
     draw_lit(surfaces_[i], surface_);
   }
   mesh_.use();

@@ -26,6 +26,9 @@ class ScenePainter {
 
  private:
   void load(const DrawnScene& scene);
+  void renew_light(const DrawnScene& scene);
+  /// The part of the ground that shadows may fall on.
+  void load_floor(double ground);
   void draw_key_depth();
   void draw_sky_depth();
   /// @param blur  of the sky's shadows, in widths of the scene
@@ -48,6 +51,9 @@ class ScenePainter {
   Lights lights_;
   std::vector<SurfaceBuffers> surfaces_;  // those of the scene, then its meshes
   SurfaceBuffers floor_;
+  KeyLight key_light_;                   // that the light was made for,
+  std::optional<double> ground_height_;  // as the height of the ground
+  bool is_light_old_ = true;             // something moved since
 };
 
 }  // namespace weft::gl

@@ -113,13 +113,21 @@ void IndexList::draw_triangles() const {
   glDrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr);
 }
 
-void SurfaceBuffers::load(const DrawnSurface& surface) {
+bool SurfaceBuffers::load(const DrawnSurface& surface) {
   WEFT_ASSERT(surface.positions != nullptr && surface.positions->size() >= 2);
+  if (surface.revision != 0 && surface.revision == revision_) return false;
+  revision_ = surface.revision;
+  box_ = bounds(*surface.positions);
+  const std::vector<Vec3f> white{{1, 1, 1}};
+  const int colours = surface.colours != nullptr ? surface.colours->size() : 1;
+  fit(colours_, GL_RGB32F, colours, colours);
+  colours_.upload(surface.colours != nullptr ? packed(*surface.colours) : white);
   const Planes3 positions = without_holes(*surface.positions);
   upload_grid(positions, surface.normals != nullptr ? without_holes(surface.normals->normal)
                                                     : grid_normals(positions, surface.mates));
   const int light = std::clamp(positions.size(), least_light_samples, most_light_samples);
   make_sky_target(light, light);
+  return true;
 }
 
 void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normals) {
@@ -134,6 +142,8 @@ void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normal
 
 void SurfaceBuffers::load(const DrawnMesh& drawn) {
   WEFT_ASSERT(drawn.mesh != nullptr);
+  revision_ = 0;
+  box_ = bounds(*drawn.mesh);
   ShadedMesh shaded = shade_mesh(usable(*drawn.mesh));
   upload_folded(positions_, std::move(shaded.positions));
   upload_folded(normals_, std::move(shaded.normals));
@@ -166,6 +176,7 @@ void SurfaceBuffers::load_ground(Vec3d centre, double half_side) {
 
 void SurfaceBuffers::make_sky_target(int width, int height) {
   if (sky_front_.width() == width && sky_front_.height() == height) return;
+  is_lit_ = false;
   sky_front_ = Texture(GL_RGBA16F, width, height);
   sky_back_ = Texture(GL_RGBA16F, width, height);
   sky_target_ = make_framebuffer();

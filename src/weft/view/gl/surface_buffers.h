@@ -32,18 +32,24 @@ class IndexList {
 /// numbers. A mesh's vertices are folded into rows of 1024, so that it goes the same way as a grid.
 class SurfaceBuffers {
  public:
-  void load(const DrawnSurface& surface);
+  /// @return whether anything is new
+  bool load(const DrawnSurface& surface);
+  /// Whether light was drawn to its targets since they were made.
+  [[nodiscard]] bool is_lit() const { return is_lit_; }
+  void set_lit() { is_lit_ = true; }
   void load(const DrawnMesh& mesh);
   /// A flat square of the ground, 65 x 65 samples.
   void load_ground(Vec3d centre, double half_side);
 
   [[nodiscard]] const Texture& positions() const { return positions_; }
   [[nodiscard]] const Texture& normals() const { return normals_; }
-  /// Of a mesh: the colour of each vertex.
+  /// Of a grid: what its colour is times; of a mesh: the colour of each vertex.
   [[nodiscard]] const Texture& colours() const { return colours_; }
   [[nodiscard]] const Texture& sky_front() const { return sky_front_; }
   [[nodiscard]] const Texture& sky_back() const { return sky_back_; }
   [[nodiscard]] bool is_grid() const { return grid_side_ > 0; }
+  /// What was loaded lies in it; empty when nothing is finite.
+  [[nodiscard]] const Box3d& box() const { return box_; }
   /// Draws the triangles. @param step  for a grid: only every so many rows and columns, >= 1
   void draw(int step);
   /// Draws no more triangles of a grid than soft light needs.
@@ -61,6 +67,9 @@ class SurfaceBuffers {
   Framebuffer sky_target_;
   std::map<int, IndexList> triangles_;  // by step; made when first drawn
   int grid_side_ = 0;                   // 0: a mesh
+  std::uint64_t revision_ = 0;          // of the surface that was loaded
+  Box3d box_;
+  bool is_lit_ = false;
 };
 
 }  // namespace weft::gl

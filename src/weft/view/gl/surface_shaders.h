@@ -65,9 +65,9 @@ vec4 light_here(vec3 n) {
   return vec4(gl_FrontFacing ? own_front : own_back, seen);
 }
 #else
-uniform sampler2D normals, sky_front, sky_back;
+uniform sampler2D normals, colours, sky_front, sky_back;
 uniform vec3 colour;
-vec3 albedo() { return colour; }
+vec3 albedo() { return colour * texture(colours, aligned(uv, textureSize(colours, 0))).rgb; }
 vec3 outward() { return texture(normals, aligned(uv, textureSize(normals, 0))).xyz; }
 // The light map tells where all or none of the key light is; in between it is found anew.
 vec4 light_here(vec3 n) {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+
+#include "weft/view/gl/objects.h"
+
+namespace weft::gl {
+
+/// A colour and a depth buffer to draw to.
+struct Canvas {
+  Framebuffer target;
+  Renderbuffer colour, depth;
+};
+/// @param count  samples a pixel; 0 for one without averaging
+/// @param size   width and height [pixels]
+/// @throws Error when the driver cannot draw pictures of this size
+Canvas make_canvas(int count, std::array<int, 2> size);
+
+}  // namespace weft::gl
