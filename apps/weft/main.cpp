@@ -93,6 +93,7 @@ int run(int argc, char** argv) {
   add_simulate(program, context);
   add_drape(program, context);
   add_render(program, context);
+  add_view(program, context);
   add_shapes(program, context);
   add_table5(program, context);
   add_demo(program, context);

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "apps/viewer/colour_by.h"
+#include "weft/sim/scene.h"
+
+namespace weft::viewer {
+
+// What the window asks of the thread that simulates.
+
+struct Play {
+  bool running = true;
+};
+struct StepOnce {};
+struct Reset {};
+struct Grab {
+  std::size_t cloth = 0;
+  int sample = 0;
+};
+struct Pull {
+  Vec3d target;  ///< [m]
+};
+struct LetGo {};
+/// Shows something else.
+struct Open {
+  std::string subject;
+};
+/// Lays a cloth over what is shown, or over another body.
+struct DrapeOver {
+  std::string body;
+};
+/// Goes on with the scene changed.
+struct Change {
+  Scene scene;
+  std::string what;  ///< a few words for the status line
+};
+struct Recolour {
+  Colouring colouring;
+};
+using Command =
+    std::variant<Play, StepOnce, Reset, Grab, Pull, LetGo, Open, DrapeOver, Change, Recolour>;
+
+/// Commands from one thread to another, in order. Of pulls, changes and recolourings in a row only
+/// the last is kept.
+class CommandQueue {
+ public:
+  void push(Command command);
+  /// Moves everything that came into `commands`, which is emptied first.
+  void take(std::vector<Command>& commands);
+  /// Waits until there is a command, `stop` was called or the time has come.
+  /// @return whether there is a command
+  bool wait_until(std::chrono::steady_clock::time_point time);
+  /// Ends waiting, now and from now on.
+  void stop();
+  [[nodiscard]] bool stopped() const;
+  /// Whether something waits that makes loading what is being loaded useless.
+  [[nodiscard]] bool is_overtaken() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::vector<Command> waiting_;
+  bool stopped_ = false;
+};
+
+}  // namespace weft::viewer

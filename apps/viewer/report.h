@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "apps/viewer/snapshot.h"
+#include "weft/core/vec.h"
+
+namespace weft::viewer {
+
+/// How long the window's own work took, picture by picture [ms].
+class WorkTimes {
+ public:
+  void add(double milliseconds);
+  [[nodiscard]] double median() const { return part(0.5); }
+  [[nodiscard]] double p95() const { return part(0.95); }
+
+ private:
+  [[nodiscard]] double part(double share) const;
+  std::vector<double> times_;  // the last ones, in a ring
+  std::size_t next_ = 0;
+};
+
+/// What the window tells when it closes, and whoever watches it meanwhile.
+struct WindowReport {
+  int frames = 0;  ///< drawn
+  int width = 0, height = 0;
+  WorkTimes draw;  ///< upload and draw calls of the processor, of pictures with something new
+  std::vector<std::string> outputs;
+};
+/// @param middle  where the middle sample of the first cloth is seen [pixels]
+nlohmann::ordered_json to_json(const WindowReport& report, const Snapshot& snapshot,
+                               const Status& status, Vec2d middle);
+
+}  // namespace weft::viewer

@@ -1,0 +1,78 @@
+#include "apps/viewer/scene_edit.h"
+
+#include <algorithm>
+#include <array>
+
+#include "weft/sim/materials.h"
+
+namespace weft::viewer {
+namespace {
+
+constexpr std::array<std::string_view, 5> integrators{"multigrid", "implicit", "explicit",
+                                                      "desbrun", "two_level"};
+constexpr std::array<std::string_view, 4> colliders{"pyramid", "polar_map", "sphere_tree",
+                                                    "spatial_hash"};
+constexpr std::array<std::string_view, 8> bodies{"mannequin", "sphere", "torus", "cone",
+                                                 "box",       "knot",   "rod",   "double_torus"};
+
+bool are_same(const Material& a, const Material& b) {
+  return a.density == b.density && a.stretch == b.stretch && a.shear == b.shear &&
+         a.bending == b.bending && a.bend_springs == b.bend_springs && a.damping == b.damping &&
+         a.strain_limit == b.strain_limit && a.thickness == b.thickness;
+}
+
+}  // namespace
+
+std::span<const std::string_view> integrator_names() { return integrators; }
+std::span<const std::string_view> collider_names() { return colliders; }
+
+void set_integrator(Scene& scene, std::string_view name) {
+  if (name == "multigrid") scene.integrator = MultigridOptions{};
+  if (name == "implicit") scene.integrator = ImplicitOptions{};
+  if (name == "explicit") scene.integrator = ExplicitOptions{};
+  if (name == "desbrun") scene.integrator = DesbrunOptions{};
+  if (name == "two_level") scene.integrator = TwoLevelOptions{};
+}
+
+void set_collider(Scene& scene, std::string_view name) {
+  if (const auto collider = collider_named(name)) scene.collider = *collider;
+  // What was asked of another collider, this one may not know.
+  if (!knows_self_collision(scene.collider))
+    for (SceneCloth& cloth : scene.cloths) cloth.self_collision.reset();
+}
+
+std::string_view material_name(const Scene& scene) {
+  for (const NamedMaterial& named : named_materials())
+    if (!scene.cloths.empty() && are_same(named.material, scene.cloths[0].material))
+      return named.name;
+  return {};
+}
+
+void set_material(Scene& scene, std::string_view name) {
+  const auto material = find_material(name);
+  if (!material) return;
+  for (SceneCloth& cloth : scene.cloths) cloth.material = *material;
+}
+
+void set_wind(Scene& scene, Vec3d velocity) {
+  if (!scene.wind) scene.wind.emplace();
+  scene.wind->velocity = velocity;
+}
+
+void set_friction(Scene& scene, double friction) {
+  for (SceneCloth& cloth : scene.cloths) cloth.friction = friction;
+  for (SceneBody& body : scene.bodies) body.friction = friction;
+}
+
+std::vector<std::string> builtin_bodies() {
+  std::vector<std::string> names;
+  for (const std::string_view body : bodies) names.push_back("builtin:" + std::string(body));
+  return names;
+}
+
+void remove_bodies(Scene& scene) {
+  scene.bodies.clear();
+  for (SceneCloth& cloth : scene.cloths) cloth.attach.clear();
+}
+
+}  // namespace weft::viewer

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "weft/sim/scene.h"
+
+namespace weft::viewer {
+
+// What the panel offers to change of a scene.
+
+std::span<const std::string_view> integrator_names();
+std::span<const std::string_view> collider_names();
+/// With default options. @pre one of the names
+void set_integrator(Scene& scene, std::string_view name);
+void set_collider(Scene& scene, std::string_view name);
+
+/// The name of the first cloth's material; empty where it is one of the scene's own.
+std::string_view material_name(const Scene& scene);
+/// Of every cloth. @pre one of named_materials
+void set_material(Scene& scene, std::string_view name);
+
+void set_wind(Scene& scene, Vec3d velocity);
+/// Of every cloth and every body.
+void set_friction(Scene& scene, double friction);
+/// Bodies that may be chosen, `builtin:` before each.
+std::vector<std::string> builtin_bodies();
+/// Without bodies, and what is tied to them.
+void remove_bodies(Scene& scene);
+
+}  // namespace weft::viewer
