@@ -4,8 +4,8 @@
 
 namespace weft::figures {
 
-// The pictures of docs/theory.md, a file a picture, each by a function of its name's group. All are
-// made from built-in shapes; the same machine makes the same bits.
+// The pictures of the documents but for draped cloth, a file a picture, each by a function of its
+// name's group. All are made from built-in shapes; the same machine makes the same bits.
 
 /// repair.png, cube.png
 void draw_input(const std::filesystem::path& folder);
@@ -15,5 +15,10 @@ void draw_cuts(const std::filesystem::path& folder);
 void draw_maps(const std::filesystem::path& folder);
 /// samples.png, pyramid.png, rebuilt.png, mannequin-colours.png, mannequin-map.png
 void draw_images(const std::filesystem::path& folder);
+
+/// normal-mapped.png, way.png: figures 1 and 2 of the paper
+void draw_papers(const std::filesystem::path& folder);
+/// filters.png: figure 3 of the paper, by weights that were computed
+void draw_filters(const std::filesystem::path& folder);
 
 }  // namespace weft::figures

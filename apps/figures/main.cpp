@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
     weft::figures::draw_cuts(folder);
     weft::figures::draw_maps(folder);
     weft::figures::draw_images(folder);
+    weft::figures::draw_papers(folder);
+    weft::figures::draw_filters(folder);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "weft_figures: error: %s\n", error.what());
     return 1;

@@ -11,8 +11,9 @@
 namespace weft::app {
 namespace {
 
-constexpr double least_turn = 4;  // [s]
-constexpr int least_part = 32;    // [pixels]
+constexpr double least_turn = 4;       // [s]
+constexpr double most_turn_rate = 30;  // [1/s]
+constexpr int least_part = 32;         // [pixels]
 
 int text_scale_of(int height) { return std::max(1, height / 300); }
 
@@ -84,10 +85,10 @@ Picture Shots::still(int frame) {
   return draw(frames, view_.azimuth, outline_at(frame).points());
 }
 
-Shots::Take Shots::playing() const {
+Shots::Take Shots::playing(double most_rate) const {
   Take take;
   take.plays = true;
-  take.rate = frame_rate();
+  take.rate = std::min(frame_rate(), most_rate);
   for (const auto& subject : subjects_) {
     const double seconds = (subject->frames() - 1) / subject->frame_rate();
     take.count = std::max(take.count, 1 + static_cast<int>(std::floor(seconds * take.rate + 0.5)));
@@ -99,7 +100,7 @@ Shots::Take Shots::playing() const {
 Shots::Take Shots::turning(std::optional<int> frame) const {
   Take take;
   if (!frame && any_moves()) {
-    take = playing();
+    take = playing(most_turn_rate);
     take.points = outline().points_turning();
   } else {
     take.frame = frame.value_or(-1);

@@ -25,7 +25,7 @@ Picture in_a_row(const std::vector<Panel>& panels, int text_scale) {
   Picture row = blank_picture(width, height + (labelled ? label_height(text_scale) : 0), paper);
   int x = 0;
   for (const Panel& panel : panels) {
-    paste(row, panel.picture, x, 0);
+    paste(row, panel.picture, x, (height - panel.picture.height) / 2);
     const int indent = (panel.picture.width - text_width(panel.label, text_scale)) / 2;
     draw_text(row, panel.label, {x + indent, height + panel_gap / 2, text_scale}, ink);
     x += panel.picture.width + panel_gap;
