@@ -33,6 +33,14 @@ def with_window(block):
     return re.sub(r"^(weft view [^\n#]*)", r"xvfb-run -a \1 --frames 2 ", block, flags=re.M)
 
 
+def drawn_small(block):
+    """Pictures and movies at a size that costs little: the size is no matter of these tests."""
+    def small(match):
+        line = re.sub(r" --(width|height) \d+", "", match[0])
+        return line if ".png" in line else re.sub(r"(?=\s*(#|$))", " --width 96 --height 72", line, count=1)
+    return re.sub(r"^weft render .*$", small, block, flags=re.M)
+
+
 class Documents(ProgramTest):
     def run_document(self, path, environment):
         folder = self.folder / "-".join(path.relative_to(SOURCE).with_suffix("").parts)
@@ -41,7 +49,7 @@ class Documents(ProgramTest):
             if "weft view" in block and not shutil.which("xvfb-run"):
                 print(f"{path.name}: not run without xvfb-run:\n{block}")
                 continue
-            done = subprocess.run(["bash", "-e", "-c", with_window(block)], cwd=folder, env=environment,
+            done = subprocess.run(["bash", "-e", "-c", with_window(drawn_small(block))], cwd=folder, env=environment,
                                   capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, f"{path.name}:\n{block}\n{done.stderr}")
 
