@@ -9,8 +9,8 @@
 namespace weft::gl {
 namespace {
 
-/// Samples along a side of the light map of a grid: the grid's own within these bounds.
-constexpr int least_light_samples = 129, most_light_samples = 257;
+/// Samples along a side of the light map of a grid, whatever its own: soft light needs no more.
+constexpr int light_samples = 129;
 constexpr int most_coarse_quads = 42;
 constexpr int mesh_columns = 1024;
 constexpr int ground_side = 65;
@@ -125,8 +125,7 @@ bool SurfaceBuffers::load(const DrawnSurface& surface) {
   const Planes3 positions = without_holes(*surface.positions);
   upload_grid(positions, surface.normals != nullptr ? without_holes(surface.normals->normal)
                                                     : grid_normals(positions, surface.mates));
-  const int light = std::clamp(positions.size(), least_light_samples, most_light_samples);
-  make_sky_target(light, light);
+  make_sky_target(light_samples, light_samples);
   return true;
 }
 
