@@ -76,10 +76,11 @@ void draw_normal_mapped(const std::filesystem::path& path) {
   const Conversion made = convert_figure(options);
   Portrait portrait(made.input.mesh, 240, 320);
   portrait.look_at_head();
-  write_png(path, in_a_row({{portrait.of_mesh(),
-                             fmt::format("{} triangles", made.input.mesh.triangles.size())},
-                            {portrait.of_image(made.image, nullptr), "65 x 65 samples"},
-                            {portrait.of_image(made.image, &*made.normals), "with normal map"}}));
+  write_png(
+      path,
+      in_a_row({{portrait.of_mesh(), fmt::format("{} triangles", made.input.mesh.triangles.size())},
+                {portrait.of_image(made.image, nullptr), "65 x 65 samples"},
+                {portrait.of_image(made.image, &*made.normals), "with normal map"}}));
 }
 
 /// Normals as colours: -1 to 1 as dark to bright.
