@@ -95,7 +95,7 @@ float key_visibility(vec3 p, vec3 n, float turn, bool asked) {
     float d = texture(key_depth, q.xy + aside).r;
     if (d < min(q.z + dot(slope, aside), deepest)) { hidden += 1.0; depth += d; }
   }
-  float width = clamp(light_width * (q.z - depth / max(hidden, 1.0)), 0.003, widest_search);
+  float width = clamp(light_width * (q.z - depth / max(hidden, 1.0)), 0.007, widest_search);
   float visible = 0.0;
   int taken = hidden > 0.5 ? 24 : 0;
   for (int i = 0; i < taken; ++i) {
