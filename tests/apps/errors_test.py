@@ -46,6 +46,11 @@ def twisted_strip():
     return "\n".join(lines) + "\n"
 
 
+def without_place(line):
+    """Where a cloth runs away first is no matter of the page."""
+    return re.sub(r"at frame \d+, particle \(row \d+, col \d+\)", "at FRAME, PARTICLE", line)
+
+
 class Errors(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -69,7 +74,7 @@ class Errors(ProgramTest):
         for command, line in entries:
             with self.subTest(command):
                 said, code = self.said(command)
-                self.assertEqual(said, line.replace("COMMANDS", self.commands))
+                self.assertEqual(without_place(said), without_place(line.replace("COMMANDS", self.commands)))
                 self.assertEqual(code == 0, line.startswith("weft: warning"))
 
     def test_every_heading_has_its_error(self):
