@@ -179,7 +179,8 @@ void Panel::show_colours(const PanelInput& input, Controls& controls) {
   const auto& subject = input.snapshot.subject;
   const double limit =
       subject && subject->scene ? subject->scene->cloths[0].material.strain_limit : 0;
-  show_legend(legend_of(colouring, limit));
+  // Of what is seen, which follows what is chosen a picture later.
+  show_legend(legend_of(input.snapshot.colouring, limit));
 }
 
 void Panel::show_numbers(const PanelInput& input) const {

@@ -18,16 +18,22 @@ Vec3d towards(Vec3d a, Vec3d b, double most) {
   return way > most ? a + (most / way) * (b - a) : b;
 }
 
-/// A place near the wanted one that tears at none of the samples beside a pin, seen from all of its
-/// copies. [m]
-Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, Vec3d wanted) {
+/// A place near the next one that tears at none of the samples beside a pin, seen from all of its
+/// copies. They are taken along as far as they go the same way by themselves; where the cloth is
+/// taut and springs back, the hand gives way no more than it must.
+/// @param way  from here to the next place [m]
+Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, double time_step, Vec3d way) {
   const int n = held.cloth.size;
+  Vec3d place = vec_cast<double>(held.state.position.at(pin.sample)) + way;
+  const Vec3d ahead = normalized(way);
   const auto beside = [&](int copy, int down, int right) {
     const int r = copy / n + down, c = copy % n + right;
     if (std::min(r, c) < 0 || std::max(r, c) >= n) return;
     const Vec3d rest = vec_cast<double>(held.cloth.rest.at(r, c) - held.cloth.rest.at(copy));
-    wanted = towards(vec_cast<double>(held.state.position.at(r, c)), wanted,
-                     most_stretch * length(rest));
+    const double along = dot(vec_cast<double>(held.state.velocity.at(r, c)), ahead);
+    const Vec3d there = vec_cast<double>(held.state.position.at(r, c)) +
+                        std::min(std::max(0.0, along) * time_step, length(way)) * ahead;
+    place = towards(there, place, most_stretch * length(rest));
   };
   for (const int copy : pin.copies) {
     beside(copy, -1, 0);
@@ -35,7 +41,7 @@ Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, Vec3d wanted) {
     beside(copy, 0, -1);
     beside(copy, 0, 1);
   }
-  return wanted;
+  return place;
 }
 
 }  // namespace
@@ -52,7 +58,8 @@ void Grab::take(std::size_t cloth, int sample, SimulatedCloth& held) {
 void Grab::move(double time_step, std::optional<double> ground, SimulatedCloth& held) const {
   Pin& pin = held.cloth.pins[static_cast<std::size_t>(pin_)];
   const Vec3d here = vec_cast<double>(held.state.position.at(pin.sample));
-  Vec3d next = within_reach(held, pin, towards(here, wanted_, most_speed * time_step));
+  const Vec3d way = towards(here, wanted_, most_speed * time_step) - here;
+  Vec3d next = within_reach(held, pin, time_step, way);
   const double thickness = held.cloth.material.thickness;
   if (ground) next.y = std::max(next.y, std::min(here.y, *ground + thickness));
   pin.target = next;
