@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "bench/exact_inside.h"
-#include "weft/collide/body_query.h"
+#include "weft/collide/contacts/body_query.h"
 #include "weft/collide/polar_map.h"
 #include "weft/core/random.h"
 #include "weft/image/convert.h"

@@ -1,4 +1,4 @@
-#include "weft/collide/body_query.h"
+#include "weft/collide/contacts/body_query.h"
 
 #include <gtest/gtest.h>
 

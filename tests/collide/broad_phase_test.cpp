@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/collide/test_bodies.h"
-#include "weft/collide/cell_pairs.h"
-#include "weft/collide/pyramid_pairs.h"
-#include "weft/collide/spatial_hash.h"
-#include "weft/collide/sphere_tree.h"
+#include "weft/collide/pairs/cell_pairs.h"
+#include "weft/collide/pairs/pyramid_pairs.h"
+#include "weft/collide/pairs/spatial_hash.h"
+#include "weft/collide/pairs/sphere_tree.h"
 #include "weft/core/random.h"
 #include "weft/mesh/crossings.h"
 #include "weft/mesh/distance.h"

@@ -1,4 +1,4 @@
-#include "weft/collide/contact_response.h"
+#include "weft/collide/contacts/contact_response.h"
 
 #include <gtest/gtest.h>
 

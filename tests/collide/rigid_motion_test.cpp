@@ -1,4 +1,4 @@
-#include "weft/collide/rigid_motion.h"
+#include "weft/collide/guard/rigid_motion.h"
 
 #include <gtest/gtest.h>
 

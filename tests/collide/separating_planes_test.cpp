@@ -1,4 +1,4 @@
-#include "weft/collide/separating_planes.h"
+#include "weft/collide/guard/separating_planes.h"
 
 #include <gtest/gtest.h>
 

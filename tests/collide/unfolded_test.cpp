@@ -1,4 +1,4 @@
-#include "weft/collide/unfolded.h"
+#include "weft/collide/pairs/unfolded.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include "weft/cloth/strain_limit.h"
 #include "weft/cloth/wind.h"
 #include "weft/collide/collider.h"
-#include "weft/collide/contact_response.h"
+#include "weft/collide/contacts/contact_response.h"
 
 // The whole program's allocations are counted: the standard lets a program replace these.
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/validation.h"
-#include "weft/collide/contact_response.h"
+#include "weft/collide/contacts/contact_response.h"
 
 namespace weft {
 namespace {

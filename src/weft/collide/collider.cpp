@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/collide/contacts/response.h"
 #include "weft/collide/guarding_collider.h"
+#include "weft/collide/pairs/pyramid_pairs.h"
+#include "weft/collide/pairs/spatial_hash.h"
+#include "weft/collide/pairs/sphere_tree.h"
 #include "weft/collide/polar_map.h"
-#include "weft/collide/pyramid_pairs.h"
-#include "weft/collide/response.h"
-#include "weft/collide/spatial_hash.h"
-#include "weft/collide/sphere_tree.h"
 
 namespace weft {
 namespace {

@@ -3,14 +3,14 @@
 #include <memory>
 #include <vector>
 
-#include "weft/collide/body_contacts.h"
-#include "weft/collide/cell_pairs.h"
-#include "weft/collide/cell_planes.h"
 #include "weft/collide/collider.h"
-#include "weft/collide/contact_response.h"
-#include "weft/collide/pair_contacts.h"
-#include "weft/collide/plane_guard.h"
-#include "weft/collide/refuges.h"
+#include "weft/collide/contacts/body_contacts.h"
+#include "weft/collide/contacts/contact_response.h"
+#include "weft/collide/contacts/pair_contacts.h"
+#include "weft/collide/guard/cell_planes.h"
+#include "weft/collide/guard/plane_guard.h"
+#include "weft/collide/guard/refuges.h"
+#include "weft/collide/pairs/cell_pairs.h"
 
 namespace weft {
 

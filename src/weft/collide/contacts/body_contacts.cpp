@@ -1,0 +1,151 @@
+#include "weft/collide/contacts/body_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Of the gap: how much of what is missing to it a step may win back, so that cloth that starts
+/// inside something is pushed out and not shot out.
+constexpr double most_recovery = 0.25;
+/// The solve may bring cloth closer than its proposal, by springs: contacts begin this many gaps
+/// before the one that is kept.
+constexpr double foresight = 1.5;
+/// Steps as long as the present one that a look reckons with.
+constexpr double ahead = 1;
+/// Of distances in single precision, generously.
+constexpr double rounding = 1e-5;
+
+double pair_friction(double a, double b) { return std::sqrt(a * b); }
+
+}  // namespace
+
+Vec3d way_of(const ContactBody& body, const BodyPoint& at) {
+  if (body.start == body.end) return {};
+  Vec3d moved;
+  for (std::size_t k = 0; k < 3; ++k)
+    moved += at.weights[k] * (vec_cast<double>(body.end->at(at.samples[k])) -
+                              vec_cast<double>(body.start->at(at.samples[k])));
+  return moved;
+}
+
+BodyContacts::BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
+    : grid_(grid),
+      gap_(cloth.thickness),
+      friction_(cloth.friction),
+      inside_(static_cast<std::size_t>(grid.size()) * grid.size(), 0),
+      doubted_(inside_.size(), 0) {}
+
+void BodyContacts::save(std::vector<int>& marks) const {
+  marks.clear();
+  for (std::size_t s = 0; looked_ && s < inside_.size(); ++s)
+    marks.push_back(2 * inside_[s] + doubted_[s]);
+}
+
+void BodyContacts::restore(std::span<const int> marks) {
+  looked_ = marks.size() == inside_.size();
+  for (std::size_t s = 0; looked_ && s < inside_.size(); ++s) {
+    inside_[s] = marks[s] / 2;
+    doubted_[s] = static_cast<char>(marks[s] % 2);
+  }
+}
+
+void BodyContacts::put_offset(double surface, double gap_at_start, Contact& contact) const {
+  contact.offset = static_cast<float>(surface + std::min(gap_, gap_at_start));
+  contact.lift = static_cast<float>(std::clamp(gap_ - gap_at_start, 0.0, most_recovery * gap_));
+}
+
+std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, Vec3f start, double reach,
+                                            Known& known) {
+  const Vec3d point = vec_cast<double>(start);
+  const double since = length(point - vec_cast<double>(known.place));
+  if (known.distance - since > reach * (1 + rounding)) return std::nullopt;
+  // Farther than need be, so that the next steps need not look again.
+  const double wider = reach + ahead * (reach - foresight * gap_) + foresight * gap_;
+  const auto found = body.query->closest(point, wider, known.triangle);
+  known = {start, static_cast<float>(found ? std::sqrt(found->squared_distance) : wider),
+           found ? found->triangle : known.triangle};
+  if (!found || !(found->squared_distance < reach * reach)) return std::nullopt;
+  return found;
+}
+
+void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, bool deep,
+                             int sample, std::vector<Contact>& out) {
+  const Vec3d start = vec_cast<double>(cloth.start.at(sample));
+  const Vec3d way = vec_cast<double>(cloth.position.at(sample)) - start;
+  const double reach = deep ? HUGE_VAL : foresight * gap_ + length(way) + body.most_moved;
+  const auto found =
+      look(body, cloth.start.at(sample), reach, known_[body.number - 1].samples[sample]);
+  if (!found) return;
+  // What was outside and kept out cannot be inside now, whatever the normals of an image say that
+  // folds or crosses itself somewhere.
+  const bool behind = deep && body.query->behind(start, *found);
+  if (behind) inside_[sample] = body.number;
+  const double distance = std::sqrt(found->squared_distance);
+  // On the surface itself rounding would choose the direction.
+  constexpr double touching = 1e-9;
+  const Vec3d normal = distance > touching
+                           ? ((behind ? -1 : 1) / distance) * (start - found->position)
+                           : body.query->normal_at(*found);
+  const double gap = behind ? -distance : distance;
+  const Vec3d slide = way_of(body, *found);
+  if (gap + dot(normal, way - slide) >= foresight * gap_) return;
+  Contact contact;
+  contact.samples[0] = sample;
+  contact.normal = vec_cast<float>(normal);
+  put_offset(dot(normal, found->position + slide), gap, contact);
+  contact.friction = static_cast<float>(pair_friction(friction_, body.friction));
+  contact.slide = vec_cast<float>(slide);
+  out.push_back(contact);
+}
+
+void BodyContacts::find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
+                               std::vector<Contact>& out) const {
+  if (cloth.position.at(sample).y >= ground.height + foresight * gap_) return;
+  Contact contact;
+  contact.samples[0] = sample;
+  contact.normal = {0, 1, 0};
+  put_offset(ground.height, double{cloth.start.at(sample).y} - ground.height, contact);
+  contact.friction = static_cast<float>(pair_friction(friction_, ground.friction));
+  out.push_back(contact);
+}
+
+void BodyContacts::find_for_sample(const MovingCloth& cloth, std::span<const ContactBody> bodies,
+                                   const Ground* ground, int sample, std::vector<Contact>& out) {
+  const int was_inside = inside_[sample];
+  inside_[sample] = 0;
+  for (const ContactBody& body : bodies) {
+    const bool doubt = !looked_ || was_inside == body.number || doubted_[sample] != 0;
+    find_body(cloth, body, doubt && body.query->closed(), sample, out);
+  }
+  doubted_[sample] = 0;
+  if (ground != nullptr) find_ground(cloth, *ground, sample, out);
+}
+
+void BodyContacts::forget_moved(std::span<const ContactBody> bodies) {
+  known_.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    KnownBody& known = known_[i];
+    known.samples.resize(inside_.size());
+    if (known.placed == bodies[i].placed) continue;
+    known.placed = bodies[i].placed;
+    for (Known& sample : known.samples) sample.distance = 0;
+  }
+}
+
+void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> bodies,
+                        const Ground* ground, ThreadTeam& team) {
+  forget_moved(bodies);
+  const int n = grid_.size();
+  team.run([&](Worker& worker) {
+    found_.fill(n * n, worker, [&](int s, std::vector<Contact>& out) {
+      if (grid_.point(s) == s) find_for_sample(cloth, bodies, ground, s, out);
+    });
+  });
+  contacts_.clear();
+  append(found_, contacts_);
+  looked_ = true;
+}
+
+}  // namespace weft

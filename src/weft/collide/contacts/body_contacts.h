@@ -1,0 +1,88 @@
+#pragma once
+
+#include <vector>
+
+#include "weft/collide/collider.h"
+#include "weft/collide/contacts/body_query.h"
+#include "weft/collide/pairs/chunks.h"
+#include "weft/core/contact.h"
+
+namespace weft {
+
+/// A body as contacts are looked for, in the step's motion.
+struct ContactBody {
+  int number = 0;                    ///< >= 1, what marks call it
+  const BodyQuery* query = nullptr;  ///< placed at the start of the step
+  const Planes3* start = nullptr;
+  const Planes3* end = nullptr;  ///< the start where it stands still
+  double friction = 0;           ///< of the body
+  double most_moved = 0;         ///< by any sample during the step [m]
+  int placed = 0;                ///< how often it has been placed
+};
+
+/// How a point of a body's surface goes during the step. [m]
+[[nodiscard]] Vec3d way_of(const ContactBody& body, const BodyPoint& at);
+
+/// Which of a cloth's samples are behind the surface of a closed body: its number, or 0.
+using InsideMarks = std::vector<int>;
+
+/// Contacts of a cloth's samples with bodies and the ground: the half-space before the point of a
+/// surface that was closest at the start of the step. Outside, a sample cannot have changed sides,
+/// so the way from there to it tells the side, also of open surfaces. Samples inside closed bodies
+/// are pushed out, gently.
+class BodyContacts {
+ public:
+  struct Ground {
+    double height = 0, friction = 0;
+  };
+  /// @param grid  kept by reference
+  BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth);
+
+  /// @param ground  none: null
+  void find(const MovingCloth& cloth, std::span<const ContactBody> bodies, const Ground* ground,
+            ThreadTeam& team);
+  [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
+  [[nodiscard]] const InsideMarks& inside() const { return inside_; }
+  /// A body moved onto this sample in the last step, so it may be inside now.
+  void doubt(int sample) { doubted_[sample] = 1; }
+  /// What is known of every sample, for going on elsewhere: its mark and whether it is in doubt.
+  /// Empty before the first look.
+  void save(std::vector<int>& marks) const;
+  void restore(std::span<const int> marks);
+
+ private:
+  void find_for_sample(const MovingCloth& cloth, std::span<const ContactBody> bodies,
+                       const Ground* ground, int sample, std::vector<Contact>& out);
+  void find_body(const MovingCloth& cloth, const ContactBody& body, bool deep, int sample,
+                 std::vector<Contact>& out);
+  void find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
+                   std::vector<Contact>& out) const;
+  /// A sample that starts closer than the gap that is kept may come no closer, and is lifted.
+  /// @param surface  along the contact's normal [m]
+  void put_offset(double surface, double gap_at_start, Contact& contact) const;
+
+  /// What is known of a sample and a body: how far it was from where.
+  struct Known {
+    Vec3f place;
+    float distance = 0;  // at least; 0: nothing is known [m]
+    int triangle = -1;   // that was closest
+  };
+  void forget_moved(std::span<const ContactBody> bodies);
+  /// The closest point, if it matters; remembers what there was to be known.
+  std::optional<BodyPoint> look(const ContactBody& body, Vec3f start, double reach, Known& known);
+
+  const SurfaceGrid& grid_;
+  double gap_, friction_;
+  struct KnownBody {
+    int placed = 0;
+    std::vector<Known> samples;  // [n * n]
+  };
+  std::vector<KnownBody> known_;  // one a body
+  InsideMarks inside_;            // [n * n]
+  std::vector<char> doubted_;     // [n * n]
+  bool looked_ = false;
+  ChunkedLists<std::vector<Contact>> found_;
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace weft

@@ -1,0 +1,201 @@
+#include "weft/collide/contacts/body_query.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weft/collide/contacts/closest.h"
+#include "weft/core/math.h"
+
+namespace weft {
+namespace {
+
+double squared_distance(Vec3d p, const Box3f& box) {
+  const auto outside = [](double x, float lower, float upper) {
+    const double below = lower - x, above = x - upper;
+    const double most = below > above ? below : above;
+    return most > 0 ? most : 0.0;
+  };
+  const double x = outside(p.x, box.lower.x, box.upper.x);
+  const double y = outside(p.y, box.lower.y, box.upper.y);
+  const double z = outside(p.z, box.lower.z, box.upper.z);
+  return x * x + y * y + z * z;
+}
+
+/// To four boxes at once. Boxes are in single precision and exact, distances to them are rounded.
+template <class Boxes>
+std::array<double, 4> squared_distances(Vec3d p, const Boxes& boxes) {
+  std::array<double, 4> sum{};
+  const std::array x{p.x, p.y, p.z};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double below = double{boxes.lower[axis][k]} - x[axis];
+      const double above = x[axis] - double{boxes.upper[axis][k]};
+      const double most = below > above ? below : above;
+      const double outside = most > 0 ? most : 0.0;
+      sum[k] += outside * outside;
+    }
+  return sum;
+}
+
+/// What cannot hold a point as close as the best, with a hair for rounding, so that of equally
+/// close ones every one is looked at.
+bool beyond(double squared_to_box, const BodyPoint& best) {
+  constexpr double hair = 1 + 1e-12;
+  return squared_to_box > best.squared_distance * hair;
+}
+
+double angle_between(Vec3d a, Vec3d b) {
+  const double lengths = length(a) * length(b);
+  return lengths > 0 ? arc_cosine(std::clamp(dot(a, b) / lengths, -1.0, 1.0)) : 0;
+}
+
+}  // namespace
+
+BodyQuery::BodyQuery(const SurfaceGrid& grid) : grid_(&grid), boxes_(grid.cells()) {
+  for (const int side : boxes_.sides())
+    children_.emplace_back(static_cast<std::size_t>(side) * side);
+  find_incident();
+}
+
+void BodyQuery::place(const Planes3& positions, ThreadTeam& team) {
+  positions_ = &positions;
+  team.run([&](Worker& worker) {
+    fill_position_extents(positions, positions, boxes_, worker);
+    boxes_.fit(worker);
+    for (int level = 1; level <= boxes_.top(); ++level) {
+      const Range mine = worker.share(boxes_.sides()[level]);
+      for (int r = mine.first; r < mine.last; ++r) pack_row(level, r);
+    }
+  });
+}
+
+void BodyQuery::pack_row(int level, int row) {
+  const int side = boxes_.sides()[level], below = boxes_.sides()[level - 1];
+  for (int c = 0; c < side; ++c) {
+    ChildBoxes& packed = children_[level][static_cast<std::size_t>(row) * side + c];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Node child{level - 1, 2 * row + static_cast<int>(k / 2),
+                       2 * c + static_cast<int>(k % 2)};
+      constexpr float far = HUGE_VALF;
+      const Box3f box = child.row < below && child.col < below
+                            ? boxes_.at(child)
+                            : Box3f{{far, far, far}, {far, far, far}};
+      const std::array lower{box.lower.x, box.lower.y, box.lower.z};
+      const std::array upper{box.upper.x, box.upper.y, box.upper.z};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        packed.lower[axis][k] = lower[axis];
+        packed.upper[axis][k] = upper[axis];
+      }
+    }
+  }
+}
+
+void BodyQuery::find_incident() {
+  const int n = grid_->size(), cells = grid_->cells();
+  starts_.assign(static_cast<std::size_t>(n) * n + 1, 0);
+  const auto for_corners = [&](const auto& visit) {
+    for (int t = 0; t < 2 * cells * cells; ++t) {
+      const std::array<int, 3> triangle = grid_->triangle(t / 2, t % 2);
+      if (grid_->folded(triangle)) continue;
+      for (const int sample : triangle) visit(grid_->point(sample), t);
+    }
+  };
+  for_corners([&](int point, int) { ++starts_[point + 1]; });
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  incident_.resize(static_cast<std::size_t>(starts_.back()));
+  std::vector<int> next(starts_.begin(), starts_.end() - 1);
+  for_corners([&](int point, int t) { incident_[next[point]++] = t; });
+  // Around an inner point every neighbour stands in two triangles.
+  closed_ = true;
+  std::vector<int> around;
+  for (int p = 0; p < n * n && closed_; ++p) {
+    around.clear();
+    for (int i = starts_[p]; i < starts_[p + 1]; ++i)
+      for (const int s : grid_->triangle(incident_[i] / 2, incident_[i] % 2))
+        if (grid_->point(s) != p) around.push_back(grid_->point(s));
+    std::sort(around.begin(), around.end());
+    for (std::size_t i = 0; i < around.size() && closed_; i += 2)
+      closed_ = i + 1 < around.size() && around[i] == around[i + 1];
+  }
+}
+
+void BodyQuery::try_triangle(Vec3d point, int triangle, BodyPoint& best) const noexcept {
+  const std::array<int, 3> samples = grid_->triangle(triangle / 2, triangle % 2);
+  const std::array<Vec3d, 3> corners{position(samples[0]), position(samples[1]),
+                                     position(samples[2])};
+  const std::array<double, 3> w = closest_weights(point, corners);
+  const Vec3d at = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
+  const double squared = squared_length(point - at);
+  const bool closer = squared < best.squared_distance ||
+                      (squared == best.squared_distance && triangle < best.triangle);
+  if (closer && !grid_->folded(samples)) best = {squared, triangle, samples, w, at};
+}
+
+void BodyQuery::search(Vec3d point, const Node& node, BodyPoint& best) const noexcept {
+  if (node.level == 0) {
+    const int cell = node.row * grid_->cells() + node.col;
+    for (const int triangle : {2 * cell, 2 * cell + 1})
+      if (triangle != best.triangle) try_triangle(point, triangle, best);
+    return;
+  }
+  const int side = boxes_.sides()[node.level];
+  const std::array<double, 4> squared = squared_distances(
+      point, children_[node.level][static_cast<std::size_t>(node.row) * side + node.col]);
+  std::array<int, 4> order{0, 1, 2, 3};
+  // By distance, equal ones as they come: a network for four.
+  for (const auto& [i, j] : {std::pair{0, 1}, {2, 3}, {0, 2}, {1, 3}, {1, 2}})
+    if (squared[order[j]] < squared[order[i]]) std::swap(order[i], order[j]);
+  for (const int k : order) {
+    if (beyond(squared[k], best)) return;
+    search(point, {node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2}, best);
+  }
+}
+
+std::optional<BodyPoint> BodyQuery::closest(Vec3d point, double reach, int hint) const noexcept {
+  BodyPoint best;
+  best.squared_distance = reach * reach;
+  const Node root{boxes_.top(), 0, 0};
+  if (!(squared_distance(point, boxes_.at(root)) < best.squared_distance)) return std::nullopt;
+  if (hint >= 0) try_triangle(point, hint, best);
+  search(point, root, best);
+  if (best.triangle < 0) return std::nullopt;
+  return best;
+}
+
+Vec3d BodyQuery::face_normal(const std::array<int, 3>& samples) const noexcept {
+  const Vec3d a = position(samples[0]);
+  return normalized(cross(position(samples[1]) - a, position(samples[2]) - a));
+}
+
+Vec3d BodyQuery::normal_at(const BodyPoint& point) const noexcept {
+  // Weights this small are the rounding of a point on an edge or at a corner.
+  constexpr double on_edge = 1e-9;
+  std::array<int, 3> touched{};
+  int count = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (point.weights[i] > on_edge) touched[count++] = grid_->point(point.samples[i]);
+  if (count == 3) return face_normal(point.samples);
+  Vec3d sum;
+  for (int i = starts_[touched[0]]; i < starts_[touched[0] + 1]; ++i) {
+    const std::array<int, 3> samples = grid_->triangle(incident_[i] / 2, incident_[i] % 2);
+    std::size_t corner = 0;
+    bool other = count == 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (grid_->point(samples[k]) == touched[0]) corner = k;
+      other = other || grid_->point(samples[k]) == touched[1];
+    }
+    if (!other) continue;
+    const Vec3d at = position(samples[corner]);
+    const double weight = count == 2 ? 1
+                                     : angle_between(position(samples[(corner + 1) % 3]) - at,
+                                                     position(samples[(corner + 2) % 3]) - at);
+    sum += weight * face_normal(samples);
+  }
+  return normalized(sum);
+}
+
+bool BodyQuery::behind(Vec3d point, const BodyPoint& closest) const noexcept {
+  return dot(point - closest.position, normal_at(closest)) < 0;
+}
+
+}  // namespace weft

@@ -1,0 +1,231 @@
+#include "weft/collide/contacts/contact_response.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Of positions, and again of velocities.
+constexpr int most_passes = 8;
+/// Moving a point by less is no reason for another pass [m].
+constexpr double settled = 1e-8;
+/// Of a position's length: what rounding may move a particle by that is held where it was.
+constexpr double rounding = 2.5e-7;
+
+Vec3d along_surface(Vec3d way, Vec3d normal) { return way - dot(way, normal) * normal; }
+
+}  // namespace
+
+int ContactResponse::respond(const MovingCloth& cloth, const PressedContacts& pressed,
+                             double time_step, ThreadTeam& team) noexcept {
+  if (pressed.contacts.empty()) return 0;
+  collect(cloth, pressed, time_step);
+  busy_.assign(static_cast<std::size_t>(2) * most_passes * team.size(), 0);
+  team.run([&](Worker& worker) {
+    relax({&Particle::position, 0, settled}, worker);
+    const Range mine = worker.share(static_cast<int>(points_.size()));
+    for (int i = mine.first; i < mine.last; ++i) turn_to_velocities(time_step, points_[i]);
+    worker.barrier();
+    relax({&Particle::velocity, most_passes, settled / time_step}, worker);
+    const Range particles = worker.share(static_cast<int>(particles_.size()));
+    for (int p = particles.first; p < particles.last; ++p) settle(cloth, p, time_step);
+    worker.barrier();
+    for (Planes3* planes : {&cloth.position, &cloth.velocity}) copy_to_mates(*planes, worker);
+  });
+  return count_touching();
+}
+
+/// Particles and points of contacts, as they are before the response.
+void ContactResponse::collect(const MovingCloth& cloth, const PressedContacts& pressed,
+                              double time_step) {
+  const int n = cloth.position.size(), count = static_cast<int>(pressed.contacts.size());
+  if (!uses_ || samples_ != n * n) uses_.emplace(n * n);
+  samples_ = n * n;
+  uses_->clear();
+  points_.resize(pressed.contacts.size());
+  for (int i = 0; i < count; ++i) take_contact(i, pressed.contacts[i]);
+  uses_->finish();
+  particles_.resize(uses_->samples().size());
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    const int s = uses_->samples()[p];
+    particles_[p] = {.sample = s,
+                     .inverse_mass = cloth.inverse_mass(s / n, s % n),
+                     .start = vec_cast<double>(cloth.start.at(s)),
+                     .position = vec_cast<double>(cloth.position.at(s)),
+                     .velocity = vec_cast<double>(cloth.velocity.at(s))};
+  }
+  for (int i = 0; i < count; ++i) {
+    const double force = pressed.forces.empty() ? 0 : double{pressed.forces[i]};
+    place_point(pressed.contacts[i], force * time_step * time_step, points_[i]);
+  }
+}
+
+/// Its particles are samples as yet. Samples of one class are one particle of added weights.
+void ContactResponse::take_contact(int index, const Contact& contact) {
+  Point& point = points_[index] = {};
+  for (std::size_t i = 0; i < contact.samples.size(); ++i) {
+    if (contact.weights[i] == 0) continue;
+    const int sample = mates_.representative(contact.samples[i]);
+    std::size_t at = 0;
+    while (point.weights[at] != 0 && point.particles[at] != sample) ++at;
+    point.particles[at] = sample;
+    point.weights[at] += contact.weights[i];
+  }
+  for (std::size_t i = 0; i < point.weights.size(); ++i)
+    if (point.weights[i] != 0)
+      uses_->add(point.particles[i], {index, static_cast<float>(point.weights[i])});
+}
+
+void ContactResponse::place_point(const Contact& contact, double force_squared_step,
+                                  Point& point) const {
+  Vec3d start;
+  double sum = 0;
+  for (std::size_t i = 0; i < point.weights.size(); ++i) {
+    const double w = point.weights[i];
+    if (w == 0) continue;
+    point.particles[i] = uses_->index_of(point.particles[i]);
+    const Particle& particle = particles_[point.particles[i]];
+    point.compliance += w * w * particle.inverse_mass;
+    start += w * particle.start;
+    sum += w;
+  }
+  point.normal = vec_cast<double>(contact.normal);
+  point.slide = vec_cast<double>(contact.slide);
+  point.friction = contact.friction;
+  point.target = double{contact.offset} + contact.lift;
+  point.lift = contact.lift;
+  point.reference = start + point.slide;
+  point.force_way = force_squared_step * point.compliance;
+  point.hold = point.friction * point.force_way;
+  // Of an obstacle's contact weights sum to 1, between parts of the cloth to 0.
+  point.obstacle = sum > 0.5;
+}
+
+void ContactResponse::relax(const Course& course, Worker& worker) {
+  const Range points = worker.share(static_cast<int>(points_.size()));
+  const Range particles = worker.share(static_cast<int>(particles_.size()));
+  const std::size_t team = busy_.size() / (2 * most_passes);
+  for (int pass = 0; pass < most_passes; ++pass) {
+    char* busy = &busy_[(course.first_pass + pass) * team];
+    for (int i = points.first; i < points.last; ++i) look(course.field, points_[i]);
+    worker.barrier();
+    for (int p = particles.first; p < particles.last; ++p) count(p);
+    worker.barrier();
+    for (int i = points.first; i < points.last; ++i)
+      if (press(points_[i]) > course.hair) busy[worker.rank()] = 1;
+    worker.barrier();
+    if (std::none_of(busy, busy + team, [](char any) { return any != 0; })) return;
+    for (int p = particles.first; p < particles.last; ++p) move(course.field, p);
+    worker.barrier();
+  }
+}
+
+void ContactResponse::look(Field field, Point& point) const {
+  point.value = {};
+  for (std::size_t i = 0; i < point.weights.size(); ++i)
+    if (point.weights[i] != 0)
+      point.value += point.weights[i] * (particles_[point.particles[i]].*field);
+  point.depth = point.target - dot(point.normal, point.value);
+}
+
+void ContactResponse::count(int particle) {
+  Particle& counted = particles_[particle];
+  counted.pushers = counted.holders = 0;
+  for (const ContactUses::Use& use : uses_->of(particle)) {
+    const Point& point = points_[use.contact];
+    if (point.depth > 0) ++counted.pushers;
+    if (point.holds()) ++counted.holders;
+  }
+}
+
+/// Computes the impulse of a point: h^2 times a force for positions, h times one for velocities.
+/// @return the length of what it would move the point by, were it the only one
+double ContactResponse::press(Point& point) const {
+  point.impulse = {};
+  double push_compliance = 0, hold_compliance = 0;  // of particles whose mass is divided
+  for (std::size_t i = 0; i < point.weights.size(); ++i) {
+    if (point.weights[i] == 0) continue;
+    const Particle& particle = particles_[point.particles[i]];
+    const double own = point.weights[i] * point.weights[i] * particle.inverse_mass;
+    push_compliance += particle.pushers * own;
+    hold_compliance += particle.holders * own;
+  }
+  if (!(point.compliance > 0)) return 0;
+  if (point.depth > 0) {
+    point.impulse += (point.depth / push_compliance) * point.normal;
+    if (point.gains) {
+      const double pushed = point.depth * point.compliance / push_compliance;
+      const double lifted = std::min(pushed, point.lift);
+      point.lift -= lifted;
+      point.hold += point.friction * (pushed - lifted);
+    }
+    point.pushed = true;
+  }
+  if (hold_compliance > 0 && point.hold > 0) {
+    const double part = point.compliance / hold_compliance;
+    const Vec3d slid = along_surface(point.value - point.reference, point.normal);
+    Vec3d held = point.held - part * slid;
+    const double wanted = length(held);
+    point.sticks = wanted <= point.hold;
+    if (!point.sticks) held = (point.hold / wanted) * held;
+    point.impulse += (1 / point.compliance) * (held - point.held);
+    point.held = held;
+  }
+  return point.compliance * length(point.impulse);
+}
+
+void ContactResponse::move(Field field, int particle) {
+  Particle& moved = particles_[particle];
+  for (const ContactUses::Use& use : uses_->of(particle))
+    moved.*field += (moved.inverse_mass * double{use.weight}) * points_[use.contact].impulse;
+}
+
+/// What neither pressed nor was pushed leaves velocities alone.
+void ContactResponse::turn_to_velocities(double time_step, Point& point) {
+  const bool touches = point.pushed || point.force_way > 0;
+  point.reference = (1 / time_step) * point.slide;
+  point.target = touches ? dot(point.normal, point.reference) : -HUGE_VAL;
+  point.hold /= time_step;
+  point.held = {};
+  point.gains = false;
+  point.stuck = point.sticks;
+}
+
+/// Writes a particle back, to the very place it had when all that moved it off was rounding.
+void ContactResponse::settle(const MovingCloth& cloth, int particle, double time_step) const {
+  const Particle& done = particles_[particle];
+  if (!(done.inverse_mass > 0)) return;
+  const std::span<const ContactUses::Use> uses = uses_->of(particle);
+  const bool sticks = std::any_of(uses.begin(), uses.end(), [&](const ContactUses::Use& use) {
+    return points_[use.contact].stuck && points_[use.contact].sticks;
+  });
+  const double hair = rounding * length(done.start);
+  const bool rests = sticks && length(done.position - done.start) <= hair;
+  const bool still = sticks && length(done.velocity) * time_step <= hair;
+  cloth.position.set(done.sample,
+                     rests ? cloth.start.at(done.sample) : vec_cast<float>(done.position));
+  cloth.velocity.set(done.sample, still ? Vec3f{} : vec_cast<float>(done.velocity));
+}
+
+void ContactResponse::copy_to_mates(Planes3& planes, Worker& worker) const {
+  const Range classes = worker.share(mates_.class_count());
+  for (int index = classes.first; index < classes.last; ++index) {
+    const std::span<const int> samples = mates_.mates(index);
+    for (const int sample : samples.subspan(1)) planes.set(sample, planes.at(samples.front()));
+  }
+}
+
+int ContactResponse::count_touching() const {
+  int touching = 0;
+  for (int p = 0; p < static_cast<int>(particles_.size()); ++p)
+    for (const ContactUses::Use& use : uses_->of(p)) {
+      const Point& point = points_[use.contact];
+      if (!point.obstacle || (!point.pushed && !(point.force_way > 0))) continue;
+      ++touching;
+      break;
+    }
+  return touching;
+}
+
+}  // namespace weft

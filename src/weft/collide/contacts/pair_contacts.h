@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "weft/collide/collider.h"
+#include "weft/collide/pairs/cell_pairs.h"
+#include "weft/collide/pairs/chunks.h"
+#include "weft/core/contact.h"
+
+namespace weft {
+
+/// What a pair of surfaces is to contacts: both are cloths, perhaps one and the same.
+struct ClothPair {
+  const SurfaceGrid *grid_a = nullptr, *grid_b = nullptr;
+  const MovingCloth *a = nullptr, *b = nullptr;
+  bool same = false;
+  double gap = 0;        ///< that is kept [m]
+  double friction = 0;   ///< of the pair
+  double time_step = 0;  ///< [s]
+};
+
+/// Contacts between parts of cloths that come closer than their gap during a step: samples and
+/// triangles, and edges that cross at an angle, as they were closest at the start of the step. Each
+/// belongs to one pair of cells: a sample to the cell that it begins, and so does an edge.
+class PairContacts {
+ public:
+  /// Contacts of a cloth with itself go to `of_a` with both sides in them; of two cloths each gets
+  /// its own side, against a plane that moves as both do on the mean.
+  void find(const ClothPair& pair, std::span<const CellPair> cells, ThreadTeam& team,
+            std::vector<Contact>& of_a, std::vector<Contact>& of_b);
+
+ private:
+  struct Found {
+    std::vector<Contact> of_a, of_b;
+    void clear() {
+      of_a.clear();
+      of_b.clear();
+    }
+  };
+  ChunkedLists<Found> found_;
+};
+
+}  // namespace weft

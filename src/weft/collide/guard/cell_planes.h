@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "weft/collide/contacts/body_contacts.h"
+#include "weft/collide/guard/separating_planes.h"
+#include "weft/collide/pairs/cell_pairs.h"
+#include "weft/collide/pairs/chunks.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// A surface as planes are looked for.
+struct PlaneSide {
+  MovingSurface surface;
+  int first_point = 0;  ///< number of its sample 0 among all cloths' samples
+  bool body = false;
+  const Planes3* refuge = nullptr;  ///< of its samples, see MovingFeature [n x n] [m]
+};
+
+/// What is looked at together.
+struct PlaneSearch {
+  PlaneSide a, b;
+  bool same = false;
+  PlaneOptions options;
+  const InsideMarks* inside = nullptr;  ///< of a, where b is a body
+  int body_number = 0;                  ///< samples of a marked with it are not kept out
+};
+
+/// Planes between the triangles of pairs of cells: whole triangles that share no point; of those
+/// that share one, each with the other's far edge. Triangles that share an edge cannot cross.
+class CellPlanes {
+ public:
+  /// Adds to `out`, in an order that does not depend on the team. Features that meet at the start
+  /// of the step get no plane: nothing can be put between them.
+  void find(const PlaneSearch& search, std::span<const CellPair> cells, ThreadTeam& team,
+            std::vector<SeparatingPlane>& out);
+
+ private:
+  ChunkedLists<std::vector<SeparatingPlane>> found_;
+};
+
+}  // namespace weft

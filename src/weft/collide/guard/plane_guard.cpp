@@ -1,0 +1,167 @@
+#include "weft/collide/guard/plane_guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Turns over all planes of a point; where they meet at sharp angles more would be needed, and the
+/// point is stopped instead.
+constexpr int most_turns = 12;
+/// Put this much farther than a plane asks for, in its margins, so that rounding keeps to it.
+constexpr double overshoot = 0.5e-6;
+
+}  // namespace
+
+void PlaneGuard::gather(std::span<const SeparatingPlane> planes, int count) {
+  index_.resize(static_cast<std::size_t>(count), -1);
+  for (const int point : involved_) index_[point] = -1;
+  involved_.clear();
+  for (const SeparatingPlane& plane : planes)
+    for (int k = 0; k < plane.count_a + plane.count_b; ++k)
+      if (int& index = index_[plane.points[k]]; index < 0) {
+        index = 0;
+        involved_.push_back(plane.points[k]);
+      }
+  std::sort(involved_.begin(), involved_.end());
+  for (std::size_t i = 0; i < involved_.size(); ++i) index_[involved_[i]] = static_cast<int>(i);
+  starts_.assign(involved_.size() + 1, 0);
+  for (const SeparatingPlane& plane : planes)
+    for (int k = 0; k < plane.count_a + plane.count_b; ++k)
+      starts_[index_[plane.points[k]] + 1] += plane.turns ? 2 : 1;
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  sides_.resize(static_cast<std::size_t>(starts_.back()));
+  next_.assign(starts_.begin(), starts_.end() - 1);
+  for (int p = 0; p < static_cast<int>(planes.size()); ++p)
+    for (int k = 0; k < planes[p].count_a + planes[p].count_b; ++k) {
+      const int sign = k < planes[p].count_a ? 1 : -1;
+      int& next = next_[index_[planes[p].points[k]]];
+      sides_[next++] = {p, sign, false};
+      if (planes[p].turns) sides_[next++] = {p, sign, true};
+    }
+  still_.assign(planes.size(), 0);
+  held_.assign(involved_.size(), 0);
+  anew_.assign(involved_.size(), 0);
+}
+
+PlaneGuard::Limit PlaneGuard::limit_of(const SeparatingPlane& plane, const Side& side,
+                                       Vec3f start) {
+  const PlaneLevels& levels = side.halfway ? plane.halfway : plane.at_end;
+  const double level = side.sign > 0 ? levels.a : levels.b;
+  const double come = side.halfway ? dot(plane.turned, vec_cast<double>(start)) : 0;
+  const Vec3d& normal = side.halfway ? plane.normal : plane.turned;
+  return {static_cast<double>(side.sign) * normal, side.sign * (level - come)};
+}
+
+bool PlaneGuard::heeds_all(int involved, std::span<const SeparatingPlane> planes,
+                           const GuardedPoint& point, Vec3f place) const {
+  const Vec3d at = vec_cast<double>(place);
+  return std::all_of(sides(involved).begin(), sides(involved).end(), [&](const Side& side) {
+    return limit_of(planes[side.plane], side, point.start).beyond(at) <= 0;
+  });
+}
+
+double PlaneGuard::put_aside(int involved, std::span<const SeparatingPlane> planes, double farthest,
+                             GuardedPoint& point) const {
+  Vec3d at = vec_cast<double>(point.end);
+  for (int turn = 0; turn < most_turns; ++turn) {
+    bool moved = false;
+    for (const Side& side : sides(involved)) {
+      const Limit limit = limit_of(planes[side.plane], side, point.start);
+      const double way = limit.beyond(at);
+      if (way <= 0) continue;
+      at += (way + overshoot * (1 + std::abs(limit.offset))) * limit.normal;
+      moved = true;
+    }
+    if (!moved) break;
+  }
+  const Vec3f rounded = vec_cast<float>(at);
+  const double way = length(vec_cast<double>(rounded) - vec_cast<double>(point.end));
+  if (!(way <= farthest) || !heeds_all(involved, planes, point, rounded)) return HUGE_VAL;
+  point.end = rounded;
+  return way;
+}
+
+bool PlaneGuard::stop(int involved, std::span<const SeparatingPlane> planes,
+                      GuardedPoint& point) const {
+  const Vec3d refuge = vec_cast<double>(point.refuge), way = vec_cast<double>(point.end) - refuge;
+  double share = 1;
+  for (const Side& side : sides(involved)) {
+    const Limit limit = limit_of(planes[side.plane], side, point.start);
+    const double at_refuge = limit.beyond(refuge), at_end = limit.beyond(refuge + way);
+    if (at_end > 0 && at_end > at_refuge)
+      share = std::min(share, -at_refuge / (at_end - at_refuge));
+  }
+  // A little less, lest rounding puts it beyond.
+  const Vec3f rounded = vec_cast<float>(refuge + (0.9 * std::max(0.0, share)) * way);
+  point.end = share > 0 && heeds_all(involved, planes, point, rounded) ? rounded : point.refuge;
+  return heeds_all(involved, planes, point, point.end);
+}
+
+PlaneGuard::Fate PlaneGuard::place(int involved, std::span<const SeparatingPlane> planes,
+                                   const Aside& aside, const GuardedPoint& point,
+                                   Vec3f& end) const {
+  end = point.end;
+  if (held_[involved] == 0 && heeds_all(involved, planes, point, end)) return Fate::free;
+  GuardedPoint tried = point;
+  const double way =
+      held_[involved] == 0 ? put_aside(involved, planes, aside.farthest, tried) : HUGE_VAL;
+  if (way < HUGE_VAL) {
+    end = tried.end;
+    return way <= aside.slack ? Fate::aside : Fate::far;
+  }
+  tried = point;
+  const bool kept = stop(involved, planes, tried);
+  end = tried.end;
+  return kept ? Fate::stopped : Fate::lost;
+}
+
+bool PlaneGuard::make_still(std::span<SeparatingPlane> planes, int involved) {
+  bool changed = false;
+  for (const Side& side : sides(involved)) {
+    if (still_[side.plane] != 0) continue;
+    still_[side.plane] = 1;
+    SeparatingPlane& plane = planes[side.plane];
+    if (plane.at_end == plane.still) continue;
+    plane.at_end = plane.still;
+    changed = true;
+    const int members = plane.count_a + plane.count_b;
+    for (int k = 0; k < members; ++k) anew_[index_[plane.points[k]]] = 1;
+  }
+  return changed;
+}
+
+void PlaneGuard::settle(std::span<SeparatingPlane> planes, const Aside& aside) {
+  const int points = static_cast<int>(involved_.size());
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int i = 0; i < points; ++i) {
+      if (held_[i] != 0 || (fates_[i] != Fate::stopped && fates_[i] != Fate::lost)) continue;
+      held_[i] = 1;
+      changed = make_still(planes, i) || changed;
+    }
+    // Whoever a plane that has changed holds is placed anew.
+    for (int i = 0; i < points; ++i) {
+      if (anew_[i] == 0) continue;
+      anew_[i] = 0;
+      fates_[i] = place(i, planes, aside, points_[i], ends_[i]);
+    }
+  }
+}
+
+PlaneGuard::Result PlaneGuard::count_fates() {
+  Result result;
+  for (std::size_t i = 0; i < fates_.size(); ++i) {
+    const Fate fate = fates_[i];
+    if (fate == Fate::aside) ++result.aside;
+    if (fate == Fate::far) ++result.far;
+    if (fate == Fate::stopped) ++result.stopped;
+    if (fate == Fate::lost) ++result.lost;
+    if (fate == Fate::stopped || fate == Fate::lost) stopped_.push_back(involved_[i]);
+    if (fate == Fate::lost) lost_.push_back(involved_[i]);
+  }
+  return result;
+}
+
+}  // namespace weft

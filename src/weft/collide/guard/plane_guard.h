@@ -1,0 +1,116 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "weft/collide/guard/separating_planes.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// A point of a cloth during a step, for the guard.
+struct GuardedPoint {
+  Vec3f start, refuge, end;  ///< [m]; the end may be changed
+};
+
+/// Moves the ends of points so that each lies on its sides of all its planes. A point is put onto
+/// the planes that it is beyond, if they are not too far; where that does not do, it stays on its
+/// way from its refuge to its end as far as its planes let it [chen25], and these planes, which
+/// from then on stay where they were at the start, hold back what is on their other side too. So
+/// every plane is heeded in the end, unless a body moves onto a point that has nowhere to go.
+class PlaneGuard {
+ public:
+  struct Result {
+    int aside = 0;    ///< points that were moved aside within the slack
+    int far = 0;      ///< points that were moved farther
+    int stopped = 0;  ///< points that were held back on their way
+    int lost = 0;     ///< points that could not be kept on their sides
+  };
+  /// Numbers of the points that the last hold stopped or lost, ascending.
+  [[nodiscard]] std::span<const int> stopped() const { return stopped_; }
+  /// Those that it lost, ascending.
+  [[nodiscard]] std::span<const int> lost() const { return lost_; }
+  /// How far points may be moved aside.
+  struct Aside {
+    double slack = 0;     ///< what planes reckon with [m]
+    double farthest = 0;  ///< at least the slack; what moves farther has to be looked at again [m]
+  };
+  /// @param planes  changed: those that had to stay still get their still offsets
+  /// @param count   points in all; planes name them by number
+  /// @param at      start and end of a point; put(point, end) changes the end
+  template <class At, class Put>
+  Result hold(std::span<SeparatingPlane> planes, int count, const Aside& aside, const At& at,
+              const Put& put, ThreadTeam& team);
+
+ private:
+  struct Side {
+    int plane = 0;
+    int sign = 1;          ///< +1: side a
+    bool halfway = false;  ///< what a plane that turns asks for in the middle of the step
+  };
+  enum class Fate : char { free, aside, far, stopped, lost };
+
+  void gather(std::span<const SeparatingPlane> planes, int count);
+  [[nodiscard]] std::span<const Side> sides(int involved) const {
+    return std::span(sides_).subspan(starts_[involved], starts_[involved + 1] - starts_[involved]);
+  }
+  /// What a plane asks of the end of a point.
+  struct Limit {
+    Vec3d normal;
+    double offset = 0;
+    /// How far on the wrong side; <= 0: not at all. [m]
+    [[nodiscard]] double beyond(Vec3d end) const { return offset - dot(normal, end); }
+  };
+  [[nodiscard]] static Limit limit_of(const SeparatingPlane& plane, const Side& side, Vec3f start);
+  [[nodiscard]] bool heeds_all(int involved, std::span<const SeparatingPlane> planes,
+                               const GuardedPoint& point, Vec3f place) const;
+  /// @return how far aside a place was found, infinity: nowhere [m]
+  double put_aside(int involved, std::span<const SeparatingPlane> planes, double farthest,
+                   GuardedPoint& point) const;
+  /// @return whether its planes let it stay on its way at all
+  bool stop(int involved, std::span<const SeparatingPlane> planes, GuardedPoint& point) const;
+  Fate place(int involved, std::span<const SeparatingPlane> planes, const Aside& aside,
+             const GuardedPoint& point, Vec3f& end) const;
+  void settle(std::span<SeparatingPlane> planes, const Aside& aside);
+  bool make_still(std::span<SeparatingPlane> planes, int involved);
+  Result count_fates();
+
+  std::vector<int> involved_;  // points that planes name, ascending
+  std::vector<int> index_;     // [count] of a point among them, -1: none
+  std::vector<int> starts_, next_;
+  std::vector<Side> sides_;           // compressed rows over involved_
+  std::vector<GuardedPoint> points_;  // of involved_
+  std::vector<Vec3f> ends_;           // results
+  std::vector<Fate> fates_;
+  std::vector<char> still_;  // of planes
+  std::vector<char> held_;   // of involved points: to be stopped
+  std::vector<int> stopped_, lost_;
+  std::vector<char> anew_;  // of involved points: to be placed anew
+};
+
+template <class At, class Put>
+PlaneGuard::Result PlaneGuard::hold(std::span<SeparatingPlane> planes, int count,
+                                    const Aside& aside, const At& at, const Put& put,
+                                    ThreadTeam& team) {
+  stopped_.clear();
+  lost_.clear();
+  if (planes.empty()) return {};
+  gather(planes, count);
+  const int points = static_cast<int>(involved_.size());
+  points_.resize(involved_.size());
+  ends_.resize(involved_.size());
+  fates_.resize(involved_.size());
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(points);
+    for (int i = mine.first; i < mine.last; ++i) {
+      points_[i] = at(involved_[i]);
+      fates_[i] = place(i, planes, aside, points_[i], ends_[i]);
+    }
+  });
+  settle(planes, aside);
+  for (int i = 0; i < points; ++i)
+    if (fates_[i] != Fate::free) put(involved_[i], ends_[i]);
+  return count_fates();
+}
+
+}  // namespace weft

@@ -1,0 +1,126 @@
+#include "weft/collide/pairs/extent_levels.h"
+
+namespace weft {
+namespace {
+
+inline float least(float a, float b) { return a < b ? a : b; }
+inline float largest(float a, float b) { return a > b ? a : b; }
+
+struct Coordinate {
+  const Grid<float>*start, *end;
+};
+std::array<Coordinate, 3> coordinates(const Planes3& start, const Planes3& end) {
+  return {Coordinate{&start.x, &end.x}, {&start.y, &end.y}, {&start.z, &end.z}};
+}
+
+/// least and largest of four rows' neighbours: a cell's corners at both ends of the step.
+void cell_row(int cells, const Coordinate& of, int r, float* lower, float* upper) {
+  const float *a = of.start->row(r), *b = of.start->row(r + 1);
+  const float *c = of.end->row(r), *d = of.end->row(r + 1);
+#pragma omp simd
+  for (int i = 0; i < cells; ++i) {
+    lower[i] = least(least(least(a[i], a[i + 1]), least(b[i], b[i + 1])),
+                     least(least(c[i], c[i + 1]), least(d[i], d[i + 1])));
+    upper[i] = largest(largest(largest(a[i], a[i + 1]), largest(b[i], b[i + 1])),
+                       largest(largest(c[i], c[i + 1]), largest(d[i], d[i + 1])));
+  }
+}
+
+void row_edges(int cells, const Coordinate& of, int r, float* lower, float* upper) {
+  const float *a = of.start->row(r), *b = of.start->row(r + 1);
+  const float *c = of.end->row(r), *d = of.end->row(r + 1);
+#pragma omp simd
+  for (int i = 0; i < cells; ++i) {
+    const float p = a[i + 1] - a[i], q = b[i + 1] - b[i];
+    const float s = c[i + 1] - c[i], t = d[i + 1] - d[i];
+    lower[i] = least(least(p, q), least(s, t));
+    upper[i] = largest(largest(p, q), largest(s, t));
+  }
+}
+
+void column_edges(int cells, const Coordinate& of, int r, float* lower, float* upper) {
+  const float *a = of.start->row(r), *b = of.start->row(r + 1);
+  const float *c = of.end->row(r), *d = of.end->row(r + 1);
+#pragma omp simd
+  for (int i = 0; i < cells; ++i) {
+    const float p = b[i] - a[i], q = b[i + 1] - a[i + 1];
+    const float s = d[i] - c[i], t = d[i + 1] - c[i + 1];
+    lower[i] = least(least(p, q), least(s, t));
+    upper[i] = largest(largest(p, q), largest(s, t));
+  }
+}
+
+template <class Row>
+void fill(const Row& row, const Planes3& start, const Planes3& end, ExtentLevels& levels,
+          Worker& worker) {
+  const int cells = levels.sides().front();
+  const auto all = coordinates(start, end);
+  const Range mine = worker.share(cells);
+  for (int r = mine.first; r < mine.last; ++r)
+    for (std::size_t k = 0; k < 3; ++k)
+      row(cells, all[k], r, levels.finest()[k].row(r), levels.finest()[k + 3].row(r));
+  worker.barrier();
+}
+
+/// Levels of fewer nodes than this a side are fitted by one worker.
+constexpr int least_shared_side = 32;
+
+}  // namespace
+
+ExtentLevels::ExtentLevels(int cells) : sides_(level_sides(cells)) {
+  for (Grid<float>& plane : finest_) plane = Grid<float>(cells, cells);
+  for (const int side : sides_) boxes_.emplace_back(static_cast<std::size_t>(side) * side);
+}
+
+void ExtentLevels::pack_row(int row) {
+  const int cells = sides_.front();
+  const auto& [x0, y0, z0, x1, y1, z1] = finest_;
+  Box3f* out = &boxes_.front()[static_cast<std::size_t>(row) * cells];
+  for (int c = 0; c < cells; ++c)
+    out[c] = {{x0.row(row)[c], y0.row(row)[c], z0.row(row)[c]},
+              {x1.row(row)[c], y1.row(row)[c], z1.row(row)[c]}};
+}
+
+void ExtentLevels::fit_row(std::size_t level, int row) {
+  const int fine = sides_[level - 1], side = sides_[level];
+  const Box3f* first = &boxes_[level - 1][static_cast<std::size_t>(2 * row) * fine];
+  const Box3f* second = 2 * row + 1 < fine ? first + fine : first;
+  Box3f* out = &boxes_[level][static_cast<std::size_t>(row) * side];
+  for (int c = 0; c < side; ++c) {
+    const int left = 2 * c, right = 2 * c + 1 < fine ? left + 1 : left;
+    out[c] = {min(min(first[left].lower, first[right].lower),
+                  min(second[left].lower, second[right].lower)),
+              max(max(first[left].upper, first[right].upper),
+                  max(second[left].upper, second[right].upper))};
+  }
+}
+
+void ExtentLevels::fit(Worker& worker) {
+  const Range rows = worker.share(sides_.front());
+  for (int r = rows.first; r < rows.last; ++r) pack_row(r);
+  worker.barrier();
+  for (std::size_t level = 1; level < sides_.size(); ++level) {
+    const bool shared = sides_[level] >= least_shared_side;
+    if (!shared && worker.rank() != 0) break;
+    const Range mine = shared ? worker.share(sides_[level]) : Range{0, sides_[level]};
+    for (int r = mine.first; r < mine.last; ++r) fit_row(level, r);
+    if (shared) worker.barrier();
+  }
+  worker.barrier();
+}
+
+void fill_position_extents(const Planes3& start, const Planes3& end, ExtentLevels& levels,
+                           Worker& worker) {
+  fill(cell_row, start, end, levels, worker);
+}
+
+void fill_edge_extents(EdgeWay way, const Planes3& start, const Planes3& end, ExtentLevels& levels,
+                       Worker& worker) {
+  if (way == EdgeWay::along_row) {
+    fill(row_edges, start, end, levels, worker);
+  } else {
+    fill(column_edges, start, end, levels, worker);
+  }
+}
+
+}  // namespace weft
