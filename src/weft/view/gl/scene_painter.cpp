@@ -13,6 +13,8 @@ namespace {
 
 constexpr int key_size = 1024;
 constexpr int sky_size = 256;
+/// Quads a side that grids are drawn with into depth maps, about: each is a few texels.
+constexpr int key_quads = 128, sky_quads = 42;
 /// Offsets along the normal, in radii of the scene: beyond the size of a texel of the depth maps.
 constexpr double key_offset = 0.006;
 constexpr double sky_offset = 0.016;
@@ -161,7 +163,7 @@ void ScenePainter::draw_key_depth() {
   depth_.set("to_clip", parallel(lights_.key, lights_.centre, lights_.radius));
   for (SurfaceBuffers& surface : surfaces_) {
     surface.bind(depth_);
-    surface.draw(1);
+    surface.draw_about(key_quads);
   }
 }
 
@@ -172,7 +174,7 @@ void ScenePainter::draw_sky_depth() {
     depth_.set("to_clip", parallel(lights_.sky[i], lights_.centre, lights_.radius));
     for (SurfaceBuffers& surface : surfaces_) {
       surface.bind(depth_);
-      surface.draw_coarse();
+      surface.draw_about(sky_quads);
     }
   }
 }
@@ -282,7 +284,7 @@ void ScenePainter::draw_ground(const Matrix& to_clip) {
   ground_.set("sky_front", unit_front);
   floor_.bind(ground_);
   floor_.sky_front().bind(unit_front);
-  floor_.draw_coarse();
+  floor_.draw(1);
 }
 
 void ScenePainter::draw_edges(const DrawnScene& scene, const Matrix& to_clip,

@@ -11,7 +11,6 @@ namespace {
 
 /// Samples along a side of the light map of a grid, whatever its own: soft light needs no more.
 constexpr int light_samples = 129;
-constexpr int most_coarse_quads = 42;
 constexpr int mesh_columns = 1024;
 constexpr int ground_side = 65;
 
@@ -193,7 +192,7 @@ void SurfaceBuffers::draw(int step) {
   list->second.draw_triangles();
 }
 
-void SurfaceBuffers::draw_coarse() { draw((grid_side_ - 1) / most_coarse_quads); }
+void SurfaceBuffers::draw_about(int quads) { draw((grid_side_ - 1) / quads); }
 
 void SurfaceBuffers::bind(const Program& program) const {
   positions_.bind(0);

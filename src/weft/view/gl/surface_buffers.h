@@ -52,8 +52,8 @@ class SurfaceBuffers {
   [[nodiscard]] const Box3d& box() const { return box_; }
   /// Draws the triangles. @param step  for a grid: only every so many rows and columns, >= 1
   void draw(int step);
-  /// Draws no more triangles of a grid than soft light needs.
-  void draw_coarse();
+  /// Draws a grid with about so many quads a side, or all where it has fewer; of a mesh, all.
+  void draw_about(int quads);
   /// The target that the skylight of every sample is drawn to.
   [[nodiscard]] const Framebuffer& sky_target() const { return sky_target_; }
   /// Binds positions and normals to units 0 and 1 and tells the program how to read them.
