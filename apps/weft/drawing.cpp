@@ -1,6 +1,7 @@
 #include "apps/weft/drawing.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "weft/view/carried_normals.h"
@@ -26,6 +27,7 @@ void add_cloth(RunFrame& drawn, const RecordedCloth& cloth, int frame) {
   DrawnSurface surface;
   surface.positions = &drawn.cloths.back();
   surface.mates = &cloth.image.mates;
+  surface.revision = static_cast<std::uint64_t>(frame) + 1;
   surface.colour = cloth_colours[k % std::size(cloth_colours)];
   drawn.scene.surfaces.push_back(surface);
 }
@@ -35,6 +37,7 @@ void add_body(RunFrame& drawn, const RecordedBody& body, int frame) {
   DrawnSurface surface;
   surface.positions = &drawn.bodies.back();
   surface.mates = &body.image.mates;
+  surface.revision = body.recorded ? static_cast<std::uint64_t>(frame) + 1 : 1;
   if (body.normals && body.recorded) {
     drawn.normals.push_back(carried_normals(body.positions, *body.normals, drawn.bodies.back()));
     surface.normals = &drawn.normals.back();
