@@ -15,6 +15,8 @@ constexpr int key_size = 1024;
 constexpr int sky_size = 256;
 /// Quads a side that grids are drawn with into depth maps, about: each is a few texels.
 constexpr int key_quads = 128, sky_quads = 42;
+/// And into pictures at least.
+constexpr int least_quads = 128;
 /// Offsets along the normal, in radii of the scene: beyond the size of a texel of the depth maps.
 constexpr double key_offset = 0.006;
 constexpr double sky_offset = 0.016;
@@ -224,7 +226,7 @@ void ScenePainter::draw_picture(const DrawnScene& scene, const Target& target) {
   const Matrix to_clip =
       perspective(scene.camera, static_cast<double>(target.width) / target.height, near,
                   away + 16 * lights_.radius);
-  draw_surfaces(scene, to_clip);
+  draw_surfaces(scene, to_clip, target);
   if (scene.ground && scene.camera.eye.y > *scene.ground) draw_ground(to_clip);
   draw_edges(scene, to_clip, target);
 }
@@ -241,7 +243,8 @@ void ScenePainter::set_lighting(const Program& program) const {
   program.set("key_offset", static_cast<float>(key_offset * lights_.radius));
 }
 
-void ScenePainter::draw_surfaces(const DrawnScene& scene, const Matrix& to_clip) {
+void ScenePainter::draw_surfaces(const DrawnScene& scene, const Matrix& to_clip,
+                                 const Target& target) {
   for (const Program* program : {&surface_, &mesh_}) {
     program->use();
     set_lighting(*program);
@@ -258,7 +261,7 @@ void ScenePainter::draw_surfaces(const DrawnScene& scene, const Matrix& to_clip)
     surface_.set("threads", drawn.threads);
     surface_.set("colours", unit_colours);
     surfaces_[i].colours().bind(unit_colours);
-    draw_lit(surfaces_[i], surface_);
+    draw_lit(surfaces_[i], surface_, target);
   }
   mesh_.use();
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -266,15 +269,16 @@ void ScenePainter::draw_surfaces(const DrawnScene& scene, const Matrix& to_clip)
     mesh_.set("fabric", 0);
     mesh_.set("colours", unit_colours);
     mesh.colours().bind(unit_colours);
-    draw_lit(mesh, mesh_);
+    draw_lit(mesh, mesh_, target);
   }
 }
 
-void ScenePainter::draw_lit(SurfaceBuffers& surface, const Program& program) {
+void ScenePainter::draw_lit(SurfaceBuffers& surface, const Program& program, const Target& target) {
   surface.bind(program);
   surface.sky_front().bind(unit_front);
   surface.sky_back().bind(unit_back);
-  surface.draw(1);
+  // Normals are read for every pixel, so that quads of two or three pixels are small enough.
+  surface.draw_about(std::max(least_quads, target.height / 3));
 }
 
 void ScenePainter::draw_ground(const Matrix& to_clip) {

@@ -34,8 +34,8 @@ class ScenePainter {
   /// @param blur  of the sky's shadows, in widths of the scene
   void draw_skylight(const SurfaceBuffers& surface, const Program& program, float blur);
   void draw_picture(const DrawnScene& scene, const Target& target);
-  void draw_surfaces(const DrawnScene& scene, const Matrix& to_clip);
-  void draw_lit(SurfaceBuffers& surface, const Program& program);
+  void draw_surfaces(const DrawnScene& scene, const Matrix& to_clip, const Target& target);
+  void draw_lit(SurfaceBuffers& surface, const Program& program, const Target& target);
   void draw_ground(const Matrix& to_clip);
   void draw_edges(const DrawnScene& scene, const Matrix& to_clip, const Target& target);
   void set_lighting(const Program& program) const;
