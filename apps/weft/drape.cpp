@@ -7,7 +7,9 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/run_words.h"
-#include "weft/image/geometry_image.h"
+#include "weft/image/convert.h"
+#include "weft/image/io/image_file.h"
+#include "weft/mesh/units.h"
 
 namespace weft::app {
 namespace {
@@ -18,10 +20,18 @@ struct DrapeWords {
   RunWords run;
 };
 
+/// Cloth keeps its size, and moves by it; bodies are scaled.
+void warn_of_size(const std::string& cloth, const MeshFrame& files, const Context& context) {
+  if (is_image_name(cloth)) return;
+  const auto remark = implausible_size(in_metres_y_up(load_mesh(cloth), files), files.unit);
+  if (remark) warn(context, cloth + ": " + *remark);
+}
+
 void drape(const DrapeWords& words, const Context& context) {
   DrapeOptions options = words.options;
   options.files = frame_of(words.run, options.files);
   const Scene scene = make_drape_scene(words.cloth, words.body, options);
+  warn_of_size(words.cloth, options.files, context);
   RunWords run = words.run;
   run.scene_file = std::filesystem::path(words.run.folder) / "scene.json";
   run_and_report(scene, run.scene_file.string(), run, context);

@@ -137,6 +137,12 @@ class Units(ChoiceTest):
             self.assertIn("--unit cm", json.loads(done.stdout)["warnings"][0])
             self.assertEqual(self.run_json(*command, "--unit", "cm")["warnings"], [])
 
+    def test_drape_warns_of_cloth_of_an_implausible_size(self):
+        self.write("cm.obj", "v 0 0 0\nv 170 0 0\nv 0 0 60\nf 1 3 2\n")
+        command = ["drape", "cm.obj", "builtin:sphere", "-o", "run", "--size", "9", "--frames", "1"]
+        self.assertIn("weft: warning: cm.obj: its largest side", self.run_weft(*command).stderr)
+        self.assertEqual(self.run_weft(*command, "--unit", "cm").stderr, "")
+
     def test_unknown_words_are_usage_errors(self):
         for words in (["--unit", "ft"], ["--up", "x"]):
             self.refuse("builtin:cone", *words, code=2)
