@@ -96,8 +96,7 @@ void show_drape(Demo& demo, const Shown& shown) {
   for (const fs::path& path : run.outputs)
     demo.add(path.lexically_relative(demo.folder), [](const fs::path&) {});
   const RunFolder recorded = open_run_folder(run_folder);
-  demo.add(name + ".png",
-           [&](const fs::path& path) { write_png(path, draw_run(recorded, view)); });
+  demo.add(name + ".png", [&](const fs::path& path) { write_png(path, draw_run(recorded, view)); });
   ViewFrom smaller = view;
   smaller.width = 640;
   smaller.height = 480;
