@@ -15,7 +15,7 @@ constexpr double least_turn = 4;       // [s]
 constexpr double most_turn_rate = 30;  // [1/s]
 constexpr int least_part = 32;         // [pixels]
 
-int text_scale_of(int height) { return std::max(1, height / 300); }
+int text_scale_of(int height) { return std::max(1, (height + 100) / 240); }
 
 /// The frame itself, or the last one there is.
 int frame_of(const Subject& subject, int frame) {
