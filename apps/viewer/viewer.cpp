@@ -85,6 +85,8 @@ class Viewer {
     if (status.stage != status_.stage || status.fraction != status_.fraction ||
         status.message != status_.message || status.error != status_.error)
       unsettled_ = std::max(unsettled_, 1);
+    // The line at the bottom tells what came last.
+    if (status.message != status_.message) note_.clear();
     status_ = status;
     if (detail_.wants_finer(seconds())) unsettled_ = std::max(unsettled_, 1);
     if (unsettled_ == 0 || window_.pixels().x < 1) return;
