@@ -1,9 +1,10 @@
+#include "weft/sim/checkpoint.h"
+
 #include <cstring>
 #include <span>
 
 #include "fuzz/properties.h"
 #include "weft/core/hash.h"
-#include "weft/sim/checkpoint.h"
 
 namespace weft::fuzz {
 namespace {

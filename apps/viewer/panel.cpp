@@ -205,7 +205,9 @@ void Panel::show_image(const PanelInput& input) {
   if (input.image_texture == 0 || !shows_image_ || !begin_section("Geometry image")) return;
   const float side = std::min(ImGui::GetContentRegionAvail().x, image_side * scale_);
   ImGui::SetCursorPosX(0.5F * (ImGui::GetWindowContentRegionMax().x - side));
-  ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(input.image_texture)),
+  // ImGui's OpenGL backend takes a texture's name for a pointer.
+  const auto name = static_cast<std::uintptr_t>(input.image_texture);
+  ImGui::Image(reinterpret_cast<ImTextureID>(name),  // NOLINT(performance-no-int-to-ptr)
                {side, side});
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("The surface itself: x, y, z of every sample as red, green, blue.");

@@ -22,7 +22,7 @@ Picture read_window(int width, int height) {
 
 std::filesystem::path next_picture(const std::filesystem::path& folder) {
   for (int number = 1;; ++number) {
-    const std::filesystem::path path = folder / fmt::format("weft-view-{:04}.png", number);
+    std::filesystem::path path = folder / fmt::format("weft-view-{:04}.png", number);
     if (!std::filesystem::exists(path)) return path;
   }
 }

@@ -66,6 +66,7 @@ void set_friction(Scene& scene, double friction) {
 
 std::vector<std::string> builtin_bodies() {
   std::vector<std::string> names;
+  names.reserve(std::size(bodies));
   for (const std::string_view body : bodies) names.push_back("builtin:" + std::string(body));
   return names;
 }

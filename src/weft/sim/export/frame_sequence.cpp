@@ -78,6 +78,7 @@ void FrameSequence::add(const MotionFrame& frame) {
 void FrameSequence::finish() {
   if (options_.index_ending.empty()) return;
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(frames_));
   for (int frame = 0; frame < frames_; ++frame) names.push_back(file(frame).filename().string());
   const std::string text = options_.index(names);
   write_file(options_.folder / (options_.name + options_.index_ending),
