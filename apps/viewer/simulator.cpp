@@ -157,7 +157,8 @@ void Simulator::show_from(std::unique_ptr<Source> source) {
 void Simulator::advance() {
   steps_ = std::max(0, steps_ - 1);
   const bool went_on = source_->advance();
-  if (!went_on || source_->frame() == options_.until) running_ = false;
+  const bool is_there = options_.until > 0 && source_->frame() == options_.until;
+  if (!went_on || is_there) running_ = false;
   changed_ = true;
   pace();
 }

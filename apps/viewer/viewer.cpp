@@ -59,9 +59,7 @@ class Viewer {
     while (!window_.closes()) {
       turn();
       options_.check();
-      const bool is_there = options_.until > 0 && !simulator_.snapshot().running &&
-                            simulator_.snapshot().frame == options_.until;
-      if (is_there || (options_.frames > 0 && report_.frames >= options_.frames)) window_.close();
+      if (is_done()) window_.close();
     }
     if (!options_.screenshot.empty()) {
       detail_.ask_for_fine();
@@ -72,6 +70,14 @@ class Viewer {
   }
 
  private:
+  /// Whether all is shown that was asked for, as far as it can be.
+  [[nodiscard]] bool is_done() const {
+    const Snapshot& snapshot = simulator_.snapshot();
+    const bool is_there = !snapshot.running && snapshot.frame == options_.until;
+    return (options_.until > 0 && (is_there || !status_.error.empty())) ||
+           (options_.frames > 0 && shown_ >= options_.frames);
+  }
+
   /// Waits for something to happen and shows what came of it.
   void turn() {
     const std::vector<Event> events = window_.wait(waiting());
@@ -96,6 +102,8 @@ class Viewer {
     window_.show();
     detail_.end(milliseconds_since(last_picture_) / 1000);
     ++report_.frames;
+    const bool loaded = simulator_.snapshot().subject != nullptr && status_.stage.empty();
+    if (loaded || !status_.error.empty()) ++shown_;
     write_status();
   }
 
@@ -228,6 +236,7 @@ class Viewer {
   std::string note_;  // of the window itself, for the line at the bottom
   std::uint64_t subject_ = 0, drawn_ = 0;
   int unsettled_ = settling_pictures;
+  int shown_ = 0;  // pictures of the subject, or of why there is none
   bool takes_picture_ = false, takes_window_ = false;
   Clock::time_point last_picture_{};
   const Clock::time_point start_ = Clock::now();

@@ -17,7 +17,7 @@ struct ViewerOptions {
   InstructionSet instructions = best_instruction_set();
   bool paused = false;
   int until = 0;   ///< pauses at this frame of the scene, and closes; 0: never
-  int frames = 0;  ///< closes after so many pictures; 0: when somebody closes it
+  int frames = 0;  ///< closes after so many pictures of the subject; 0: when somebody closes it
   std::filesystem::path folder = ".";   ///< of the pictures that S takes
   std::filesystem::path screenshot{};   ///< the whole window at its end; empty: none
   std::filesystem::path status_file{};  ///< what to_json tells, all the while; empty: none

@@ -6,18 +6,26 @@
 
 #include "apps/viewer/viewer.h"
 #include "apps/weft/commands.h"
+#include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
+#include "weft/core/error.h"
 
 namespace weft::app {
 namespace {
 
 void view(viewer::ViewerOptions& options, const Context& context) {
+  if (!options.screenshot.empty()) check_output(options.screenshot, {".png"});
   options.threads = context.threads;
   options.instructions = context.instructions;
   options.say = [&context](const std::string& line) { say(context, line); };
   TerminalProgress interruption(true);
   options.check = [&interruption] { interruption.update("view", 0); };
-  print_report(context, viewer::run_viewer(options));
+  const nlohmann::ordered_json report = viewer::run_viewer(options);
+  print_report(context, report);
+  // Nobody may have looked at the window then.
+  const std::string error = report.at("error");
+  if ((options.frames > 0 || options.until > 0) && !error.empty())
+    throw Error(ExitCode::input, "", error, "");
 }
 
 }  // namespace
@@ -40,7 +48,8 @@ void add_view(CLI::App& program, const Context& context) {
   command->add_flag("--paused", options->paused, "Begin without moving");
   command->add_option("--until", options->until, "Stop at this frame of the scene and close")
       ->check(CLI::Range(1, INT_MAX));
-  command->add_option("--frames", options->frames, "Close after so many pictures")
+  command
+      ->add_option("--frames", options->frames, "Close after so many pictures of what was opened")
       ->check(CLI::Range(1, INT_MAX));
   command->add_option("--screenshot", options->screenshot,
                       "Picture of the whole window when it closes");

@@ -185,7 +185,9 @@ class Window(ProgramTest):
         return json.loads(done.stdout)
 
     def test_windows_close_and_take_pictures_by_themselves(self):
-        self.assertEqual(self.run_to_its_end("builtin:sheet", "--frames", "4")["frames"], 4)
+        told = self.run_to_its_end("builtin:sheet", "--frames", "4")
+        self.assertGreaterEqual(told["frames"], 4)
+        self.assertEqual((told["stage"], told["message"]), ("", "opened builtin:sheet"))
         (self.folder / "scene.json").write_text(json.dumps(LYING_SHEET))
         told = self.run_to_its_end("scene.json", "--until", "9")
         self.assertEqual(told["simulated_frames"], 9)
@@ -193,6 +195,14 @@ class Window(ProgramTest):
         self.assertEqual(self.run_to_its_end("run", "--until", "4")["simulated_frames"], 4)
         self.assertEqual(told["outputs"], ["end.png"])
         self.assertTrue((self.folder / "end.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_what_cannot_be_shown_to_nobody_is_an_error(self):
+        (self.folder / "cut.obj").write_text("v 0 0\n")
+        for words in (["--frames", "2"], ["--until", "3"]):
+            done = subprocess.run([PROGRAM, "view", "cut.obj", *words], cwd=self.folder, env=self.environment,
+                                  capture_output=True, text=True, timeout=LONGEST)
+            self.assertEqual(done.returncode, 3)
+            self.assertRegex(done.stderr, r"\Aweft: error: cut\.obj:1: .*\n\Z")
 
 
 class WithoutDisplay(ProgramTest):

@@ -7,6 +7,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "weft/sim/run.h"
+#include "weft/sim/scene_file.h"
+
 namespace weft::viewer {
 namespace {
 
@@ -173,6 +176,21 @@ TEST_F(Simulating, StopsAtTheFrameThatItShallStopAt) {
     other.update();
   }
   EXPECT_EQ(other.snapshot().frame, 7);
+}
+
+TEST_F(Simulating, ARunIsPlayedAgainAndAgain) {
+  const std::string path = scene(R"(, "frames": 3)");
+  const std::string run = (folder_ / "run").string();
+  run_scene(read_scene(path), path, {.folder = run});
+  open(run);
+  simulator.push(Play{true});
+  int last = 0, rounds = 0;
+  wait_for([&] {
+    if (now().frame < last) ++rounds;
+    last = now().frame;
+    return rounds == 2;
+  });
+  EXPECT_TRUE(now().running);
 }
 
 }  // namespace
