@@ -123,17 +123,18 @@ def main():
         print(json.dumps(scene_of(options.scene), indent=1))
         return
     seeds = range(options.first, options.first + options.seeds)
-    failed = 0
+    failures = ""
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as jobs:
         for seed, failure in zip(seeds, jobs.map(lambda seed: failure_of(seed, options.keep), seeds)):
             if failure:
-                failed += 1
+                failures += f"- seed {seed}: {failure}\n"
                 print(f"seed {seed}: {failure}", flush=True)
-    text = f"{len(seeds)} random starts of {FRAMES} frames, {failed} failed.\n"
+    text = f"{len(seeds)} random starts of {FRAMES} frames, {failures.count(chr(10))} failed.\n"
     print(text, end="")
+    text += "\n" + failures if failures else ""
     if options.write:
         program.write_between_marks("docs/measured.md", "soak", text)
-    if failed:
+    if failures:
         sys.exit("bench: error: starts failed")
 
 
