@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "weft/core/error.h"
+#include "weft/core/overloaded.h"
 #include "weft/sim/drape.h"
 
 namespace weft::viewer {
@@ -15,13 +16,6 @@ namespace {
 constexpr std::chrono::seconds rest{1};
 /// How much of the measured speed each frame renews.
 constexpr double renewal = 0.1;
-
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
 
 }  // namespace
 

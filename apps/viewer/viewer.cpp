@@ -18,6 +18,7 @@
 #include "apps/viewer/simulator.h"
 #include "apps/viewer/theme.h"
 #include "weft/core/files.h"
+#include "weft/view/gl/canvas.h"
 
 namespace weft::viewer {
 namespace {
@@ -195,7 +196,8 @@ class Viewer {
     const Vec2d pixels = window_.pixels();
     const bool at_the_end = path == options_.screenshot;
     try {
-      write_png(path, read_window(static_cast<int>(pixels.x), static_cast<int>(pixels.y)));
+      write_png(path,
+                gl::read_picture(0, {static_cast<int>(pixels.x), static_cast<int>(pixels.y)}));
       report_.outputs.push_back(path.string());
       note_ = "wrote " + path.string();
       options_.say("wrote   " + path.string());

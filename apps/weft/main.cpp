@@ -51,10 +51,11 @@ void add_globals(CLI::App& program, Context& context) {
 }
 
 // CLI11 words its errors over several lines; users get one.
-std::string one_line(std::string text) {
+std::string one_line(const CLI::App& program, std::string text) {
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';
-  return text + "; see weft --help";
+  const std::vector<CLI::App*> command = program.get_subcommands();
+  return text + "; see weft " + (command.empty() ? "" : command[0]->get_name() + " ") + "--help";
 }
 
 std::string command_names(const CLI::App& program) {
@@ -66,13 +67,13 @@ std::string command_names(const CLI::App& program) {
 
 // What a user did wrong. Without a command, the word that stands in its place is told.
 std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
-  if (!program.get_subcommands().empty()) return one_line(error.what());
+  if (!program.get_subcommands().empty()) return one_line(program, error.what());
   for (const std::string& word : program.remaining())
     if (!word.starts_with('-'))
       return fmt::format("'{}' is no command; one of {} is wanted", word, command_names(program));
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
     return fmt::format("no command; one of {} is wanted", command_names(program));
-  return one_line(error.what());
+  return one_line(program, error.what());
 }
 
 // What was printed must have arrived.

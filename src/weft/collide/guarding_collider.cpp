@@ -74,6 +74,7 @@ void GuardingCollider::finish_bodies() {
     if (body.end == &body.start) continue;
     body.start = *body.end;
     body.end = &body.start;
+    body.most_moved = 0;
     body.moved = true;
   }
 }

@@ -78,7 +78,7 @@ class GuardingCollider final : public Collider {
   void take_refuge(std::span<const MovingCloth> cloths, double time_step, int around, bool all);
   /// @param spread  how far the bodies' ways reach, in rest spacings
   void carry_refuges(std::span<const MovingCloth> cloths, double spread, ThreadTeam& team);
-  [[nodiscard]] bool any_body_moves() const;
+  /// Of any sample of a body in this step; 0 where all stand still. [m/s]
   [[nodiscard]] double fastest_body(double time_step) const;
   [[nodiscard]] PlaneSide side_of(std::size_t surface) const;
   void finish_bodies();

@@ -134,11 +134,6 @@ double GuardingCollider::fastest_body(double time_step) const {
   return fastest;
 }
 
-bool GuardingCollider::any_body_moves() const {
-  return std::any_of(bodies_.begin(), bodies_.end(),
-                     [](const GuardedBody& body) { return body.end != &body.start; });
-}
-
 void GuardingCollider::carry_refuges(std::span<const MovingCloth> cloths, double spread,
                                      ThreadTeam& team) {
   carried_ = true;
@@ -163,7 +158,7 @@ int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_ste
   gather_surfaces(cloths);
   for (std::size_t i = 0; i < cloths.size(); ++i) cloths_[i].refuge = &cloths[i].start;
   carried_ = false;
-  const bool moving = any_body_moves();
+  const bool moving = fastest_body(time_step) > 0;
   int stopped = 0;
   double spread = least_spread;
   for (int round = 0; round < most_rounds; ++round) {

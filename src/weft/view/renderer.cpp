@@ -49,16 +49,7 @@ Picture Renderer::draw(const DrawnScene& scene) {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, device.drawn.target.name());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, device.averaged.target.name());
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, device.averaged.target.name());
-  Picture picture{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height)};
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, picture.rgb.data());
-  // OpenGL counts rows from the bottom.
-  const std::size_t row = std::size_t{3} * width;
-  for (int top = 0, bottom = height - 1; top < bottom; ++top, --bottom)
-    std::swap_ranges(picture.rgb.begin() + row * top, picture.rgb.begin() + row * (top + 1),
-                     picture.rgb.begin() + row * bottom);
-  return picture;
+  return gl::read_picture(device.averaged.target.name(), {width, height});
 }
 
 }  // namespace weft

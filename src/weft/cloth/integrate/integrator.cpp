@@ -1,18 +1,9 @@
 #include "weft/cloth/integrate/integrator.h"
 
 #include "weft/cloth/integrate/proposal.h"
+#include "weft/core/overloaded.h"
 
 namespace weft {
-namespace {
-
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
-
-}  // namespace
 
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Cloth& cloth,
                                             const StepInput& typical, ThreadTeam& team) {

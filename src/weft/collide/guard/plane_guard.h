@@ -10,13 +10,15 @@ namespace weft {
 
 /// A point of a cloth during a step, for the guard.
 struct GuardedPoint {
-  Vec3f start, refuge, end;  ///< [m]; the end may be changed
+  Vec3f start;   ///< [m]
+  Vec3f refuge;  ///< where it is free at the end whatever the others do, see Refuges [m]
+  Vec3f end;     ///< [m]; may be changed
 };
 
 /// Moves the ends of points so that each lies on its sides of all its planes. A point is put onto
 /// the planes that it is beyond, if they are not too far; where that does not do, it stays on its
 /// way from its refuge to its end as far as its planes let it [chen25], and these planes, which
-/// from then on stay where they were at the start, hold back what is on their other side too. So
+/// from then on stand between refuges, hold back what is on their other side too. So
 /// every plane is heeded in the end, unless a body moves onto a point that has nowhere to go.
 class PlaneGuard {
  public:
@@ -37,7 +39,7 @@ class PlaneGuard {
   };
   /// @param planes  changed: those that had to stay still get their still offsets
   /// @param count   points in all; planes name them by number
-  /// @param at      start and end of a point; put(point, end) changes the end
+  /// @param at      the GuardedPoint of a number; put(point, end) changes the end
   template <class At, class Put>
   Result hold(std::span<SeparatingPlane> planes, int count, const Aside& aside, const At& at,
               const Put& put, ThreadTeam& team);

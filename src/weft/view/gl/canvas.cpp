@@ -1,5 +1,7 @@
 #include "weft/view/gl/canvas.h"
 
+#include <algorithm>
+
 #include "weft/core/error.h"
 
 namespace weft::gl {
@@ -27,6 +29,19 @@ Canvas make_canvas(int count, std::array<int, 2> size) {
     throw Error(ExitCode::internal, "OpenGL", "the driver cannot draw pictures of this size",
                 "a smaller one is wanted");
   return canvas;
+}
+
+Picture read_picture(GLuint name, std::array<int, 2> size) {
+  const std::size_t row = std::size_t{3} * size[0];
+  Picture picture{size[0], size[1], std::vector<std::uint8_t>(row * size[1])};
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, name);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size[0], size[1], GL_RGB, GL_UNSIGNED_BYTE, picture.rgb.data());
+  // OpenGL counts rows from the bottom.
+  for (int top = 0, bottom = size[1] - 1; top < bottom; ++top, --bottom)
+    std::swap_ranges(picture.rgb.begin() + row * top, picture.rgb.begin() + row * (top + 1),
+                     picture.rgb.begin() + row * bottom);
+  return picture;
 }
 
 }  // namespace weft::gl

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "weft/view/gl/objects.h"
+#include "weft/view/picture.h"
 
 namespace weft::gl {
 
@@ -15,5 +16,9 @@ struct Canvas {
 /// @param size   width and height [pixels]
 /// @throws Error when the driver cannot draw pictures of this size
 Canvas make_canvas(int count, std::array<int, 2> size);
+
+/// What a framebuffer holds, top row first. @param name  0: the window's own
+/// @param size  width and height [pixels]
+Picture read_picture(GLuint name, std::array<int, 2> size);
 
 }  // namespace weft::gl
