@@ -70,7 +70,9 @@ Wishes Panel::show(const PanelInput& input, Controls& controls) {
   if (ImGui::Begin("panel", nullptr, fixed)) {
     ImGui::PushItemWidth(-92 * scale_);
     show_head(input, controls, wishes);
-    if (input.snapshot.subject && begin_section("Scene")) {
+    const Subject* subject = input.snapshot.subject.get();
+    // A recorded run has nothing to change.
+    if (subject != nullptr && (subject->scene || !subject->plays) && begin_section("Scene")) {
       if (edited_) show_scene(wishes);
       show_bodies(input, wishes);
     }
