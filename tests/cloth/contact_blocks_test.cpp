@@ -3,6 +3,7 @@
 #include "tests/cloth/filter_residual.h"
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/integrate/contact_springs.h"
+#include "weft/cloth/kernels/kernel_table.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/multigrid/filter.h"
 
@@ -36,7 +37,8 @@ struct Pressed {
     Planes3 out = filter_residual(filter.finest(), Planes3(n), x);
     for (int r = 0; r < n; ++r)
       if (filter.finest().contacts.row(r))
-        filter.finest().contacts.subtract_product(r, row_of(x, r), row_of(out, r));
+        kernels_for(InstructionSet::baseline)
+            .subtract_blocks(n, filter.finest().contacts.own_row(r), row_of(x, r), row_of(out, r));
     sum_over_mates(cloth.mates, {&out.x, &out.y, &out.z});
     for (int s = 0; s < n * n; ++s) out.set(s, out.at(s) + b.at(s));
     return out;

@@ -94,15 +94,18 @@ std::set<std::pair<int, int>> as_set(const std::vector<CellPair>& pairs) {
 
 class BroadPhases : public testing::TestWithParam<const char*> {
  protected:
-  /// What is found by teams of every size, which must be the same.
+  /// What is found by teams of every size and instruction set, which must be the same.
   template <class Find>
   std::vector<CellPair> found_by_any_team(const std::vector<MovingSurface>& surfaces,
                                           std::size_t cloths, const Find& find) {
     std::vector<const SurfaceGrid*> grids;
     for (const MovingSurface& surface : surfaces) grids.push_back(surface.grid);
     std::vector<CellPair> first;
-    for (const int threads : {1, 2, 3, 7}) {
-      ThreadTeam team(threads);
+    std::vector<TeamOptions> teams{1, 2, 3, 7};
+    for (const InstructionSet set : instruction_sets())
+      if (has_instruction_set(set)) teams.emplace_back(2, set);
+    for (const TeamOptions& options : teams) {
+      ThreadTeam team(options);
       const std::unique_ptr<BroadPhase> phase = make(GetParam(), grids, cloths);
       std::vector<CellPair> pairs;
       for (int again = 0; again < 2; ++again) {
@@ -110,7 +113,8 @@ class BroadPhases : public testing::TestWithParam<const char*> {
         phase->refit(surfaces, team);
         find(*phase, team, pairs);
         if (first.empty()) first = pairs;
-        EXPECT_TRUE(pairs == first) << threads << " threads, fit " << again;
+        EXPECT_TRUE(pairs == first)
+            << options.size << " threads, " << name_of(options.instructions) << ", fit " << again;
       }
     }
     return first;

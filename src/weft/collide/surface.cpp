@@ -12,10 +12,4 @@ SurfaceGrid::SurfaceGrid(int size, const BorderMates& mates, const Grid<Diagonal
       falling_[r * (size - 1) + c] = diagonals(r, c) == Diagonal::falling ? 1 : 0;
 }
 
-std::array<int, 3> SurfaceGrid::triangle(int cell, int half) const {
-  const int a = first_sample(cell), b = a + 1, d = a + size_, c = d + 1;
-  if (falling_[cell] != 0) return half == 0 ? std::array{a, b, d} : std::array{b, c, d};
-  return half == 0 ? std::array{a, b, c} : std::array{a, c, d};
-}
-
 }  // namespace weft

@@ -21,7 +21,12 @@ class SurfaceGrid {
   /// The sample that stands for a sample's class.
   [[nodiscard]] int point(int sample) const { return point_[static_cast<std::size_t>(sample)]; }
   /// The samples of a cell's two triangles. @param half  0 or 1
-  [[nodiscard]] std::array<int, 3> triangle(int cell, int half) const;
+  [[nodiscard]] std::array<int, 3> triangle(int cell, int half) const {
+    return triangle_from(first_sample(cell), cell, half);
+  }
+  [[nodiscard]] std::array<int, 3> triangle(int row, int col, int half) const {
+    return triangle_from(row * size_ + col, row * cells() + col, half);
+  }
   /// The four samples of a cell.
   [[nodiscard]] std::array<int, 4> corners(int cell) const {
     const int s = first_sample(cell);
@@ -35,6 +40,13 @@ class SurfaceGrid {
   }
 
  private:
+  [[nodiscard]] std::array<int, 3> triangle_from(int first, int cell, int half) const {
+    const int a = first, b = a + 1, d = a + size_, c = d + 1;
+    if (falling_[static_cast<std::size_t>(cell)] != 0)
+      return half == 0 ? std::array{a, b, d} : std::array{b, c, d};
+    return half == 0 ? std::array{a, b, c} : std::array{a, c, d};
+  }
+
   int size_ = 0;
   std::vector<int> point_;              // [n * n]
   std::vector<unsigned char> falling_;  // [(n - 1)^2]

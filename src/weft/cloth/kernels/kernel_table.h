@@ -38,6 +38,18 @@ struct StencilRows {
   ConstRow3 above, here, below;
 };
 
+/// A symmetric 3 x 3 block for every sample of a row.
+struct BlockRow {
+  const float *xx, *xy, *xz, *yy, *yz, *zz;
+};
+/// A sweep over a row under contacts: with blocks in place of a diagonal.
+struct BlockSweepRow {
+  float factor;
+  BlockRow inverse;
+  const float* count;  ///< as of SweepRow
+  ConstRow3 right, value;
+};
+
 /// The columns first .. last - 1 of a row that have a neighbour `shift` columns to the right in
 /// another, and what each weighs the other by.
 struct TransposedRow {
@@ -142,6 +154,12 @@ struct KernelTable {
   void (*add_right)(int n, const float* share, const float* inverse, ConstRow3 right, Row3 out);
   /// out = value + factor inverse (right + count out). @return share right . out
   double (*sweep)(int n, const SweepRow& row, Row3 out);
+  /// out -= B x.
+  void (*subtract_blocks)(int n, const BlockRow& blocks, ConstRow3 x, Row3 out);
+  /// out = factor B x.
+  void (*apply_blocks)(int n, float factor, const BlockRow& blocks, ConstRow3 x, Row3 out);
+  /// out = value + factor inverse (right + count out).
+  void (*block_sweep)(int n, const BlockSweepRow& row, Row3 out);
   /// The transpose of interpolation: a coarse row of three fine ones of n samples.
   void (*restrict_rows)(int n, const StencilRows& fine, Row3 lines, Row3 out);
   /// out += the mean of two coarse rows, interpolated to n samples, where something moves.

@@ -12,6 +12,7 @@ using Block = std::array<float, 6>;
 
 /// (d 1 + c)^-1, by cofactors: d > 0 and c has no negative eigenvalue.
 Block inverse_of(float d, const Block& c) {
+  if (c == Block{}) return {1 / d, 0, 0, 1 / d, 0, 1 / d};  // most samples of a row touch nothing
   const double xx = double{c[0]} + d, yy = double{c[3]} + d, zz = double{c[5]} + d;
   const double xy = c[1], xz = c[2], yz = c[4];
   const double a = yy * zz - yz * yz, b = xz * yz - xy * zz, e = xy * yz - xz * yy;
@@ -83,29 +84,6 @@ void ContactBlocks::join_mates(const BorderMates& mates, const Grid<float>& inve
     const Block found = inverse > 0 ? inverse_of(1 / inverse, sum) : Block{};
     for (const int s : samples)
       for (std::size_t i = 0; i < found.size(); ++i) inverse_[i](s / size_, s % size_) = found[i];
-  }
-}
-
-void ContactBlocks::subtract_product(int row, ConstRow3 x, Row3 out) const {
-  const float *xx = own_[0].row(row), *xy = own_[1].row(row), *xz = own_[2].row(row);
-  const float *yy = own_[3].row(row), *yz = own_[4].row(row), *zz = own_[5].row(row);
-#pragma omp simd
-  for (int c = 0; c < size_; ++c) {
-    out.x[c] -= xx[c] * x.x[c] + xy[c] * x.y[c] + xz[c] * x.z[c];
-    out.y[c] -= xy[c] * x.x[c] + yy[c] * x.y[c] + yz[c] * x.z[c];
-    out.z[c] -= xz[c] * x.x[c] + yz[c] * x.y[c] + zz[c] * x.z[c];
-  }
-}
-
-void ContactBlocks::precondition(int row, float factor, ConstRow3 in, Row3 out) const {
-  const float *xx = inverse_[0].row(row), *xy = inverse_[1].row(row), *xz = inverse_[2].row(row);
-  const float *yy = inverse_[3].row(row), *yz = inverse_[4].row(row), *zz = inverse_[5].row(row);
-#pragma omp simd
-  for (int c = 0; c < size_; ++c) {
-    const float x = factor * in.x[c], y = factor * in.y[c], z = factor * in.z[c];
-    out.x[c] = xx[c] * x + xy[c] * y + xz[c] * z;
-    out.y[c] = xy[c] * x + yy[c] * y + yz[c] * z;
-    out.z[c] = xz[c] * x + yz[c] * y + zz[c] * z;
   }
 }
 

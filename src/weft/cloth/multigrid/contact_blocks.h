@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "weft/cloth/integrate/contact_loads.h"
+#include "weft/cloth/kernels/kernel_table.h"
 #include "weft/core/thread_team.h"
 
 namespace weft {
@@ -27,19 +28,23 @@ class ContactBlocks {
   void invert_row(int row, const float* inverse_diagonal);
   void join_mates(const BorderMates& mates, const Grid<float>& inverse_diagonal, Range classes);
 
-  /// out -= C x.
-  void subtract_product(int row, ConstRow3 x, Row3 out) const;
-  /// out = factor (D + C)^-1 in.
-  void precondition(int row, float factor, ConstRow3 in, Row3 out) const;
+  /// C of a row's samples, and (D + C)^-1.
+  [[nodiscard]] BlockRow own_row(int row) const { return block_row(own_, row); }
+  [[nodiscard]] BlockRow inverse_row(int row) const { return block_row(inverse_, row); }
   /// Own part of a sample's block: xx, xy, xz, yy, yz, zz [N/m].
   [[nodiscard]] std::array<float, 6> block(int sample) const;
 
  private:
+  using Planes = std::array<Grid<float>, 6>;
   void clear_row(int row);
+  static BlockRow block_row(const Planes& planes, int row) {
+    return {planes[0].row(row), planes[1].row(row), planes[2].row(row),
+            planes[3].row(row), planes[4].row(row), planes[5].row(row)};
+  }
 
   int size_ = 0;
   std::vector<char> rows_;
-  std::array<Grid<float>, 6> own_, inverse_;
+  Planes own_, inverse_;
 };
 
 }  // namespace weft

@@ -115,7 +115,8 @@ void MultigridFilter::renew_contacts(const ContactLoads& contacts, Worker& worke
 
 void MultigridFilter::first_sweep_row(const FilterLevel& level, int row, Row3 out) const {
   if (level.contacts.row(row))
-    return level.contacts.precondition(row, factors_.front(), row_of(level.right, row), out);
+    return kernels_->apply_blocks(level.size(), factors_.front(), level.contacts.inverse_row(row),
+                                  row_of(level.right, row), out);
   kernels_->first_sweep(level.size(), factors_.front(), level.inverse_diagonal.row(row),
                         row_of(level.right, row), out);
 }
@@ -123,7 +124,8 @@ void MultigridFilter::first_sweep_row(const FilterLevel& level, int row, Row3 ou
 void MultigridFilter::apply_row(const FilterLevel& level, int row, const StencilRows& x,
                                 Row3 out) const {
   kernels_->apply(level.size(), level.operator_row(row), x, out);
-  if (level.contacts.row(row)) level.contacts.subtract_product(row, x.here, out);
+  if (level.contacts.row(row))
+    kernels_->subtract_blocks(level.size(), level.contacts.own_row(row), x.here, out);
 }
 
 /// The residual of a first sweep from zero, which is never stored: three lines hold it.
@@ -197,11 +199,11 @@ void MultigridFilter::up(const FilterLevel& coarse, FilterLevel& fine, const Cre
 }
 
 /// @return right . result of the row
-double MultigridFilter::sweep_row(FilterLevel& level, int row, float factor, const Crew& crew) {
+double MultigridFilter::sweep_row(FilterLevel& level, int row, float factor) {
   const int n = level.size();
   const Row3 out = row_of(level.result, row);
   apply_row(level, row, level.stencil_rows(row), out);
-  if (level.contacts.row(row)) return contact_sweep_row(level, row, factor, lines(crew.worker, 3));
+  if (level.contacts.row(row)) return contact_sweep_row(level, row, factor);
   return kernels_->sweep(
       n,
       {factor, level.inverse_diagonal.row(row), level.share_row(row), level.count_row(row),
@@ -210,33 +212,20 @@ double MultigridFilter::sweep_row(FilterLevel& level, int row, float factor, con
 }
 
 /// The same with blocks in place of a diagonal; `result` holds -A x.
-double MultigridFilter::contact_sweep_row(FilterLevel& level, int row, float factor, Row3 scratch) {
+double MultigridFilter::contact_sweep_row(FilterLevel& level, int row, float factor) {
   const int n = level.size();
   const Row3 out = row_of(level.result, row);
   const ConstRow3 right = row_of(std::as_const(level.right), row);
   const ConstRow3 value = row_of(std::as_const(level.value), row);
-  const float* count = level.count_row(row);
-#pragma omp simd
-  for (int c = 0; c < n; ++c) {
-    const float copies = count == nullptr ? 1.0F : count[c];
-    scratch.x[c] = right.x[c] + copies * out.x[c];
-    scratch.y[c] = right.y[c] + copies * out.y[c];
-    scratch.z[c] = right.z[c] + copies * out.z[c];
-  }
-  level.contacts.precondition(row, factor, {scratch.x, scratch.y, scratch.z}, out);
-#pragma omp simd
-  for (int c = 0; c < n; ++c) {
-    out.x[c] += value.x[c];
-    out.y[c] += value.y[c];
-    out.z[c] += value.z[c];
-  }
+  kernels_->block_sweep(
+      n, {factor, level.contacts.inverse_row(row), level.count_row(row), right, value}, out);
   return kernels_->dot(n, level.share_row(row), right, {out.x, out.y, out.z});
 }
 
 /// Every sample takes what its own part makes of its class, and the mean is what the class makes.
 void MultigridFilter::level_sweep(FilterLevel& level, float factor, const Crew& crew) {
   const Range mine = crew.share(level.size());
-  for (int r = mine.first; r < mine.last; ++r) sweep_row(level, r, factor, crew);
+  for (int r = mine.first; r < mine.last; ++r) sweep_row(level, r, factor);
   crew.barrier();
   crew.average(level.mates, level.result);
 }
@@ -245,7 +234,7 @@ double MultigridFilter::finest_sweep(Worker& worker) {
   FilterLevel& level = levels_.front();
   const Crew crew{worker, false};
   const double slope =
-      sums_.sum(worker, [&](int r) { return sweep_row(level, r, factors_.front(), crew); });
+      sums_.sum(worker, [&](int r) { return sweep_row(level, r, factors_.front()); });
   crew.average(level.mates, level.result);
   return slope;
 }

@@ -21,27 +21,21 @@ double squared_distance(Vec3d p, const Box3f& box) {
   return x * x + y * y + z * z;
 }
 
-/// To four boxes at once. Boxes are in single precision and exact, distances to them are rounded.
+/// To four boxes at once, in single precision.
 template <class Boxes>
-std::array<double, 4> squared_distances(Vec3d p, const Boxes& boxes) {
-  std::array<double, 4> sum{};
-  const std::array x{p.x, p.y, p.z};
-  for (std::size_t axis = 0; axis < 3; ++axis)
+std::array<float, 4> squared_distances(const std::array<float, 3>& p, const Boxes& boxes) {
+  std::array<float, 4> sum{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float x = p[axis];
+#pragma omp simd
     for (std::size_t k = 0; k < 4; ++k) {
-      const double below = double{boxes.lower[axis][k]} - x[axis];
-      const double above = x[axis] - double{boxes.upper[axis][k]};
-      const double most = below > above ? below : above;
-      const double outside = most > 0 ? most : 0.0;
+      const float below = boxes.lower[axis][k] - x, above = x - boxes.upper[axis][k];
+      const float most = below > above ? below : above;
+      const float outside = most > 0 ? most : 0.0F;
       sum[k] += outside * outside;
     }
+  }
   return sum;
-}
-
-/// What cannot hold a point as close as the best, with a hair for rounding, so that of equally
-/// close ones every one is looked at.
-bool beyond(double squared_to_box, const BodyPoint& best) {
-  constexpr double hair = 1 + 1e-12;
-  return squared_to_box > best.squared_distance * hair;
 }
 
 double angle_between(Vec3d a, Vec3d b) {
@@ -119,47 +113,81 @@ void BodyQuery::find_incident() {
   }
 }
 
-void BodyQuery::try_triangle(Vec3d point, int triangle, BodyPoint& best) const noexcept {
-  const std::array<int, 3> samples = grid_->triangle(triangle / 2, triangle % 2);
+/// One search for a closest point.
+struct BodyQuery::Search {
+  Vec3d point;
+  std::array<float, 3> rounded{};
+  float absolute_error = 0;  // of a distance to a box [m]
+  BodyPoint best;
+  float limit = 0;  // boxes beyond this squared distance, in single precision, hold nothing closer
+
+  Search(Vec3d at, double squared_reach)
+      : point(at),
+        rounded{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)},
+        absolute_error(
+            static_cast<float>(rounding * (std::abs(at.x) + std::abs(at.y) + std::abs(at.z)))) {
+    best.squared_distance = squared_reach;
+    set_limit();
+  }
+  /// A hair more than the best, so that of equally close ones every one is looked at.
+  void set_limit() {
+    const double most = (std::sqrt(best.squared_distance) + absolute_error) * (1 + rounding);
+    limit = static_cast<float>(std::min(most * most * (1 + rounding), double{most_finite}));
+  }
+
+ private:
+  /// Several times that of single precision.
+  static constexpr double rounding = 1e-6;
+  /// What is missing is farther.
+  static constexpr float most_finite = 1e38F;
+};
+
+void BodyQuery::try_triangle(int row, int col, int half, Search& search) const noexcept {
+  const std::array<int, 3> samples = grid_->triangle(row, col, half);
   const std::array<Vec3d, 3> corners{position(samples[0]), position(samples[1]),
                                      position(samples[2])};
-  const std::array<double, 3> w = closest_weights(point, corners);
+  const std::array<double, 3> w = closest_weights(search.point, corners);
   const Vec3d at = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
-  const double squared = squared_length(point - at);
+  const double squared = squared_length(search.point - at);
+  const int triangle = 2 * (row * grid_->cells() + col) + half;
+  const BodyPoint& best = search.best;
   const bool closer = squared < best.squared_distance ||
                       (squared == best.squared_distance && triangle < best.triangle);
-  if (closer && !grid_->folded(samples)) best = {squared, triangle, samples, w, at};
+  if (!closer || grid_->folded(samples)) return;
+  search.best = {squared, triangle, samples, w, at};
+  search.set_limit();
 }
 
-void BodyQuery::search(Vec3d point, const Node& node, BodyPoint& best) const noexcept {
+void BodyQuery::search(const Node& node, Search& search) const noexcept {
   if (node.level == 0) {
     const int cell = node.row * grid_->cells() + node.col;
-    for (const int triangle : {2 * cell, 2 * cell + 1})
-      if (triangle != best.triangle) try_triangle(point, triangle, best);
+    for (const int half : {0, 1})
+      if (2 * cell + half != search.best.triangle) try_triangle(node.row, node.col, half, search);
     return;
   }
   const int side = boxes_.sides()[node.level];
-  const std::array<double, 4> squared = squared_distances(
-      point, children_[node.level][static_cast<std::size_t>(node.row) * side + node.col]);
-  std::array<int, 4> order{0, 1, 2, 3};
-  // By distance, equal ones as they come: a network for four.
-  for (const auto& [i, j] : {std::pair{0, 1}, {2, 3}, {0, 2}, {1, 3}, {1, 2}})
-    if (squared[order[j]] < squared[order[i]]) std::swap(order[i], order[j]);
-  for (const int k : order) {
-    if (beyond(squared[k], best)) return;
-    search(point, {node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2}, best);
-  }
+  const std::array<float, 4> squared = squared_distances(
+      search.rounded, children_[node.level][static_cast<std::size_t>(node.row) * side + node.col]);
+  const auto visit = [&](int k) {
+    if (squared[k] <= search.limit)
+      this->search({node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2}, search);
+  };
+  const int nearest =
+      static_cast<int>(std::min_element(squared.begin(), squared.end()) - squared.begin());
+  visit(nearest);
+  for (int k = 0; k < 4; ++k)
+    if (k != nearest) visit(k);
 }
 
 std::optional<BodyPoint> BodyQuery::closest(Vec3d point, double reach, int hint) const noexcept {
-  BodyPoint best;
-  best.squared_distance = reach * reach;
   const Node root{boxes_.top(), 0, 0};
-  if (!(squared_distance(point, boxes_.at(root)) < best.squared_distance)) return std::nullopt;
-  if (hint >= 0) try_triangle(point, hint, best);
-  search(point, root, best);
-  if (best.triangle < 0) return std::nullopt;
-  return best;
+  if (!(squared_distance(point, boxes_.at(root)) < reach * reach)) return std::nullopt;
+  Search search(point, reach * reach);
+  const int cells = grid_->cells();
+  if (hint >= 0) try_triangle(hint / 2 / cells, hint / 2 % cells, hint % 2, search);
+  this->search(root, search);
+  if (search.best.triangle < 0) return std::nullopt;
+  return search.best;
 }
 
 Vec3d BodyQuery::face_normal(const std::array<int, 3>& samples) const noexcept {

@@ -53,8 +53,9 @@ class BodyQuery {
     return vec_cast<double>(positions_->at(sample));
   }
   [[nodiscard]] Vec3d face_normal(const std::array<int, 3>& samples) const noexcept;
-  void search(Vec3d point, const Node& node, BodyPoint& best) const noexcept;
-  void try_triangle(Vec3d point, int triangle, BodyPoint& best) const noexcept;
+  struct Search;
+  void search(const Node& node, Search& search) const noexcept;
+  void try_triangle(int row, int col, int half, Search& search) const noexcept;
 
   const SurfaceGrid* grid_;
   const Planes3* positions_ = nullptr;

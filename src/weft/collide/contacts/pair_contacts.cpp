@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "weft/collide/contacts/closest.h"
+#include "weft/collide/pairs/cell_gaps.h"
 
 namespace weft {
 namespace {
@@ -61,7 +63,10 @@ class Finder {
 
   void look_at(const CellPair& cells) {
     if (pair_.same && adjacent(cells)) return;
-    if (apart(cells)) return;
+    const CellGaps gaps = gaps_of(cells);
+    const double reach = foresight * pair_.gap;
+    if (gaps.apart(reach, reach)) return;
+    near_ = reach + gaps.most_approach();
     samples_with_triangles(*pair_.grid_a, cells.a, *pair_.grid_b, cells.b, false);
     samples_with_triangles(*pair_.grid_b, cells.b, *pair_.grid_a, cells.a, true);
     edges(cells);
@@ -72,42 +77,26 @@ class Finder {
   /// see to them.
   [[nodiscard]] bool adjacent(const CellPair& cells) const {
     const SurfaceGrid& grid = *pair_.grid_a;
+    const int side = grid.cells();
+    if (std::abs(cells.a / side - cells.b / side) <= 1 &&
+        std::abs(cells.a % side - cells.b % side) <= 1)
+      return true;
+    if (!on_border(cells.a) || !on_border(cells.b)) return false;
     const std::array<int, 4> a = grid.corners(cells.a), b = grid.corners(cells.b);
     return std::any_of(a.begin(), a.end(), [&](int s) {
       return std::any_of(b.begin(), b.end(), [&](int t) { return grid.point(s) == grid.point(t); });
     });
   }
 
-  /// Whether one cell's normal direction keeps them apart at both ends by more than contacts reach.
-  [[nodiscard]] bool apart(const CellPair& cells) const {
-    return apart_along(way_between(cells), cells) ||
-           apart_along(cell_normal(*pair_.grid_a, pair_.a->start, cells.a), cells) ||
-           apart_along(cell_normal(*pair_.grid_b, pair_.b->start, cells.b), cells);
+  [[nodiscard]] bool on_border(int cell) const {
+    const int last = pair_.grid_a->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
+    return row == 0 || col == 0 || row == last || col == last;
   }
-  [[nodiscard]] Vec3d way_between(const CellPair& cells) const {
-    Vec3d way;
-    for (const int s : pair_.grid_a->corners(cells.a))
-      way += vec_cast<double>(pair_.a->start.at(s));
-    for (const int s : pair_.grid_b->corners(cells.b))
-      way -= vec_cast<double>(pair_.b->start.at(s));
-    return normalized(way);
-  }
-  [[nodiscard]] bool apart_along(Vec3d n, const CellPair& cells) const {
-    const auto bounds = [&](const Planes3& at, const std::array<int, 4>& corners) {
-      std::array<double, 2> least_most{HUGE_VAL, -HUGE_VAL};
-      for (const int s : corners) {
-        const double along = dot(n, vec_cast<double>(at.at(s)));
-        least_most = {std::min(least_most[0], along), std::max(least_most[1], along)};
-      }
-      return least_most;
-    };
-    const std::array<int, 4> a = pair_.grid_a->corners(cells.a), b = pair_.grid_b->corners(cells.b);
-    const double reach = foresight * pair_.gap;
-    const auto start_a = bounds(pair_.a->start, a), start_b = bounds(pair_.b->start, b);
-    const bool above = start_a[0] - start_b[1] > reach, below = start_b[0] - start_a[1] > reach;
-    if (!above && !below) return false;
-    const auto end_a = bounds(pair_.a->position, a), end_b = bounds(pair_.b->position, b);
-    return above ? end_a[0] - end_b[1] > reach : end_b[0] - end_a[1] > reach;
+
+  [[nodiscard]] CellGaps gaps_of(const CellPair& cells) const {
+    const MovingSurface a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
+    const MovingSurface b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
+    return {a, cells.a, b, cells.b};
   }
 
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }
@@ -132,7 +121,11 @@ class Finder {
       std::array<Vec3d, 3> corners{};
       for (std::size_t k = 0; k < 3; ++k)
         corners[k] = vec_cast<double>(cloth(!swapped).start.at(triangle[k]));
+      const Vec3d across = cross(corners[1] - corners[0], corners[2] - corners[0]);
+      const double farthest = near_ * length(across);
       for_own_samples(own, own_cell, [&](int sample) {
+        const Vec3d from = vec_cast<double>(cloth(swapped).start.at(sample)) - corners[0];
+        if (std::abs(dot(across, from)) > farthest) return;
         if (pair_.same && shares_point(sample, triangle)) return;
         const std::array<double, 3> weights =
             closest_weights(vec_cast<double>(cloth(swapped).start.at(sample)), corners);
@@ -178,6 +171,10 @@ class Finder {
       a.corners[k] = vec_cast<double>(pair_.a->start.at(p[k]));
       b.corners[k] = vec_cast<double>(pair_.b->start.at(q[k]));
     }
+    const Vec3d between = 0.5 * ((a.corners[0] + a.corners[1]) - (b.corners[0] + b.corners[1]));
+    const double farthest =
+        near_ + 0.5 * (length(a.corners[1] - a.corners[0]) + length(b.corners[1] - b.corners[0]));
+    if (squared_length(between) > farthest * farthest) return;
     const ClosestPair closest = closest_points(a, b);
     const auto inner = [](const std::array<double, 3>& w) { return w[0] > 0 && w[1] > 0; };
     if (!inner(closest.weights_a) || !inner(closest.weights_b)) return;
@@ -243,6 +240,7 @@ class Finder {
   }
 
   const ClothPair& pair_;
+  double near_ = 0;  // of the two cells: what starts farther apart makes no contact [m]
   std::vector<Contact>&of_a_, &of_b_;
 };
 

@@ -1,6 +1,9 @@
 #include "weft/collide/guard/cell_planes.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "weft/collide/pairs/cell_gaps.h"
 
 namespace weft {
 namespace {
@@ -34,48 +37,11 @@ class Finder {
   }
 
  private:
-  /// Whether the normal direction of one cell keeps the two as wholes apart, whatever their points
-  /// do within the slack: spares looking at their triangles.
+  /// Whether the two as wholes keep apart, whatever their points do within the slack: spares
+  /// looking at their triangles.
   [[nodiscard]] bool certain(const CellPair& cells) const {
-    const std::array<int, 4> a = search_.a.surface.grid->corners(cells.a);
-    const std::array<int, 4> b = search_.b.surface.grid->corners(cells.b);
-    // Neighbours in one layer lie beside each other, layers above each other.
-    return (search_.same && certain_along(way_between(a, b), a, b)) ||
-           certain_along(normal_of(search_.b, b), a, b) ||
-           certain_along(normal_of(search_.a, a), a, b);
-  }
-  [[nodiscard]] Vec3d way_between(const std::array<int, 4>& a, const std::array<int, 4>& b) const {
-    Vec3d way;
-    for (std::size_t k = 0; k < 4; ++k)
-      way += vec_cast<double>(search_.a.surface.start->at(a[k])) -
-             vec_cast<double>(search_.b.surface.start->at(b[k]));
-    return normalized(way);
-  }
-  static Vec3d normal_of(const PlaneSide& side, const std::array<int, 4>& s) {
-    const auto at = [&](int k) { return vec_cast<double>(side.surface.start->at(s[k])); };
-    return normalized(cross(at(1) - at(2), at(3) - at(0)));
-  }
-  [[nodiscard]] bool certain_along(Vec3d n, const std::array<int, 4>& a,
-                                   const std::array<int, 4>& b) const {
     const double wanted = (search_.b.body ? 1 : 2) * search_.options.slack;
-    const Bounds start_a = bounds(n, *search_.a.surface.start, a);
-    const Bounds start_b = bounds(n, *search_.b.surface.start, b);
-    const bool above = start_a.least > start_b.most, below = start_b.least > start_a.most;
-    if (!above && !below) return false;
-    const Bounds end_a = bounds(n, *search_.a.surface.end, a);
-    const Bounds end_b = bounds(n, *search_.b.surface.end, b);
-    return (above ? end_a.least - end_b.most : end_b.least - end_a.most) >= wanted;
-  }
-  struct Bounds {
-    double least = HUGE_VAL, most = -HUGE_VAL;
-  };
-  static Bounds bounds(Vec3d n, const Planes3& at, const std::array<int, 4>& samples) {
-    Bounds found;
-    for (const int s : samples) {
-      const double along = dot(n, vec_cast<double>(at.at(s)));
-      found = {std::min(found.least, along), std::max(found.most, along)};
-    }
-    return found;
+    return CellGaps(search_.a.surface, cells.a, search_.b.surface, cells.b).apart(0, wanted);
   }
 
   void triangles(const Samples& a, const Samples& b) {
@@ -88,9 +54,54 @@ class Finder {
     const int shared = bring_shared_first(order_a, order_b);
     if (shared == 0) return add(feature_of(search_.a, a, 3), feature_of(search_.b, b, 3));
     if (shared > 1) return;
-    add(feature_of(search_.a, {order_a[1], order_a[2], 0}, 2), feature_of(search_.b, b, 3));
-    add(feature_of(search_.b, {order_b[1], order_b[2], 0}, 2), feature_of(search_.a, a, 3));
+    edge_and_triangle(search_.a, order_a, search_.b, order_b);
+    edge_and_triangle(search_.b, order_b, search_.a, order_a);
   }
+
+  /// Two triangles whose first corner is one point: the far edge of one with the other as a whole.
+  void edge_and_triangle(const PlaneSide& edge, const Samples& of_edge, const PlaneSide& triangle,
+                         const Samples& of_triangle) {
+    if (beside(of_edge, of_triangle)) return;
+    add(feature_of(edge, {of_edge[1], of_edge[2], 0}, 2), feature_of(triangle, of_triangle, 3));
+  }
+
+  /// Whether the way between their middles certainly keeps the two apart, as neighbours in a layer
+  /// nearly always lie; told in single precision, seen from the common corner.
+  [[nodiscard]] bool beside(const Samples& of_edge, const Samples& of_triangle) const {
+    const Vec3f origin = search_.a.surface.start->at(of_triangle[0]);
+    const auto seen = [&](const Planes3& at) {
+      return SeenPair{{at.at(of_edge[1]) - origin, at.at(of_edge[2]) - origin},
+                      {at.at(of_triangle[0]) - origin, at.at(of_triangle[1]) - origin,
+                       at.at(of_triangle[2]) - origin}};
+    };
+    const SeenPair start = seen(*search_.a.surface.start);
+    const Vec3f way =
+        3.0F * (start.edge[0] + start.edge[1]) - 2.0F * (start.triangle[1] + start.triangle[2]);
+    const float size = std::sqrt(squared_length(way));
+    if (!(start.gap(way) > size * start.rounding())) return false;
+    const SeenPair end = seen(*search_.a.surface.end);
+    const float wanted = static_cast<float>(2 * search_.options.slack);
+    return end.gap(way) > size * (wanted + end.rounding());
+  }
+  /// An edge and a triangle as they are seen from somewhere near. [m]
+  struct SeenPair {
+    std::array<Vec3f, 2> edge;
+    std::array<Vec3f, 3> triangle;
+
+    /// How far the edge lies beyond the triangle along a direction, times its length.
+    [[nodiscard]] float gap(Vec3f way) const {
+      const auto along = [&](Vec3f p) { return dot(way, p); };
+      return std::min(along(edge[0]), along(edge[1])) -
+             std::max({along(triangle[0]), along(triangle[1]), along(triangle[2])});
+    }
+    /// What rounding may add to a gap, generously.
+    [[nodiscard]] float rounding() const {
+      float farthest = 0;
+      for (const Vec3f& p : edge) farthest = std::max(farthest, squared_length(p));
+      for (const Vec3f& p : triangle) farthest = std::max(farthest, squared_length(p));
+      return 4e-6F * std::sqrt(farthest);
+    }
+  };
 
   /// @return how many points two triangles share; the (last) one comes first in both
   int bring_shared_first(Samples& a, Samples& b) const {

@@ -26,42 +26,6 @@ void cell_row(int cells, const Coordinate& of, int r, float* lower, float* upper
   }
 }
 
-void row_edges(int cells, const Coordinate& of, int r, float* lower, float* upper) {
-  const float *a = of.start->row(r), *b = of.start->row(r + 1);
-  const float *c = of.end->row(r), *d = of.end->row(r + 1);
-#pragma omp simd
-  for (int i = 0; i < cells; ++i) {
-    const float p = a[i + 1] - a[i], q = b[i + 1] - b[i];
-    const float s = c[i + 1] - c[i], t = d[i + 1] - d[i];
-    lower[i] = least(least(p, q), least(s, t));
-    upper[i] = largest(largest(p, q), largest(s, t));
-  }
-}
-
-void column_edges(int cells, const Coordinate& of, int r, float* lower, float* upper) {
-  const float *a = of.start->row(r), *b = of.start->row(r + 1);
-  const float *c = of.end->row(r), *d = of.end->row(r + 1);
-#pragma omp simd
-  for (int i = 0; i < cells; ++i) {
-    const float p = b[i] - a[i], q = b[i + 1] - a[i + 1];
-    const float s = d[i] - c[i], t = d[i + 1] - c[i + 1];
-    lower[i] = least(least(p, q), least(s, t));
-    upper[i] = largest(largest(p, q), largest(s, t));
-  }
-}
-
-template <class Row>
-void fill(const Row& row, const Planes3& start, const Planes3& end, ExtentLevels& levels,
-          Worker& worker) {
-  const int cells = levels.sides().front();
-  const auto all = coordinates(start, end);
-  const Range mine = worker.share(cells);
-  for (int r = mine.first; r < mine.last; ++r)
-    for (std::size_t k = 0; k < 3; ++k)
-      row(cells, all[k], r, levels.finest()[k].row(r), levels.finest()[k + 3].row(r));
-  worker.barrier();
-}
-
 /// Levels of fewer nodes than this a side are fitted by one worker.
 constexpr int least_shared_side = 32;
 
@@ -111,16 +75,13 @@ void ExtentLevels::fit(Worker& worker) {
 
 void fill_position_extents(const Planes3& start, const Planes3& end, ExtentLevels& levels,
                            Worker& worker) {
-  fill(cell_row, start, end, levels, worker);
-}
-
-void fill_edge_extents(EdgeWay way, const Planes3& start, const Planes3& end, ExtentLevels& levels,
-                       Worker& worker) {
-  if (way == EdgeWay::along_row) {
-    fill(row_edges, start, end, levels, worker);
-  } else {
-    fill(column_edges, start, end, levels, worker);
-  }
+  const int cells = levels.sides().front();
+  const auto all = coordinates(start, end);
+  const Range mine = worker.share(cells);
+  for (int r = mine.first; r < mine.last; ++r)
+    for (std::size_t k = 0; k < 3; ++k)
+      cell_row(cells, all[k], r, levels.finest()[k].row(r), levels.finest()[k + 3].row(r));
+  worker.barrier();
 }
 
 }  // namespace weft

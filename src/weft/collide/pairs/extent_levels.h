@@ -43,10 +43,5 @@ class ExtentLevels {
 /// barrier. Positions that are not finite make boxes that meet nothing.
 void fill_position_extents(const Planes3& start, const Planes3& end, ExtentLevels& levels,
                            Worker& worker);
-/// Fills the extents of the edges along rows (samples (r, c) to (r, c + 1)) or columns of each
-/// cell's two, at both ends of the step.
-enum class EdgeWay { along_row, along_column };
-void fill_edge_extents(EdgeWay way, const Planes3& start, const Planes3& end, ExtentLevels& levels,
-                       Worker& worker);
 
 }  // namespace weft

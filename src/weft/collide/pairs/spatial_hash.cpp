@@ -163,9 +163,7 @@ void SpatialHashPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam
     if (!fitted_[i] || !still) tables_[i].fit(surfaces[i], team);
     fitted_[i] = still && i >= folds_.size();
   }
-  team.run([&](Worker& worker) {
-    for (std::size_t i = 0; i < folds_.size(); ++i) folds_[i].fit(surfaces[i], worker);
-  });
+  surfaces_.assign(surfaces.begin(), surfaces.end());
 }
 
 void SpatialHashPairs::find(int surface_a, int surface_b, float reach, ThreadTeam& team,
@@ -185,10 +183,11 @@ void SpatialHashPairs::find(int surface_a, int surface_b, float reach, ThreadTea
 void SpatialHashPairs::find_self(int surface, float reach, float slack, ThreadTeam& team,
                                  std::vector<CellPair>& out) {
   const HashedCells& table = tables_[static_cast<std::size_t>(surface)];
-  const LocalFolds& folds = folds_[static_cast<std::size_t>(surface)];
+  UnfoldedWindows& folds = folds_[static_cast<std::size_t>(surface)];
+  folds.judge(surfaces_[static_cast<std::size_t>(surface)], slack, team);
   shared_.collect(table.count(), team, out, [&](int cell, std::vector<CellPair>& mine) {
     table.for_near(table.box(cell), reach, [&](int other) {
-      if (cell < other && !folds.unfolded({cell, other}, slack)) mine.push_back({cell, other});
+      if (cell < other && !folds.unfolded(CellPair{cell, other})) mine.push_back({cell, other});
     });
   });
 }

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "weft/collide/pairs/cell_pairs.h"
-#include "weft/collide/pairs/local_folds.h"
+#include "weft/collide/pairs/extent_levels.h"
 #include "weft/collide/pairs/shared_pairs.h"
+#include "weft/collide/pairs/unfolded_windows.h"
 
 namespace weft {
 
@@ -76,9 +77,10 @@ class SpatialHashPairs final : public BroadPhase {
                  std::vector<CellPair>& out) override;
 
  private:
-  std::vector<HashedCells> tables_;  // one a surface
-  std::vector<LocalFolds> folds_;    // one a cloth
-  std::vector<bool> fitted_;         // bodies that stand still since
+  std::vector<HashedCells> tables_;     // one a surface
+  std::vector<UnfoldedWindows> folds_;  // one a cloth
+  std::vector<bool> fitted_;            // bodies that stand still since
+  std::vector<MovingSurface> surfaces_;
   SharedPairs shared_;
 };
 

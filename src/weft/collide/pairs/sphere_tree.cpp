@@ -94,10 +94,10 @@ SphereTreePairs::SphereTreePairs(std::span<const SurfaceGrid* const> grids, std:
 }
 
 void SphereTreePairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
+  surfaces_.assign(surfaces.begin(), surfaces.end());
   team.run([&](Worker& worker) {
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       if (!fitted_[i] || surfaces[i].start != surfaces[i].end) levels_[i].fit(surfaces[i], worker);
-      if (i < folds_.size()) folds_[i].fit(surfaces[i], worker);
     }
   });
   for (std::size_t i = folds_.size(); i < surfaces.size(); ++i)
@@ -160,7 +160,8 @@ void SphereTreePairs::find(int surface_a, int surface_b, float reach, ThreadTeam
 void SphereTreePairs::find_self(int surface, float reach, float slack, ThreadTeam& team,
                                 std::vector<CellPair>& out) {
   const SphereLevels& levels = levels_[static_cast<std::size_t>(surface)];
-  const LocalFolds& folds = folds_[static_cast<std::size_t>(surface)];
+  UnfoldedWindows& folds = folds_[static_cast<std::size_t>(surface)];
+  folds.judge(surfaces_[static_cast<std::size_t>(surface)], slack, team);
   const Search search{&levels, &levels, reach, true};
   gather_tasks(search);
   const int cells = levels.sides().front();
@@ -171,7 +172,7 @@ void SphereTreePairs::find_self(int surface, float reach, float slack, ThreadTea
             [&](const NodePair& pair) {
               const auto [a, b] =
                   std::minmax({pair.a.row * cells + pair.a.col, pair.b.row * cells + pair.b.col});
-              if (!folds.unfolded({a, b}, slack)) mine.push_back({a, b});
+              if (!folds.unfolded(CellPair{a, b})) mine.push_back({a, b});
             });
       });
 }

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "weft/collide/pairs/cell_pairs.h"
-#include "weft/collide/pairs/local_folds.h"
 #include "weft/collide/pairs/node_levels.h"
 #include "weft/collide/pairs/shared_pairs.h"
+#include "weft/collide/pairs/unfolded_windows.h"
 
 namespace weft {
 
@@ -67,10 +67,11 @@ class SphereTreePairs final : public BroadPhase {
                       const Emit& emit);
   void gather_tasks(const Search& search);
 
-  std::vector<SphereLevels> levels_;  // one a surface
-  std::vector<LocalFolds> folds_;     // one a cloth
-  std::vector<bool> fitted_;          // bodies that stand still since
+  std::vector<SphereLevels> levels_;    // one a surface
+  std::vector<UnfoldedWindows> folds_;  // one a cloth
+  std::vector<bool> fitted_;            // bodies that stand still since
   std::vector<NodePair> tasks_;
+  std::vector<MovingSurface> surfaces_;
   SharedPairs shared_;
 };
 

@@ -17,6 +17,9 @@ void first_sweep(int n, float factor, const float* inverse, ConstRow3 right, Row
 void apply(int n, const OperatorRow& row, const StencilRows& x, Row3 out);
 void add_right(int n, const float* share, const float* inverse, ConstRow3 right, Row3 out);
 double sweep(int n, const SweepRow& row, Row3 out);
+void subtract_blocks(int n, const BlockRow& blocks, ConstRow3 x, Row3 out);
+void apply_blocks(int n, float factor, const BlockRow& blocks, ConstRow3 x, Row3 out);
+void block_sweep(int n, const BlockSweepRow& row, Row3 out);
 void restrict_rows(int n, const StencilRows& fine, Row3 lines, Row3 out);
 void interpolate(int n, ConstRow3 a, ConstRow3 b, const float* inverse, Row3 lines, Row3 out);
 void substitute(const Envelope& factor, Row3 x);

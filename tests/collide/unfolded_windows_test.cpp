@@ -1,4 +1,4 @@
-#include "weft/collide/pairs/unfolded.h"
+#include "weft/collide/pairs/unfolded_windows.h"
 
 #include <gtest/gtest.h>
 
@@ -10,26 +10,20 @@
 namespace weft {
 namespace {
 
-Box3f around(const std::vector<Vec3d>& vectors) {
-  Box3f box{vec_cast<float>(vectors[0]), vec_cast<float>(vectors[0])};
-  for (const Vec3d& v : vectors)
-    box = {min(box.lower, vec_cast<float>(v)), max(box.upper, vec_cast<float>(v))};
-  return box;
-}
-
 /// A patch of 6 x 6 samples.
 struct Patch {
   static constexpr int n = 6;
   std::vector<Vec3d> points;
 
   [[nodiscard]] bool certain(float slack = 0) const {
-    std::vector<Vec3d> rows, columns;
-    for (int r = 0; r < n; ++r)
-      for (int c = 0; c < n; ++c) {
-        if (c + 1 < n) rows.push_back(points[r * n + c + 1] - points[r * n + c]);
-        if (r + 1 < n) columns.push_back(points[(r + 1) * n + c] - points[r * n + c]);
-      }
-    return certainly_unfolded(around(rows), around(columns), slack);
+    Planes3 at(n);
+    for (int s = 0; s < n * n; ++s) at.set(s, vec_cast<float>(points[s]));
+    const SurfaceGrid grid(n, BorderMates(), {});
+    UnfoldedWindows windows(n - 1);
+    ThreadTeam team(1);
+    windows.judge({&grid, &at, &at}, slack / 2, team);
+    // Of the first level three nodes a side are the whole.
+    return windows.unfolded(Node{1, 0, 0}, Node{1, 2, 2});
   }
   [[nodiscard]] int crossings() const {
     const SurfaceGrid grid(n, BorderMates(), {});

@@ -1,0 +1,28 @@
+#include "weft/collide/kernels/collide_kernels.h"
+
+#include "weft/core/instruction_set.h"
+
+namespace weft {
+
+namespace baseline {
+extern const CollideKernels collide_kernels;
+}
+namespace avx2 {
+extern const CollideKernels collide_kernels;
+}
+namespace avx512 {
+extern const CollideKernels collide_kernels;
+}
+
+const CollideKernels& collide_kernels_for(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::avx512:
+      return avx512::collide_kernels;
+    case InstructionSet::avx2:
+      return avx2::collide_kernels;
+    default:
+      return baseline::collide_kernels;
+  }
+}
+
+}  // namespace weft

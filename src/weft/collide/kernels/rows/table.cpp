@@ -1,0 +1,8 @@
+#include "weft/collide/kernels/rows/rows.h"
+
+namespace weft::WEFT_KERNEL_SET {
+
+const CollideKernels collide_kernels{edges, join_windows,  join_twos,
+                                     judge, near_children, near_pairs};
+
+}  // namespace weft::WEFT_KERNEL_SET
