@@ -27,6 +27,12 @@ class SurfaceGrid {
   [[nodiscard]] std::array<int, 3> triangle(int row, int col, int half) const {
     return triangle_from(row * size_ + col, row * cells() + col, half);
   }
+  /// Which of a cell's corners its two triangles have.
+  [[nodiscard]] std::array<int, 3> triangle_corners(int cell, int half) const {
+    if (falling_[static_cast<std::size_t>(cell)] != 0)
+      return half == 0 ? std::array{0, 1, 2} : std::array{1, 3, 2};
+    return half == 0 ? std::array{0, 1, 3} : std::array{0, 3, 2};
+  }
   /// The four samples of a cell.
   [[nodiscard]] std::array<int, 4> corners(int cell) const {
     const int s = first_sample(cell);

@@ -17,7 +17,7 @@ constexpr double softness = 100;
 /// As for bodies: contacts begin this many gaps before the one that is kept.
 constexpr double foresight = 1.5;
 /// Edges that cross in layers lying flat on each other are left to samples and triangles.
-constexpr double flat = 0.8;
+constexpr float flat = 0.8F;
 
 /// One side of a contact: up to three samples of a cloth with weights that sum to 1.
 struct Side {
@@ -49,11 +49,75 @@ struct Plane {
   Vec3d slide;
 };
 
-Vec3d cell_normal(const SurfaceGrid& grid, const Planes3& at, int cell) {
-  const std::array<int, 4> s = grid.corners(cell);
-  return normalized(cross(vec_cast<double>(at.at(s[1])) - vec_cast<double>(at.at(s[2])),
-                          vec_cast<double>(at.at(s[3])) - vec_cast<double>(at.at(s[0]))));
-}
+/// One of two cells that are looked at.
+struct Cell {
+  const SurfaceGrid* grid;
+  int cell;
+  bool second;  // of the two
+  std::array<int, 4> samples;
+
+  Cell(const SurfaceGrid& of, int number, bool is_second)
+      : grid(&of), cell(number), second(is_second), samples(of.corners(number)) {}
+  [[nodiscard]] bool is_border() const {
+    const int last = grid->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
+    return row == 0 || col == 0 || row == last || col == last;
+  }
+  [[nodiscard]] bool next_to(const Cell& other) const {
+    const int side = grid->cells();
+    return std::abs(cell / side - other.cell / side) <= 1 &&
+           std::abs(cell % side - other.cell % side) <= 1;
+  }
+  /// Calls visit(corner) for the samples that belong to it: its first, and at the last row and
+  /// column those that no other cell begins with.
+  template <class Visit>
+  void for_own_corners(const Visit& visit) const {
+    const int last = grid->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
+    const std::array<bool, 4> own{true, col == last, row == last, row == last && col == last};
+    for (int k = 0; k < 4; ++k)
+      if (own[k] && grid->point(samples[k]) == samples[k]) visit(k);
+  }
+  /// The edges that belong to it, by its corners.
+  [[nodiscard]] std::array<std::array<int, 2>, 3> own_edges() const {
+    const bool rising = grid->triangle_corners(cell, 0)[2] == 3;
+    return {{{0, 1}, {0, 2}, {rising ? 0 : 1, rising ? 3 : 2}}};
+  }
+};
+
+/// A triangle as it is seen in single precision, for what need not be looked at closely.
+struct SeenTriangle {
+  Vec3f origin, first, second, across;
+  float area;  // twice
+
+  SeenTriangle(const CellGaps& gaps, bool of_second, const std::array<int, 3>& corners)
+      : origin(gaps.start(of_second, corners[0])),
+        first(gaps.start(of_second, corners[1]) - origin),
+        second(gaps.start(of_second, corners[2]) - origin),
+        across(cross(first, second)),
+        area(std::sqrt(squared_length(across))) {}
+  /// Whether a point can lie above the inside and as near as that, rounding aside.
+  [[nodiscard]] bool may_hold(Vec3f point, float near) const {
+    constexpr float hair = 1e-3F;
+    const Vec3f from = point - origin;
+    if (std::abs(dot(across, from)) > near * area) return false;
+    const float least = -hair * area * area;
+    const float u = dot(cross(from, second), across), v = dot(cross(first, from), across);
+    return u >= least && v >= least && area * area - u - v >= least;
+  }
+};
+
+/// An edge of a cell in the same way.
+struct SeenEdge {
+  std::array<int, 2> samples{};
+  Vec3f middle;
+  float half_length = 0;
+
+  static SeenEdge of(const CellGaps& gaps, const Cell& cell, const std::array<int, 2>& corners) {
+    const Vec3f p = gaps.start(cell.second, corners[0]), q = gaps.start(cell.second, corners[1]);
+    return {{cell.samples[corners[0]], cell.samples[corners[1]]},
+            0.5F * (p + q),
+            0.5F * std::sqrt(squared_length(p - q))};
+  }
+};
 
 /// Looks at one pair of cells after the other and collects contacts.
 class Finder {
@@ -62,80 +126,61 @@ class Finder {
       : pair_(pair), of_a_(of_a), of_b_(of_b) {}
 
   void look_at(const CellPair& cells) {
-    if (pair_.same && adjacent(cells)) return;
-    const CellGaps gaps = gaps_of(cells);
+    const Cell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
+    if (pair_.same && adjacent(a, b)) return;
+    const MovingSurface surface_a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
+    const MovingSurface surface_b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
+    const CellGaps gaps(surface_a, cells.a, surface_b, cells.b);
     const double reach = foresight * pair_.gap;
     if (gaps.apart(reach, reach)) return;
-    near_ = reach + gaps.most_approach();
-    samples_with_triangles(*pair_.grid_a, cells.a, *pair_.grid_b, cells.b, false);
-    samples_with_triangles(*pair_.grid_b, cells.b, *pair_.grid_a, cells.a, true);
-    edges(cells);
+    // What starts farther apart makes no contact.
+    const auto near = static_cast<float>(reach + gaps.most_approach()) + gaps.margin();
+    samples_with_triangles(gaps, near, a, b);
+    samples_with_triangles(gaps, near, b, a);
+    edges(gaps, near, a, b);
   }
 
  private:
   /// Cells that share a corner fold onto each other at the crease only, where bending and the guard
   /// see to them.
-  [[nodiscard]] bool adjacent(const CellPair& cells) const {
-    const SurfaceGrid& grid = *pair_.grid_a;
-    const int side = grid.cells();
-    if (std::abs(cells.a / side - cells.b / side) <= 1 &&
-        std::abs(cells.a % side - cells.b % side) <= 1)
-      return true;
-    if (!on_border(cells.a) || !on_border(cells.b)) return false;
-    const std::array<int, 4> a = grid.corners(cells.a), b = grid.corners(cells.b);
-    return std::any_of(a.begin(), a.end(), [&](int s) {
-      return std::any_of(b.begin(), b.end(), [&](int t) { return grid.point(s) == grid.point(t); });
+  static bool adjacent(const Cell& a, const Cell& b) {
+    if (a.next_to(b)) return true;
+    if (!a.is_border() || !b.is_border()) return false;
+    return std::any_of(a.samples.begin(), a.samples.end(), [&](int s) {
+      return std::any_of(b.samples.begin(), b.samples.end(),
+                         [&](int t) { return a.grid->point(s) == a.grid->point(t); });
     });
   }
 
-  [[nodiscard]] bool on_border(int cell) const {
-    const int last = pair_.grid_a->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
-    return row == 0 || col == 0 || row == last || col == last;
-  }
-
-  [[nodiscard]] CellGaps gaps_of(const CellPair& cells) const {
-    const MovingSurface a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
-    const MovingSurface b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
-    return {a, cells.a, b, cells.b};
-  }
-
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }
-  [[nodiscard]] const SurfaceGrid& grid(bool b) const { return b ? *pair_.grid_b : *pair_.grid_a; }
 
-  /// Visits the samples that belong to a cell: its first, and at the last row and column those that
-  /// no other cell begins with.
-  template <class Visit>
-  static void for_own_samples(const SurfaceGrid& grid, int cell, const Visit& visit) {
-    const int last = grid.cells() - 1, row = cell / grid.cells(), col = cell % grid.cells();
-    const std::array<int, 4> s = grid.corners(cell);
-    const std::array<bool, 4> own{true, col == last, row == last, row == last && col == last};
-    for (std::size_t k = 0; k < 4; ++k)
-      if (own[k] && grid.point(s[k]) == s[k]) visit(s[k]);
-  }
-
-  void samples_with_triangles(const SurfaceGrid& own, int own_cell, const SurfaceGrid& other,
-                              int other_cell, bool swapped) {
+  void samples_with_triangles(const CellGaps& gaps, float near, const Cell& own,
+                              const Cell& other) {
     for (int half = 0; half < 2; ++half) {
-      const std::array<int, 3> triangle = other.triangle(other_cell, half);
-      if (other.folded(triangle)) continue;
-      std::array<Vec3d, 3> corners{};
-      for (std::size_t k = 0; k < 3; ++k)
-        corners[k] = vec_cast<double>(cloth(!swapped).start.at(triangle[k]));
-      const Vec3d across = cross(corners[1] - corners[0], corners[2] - corners[0]);
-      const double farthest = near_ * length(across);
-      for_own_samples(own, own_cell, [&](int sample) {
-        const Vec3d from = vec_cast<double>(cloth(swapped).start.at(sample)) - corners[0];
-        if (std::abs(dot(across, from)) > farthest) return;
-        if (pair_.same && shares_point(sample, triangle)) return;
-        const std::array<double, 3> weights =
-            closest_weights(vec_cast<double>(cloth(swapped).start.at(sample)), corners);
-        // Before an edge or a corner the way to it may lie along the cloth, where a push would
-        // strain it: that is left to edges and to the guard.
-        if (std::any_of(weights.begin(), weights.end(), [](double w) { return !(w > 0); })) return;
-        add({&cloth(swapped), {sample, sample, sample}, {1, 0, 0}},
-            {&cloth(!swapped), triangle, weights}, swapped);
+      const std::array<int, 3> corners = other.grid->triangle_corners(other.cell, half);
+      const SeenTriangle seen(gaps, other.second, corners);
+      own.for_own_corners([&](int k) {
+        if (!seen.may_hold(gaps.start(own.second, k), near)) return;
+        const std::array<int, 3> triangle{other.samples[corners[0]], other.samples[corners[1]],
+                                          other.samples[corners[2]]};
+        if (!other.grid->folded(triangle))
+          sample_with_triangle(own.samples[k], triangle, own.second);
       });
     }
+  }
+
+  void sample_with_triangle(int sample, const std::array<int, 3>& triangle, bool swapped) {
+    if (pair_.same && shares_point(sample, triangle)) return;
+    const Planes3& at = cloth(!swapped).start;
+    const std::array<double, 3> weights =
+        closest_weights(vec_cast<double>(cloth(swapped).start.at(sample)),
+                        {vec_cast<double>(at.at(triangle[0])), vec_cast<double>(at.at(triangle[1])),
+                         vec_cast<double>(at.at(triangle[2]))});
+    // Before an edge or a corner the way to it may lie along the cloth, where a push would strain
+    // it: that is left to edges and to the guard.
+    if (std::any_of(weights.begin(), weights.end(), [](double w) { return !(w > 0); })) return;
+    add({&cloth(swapped), {sample, sample, sample}, {1, 0, 0}},
+        {&cloth(!swapped), triangle, weights}, swapped);
   }
 
   [[nodiscard]] bool shares_point(int sample, const std::array<int, 3>& triangle) const {
@@ -144,37 +189,33 @@ class Finder {
                        [&](int corner) { return grid.point(corner) == grid.point(sample); });
   }
 
-  static std::array<std::array<int, 2>, 3> own_edges(const SurfaceGrid& grid, int cell) {
-    const std::array<int, 4> s = grid.corners(cell);
-    const std::array<int, 3> first = grid.triangle(cell, 0);
-    const bool rising = first[2] == s[3];
-    return {{{s[0], s[1]}, {s[0], s[2]}, {rising ? s[0] : s[1], rising ? s[3] : s[2]}}};
-  }
-
-  void edges(const CellPair& cells) {
-    const Vec3d normal_a = cell_normal(grid(false), pair_.a->start, cells.a);
-    const Vec3d normal_b = cell_normal(grid(true), pair_.b->start, cells.b);
-    if (std::abs(dot(normal_a, normal_b)) > flat) return;
-    for (const std::array<int, 2>& p : own_edges(grid(false), cells.a))
-      for (const std::array<int, 2>& q : own_edges(grid(true), cells.b)) {
-        if (pair_.same &&
-            (shares_point(p[0], {q[0], q[1], q[1]}) || shares_point(p[1], {q[0], q[1], q[1]})))
-          continue;
-        add_edges(p, q);
+  void edges(const CellGaps& gaps, float near, const Cell& a, const Cell& b) {
+    if (gaps.parallel(flat)) return;
+    const auto seen = [&](const Cell& cell) {
+      std::array<SeenEdge, 3> edges{};
+      const auto corners = cell.own_edges();
+      for (std::size_t i = 0; i < 3; ++i) edges[i] = SeenEdge::of(gaps, cell, corners[i]);
+      return edges;
+    };
+    const std::array<SeenEdge, 3> of_b = seen(b);
+    for (const SeenEdge& p : seen(a))
+      for (const SeenEdge& q : of_b) {
+        const float farthest = near + p.half_length + q.half_length;
+        if (squared_length(p.middle - q.middle) <= farthest * farthest)
+          add_edges(p.samples, q.samples);
       }
   }
 
   void add_edges(const std::array<int, 2>& p, const std::array<int, 2>& q) {
+    if (pair_.same &&
+        (shares_point(p[0], {q[0], q[1], q[1]}) || shares_point(p[1], {q[0], q[1], q[1]})))
+      return;
     Feature a, b;
     a.count = b.count = 2;
     for (std::size_t k = 0; k < 2; ++k) {
       a.corners[k] = vec_cast<double>(pair_.a->start.at(p[k]));
       b.corners[k] = vec_cast<double>(pair_.b->start.at(q[k]));
     }
-    const Vec3d between = 0.5 * ((a.corners[0] + a.corners[1]) - (b.corners[0] + b.corners[1]));
-    const double farthest =
-        near_ + 0.5 * (length(a.corners[1] - a.corners[0]) + length(b.corners[1] - b.corners[0]));
-    if (squared_length(between) > farthest * farthest) return;
     const ClosestPair closest = closest_points(a, b);
     const auto inner = [](const std::array<double, 3>& w) { return w[0] > 0 && w[1] > 0; };
     if (!inner(closest.weights_a) || !inner(closest.weights_b)) return;
@@ -240,7 +281,6 @@ class Finder {
   }
 
   const ClothPair& pair_;
-  double near_ = 0;  // of the two cells: what starts farther apart makes no contact [m]
   std::vector<Contact>&of_a_, &of_b_;
 };
 

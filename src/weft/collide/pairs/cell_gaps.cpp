@@ -59,8 +59,10 @@ CellGaps::CellGaps(const MovingSurface& a, int cell_a, const MovingSurface& b, i
   end_a_ = corners(*a.end, first_a, origin);
   start_b_ = corners(*b.start, first_b, origin);
   end_b_ = b.end == b.start ? start_b_ : corners(*b.end, first_b, origin);
+  float farthest = 0;
   for (const Corners* of : {&start_a_, &end_a_, &start_b_, &end_b_})
-    farthest_ = largest(farthest_, farthest_of(of->x, of->y, of->z));
+    farthest = largest(farthest, farthest_of(of->x, of->y, of->z));
+  margin_ = rounding * farthest;
 }
 
 Vec3f CellGaps::normal_of(const Corners& of) {
@@ -83,6 +85,11 @@ bool CellGaps::apart_along(Vec3f n, float at_start, float at_end) const {
   return (above ? c.lower - d.upper : d.lower - c.upper) > size * at_end;
 }
 
+bool CellGaps::parallel(float cosine) const {
+  const Vec3f a = normal_of(start_a_), b = normal_of(start_b_);
+  return std::abs(dot(a, b)) > cosine * std::sqrt(squared_length(a) * squared_length(b));
+}
+
 double CellGaps::most_approach() const {
   const auto along = [](const Four& start_a, const Four& end_a, const Four& start_b,
                         const Four& end_b) {
@@ -92,13 +99,12 @@ double CellGaps::most_approach() const {
   const Vec3f most{along(start_a_.x, end_a_.x, start_b_.x, end_b_.x),
                    along(start_a_.y, end_a_.y, start_b_.y, end_b_.y),
                    along(start_a_.z, end_a_.z, start_b_.z, end_b_.z)};
-  return double{std::sqrt(squared_length(most))} + rounding * farthest_;
+  return double{std::sqrt(squared_length(most))} + margin_;
 }
 
 bool CellGaps::apart(double at_start, double at_end) const {
-  const float margin = rounding * farthest_;
-  const float start = static_cast<float>(at_start) + margin;
-  const float end = static_cast<float>(at_end) + margin;
+  const float start = static_cast<float>(at_start) + margin_;
+  const float end = static_cast<float>(at_end) + margin_;
   // Neighbours in one layer lie beside each other, layers above each other.
   return apart_along(way(), start, end) || apart_along(normal_of(start_b_), start, end) ||
          apart_along(normal_of(start_a_), start, end);

@@ -14,6 +14,17 @@ class CellGaps {
   /// Whether the way between them or the normal direction of either certainly keeps them apart, in
   /// the same order, by more than so much at the start and at the end. [m]
   [[nodiscard]] bool apart(double at_start, double at_end) const;
+  /// A corner of the first or second cell as it is seen. [m]
+  [[nodiscard]] Vec3f start(bool second, int corner) const {
+    return at(second ? start_b_ : start_a_, corner);
+  }
+  [[nodiscard]] Vec3f end(bool second, int corner) const {
+    return at(second ? end_b_ : end_a_, corner);
+  }
+  /// What rounding may add to a gap, generously. [m]
+  [[nodiscard]] float margin() const { return margin_; }
+  /// Whether the cosine between their normals at the start is more than that, either way.
+  [[nodiscard]] bool parallel(float cosine) const;
   /// How far any two of their points may come nearer to each other in the step, at most. [m]
   [[nodiscard]] double most_approach() const;
 
@@ -21,13 +32,17 @@ class CellGaps {
   struct Corners {
     std::array<float, 4> x, y, z;
   };
+  static Vec3f at(const Corners& of, int corner) {
+    const auto k = static_cast<std::size_t>(corner);
+    return {of.x[k], of.y[k], of.z[k]};
+  }
   static Corners corners(const Planes3& at, int first, Vec3f origin);
   static Vec3f normal_of(const Corners& of);
   [[nodiscard]] Vec3f way() const;
   [[nodiscard]] bool apart_along(Vec3f n, float at_start, float at_end) const;
 
   Corners start_a_, end_a_, start_b_, end_b_;
-  float farthest_ = 0;  // of all coordinates [m]
+  float margin_ = 0;
 };
 
 }  // namespace weft

@@ -7,7 +7,7 @@ namespace weft {
 namespace {
 
 /// What workers share are nodes of about this many cells a side.
-constexpr int task_level = 3;
+constexpr int task_level = 4;
 
 /// Calls visit(child, k) for those of a node's children whose bits are set.
 template <class Visit>

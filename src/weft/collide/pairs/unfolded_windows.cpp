@@ -21,20 +21,10 @@ std::array<const float*, 12> row_of(const std::array<Grid<float>, 12>& planes, i
   return rows;
 }
 
-std::array<Grid<float>, 12> planes(int side) {
+std::array<Grid<float>, 12> planes(int rows, int cols) {
   std::array<Grid<float>, 12> made;
-  for (Grid<float>& plane : made) plane = Grid<float>(side, side);
+  for (Grid<float>& plane : made) plane = Grid<float>(rows, cols);
   return made;
-}
-
-/// Whether a window of `size` nodes a side, some of whose places hold both rows and both columns,
-/// is marked.
-bool any_marked(const Grid<float>& marks, int size, std::pair<int, int> rows,
-                std::pair<int, int> cols) {
-  for (int r = std::max(0, rows.second - size + 1); r <= rows.first && r < marks.rows(); ++r)
-    for (int c = std::max(0, cols.second - size + 1); c <= cols.first && c < marks.cols(); ++c)
-      if (marks(r, c) != 0) return true;
-  return false;
 }
 
 }  // namespace
@@ -42,8 +32,8 @@ bool any_marked(const Grid<float>& marks, int size, std::pair<int, int> rows,
 UnfoldedWindows::UnfoldedWindows(int cells) {
   for (const int side : level_sides(cells)) {
     const int twos = side - 1, threes = std::max(0, side - 2);
-    levels_.push_back({side, planes(side), planes(twos), planes(twos), Grid<float>(twos, twos),
-                       Grid<float>(threes, threes)});
+    levels_.push_back(
+        {side, planes(side, side), Grid<float>(twos, twos), Grid<float>(threes, threes)});
   }
 }
 
@@ -92,42 +82,40 @@ void UnfoldedWindows::fit(const CollideKernels& kernels, const MovingSurface& su
 }
 
 void UnfoldedWindows::judge_rows(const CollideKernels& kernels, Level& level, float slack,
-                                 Worker& worker) {
-  const auto join = [&](const Extents& of, int r, Extents& out) {
-    kernels.join_windows(level.side - 1, row_of(of, r).data(), row_of(of, r + 1).data(),
-                         row_of(out, r).data());
+                                 Range rows, Lines& lines) {
+  const int twos = level.two_unfolded.cols(), threes = level.three_unfolded.cols();
+  const auto join_two = [&](int r) {
+    kernels.join_windows(twos, row_of(std::as_const(level.nodes), r).data(),
+                         row_of(std::as_const(level.nodes), r + 1).data(),
+                         row_of(lines.twos, r % 2).data());
   };
-  const Range twos = worker.share(std::max(0, level.side - 1));
-  for (int r = twos.first; r < twos.last; ++r) {
-    join(level.nodes, r, level.twos);
-    kernels.judge(level.side - 1, row_of(std::as_const(level.twos), r).data(), slack,
-                  level.two_unfolded.row(r));
-  }
-  worker.barrier();
-  const Range threes = worker.share(std::max(0, level.side - 2));
-  for (int r = threes.first; r < threes.last; ++r) {
-    join(level.twos, r, level.threes);
-    kernels.judge(level.side - 2, row_of(std::as_const(level.threes), r).data(), slack,
-                  level.three_unfolded.row(r));
+  const auto judge = [&](int count, const Extents& of, int row, float* out) {
+    kernels.judge(count, row_of(of, row).data(), slack, out);
+  };
+  if (rows.first < rows.last) join_two(rows.first);
+  for (int r = rows.first; r < rows.last; ++r) {
+    judge(twos, lines.twos, r % 2, level.two_unfolded.row(r));
+    if (r >= level.three_unfolded.rows()) continue;
+    join_two(r + 1);
+    kernels.join_windows(threes, row_of(std::as_const(lines.twos), r % 2).data(),
+                         row_of(std::as_const(lines.twos), (r + 1) % 2).data(),
+                         row_of(lines.threes, 0).data());
+    judge(threes, lines.threes, 0, level.three_unfolded.row(r));
   }
 }
 
 void UnfoldedWindows::judge(const MovingSurface& surface, float slack, ThreadTeam& team) {
   const CollideKernels& kernels = collide_kernels_for(team.instructions());
+  const int side = levels_.front().side;
+  while (static_cast<int>(lines_.size()) < team.size())
+    lines_.push_back({planes(2, side), planes(1, side)});
   team.run([&](Worker& worker) {
     fit(kernels, surface, worker);
     // Of an edge both ends may leave their paths.
-    for (Level& level : levels_) judge_rows(kernels, level, 2 * slack, worker);
+    for (Level& level : levels_)
+      judge_rows(kernels, level, 2 * slack, worker.share(level.two_unfolded.rows()),
+                 lines_[static_cast<std::size_t>(worker.rank())]);
   });
-}
-
-bool UnfoldedWindows::unfolded(const Node& a, const Node& b) const {
-  const Level& level = levels_[static_cast<std::size_t>(a.level)];
-  const std::pair rows = std::minmax(a.row, b.row), cols = std::minmax(a.col, b.col);
-  const int apart = std::max(rows.second - rows.first, cols.second - cols.first);
-  if (apart > 2 || level.side < 2) return false;
-  return any_marked(apart < 2 ? level.two_unfolded : level.three_unfolded, apart < 2 ? 2 : 3, rows,
-                    cols);
 }
 
 bool UnfoldedWindows::unfolded(const CellPair& pair) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -29,7 +30,19 @@ class UnfoldedWindows {
   void judge(const MovingSurface& surface, float slack, ThreadTeam& team);
   /// Whether some window that holds two nodes of one level is certainly unfolded; false where they
   /// are too far apart for one.
-  [[nodiscard]] bool unfolded(const Node& a, const Node& b) const;
+  [[nodiscard]] bool unfolded(const Node& a, const Node& b) const {
+    const Level& level = levels_[static_cast<std::size_t>(a.level)];
+    const auto [row, last_row] = std::minmax(a.row, b.row);
+    const auto [col, last_col] = std::minmax(a.col, b.col);
+    const int apart = std::max(last_row - row, last_col - col);
+    if (apart > 2) return false;
+    const int size = apart < 2 ? 2 : 3;
+    const Grid<float>& marks = apart < 2 ? level.two_unfolded : level.three_unfolded;
+    for (int r = std::max(0, last_row - size + 1); r <= std::min(row, marks.rows() - 1); ++r)
+      for (int c = std::max(0, last_col - size + 1); c <= std::min(col, marks.cols() - 1); ++c)
+        if (marks.row(r)[c] != 0) return true;
+    return false;
+  }
   /// The same of two cells, on the first level that has a window for them.
   [[nodiscard]] bool unfolded(const CellPair& pair) const;
 
@@ -37,16 +50,22 @@ class UnfoldedWindows {
   /// Least x, y, z and largest x, y, z of the edges along rows, then of those along columns.
   using Extents = std::array<Grid<float>, 12>;
   struct Level {
-    int side = 0;                              // nodes
-    Extents nodes, twos, threes;               // of windows of 1, 2 x 2, 3 x 3 nodes
+    int side = 0;  // nodes
+    Extents nodes;
     Grid<float> two_unfolded, three_unfolded;  // 1 where the window that begins here is
+  };
+  /// Rows of windows that a worker has in hand: two of 2 x 2 nodes in turn, one of 3 x 3.
+  struct Lines {
+    std::array<Grid<float>, 12> twos, threes;  // [2 x side], [1 x side]
   };
   void fill_row(const CollideKernels& kernels, const MovingSurface& surface, int row);
   void join_row(const CollideKernels& kernels, std::size_t level, int row);
   void fit(const CollideKernels& kernels, const MovingSurface& surface, Worker& worker);
-  static void judge_rows(const CollideKernels& kernels, Level& level, float slack, Worker& worker);
+  static void judge_rows(const CollideKernels& kernels, Level& level, float slack, Range rows,
+                         Lines& lines);
 
   std::vector<Level> levels_;
+  std::vector<Lines> lines_;  // one a worker
 };
 
 }  // namespace weft
