@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "weft/collide/contacts/closest.h"
-#include "weft/collide/pairs/cell_gaps.h"
+#include "weft/collide/contacts/seen_cells.h"
 
 namespace weft {
 namespace {
@@ -49,76 +48,6 @@ struct Plane {
   Vec3d slide;
 };
 
-/// One of two cells that are looked at.
-struct Cell {
-  const SurfaceGrid* grid;
-  int cell;
-  bool second;  // of the two
-  std::array<int, 4> samples;
-
-  Cell(const SurfaceGrid& of, int number, bool is_second)
-      : grid(&of), cell(number), second(is_second), samples(of.corners(number)) {}
-  [[nodiscard]] bool is_border() const {
-    const int last = grid->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
-    return row == 0 || col == 0 || row == last || col == last;
-  }
-  [[nodiscard]] bool next_to(const Cell& other) const {
-    const int side = grid->cells();
-    return std::abs(cell / side - other.cell / side) <= 1 &&
-           std::abs(cell % side - other.cell % side) <= 1;
-  }
-  /// Calls visit(corner) for the samples that belong to it: its first, and at the last row and
-  /// column those that no other cell begins with.
-  template <class Visit>
-  void for_own_corners(const Visit& visit) const {
-    const int last = grid->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
-    const std::array<bool, 4> own{true, col == last, row == last, row == last && col == last};
-    for (int k = 0; k < 4; ++k)
-      if (own[k] && grid->point(samples[k]) == samples[k]) visit(k);
-  }
-  /// The edges that belong to it, by its corners.
-  [[nodiscard]] std::array<std::array<int, 2>, 3> own_edges() const {
-    const bool rising = grid->triangle_corners(cell, 0)[2] == 3;
-    return {{{0, 1}, {0, 2}, {rising ? 0 : 1, rising ? 3 : 2}}};
-  }
-};
-
-/// A triangle as it is seen in single precision, for what need not be looked at closely.
-struct SeenTriangle {
-  Vec3f origin, first, second, across;
-  float area;  // twice
-
-  SeenTriangle(const CellGaps& gaps, bool of_second, const std::array<int, 3>& corners)
-      : origin(gaps.start(of_second, corners[0])),
-        first(gaps.start(of_second, corners[1]) - origin),
-        second(gaps.start(of_second, corners[2]) - origin),
-        across(cross(first, second)),
-        area(std::sqrt(squared_length(across))) {}
-  /// Whether a point can lie above the inside and as near as that, rounding aside.
-  [[nodiscard]] bool may_hold(Vec3f point, float near) const {
-    constexpr float hair = 1e-3F;
-    const Vec3f from = point - origin;
-    if (std::abs(dot(across, from)) > near * area) return false;
-    const float least = -hair * area * area;
-    const float u = dot(cross(from, second), across), v = dot(cross(first, from), across);
-    return u >= least && v >= least && area * area - u - v >= least;
-  }
-};
-
-/// An edge of a cell in the same way.
-struct SeenEdge {
-  std::array<int, 2> samples{};
-  Vec3f middle;
-  float half_length = 0;
-
-  static SeenEdge of(const CellGaps& gaps, const Cell& cell, const std::array<int, 2>& corners) {
-    const Vec3f p = gaps.start(cell.second, corners[0]), q = gaps.start(cell.second, corners[1]);
-    return {{cell.samples[corners[0]], cell.samples[corners[1]]},
-            0.5F * (p + q),
-            0.5F * std::sqrt(squared_length(p - q))};
-  }
-};
-
 /// Looks at one pair of cells after the other and collects contacts.
 class Finder {
  public:
@@ -126,7 +55,7 @@ class Finder {
       : pair_(pair), of_a_(of_a), of_b_(of_b) {}
 
   void look_at(const CellPair& cells) {
-    const Cell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
+    const SeenCell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
     if (pair_.same && adjacent(a, b)) return;
     const MovingSurface surface_a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
     const MovingSurface surface_b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
@@ -143,7 +72,7 @@ class Finder {
  private:
   /// Cells that share a corner fold onto each other at the crease only, where bending and the guard
   /// see to them.
-  static bool adjacent(const Cell& a, const Cell& b) {
+  static bool adjacent(const SeenCell& a, const SeenCell& b) {
     if (a.next_to(b)) return true;
     if (!a.is_border() || !b.is_border()) return false;
     return std::any_of(a.samples.begin(), a.samples.end(), [&](int s) {
@@ -154,8 +83,8 @@ class Finder {
 
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }
 
-  void samples_with_triangles(const CellGaps& gaps, float near, const Cell& own,
-                              const Cell& other) {
+  void samples_with_triangles(const CellGaps& gaps, float near, const SeenCell& own,
+                              const SeenCell& other) {
     for (int half = 0; half < 2; ++half) {
       const std::array<int, 3> corners = other.grid->triangle_corners(other.cell, half);
       const SeenTriangle seen(gaps, other.second, corners);
@@ -189,9 +118,9 @@ class Finder {
                        [&](int corner) { return grid.point(corner) == grid.point(sample); });
   }
 
-  void edges(const CellGaps& gaps, float near, const Cell& a, const Cell& b) {
+  void edges(const CellGaps& gaps, float near, const SeenCell& a, const SeenCell& b) {
     if (gaps.parallel(flat)) return;
-    const auto seen = [&](const Cell& cell) {
+    const auto seen = [&](const SeenCell& cell) {
       std::array<SeenEdge, 3> edges{};
       const auto corners = cell.own_edges();
       for (std::size_t i = 0; i < 3; ++i) edges[i] = SeenEdge::of(gaps, cell, corners[i]);

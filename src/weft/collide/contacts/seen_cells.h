@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "weft/collide/pairs/cell_gaps.h"
+
+namespace weft {
+
+/// One of two cells between which contacts are looked for.
+struct SeenCell {
+  const SurfaceGrid* grid;
+  int cell;
+  bool second;  ///< of the two
+  std::array<int, 4> samples;
+
+  SeenCell(const SurfaceGrid& of, int number, bool is_second)
+      : grid(&of), cell(number), second(is_second), samples(of.corners(number)) {}
+  [[nodiscard]] bool is_border() const {
+    const int last = grid->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
+    return row == 0 || col == 0 || row == last || col == last;
+  }
+  [[nodiscard]] bool next_to(const SeenCell& other) const {
+    const int side = grid->cells();
+    return std::abs(cell / side - other.cell / side) <= 1 &&
+           std::abs(cell % side - other.cell % side) <= 1;
+  }
+  /// Calls visit(corner) for the samples that belong to it: its first, and at the last row and
+  /// column those that no other cell begins with.
+  template <class Visit>
+  void for_own_corners(const Visit& visit) const {
+    const int last = grid->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
+    const std::array<bool, 4> own{true, col == last, row == last, row == last && col == last};
+    for (int k = 0; k < 4; ++k)
+      if (own[k] && grid->point(samples[k]) == samples[k]) visit(k);
+  }
+  /// The edges that belong to it, by its corners.
+  [[nodiscard]] std::array<std::array<int, 2>, 3> own_edges() const {
+    const bool rising = grid->triangle_corners(cell, 0)[2] == 3;
+    return {{{0, 1}, {0, 2}, {rising ? 0 : 1, rising ? 3 : 2}}};
+  }
+};
+
+/// A triangle as it is seen in single precision, for what need not be looked at closely.
+struct SeenTriangle {
+  Vec3f origin, first, second, across;
+  float area;  ///< twice
+
+  SeenTriangle(const CellGaps& gaps, bool of_second, const std::array<int, 3>& corners)
+      : origin(gaps.start(of_second, corners[0])),
+        first(gaps.start(of_second, corners[1]) - origin),
+        second(gaps.start(of_second, corners[2]) - origin),
+        across(cross(first, second)),
+        area(std::sqrt(squared_length(across))) {}
+  /// Whether a point can lie above the inside and as near as that, rounding aside.
+  [[nodiscard]] bool may_hold(Vec3f point, float near) const {
+    constexpr float hair = 1e-3F;
+    const Vec3f from = point - origin;
+    if (std::abs(dot(across, from)) > near * area) return false;
+    const float least = -hair * area * area;
+    const float u = dot(cross(from, second), across), v = dot(cross(first, from), across);
+    return u >= least && v >= least && area * area - u - v >= least;
+  }
+};
+
+/// An edge of a cell in the same way.
+struct SeenEdge {
+  std::array<int, 2> samples{};
+  Vec3f middle;
+  float half_length = 0;
+
+  static SeenEdge of(const CellGaps& gaps, const SeenCell& cell,
+                     const std::array<int, 2>& corners) {
+    const Vec3f p = gaps.start(cell.second, corners[0]), q = gaps.start(cell.second, corners[1]);
+    return {{cell.samples[corners[0]], cell.samples[corners[1]]},
+            0.5F * (p + q),
+            0.5F * std::sqrt(squared_length(p - q))};
+  }
+};
+
+}  // namespace weft
