@@ -69,14 +69,14 @@ void show_image(Demo& demo) {
 }
 
 /// A cloth to show on the figure.
-struct Shown {
+struct DemoDrape {
   std::string name, cloth;
   int frames = 120;
   double elevation = 0.2;  // of the eye [rad]
 };
 
 // One cloth on the figure: its scene, caches, last frame and movie.
-void show_drape(Demo& demo, const Shown& shown) {
+void show_drape(Demo& demo, const DemoDrape& shown) {
   const std::string& name = shown.name;
   const ViewFrom view{960, 720, 0.45, shown.elevation};
   const fs::path run_folder = demo.folder / name;

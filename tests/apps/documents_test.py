@@ -37,7 +37,7 @@ def drawn_small(block):
     """Pictures and movies at a size that costs little: the size is no matter of these tests."""
     def small(match):
         line = re.sub(r" --(width|height) \d+", "", match[0])
-        return line if ".png" in line else re.sub(r"(?=\s*(#|$))", " --width 96 --height 72", line, count=1)
+        return re.sub(r"(?=\s*(#|$))", " --width 96 --height 72", line, count=1)
     return re.sub(r"^weft render .*$", small, block, flags=re.M)
 
 

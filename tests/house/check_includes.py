@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks who includes whom: lower modules never see higher ones; app-level code sees all.
+"""Checks who includes whom: lower modules never see higher ones; app-level code sees all; and every source of the library
+begins with the header beside it, which so is compiled with nothing before it.
 
 Usage: check_includes.py SOURCE_FOLDER   (exit 1 and one line a violation)
 """
@@ -27,6 +28,7 @@ def violations(root: pathlib.Path):
     for path in sorted((root / "src/weft").rglob("*")):
         if path.suffix not in (".h", ".cpp"):
             continue
+        yield from header_not_first(root, path)
         module = path.relative_to(root / "src/weft").parts[0]
         if module not in ALLOWED:
             yield f"{path}: folder '{module}' is no module; known: {', '.join(ALLOWED)}"
@@ -45,6 +47,17 @@ def violations(root: pathlib.Path):
                 other = name.split("/")[1]
                 if other != module and other not in ALLOWED[module]:
                     yield f"{where}: {module} must not include {other}"
+
+
+def header_not_first(root: pathlib.Path, path: pathlib.Path):
+    own = path.with_suffix(".h")
+    if path.suffix != ".cpp" or not own.exists():
+        return
+    lines = path.read_text().splitlines()
+    first = next((line for line in lines if line.strip() and not line.lstrip().startswith("//")), "")
+    wanted = own.relative_to(root / "src").as_posix()
+    if first != f'#include "{wanted}"':
+        yield f"{path}: its own header {wanted} comes first"
 
 
 def main() -> int:

@@ -30,6 +30,8 @@ void* counted_memory(std::size_t size, std::size_t alignment) {
 
 }  // namespace
 
+// Where the compiler inlines only one of a pair, it takes free() for the wrong end of the other.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 void* operator new(std::size_t size) { return counted_memory(size, alignof(std::max_align_t)); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return counted_memory(size, static_cast<std::size_t>(alignment));
