@@ -10,7 +10,7 @@ namespace {
 
 using Samples = std::array<int, 3>;
 
-MovingFeature feature_of(const PlaneSide& side, const Samples& samples, int count) {
+MovingFeature moving_feature(const PlaneSide& side, const Samples& samples, int count) {
   MovingFeature feature;
   feature.count = count;
   feature.body = side.body;
@@ -52,55 +52,63 @@ class Finder {
     return {samples[corners[0]], samples[corners[1]], samples[corners[2]]};
   }
 
+  /// A triangle of a cell, or the edge of it that is left without its first corner.
+  struct Part {
+    const PlaneSide* side;
+    bool second;  // of the two cells
+    CellCorners corners;
+    std::size_t first = 0;
+  };
+
   void triangles(const CellGaps& gaps, CellCorners a, CellCorners b) {
     const Samples of_a = pick(samples_a_, a), of_b = pick(samples_b_, b);
     if (search_.a.surface.grid->folded(of_a) || search_.b.surface.grid->folded(of_b)) return;
-    if (!search_.same) {
-      if (is_inside(of_a)) return;
-      return add(feature_of(search_.a, of_a, 3), feature_of(search_.b, of_b, 3));
-    }
-    const int shared = bring_shared_first(a, b);
-    if (shared == 0) return add(feature_of(search_.a, of_a, 3), feature_of(search_.b, of_b, 3));
+    if (!search_.same && is_inside(of_a)) return;
+    const int shared = search_.same ? bring_shared_first(a, b) : 0;
     if (shared > 1) return;
-    edge_and_triangle(gaps, a, b, false);
-    edge_and_triangle(gaps, b, a, true);
+    const Part part_a{&search_.a, false, a}, part_b{&search_.b, true, b};
+    if (shared == 0) return look_at(gaps, part_a, part_b);
+    // Two triangles whose first corner is one point: the far edge of one with the other as a whole.
+    look_at(gaps, {part_a.side, false, a, 1}, part_b);
+    look_at(gaps, {part_b.side, true, b, 1}, part_a);
   }
 
-  /// Two triangles whose first corner is one point: the far edge of one with the other as a whole.
-  /// @param second  the edge is of the second cell
-  void edge_and_triangle(const CellGaps& gaps, const CellCorners& edge, const CellCorners& triangle,
-                         bool second) {
-    if (beside(gaps, edge, triangle, second)) return;
-    const PlaneSide &own = second ? search_.b : search_.a, &other = second ? search_.a : search_.b;
-    const Samples of_edge = pick(second ? samples_b_ : samples_a_, edge);
-    const Samples of_triangle = pick(second ? samples_a_ : samples_b_, triangle);
-    add(feature_of(own, {of_edge[1], of_edge[2], 0}, 2), feature_of(other, of_triangle, 3));
+  void look_at(const CellGaps& gaps, const Part& a, const Part& b) {
+    if (!beside(gaps, a, b)) add(feature_of(a), feature_of(b));
+  }
+  [[nodiscard]] MovingFeature feature_of(const Part& part) const {
+    const Samples samples = pick(part.second ? samples_b_ : samples_a_, part.corners);
+    if (part.first == 0) return moving_feature(*part.side, samples, 3);
+    return moving_feature(*part.side, {samples[1], samples[2], 0}, 2);
   }
 
   /// Whether the way between their middles certainly keeps the two apart, as neighbours in a layer
   /// nearly always lie; told in single precision.
-  [[nodiscard]] bool beside(const CellGaps& gaps, const CellCorners& edge,
-                            const CellCorners& triangle, bool second) const {
-    const auto start = [&](bool of_edge, int k) {
-      return gaps.start(of_edge == second,
-                        (of_edge ? edge : triangle)[static_cast<std::size_t>(k)]);
+  [[nodiscard]] bool beside(const CellGaps& gaps, const Part& a, const Part& b) const {
+    const auto start = [&](const Part& part, std::size_t k) {
+      return gaps.start(part.second, part.corners[k]);
     };
-    const Vec3f way = 3.0F * (start(true, 1) + start(true, 2)) -
-                      2.0F * (start(false, 0) + start(false, 1) + start(false, 2));
+    const Vec3f way = middle(a, start) - middle(b, start);
     const float size = std::sqrt(squared_length(way));
-    if (!(gap_along(way, start) > size * gaps.margin())) return false;
-    const auto end = [&](bool of_edge, int k) {
-      return gaps.end(of_edge == second, (of_edge ? edge : triangle)[static_cast<std::size_t>(k)]);
+    if (!(gap_along(way, a, b, start) > size * gaps.margin())) return false;
+    const auto end = [&](const Part& part, std::size_t k) {
+      return gaps.end(part.second, part.corners[k]);
     };
-    const float wanted = static_cast<float>(2 * search_.options.slack);
-    return gap_along(way, end) > size * (wanted + gaps.margin());
+    const auto wanted = static_cast<float>((search_.b.body ? 1 : 2) * search_.options.slack);
+    return gap_along(way, a, b, end) > size * (wanted + gaps.margin());
   }
-  /// How far an edge's two ends lie beyond a triangle along a direction, times its length.
   template <class At>
-  static float gap_along(Vec3f way, const At& at) {
-    const auto along = [&](bool of_edge, int k) { return dot(way, at(of_edge, k)); };
-    return std::min(along(true, 1), along(true, 2)) -
-           std::max({along(false, 0), along(false, 1), along(false, 2)});
+  static Vec3f middle(const Part& of, const At& at) {
+    if (of.first == 1) return 0.5F * (at(of, 1) + at(of, 2));
+    return (1.0F / 3) * (at(of, 0) + at(of, 1) + at(of, 2));
+  }
+  /// How far a part lies beyond another along a direction, times its length.
+  template <class At>
+  static float gap_along(Vec3f way, const Part& a, const Part& b, const At& at) {
+    float least = dot(way, at(a, a.first)), most = dot(way, at(b, b.first));
+    for (std::size_t k = a.first + 1; k < 3; ++k) least = std::min(least, dot(way, at(a, k)));
+    for (std::size_t k = b.first + 1; k < 3; ++k) most = std::max(most, dot(way, at(b, k)));
+    return least - most;
   }
 
   /// @return how many points two triangles share; the (last) one comes first in both
