@@ -1,6 +1,7 @@
 #include "weft/collide/pairs/pyramid_pairs.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace weft {
@@ -9,13 +10,11 @@ namespace {
 /// What workers share are nodes of about this many cells a side.
 constexpr int task_level = 4;
 
-/// Calls visit(child, k) for those of a node's children whose bits are set.
-template <class Visit>
-void for_marked_children(const Node& node, unsigned marks, const Visit& visit) {
-  for (int k = 0; k < 4; ++k)
-    if ((marks >> k & 1U) != 0)
-      visit(Node{node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2}, k);
+Node child_of(const Node& node, int k) {
+  return {node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2};
 }
+/// Of the pairs of a node's children with each other, as near_pairs tells them: each once.
+constexpr unsigned pairs_once = 0x8CEF;
 
 }  // namespace
 
@@ -79,34 +78,39 @@ void PyramidPairs::descend(const Search& search, const PlacedPair& pair, const S
   if (a.level == 0 && b.level == 0) return emit(pair);
   const bool split_b = a.level == 0 || (b.level > 0 && longest_side(pair.b) > longest_side(pair.a));
   const PathBoxLevels& levels = levels_[split_b ? search.b : search.a].boxes;
-  const Node& split = split_b ? b : a;
-  const ChildPathBoxes& children = levels.children(split);
-  const unsigned near =
-      search.kernels->near_children(split_b ? pair.a : pair.b, children, search.reach);
-  for_marked_children(split, near, [&](const Node& child, int k) {
+  const ChildPathBoxes& children = levels.children(split_b ? b : a);
+  unsigned near = search.kernels->near_children(split_b ? pair.a : pair.b, children, search.reach);
+  for (; near != 0; near &= near - 1) {
+    const int k = std::countr_zero(near);
     if (split_b) {
-      descend(search, {{a, child}, pair.a, child_box(children, k)}, stop, emit);
+      descend(search, {{a, child_of(b, k)}, pair.a, child_box(children, k)}, stop, emit);
     } else {
-      descend(search, {{child, b}, child_box(children, k), pair.b}, stop, emit);
+      descend(search, {{child_of(a, k), b}, child_box(children, k), pair.b}, stop, emit);
     }
-  });
+  }
 }
 
 template <class Stop, class Emit>
 void PyramidPairs::descend_self(const Search& search, const NodePair& pair, const Stop& stop,
                                 const Emit& emit) const {
   const auto& [a, b] = pair;
-  if (stop(pair) || (a.level == 0 && !(a == b))) return emit(pair);
+  if (stop(pair)) return emit(pair);
   if (a.level == 0) return;  // the two triangles of a cell share an edge
   const Levels& levels = levels_[search.a];
-  const unsigned near =
+  unsigned near =
       search.kernels->near_pairs(levels.boxes.children(a), levels.boxes.children(b), search.reach);
-  for_marked_children(a, 15U, [&](const Node& first, int i) {
-    const unsigned twice = a == b ? (1U << i) - 1 : 0U;
-    for_marked_children(b, near >> 4 * i & ~twice, [&](const Node& second, int) {
-      if (!levels.folds->unfolded(first, second)) descend_self(search, {first, second}, stop, emit);
-    });
-  });
+  if (a == b) near &= pairs_once;
+  for (; near != 0; near &= near - 1) {
+    const int k = std::countr_zero(near);
+    const NodePair children{child_of(a, k / 4), child_of(b, k % 4)};
+    if (children.a.level == 0 && children.a == children.b) continue;
+    if (levels.folds->unfolded(children.a, children.b)) continue;
+    if (children.a.level == 0) {
+      emit(children);
+    } else {
+      descend_self(search, children, stop, emit);
+    }
+  }
 }
 
 template <class Descend>
