@@ -25,6 +25,10 @@ constexpr int lone_size = 33;
 /// Three of a stencil, one that is worked on.
 constexpr int lines_a_worker = 4;
 
+/// A row from a column on.
+ConstRow3 from(ConstRow3 row, int col) { return {row.x + col, row.y + col, row.z + col}; }
+Row3 from(Row3 row, int col) { return {row.x + col, row.y + col, row.z + col}; }
+
 }  // namespace
 
 /// Who works on a level: all, or one whom the others wait for.
@@ -114,18 +118,32 @@ void MultigridFilter::renew_contacts(const ContactLoads& contacts, Worker& worke
 }
 
 void MultigridFilter::first_sweep_row(const FilterLevel& level, int row, Row3 out) const {
-  if (level.contacts.row(row))
-    return kernels_->apply_blocks(level.size(), factors_.front(), level.contacts.inverse_row(row),
-                                  row_of(level.right, row), out);
-  kernels_->first_sweep(level.size(), factors_.front(), level.inverse_diagonal.row(row),
-                        row_of(level.right, row), out);
+  const ConstRow3 right = row_of(level.right, row);
+  const float factor = factors_.front();
+  if (!level.contacts.row(row))
+    return kernels_->first_sweep(level.size(), factor, level.inverse_diagonal.row(row), right, out);
+  level.contacts.for_runs(row, [&](Range columns, bool touched) {
+    const int c = columns.first, n = columns.last - c;
+    if (touched) {
+      kernels_->apply_blocks(n, factor, level.contacts.inverse_row(row, c), from(right, c),
+                             from(out, c));
+    } else {
+      kernels_->first_sweep(n, factor, level.inverse_diagonal.row(row) + c, from(right, c),
+                            from(out, c));
+    }
+  });
 }
 
 void MultigridFilter::apply_row(const FilterLevel& level, int row, const StencilRows& x,
                                 Row3 out) const {
   kernels_->apply(level.size(), level.operator_row(row), x, out);
-  if (level.contacts.row(row))
-    kernels_->subtract_blocks(level.size(), level.contacts.own_row(row), x.here, out);
+  if (!level.contacts.row(row)) return;
+  level.contacts.for_runs(row, [&](Range columns, bool touched) {
+    const int c = columns.first;
+    if (touched)
+      kernels_->subtract_blocks(columns.last - c, level.contacts.own_row(row, c), from(x.here, c),
+                                from(out, c));
+  });
 }
 
 /// The residual of a first sweep from zero, which is never stored: three lines hold it.
@@ -200,26 +218,37 @@ void MultigridFilter::up(const FilterLevel& coarse, FilterLevel& fine, const Cre
 
 /// @return right . result of the row
 double MultigridFilter::sweep_row(FilterLevel& level, int row, float factor) {
-  const int n = level.size();
   const Row3 out = row_of(level.result, row);
   apply_row(level, row, level.stencil_rows(row), out);
-  if (level.contacts.row(row)) return contact_sweep_row(level, row, factor);
-  return kernels_->sweep(
-      n,
-      {factor, level.inverse_diagonal.row(row), level.share_row(row), level.count_row(row),
-       row_of(std::as_const(level.right), row), row_of(std::as_const(level.value), row)},
-      out);
+  const SweepRow sweep{
+      factor,
+      level.inverse_diagonal.row(row),
+      level.share_row(row),
+      level.count_row(row),
+      row_of(std::as_const(level.right), row),
+      row_of(std::as_const(level.value), row),
+  };
+  if (level.contacts.row(row)) return contact_sweep_row(level, row, sweep, out);
+  return kernels_->sweep(level.size(), sweep, out);
 }
 
-/// The same with blocks in place of a diagonal; `result` holds -A x.
-double MultigridFilter::contact_sweep_row(FilterLevel& level, int row, float factor) {
-  const int n = level.size();
-  const Row3 out = row_of(level.result, row);
-  const ConstRow3 right = row_of(std::as_const(level.right), row);
-  const ConstRow3 value = row_of(std::as_const(level.value), row);
-  kernels_->block_sweep(
-      n, {factor, level.contacts.inverse_row(row), level.count_row(row), right, value}, out);
-  return kernels_->dot(n, level.share_row(row), right, {out.x, out.y, out.z});
+/// The same with blocks in place of a diagonal where contacts touch.
+double MultigridFilter::contact_sweep_row(const FilterLevel& level, int row, const SweepRow& sweep,
+                                          Row3 out) const {
+  level.contacts.for_runs(row, [&](Range columns, bool touched) {
+    const int c = columns.first, n = columns.last - c;
+    const float* count = sweep.count == nullptr ? nullptr : sweep.count + c;
+    const float* share = sweep.share == nullptr ? nullptr : sweep.share + c;
+    const ConstRow3 right = from(sweep.right, c), value = from(sweep.value, c);
+    if (touched) {
+      const BlockRow inverse = level.contacts.inverse_row(row, c);
+      kernels_->block_sweep(n, {sweep.factor, inverse, count, right, value}, from(out, c));
+    } else {
+      kernels_->sweep(n, {sweep.factor, sweep.inverse + c, share, count, right, value},
+                      from(out, c));
+    }
+  });
+  return kernels_->dot(level.size(), sweep.share, sweep.right, {out.x, out.y, out.z});
 }
 
 /// Every sample takes what its own part makes of its class, and the mean is what the class makes.

@@ -59,7 +59,8 @@ class MultigridFilter {
   void up(const FilterLevel& coarse, FilterLevel& fine, const Crew& crew);
   void first_sweep_row(const FilterLevel& level, int row, Row3 out) const;
   void apply_row(const FilterLevel& level, int row, const StencilRows& x, Row3 out) const;
-  double contact_sweep_row(FilterLevel& level, int row, float factor);
+  double contact_sweep_row(const FilterLevel& level, int row, const SweepRow& sweep,
+                           Row3 out) const;
   void lone_sweep_residual(FilterLevel& level, const Crew& crew);
   void two_sweeps_residual(FilterLevel& level, const Crew& crew);
   double sweep_row(FilterLevel& level, int row, float factor);
