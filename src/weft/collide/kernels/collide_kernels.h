@@ -22,6 +22,18 @@ struct alignas(64) ChildPathBoxes {
   float lower_start[3][4], upper_start[3][4], lower_end[3][4], upper_end[3][4];
 };
 
+/// A block of samples, four columns or five, `stride` apart from row to row.
+struct SampleBlock {
+  const float *x, *y, *z;
+  long stride;
+  int rows;
+  bool five;
+};
+/// Least and largest. [m]
+struct Extent {
+  float least, largest;
+};
+
 /// Extents have twelve planes: of edges along rows least x, y, z and largest x, y, z, then the same
 /// of edges along columns. A row of them is twelve pointers.
 struct CollideKernels {
@@ -42,6 +54,8 @@ struct CollideKernels {
   unsigned (*near_children)(const PathBox& node, const ChildPathBoxes& children, float reach);
   /// The same of the pairs of two nodes' children (1 << (4 i + k) for i of a, k of b).
   unsigned (*near_pairs)(const ChildPathBoxes& a, const ChildPathBoxes& b, float reach);
+  /// How far samples lie along a direction, seen from an origin (three coordinates each).
+  Extent (*along)(const SampleBlock& samples, const float* origin, const float* direction);
 };
 
 /// The kernels of an instruction set; the processor must have it to run them.

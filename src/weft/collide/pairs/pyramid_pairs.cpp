@@ -10,6 +10,11 @@ namespace {
 /// What workers share are nodes of about this many cells a side.
 constexpr int task_level = 4;
 
+/// Nodes of a cloth are compared with slabs from this level down.
+constexpr int most_slab_level = 2;
+/// What rounding may add to a distance along a slab, in parts of the nodes' sizes, generously.
+constexpr float slab_rounding = 1e-5F;
+
 Node child_of(const Node& node, int k) {
   return {node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2};
 }
@@ -48,24 +53,38 @@ void PyramidPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& te
     levels_[i].fitted = surfaces_[i].start == surfaces_[i].end;
 }
 
-bool PyramidPairs::apart_by_slab(const Search& search, const NodePair& pair) const {
-  const Slab& slab = levels_[search.b].slabs.at(pair.b);
-  if (slab.normal == Vec3d{}) return false;
+bool PyramidPairs::apart_by_slab(const Search& search, const PlacedPair& pair) const {
+  const Slab& slab = levels_[search.b].slabs.at(pair.nodes.b);
+  if (slab.normal == Vec3f{}) return false;
   const MovingSurface& cloth = surfaces_[search.a];
-  double least_start = HUGE_VAL, most_start = -HUGE_VAL;
-  double least_end = HUGE_VAL, most_end = -HUGE_VAL;
-  for (const int r : {pair.a.row, pair.a.row + 1})
-    for (const int c : {pair.a.col, pair.a.col + 1}) {
-      const double start = dot(slab.normal, vec_cast<double>(cloth.start->at(r, c)));
-      const double end = dot(slab.normal, vec_cast<double>(cloth.end->at(r, c)));
-      least_start = std::min(least_start, start);
-      most_start = std::max(most_start, start);
-      least_end = std::min(least_end, end);
-      most_end = std::max(most_end, end);
-    }
-  const double reach = search.reach;
-  return (least_start - slab.upper_start >= reach && least_end - slab.upper_end >= reach) ||
-         (slab.lower_start - most_start >= reach && slab.lower_end - most_end >= reach);
+  const float reach = search.reach + slab_rounding * (longest_side(pair.a) + longest_side(pair.b));
+  const Extent start = along_slab(search, *cloth.start, pair.nodes.a, slab);
+  const bool above = start.least - slab.upper_start >= reach;
+  if (!above && !(slab.lower_start - start.largest >= reach)) return false;
+  const Extent end = along_slab(search, *cloth.end, pair.nodes.a, slab);
+  return (above ? end.least - slab.upper_end : slab.lower_end - end.largest) >= reach;
+}
+
+Extent PyramidPairs::along_slab(const Search& search, const Planes3& at, const Node& node,
+                                const Slab& slab) const {
+  const float origin[3] = {slab.origin.x, slab.origin.y, slab.origin.z};
+  const float normal[3] = {slab.normal.x, slab.normal.y, slab.normal.z};
+  const int n = at.size(), span = 1 << node.level;
+  const int first_row = node.row * span, last_row = std::min(n - 1, first_row + span);
+  if (span == 1) {
+    const auto four = [&](const Grid<float>& plane) {
+      const float *above = plane.row(first_row) + node.col, *below = plane.row(last_row) + node.col;
+      return std::array{above[0], above[1], below[0], below[1]};
+    };
+    const std::array x = four(at.x), y = four(at.y), z = four(at.z);
+    return search.kernels->along({x.data(), y.data(), z.data(), 0, 1, false}, origin, normal);
+  }
+  // Four columns at least, a neighbour's if need be.
+  const int col = std::min(node.col * span, n - std::max(4, span + 1));
+  return search.kernels->along(
+      {at.x.row(first_row) + col, at.y.row(first_row) + col, at.z.row(first_row) + col,
+       static_cast<long>(at.x.stride()), last_row - first_row + 1, span == 4},
+      origin, normal);
 }
 
 template <class Stop, class Emit>
@@ -73,10 +92,12 @@ void PyramidPairs::descend(const Search& search, const PlacedPair& pair, const S
                            const Emit& emit) const {
   const auto& [a, b] = pair.nodes;
   if (stop(pair)) return emit(pair);
-  const bool body = static_cast<std::size_t>(search.b) >= cloths_;
-  if (a.level == 0 && body && apart_by_slab(search, pair.nodes)) return;
-  if (a.level == 0 && b.level == 0) return emit(pair);
+  const int a_samples = surfaces_[search.a].grid->size();
   const bool split_b = a.level == 0 || (b.level > 0 && longest_side(pair.b) > longest_side(pair.a));
+  const bool fits_slab = a.level == 0 || (!split_b && a.level <= most_slab_level && a_samples >= 5);
+  const bool body = static_cast<std::size_t>(search.b) >= cloths_;
+  if (body && fits_slab && apart_by_slab(search, pair)) return;
+  if (a.level == 0 && b.level == 0) return emit(pair);
   const PathBoxLevels& levels = levels_[split_b ? search.b : search.a].boxes;
   const ChildPathBoxes& children = levels.children(split_b ? b : a);
   unsigned near = search.kernels->near_children(split_b ? pair.a : pair.b, children, search.reach);

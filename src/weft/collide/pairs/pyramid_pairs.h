@@ -47,7 +47,9 @@ class PyramidPairs final : public BroadPhase {
     float reach = 0;
   };
 
-  [[nodiscard]] bool apart_by_slab(const Search& search, const NodePair& pair) const;
+  [[nodiscard]] bool apart_by_slab(const Search& search, const PlacedPair& pair) const;
+  [[nodiscard]] Extent along_slab(const Search& search, const Planes3& at, const Node& node,
+                                  const Slab& slab) const;
   /// Splits a pair that is near until `stop(pair)` holds, and hands out what may meet.
   template <class Stop, class Emit>
   void descend(const Search& search, const PlacedPair& pair, const Stop& stop,

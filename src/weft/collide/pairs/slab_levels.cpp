@@ -44,23 +44,29 @@ void SlabLevels::fit_node(const MovingSurface& surface, const Node& node) {
   for (int r = first_row; r < last_row; ++r)
     for (int c = first_col; c < last_col; ++c) sum += cell_normal(*surface.start, r, c);
   own = {};
-  own.normal = normalized(sum);
-  own.lower_start = own.lower_end = HUGE_VAL;
-  own.upper_start = own.upper_end = -HUGE_VAL;
+  own.normal = vec_cast<float>(normalized(sum));
+  own.origin = surface.start->at(first_row, first_col);
+  const Vec3d normal = vec_cast<double>(own.normal), origin = vec_cast<double>(own.origin);
+  double lower_start = HUGE_VAL, upper_start = -HUGE_VAL;
+  double lower_end = HUGE_VAL, upper_end = -HUGE_VAL;
   for (int r = first_row; r <= last_row; ++r)
     for (int c = first_col; c <= last_col; ++c) {
-      const double start = dot(own.normal, place(*surface.start, r, c));
-      own.lower_start = std::min(own.lower_start, start);
-      own.upper_start = std::max(own.upper_start, start);
+      const double start = dot(normal, place(*surface.start, r, c) - origin);
+      lower_start = std::min(lower_start, start);
+      upper_start = std::max(upper_start, start);
       if (surface.end == surface.start) continue;
-      const double end = dot(own.normal, place(*surface.end, r, c));
-      own.lower_end = std::min(own.lower_end, end);
-      own.upper_end = std::max(own.upper_end, end);
+      const double end = dot(normal, place(*surface.end, r, c) - origin);
+      lower_end = std::min(lower_end, end);
+      upper_end = std::max(upper_end, end);
     }
   if (surface.end == surface.start) {
-    own.lower_end = own.lower_start;
-    own.upper_end = own.upper_start;
+    lower_end = lower_start;
+    upper_end = upper_start;
   }
+  own.lower_start = static_cast<float>(lower_start);
+  own.upper_start = static_cast<float>(upper_start);
+  own.lower_end = static_cast<float>(lower_end);
+  own.upper_end = static_cast<float>(upper_end);
 }
 
 }  // namespace weft

@@ -9,10 +9,11 @@
 namespace weft {
 
 /// Between which two planes, across its mean normal, a node of a surface lies at both ends of a
-/// step.
+/// step, seen from one of its samples.
 struct Slab {
-  Vec3d normal;  ///< unit, or zero where the node has none
-  double lower_start = 0, upper_start = 0, lower_end = 0, upper_end = 0;  ///< [m]
+  Vec3f origin;
+  Vec3f normal;  ///< nearly unit, or zero where the node has none
+  float lower_start = 0, upper_start = 0, lower_end = 0, upper_end = 0;  ///< along it [m]
 };
 
 /// The slabs of all nodes: surfaces are nearly flat where one looks closely, so cloth that rests on

@@ -21,6 +21,19 @@ inline void widen(const Axis& a, const ChildPathBoxes& b, int axis, float* gap) 
   }
 }
 
+/// Four samples of one row.
+inline void widen_along(const SampleBlock& samples, long first, const float* origin,
+                        const float* direction, float* lower, float* upper) {
+  const float *x = samples.x + first, *y = samples.y + first, *z = samples.z + first;
+#pragma omp simd
+  for (int k = 0; k < 4; ++k) {
+    const float way = direction[0] * (x[k] - origin[0]) + direction[1] * (y[k] - origin[1]) +
+                      direction[2] * (z[k] - origin[2]);
+    lower[k] = least(lower[k], way);
+    upper[k] = largest(upper[k], way);
+  }
+}
+
 }  // namespace
 
 unsigned near_children(const PathBox& node, const ChildPathBoxes& children, float reach) {
@@ -45,6 +58,17 @@ unsigned near_pairs(const ChildPathBoxes& a, const ChildPathBoxes& b, float reac
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 4; ++k) found |= static_cast<unsigned>(gap[i][k] <= reach) << (4 * i + k);
   return found;
+}
+
+Extent along(const SampleBlock& samples, const float* origin, const float* direction) {
+  constexpr float far = __builtin_huge_valf();
+  float lower[4] = {far, far, far, far}, upper[4] = {-far, -far, -far, -far};
+  for (int r = 0; r < samples.rows; ++r) {
+    widen_along(samples, r * samples.stride, origin, direction, lower, upper);
+    if (samples.five) widen_along(samples, r * samples.stride + 1, origin, direction, lower, upper);
+  }
+  return {least(least(lower[0], lower[1]), least(lower[2], lower[3])),
+          largest(largest(upper[0], upper[1]), largest(upper[2], upper[3]))};
 }
 
 }  // namespace weft::WEFT_KERNEL_SET

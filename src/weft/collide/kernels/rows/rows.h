@@ -16,6 +16,7 @@ void join_twos(int n, const float* const* a, const float* const* b, float* const
 void judge(int n, const float* const* extents, float slack, float* out);
 unsigned near_children(const PathBox& node, const ChildPathBoxes& children, float reach);
 unsigned near_pairs(const ChildPathBoxes& a, const ChildPathBoxes& b, float reach);
+Extent along(const SampleBlock& samples, const float* origin, const float* direction);
 
 extern const CollideKernels collide_kernels;
 

@@ -2,7 +2,7 @@
 
 namespace weft::WEFT_KERNEL_SET {
 
-const CollideKernels collide_kernels{edges, join_windows,  join_twos,
-                                     judge, near_children, near_pairs};
+const CollideKernels collide_kernels{edges,         join_windows, join_twos, judge,
+                                     near_children, near_pairs,   along};
 
 }  // namespace weft::WEFT_KERNEL_SET
