@@ -65,7 +65,11 @@ void GuardingCollider::move_bodies(std::span<const Planes3* const> ends) noexcep
     for (int s = 0; s < n * n; ++s)
       most = std::max(most, double{squared_length(body.end->at(s) - body.start.at(s))});
     body.most_moved = std::sqrt(most);
-    if (most == 0) body.end = &body.start;
+    if (most == 0) {
+      body.end = &body.start;
+    } else {
+      ++body.motion;
+    }
   }
 }
 
@@ -73,9 +77,11 @@ void GuardingCollider::finish_bodies() {
   for (GuardedBody& body : bodies_) {
     if (body.end == &body.start) continue;
     body.start = *body.end;
+    body.travelled += body.most_moved;
     body.end = &body.start;
     body.most_moved = 0;
     body.moved = true;
+    ++body.motion;
   }
 }
 
@@ -83,7 +89,8 @@ void GuardingCollider::gather_surfaces(std::span<const MovingCloth> cloths) {
   surfaces_.clear();
   for (std::size_t i = 0; i < cloths.size(); ++i)
     surfaces_.push_back({&cloths_[i].grid, &cloths[i].start, &cloths[i].position});
-  for (const GuardedBody& body : bodies_) surfaces_.push_back({&body.grid, &body.start, body.end});
+  for (const GuardedBody& body : bodies_)
+    surfaces_.push_back({&body.grid, &body.start, body.end, body.motion});
 }
 
 void GuardingCollider::place_bodies(ThreadTeam& team) {
@@ -91,11 +98,11 @@ void GuardingCollider::place_bodies(ThreadTeam& team) {
   for (GuardedBody& body : bodies_) {
     if (body.moved) {
       body.query->place(body.start, team);
-      ++body.placed;
     }
     body.moved = false;
     contact_bodies_.push_back({static_cast<int>(contact_bodies_.size()) + 1, body.query.get(),
-                               &body.start, body.end, body.friction, body.most_moved, body.placed});
+                               &body.start, body.end, body.friction, body.most_moved,
+                               body.travelled});
   }
 }
 

@@ -64,7 +64,8 @@ class GuardingCollider final : public Collider {
     double friction = 0;
     double most_moved = 0;  // this step [m]
     bool moved = true;      // since its query was placed
-    int placed = 0;         // how often it was
+    double travelled = 0;   // see ContactBody [m]
+    int motion = 1;         // see MovingSurface::name
   };
   void gather_surfaces(std::span<const MovingCloth> cloths);
   void place_bodies(ThreadTeam& team);

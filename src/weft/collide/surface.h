@@ -63,6 +63,9 @@ struct MovingSurface {
   const SurfaceGrid* grid = nullptr;
   const Planes3* start = nullptr;  ///< [n x n] [m]
   const Planes3* end = nullptr;    ///< [n x n] [m]; the start where it stands still
+  /// What this motion of this surface is called, so that nothing is fitted to it twice; 0: it has
+  /// no name.
+  int name = 0;
 };
 
 }  // namespace weft

@@ -59,13 +59,14 @@ void BodyContacts::put_offset(double surface, double gap_at_start, Contact& cont
 std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, Vec3f start, double reach,
                                             Known& known) {
   const Vec3d point = vec_cast<double>(start);
-  const double since = length(point - vec_cast<double>(known.place));
+  const double since =
+      length(point - vec_cast<double>(known.place)) + (body.travelled - known.travelled);
   if (known.distance - since > reach * (1 + rounding)) return std::nullopt;
   // Farther than need be, so that the next steps need not look again.
   const double wider = reach + ahead * (reach - foresight * gap_) + foresight * gap_;
   const auto found = body.query->closest(point, wider, known.triangle);
   known = {start, static_cast<float>(found ? std::sqrt(found->squared_distance) : wider),
-           found ? found->triangle : known.triangle};
+           body.travelled, found ? found->triangle : known.triangle};
   if (!found || !(found->squared_distance < reach * reach)) return std::nullopt;
   return found;
 }
@@ -75,8 +76,7 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
   const Vec3d start = vec_cast<double>(cloth.start.at(sample));
   const Vec3d way = vec_cast<double>(cloth.position.at(sample)) - start;
   const double reach = deep ? HUGE_VAL : foresight * gap_ + length(way) + body.most_moved;
-  const auto found =
-      look(body, cloth.start.at(sample), reach, known_[body.number - 1].samples[sample]);
+  const auto found = look(body, cloth.start.at(sample), reach, known_[body.number - 1][sample]);
   if (!found) return;
   // What was outside and kept out cannot be inside now, whatever the normals of an image say that
   // folds or crosses itself somewhere.
@@ -123,20 +123,10 @@ void BodyContacts::find_for_sample(const MovingCloth& cloth, std::span<const Con
   if (ground != nullptr) find_ground(cloth, *ground, sample, out);
 }
 
-void BodyContacts::forget_moved(std::span<const ContactBody> bodies) {
-  known_.resize(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    KnownBody& known = known_[i];
-    known.samples.resize(inside_.size());
-    if (known.placed == bodies[i].placed) continue;
-    known.placed = bodies[i].placed;
-    for (Known& sample : known.samples) sample.distance = 0;
-  }
-}
-
 void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> bodies,
                         const Ground* ground, ThreadTeam& team) {
-  forget_moved(bodies);
+  known_.resize(bodies.size());
+  for (std::vector<Known>& known : known_) known.resize(inside_.size());
   const int n = grid_.size();
   team.run([&](Worker& worker) {
     found_.fill(n * n, worker, [&](int s, std::vector<Contact>& out) {

@@ -17,7 +17,7 @@ struct ContactBody {
   const Planes3* end = nullptr;  ///< the start where it stands still
   double friction = 0;           ///< of the body
   double most_moved = 0;         ///< by any sample during the step [m]
-  int placed = 0;                ///< how often it has been placed
+  double travelled = 0;          ///< by any sample before the step, at most [m]
 };
 
 /// How a point of a body's surface goes during the step. [m]
@@ -64,22 +64,18 @@ class BodyContacts {
   /// What is known of a sample and a body: how far it was from where.
   struct Known {
     Vec3f place;
-    float distance = 0;  // at least; 0: nothing is known [m]
-    int triangle = -1;   // that was closest
+    float distance = 0;    // at least; 0: nothing is known [m]
+    double travelled = 0;  // by the body when it was [m]
+    int triangle = -1;     // that was closest
   };
-  void forget_moved(std::span<const ContactBody> bodies);
   /// The closest point, if it matters; remembers what there was to be known.
   std::optional<BodyPoint> look(const ContactBody& body, Vec3f start, double reach, Known& known);
 
   const SurfaceGrid& grid_;
   double gap_, friction_;
-  struct KnownBody {
-    int placed = 0;
-    std::vector<Known> samples;  // [n * n]
-  };
-  std::vector<KnownBody> known_;  // one a body
-  InsideMarks inside_;            // [n * n]
-  std::vector<char> doubted_;     // [n * n]
+  std::vector<std::vector<Known>> known_;  // of each body [n * n]
+  InsideMarks inside_;                     // [n * n]
+  std::vector<char> doubted_;              // [n * n]
   bool looked_ = false;
   ChunkedLists<std::vector<Contact>> found_;
   std::vector<Contact> contacts_;

@@ -22,12 +22,11 @@ struct alignas(64) ChildPathBoxes {
   float lower_start[3][4], upper_start[3][4], lower_end[3][4], upper_end[3][4];
 };
 
-/// A block of samples, four columns or five, `stride` apart from row to row.
+/// A block of samples, at least four columns, `stride` apart from row to row.
 struct SampleBlock {
   const float *x, *y, *z;
   long stride;
-  int rows;
-  bool five;
+  int rows, cols;
 };
 /// Least and largest. [m]
 struct Extent {

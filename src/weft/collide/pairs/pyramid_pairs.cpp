@@ -39,23 +39,23 @@ PyramidPairs::PyramidPairs(std::span<const SurfaceGrid* const> grids, std::size_
 
 void PyramidPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
   surfaces_.assign(surfaces.begin(), surfaces.end());
+  const CollideKernels& kernels = collide_kernels_for(team.instructions());
   team.run([&](Worker& worker) {
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
       const MovingSurface& of = surfaces_[i];
       Levels& levels = levels_[i];
-      const bool still = of.start == of.end;
-      if (levels.fitted && still) continue;
+      if (of.name != 0 && of.name == levels.fitted_to) continue;
       levels.boxes.fit(of, worker);
-      if (i >= cloths_) levels.slabs.fit(of, worker);
+      if (i >= cloths_) levels.slabs.fit(kernels, of, worker);
     }
   });
-  for (std::size_t i = cloths_; i < surfaces_.size(); ++i)
-    levels_[i].fitted = surfaces_[i].start == surfaces_[i].end;
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) levels_[i].fitted_to = surfaces_[i].name;
 }
 
 bool PyramidPairs::apart_by_slab(const Search& search, const PlacedPair& pair) const {
-  const Slab& slab = levels_[search.b].slabs.at(pair.nodes.b);
-  if (slab.normal == Vec3f{}) return false;
+  const Slab* found = levels_[search.b].slabs.find(pair.nodes.b);
+  if (found == nullptr || found->normal == Vec3f{}) return false;
+  const Slab& slab = *found;
   const MovingSurface& cloth = surfaces_[search.a];
   const float reach = search.reach + slab_rounding * (longest_side(pair.a) + longest_side(pair.b));
   const Extent start = along_slab(search, *cloth.start, pair.nodes.a, slab);
@@ -77,13 +77,13 @@ Extent PyramidPairs::along_slab(const Search& search, const Planes3& at, const N
       return std::array{above[0], above[1], below[0], below[1]};
     };
     const std::array x = four(at.x), y = four(at.y), z = four(at.z);
-    return search.kernels->along({x.data(), y.data(), z.data(), 0, 1, false}, origin, normal);
+    return search.kernels->along({x.data(), y.data(), z.data(), 0, 1, 4}, origin, normal);
   }
   // Four columns at least, a neighbour's if need be.
   const int col = std::min(node.col * span, n - std::max(4, span + 1));
   return search.kernels->along(
       {at.x.row(first_row) + col, at.y.row(first_row) + col, at.z.row(first_row) + col,
-       static_cast<long>(at.x.stride()), last_row - first_row + 1, span == 4},
+       static_cast<long>(at.x.stride()), last_row - first_row + 1, std::max(4, span + 1)},
       origin, normal);
 }
 

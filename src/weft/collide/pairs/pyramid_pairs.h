@@ -30,7 +30,7 @@ class PyramidPairs final : public BroadPhase {
     PathBoxLevels boxes;
     std::optional<UnfoldedWindows> folds;  // of cloths
     SlabLevels slabs;                      // of bodies
-    bool fitted = false;                   // of bodies that stand still
+    int fitted_to = 0;                     // name of the motion
   };
   struct NodePair {
     Node a, b;

@@ -5,68 +5,85 @@
 namespace weft {
 namespace {
 
-/// Coarser nodes are too bent for a slab to be worth its fitting.
-constexpr int most_levels = 7;
-
 Vec3d place(const Planes3& planes, int row, int col) {
   return vec_cast<double>(planes.at(row, col));
 }
 
-/// Twice the area vector of a cell.
-Vec3d cell_normal(const Planes3& p, int row, int col) {
-  return cross(place(p, row, col + 1) - place(p, row + 1, col),
-               place(p, row + 1, col + 1) - place(p, row, col));
+/// The samples of a node: rows and columns, first and last.
+struct NodeSamples {
+  int first_row, last_row, first_col, last_col;
+
+  NodeSamples(const Node& node, int cells)
+      : first_row(node.row << node.level),
+        last_row(std::min(cells, first_row + (1 << node.level))),
+        first_col(node.col << node.level),
+        last_col(std::min(cells, first_col + (1 << node.level))) {}
+};
+
+Extent along(const CollideKernels& kernels, const Planes3& at, const NodeSamples& samples,
+             const Slab& slab) {
+  const float origin[3] = {slab.origin.x, slab.origin.y, slab.origin.z};
+  const float normal[3] = {slab.normal.x, slab.normal.y, slab.normal.z};
+  const auto cols = samples.last_col - samples.first_col + 1;
+  Extent found{HUGE_VALF, -HUGE_VALF};
+  if (cols >= 4)
+    return kernels.along(
+        {at.x.row(samples.first_row) + samples.first_col,
+         at.y.row(samples.first_row) + samples.first_col,
+         at.z.row(samples.first_row) + samples.first_col, static_cast<long>(at.x.stride()),
+         samples.last_row - samples.first_row + 1, cols},
+        origin, normal);
+  for (int r = samples.first_row; r <= samples.last_row; ++r)
+    for (int c = samples.first_col; c <= samples.last_col; ++c) {
+      const float way = dot(slab.normal, at.at(r, c) - slab.origin);
+      found = {std::min(found.least, way), std::max(found.largest, way)};
+    }
+  return found;
 }
 
 }  // namespace
 
 SlabLevels::SlabLevels(int cells) : sides_(level_sides(cells)) {
-  for (const int side : sides_) levels_.emplace_back(static_cast<std::size_t>(side) * side);
+  for (int level = 0; level <= std::min(most_level, top()); ++level) {
+    const auto nodes = static_cast<std::size_t>(sides_[level]) * sides_[level];
+    levels_.emplace_back(level == 0 ? 0 : nodes);
+    areas_.emplace_back(level == 0 ? 0 : nodes);
+  }
 }
 
-void SlabLevels::fit(const MovingSurface& surface, Worker& worker) {
-  const int levels = std::min(most_levels, static_cast<int>(sides_.size()));
-  for (int l = 0; l < levels; ++l) {
+void SlabLevels::fit(const CollideKernels& kernels, const MovingSurface& surface, Worker& worker) {
+  for (int l = 1; l < static_cast<int>(levels_.size()); ++l) {
     const Range mine = worker.share(sides_[l]);
     for (int r = mine.first; r < mine.last; ++r)
-      for (int c = 0; c < sides_[l]; ++c) fit_node(surface, {l, r, c});
+      for (int c = 0; c < sides_[l]; ++c) fit_node(kernels, surface, {l, r, c});
+    worker.barrier();
   }
-  worker.barrier();
 }
 
-void SlabLevels::fit_node(const MovingSurface& surface, const Node& node) {
-  const int first_row = node.row << node.level, first_col = node.col << node.level;
-  const int cells = sides_.front();
-  const int last_row = std::min(cells, first_row + (1 << node.level));
-  const int last_col = std::min(cells, first_col + (1 << node.level));
-  Slab& own = slab(node);
-  Vec3d sum;
-  for (int r = first_row; r < last_row; ++r)
-    for (int c = first_col; c < last_col; ++c) sum += cell_normal(*surface.start, r, c);
+Vec3d SlabLevels::area_of(const Planes3& at, const Node& node) const {
+  if (node.level > 0) return areas_[node.level][index_of(node)];
+  const int row = node.row, col = node.col;
+  return cross(place(at, row, col + 1) - place(at, row + 1, col),
+               place(at, row + 1, col + 1) - place(at, row, col));
+}
+
+void SlabLevels::fit_node(const CollideKernels& kernels, const MovingSurface& surface,
+                          const Node& node) {
+  Vec3d area;
+  for_children(node, sides_, [&](const Node& child) { area += area_of(*surface.start, child); });
+  areas_[node.level][index_of(node)] = area;
+  const NodeSamples samples(node, sides_.front());
+  Slab& own = levels_[node.level][index_of(node)];
   own = {};
-  own.normal = vec_cast<float>(normalized(sum));
-  own.origin = surface.start->at(first_row, first_col);
-  const Vec3d normal = vec_cast<double>(own.normal), origin = vec_cast<double>(own.origin);
-  double lower_start = HUGE_VAL, upper_start = -HUGE_VAL;
-  double lower_end = HUGE_VAL, upper_end = -HUGE_VAL;
-  for (int r = first_row; r <= last_row; ++r)
-    for (int c = first_col; c <= last_col; ++c) {
-      const double start = dot(normal, place(*surface.start, r, c) - origin);
-      lower_start = std::min(lower_start, start);
-      upper_start = std::max(upper_start, start);
-      if (surface.end == surface.start) continue;
-      const double end = dot(normal, place(*surface.end, r, c) - origin);
-      lower_end = std::min(lower_end, end);
-      upper_end = std::max(upper_end, end);
-    }
-  if (surface.end == surface.start) {
-    lower_end = lower_start;
-    upper_end = upper_start;
-  }
-  own.lower_start = static_cast<float>(lower_start);
-  own.upper_start = static_cast<float>(upper_start);
-  own.lower_end = static_cast<float>(lower_end);
-  own.upper_end = static_cast<float>(upper_end);
+  own.normal = vec_cast<float>(normalized(area));
+  own.origin = surface.start->at(samples.first_row, samples.first_col);
+  const Extent start = along(kernels, *surface.start, samples, own);
+  const Extent end =
+      surface.end == surface.start ? start : along(kernels, *surface.end, samples, own);
+  own.lower_start = start.least;
+  own.upper_start = start.largest;
+  own.lower_end = end.least;
+  own.upper_end = end.largest;
 }
 
 }  // namespace weft

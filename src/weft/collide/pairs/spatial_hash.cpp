@@ -150,7 +150,7 @@ void HashedCells::for_near(const Box3f& other, float reach, const Visit& visit) 
 }
 
 SpatialHashPairs::SpatialHashPairs(std::span<const SurfaceGrid* const> grids, std::size_t cloths)
-    : fitted_(grids.size(), false) {
+    : fitted_to_(grids.size(), 0) {
   for (std::size_t i = 0; i < grids.size(); ++i) {
     tables_.emplace_back(grids[i]->cells());
     if (i < cloths) folds_.emplace_back(grids[i]->cells());
@@ -159,9 +159,9 @@ SpatialHashPairs::SpatialHashPairs(std::span<const SurfaceGrid* const> grids, st
 
 void SpatialHashPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const bool still = surfaces[i].start == surfaces[i].end;
-    if (!fitted_[i] || !still) tables_[i].fit(surfaces[i], team);
-    fitted_[i] = still && i >= folds_.size();
+    const int name = surfaces[i].name;
+    if (name == 0 || name != fitted_to_[i]) tables_[i].fit(surfaces[i], team);
+    fitted_to_[i] = name;
   }
   surfaces_.assign(surfaces.begin(), surfaces.end());
 }

@@ -79,7 +79,7 @@ class SpatialHashPairs final : public BroadPhase {
  private:
   std::vector<HashedCells> tables_;     // one a surface
   std::vector<UnfoldedWindows> folds_;  // one a cloth
-  std::vector<bool> fitted_;            // bodies that stand still since
+  std::vector<int> fitted_to_;          // names of the surfaces' motions
   std::vector<MovingSurface> surfaces_;
   SharedPairs shared_;
 };

@@ -86,7 +86,7 @@ void SphereLevels::fit(const MovingSurface& surface, Worker& worker) {
 }
 
 SphereTreePairs::SphereTreePairs(std::span<const SurfaceGrid* const> grids, std::size_t cloths)
-    : fitted_(grids.size(), false) {
+    : fitted_to_(grids.size(), 0) {
   for (std::size_t i = 0; i < grids.size(); ++i) {
     levels_.emplace_back(grids[i]->cells());
     if (i < cloths) folds_.emplace_back(grids[i]->cells());
@@ -97,11 +97,11 @@ void SphereTreePairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam&
   surfaces_.assign(surfaces.begin(), surfaces.end());
   team.run([&](Worker& worker) {
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
-      if (!fitted_[i] || surfaces[i].start != surfaces[i].end) levels_[i].fit(surfaces[i], worker);
+      const int name = surfaces[i].name;
+      if (name == 0 || name != fitted_to_[i]) levels_[i].fit(surfaces[i], worker);
     }
   });
-  for (std::size_t i = folds_.size(); i < surfaces.size(); ++i)
-    fitted_[i] = surfaces[i].start == surfaces[i].end;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) fitted_to_[i] = surfaces[i].name;
 }
 
 template <class Stop, class Emit>

@@ -69,7 +69,7 @@ class SphereTreePairs final : public BroadPhase {
 
   std::vector<SphereLevels> levels_;    // one a surface
   std::vector<UnfoldedWindows> folds_;  // one a cloth
-  std::vector<bool> fitted_;            // bodies that stand still since
+  std::vector<int> fitted_to_;          // names of the surfaces' motions
   std::vector<NodePair> tasks_;
   std::vector<MovingSurface> surfaces_;
   SharedPairs shared_;

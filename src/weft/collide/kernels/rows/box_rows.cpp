@@ -64,8 +64,11 @@ Extent along(const SampleBlock& samples, const float* origin, const float* direc
   constexpr float far = __builtin_huge_valf();
   float lower[4] = {far, far, far, far}, upper[4] = {-far, -far, -far, -far};
   for (int r = 0; r < samples.rows; ++r) {
-    widen_along(samples, r * samples.stride, origin, direction, lower, upper);
-    if (samples.five) widen_along(samples, r * samples.stride + 1, origin, direction, lower, upper);
+    const long first = r * samples.stride;
+    for (int c = 0; c + 4 <= samples.cols; c += 4)
+      widen_along(samples, first + c, origin, direction, lower, upper);
+    if (samples.cols % 4 != 0)
+      widen_along(samples, first + samples.cols - 4, origin, direction, lower, upper);
   }
   return {least(least(lower[0], lower[1]), least(lower[2], lower[3])),
           largest(largest(upper[0], upper[1]), largest(upper[2], upper[3]))};
