@@ -35,6 +35,16 @@ TEST(ParseJson, FaultsHaveTheirLine) {
   EXPECT_EQ(fault_of("[\"\xff\"]"), "f:1 is not JSON here");
 }
 
+TEST(ParseJson, KeysAreThereOnce) {
+  EXPECT_EQ(fault_of("{\"a\": 1, \"b\": {\"a\": 2}}"), "");
+  EXPECT_EQ(fault_of("[{\"a\": 1}, {\"a\": 1}]"), "");
+  EXPECT_EQ(fault_of("{\"a\": {\"b\": 1},\n\"c\": 2,\n\"a\": 3\n\n}"),
+            "f:3 the key 'a' is there twice");
+  EXPECT_EQ(fault_of("{\"a\": [{\"b\": 1, \"\\u0062\": 2}]}"), "f:1 the key 'b' is there twice");
+  // What is no JSON further on comes second.
+  EXPECT_EQ(fault_of("{\"a\": 1, \"a\": 2, }"), "f:1 the key 'a' is there twice");
+}
+
 TEST(ParseJson, ValuesArriveWhole) {
   EXPECT_EQ(parse_json("{\"a\": [0.1, true, null]}", 3)["a"][0].get<double>(), 0.1);
 }

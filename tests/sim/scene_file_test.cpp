@@ -209,6 +209,19 @@ TEST(SceneFile, StillAirIsNoneUnlessItsCoefficientsAreGiven) {
   EXPECT_TRUE(parse_scene(R"({"cloths":[{}],"wind":{"velocity":[0,0,1]}})", "s", "").wind);
 }
 
+TEST(SceneFile, KeysThatAreThereTwiceAreRefusedWithTheirLine) {
+  EXPECT_EQ(error_of("{\"cloths\":[{\"size\":9,\n\"size\":17}]}"),
+            "s.json:2: the key 'size' is there twice; each key once is wanted");
+}
+
+TEST(SceneFile, NamesThatDifferInCapitalLettersOnlyAreRefused) {
+  EXPECT_EQ(
+      error_of(R"({"cloths":[{"name":"Sheet"}],"bodies":[{"name":"sheet","surface":"b.obj"}]})"),
+      "s.json:bodies[0].name: 'sheet' differs from 'Sheet' in capital letters only; a name of "
+      "its own for each cloth and body is wanted");
+  EXPECT_NE(error_of(R"({"cloths":[{"name":"a.IMAGE"},{"name":"A"}]})"), "");
+}
+
 TEST(SceneFile, TwoThingsOfOneNameAreRefused) {
   EXPECT_EQ(error_of(R"({"cloths":[{"name":"a"},{"name":"a"}]})"),
             "s.json:cloths[1].name: 'a' is there twice; a name of its own for each cloth and body "

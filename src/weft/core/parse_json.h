@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -13,18 +14,26 @@ namespace weft {
 class JsonFault : public std::runtime_error {
  public:
   /// @param line  from 1; 0 where it is not known
-  JsonFault(const std::string& found, int line) : std::runtime_error(found), line_(line) {}
+  /// @param wanted  where that is more than JSON
+  JsonFault(const std::string& found, int line, std::string wanted = {})
+      : std::runtime_error(found), line_(line), wanted_(std::move(wanted)) {}
   /// FILE:LINE, or FILE alone.
   [[nodiscard]] std::string place(std::string_view file) const;
+  /// @param otherwise  what callers want who found no JSON
+  [[nodiscard]] std::string_view wanted(std::string_view otherwise) const {
+    return wanted_.empty() ? otherwise : wanted_;
+  }
 
  private:
   int line_;
+  std::string wanted_;
 };
 
 /// Parses JSON that is not trusted.
 /// @param deepest  how many lists and objects may lie inside each other: writing JSON out again
 ///                 recurses, so that depth has to be bounded where text comes in
-/// @throws JsonFault for what is not JSON, nested deeper, or a number that doubles cannot hold
+/// @throws JsonFault for what is not JSON, nested deeper, a key that an object holds twice, or a
+/// number that doubles cannot hold
 nlohmann::json parse_json(std::string_view text, int deepest);
 
 }  // namespace weft

@@ -1,7 +1,7 @@
 #include "weft/sim/scene_file.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ nlohmann::json parse_scene_json(std::string_view text, const std::string& name) 
   try {
     return parse_json(text, deepest_nesting);
   } catch (const JsonFault& fault) {
-    throw SceneError(fault.place(name), fault.what(), "a scene file is wanted");
+    throw SceneError(fault.place(name), fault.what(), fault.wanted("a scene file is wanted"));
   }
 }
 
@@ -60,14 +60,25 @@ std::vector<Part> read_list(const JsonObject& root, std::string_view key, const 
   return parts;
 }
 
-/// Files are named by cloths and bodies: no two may share a name.
+std::string in_small_letters(std::string name) {
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return name;
+}
+
+/// Files are named by cloths and bodies: no two may share a name, on systems that take capital
+/// letters for small ones neither.
 void check_names(const Scene& scene, const JsonPlace& place) {
-  std::set<std::string> seen;
+  std::map<std::string, std::string> seen;  // by its letters made small
   const auto check = [&](const std::string& name, std::string_view list, std::size_t index) {
-    if (!seen.insert(name).second)
-      place.key(list).element(index).key("name").fail(
-          fmt::format("'{}' is there twice", name),
-          "a name of its own for each cloth and body is wanted");
+    const auto [other, is_new] = seen.emplace(in_small_letters(name), name);
+    if (is_new) return;
+    const std::string twice = fmt::format("'{}' is there twice", name);
+    const std::string alike =
+        fmt::format("'{}' differs from '{}' in capital letters only", name, other->second);
+    place.key(list).element(index).key("name").fail(
+        other->second == name ? twice : alike,
+        "a name of its own for each cloth and body is wanted");
   };
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) check(scene.cloths[i].name, "cloths", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) check(scene.bodies[i].name, "bodies", i);

@@ -30,7 +30,7 @@ nlohmann::json parse_text(std::string_view text, std::string_view name) {
   try {
     return parse_json(text, deepest_nesting);
   } catch (const JsonFault& fault) {
-    throw InputError(fault.place(name), fault.what(), "a glTF 2.0 mesh is wanted");
+    throw InputError(fault.place(name), fault.what(), fault.wanted("a glTF 2.0 mesh is wanted"));
   }
 }
 
