@@ -47,6 +47,17 @@ Json kinds_json(const FrameIntersections& found) {
           {"ground", found.counts.ground}};
 }
 
+/// Of the frame that stretched farthest; nothing where no frame was simulated.
+Json worst_strain(const RunReport& report) {
+  const auto worst = std::max_element(
+      report.history.begin(), report.history.end(),
+      [](const FrameReport& a, const FrameReport& b) { return a.strain.max < b.strain.max; });
+  if (worst == report.history.end()) return {};
+  return {{"frame", worst - report.history.begin() + 1},
+          {"p99", worst->strain.p99},
+          {"max", worst->strain.max}};
+}
+
 }  // namespace
 
 std::string to_json(const RunReport& report) {
@@ -61,6 +72,7 @@ std::string to_json(const RunReport& report) {
       {"ms_per_frame", milliseconds(report)},
       {"strain",
        {{"mean", report.strain.mean}, {"p99", report.strain.p99}, {"max", report.strain.max}}},
+      {"strain_worst", worst_strain(report)},
       {"residual", {{"median", quantile(residuals, 0.5)}, {"max", quantile(residuals, 1)}}},
       {"contacts_max", report.contacts_max},
       {"self_contacts_max", report.self_contacts_max},
