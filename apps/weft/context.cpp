@@ -14,7 +14,8 @@ void put(const std::string& text) {
   try {
     fmt::print("{}\n", text);
   } catch (const std::system_error& error) {
-    throw OutputError("stdout", "cannot be written: " + error.code().message(), "");
+    throw OutputError("stdout", "cannot be written: " + error.code().message(),
+                      "a standard output with room is wanted");
   }
 }
 

@@ -79,7 +79,8 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
 // What was printed must have arrived.
 int finish() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return static_cast<int>(ExitCode::done);
-  return fail(ExitCode::input, "stdout: cannot be written whole");
+  return fail(ExitCode::input,
+              "stdout: cannot be written whole; a standard output with room is wanted");
 }
 
 int run(int argc, char** argv) {

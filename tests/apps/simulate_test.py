@@ -15,7 +15,7 @@ import unittest
 from program import PROGRAM, ProgramTest, SOURCE
 
 RUN_FIELDS = ["frames", "particles", "integrator", "threads", "time_step", "substeps", "ms_per_frame", "strain",
-              "residual", "contacts_max", "self_contacts_max", "intersections", "centre_of_mass", "state_hash",
+              "strain_worst", "residual", "contacts_max", "self_contacts_max", "intersections", "centre_of_mass", "state_hash",
               "outputs"]
 
 
@@ -48,6 +48,18 @@ class Simulate(SceneTest):
         for frame, (_, y, _) in enumerate(report["centre_of_mass"]):
             t = frame / 60
             self.assertAlmostEqual(y, 1 - 9.81 * t * (t + h) / 2, delta=2e-6)
+
+    def test_the_worst_frame_for_strain_is_told(self):
+        scene = sheet_scene(frames=12, cloths=[{"name": "sheet", "surface": "builtin:sheet", "size": 17,
+                                                "translate": [0, 1, 0], "pins": [{"image": [0, 0]}, {"image": [1, 1]}]}])
+        worst = self.run_json("simulate", self.write_scene(scene), "-o", "run")["strain_worst"]
+        rows = self.table("run")
+        row = max(rows, key=lambda line: float(line["strain_max"]))
+        self.assertEqual(worst["frame"], int(row["frame"]))
+        self.assertAlmostEqual(worst["max"], float(row["strain_max"]), delta=1e-5)
+        self.assertAlmostEqual(worst["p99"], float(row["strain_p99"]), delta=1e-5)
+        scene["frames"] = 0
+        self.assertIsNone(self.run_json("simulate", self.write_scene(scene), "-o", "none")["strain_worst"])
 
     def test_verify_ends_with_4_and_tells_what_passes_through_what(self):
         # Nothing holds these apart: two sheets across each other and a plate through both, pinned where they stand.
@@ -218,6 +230,11 @@ class BadScenes(SceneTest):
     def test_what_is_not_json_names_the_line(self):
         self.refuse('{ "version": 1,\n  "frames": }\n', "scene.json:2")
         self.refuse("")
+
+    def test_cloth_without_area_is_named_with_its_scene(self):
+        scene = sheet_scene()
+        scene["cloths"][0]["scale"] = [1, 1, 1e-200]
+        self.refuse(scene, "'sheet': ", "a rest shape without area", "; a surface, not a point or a curve, is wanted")
 
     def test_missing_surfaces_are_named(self):
         scene = sheet_scene()

@@ -71,7 +71,7 @@ void set_masses(Cloth& cloth, const RestShape& shape) {
     for (int c = 0; c < n; ++c) total += cloth.mass(r, c) * cloth.counted(r, c);
   if (!(total > 0))
     throw SceneError("cloth", "a rest shape without area: its samples carry no mass",
-                     "a surface, not a point or a curve");
+                     "a surface, not a point or a curve, is wanted");
   const auto least = static_cast<float>(least_relative_mass * total / cloth.particles);
   cloth.inverse_mass = Grid<float>(n, n);
   for (int r = 0; r < n; ++r)

@@ -16,6 +16,8 @@ namespace weft {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* room_wanted = "more room, or another place, is wanted";
+
 std::string system_reason() { return std::strerror(errno); }
 
 }  // namespace
@@ -43,12 +45,25 @@ void make_folder(const fs::path& path) {
                       "a writable place is wanted");
 }
 
+WantedFolder::WantedFolder(const fs::path& path) {
+  std::error_code ignored;
+  for (fs::path missing = path; !missing.empty() && !fs::exists(missing, ignored);
+       missing = missing.parent_path())
+    made_.push_back(missing);
+  make_folder(path);
+}
+
+WantedFolder::~WantedFolder() {
+  std::error_code ignored;  // not empty
+  for (const fs::path& path : made_) fs::remove(path, ignored);
+}
+
 void flush_to_disk(const fs::path& path) {
   const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool flushed = handle >= 0 && ::fsync(handle) == 0;
   const std::string reason = flushed ? "" : system_reason();
   if (handle >= 0) ::close(handle);
-  if (!flushed) throw OutputError(path.string(), "cannot be written: " + reason, "");
+  if (!flushed) throw OutputError(path.string(), "cannot be written: " + reason, room_wanted);
 }
 
 fs::path temporary_path(const fs::path& path, TemporaryName name) {
@@ -81,7 +96,9 @@ void NewFile::commit() {
   flush_to_disk(temporary_);
   std::error_code error;
   fs::rename(temporary_, path_, error);
-  if (error) throw OutputError(path_.string(), "cannot be written: " + error.message(), "");
+  if (error)
+    throw OutputError(path_.string(), "cannot be written: " + error.message(),
+                      "a writable place is wanted");
   committed_ = true;
 }
 
@@ -104,7 +121,8 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
   std::ofstream out(file.temporary(), std::ios::binary);
   write(out);
   out.close();
-  if (!out) throw OutputError(path.string(), "cannot be written whole: " + system_reason(), "");
+  if (!out)
+    throw OutputError(path.string(), "cannot be written whole: " + system_reason(), room_wanted);
   file.commit();
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace weft {
 
@@ -14,6 +15,20 @@ std::string read_file(const std::filesystem::path& path);
 /// Makes a folder and those that it lies in; one that is there is left as it is.
 /// @throws OutputError when it cannot be made, or a file has its name
 void make_folder(const std::filesystem::path& path);
+
+/// The same for what may come to nothing: folders that it made and that are still empty at its end
+/// go again.
+class WantedFolder {
+ public:
+  /// @throws OutputError as make_folder
+  explicit WantedFolder(const std::filesystem::path& path);
+  WantedFolder(const WantedFolder&) = delete;
+  WantedFolder& operator=(const WantedFolder&) = delete;
+  ~WantedFolder();
+
+ private:
+  std::vector<std::filesystem::path> made_;  // innermost first
+};
 
 /// Waits until what was written to a file is on the disk. @throws OutputError
 void flush_to_disk(const std::filesystem::path& path);

@@ -13,6 +13,19 @@ namespace weft {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// What a scene is made of may lie in the folder of an earlier run.
+std::vector<fs::path> input_files(const Scene& scene) {
+  std::vector<fs::path> files;
+  for (const SceneCloth& cloth : scene.cloths) files.emplace_back(cloth.surface);
+  for (const SceneBody& body : scene.bodies)
+    for (const std::string* file : {&body.surface, &body.animation}) files.emplace_back(*file);
+  return files;
+}
+
+}  // namespace
+
 Recorder::Recorder(const Simulation& simulation, const Scene& scene, const RunOptions& options)
     : simulation_(simulation), scene_(scene), options_(options) {
   const ExportOptions exports{options.folder,   options.exports,  options.on,
@@ -134,7 +147,7 @@ void Recorder::write_manifests(RunReport& report) {
     caches.bodies.push_back(record->image_cache());
   }
   const fs::path shown = options_.folder / "caches.json";
-  write_cache_manifest(shown, exports);
+  write_cache_manifest(shown, exports, input_files(scene_));
   const fs::path manifest = options_.folder / "weft-run.json";
   write_run_manifest(manifest, scene_, report, caches);
   report.outputs.push_back(shown);

@@ -8,6 +8,7 @@
 #include "weft/core/error.h"
 #include "weft/core/files.h"
 #include "weft/core/memory.h"
+#include "weft/core/reserved_room.h"
 #include "weft/sim/checkpoint.h"
 #include "weft/sim/memory_estimate.h"
 #include "weft/sim/recorder.h"
@@ -21,6 +22,8 @@ namespace fs = std::filesystem;
 
 /// Work that a killed run may lose where nobody says how many frames [s].
 constexpr double default_seconds_between_checkpoints = 5;
+/// At least what frames.csv and the manifests take [bytes].
+constexpr std::size_t least_room = 16384, room_of_surface = 1024, room_of_frame = 256;
 
 std::string listed(std::span<const std::string_view> names) {
   std::string text;
@@ -107,6 +110,7 @@ class Run {
     std::error_code ignored;
     fs::remove(path_, ignored);
     make_recorder().start();
+    reserve();
     simulation_.save(point_.state);
     if (options_.resume)
       report_.notes.push_back(
@@ -118,6 +122,7 @@ class Run {
     Recorder& recorder = make_recorder();
     simulation_.restore(from.state);
     recorder.resume(from.state.frame == scene_.frames);
+    reserve();
     point_.state = from.state;
     for (const FrameReport& frame : from.history) add_to_report(report_, frame);
     report_.intersections = from.intersections;
@@ -190,8 +195,17 @@ class Run {
     write_point();
   }
 
+  /// For what `keep` writes when the disk is full of frames.
+  void reserve() {
+    const std::size_t surfaces = scene_.cloths.size() + scene_.bodies.size();
+    const auto frames = static_cast<std::size_t>(scene_.frames);
+    room_.emplace(options_.folder / "room",
+                  least_room + room_of_surface * surfaces + room_of_frame * frames);
+  }
+
   /// Everything so far, as files that are whole, and where to go on.
   void keep() {
+    room_.reset();
     recorder_->finish(report_);
     if (!options_.scene_file.empty())
       report_.outputs.insert(report_.outputs.begin(), options_.scene_file);
@@ -228,6 +242,7 @@ class Run {
   std::optional<Recorder> recorder_;
   Checkpoint point_;  // its state is that of the last whole frame
   int last_written_ = -1;
+  std::optional<ReservedRoom> room_;
 };
 
 }  // namespace
@@ -236,7 +251,7 @@ RunReport run_scene(const Scene& scene, const std::string& name, const RunOption
   check_exports(scene, options);
   const std::uint64_t memory = estimate_memory(scene);
   if (const auto available = available_memory()) check_memory(memory, *available, name);
-  make_folder(options.folder);
+  const WantedFolder folder(options.folder);
   const FolderLock lock(options.folder);
   std::optional<Checkpoint> found;
   if (options.resume) found = read_checkpoint(checkpoint_path(options.folder));

@@ -157,8 +157,12 @@ Planes3 RecordedPoints::positions(int frame) const {
 
 RunFolder open_run_folder(const fs::path& folder) {
   const fs::path path = folder / manifest_name;
-  std::error_code ignored;
-  if (!fs::exists(path, ignored))
+  std::error_code closed;
+  const bool there = fs::exists(path, closed);
+  if (closed)
+    throw InputError(folder.string(), "cannot be looked into: " + closed.message(),
+                     "a readable folder is wanted");
+  if (!there)
     throw InputError(folder.string(), fmt::format("holds no {}", manifest_name),
                      "the folder of a run is wanted");
   try {
@@ -188,7 +192,8 @@ void write_run_manifest(const fs::path& path, const Scene& scene, const RunRepor
     const SceneBody& body = scene.bodies[i];
     Json placed = placed_json(body.name, body.placement);
     const fs::path normals = normals_path(caches.folder, body.name);
-    if (fs::exists(normals)) placed["normals"] = normals.filename().string();
+    std::error_code ignored;
+    if (fs::exists(normals, ignored)) placed["normals"] = normals.filename().string();
     if (!body.motion.empty() || !body.animation.empty()) {
       placed["cache"] = caches.bodies[i];
       placed["unwelded"] = caches.unwelded;

@@ -122,7 +122,7 @@ std::array<int, 2> connected_pair(const std::filesystem::path& path) {
   std::array<int, 2> ends{-1, -1};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw OutputError(path.string(), fmt::format("no pipe to ffmpeg: {}", std::strerror(errno)),
-                      "");
+                      "a system with files to spare is wanted");
   return ends;
 }
 
@@ -163,12 +163,19 @@ struct MovieWriter::Pipe {
     child = -1;
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
+  /// Its last words, of the movie by the name that users know.
+  [[nodiscard]] std::string reason() const {
+    std::string said = transcript.last_line();
+    const std::string hidden = file.temporary().string();
+    const std::size_t at = said.find(hidden);
+    if (at != said.npos) said.replace(at, hidden.size(), path.string());
+    return said.empty() ? "without a word" : said;
+  }
   [[noreturn]] void fail() {
     frames.reset();
     if (child >= 0) wait();
-    const std::string said = transcript.last_line();
-    throw OutputError(path.string(), "ffmpeg failed: " + (said.empty() ? "without a word" : said),
-                      "");
+    throw OutputError(path.string(), "ffmpeg failed: " + reason(),
+                      "room for it, and an ffmpeg that knows the format, are wanted");
   }
 };
 

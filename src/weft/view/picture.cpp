@@ -1,7 +1,6 @@
 #include "weft/view/picture.h"
 
-#include <cstdio>
-#include <memory>
+#include <ostream>
 #include <string>
 
 #include <png.h>
@@ -24,10 +23,6 @@ struct PngImage {
   ~PngImage() { png_image_free(&state); }
 };
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }
-};
-
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Picture& picture) {
@@ -35,19 +30,17 @@ void write_png(const std::filesystem::path& path, const Picture& picture) {
   if (picture.width < 1 || picture.height < 1 || picture.rgb.size() != bytes)
     throw OutputError(path.string(), "a picture without pixels",
                       "at least one row and column is wanted");
-  NewFile file(path);
-  std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(file.temporary().c_str(), "wb"));
-  if (!stream)
-    throw OutputError(path.string(), "the file cannot be opened", "a writable place is wanted");
   PngImage image;
   image.state.width = static_cast<png_uint_32>(picture.width);
   image.state.height = static_cast<png_uint_32>(picture.height);
   image.state.format = PNG_FORMAT_RGB;
-  if (png_image_write_to_stdio(&image.state, stream.get(), 0, picture.rgb.data(), 0, nullptr) == 0)
-    throw OutputError(path.string(), image.state.message, "a writable place is wanted");
-  if (std::fclose(stream.release()) != 0)
-    throw OutputError(path.string(), "writing failed", "room on the device is wanted");
-  file.commit();
+  std::string packed(PNG_IMAGE_PNG_SIZE_MAX(image.state), '\0');
+  png_alloc_size_t used = packed.size();
+  if (png_image_write_to_memory(&image.state, packed.data(), &used, 0, picture.rgb.data(), 0,
+                                nullptr) == 0)
+    throw OutputError(path.string(), image.state.message, "another size is wanted");
+  packed.resize(used);
+  write_file(path, [&](std::ostream& out) { out << packed; });
 }
 
 Picture read_png(const std::filesystem::path& path) {

@@ -45,6 +45,7 @@ struct Simulation::Parts {
         soft(std::holds_alternative<TwoLevelOptions>(scene.integrator)) {}
 
   LoadedSurface load(const std::string& surface, ConvertOptions options, const std::string& what);
+  Cloth make(const SceneCloth& wanted, const Planes3& rest, const BorderMates& mates) const;
   void load_cloths();
   void load_bodies();
   /// Ties cloths to bodies, which stand where they begin.

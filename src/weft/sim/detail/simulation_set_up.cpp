@@ -55,6 +55,15 @@ LoadedSurface Simulation::Parts::load(const std::string& surface, ConvertOptions
   return loaded;
 }
 
+Cloth Simulation::Parts::make(const SceneCloth& wanted, const Planes3& rest,
+                              const BorderMates& mates) const {
+  try {
+    return make_cloth(rest, mates, wanted.material);
+  } catch (const SceneError& error) {
+    throw SceneError(name, fmt::format("'{}': {}", wanted.name, error.what()), "");
+  }
+}
+
 void Simulation::Parts::load_cloths() {
   for (const SceneCloth& wanted : scene.cloths) {
     ConvertOptions options;
@@ -62,7 +71,7 @@ void Simulation::Parts::load_cloths() {
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
     const Planes3 rest = placed_positions(loaded.image, placement_map(wanted.placement));
-    Cloth cloth = make_cloth(rest, loaded.image.mates, wanted.material);
+    Cloth cloth = make(wanted, rest, loaded.image.mates);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
     cloths.push_back({wanted.name, std::move(loaded.image), std::move(cloth), std::move(state),

@@ -1,17 +1,23 @@
 #include "weft/sim/export/cache_manifest.h"
 
+#include <algorithm>
 #include <ostream>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
+#include "weft/core/error.h"
 #include "weft/core/files.h"
+#include "weft/core/parse_json.h"
+#include "weft/sim/export/frame_sequence.h"
 
 namespace weft {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int manifest_version = 1;
+constexpr int manifest_version = 1, deepest_nesting = 16;
 
 Json surface_json(const SurfaceRecord& record, std::string_view kind) {
   Json json{{"name", record.subject().name},
@@ -26,9 +32,43 @@ Json surface_json(const SurfaceRecord& record, std::string_view kind) {
   return json;
 }
 
+struct ListedFile {
+  std::string surface, path, format;
+};
+
+/// What a manifest lists; nothing where it is none. Names with folders in them are not a run's.
+std::vector<ListedFile> listed_files(const fs::path& path) {
+  std::vector<ListedFile> files;
+  try {
+    const nlohmann::json json = parse_json(read_file(path), deepest_nesting);
+    for (const auto& surface : json.at("surfaces"))
+      for (const auto& file : surface.at("files"))
+        files.push_back({surface.at("name"), file.at("path"), file.at("format")});
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  } catch (const JsonFault&) {
+    return {};
+  } catch (const InputError&) {
+    return {};
+  }
+  std::erase_if(files, [](const ListedFile& file) {
+    return fs::path(file.path) != fs::path(file.path).filename();
+  });
+  return files;
+}
+
+/// A file, or a folder of frames unless something else is in it.
+void remove_listed(const fs::path& folder, const ListedFile& file) {
+  const fs::path path = folder / file.path;
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) remove_frames(path, file.surface, file.format, 0);
+  fs::remove(path, ignored);
+}
+
 }  // namespace
 
-void write_cache_manifest(const std::filesystem::path& path, const CacheManifest& manifest) {
+void write_cache_manifest(const fs::path& path, const CacheManifest& manifest,
+                          std::span<const fs::path> inputs) {
   Json json{{"version", manifest_version},
             {"unit", manifest.files.unit.name},
             {"metres_per_unit", manifest.files.unit.metres},
@@ -43,7 +83,18 @@ void write_cache_manifest(const std::filesystem::path& path, const CacheManifest
   for (const SurfaceRecord* record : manifest.bodies)
     json["surfaces"].push_back(surface_json(*record, "body"));
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  const std::vector<ListedFile> before = listed_files(path);
   write_file(path, [&](std::ostream& out) { out << text << '\n'; });
+  std::set<std::string> now;
+  for (const ListedFile& file : listed_files(path)) now.insert(file.path);
+  for (const ListedFile& file : before) {
+    const auto is_it = [&](const fs::path& input) {
+      std::error_code ignored;
+      return fs::equivalent(input, path.parent_path() / file.path, ignored);
+    };
+    if (now.count(file.path) == 0 && std::none_of(inputs.begin(), inputs.end(), is_it))
+      remove_listed(path.parent_path(), file);
+  }
 }
 
 }  // namespace weft

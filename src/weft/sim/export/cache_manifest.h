@@ -14,7 +14,10 @@ struct CacheManifest {
   int frames = 1;          ///< frame 0 included
   std::vector<const SurfaceRecord*> cloths{}, bodies{};
 };
-/// As JSON. @throws OutputError
-void write_cache_manifest(const std::filesystem::path& path, const CacheManifest& manifest);
+/// As JSON. Files that the manifest there before names, and the new one does not, are removed: they
+/// show another run.
+/// @param inputs  files that are never removed  @throws OutputError
+void write_cache_manifest(const std::filesystem::path& path, const CacheManifest& manifest,
+                          std::span<const std::filesystem::path> inputs);
 
 }  // namespace weft

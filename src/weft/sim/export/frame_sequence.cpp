@@ -30,22 +30,23 @@ std::optional<int> number_of(const std::string& file, const std::string& name,
 
 }  // namespace
 
+void remove_frames(const fs::path& place, const std::string& name, const std::string& format,
+                   int from) {
+  std::vector<fs::path> dropped;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(place, error)) {
+    const auto number = number_of(entry.path().filename().string(), name, format);
+    if (number && *number >= from) dropped.push_back(entry.path());
+  }
+  for (const fs::path& path : dropped) fs::remove(path, error);
+}
+
 fs::path FrameSequence::place() const {
   return options_.folder / fmt::format("{}_{}", options_.name, options_.format);
 }
 
 fs::path FrameSequence::file(int frame) const {
   return place() / fmt::format("{}_{:04}.{}", options_.name, frame, options_.format);
-}
-
-void FrameSequence::drop_from(int frame) const {
-  std::vector<fs::path> dropped;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(place(), error)) {
-    const auto number = number_of(entry.path().filename().string(), options_.name, options_.format);
-    if (number && *number >= frame) dropped.push_back(entry.path());
-  }
-  for (const fs::path& path : dropped) fs::remove(path, error);
 }
 
 void FrameSequence::start() {

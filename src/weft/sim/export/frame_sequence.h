@@ -7,6 +7,11 @@
 
 namespace weft {
 
+/// Removes the frames of a sequence from a number on.
+/// @param place  their folder  @param format  their ending, without dot
+void remove_frames(const std::filesystem::path& place, const std::string& name,
+                   const std::string& format, int from);
+
 /// A file for each frame, in a folder of their own: DIR/NAME_ply/NAME_0000.ply. Each appears whole.
 class FrameSequence : public MotionWriter {
  public:
@@ -33,8 +38,7 @@ class FrameSequence : public MotionWriter {
 
  private:
   [[nodiscard]] std::filesystem::path place() const;
-  /// Removes this sequence's frames from a number on.
-  void drop_from(int frame) const;
+  void drop_from(int frame) const { remove_frames(place(), options_.name, options_.format, frame); }
 
   Options options_;
   int frames_ = 0;

@@ -89,7 +89,9 @@ Pc2Writer Pc2Writer::resume(const fs::path& path, int frames, std::span<const Ve
   Pc2Writer writer(path, std::move(file), static_cast<int>(last.size()));
   writer.frames_ = frames;
   if (!error) fs::resize_file(writer.file_->temporary(), writer.bytes(frames), error);
-  if (error) throw OutputError(path.string(), "cannot be written: " + error.message(), "");
+  if (error)
+    throw OutputError(path.string(), "cannot be written: " + error.message(),
+                      "more room is wanted");
   writer.open(std::ios::in);
   writer.out_.seekp(0, std::ios::end);
   return writer;
@@ -138,7 +140,9 @@ void Pc2Writer::finish() {
   out_.clear();
   std::error_code error;
   fs::resize_file(file_->temporary(), bytes(frames_), error);
-  if (error) throw OutputError(path_.string(), "cannot be written: " + error.message(), "");
+  if (error)
+    throw OutputError(path_.string(), "cannot be written: " + error.message(),
+                      "more room is wanted");
   open(std::ios::in);
   write_header();
   out_.close();
