@@ -85,20 +85,21 @@ class FullDisk(SceneTest):
     def test_every_line_about_a_full_disk_says_what_is_wanted(self):
         def small_files():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (400, 400))
 
-        ways = [("convert", "builtin:sphere", "--size", 33, "-o", "x.exr"),
-                ("convert", "builtin:sphere", "--size", 33, "-o", "x.png"), ("shapes", "sphere", "-o", "x.obj"),
-                ("render", "builtin:sphere", "-o", "x.png")]
+        self.run_weft("simulate", self.write_scene(sheet_scene(frames=2)), "-o", "run")
+        small = ("--width", 64, "--height", 64)
+        ways = [("convert", "builtin:torus", "--size", 9, "-o", "x.exr"), ("convert", "builtin:torus", "--size", 9, "-o", "x.png"),
+                ("shapes", "torus", "-o", "x.obj"), ("render", "run", "-o", "x.png", *small)]
         if shutil.which("ffmpeg"):
-            ways.append(("render", "builtin:sphere", "-o", "x.gif", "--show", "surface", "--turntable", "--width", 64,
-                         "--height", 64))
+            ways.append(("render", "run", "-o", "x.gif", *small))
+        before = sorted(self.folder.rglob("*"))
         for words in ways:
             with self.subTest(words):
                 done = self.run_weft(*words, code=3, preexec_fn=small_files)
                 self.assertRegex(done.stderr, r"\Aweft: error: x\.\w+: .+; .+ wanted\n\Z")
                 self.assertNotIn(".part", done.stderr)
-                self.assert_nothing_left()
+                self.assertEqual(sorted(self.folder.rglob("*")), before)
 
     def test_standard_output_without_room_is_told(self):
         with open("/dev/full", "w") as full:
