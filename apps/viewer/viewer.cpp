@@ -18,6 +18,7 @@
 #include "apps/viewer/simulator.h"
 #include "apps/viewer/theme.h"
 #include "weft/core/files.h"
+#include "weft/core/json_text.h"
 #include "weft/view/gl/canvas.h"
 
 namespace weft::viewer {
@@ -220,7 +221,8 @@ class Viewer {
 
   void write_status() const {
     if (options_.status_file.empty()) return;
-    write_file(options_.status_file, [&](std::ostream& out) { out << tell().dump(2) << '\n'; });
+    write_file(options_.status_file,
+               [&](std::ostream& out) { out << json_text(tell(), 2) << '\n'; });
   }
 
   const ViewerOptions& options_;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/error.h"
+#include "weft/core/json_text.h"
 
 namespace weft::app {
 namespace {
@@ -33,10 +34,7 @@ void warn(const Context& context, const std::string& line) {
   if (!context.quiet) fmt::print(stderr, "weft: warning: {}\n", line);
 }
 
-std::string text_of(const nlohmann::ordered_json& report) {
-  // A path may hold any bytes, JSON only UTF-8.
-  return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
+std::string text_of(const nlohmann::ordered_json& report) { return json_text(report, 2); }
 
 void print_report(const Context& context, const nlohmann::ordered_json& report) {
   if (context.json) put(text_of(report));

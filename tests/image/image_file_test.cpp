@@ -16,6 +16,8 @@
 #include "tests/support/temporary_folder.h"
 #include "weft/core/error.h"
 #include "weft/core/files.h"
+#include "weft/core/json_text.h"
+#include "weft/core/parse_json.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image/io/metadata.h"
 #include "weft/image/io/png_codec.h"
@@ -44,11 +46,11 @@ std::optional<std::string> refusal(const fs::path& path) {
 
 std::string refusal_of_metadata(const std::function<void(nlohmann::json&)>& change) {
   const GeometryImage image = torus_image(9);
-  nlohmann::json json = nlohmann::json::parse(metadata_text(image));
+  nlohmann::json json = parse_json(metadata_text(image), 9);
   json.erase("checksum");
   change(json);
   try {
-    assemble_image(image.cube, json.dump(), "file");
+    assemble_image(image.cube, json_text(json), "file");
   } catch (const InputError& error) {
     return error.what();
   }
@@ -187,11 +189,11 @@ TEST(ImageMetadata, ValuesOutOfRangeAreRefused) {
   EXPECT_TRUE(refused("source", 3));
   EXPECT_TRUE(refused("source_hash", "xyz"));
   EXPECT_TRUE(refused("mates", 0));
-  EXPECT_TRUE(refused("mates", Json::parse("[[0, 24]]")));
-  EXPECT_TRUE(refused("mates", Json::parse("[[0, 24, 80000]]")));
-  EXPECT_TRUE(refused("mates", Json::parse("[[-1, 24, 8]]")));
-  EXPECT_TRUE(refused("mates", Json::parse("[[0, 33, 8]]")));
-  EXPECT_TRUE(refused("mates", Json::parse("[[0, 24, 8], [0, 24, 8]]")));
+  EXPECT_TRUE(refused("mates", parse_json("[[0, 24]]", 9)));
+  EXPECT_TRUE(refused("mates", parse_json("[[0, 24, 80000]]", 9)));
+  EXPECT_TRUE(refused("mates", parse_json("[[-1, 24, 8]]", 9)));
+  EXPECT_TRUE(refused("mates", parse_json("[[0, 33, 8]]", 9)));
+  EXPECT_TRUE(refused("mates", parse_json("[[0, 24, 8], [0, 24, 8]]", 9)));
 }
 
 TEST(ImageMetadata, MatesWithOtherPositionsAreRefused) {

@@ -6,6 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "weft/core/json_text.h"
+#include "weft/core/parse_json.h"
+
 namespace weft::test {
 
 /// Appends numbers as they lie in a little-endian file.
@@ -32,7 +35,7 @@ inline std::string glb(std::string json, std::string binary) {
 /// Two triangles that share an edge by position only, as programs write a crease: six float
 /// positions, then six 16-bit indices. The JSON to change, and the binary part.
 struct CreasedPair {
-  nlohmann::json json = nlohmann::json::parse(R"({
+  nlohmann::json json = parse_json(R"({
     "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
     "accessors": [
@@ -41,14 +44,15 @@ struct CreasedPair {
     "bufferViews": [
       {"buffer": 0, "byteOffset": 0, "byteLength": 72},
       {"buffer": 0, "byteOffset": 72, "byteLength": 12}],
-    "buffers": [{"byteLength": 84}]})");
+    "buffers": [{"byteLength": 84}]})",
+                                   16);
   std::string binary = [] {
     std::string bytes;
     put(bytes, std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
     put(bytes, std::vector<std::uint16_t>{0, 1, 2, 3, 4, 5});
     return bytes;
   }();
-  [[nodiscard]] std::string bytes() const { return glb(json.dump(), binary); }
+  [[nodiscard]] std::string bytes() const { return glb(json_text(json), binary); }
 };
 
 }  // namespace weft::test

@@ -9,6 +9,8 @@
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
+#include "weft/core/json_text.h"
+#include "weft/core/parse_json.h"
 #include "weft/mesh/io/read_mesh.h"
 
 namespace weft {
@@ -64,8 +66,9 @@ TEST(ReadGltf, MatricesAreColumnByColumn) {
 
 TEST(ReadGltf, ChildrenStandInTheirParentsFrame) {
   CreasedPair file;
-  file.json["nodes"] = Json::parse(R"([{"scale": [2, 2, 2], "children": [1]},
-                                       {"translation": [1, 0, 0], "mesh": 0}])");
+  file.json["nodes"] = parse_json(R"([{"scale": [2, 2, 2], "children": [1]},
+                                       {"translation": [1, 0, 0], "mesh": 0}])",
+                                  16);
   EXPECT_EQ(read(file).positions[0], (Vec3d{2, 0, 0}));
 }
 
@@ -169,7 +172,7 @@ TEST(ReadGltf, BuffersMayBeTextOrFilesInTheFolder) {
   std::filesystem::create_directory(folder / "parts");
   write("parts/the buffer.bin", file.binary);
   file.json["buffers"][0]["uri"] = "parts/the%20buffer.bin";
-  write("a.gltf", file.json.dump());
+  write("a.gltf", json_text(file.json));
   EXPECT_EQ(read_mesh(folder / "a.gltf").triangles.size(), 2U);
   write("parts/the buffer.bin", file.binary.substr(1));
   EXPECT_THROW(read_mesh(folder / "a.gltf"), InputError);
@@ -183,7 +186,7 @@ TEST(ReadGltf, BuffersMayBeTextOrFilesInTheFolder) {
   file.json["accessors"] = {
       {{"bufferView", 0}, {"componentType", 5121}, {"count", 3}, {"type", "VEC3"}}};
   file.json["meshes"][0]["primitives"][0].erase("indices");
-  write("a.gltf", file.json.dump());
+  write("a.gltf", json_text(file.json));
   EXPECT_EQ(read_mesh(folder / "a.gltf").positions,
             (std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
@@ -194,7 +197,7 @@ TEST(ReadGltf, FilesElsewhereAreRefused) {
                           "file:a.bin", "%2e%2e/a.bin", "", "data:,abc", "data:a/b;base64,???"}) {
     CreasedPair file;
     file.json["buffers"][0]["uri"] = uri;
-    std::ofstream(folder / "a.gltf") << file.json.dump();
+    std::ofstream(folder / "a.gltf") << json_text(file.json);
     const std::string line = test::message_of<InputError>([&] { read_mesh(folder / "a.gltf"); });
     EXPECT_NE(line.find("buffers[0] "), line.npos) << uri << ": " << line;
   }

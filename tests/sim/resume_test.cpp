@@ -12,6 +12,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 #include "weft/core/files.h"
+#include "weft/core/parse_json.h"
 #include "weft/sim/checkpoint.h"
 #include "weft/sim/report.h"
 #include "weft/sim/run.h"
@@ -82,7 +83,7 @@ std::vector<std::string> untimed(const fs::path& csv) {
 }
 
 nlohmann::json untimed(const RunReport& report) {
-  nlohmann::json json = nlohmann::json::parse(to_json(report));
+  nlohmann::json json = parse_json(to_json(report), 9);
   json.erase("ms_per_frame");
   json.erase("outputs");
   return json;

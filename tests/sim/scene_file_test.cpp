@@ -1,7 +1,6 @@
 #include "weft/sim/scene_file.h"
 
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -10,6 +9,8 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 #include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/core/parse_json.h"
 #include "weft/sim/materials.h"
 #include "weft/sim/scene_keys.h"
 
@@ -296,10 +297,7 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   EXPECT_EQ(back.wind->lift, 0.25);
   EXPECT_FALSE(back.ground.has_value());
   write_scene(second, back);
-  const auto text = [](const std::string& path) {
-    std::ifstream in(path);
-    return nlohmann::json::parse(in);
-  };
+  const auto text = [](const std::string& path) { return parse_json(read_file(path), 32); };
   EXPECT_EQ(text(first), text(second));
 }
 
@@ -320,8 +318,8 @@ std::set<std::string> as_set(const Keys& keys) {
 }
 
 TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
-  std::ifstream in(std::string(WEFT_SOURCE_DIR) + "/docs/scene.schema.json");
-  const nlohmann::json schema = nlohmann::json::parse(in);
+  const nlohmann::json schema =
+      parse_json(read_file(std::string(WEFT_SOURCE_DIR) + "/docs/scene.schema.json"), 32);
   const auto& parts = schema["$defs"];
   EXPECT_EQ(properties_of(schema), as_set(scene_keys::scene));
   EXPECT_EQ(properties_of(parts["wind"]), as_set(scene_keys::wind));
@@ -342,15 +340,14 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
 }
 
 TEST(SceneSchema, DefaultsAreTheReadersDefaults) {
-  std::ifstream in(std::string(WEFT_SOURCE_DIR) + "/docs/scene.schema.json");
-  const nlohmann::json schema = nlohmann::json::parse(in);
+  const nlohmann::json schema =
+      parse_json(read_file(std::string(WEFT_SOURCE_DIR) + "/docs/scene.schema.json"), 32);
   Scene scene;
   scene.cloths.emplace_back();
   const test::TemporaryFolder folder;
   const std::string path = (folder / "defaults.json").string();
   write_scene(path, scene);
-  std::ifstream written(path);
-  const nlohmann::json json = nlohmann::json::parse(written);
+  const nlohmann::json json = parse_json(read_file(path), 32);
   const auto check = [](const nlohmann::json& properties, const nlohmann::json& values) {
     for (const auto& [key, property] : properties.items()) {
       if (!property.contains("default") || !values.contains(key)) continue;
@@ -367,7 +364,7 @@ TEST(SceneSchema, DefaultsAreTheReadersDefaults) {
   check(schema["$defs"]["multigrid"]["properties"], json["integrator"]);
   EXPECT_EQ(json["collider"]["type"], schema["$defs"]["pyramid"]["properties"]["type"]["const"]);
   scene.collider = PolarMapOptions{};
-  const nlohmann::json polar_map = nlohmann::json::parse(scene_text(scene, path));
+  const nlohmann::json polar_map = parse_json(scene_text(scene, path), 32);
   check(schema["$defs"]["polar_map"]["properties"], polar_map["collider"]);
 }
 

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "weft/core/json_text.h"
+
 namespace weft {
 namespace {
 
@@ -84,8 +86,7 @@ std::string to_json(const RunReport& report) {
   json["estimated_memory_mb"] = 1e-6 * static_cast<double>(report.estimated_memory);
   json["outputs"] = Json::array();
   for (const auto& path : report.outputs) json["outputs"].push_back(path.string());
-  // A path may hold any bytes, JSON only UTF-8.
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::string frames_csv_header() {

@@ -10,6 +10,8 @@
 
 #include "weft/core/error.h"
 #include "weft/core/files.h"
+#include "weft/core/json_text.h"
+#include "weft/core/parse_json.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image/io/image_file.h"
 #include "weft/sim/detail/scene_parts.h"
@@ -24,7 +26,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr const char* manifest_name = "weft-run.json";
-constexpr int manifest_version = 1;
+constexpr int manifest_version = 1, deepest_nesting = 16;
 
 Json vector_json(Vec3d v) { return {v.x, v.y, v.z}; }
 
@@ -101,10 +103,11 @@ RecordedBody open_body(const RecordedPlace& from, const Json& value, const JsonP
 
 Json parse_manifest(const fs::path& path) {
   const std::string text = read_file(path);
-  Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded())
-    throw InputError(path.string(), "is not JSON", "the record of a run is wanted");
-  return json;
+  try {
+    return parse_json(text, deepest_nesting);
+  } catch (const JsonFault& fault) {
+    throw InputError(fault.place(path.string()), fault.what(), "the record of a run is wanted");
+  }
 }
 
 RunFolder read_manifest(const fs::path& folder, const Json& json, const JsonPlace& place) {
@@ -200,7 +203,7 @@ void write_run_manifest(const fs::path& path, const Scene& scene, const RunRepor
     }
     json["bodies"].push_back(std::move(placed));
   }
-  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  const std::string text = json_text(json, 2);
   write_file(path, [&](std::ostream& out) { out << text << '\n'; });
 }
 

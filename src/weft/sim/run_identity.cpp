@@ -7,12 +7,16 @@
 
 #include "weft/core/files.h"
 #include "weft/core/hash.h"
+#include "weft/core/json_text.h"
+#include "weft/core/parse_json.h"
 #include "weft/sim/scene_file.h"
 
 namespace weft {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr int deepest_nesting = 32;
 
 /// As an absolute path, so that the scene's writer leaves it as it is but for the leading slash.
 std::string surface_name(const Planes3& placed, const BorderMates& mates) {
@@ -30,8 +34,17 @@ std::string file_name(const std::string& path) {
   return std::string("/").append(hash.text());
 }
 
+/// Null for what is no JSON.
+Json parsed(const std::string& text) {
+  try {
+    return parse_json(text, deepest_nesting);
+  } catch (const JsonFault&) {
+    return {};
+  }
+}
+
 std::string shown(const Json& json, const Json::json_pointer& key) {
-  return json.contains(key) ? json.at(key).dump() : "missing";
+  return json.contains(key) ? json_text(json.at(key)) : "missing";
 }
 
 }  // namespace
@@ -49,7 +62,7 @@ std::string run_identity(const Scene& scene, const Simulation& simulation,
     if (!named.bodies[i].animation.empty())
       named.bodies[i].animation = file_name(named.bodies[i].animation);
   }
-  Json json = Json::parse(scene_text(named, "/scene.json"));
+  Json json = parse_json(scene_text(named, "/scene.json"), deepest_nesting);
   json.erase("frames");
   std::vector<std::string> exports = options.exports;
   std::sort(exports.begin(), exports.end());
@@ -57,13 +70,13 @@ std::string run_identity(const Scene& scene, const Simulation& simulation,
   json["--on"] = name_of(options.on);
   json["--unwelded"] = options.unwelded;
   json["--verify"] = options.verify;
-  return json.dump();
+  return json_text(json);
 }
 
 std::string identity_difference(const std::string& found, const std::string& wanted) {
   if (found == wanted) return {};
-  const Json there = Json::parse(found, nullptr, false), here = Json::parse(wanted, nullptr, false);
-  if (there.is_discarded() || here.is_discarded()) return "scene is none";
+  const Json there = parsed(found), here = parsed(wanted);
+  if (there.is_null() || here.is_null()) return "scene is none";
   const Json changes = Json::diff(there, here);
   if (changes.empty()) return {};
   // Another method has other keys, too: the method's own name says most.

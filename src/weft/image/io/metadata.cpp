@@ -8,6 +8,7 @@
 
 #include "weft/core/error.h"
 #include "weft/core/hash.h"
+#include "weft/core/json_text.h"
 #include "weft/core/parse_json.h"
 
 namespace weft {
@@ -19,12 +20,8 @@ constexpr int deepest_nesting = 4;
 // Deflate shrinks by 1032 at most, the other compressions without loss by less.
 constexpr std::size_t most_compression = 1032;
 
-std::string to_text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 std::string checksum(const Json& without_checksum, const Planes3& cube) {
-  const std::string text = to_text(without_checksum);
+  const std::string text = json_text(without_checksum);
   Hash hash;
   hash.add(std::span<const char>(text));
   hash.add(cube.x);
@@ -162,7 +159,7 @@ std::string metadata_text(const GeometryImage& image) {
             {"scale", image.world.scale},      {"source", image.source},
             {"source_hash", image.source_hash}};
   json["checksum"] = checksum(json, image.cube);
-  return to_text(json);
+  return json_text(json);
 }
 
 GeometryImage assemble_image(Planes3 cube, std::string_view text, std::string_view where) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/error.h"
+#include "weft/core/json_text.h"
 #include "weft/mesh/io/line_reader.h"
 
 namespace weft {
@@ -138,7 +139,8 @@ std::string GltfObject::place_of(std::string_view key) const {
 
 void GltfObject::fail_at(std::string_view key, std::string_view wanted) const {
   const Json& value = *find(key);
-  const std::string shown = value.is_structured() ? std::string(value.type_name()) : value.dump();
+  const std::string shown =
+      value.is_structured() ? std::string(value.type_name()) : json_text(value);
   throw InputError(name_, fmt::format("{} is {}", place_of(key), in_quotes(shown)), wanted);
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/error.h"
+#include "weft/core/json_text.h"
 #include "weft/core/nearest_name.h"
 
 namespace weft {
@@ -15,7 +16,7 @@ namespace {
 
 std::string shown(const nlohmann::json& value) {
   constexpr std::size_t longest = 40;
-  std::string text = value.dump();
+  std::string text = json_text(value);
   if (text.size() > longest) text = text.substr(0, longest) + "...";
   return text;
 }

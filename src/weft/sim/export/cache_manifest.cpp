@@ -8,6 +8,7 @@
 
 #include "weft/core/error.h"
 #include "weft/core/files.h"
+#include "weft/core/json_text.h"
 #include "weft/core/parse_json.h"
 #include "weft/sim/export/frame_sequence.h"
 
@@ -82,7 +83,7 @@ void write_cache_manifest(const fs::path& path, const CacheManifest& manifest,
     json["surfaces"].push_back(surface_json(*record, "cloth"));
   for (const SurfaceRecord* record : manifest.bodies)
     json["surfaces"].push_back(surface_json(*record, "body"));
-  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  const std::string text = json_text(json, 2);
   const std::vector<ListedFile> before = listed_files(path);
   write_file(path, [&](std::ostream& out) { out << text << '\n'; });
   std::set<std::string> now;

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "weft/core/json_text.h"
+
 namespace weft {
 namespace {
 
@@ -192,7 +194,7 @@ std::string GlbLayout::json(const std::vector<Extremes>& positions) const {
   root["accessors"] = std::move(parts.accessors);
   root["bufferViews"] = views();
   root["buffers"] = {{{"byteLength", end_}}};
-  return root.dump();
+  return json_text(root);
 }
 
 }  // namespace weft
