@@ -225,6 +225,7 @@ class PushCollider final : public Collider {
   void save_marks(std::size_t /*cloth*/, std::vector<int>& marks) const override { marks.clear(); }
   void restore_marks(std::size_t /*cloth*/, std::span<const int> /*marks*/) override {}
   [[nodiscard]] int self_contacts() const noexcept override { return 0; }
+  [[nodiscard]] int crossings() const noexcept override { return 0; }
   double smallest_gap(std::size_t cloth, const Planes3& positions,
                       ThreadTeam& team) noexcept override {
     return pushers_[cloth].smallest_gap(positions, team);

@@ -105,6 +105,9 @@ class Collider {
   virtual void restore_marks(std::size_t cloth, std::span<const int> marks) = 0;
   /// How many contacts of a cloth with itself or another the last detect found.
   [[nodiscard]] virtual int self_contacts() const noexcept = 0;
+  /// Edges of cloth that passed through cloth at the start of the last step that was detected, and
+  /// are being untangled; 0 where cloths are free, and for methods that do not look.
+  [[nodiscard]] virtual int crossings() const noexcept = 0;
   /// The least signed distance of a particle to an obstacle (negative inside), for reports. Gaps to
   /// bodies are known up to twice the thickness only; infinite where nothing is known to be near.
   /// [m]

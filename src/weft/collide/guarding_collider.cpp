@@ -49,6 +49,7 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
   for (const GuardedOne& one : cloths_) grids.push_back(&one.grid);
   for (const GuardedBody& body : bodies_) grids.push_back(&body.grid);
   broad_phase_ = make_broad_phase(grids, cloths_.size());
+  untangler_.set_up(std::span(grids).first(cloths_.size()), cloths);
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     cloth_of_.insert(cloth_of_.end(),
                      static_cast<std::size_t>(cloths_[i].facts.size) * cloths_[i].facts.size, i);
@@ -117,7 +118,23 @@ void GuardingCollider::detect(std::span<const MovingCloth> cloths, double time_s
   }
   gather_surfaces(cloths);
   broad_phase_->refit(surfaces_, team);
+  find_tangles(cloths, team);
   find_pair_contacts(cloths, time_step, team);
+}
+
+void GuardingCollider::find_tangles(std::span<const MovingCloth> cloths, ThreadTeam& team) {
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    for (std::size_t j = i; j < cloths.size(); ++j) {
+      if (!untangler_.is_open(i, j) || (i == j && !cloths_[i].facts.self_collision)) continue;
+      cells_.clear();
+      const int first = static_cast<int>(i), second = static_cast<int>(j);
+      if (i == j) {
+        broad_phase_->find_self(first, 0, static_cast<float>(slack_), team, cells_);
+      } else {
+        broad_phase_->find(first, second, 0, team, cells_);
+      }
+      untangler_.look(i, j, cloths, cells_, team);
+    }
 }
 
 void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, double time_step,
@@ -142,9 +159,10 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, d
       } else {
         broad_phase_->find(first, second, static_cast<float>(foresight * gap), team, cells_);
       }
-      pair_contacts_.find({&a.grid, &b.grid, &cloths[i], &cloths[j], i == j, gap,
-                           std::sqrt(a.facts.friction * b.facts.friction), time_step},
-                          cells_, team, a.contacts, b.contacts);
+      pair_contacts_.find(
+          {&a.grid, &b.grid, &cloths[i], &cloths[j], i == j, gap,
+           std::sqrt(a.facts.friction * b.facts.friction), time_step, untangler_.marks(i, j)},
+          cells_, team, a.contacts, b.contacts);
     }
   self_contacts_ = before() - with_bodies;
 }

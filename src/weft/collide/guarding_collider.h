@@ -11,6 +11,7 @@
 #include "weft/collide/guard/plane_guard.h"
 #include "weft/collide/guard/refuges.h"
 #include "weft/collide/pairs/cell_pairs.h"
+#include "weft/collide/untangle/untangler.h"
 
 namespace weft {
 
@@ -41,6 +42,7 @@ class GuardingCollider final : public Collider {
     cloths_[cloth].body_contacts->restore(marks);
   }
   [[nodiscard]] int self_contacts() const noexcept override { return self_contacts_; }
+  [[nodiscard]] int crossings() const noexcept override { return untangler_.crossings(); }
   double smallest_gap(std::size_t cloth, const Planes3& positions,
                       ThreadTeam& team) noexcept override;
 
@@ -69,6 +71,7 @@ class GuardingCollider final : public Collider {
   };
   void gather_surfaces(std::span<const MovingCloth> cloths);
   void place_bodies(ThreadTeam& team);
+  void find_tangles(std::span<const MovingCloth> cloths, ThreadTeam& team);
   void find_pair_contacts(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team);
   static void copy_to_mates(const GuardedOne& one, const MovingCloth& moving);
   void find_planes(ThreadTeam& team);
@@ -102,6 +105,7 @@ class GuardingCollider final : public Collider {
   CellPlanes cell_planes_;
   PlaneGuard plane_guard_;
   Refuges refuges_;
+  Untangler untangler_;
 };
 
 }  // namespace weft

@@ -62,7 +62,8 @@ void GuardingCollider::find_planes(ThreadTeam& team) {
       } else {
         broad_phase_->find(first, second, reach, team, cells_);
       }
-      PlaneSearch search{side_of(i), side_of(j), i == j, {slack_, carried_}, nullptr, 0};
+      PlaneSearch search{side_of(i), side_of(j), i == j, {slack_, carried_}, nullptr, 0, nullptr};
+      if (!search.b.body) search.tangle = untangler_.marks(i, j);
       if (search.b.body) {
         search.inside = &cloths_[i].body_contacts->inside();
         search.body_number = static_cast<int>(j - cloths_.size()) + 1;
@@ -155,6 +156,10 @@ void GuardingCollider::carry_refuges(std::span<const MovingCloth> cloths, double
 
 int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_step,
                             ThreadTeam& team) noexcept {
+  if (untangler_.crossings() > 0) {
+    untangler_.move(cloths, time_step);
+    for (std::size_t i = 0; i < cloths_.size(); ++i) copy_to_mates(cloths_[i], cloths[i]);
+  }
   gather_surfaces(cloths);
   for (std::size_t i = 0; i < cloths.size(); ++i) cloths_[i].refuge = &cloths[i].start;
   carried_ = false;

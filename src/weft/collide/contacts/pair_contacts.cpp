@@ -152,7 +152,16 @@ class Finder {
         {pair_.b, {q[0], q[1], q[1]}, {closest.weights_b[0], closest.weights_b[1], 0}}, false);
   }
 
+  /// Between layers that have come through each other a contact would push the wrong way.
+  [[nodiscard]] bool misled(const Side& own, const Side& other, bool swapped) const {
+    if (pair_.tangle == nullptr) return false;
+    const Side &a = swapped ? other : own, &b = swapped ? own : other;
+    return TangleMarks::misled(pair_.tangle->of(0, *pair_.grid_a, a.samples),
+                               pair_.tangle->of(1, *pair_.grid_b, b.samples));
+  }
+
   void add(const Side& own, const Side& other, bool swapped) {
+    if (misled(own, other, swapped)) return;
     const Vec3d apart = own.start() - other.start();
     const double distance = length(apart);
     if (!(distance > 0)) return;

@@ -6,6 +6,7 @@
 #include "weft/collide/collider.h"
 #include "weft/collide/pairs/cell_pairs.h"
 #include "weft/collide/pairs/chunks.h"
+#include "weft/collide/untangle/tangle_marks.h"
 #include "weft/core/contact.h"
 
 namespace weft {
@@ -15,9 +16,10 @@ struct ClothPair {
   const SurfaceGrid *grid_a = nullptr, *grid_b = nullptr;
   const MovingCloth *a = nullptr, *b = nullptr;
   bool same = false;
-  double gap = 0;        ///< that is kept [m]
-  double friction = 0;   ///< of the pair
-  double time_step = 0;  ///< [s]
+  double gap = 0;                       ///< that is kept [m]
+  double friction = 0;                  ///< of the pair
+  double time_step = 0;                 ///< [s]
+  const TangleMarks* tangle = nullptr;  ///< where they cross; else null
 };
 
 /// Contacts between parts of cloths that come closer than their gap during a step: samples and

@@ -63,7 +63,7 @@ class Finder {
   void triangles(const CellGaps& gaps, CellCorners a, CellCorners b) {
     const Samples of_a = pick(samples_a_, a), of_b = pick(samples_b_, b);
     if (search_.a.surface.grid->folded(of_a) || search_.b.surface.grid->folded(of_b)) return;
-    if (!search_.same && is_inside(of_a)) return;
+    if ((!search_.same && is_inside(of_a)) || entangled(of_a, of_b)) return;
     const int shared = search_.same ? bring_shared_first(a, b) : 0;
     if (shared > 1) return;
     const Part part_a{&search_.a, false, a}, part_b{&search_.b, true, b};
@@ -122,6 +122,13 @@ class Finder {
         std::swap(b[0], b[j]);
       }
     return shared;
+  }
+
+  /// Of layers that come through each other: what keeps them apart would keep them there.
+  [[nodiscard]] bool entangled(const Samples& a, const Samples& b) const {
+    return search_.tangle != nullptr &&
+           TangleMarks::entangled(search_.tangle->of(0, *search_.a.surface.grid, a),
+                                  search_.tangle->of(1, *search_.b.surface.grid, b));
   }
 
   [[nodiscard]] bool is_inside(const Samples& samples) const {

@@ -7,6 +7,7 @@
 #include "weft/collide/guard/separating_planes.h"
 #include "weft/collide/pairs/cell_pairs.h"
 #include "weft/collide/pairs/chunks.h"
+#include "weft/collide/untangle/tangle_marks.h"
 #include "weft/core/thread_team.h"
 
 namespace weft {
@@ -26,6 +27,7 @@ struct PlaneSearch {
   PlaneOptions options;
   const InsideMarks* inside = nullptr;  ///< of a, where b is a body
   int body_number = 0;                  ///< samples of a marked with it are not kept out
+  const TangleMarks* tangle = nullptr;  ///< of two cloths that cross; else null
 };
 
 /// Planes between the triangles of pairs of cells: whole triangles that share no point; of those
