@@ -61,12 +61,19 @@ def row_of(name, words, options, run):
     if error:
         return [name, f"**{error.split('.json: ')[-1]}**"] + [""] * (len(COLUMNS) - 2)
     strain, times, centres = report["strain"], report["ms_per_frame"], report["centre_of_mass"]
-    crossing = report["intersections"]
-    return [name, report["particles"], report["frames"], f"**{crossing}**" if crossing else 0,
+    return [name, report["particles"], report["frames"], passing_cell(report),
             f"{100 * strain['mean']:.2f}", f"{100 * strain['p99']:.1f}", f"{100 * strain['max']:.0f}",
             *(f"{times[key]:.1f}" for key in ("median", "solve", "collide", "limit")), report["contacts_max"],
             report["self_contacts_max"], f"{centres[0][1] - centres[-1][1]:.4f}",
             f"{1000 * way_in_last_second(centres, report['time_step'], report['substeps']):.2f}", f"{seconds:.0f}"]
+
+
+def passing_cell(report):
+    """What passes through what: nothing in any frame, or nothing any more since cloths that start tangled are apart."""
+    crossing, found, apart = report["intersections"], report["intersections_found"], report["untangled_frame"]
+    if apart and found["bodies"] + found["ground"] == 0:
+        return f"0 from frame {apart} on; {crossing} before"
+    return f"**{crossing}**" if crossing else 0
 
 
 def options_of():

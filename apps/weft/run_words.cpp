@@ -57,7 +57,7 @@ void tell_memory(const Scene& scene, const std::string& name, const Context& con
   }
 }
 
-RunOptions options_of(const RunWords& words, const Context& context, Progress& progress) {
+RunOptions options_of(const RunWords& words, const Context& context, TerminalProgress& progress) {
   RunOptions options;
   options.folder = words.folder;
   options.exports = words.exports;
@@ -68,6 +68,10 @@ RunOptions options_of(const RunWords& words, const Context& context, Progress& p
   options.threads = context.threads;
   options.instructions = context.instructions;
   options.progress = &progress;
+  options.tell = [&](const std::string& line) {
+    progress.clear();
+    note(context, line);
+  };
   options.checkpoint_frames = words.checkpoint;
   options.resume = words.resume;
   options.scene_file = words.scene_file;
@@ -148,6 +152,7 @@ void run_and_report(Scene scene, const std::string& name, const RunWords& words,
   json["peak_memory_mb"] = memory ? nlohmann::ordered_json(*memory) : nlohmann::ordered_json();
   print_report(context, json);
   const auto& [frame, counts] = report.intersections;
+  const int untangled = report.untangled_frame.value_or(0);
   if (words.verify && counts.total() > 0)
     throw Error(
         ExitCode::check_failed, name,
@@ -155,7 +160,10 @@ void run_and_report(Scene scene, const std::string& name, const RunWords& words,
                     "of two cloths, {} with bodies, {} triangles below the ground",
                     counts.total(), frame, counts.self, counts.cloths, counts.bodies,
                     counts.ground),
-        "none is wanted");
+        untangled > 0
+            ? fmt::format("none is wanted; what crossed at the start is apart since frame {}",
+                          untangled)
+            : "none is wanted");
 }
 
 }  // namespace weft::app

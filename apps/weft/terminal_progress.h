@@ -30,10 +30,11 @@ class TerminalProgress : public Progress {
   explicit TerminalProgress(bool quiet);
   ~TerminalProgress() override;
   void update(std::string_view stage, double fraction) override;
+  /// Takes the bar away until the next update, for a line that is to stay.
+  void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
-  void clear();
 
   bool visible_;
   std::string stage_;

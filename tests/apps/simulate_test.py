@@ -80,10 +80,39 @@ class Simulate(SceneTest):
         self.assertGreaterEqual(kinds["ground"], 2 * 8 * 8)
         for kind in ("cloths", "bodies"):
             self.assertGreaterEqual(kinds[kind], 10, kind)
-        self.assertEqual(done.stderr.strip().count("\n"), 0)
-        self.assertIn(f"{report['intersections']} intersections in frame 1: 0 pairs", done.stderr)
+        *notes, error = done.stderr.strip().splitlines()
+        self.assertIn(f"{report['intersections']} intersections in frame 1: 0 pairs", error)
+        # Its collider knows nothing of cloth and cloth: both ends of the run say so.
+        self.assertEqual([note.split(":")[1] for note in notes], [" note"] * 2)
+        self.assertIn(f"at the start {kinds['cloths']} pairs of triangles of cloth cross, 0 of one cloth and {kinds['cloths']} of "
+                      "two; this collider leaves them so", notes[0])
+        self.assertIn("still tangled", notes[1])
+        self.assertIsNone(report["untangled_frame"])
         # Without the word, the last frame is reported and nothing fails.
         self.assertEqual(self.run_json("simulate", name, "-o", "run")["intersections"], report["intersections"])
+
+    def test_a_tangled_start_is_told_untangled_and_told_again(self):
+        sheet = {"surface": "builtin:sheet", "size": 17}
+        scene = sheet_scene(frames=60, ground=0, collider={"type": "pyramid"}, cloths=[
+            {**sheet, "name": "sheet", "translate": [0, 1, 0]},
+            {**sheet, "name": "wall", "translate": [0.01, 1.33, 0.02], "rotate": [80, 5, 0]}])
+        done = self.run_weft("simulate", self.write_scene(scene), "-o", "run", "--json")
+        report = json.loads(done.stdout)
+        start, frame = report["start_intersections"], report["untangled_frame"]
+        self.assertEqual((start["self"], start["bodies"], start["ground"]), (0, 0, 0))
+        self.assertGreater(start["cloths"], 20)
+        self.assertGreater(frame, 0)
+        self.assertLess(frame, 60)
+        self.assertEqual(report["intersections"], 0)
+        first, last = done.stderr.strip().splitlines()
+        self.assertIn(f"at the start {start['cloths']} pairs of triangles of cloth cross, 0 of one cloth and "
+                      f"{start['cloths']} of two; the run takes them apart", first)
+        self.assertIn(f"what crossed at the start is apart since frame {frame}", last)
+        # A run that stops on the way and goes on tells the same.
+        self.run_weft("simulate", self.folder / "scene.json", "-o", "parts", "--frames", str(frame // 2))
+        again = self.run_json("simulate", self.folder / "scene.json", "-o", "parts", "--resume")
+        for field in ("start_intersections", "untangled_frame", "state_hash"):
+            self.assertEqual(again[field], report[field], field)
 
     def test_every_instruction_set_gives_the_same_hash_and_unknown_ones_are_usage_errors(self):
         scene = self.write_scene(sheet_scene(integrator={"type": "multigrid"}, ground=0.95))

@@ -100,7 +100,8 @@ class Collider {
   virtual int guard(std::span<const MovingCloth> cloths, double time_step,
                     ThreadTeam& team) noexcept = 0;
   /// What the collider knows of a cloth's samples beyond their positions, for a run that goes on
-  /// later: which are inside bodies. Empty where there is nothing to know.
+  /// later: which are inside bodies, [n * n], and with which cloths, itself first and then those
+  /// after it, it may be tangled. Empty where there is nothing to know.
   virtual void save_marks(std::size_t cloth, std::vector<int>& marks) const = 0;
   virtual void restore_marks(std::size_t cloth, std::span<const int> marks) = 0;
   /// How many contacts of a cloth with itself or another the last detect found.

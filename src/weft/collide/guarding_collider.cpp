@@ -167,6 +167,22 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, d
   self_contacts_ = before() - with_bodies;
 }
 
+void GuardingCollider::save_marks(std::size_t cloth, std::vector<int>& marks) const {
+  cloths_[cloth].body_contacts->save(marks);
+  for (std::size_t other = cloth; !marks.empty() && other < cloths_.size(); ++other)
+    marks.push_back(untangler_.is_open(cloth, other) ? 1 : 0);
+}
+
+void GuardingCollider::restore_marks(std::size_t cloth, std::span<const int> marks) {
+  const auto samples =
+      static_cast<std::size_t>(cloths_[cloth].facts.size) * cloths_[cloth].facts.size;
+  const std::size_t pairs = cloths_.size() - cloth;
+  const bool known = marks.size() == samples + pairs;
+  cloths_[cloth].body_contacts->restore(known ? marks.first(samples) : std::span<const int>());
+  for (std::size_t k = 0; k < pairs; ++k)
+    untangler_.set_open(cloth, cloth + k, !known || marks[samples + k] != 0);
+}
+
 int GuardingCollider::correct(std::size_t cloth, const MovingCloth& moving,
                               std::span<const float> forces, double time_step,
                               ThreadTeam& team) noexcept {

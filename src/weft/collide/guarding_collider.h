@@ -35,12 +35,8 @@ class GuardingCollider final : public Collider {
               double time_step, ThreadTeam& team) noexcept override;
   int guard(std::span<const MovingCloth> cloths, double time_step,
             ThreadTeam& team) noexcept override;
-  void save_marks(std::size_t cloth, std::vector<int>& marks) const override {
-    cloths_[cloth].body_contacts->save(marks);
-  }
-  void restore_marks(std::size_t cloth, std::span<const int> marks) override {
-    cloths_[cloth].body_contacts->restore(marks);
-  }
+  void save_marks(std::size_t cloth, std::vector<int>& marks) const override;
+  void restore_marks(std::size_t cloth, std::span<const int> marks) override;
   [[nodiscard]] int self_contacts() const noexcept override { return self_contacts_; }
   [[nodiscard]] int crossings() const noexcept override { return untangler_.crossings(); }
   double smallest_gap(std::size_t cloth, const Planes3& positions,

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "WEFTCKPT";
-constexpr std::uint32_t format_version = 4;
+constexpr std::uint32_t format_version = 5;
 constexpr std::size_t size_at = magic.size() + sizeof(format_version);
 constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
 constexpr std::size_t header_bytes = hash_at + sizeof(std::uint64_t);
@@ -82,9 +82,9 @@ void add_marks(const std::vector<int>& marks, ByteWriter& out) {
 }
 
 /// Nothing for a count that does not fit the cloth, or a mark that none is.
-std::optional<std::vector<int>> next_marks(std::size_t samples, ByteReader& in) {
+std::optional<std::vector<int>> next_marks(std::size_t wanted, ByteReader& in) {
   const auto count = in.next<std::uint64_t>();
-  if (count != 0 && count != samples) return std::nullopt;
+  if (count != 0 && count != wanted) return std::nullopt;
   if (in.left() < count * sizeof(std::int32_t)) return std::nullopt;
   std::vector<int> marks(static_cast<std::size_t>(count));
   for (int& mark : marks) {
@@ -101,6 +101,7 @@ void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   out.add(centre.x), out.add(centre.y), out.add(centre.z);
   out.add(static_cast<std::int32_t>(checkpoint.intersections.frame));
   each_count(checkpoint.intersections.counts, [&](std::int64_t count) { out.add(count); });
+  out.add(static_cast<std::int32_t>(checkpoint.untangled_frame.value_or(-1)));
   out.add(static_cast<std::uint64_t>(checkpoint.history.size()));
   for (const FrameReport& frame : checkpoint.history)
     each_field(frame, [&](auto value) { out.add(value); });
@@ -119,6 +120,7 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
   in.read(centre.x), in.read(centre.y), in.read(centre.z);
   in.read(checkpoint.intersections.frame);
   each_count(checkpoint.intersections.counts, [&](std::int64_t& count) { in.read(count); });
+  if (const auto frame = in.next<std::int32_t>(); frame >= 0) checkpoint.untangled_frame = frame;
   const auto frames = in.next<std::uint64_t>();
   if (frames > in.left() / frame_bytes) return std::nullopt;
   checkpoint.history.resize(frames);
@@ -131,9 +133,10 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
     if (!cloth) return std::nullopt;
     checkpoint.state.cloths.push_back(std::move(*cloth));
   }
-  for (const ClothState& cloth : checkpoint.state.cloths) {
-    const auto side = static_cast<std::size_t>(cloth.position.size());
-    std::optional<std::vector<int>> marks = next_marks(side * side, in);
+  for (std::size_t i = 0; i < checkpoint.state.cloths.size(); ++i) {
+    const auto side = static_cast<std::size_t>(checkpoint.state.cloths[i].position.size());
+    const std::size_t pairs = checkpoint.state.cloths.size() - i;
+    std::optional<std::vector<int>> marks = next_marks(side * side + pairs, in);
     if (!marks) return std::nullopt;
     checkpoint.state.marks.push_back(std::move(*marks));
   }

@@ -16,7 +16,8 @@ struct Checkpoint {
   std::string identity;              ///< of the run, see run_identity
   Vec3d start_centre;                ///< centre of mass at frame 0 [m]
   FrameIntersections intersections;  ///< of the worst frame so far, where every frame is looked at
-  std::vector<FrameReport> history;  ///< one a frame, from frame 1
+  std::optional<int> untangled_frame;  ///< see RunReport
+  std::vector<FrameReport> history;    ///< one a frame, from frame 1
   SimulationState state;
 };
 

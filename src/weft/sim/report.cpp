@@ -41,12 +41,17 @@ Json milliseconds(const RunReport& report) {
           {"limit", median(&FrameReport::limit_ms)}};
 }
 
-Json kinds_json(const FrameIntersections& found) {
-  return {{"frame", found.frame},
-          {"self", found.counts.self},
-          {"cloths", found.counts.cloths},
-          {"bodies", found.counts.bodies},
-          {"ground", found.counts.ground}};
+Json kinds_json(const IntersectionCounts& counts) {
+  return {{"self", counts.self},
+          {"cloths", counts.cloths},
+          {"bodies", counts.bodies},
+          {"ground", counts.ground}};
+}
+
+Json found_json(const FrameIntersections& found) {
+  Json json{{"frame", found.frame}};
+  json.update(kinds_json(found.counts));
+  return json;
 }
 
 /// Of the frame that stretched farthest; nothing where no frame was simulated.
@@ -82,7 +87,9 @@ std::string to_json(const RunReport& report) {
   json["centre_of_mass"] = Json::array();
   for (const Vec3d& c : report.centre_of_mass) json["centre_of_mass"].push_back({c.x, c.y, c.z});
   json["state_hash"] = report.state_hash;
-  json["intersections_found"] = kinds_json(report.intersections);
+  json["intersections_found"] = found_json(report.intersections);
+  json["start_intersections"] = kinds_json(report.start_intersections);
+  json["untangled_frame"] = report.untangled_frame ? Json(*report.untangled_frame) : Json();
   json["estimated_memory_mb"] = 1e-6 * static_cast<double>(report.estimated_memory);
   json["outputs"] = Json::array();
   for (const auto& path : report.outputs) json["outputs"].push_back(path.string());

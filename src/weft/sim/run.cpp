@@ -91,6 +91,14 @@ void add_to_report(RunReport& report, const FrameReport& frame) {
   report.centre_of_mass.push_back(frame.centre_of_mass);
 }
 
+/// Pairs of triangles of cloths alone.
+std::int64_t tangled_pairs(const IntersectionCounts& counts) { return counts.self + counts.cloths; }
+
+std::string tangle_text(const IntersectionCounts& counts) {
+  return fmt::format("{} pairs of triangles of cloth cross, {} of one cloth and {} of two",
+                     tangled_pairs(counts), counts.self, counts.cloths);
+}
+
 class Run {
  public:
   Run(const Scene& scene, const std::string& name, const RunOptions& options)
@@ -111,6 +119,7 @@ class Run {
     fs::remove(path_, ignored);
     make_recorder().start();
     reserve();
+    look_at_start();
     simulation_.save(point_.state);
     if (options_.resume)
       report_.notes.push_back(
@@ -120,12 +129,14 @@ class Run {
   void resume(const Checkpoint& from) {
     check(from);
     Recorder& recorder = make_recorder();
+    look_at_start();
     simulation_.restore(from.state);
     recorder.resume(from.state.frame == scene_.frames);
     reserve();
     point_.state = from.state;
     for (const FrameReport& frame : from.history) add_to_report(report_, frame);
     report_.intersections = from.intersections;
+    report_.untangled_frame = from.untangled_frame;
     last_written_ = from.state.frame;
     report_.notes.push_back(
         from.state.frame == scene_.frames
@@ -138,7 +149,11 @@ class Run {
     try {
       while (simulation_.frame() < scene_.frames) take_frame();
       update(options_.progress, "simulate", 1);
-      if (!options_.verify) count_intersections();
+      if (!options_.verify) {
+        report_.intersections = {};
+        keep_worst(recorder_->intersections());
+      }
+      note_untangling();
       report_.state_hash = simulation_.state_hash();
     } catch (const OutputError&) {
       keep_what_fits();
@@ -176,9 +191,43 @@ class Run {
                        fmt::format("at least {} frames are wanted", from.state.frame));
   }
 
-  void count_intersections() {
+  void look_at_start() {
     const IntersectionCounts counts = recorder_->intersections();
-    if (!options_.verify) report_.intersections = {};
+    report_.start_intersections = counts;
+    if (tangled_pairs(counts) == 0) {
+      report_.untangled_frame = 0;
+    } else if (options_.tell) {
+      const char* then = knows_self_collision(scene_.collider) ? "the run takes them apart"
+                                                               : "this collider leaves them so";
+      options_.tell(fmt::format("at the start {}; {}", tangle_text(counts), then));
+    }
+  }
+
+  /// Every frame with verify, else those of which cloths are known to cross, by an earlier look or
+  /// by the collider.
+  void look_at_frame() {
+    const bool tangled = !report_.untangled_frame || simulation_.crossings() > 0;
+    if (!options_.verify && !tangled) return;
+    const IntersectionCounts counts = recorder_->intersections();
+    if (tangled_pairs(counts) > 0) {
+      report_.untangled_frame.reset();
+    } else if (!report_.untangled_frame) {
+      report_.untangled_frame = simulation_.frame();
+    }
+    if (options_.verify) keep_worst(counts);
+  }
+
+  void note_untangling() {
+    if (!report_.untangled_frame) {
+      const IntersectionCounts counts = recorder_->intersections();
+      report_.notes.push_back("cloth is still tangled: in the last frame " + tangle_text(counts));
+    } else if (*report_.untangled_frame > 0) {
+      report_.notes.push_back(fmt::format("what crossed at the start is apart since frame {}",
+                                          *report_.untangled_frame));
+    }
+  }
+
+  void keep_worst(const IntersectionCounts& counts) {
     if (counts.total() > report_.intersections.counts.total())
       report_.intersections = {simulation_.frame(), counts};
   }
@@ -187,7 +236,7 @@ class Run {
     const FrameReport done = simulation_.advance();
     recorder_->add_frame();
     add_to_report(report_, done);
-    if (options_.verify) count_intersections();
+    look_at_frame();
     if (clock_.off()) return;
     simulation_.save(point_.state);
     if (!clock_.is_due(report_.frames)) return;
@@ -228,6 +277,7 @@ class Run {
   void write_point() {
     point_.history = report_.history;
     point_.intersections = report_.intersections;
+    point_.untangled_frame = report_.untangled_frame;
     write_checkpoint(path_, point_);
     last_written_ = report_.frames;
     clock_.written();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct RunOptions {
   int threads = 1;
   InstructionSet instructions = best_instruction_set();
   Progress* progress = nullptr;
+  /// Told at the start, in one line each, what is better known before the run ends.
+  std::function<void(const std::string& line)> tell{};
   /// Frames between two checkpoints; 0: none; nothing: every five seconds.
   std::optional<int> checkpoint_frames{};
   bool resume = false;  ///< go on where the folder's checkpoint stands, if it has one
@@ -37,7 +40,11 @@ struct RunReport {
   std::vector<FrameReport> history;  ///< one a frame, from frame 1
   StrainSummary strain;              ///< last frame
   int contacts_max = 0, self_contacts_max = 0;
-  FrameIntersections intersections;   ///< of the last frame; with verify: of the worst one
+  FrameIntersections intersections;        ///< of the last frame; with verify: of the worst one
+  IntersectionCounts start_intersections;  ///< of frame 0
+  /// The first frame from which on no cloth crosses itself or another: 0 where none did at the
+  /// start; nothing where some still do.
+  std::optional<int> untangled_frame;
   std::vector<Vec3d> centre_of_mass;  ///< frame 0 first
   std::string state_hash;
   std::uint64_t estimated_memory = 0;  ///< before the start [bytes]

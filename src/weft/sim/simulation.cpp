@@ -322,6 +322,8 @@ std::span<const Contact> Simulation::contacts(std::size_t cloth) const {
   return parts_->collider->contacts(cloth);
 }
 
+int Simulation::crossings() const { return parts_->collider->crossings(); }
+
 bool Simulation::last_corrections(std::size_t cloth, Grid<float>& sizes) const {
   return parts_->movers[cloth].integrator->last_corrections(sizes);
 }

@@ -48,11 +48,12 @@ struct PlacedBody {
 };
 
 /// All that the next frame depends on besides the scene: integrators carry nothing over from one
-/// step to the next, colliders only which samples are inside of bodies.
+/// step to the next, colliders only which samples are inside of bodies, and which cloths may
+/// be tangled.
 struct SimulationState {
   int frame = 0;                   ///< frames done
   std::vector<ClothState> cloths;  ///< in the scene's order
-  /// Of each cloth, what the collider knows of its samples: [n * n] or empty.
+  /// Of each cloth, what the collider knows of it, see Collider::save_marks.
   std::vector<std::vector<int>> marks{};
 };
 
@@ -109,6 +110,8 @@ class Simulation {
   [[nodiscard]] Vec3d centre_of_mass() const;
   /// What the last step found to press on a cloth.
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const;
+  /// See Collider::crossings, of the last step.
+  [[nodiscard]] int crossings() const;
   /// See Integrator::last_corrections, of the last step.
   bool last_corrections(std::size_t cloth, Grid<float>& sizes) const;
 
