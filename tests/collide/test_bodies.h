@@ -34,6 +34,19 @@ inline Body octahedral_sphere(int n, double radius, Vec3d centre) {
   return body;
 }
 
+/// The same with flat sides, edges and tips: an octahedron.
+/// @param half  from its centre to its tips along x, y and z [m]
+inline Body octahedron(int n, Vec3d half, Vec3d centre) {
+  Body body = octahedral_sphere(n, 1, {});
+  for (int s = 0; s < n * n; ++s) {
+    const Vec3d p = vec_cast<double>(body.positions.at(s));
+    const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
+    const Vec3d flat{half.x * p.x / sum, half.y * p.y / sum, half.z * p.z / sum};
+    body.positions.set(s, vec_cast<float>(centre + flat));
+  }
+  return body;
+}
+
 /// A torus around the y axis; rows and columns both wrap.
 inline Body torus(int n, double ring, double tube) {
   Body body;

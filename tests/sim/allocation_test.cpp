@@ -174,10 +174,13 @@ TEST(Allocation, SolvingForContactsAllocatesNothingOnceWarm) {
 TEST(Allocation, GuardingAllocatesNothingOnceWarm) {
   const int n = 17;
   const Cloth cloth = sheet_cloth(n);
-  const Obstacles ball{{test::octahedral_sphere(17, 0.3, {0, -0.35, 0})}, -0.5, 0.5};
+  const Obstacles bodies{{test::octahedral_sphere(17, 0.3, {0, -0.35, 0}),
+                          test::octahedron(17, {0.2, 0.3, 0.2}, {0.2, -0.35, 0.2})},
+                         -0.5,
+                         0.5};
   const GuardedCloth facts{
       .mates = cloth.mates, .size = n, .rest_spacing = cloth.rest_spacing, .self_collision = true};
-  const auto collider = make_collider(PyramidOptions{}, ball, std::span(&facts, 1));
+  const auto collider = make_collider(PyramidOptions{}, bodies, std::span(&facts, 1));
   ThreadTeam team(2);
   ClothState start = rest_state(cloth), next = rest_state(cloth);
   shake(cloth, 0.02, start.position);

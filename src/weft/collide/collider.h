@@ -21,6 +21,9 @@ struct Body {
   BorderMates mates;
   double friction = 0.4;
   Grid<Diagonal> diagonals{};  ///< [(n - 1) x (n - 1)]; empty: all rising
+  /// By which it is known where the body is sharp, so that this does not hang on when a run was
+  /// resumed; empty: the positions. [n x n] [m]
+  Planes3 shape{};
 };
 
 /// The default: mip pyramids as bounding hierarchies, planes that nothing passes.

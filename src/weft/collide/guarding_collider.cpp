@@ -23,6 +23,7 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
     cloths_.push_back({SurfaceGrid(cloth.size, cloth.mates, cloth.diagonals),
                        cloth,
                        nullptr,
+                       nullptr,
                        ContactResponse(cloth.mates),
                        {},
                        points_,
@@ -33,8 +34,10 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
   }
   for (const GuardedCloth& cloth : cloths)
     most_aside_ = std::min(most_aside_, aside_in_spacings * cloth.rest_spacing);
-  for (GuardedOne& one : cloths_)
+  for (GuardedOne& one : cloths_) {
     one.body_contacts = std::make_unique<BodyContacts>(one.grid, one.facts);
+    one.corner_contacts = std::make_unique<CornerContacts>(one.grid, one.facts);
+  }
   bodies_.reserve(obstacles.bodies.size());
   for (const Body& body : obstacles.bodies) {
     bodies_.push_back({SurfaceGrid(body.positions.size(), body.mates, body.diagonals), nullptr,
@@ -44,6 +47,7 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
     body.query = std::make_unique<BodyQuery>(body.grid);
     body.end = &body.start;
   }
+  learn_corners(obstacles);
   if (obstacles.ground) ground_ = {*obstacles.ground, obstacles.ground_friction};
   std::vector<const SurfaceGrid*> grids;
   for (const GuardedOne& one : cloths_) grids.push_back(&one.grid);
@@ -53,6 +57,17 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     cloth_of_.insert(cloth_of_.end(),
                      static_cast<std::size_t>(cloths_[i].facts.size) * cloths_[i].facts.size, i);
+}
+
+void GuardingCollider::learn_corners(const Obstacles& obstacles) {
+  ThreadTeam alone(1);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Planes3& given = obstacles.bodies[i].shape;
+    const Planes3& shape = given.size() > 0 ? given : obstacles.bodies[i].positions;
+    bodies_[i].query->place(shape, alone);
+    for (GuardedOne& one : cloths_)
+      one.corner_contacts->add_body(bodies_[i].grid, *bodies_[i].query, shape);
+  }
 }
 
 void GuardingCollider::move_bodies(std::span<const Planes3* const> ends) noexcept {
@@ -110,14 +125,20 @@ void GuardingCollider::place_bodies(ThreadTeam& team) {
 void GuardingCollider::detect(std::span<const MovingCloth> cloths, double time_step,
                               ThreadTeam& team) noexcept {
   place_bodies(team);
+  gather_surfaces(cloths);
+  broad_phase_->refit(surfaces_, team);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     GuardedOne& one = cloths_[i];
     one.body_contacts->find(cloths[i], contact_bodies_, ground_ ? &*ground_ : nullptr, team);
-    const std::span<const Contact> found = one.body_contacts->contacts();
-    one.contacts.assign(found.begin(), found.end());
+    one.corner_contacts->find(
+        {cloths[i], one.body_contacts->inside(), broad_phase_->boxes(static_cast<int>(i))},
+        contact_bodies_, team);
+    one.contacts.clear();
+    for (const std::span<const Contact> found :
+         {one.body_contacts->contacts(), one.corner_contacts->contacts()})
+      one.contacts.insert(one.contacts.end(), found.begin(), found.end());
+    one.obstacle_contacts = one.contacts.size();
   }
-  gather_surfaces(cloths);
-  broad_phase_->refit(surfaces_, team);
   find_tangles(cloths, team);
   find_pair_contacts(cloths, time_step, team);
 }
@@ -187,8 +208,8 @@ int GuardingCollider::correct(std::size_t cloth, const MovingCloth& moving,
                               std::span<const float> forces, double time_step,
                               ThreadTeam& team) noexcept {
   GuardedOne& one = cloths_[cloth];
-  // Those with obstacles come first; layers are soft and stay as they were solved.
-  const std::span<const Contact> hard = one.body_contacts->contacts();
+  // Layers are soft and stay as they were solved.
+  const std::span<const Contact> hard = std::span(one.contacts).first(one.obstacle_contacts);
   return one.response.respond(moving, {hard, forces.first(std::min(forces.size(), hard.size()))},
                               time_step, team);
 }

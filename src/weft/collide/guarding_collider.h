@@ -6,6 +6,7 @@
 #include "weft/collide/collider.h"
 #include "weft/collide/contacts/body_contacts.h"
 #include "weft/collide/contacts/contact_response.h"
+#include "weft/collide/contacts/corner_contacts.h"
 #include "weft/collide/contacts/pair_contacts.h"
 #include "weft/collide/guard/cell_planes.h"
 #include "weft/collide/guard/plane_guard.h"
@@ -47,12 +48,14 @@ class GuardingCollider final : public Collider {
     SurfaceGrid grid;
     GuardedCloth facts;
     std::unique_ptr<BodyContacts> body_contacts;
+    std::unique_ptr<CornerContacts> corner_contacts;
     ContactResponse response;
-    std::vector<Contact> contacts;
+    std::vector<Contact> contacts;  // those with obstacles first
     int first_point = 0;
     std::vector<double> row_gaps;
     Planes3 carried{};                // refuges among moving bodies
     const Planes3* refuge = nullptr;  // of this step; the start while that will do
+    std::size_t obstacle_contacts = 0;
   };
   struct GuardedBody {
     SurfaceGrid grid;
@@ -65,6 +68,7 @@ class GuardingCollider final : public Collider {
     double travelled = 0;   // see ContactBody [m]
     int motion = 1;         // see MovingSurface::name
   };
+  void learn_corners(const Obstacles& obstacles);
   void gather_surfaces(std::span<const MovingCloth> cloths);
   void place_bodies(ThreadTeam& team);
   void find_tangles(std::span<const MovingCloth> cloths, ThreadTeam& team);

@@ -6,34 +6,16 @@
 namespace weft {
 namespace {
 
-/// Of the gap: how much of what is missing to it a step may win back, so that cloth that starts
-/// inside something is pushed out and not shot out.
-constexpr double most_recovery = 0.25;
-/// The solve may bring cloth closer than its proposal, by springs: contacts begin this many gaps
-/// before the one that is kept.
-constexpr double foresight = 1.5;
 /// Steps as long as the present one that a look reckons with.
 constexpr double ahead = 1;
 /// Of distances in single precision, generously.
 constexpr double rounding = 1e-5;
 
-double pair_friction(double a, double b) { return std::sqrt(a * b); }
-
 }  // namespace
-
-Vec3d way_of(const ContactBody& body, const BodyPoint& at) {
-  if (body.start == body.end) return {};
-  Vec3d moved;
-  for (std::size_t k = 0; k < 3; ++k)
-    moved += at.weights[k] * (vec_cast<double>(body.end->at(at.samples[k])) -
-                              vec_cast<double>(body.start->at(at.samples[k])));
-  return moved;
-}
 
 BodyContacts::BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
     : grid_(grid),
-      gap_(cloth.thickness),
-      friction_(cloth.friction),
+      kept_{cloth.thickness, cloth.friction},
       inside_(static_cast<std::size_t>(grid.size()) * grid.size(), 0),
       doubted_(inside_.size(), 0) {}
 
@@ -51,11 +33,6 @@ void BodyContacts::restore(std::span<const int> marks) {
   }
 }
 
-void BodyContacts::put_offset(double surface, double gap_at_start, Contact& contact) const {
-  contact.offset = static_cast<float>(surface + std::min(gap_, gap_at_start));
-  contact.lift = static_cast<float>(std::clamp(gap_ - gap_at_start, 0.0, most_recovery * gap_));
-}
-
 std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, Vec3f start, double reach,
                                             Known& known) {
   const Vec3d point = vec_cast<double>(start);
@@ -63,7 +40,8 @@ std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, Vec3f start
       length(point - vec_cast<double>(known.place)) + (body.travelled - known.travelled);
   if (known.distance - since > reach * (1 + rounding)) return std::nullopt;
   // Farther than need be, so that the next steps need not look again.
-  const double wider = reach + ahead * (reach - foresight * gap_) + foresight * gap_;
+  const double wider =
+      reach + ahead * (reach - contact_foresight * kept_.gap) + contact_foresight * kept_.gap;
   const auto found = body.query->closest(point, wider, known.triangle);
   known = {start, static_cast<float>(found ? std::sqrt(found->squared_distance) : wider),
            body.travelled, found ? found->triangle : known.triangle};
@@ -75,39 +53,30 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
                              int sample, std::vector<Contact>& out) {
   const Vec3d start = vec_cast<double>(cloth.start.at(sample));
   const Vec3d way = vec_cast<double>(cloth.position.at(sample)) - start;
-  const double reach = deep ? HUGE_VAL : foresight * gap_ + length(way) + body.most_moved;
+  const double reach =
+      deep ? HUGE_VAL : contact_foresight * kept_.gap + length(way) + body.most_moved;
   const auto found = look(body, cloth.start.at(sample), reach, known_[body.number - 1][sample]);
   if (!found) return;
   // What was outside and kept out cannot be inside now, whatever the normals of an image say that
   // folds or crosses itself somewhere.
   const bool behind = deep && body.query->behind(start, *found);
   if (behind) inside_[sample] = body.number;
-  const double distance = std::sqrt(found->squared_distance);
-  // On the surface itself rounding would choose the direction.
-  constexpr double touching = 1e-9;
-  const Vec3d normal = distance > touching
-                           ? ((behind ? -1 : 1) / distance) * (start - found->position)
-                           : body.query->normal_at(*found);
-  const double gap = behind ? -distance : distance;
-  const Vec3d slide = way_of(body, *found);
-  if (gap + dot(normal, way - slide) >= foresight * gap_) return;
-  Contact contact;
-  contact.samples[0] = sample;
-  contact.normal = vec_cast<float>(normal);
-  put_offset(dot(normal, found->position + slide), gap, contact);
-  contact.friction = static_cast<float>(pair_friction(friction_, body.friction));
-  contact.slide = vec_cast<float>(slide);
-  out.push_back(contact);
+  ClothPoint at;
+  at.samples[0] = sample;
+  at.start = start;
+  at.way = way;
+  at.behind = behind;
+  if (const auto contact = contact_before(body, *found, at, kept_)) out.push_back(*contact);
 }
 
 void BodyContacts::find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
                                std::vector<Contact>& out) const {
-  if (cloth.position.at(sample).y >= ground.height + foresight * gap_) return;
+  if (cloth.position.at(sample).y >= ground.height + contact_foresight * kept_.gap) return;
   Contact contact;
   contact.samples[0] = sample;
   contact.normal = {0, 1, 0};
-  put_offset(ground.height, double{cloth.start.at(sample).y} - ground.height, contact);
-  contact.friction = static_cast<float>(pair_friction(friction_, ground.friction));
+  put_offset(ground.height, double{cloth.start.at(sample).y} - ground.height, kept_.gap, contact);
+  contact.friction = static_cast<float>(pair_friction(kept_.friction, ground.friction));
   out.push_back(contact);
 }
 

@@ -3,25 +3,11 @@
 #include <vector>
 
 #include "weft/collide/collider.h"
-#include "weft/collide/contacts/body_query.h"
+#include "weft/collide/contacts/contact_body.h"
 #include "weft/collide/pairs/chunks.h"
 #include "weft/core/contact.h"
 
 namespace weft {
-
-/// A body as contacts are looked for, in the step's motion.
-struct ContactBody {
-  int number = 0;                    ///< >= 1, what marks call it
-  const BodyQuery* query = nullptr;  ///< placed at the start of the step
-  const Planes3* start = nullptr;
-  const Planes3* end = nullptr;  ///< the start where it stands still
-  double friction = 0;           ///< of the body
-  double most_moved = 0;         ///< by any sample during the step [m]
-  double travelled = 0;          ///< by any sample before the step, at most [m]
-};
-
-/// How a point of a body's surface goes during the step. [m]
-[[nodiscard]] Vec3d way_of(const ContactBody& body, const BodyPoint& at);
 
 /// Which of a cloth's samples are behind the surface of a closed body: its number, or 0.
 using InsideMarks = std::vector<int>;
@@ -57,10 +43,6 @@ class BodyContacts {
                  std::vector<Contact>& out);
   void find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
                    std::vector<Contact>& out) const;
-  /// A sample that starts closer than the gap that is kept may come no closer, and is lifted.
-  /// @param surface  along the contact's normal [m]
-  void put_offset(double surface, double gap_at_start, Contact& contact) const;
-
   /// What is known of a sample and a body: how far it was from where.
   struct Known {
     Vec3f place;
@@ -72,7 +54,7 @@ class BodyContacts {
   std::optional<BodyPoint> look(const ContactBody& body, Vec3f start, double reach, Known& known);
 
   const SurfaceGrid& grid_;
-  double gap_, friction_;
+  KeptGap kept_;
   std::vector<std::vector<Known>> known_;  // of each body [n * n]
   InsideMarks inside_;                     // [n * n]
   std::vector<char> doubted_;              // [n * n]

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "weft/collide/pairs/extent_levels.h"
@@ -40,6 +41,10 @@ class BodyQuery {
   [[nodiscard]] Vec3d normal_at(const BodyPoint& point) const noexcept;
   /// Whether every edge has two triangles, so that the body has an inside.
   [[nodiscard]] bool closed() const { return closed_; }
+  /// Those (2 * cell + half) around a point, given by the sample that stands for its class.
+  [[nodiscard]] std::span<const int> triangles_around(int point) const {
+    return std::span(incident_).subspan(starts_[point], starts_[point + 1] - starts_[point]);
+  }
 
  private:
   /// The boxes of a node's children side by side: least x, y, z, then largest; what is missing is

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "weft/collide/pairs/path_boxes.h"
 #include "weft/collide/surface.h"
 #include "weft/core/thread_team.h"
 
@@ -35,6 +36,8 @@ class BroadPhase {
   /// certainly unfolded are left out, though they may be closer than `reach`.
   virtual void find_self(int surface, float reach, float slack, ThreadTeam& team,
                          std::vector<CellPair>& out) = 0;
+  /// Where the nodes of a surface's mip pyramid are in the step; null where there is no pyramid.
+  [[nodiscard]] virtual const PathBoxLevels* boxes(int /*surface*/) const { return nullptr; }
 };
 
 }  // namespace weft

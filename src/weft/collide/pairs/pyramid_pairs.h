@@ -24,6 +24,9 @@ class PyramidPairs final : public BroadPhase {
             std::vector<CellPair>& out) override;
   void find_self(int surface, float reach, float slack, ThreadTeam& team,
                  std::vector<CellPair>& out) override;
+  [[nodiscard]] const PathBoxLevels* boxes(int surface) const override {
+    return &levels_[static_cast<std::size_t>(surface)].boxes;
+  }
 
  private:
   struct Levels {

@@ -115,9 +115,13 @@ void Simulation::Parts::tie_cloths() {
 
 void Simulation::Parts::make_guard() {
   Obstacles obstacles;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
     obstacles.bodies.push_back({bodies[i].positions, bodies[i].image.mates,
                                 scene.bodies[i].friction, choose_diagonals(bodies[i].image)});
+    if (bodies[i].moves)
+      obstacles.bodies.back().shape =
+          placed_positions(bodies[i].image, placement_map(scene.bodies[i].placement));
+  }
   obstacles.ground = scene.ground;
   obstacles.ground_friction = ground_friction;
   std::vector<GuardedCloth> guarded;

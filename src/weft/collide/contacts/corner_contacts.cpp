@@ -1,0 +1,185 @@
+#include "weft/collide/contacts/corner_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "weft/collide/contacts/closest.h"
+#include "weft/collide/contacts/sharp_points.h"
+
+namespace weft {
+namespace {
+
+/// A triangle's samples are about this many rest spacings from a point that its inside touches.
+constexpr double aside_in_spacings = 0.5;
+/// And hold nothing farther than this many gaps from a surface.
+constexpr double away_in_gaps = 1.5;
+/// A point that is so much of one sample has that one's contact.
+constexpr double nearly_all = 0.99;
+
+using Corners = std::array<Vec3d, 3>;
+
+Corners corners_at(const Planes3& planes, const std::array<int, 3>& samples) {
+  return {vec_cast<double>(planes.at(samples[0])), vec_cast<double>(planes.at(samples[1])),
+          vec_cast<double>(planes.at(samples[2]))};
+}
+
+Vec3d blend(const Corners& corners, const std::array<double, 3>& w) {
+  return w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
+}
+
+std::array<int, 2> in_order(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+PathBox path_of(Vec3f start, Vec3f end) {
+  return {{start.x, start.y, start.z},
+          {start.x, start.y, start.z},
+          {end.x, end.y, end.z},
+          {end.x, end.y, end.z}};
+}
+
+/// Calls visit(node) for the cells below a node whose way down near(node) marks.
+template <class Near, class Visit>
+void for_near_cells(const Node& node, const Near& near, const Visit& visit) {
+  if (node.level == 0) return visit(node);
+  const unsigned marked = near(node);
+  for (int k = 0; k < 4; ++k)
+    if ((marked >> k & 1U) != 0)
+      for_near_cells({node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2}, near, visit);
+}
+
+}  // namespace
+
+CornerContacts::CornerContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
+    : grid_(grid), kept_{cloth.thickness, cloth.friction}, spacing_(cloth.rest_spacing) {}
+
+void CornerContacts::add_body(const SurfaceGrid& grid, const BodyQuery& body,
+                              const Planes3& shape) {
+  sharp_.push_back(find_sharp_points(
+      grid, body, shape, {kept_.gap, aside_in_spacings * spacing_, away_in_gaps * kept_.gap}));
+  any_sharp_ = any_sharp_ || !sharp_.back().empty();
+}
+
+void CornerContacts::find(const Step& step, std::span<const ContactBody> bodies, ThreadTeam& team) {
+  contacts_.clear();
+  if (!any_sharp_) return;
+  Step known = step;
+  if (step.boxes == nullptr) {
+    if (boxes_.sides().empty()) boxes_ = PathBoxLevels(grid_.cells());
+    const MovingSurface surface{&grid_, &step.cloth.start, &step.cloth.position};
+    team.run([&](Worker& worker) { boxes_.fit(surface, worker); });
+    known.boxes = &boxes_;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Search search{known, bodies[i], collide_kernels_for(team.instructions())};
+    find_touches(search, sharp_[i], team);
+    if (touches_.empty()) continue;
+    team.run([&](Worker& worker) {
+      found_.fill(static_cast<int>(touches_.size()), worker, [&](int t, std::vector<Contact>& out) {
+        make_contact(search, touches_[t], out);
+      });
+    });
+    append(found_, contacts_);
+  }
+}
+
+/// The closest sharp point of each triangle that has any, in the triangles' order.
+void CornerContacts::find_touches(const Search& search, std::span<const int> points,
+                                  ThreadTeam& team) {
+  touches_.clear();
+  if (points.empty()) return;
+  team.run([&](Worker& worker) {
+    near_.fill(static_cast<int>(points.size()), worker,
+               [&](int i, std::vector<Touch>& out) { find_touches_of(search, points[i], out); });
+  });
+  append(near_, touches_);
+  const auto order = [](const Touch& touch) {
+    return std::tuple(touch.triangle, touch.squared_distance, touch.point);
+  };
+  std::sort(touches_.begin(), touches_.end(),
+            [&](const Touch& a, const Touch& b) { return order(a) < order(b); });
+  const auto same = [](const Touch& a, const Touch& b) { return a.triangle == b.triangle; };
+  touches_.erase(std::unique(touches_.begin(), touches_.end(), same), touches_.end());
+}
+
+void CornerContacts::find_touches_of(const Search& search, int point,
+                                     std::vector<Touch>& out) const {
+  const auto first = static_cast<std::ptrdiff_t>(out.size());
+  const auto reach = static_cast<float>(contact_foresight * kept_.gap);
+  const PathBox at = path_of(search.body.start->at(point), search.body.end->at(point));
+  const PathBoxLevels& boxes = *search.step.boxes;
+  const auto near = [&](const Node& node) {
+    return search.kernels.near_children(at, boxes.children(node), reach);
+  };
+  for_near_cells({boxes.top(), 0, 0}, near, [&](const Node& node) {
+    const int cell = node.row * grid_.cells() + node.col;
+    for (const int triangle : {2 * cell, 2 * cell + 1})
+      try_triangle(search, {triangle, point}, out);
+  });
+  // An edge counts where it is closest of both its triangles: otherwise the way to it may lie along
+  // the cloth, where a push would strain it.
+  const auto twin = [&](const Touch& touch) {
+    return std::any_of(out.begin() + first, out.end(), [&](const Touch& t) {
+      return t.edge == touch.edge && t.triangle > touch.triangle;
+    });
+  };
+  for (auto touch = out.begin() + first; touch != out.end(); ++touch)
+    touch->counts = touch->edge[0] < 0 || twin(*touch);
+  const auto idle = [](const Touch& touch) { return !touch.counts; };
+  out.erase(std::remove_if(out.begin() + first, out.end(), idle), out.end());
+}
+
+void CornerContacts::try_triangle(const Search& search, Touch touch,
+                                  std::vector<Touch>& out) const {
+  const std::array<int, 3> samples = grid_.triangle(touch.triangle / 2, touch.triangle % 2);
+  if (grid_.folded(samples)) return;
+  const Vec3d point = vec_cast<double>(search.body.start->at(touch.point));
+  const Corners start = corners_at(search.step.cloth.start, samples);
+  const std::array<double, 3> w = closest_weights(point, start);
+  const auto zeros = std::count(w.begin(), w.end(), 0.0);
+  if (zeros > 1) return;  // samples have contacts of their own
+  for (std::size_t k = 0; k < 3 && zeros == 1; ++k)
+    if (w[k] == 0)
+      touch.edge = in_order(grid_.point(samples[(k + 1) % 3]), grid_.point(samples[(k + 2) % 3]));
+  const Vec3d apart = blend(start, w) - point;
+  const double distance = length(apart);
+  if (!(distance > 0)) return;
+  const Vec3d way = blend(corners_at(search.step.cloth.position, samples), w) - blend(start, w);
+  const Vec3d slide = vec_cast<double>(search.body.end->at(touch.point)) - point;
+  if (distance + dot(apart, way - slide) / distance >= contact_foresight * kept_.gap) return;
+  touch.squared_distance = squared_length(apart);
+  out.push_back(touch);
+}
+
+void CornerContacts::make_contact(const Search& search, const Touch& touch,
+                                  std::vector<Contact>& out) const {
+  const std::array<int, 3> samples = grid_.triangle(touch.triangle / 2, touch.triangle % 2);
+  for (const int s : samples)
+    if (search.step.inside[grid_.point(s)] == search.body.number) return;
+  const Corners start = corners_at(search.step.cloth.start, samples);
+  std::array<double, 3> w =
+      closest_weights(vec_cast<double>(search.body.start->at(touch.point)), start);
+  // From the sharp point to where both surfaces are closest, by turns.
+  const double reach = std::sqrt(touch.squared_distance) + kept_.gap;
+  std::optional<BodyPoint> at;
+  int near = search.body.query->triangles_around(touch.point).front();
+  const auto look = [&] {
+    at = search.body.query->closest(blend(start, w), reach, near);
+    if (at) near = at->triangle;
+    return at.has_value();
+  };
+  if (!look()) return;
+  w = closest_weights(at->position, start);
+  if (!look() || std::max({w[0], w[1], w[2]}) > nearly_all) return;
+  ClothPoint point;
+  point.start = blend(start, w);
+  if (search.body.query->closed() && search.body.query->behind(point.start, *at)) return;
+  point.way = blend(corners_at(search.step.cloth.position, samples), w) - point.start;
+  point.weights = {};
+  for (std::size_t k = 0; k < 3; ++k) {
+    point.samples[k] = samples[k];
+    point.weights[k] = static_cast<float>(w[k]);
+  }
+  if (const auto contact = contact_before(search.body, *at, point, kept_)) out.push_back(*contact);
+}
+
+}  // namespace weft

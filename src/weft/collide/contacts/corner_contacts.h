@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "weft/collide/collider.h"
+#include "weft/collide/contacts/body_contacts.h"
+#include "weft/collide/contacts/contact_body.h"
+#include "weft/collide/pairs/chunks.h"
+#include "weft/collide/pairs/path_boxes.h"
+
+namespace weft {
+
+/// Contacts of the insides of a cloth's triangles with corners and edges of bodies that are sharper
+/// than the cloth's samples are dense. What is sharp is decided once, by a body's shape; each sharp
+/// point then looks for triangles down the cloth's mip pyramid. A triangle and a body have one
+/// contact at most, between points of them that are as close as any nearby.
+class CornerContacts {
+ public:
+  /// @param grid  kept by reference
+  CornerContacts(const SurfaceGrid& grid, const GuardedCloth& cloth);
+  /// Learns the sharp points of the next body. @param body  placed at `shape`
+  void add_body(const SurfaceGrid& grid, const BodyQuery& body, const Planes3& shape);
+
+  /// What is known of the cloth in a step.
+  struct Step {
+    const MovingCloth& cloth;
+    const InsideMarks& inside;             ///< triangles with samples inside a body are left alone
+    const PathBoxLevels* boxes = nullptr;  ///< of the cloth; null: not known yet
+  };
+  /// @param bodies  in the order in which they were added
+  void find(const Step& step, std::span<const ContactBody> bodies, ThreadTeam& team);
+  [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
+
+ private:
+  /// A sharp point near a triangle.
+  struct Touch {
+    int triangle = 0;  // 2 * cell + half
+    int point = 0;
+    double squared_distance = 0;      // at the start of the step [m^2]
+    std::array<int, 2> edge{-1, -1};  // its ends, where the closest point lies on one
+    bool counts = true;
+  };
+  /// With how near children of nodes are told apart.
+  struct Search {
+    Step step;
+    const ContactBody& body;
+    const CollideKernels& kernels;
+  };
+  void find_touches(const Search& search, std::span<const int> points, ThreadTeam& team);
+  void find_touches_of(const Search& search, int point, std::vector<Touch>& out) const;
+  void try_triangle(const Search& search, Touch touch, std::vector<Touch>& out) const;
+  void make_contact(const Search& search, const Touch& touch, std::vector<Contact>& out) const;
+
+  const SurfaceGrid& grid_;
+  KeptGap kept_;
+  double spacing_;                       // [m]
+  std::vector<std::vector<int>> sharp_;  // of each body
+  bool any_sharp_ = false;
+  PathBoxLevels boxes_;  // where nobody else has them
+  ChunkedLists<std::vector<Touch>> near_;
+  std::vector<Touch> touches_;
+  ChunkedLists<std::vector<Contact>> found_;
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace weft
