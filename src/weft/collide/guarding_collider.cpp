@@ -112,9 +112,7 @@ void GuardingCollider::gather_surfaces(std::span<const MovingCloth> cloths) {
 void GuardingCollider::place_bodies(ThreadTeam& team) {
   contact_bodies_.clear();
   for (GuardedBody& body : bodies_) {
-    if (body.moved) {
-      body.query->place(body.start, team);
-    }
+    if (body.moved) body.query->place(body.start, team);
     body.moved = false;
     contact_bodies_.push_back({static_cast<int>(contact_bodies_.size()) + 1, body.query.get(),
                                &body.start, body.end, body.friction, body.most_moved,

@@ -24,4 +24,11 @@ bool has_instruction_set(InstructionSet set);
 /// The widest that this processor has.
 InstructionSet best_instruction_set();
 
+/// What was compiled for a set, of what was compiled for each.
+template <class T>
+const T& choose(InstructionSet set, const T& baseline, const T& avx2, const T& avx512) {
+  if (set == InstructionSet::avx512) return avx512;
+  return set == InstructionSet::avx2 ? avx2 : baseline;
+}
+
 }  // namespace weft

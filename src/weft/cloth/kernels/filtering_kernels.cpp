@@ -15,14 +15,7 @@ extern const FilteringKernels filtering;
 }
 
 const FilteringKernels& filtering_kernels_for(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::avx512:
-      return avx512::filtering;
-    case InstructionSet::avx2:
-      return avx2::filtering;
-    default:
-      return baseline::filtering;
-  }
+  return choose(set, baseline::filtering, avx2::filtering, avx512::filtering);
 }
 
 }  // namespace weft

@@ -14,14 +14,7 @@ extern const KernelTable table;
 }
 
 const KernelTable& kernels_for(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::avx512:
-      return avx512::table;
-    case InstructionSet::avx2:
-      return avx2::table;
-    default:
-      return baseline::table;
-  }
+  return choose(set, baseline::table, avx2::table, avx512::table);
 }
 
 }  // namespace weft

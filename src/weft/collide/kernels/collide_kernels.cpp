@@ -15,14 +15,7 @@ extern const CollideKernels collide_kernels;
 }
 
 const CollideKernels& collide_kernels_for(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::avx512:
-      return avx512::collide_kernels;
-    case InstructionSet::avx2:
-      return avx2::collide_kernels;
-    default:
-      return baseline::collide_kernels;
-  }
+  return choose(set, baseline::collide_kernels, avx2::collide_kernels, avx512::collide_kernels);
 }
 
 }  // namespace weft
