@@ -30,7 +30,7 @@ def blocks(path):
 
 def with_window(block):
     """Windows open on a display of their own and close after two pictures."""
-    return re.sub(r"^(weft view [^\n#]*)", r"xvfb-run -a \1 --frames 2 ", block, flags=re.M)
+    return re.sub(r"^(weft view [^\n#]*)", r"xvfb-run -a \1 --frames 2 --width 640 --height 480 ", block, flags=re.M)
 
 
 def drawn_small(block):
