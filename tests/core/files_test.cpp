@@ -10,6 +10,7 @@
 
 #include "tests/support/temporary_folder.h"
 #include "weft/core/error.h"
+#include "weft/core/reserved_room.h"
 
 namespace weft {
 namespace {
@@ -72,6 +73,52 @@ TEST(Files, ErrorsNameThePathAndTheReason) {
   EXPECT_NE(read(folder.path()).find("is a folder"), std::string::npos);
   EXPECT_NE(write(folder / "no/f").find("cannot be written: No such file"), std::string::npos);
   EXPECT_NE(write(folder.path()).find("is a folder"), std::string::npos);
+}
+
+TEST(WantedFolder, EmptyOnesThatItMadeGoAgain) {
+  const test::TemporaryFolder place;
+  { const WantedFolder folder(place / "a/b/c"); }
+  EXPECT_EQ(place.entries(), 0);
+  { const WantedFolder folder(place / "a/b/"); }
+  EXPECT_EQ(place.entries(), 0);
+  make_folder(place / "mine");
+  { const WantedFolder folder(place / "mine/b"); }
+  EXPECT_TRUE(std::filesystem::is_empty(place / "mine"));
+  { const WantedFolder folder(place / "mine"); }
+  EXPECT_TRUE(std::filesystem::exists(place / "mine"));
+}
+
+TEST(WantedFolder, OnesThatHoldSomethingStay) {
+  const test::TemporaryFolder place;
+  {
+    const WantedFolder folder(place / "a/b");
+    write_file(place / "a/file", [](std::ostream& out) { out << "whole"; });
+  }
+  EXPECT_TRUE(std::filesystem::exists(place / "a/file"));
+  EXPECT_FALSE(std::filesystem::exists(place / "a/b"));
+}
+
+TEST(ReservedRoom, IsTakenAndGivenBack) {
+  const test::TemporaryFolder place;
+  {
+    const ReservedRoom room(place / "room", 100'000);
+    EXPECT_EQ(std::filesystem::file_size(place / ".room.part"), 100'000);
+  }
+  EXPECT_EQ(place.entries(), 0);
+}
+
+TEST(ReservedRoom, MoreThanThereIsIsAnErrorThatLeavesNothing) {
+  const test::TemporaryFolder place;
+  rlimit old{};
+  getrlimit(RLIMIT_FSIZE, &old);
+  const rlimit small{1000, old.rlim_max};
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string message = message_of([&] { const ReservedRoom room(place / "room", 100'000); });
+  setrlimit(RLIMIT_FSIZE, &old);
+  (void)std::signal(SIGXFSZ, old_handler);
+  EXPECT_NE(message.find("no room to report in: "), std::string::npos) << message;
+  EXPECT_EQ(place.entries(), 0);
 }
 
 }  // namespace
