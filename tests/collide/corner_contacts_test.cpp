@@ -150,6 +150,15 @@ TEST(CornerContacts, ATipThatRisesTakesItsHalfSpaceAlong) {
   EXPECT_NEAR(length(vec_cast<double>(found[0].slide) - Vec3d{0.002, 0.008, 0}), 0, 1e-6);
 }
 
+TEST(CornerContacts, WhatIsSharpIsToldByTheShapeAndNotByTheMoment) {
+  SheetOnTip scene(0.01);
+  scene.obstacles.bodies[0].shape = octahedron(17, {0.3, 0.001, 0.3}, {}).positions;
+  scene.collider =
+      make_collider(PyramidOptions{}, scene.obstacles, std::span(&scene.cloth_facts, 1));
+  scene.fall(0.02);
+  EXPECT_TRUE(scene.detect().empty());
+}
+
 TEST(CornerContacts, ATipUnderAnEdgeOfTwoTrianglesHasOneContact) {
   SheetOnTip scene(0.01);
   // The sheet is moved until the edge between two samples lies above the tip.

@@ -13,9 +13,9 @@ namespace weft {
 namespace {
 
 constexpr int body_normal_map_size = 257;
-/// Only samples are pushed out of bodies, so a sharp edge between two of them would show: the gap
-/// that is kept grows from the fabric's thickness to this part of the cloth's rest spacing, but to
-/// no more than a few thicknesses, lest coarse cloths float.
+/// Between two samples the bend of a body would show that is not sharp enough to be a corner: the
+/// gap that is kept grows from the fabric's thickness to this part of the cloth's rest spacing, but
+/// to no more than a few thicknesses, lest coarse cloths float.
 constexpr double gap_in_spacings = 1.0 / 3, most_gap_in_thicknesses = 3;
 
 /// Between parts of cloth a gap of more than this part of the rest spacing would lock folds.
