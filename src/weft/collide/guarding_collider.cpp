@@ -150,7 +150,9 @@ void GuardingCollider::find_tangles(std::span<const MovingCloth> cloths, ThreadT
       if (i == j) {
         broad_phase_->find_self(first, 0, static_cast<float>(slack_), team, cells_);
       } else {
-        broad_phase_->find(first, second, 0, team, cells_);
+        const float gap = static_cast<float>(
+            0.5 * (cloths_[i].facts.self_thickness + cloths_[j].facts.self_thickness));
+        broad_phase_->find(first, second, gap, team, cells_);
       }
       untangler_.look(i, j, cloths, cells_, team);
     }

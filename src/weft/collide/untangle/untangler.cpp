@@ -17,6 +17,18 @@ constexpr double margin_in_gaps = 0.5;
 constexpr double least_slope = 0.05;
 /// Of a contour by a move, lest single edges that hardly pass through decide.
 constexpr double most_shortening = 4;
+/// Samples of one cloth that lie on another, by which, and by what part more of them on one side
+/// than on the other, it is told where a cloth belongs.
+constexpr int least_lying = 30;
+constexpr double clear_majority = 0.2;
+/// How much a move weighs that follows the contour from node to node: little, so that what is
+/// wanted around counts more and the layers move as wholes.
+constexpr double light = 0.1;
+
+/// Of a sum whose terms' squares have this sum: where they scatter, it says nothing.
+double trust(double sum, double squares) {
+  return sum != 0 ? sum * sum / (sum * sum + squares) : 0;
+}
 
 double sign(double x) { return x > 0 ? 1 : (x < 0 ? -1 : 0); }
 
@@ -55,15 +67,18 @@ void Untangler::find_regions(const StandingPair& standing, const Pair& pair) {
 }
 
 /// The part that a crossing cuts off its edge's sheet, if it does, should come back through the
-/// triangle. Where the contour ends at a border, sliding inwards along the contour shortens it.
+/// triangle. And whatever it cuts off, some move shortens the contour.
 void Untangler::vote(const StandingPair& standing, const ContourNode& node,
                      Verdict& verdict) const {
   const Frame frame = frame_of(standing, node);
   verdict.alike += dot(frame.normals[0], frame.normals[1]);
   const Vec3d shorter = shortening(standing, node);
   const std::array<Vec3d, 3> axes = frame.axes();
-  verdict.shorter += {dot(shorter, axes[0]), dot(shorter, axes[1]), dot(shorter, axes[2])};
+  const Vec3d own{dot(shorter, axes[0]), dot(shorter, axes[1]), dot(shorter, axes[2])};
+  verdict.shorter += own;
+  verdict.scatter += {0, own.y * own.y, own.z * own.z};
   ++verdict.edges[node.layer];
+  verdict.first_side = node.crossing.side ^ node.layer;
   const Regions& regions = regions_[node.crossing.side];
   const auto [p, q] = node.crossing.edge;
   const int of_p = regions.of(p), of_q = regions.of(q);
@@ -87,10 +102,40 @@ void Untangler::judge(const StandingPair& standing, const Pair& pair) {
     for (std::size_t layer = 0; layer < 2; ++layer)
       if (2 * verdict.cutting[layer] > verdict.edges[layer])
         verdict.settled[layer] = sign(verdict.turns[layer]);
+    verdict.shorter.y *= trust(verdict.shorter.y, verdict.scatter.y);
+    verdict.shorter.z *= trust(verdict.shorter.z, verdict.scatter.z);
     // Where both layers would have to go the same way, the one that has less to move goes.
     if (verdict.alike * verdict.settled[0] * verdict.settled[1] > 0)
       verdict.settled[verdict.sizes[0] <= verdict.sizes[1] ? 1 : 0] = 0;
   }
+}
+
+double Untangler::lying(const StandingPair& standing, std::span<const CellPair> cells,
+                        double reach) {
+  int above = 0, below = 0;
+  for (const CellPair& pair : cells) {
+    const Vec3d point = standing.at(0, standing.grids[0]->first_sample(pair.a));
+    for (int half = 0; half < 2; ++half) {
+      const std::array<int, 3> triangle = standing.grids[1]->triangle(pair.b, half);
+      const Vec3d a = standing.at(1, triangle[0]), b = standing.at(1, triangle[1]),
+                  c = standing.at(1, triangle[2]), normal = standing.normal(1, triangle);
+      const auto left_of = [&](Vec3d from, Vec3d to) {
+        return dot(cross(to - from, point - from), normal) > 0;
+      };
+      if (!left_of(a, b) || !left_of(b, c) || !left_of(c, a)) continue;
+      const double height = dot(normal, point - a);
+      if (std::abs(height) > reach) continue;
+      ++(height > 0 ? above : below);
+    }
+  }
+  const int all = above + below;
+  return all >= least_lying ? static_cast<double>(above - below) / all : 0;
+}
+
+void Untangler::heed_lying(double side) {
+  if (std::abs(side) < clear_majority) return;
+  for (Verdict& verdict : verdicts_)
+    if (!verdict.is_settled()) verdict.settled[verdict.first_side] = sign(side);
 }
 
 /// The first layer's way against the second. The gradient of the contour's length where nothing
@@ -98,7 +143,7 @@ void Untangler::judge(const StandingPair& standing, const Pair& pair) {
 Vec3d Untangler::direction(const StandingPair& standing, const ContourNode& node) const {
   const Verdict& verdict = verdicts_[node.contour];
   const Frame frame = frame_of(standing, node);
-  if (verdict.settled[0] != 0 || verdict.settled[1] != 0)
+  if (verdict.is_settled())
     return normalized(verdict.settled[0] * frame.normals[1] -
                       verdict.settled[1] * frame.normals[0]);
   const std::array<Vec3d, 3> axes = frame.axes();
@@ -132,6 +177,7 @@ void Untangler::find_ways(const StandingPair& standing, double most, double marg
     }
     way.amount =
         std::abs(slope) > least_slope ? std::min(most, (depth + margin) / std::abs(slope)) : most;
+    if (!verdicts_[node.contour].is_settled()) way.weight = light;
     pair.ways.push_back(way);
   }
 }
@@ -167,10 +213,11 @@ void Untangler::look(std::size_t a, std::size_t b, std::span<const MovingCloth> 
   looked.crossings = static_cast<int>(looked.contours.nodes().size());
   looked.open = looked.crossings > 0;
   if (!looked.open) return;
+  const double gap = 0.5 * (facts_[a].self_thickness + facts_[b].self_thickness);
   find_regions(standing, looked);
   judge(standing, looked);
+  if (a != b) heed_lying(lying(standing, cells, gap));
   const double spacing = std::min(facts_[a].rest_spacing, facts_[b].rest_spacing);
-  const double gap = 0.5 * (facts_[a].self_thickness + facts_[b].self_thickness);
   find_ways(standing, spacing, margin_in_gaps * gap, looked);
   mark(standing, looked);
 }
@@ -197,12 +244,12 @@ void Untangler::want(const ContourNode& node, const Way& way, std::array<std::si
   const double hold = std::max(0.0, -going);
   const double push = std::max(0.0, way.amount - std::max(0.0, going));
   for (const int s : edge) {
-    pushes_[of[0]].want(s, (own_part * push) * way.apart, 1);
-    holds_[of[0]].want(s, (own_part * hold) * way.apart, 1);
+    pushes_[of[0]].want(s, (own_part * push) * way.apart, way.weight);
+    holds_[of[0]].want(s, (own_part * hold) * way.apart, way.weight);
   }
   for (const int s : triangle) {
-    pushes_[of[1]].want(s, (-other_part * push) * way.apart, 1);
-    holds_[of[1]].want(s, (-other_part * hold) * way.apart, 1);
+    pushes_[of[1]].want(s, (-other_part * push) * way.apart, way.weight);
+    holds_[of[1]].want(s, (-other_part * hold) * way.apart, way.weight);
   }
 }
 
@@ -221,7 +268,8 @@ void Untangler::move(std::span<const MovingCloth> cloths, double time_step) {
         const ContourNode& node = moved.contours.nodes()[k];
         const bool of_b = node.crossing.side == 1;
         const bool triangle_of_b = node.triangle_side(a == b) == 1;
-        want(node, {moved.ways[k].apart, std::min(most, moved.ways[k].amount)},
+        want(node,
+             {moved.ways[k].apart, std::min(most, moved.ways[k].amount), moved.ways[k].weight},
              {of_b ? b : a, triangle_of_b ? b : a}, cloths);
       }
     }

@@ -44,15 +44,19 @@ class Untangler {
     std::array<double, 2> turns{};    // of each layer: along the other's normal, which way is out
     std::array<int, 2> sizes{};       // samples of the least part that it cuts off
     double alike = 0;                 // whether their normals agree
-    std::array<int, 2> edges{};       // of each layer
+    int first_side = 0;               // which of the pair's the first layer is
+    std::array<int, 2> edges{};       // crossings whose edge is of each layer
     std::array<int, 2> cutting{};     // of these, how many lead from one part to another
-    Vec3d shorter;                    // in the contour's frame
+    Vec3d shorter;                    // the first layer's way that shortens it, see Frame::axes
+    Vec3d scatter;                    // sums of its terms' squares
     std::array<double, 2> settled{};  // turns, 1, 0 or -1
+    [[nodiscard]] bool is_settled() const { return settled[0] != 0 || settled[1] != 0; }
   };
   /// How a crossing's layers are to move.
   struct Way {
     Vec3d apart;        // the edge against the triangle; unit or zero
     double amount = 0;  // [m]
+    double weight = 1;  // beside others
   };
   struct Pair {
     bool open = true;
@@ -79,6 +83,12 @@ class Untangler {
 
   void find_regions(const StandingPair& standing, const Pair& pair);
   void judge(const StandingPair& standing, const Pair& pair);
+  /// On which side of the second cloth the first lies mostly where they lie on each other: from 1,
+  /// the side that normals point to, to -1; 0 where that is not known.
+  [[nodiscard]] static double lying(const StandingPair& standing, std::span<const CellPair> cells,
+                                    double reach);
+  /// What lies through each other without one part being cut off goes to the side where more is.
+  void heed_lying(double side);
   void vote(const StandingPair& standing, const ContourNode& node, Verdict& verdict) const;
   void mark(const StandingPair& standing, Pair& pair);
   void find_ways(const StandingPair& standing, double most, double margin, Pair& pair);
