@@ -38,11 +38,13 @@ std::size_t too_deep_at(std::string_view text, int deepest) {
 /// A text that tells how far it was read, also where the parser does not: at keys.
 class ReadAlong {
  public:
+  // The names that the standard asks for. NOLINTBEGIN(readability-identifier-naming)
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
   using difference_type = std::ptrdiff_t;
   using pointer = const char*;
   using reference = const char&;
+  // NOLINTEND(readability-identifier-naming)
 
   ReadAlong(const char* at, const char** furthest) : at_(at), furthest_(furthest) {}
   reference operator*() const { return *at_; }
