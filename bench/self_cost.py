@@ -20,7 +20,7 @@ def both(name, folder):
     scene = json.loads((program.ROOT / f"examples/scenes/{name}.json").read_text())
     for on in (False, True):
         for cloth in scene["cloths"]:
-            cloth["self_collision"] = on
+            cloth |= {"size": 129, "self_collision": on}
         path = folder / f"{name}_{on}.json"
         path.write_text(json.dumps(scene))
         yield path
