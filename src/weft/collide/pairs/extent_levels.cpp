@@ -26,9 +26,6 @@ void cell_row(int cells, const Coordinate& of, int r, float* lower, float* upper
   }
 }
 
-/// Levels of fewer nodes than this a side are fitted by one worker.
-constexpr int least_shared_side = 32;
-
 }  // namespace
 
 ExtentLevels::ExtentLevels(int cells) : sides_(level_sides(cells)) {
@@ -62,14 +59,8 @@ void ExtentLevels::fit_row(std::size_t level, int row) {
 void ExtentLevels::fit(Worker& worker) {
   const Range rows = worker.share(sides_.front());
   for (int r = rows.first; r < rows.last; ++r) pack_row(r);
-  worker.barrier();
-  for (std::size_t level = 1; level < sides_.size(); ++level) {
-    const bool shared = sides_[level] >= least_shared_side;
-    if (!shared && worker.rank() != 0) break;
-    const Range mine = shared ? worker.share(sides_[level]) : Range{0, sides_[level]};
-    for (int r = mine.first; r < mine.last; ++r) fit_row(level, r);
-    if (shared) worker.barrier();
-  }
+  fit_levels(sides_, worker,
+             [&](int level, int row) { fit_row(static_cast<std::size_t>(level), row); });
   worker.barrier();
 }
 

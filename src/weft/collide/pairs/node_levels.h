@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "weft/core/thread_team.h"
 #include "weft/core/vec.h"
 
 namespace weft {
@@ -23,6 +24,23 @@ void for_children(const Node& node, const std::vector<int>& sides, const Visit& 
   for (int r = 2 * node.row; r <= 2 * node.row + 1 && r < side; ++r)
     for (int c = 2 * node.col; c <= 2 * node.col + 1 && c < side; ++c)
       visit(Node{node.level - 1, r, c});
+}
+
+/// Calls fit_row(level, row) for all rows of the levels above the cells, each level after the one
+/// below it: shared out while a level is large. To be called by every worker once its share of the
+/// cells is done; what is fitted last is worker 0's until the next barrier.
+template <class FitRow>
+void fit_levels(const std::vector<int>& sides, Worker& worker, const FitRow& fit_row) {
+  constexpr int least_shared_side = 32;  // nodes
+  bool shared = true;                    // the level before
+  for (int level = 1; level < static_cast<int>(sides.size()); ++level) {
+    if (shared) worker.barrier();
+    const int side = sides[static_cast<std::size_t>(level)];
+    shared = side >= least_shared_side;
+    if (!shared && worker.rank() != 0) break;
+    const Range rows = shared ? worker.share(side) : Range{0, side};
+    for (int r = rows.first; r < rows.last; ++r) fit_row(level, r);
+  }
 }
 
 /// An axis-aligned box in single precision.

@@ -8,9 +8,6 @@ namespace {
 
 inline float least(float a, float b) { return a < b ? a : b; }
 inline float largest(float a, float b) { return a > b ? a : b; }
-/// Levels of fewer nodes than this a side are fitted by one worker.
-constexpr int least_shared_side = 32;
-
 /// One coordinate of the corners of a row of cells.
 void corner_extents(const Grid<float>& of, int row, float* lower, float* upper) {
   const int cells = of.cols() - 1;
@@ -141,14 +138,7 @@ void PathBoxLevels::fit_row(int level, int row) {
 void PathBoxLevels::fit(const MovingSurface& surface, Worker& worker) {
   const Range mine = worker.share(sides_.front());
   for (int r = mine.first; r < mine.last; ++r) fill_row(surface, r);
-  bool shared = true;  // the level before
-  for (int level = 1; level <= top(); ++level) {
-    if (shared) worker.barrier();
-    shared = sides_[level] >= least_shared_side;
-    if (!shared && worker.rank() != 0) break;
-    const Range rows = shared ? worker.share(sides_[level]) : Range{0, sides_[level]};
-    for (int r = rows.first; r < rows.last; ++r) fit_row(level, r);
-  }
+  fit_levels(sides_, worker, [&](int level, int row) { fit_row(level, row); });
   if (worker.rank() == 0) root_ = box_of({top(), 0, 0});
   worker.barrier();
 }

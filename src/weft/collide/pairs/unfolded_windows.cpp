@@ -7,9 +7,6 @@
 namespace weft {
 namespace {
 
-/// Levels of fewer nodes than this a side are joined by one worker.
-constexpr int least_shared_side = 32;
-
 std::array<float*, 12> row_of(std::array<Grid<float>, 12>& planes, int row) {
   std::array<float*, 12> rows{};
   for (std::size_t k = 0; k < 12; ++k) rows[k] = planes[k].row(row);
@@ -29,8 +26,8 @@ std::array<Grid<float>, 12> planes(int rows, int cols) {
 
 }  // namespace
 
-UnfoldedWindows::UnfoldedWindows(int cells) {
-  for (const int side : level_sides(cells)) {
+UnfoldedWindows::UnfoldedWindows(int cells) : sides_(level_sides(cells)) {
+  for (const int side : sides_) {
     const int twos = side - 1, threes = std::max(0, side - 2);
     levels_.push_back(
         {side, planes(side, side), Grid<float>(twos, twos), Grid<float>(threes, threes)});
@@ -69,15 +66,8 @@ void UnfoldedWindows::fit(const CollideKernels& kernels, const MovingSurface& su
                           Worker& worker) {
   const Range mine = worker.share(levels_.front().side);
   for (int r = mine.first; r < mine.last; ++r) fill_row(kernels, surface, r);
-  bool shared = true;  // the level before
-  for (std::size_t l = 1; l < levels_.size(); ++l) {
-    if (shared) worker.barrier();
-    const int side = levels_[l].side;
-    shared = side >= least_shared_side;
-    if (!shared && worker.rank() != 0) break;
-    const Range rows = shared ? worker.share(side) : Range{0, side};
-    for (int r = rows.first; r < rows.last; ++r) join_row(kernels, l, r);
-  }
+  fit_levels(sides_, worker,
+             [&](int level, int row) { join_row(kernels, static_cast<std::size_t>(level), row); });
   worker.barrier();
 }
 

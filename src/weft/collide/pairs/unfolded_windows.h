@@ -64,6 +64,7 @@ class UnfoldedWindows {
   static void judge_rows(const CollideKernels& kernels, Level& level, float slack, Range rows,
                          Lines& lines);
 
+  std::vector<int> sides_;
   std::vector<Level> levels_;
   std::vector<Lines> lines_;  // one a worker
 };
