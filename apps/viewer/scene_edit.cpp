@@ -8,8 +8,8 @@
 namespace weft::viewer {
 namespace {
 
-constexpr std::array<std::string_view, 5> integrators{"multigrid", "implicit", "explicit",
-                                                      "desbrun", "two_level"};
+constexpr std::array<std::string_view, 6> integrators{"newton",   "multigrid", "implicit",
+                                                      "explicit", "desbrun",   "two_level"};
 constexpr std::array<std::string_view, 4> colliders{"pyramid", "polar_map", "sphere_tree",
                                                     "spatial_hash"};
 constexpr std::array<std::string_view, 8> bodies{"mannequin", "sphere", "torus", "cone",
@@ -27,6 +27,7 @@ std::span<const std::string_view> integrator_names() { return integrators; }
 std::span<const std::string_view> collider_names() { return colliders; }
 
 void set_integrator(Scene& scene, std::string_view name) {
+  if (name == "newton") scene.integrator = NewtonOptions{};
   if (name == "multigrid") scene.integrator = MultigridOptions{};
   if (name == "implicit") scene.integrator = ImplicitOptions{};
   if (name == "explicit") scene.integrator = ExplicitOptions{};

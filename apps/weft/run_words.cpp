@@ -87,7 +87,8 @@ void add_run_options(CLI::App& command, RunWords& words) {
       ->check(CLI::Range(1, INT_MAX));
   command
       .add_option("--integrator", words.integrator, "Instead of the scene's, with default options")
-      ->check(CLI::IsMember({"implicit", "explicit", "desbrun", "two_level", "multigrid"}));
+      ->check(
+          CLI::IsMember({"newton", "implicit", "explicit", "desbrun", "two_level", "multigrid"}));
   command.add_option("--collider", words.collider, "Instead of the scene's")
       ->check(CLI::IsMember({"pyramid", "polar_map", "sphere_tree", "spatial_hash"}));
   command.add_option("--export", words.exports, "What to write, separated by commas")
@@ -128,6 +129,7 @@ MeshFrame frame_of(const RunWords& words, const MeshFrame& otherwise) {
 
 void apply_run_words(const RunWords& words, Scene& scene) {
   if (words.frames > 0) scene.frames = words.frames;
+  if (words.integrator == "newton") scene.integrator = NewtonOptions{};
   if (words.integrator == "multigrid") scene.integrator = MultigridOptions{};
   if (words.integrator == "implicit") scene.integrator = ImplicitOptions{};
   if (words.integrator == "explicit") scene.integrator = ExplicitOptions{};

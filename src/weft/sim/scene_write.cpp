@@ -27,6 +27,7 @@ std::string surface_text(const std::string& surface, const fs::path& folder) {
 
 struct IntegratorWriter {
   Json operator()(const ImplicitOptions& o) const { return iterative(o); }
+  Json operator()(const NewtonOptions& o) const { return iterative(o); }
   Json operator()(const MultigridOptions& o) const { return iterative(o); }
   Json operator()(const ExplicitOptions& o) const { return {{"type", name_of(o)}}; }
   Json operator()(const DesbrunOptions& o) const { return {{"type", name_of(o)}}; }

@@ -71,15 +71,13 @@ void Simulation::Parts::propose(std::size_t index) {
   Mover& mover = movers[index];
   if (mover.wind) mover.wind->blow(time_step, cloth.state, solvers(index));
   mover.integrator->begin({time_step, vec_cast<float>(scene.gravity)}, cloth.state);
-  // Multigrid's contacts are looked for where the step leads without the cloth's own forces.
-  if (!std::holds_alternative<MultigridOptions>(scene.integrator)) mover.integrator->iterate({});
+  // Others' contacts are looked for where the step leads without the cloth's own forces.
+  if (!guesses()) mover.integrator->iterate({});
 }
 
 void Simulation::Parts::solve(std::size_t index) {
   const std::span<const Contact> found = collider->contacts(index);
-  if (std::holds_alternative<MultigridOptions>(scene.integrator) ||
-      (heeds_contacts() && !found.empty()))
-    movers[index].integrator->iterate(found);
+  if (guesses() || (heeds_contacts() && !found.empty())) movers[index].integrator->iterate(found);
 }
 
 int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport& report) {
@@ -88,6 +86,8 @@ int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport&
   StageClock clock;
   LimitOptions limiter = suitable_limit(soft, cloth.cloth.size);
   limiter.passes = scene.limiter_passes.value_or(limiter.passes);
+  // Newton's method has the limit in its energy.
+  if (std::holds_alternative<NewtonOptions>(scene.integrator)) limiter.passes = 0;
   int contacts = 0;
   for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
     if (soft)

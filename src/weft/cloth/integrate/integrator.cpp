@@ -14,6 +14,7 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, co
                  [&](const TwoLevelOptions& chosen) {
                    return make_two_level(chosen, cloth, typical, team);
                  },
+                 [&](const NewtonOptions& chosen) { return make_newton(chosen, cloth, team); },
                  [&](const MultigridOptions& chosen) {
                    return make_multigrid(chosen, cloth, typical, team);
                  }},

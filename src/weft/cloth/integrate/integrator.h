@@ -56,10 +56,17 @@ struct MultigridOptions {
   /// thousandth of it while something presses on the cloth.
   double tolerance = 1e-3;
 };
-using IntegratorOptions = std::variant<MultigridOptions, ImplicitOptions, ExplicitOptions,
-                                       DesbrunOptions, TwoLevelOptions>;
+/// Implicit Euler by Newton's method with a block multigrid preconditioner: the default.
+struct NewtonOptions {
+  int max_iterations = 2;  ///< of conjugate gradients for each linearisation
+  /// Stop when an iteration's correction, as a force, is below this times the particles' weight.
+  double tolerance = 1e-3;
+};
+using IntegratorOptions = std::variant<NewtonOptions, MultigridOptions, ImplicitOptions,
+                                       ExplicitOptions, DesbrunOptions, TwoLevelOptions>;
 
-/// The name in scene file and command line: multigrid, implicit, explicit, desbrun, two_level.
+/// The name in scene file and command line: newton, multigrid, implicit, explicit, desbrun,
+/// two_level.
 std::string_view name_of(const IntegratorOptions& options);
 
 /// Advances one cloth by one step, in parts, so that a collider can work between them:

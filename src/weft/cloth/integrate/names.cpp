@@ -9,6 +9,7 @@ struct NameOf {
   std::string_view operator()(const ExplicitOptions&) const { return "explicit"; }
   std::string_view operator()(const DesbrunOptions&) const { return "desbrun"; }
   std::string_view operator()(const TwoLevelOptions&) const { return "two_level"; }
+  std::string_view operator()(const NewtonOptions&) const { return "newton"; }
   std::string_view operator()(const MultigridOptions&) const { return "multigrid"; }
 };
 

@@ -28,6 +28,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+std::unique_ptr<Integrator> make_newton(const NewtonOptions& options, const Cloth& cloth,
+                                        ThreadTeam& team);
 std::unique_ptr<Integrator> make_explicit(const Cloth& cloth, const StepInput& typical,
                                           ThreadTeam& team);
 std::unique_ptr<Integrator> make_implicit(const ImplicitOptions& options, const Cloth& cloth,

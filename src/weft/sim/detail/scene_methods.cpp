@@ -61,6 +61,8 @@ IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& 
     limiter_passes = read_passes(object);
     return options_of(object);
   };
+  if (type == name_of(NewtonOptions{}))
+    return read(scene_keys::newton_integrator, read_iterative<NewtonOptions>);
   if (type == name_of(ImplicitOptions{}))
     return read(scene_keys::implicit_integrator, read_iterative<ImplicitOptions>);
   if (type == name_of(MultigridOptions{}))
@@ -73,7 +75,7 @@ IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& 
   if (type == name_of(DesbrunOptions{}))
     return read(scene_keys::desbrun_integrator, [](const JsonObject&) { return DesbrunOptions{}; });
   place.key("type").fail(fmt::format("unknown integrator '{}'", type),
-                         "known are: implicit, explicit, desbrun, two_level, multigrid");
+                         "known are: newton, implicit, explicit, desbrun, two_level, multigrid");
 }
 
 ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place) {

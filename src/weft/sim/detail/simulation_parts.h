@@ -84,8 +84,13 @@ struct Simulation::Parts {
   [[nodiscard]] Vec3d centre() const;
   /// Only implicit methods heed contacts; the others are pushed out at the end of the step.
   [[nodiscard]] bool heeds_contacts() const {
-    return std::holds_alternative<MultigridOptions>(scene.integrator) ||
-           std::holds_alternative<ImplicitOptions>(scene.integrator);
+    return guesses() || std::holds_alternative<ImplicitOptions>(scene.integrator);
+  }
+  /// Whether the integrator's proposal is a guess before it has solved, at which contacts are
+  /// found.
+  [[nodiscard]] bool guesses() const {
+    return std::holds_alternative<NewtonOptions>(scene.integrator) ||
+           std::holds_alternative<MultigridOptions>(scene.integrator);
   }
   /// Who steps a cloth.
   [[nodiscard]] ThreadTeam& solvers(std::size_t index) {

@@ -1,0 +1,198 @@
+#include <cmath>
+
+#include "weft/cloth/kernels/rows/newton_rows.h"
+
+namespace weft::WEFT_KERNEL_SET {
+namespace {
+
+/// Below this a spring has no direction. [m^2]
+constexpr float least_squared_length = 1e-24F;
+/// Of a spring's tension at the guess that counts as stiffness across it, where the tension that it
+/// had when the step began is not more. The guess goes straight on where cloth turns, which
+/// lengthens springs that are not: their whole tension there holds light, stiff cloth back.
+constexpr float guessed_tension_share = 0.4F;
+/// Of the lanes in which energies are summed, whatever the vector's width.
+constexpr int lanes = 16;
+
+inline float larger(float a, float b) { return a > b ? a : b; }
+
+struct Sum6 {
+  float xx, xy, xz, yy, yz, zz;
+};
+
+/// g -= f (x_j - x_i)
+inline void pull(const ConstSpringHessianRow& spring, int c, float dx, float dy, float dz,
+                 float& gx, float& gy, float& gz) {
+  const float f = spring.f[c];
+  gx -= f * dx;
+  gy -= f * dy;
+  gz -= f * dz;
+}
+
+/// sum += t + s s^T
+inline void stiffen(const ConstSpringHessianRow& spring, int c, float& t, Sum6& sum) {
+  const float x = spring.x[c], y = spring.y[c], z = spring.z[c];
+  t += spring.t[c];
+  sum.xx += x * x;
+  sum.xy += x * y;
+  sum.xz += x * z;
+  sum.yy += y * y;
+  sum.yz += y * z;
+  sum.zz += z * z;
+}
+
+/// g += (t + s s^T) (x_i - x_j): differences first, so that nothing cancels.
+inline void resist(const ConstSpringHessianRow& spring, int c, float dx, float dy, float dz,
+                   float& gx, float& gy, float& gz) {
+  const float x = spring.x[c], y = spring.y[c], z = spring.z[c], t = spring.t[c];
+  const float along = x * dx + y * dy + z * dz;
+  gx += t * dx + along * x;
+  gy += t * dy + along * y;
+  gz += t * dz + along * z;
+}
+
+}  // namespace
+
+void linearise(int n, const LinearisedSprings& in, SpringHessianRow out) {
+  const float *rest = in.rest_length, *stiffness = in.stiffness, *damping = in.damping;
+  const ConstRow3 a = in.here, b = in.there, va = in.speed_here, vb = in.speed_there,
+                  oa = in.start_here, ob = in.start_there;
+  const float per_step = in.per_step, limit = in.limit, limit_factor = in.limit_factor;
+  float *t = out.t, *sx = out.x, *sy = out.y, *sz = out.z, *f = out.f;
+#pragma omp simd
+  for (int c = 0; c < n; ++c) {
+    const float x = b.x[c] - a.x[c], y = b.y[c] - a.y[c], z = b.z[c] - a.z[c];
+    const float squared = larger(x * x + y * y + z * z, least_squared_length);
+    const float inverse = 1 / std::sqrt(squared);
+    const float ratio = rest[c] * inverse, k = stiffness[c];
+    const float over = 1 - limit * ratio;
+    const float stiffer = over > 0 ? limit_factor * k : 0.0F;
+    const float tension = k * (1 - ratio) + stiffer * over;
+    const float ox = ob.x[c] - oa.x[c], oy = ob.y[c] - oa.y[c], oz = ob.z[c] - oa.z[c];
+    const float squared_before = larger(ox * ox + oy * oy + oz * oz, least_squared_length);
+    const float held = k * (1 - rest[c] / std::sqrt(squared_before));
+    const float across = larger(larger(held, guessed_tension_share * tension), 0.0F);
+    const float approach =
+        x * (vb.x[c] - va.x[c]) + y * (vb.y[c] - va.y[c]) + z * (vb.z[c] - va.z[c]);
+    const float axial = larger(k + stiffer + damping[c] * per_step - across, 0.0F);
+    const float s = std::sqrt(axial) * inverse;
+    f[c] = tension + damping[c] * approach * (inverse * inverse);
+    t[c] = across;
+    sx[c] = s * x;
+    sy[c] = s * y;
+    sz[c] = s * z;
+  }
+}
+
+void gradient(int n, const SpringRing& ring, const RowTriple& x, const float* mass, ConstRow3 speed,
+              ConstRow3 wanted, Row3 out) {
+  const auto* s = ring.spring;
+  const ConstRow3 above = x.above, here = x.here, below = x.below;
+#pragma omp simd
+  for (int c = 0; c < n; ++c) {
+    const float hx = here.x[c], hy = here.y[c], hz = here.z[c];
+    float gx = mass[c] * (speed.x[c] - wanted.x[c]), gy = mass[c] * (speed.y[c] - wanted.y[c]),
+          gz = mass[c] * (speed.z[c] - wanted.z[c]);
+    pull(s[0], c, here.x[c + 1] - hx, here.y[c + 1] - hy, here.z[c + 1] - hz, gx, gy, gz);
+    pull(s[1], c, here.x[c - 1] - hx, here.y[c - 1] - hy, here.z[c - 1] - hz, gx, gy, gz);
+    pull(s[2], c, below.x[c] - hx, below.y[c] - hy, below.z[c] - hz, gx, gy, gz);
+    pull(s[3], c, above.x[c] - hx, above.y[c] - hy, above.z[c] - hz, gx, gy, gz);
+    pull(s[4], c, below.x[c + 1] - hx, below.y[c + 1] - hy, below.z[c + 1] - hz, gx, gy, gz);
+    pull(s[5], c, above.x[c - 1] - hx, above.y[c - 1] - hy, above.z[c - 1] - hz, gx, gy, gz);
+    pull(s[6], c, below.x[c - 1] - hx, below.y[c - 1] - hy, below.z[c - 1] - hz, gx, gy, gz);
+    pull(s[7], c, above.x[c + 1] - hx, above.y[c + 1] - hy, above.z[c + 1] - hz, gx, gy, gz);
+    out.x[c] = gx;
+    out.y[c] = gy;
+    out.z[c] = gz;
+  }
+}
+
+void diagonal(int n, const SpringRing& ring, const float* mass, MutableBlockRow6 out) {
+  const auto* s = ring.spring;
+  float *xx = out.entry[0], *xy = out.entry[1], *xz = out.entry[2], *yy = out.entry[3],
+        *yz = out.entry[4], *zz = out.entry[5];
+#pragma omp simd
+  for (int c = 0; c < n; ++c) {
+    float t = mass[c];
+    Sum6 sum{0, 0, 0, 0, 0, 0};
+    stiffen(s[0], c, t, sum);
+    stiffen(s[1], c, t, sum);
+    stiffen(s[2], c, t, sum);
+    stiffen(s[3], c, t, sum);
+    stiffen(s[4], c, t, sum);
+    stiffen(s[5], c, t, sum);
+    stiffen(s[6], c, t, sum);
+    stiffen(s[7], c, t, sum);
+    xx[c] = sum.xx + t;
+    xy[c] = sum.xy;
+    xz[c] = sum.xz;
+    yy[c] = sum.yy + t;
+    yz[c] = sum.yz;
+    zz[c] = sum.zz + t;
+  }
+}
+
+void apply_springs(int n, const SpringRing& ring, const RowTriple& x, const float* mass, Row3 out) {
+  const auto* s = ring.spring;
+  const ConstRow3 above = x.above, here = x.here, below = x.below;
+#pragma omp simd
+  for (int c = 0; c < n; ++c) {
+    const float hx = here.x[c], hy = here.y[c], hz = here.z[c];
+    float gx = mass[c] * hx, gy = mass[c] * hy, gz = mass[c] * hz;
+    resist(s[0], c, hx - here.x[c + 1], hy - here.y[c + 1], hz - here.z[c + 1], gx, gy, gz);
+    resist(s[1], c, hx - here.x[c - 1], hy - here.y[c - 1], hz - here.z[c - 1], gx, gy, gz);
+    resist(s[2], c, hx - below.x[c], hy - below.y[c], hz - below.z[c], gx, gy, gz);
+    resist(s[3], c, hx - above.x[c], hy - above.y[c], hz - above.z[c], gx, gy, gz);
+    resist(s[4], c, hx - below.x[c + 1], hy - below.y[c + 1], hz - below.z[c + 1], gx, gy, gz);
+    resist(s[5], c, hx - above.x[c - 1], hy - above.y[c - 1], hz - above.z[c - 1], gx, gy, gz);
+    resist(s[6], c, hx - below.x[c - 1], hy - below.y[c - 1], hz - below.z[c - 1], gx, gy, gz);
+    resist(s[7], c, hx - above.x[c + 1], hy - above.y[c + 1], hz - above.z[c + 1], gx, gy, gz);
+    out.x[c] = gx;
+    out.y[c] = gy;
+    out.z[c] = gz;
+  }
+}
+
+double spring_energy(int n, const LinearisedSprings& in) {
+  const float *rest = in.rest_length, *stiffness = in.stiffness, *damping = in.damping;
+  const ConstRow3 a = in.here, b = in.there, va = in.speed_here, vb = in.speed_there;
+  const float limit = in.limit, limit_factor = in.limit_factor, step = in.step;
+  const auto energy = [=](int c) __attribute__((always_inline)) {
+    const float x = b.x[c] - a.x[c], y = b.y[c] - a.y[c], z = b.z[c] - a.z[c];
+    const float squared = larger(x * x + y * y + z * z, least_squared_length);
+    const float length = std::sqrt(squared);
+    const float elongation = length - rest[c], over = larger(length - limit * rest[c], 0.0F);
+    const float approach =
+        x * (vb.x[c] - va.x[c]) + y * (vb.y[c] - va.y[c]) + z * (vb.z[c] - va.z[c]);
+    return 0.5F * (stiffness[c] * (elongation * elongation + limit_factor * (over * over)) +
+                   step * damping[c] * (approach * approach) / squared);
+  };
+  alignas(64) float sums[lanes] = {};
+  int c = 0;
+  for (; c + lanes <= n; c += lanes)
+#pragma omp simd
+    for (int lane = 0; lane < lanes; ++lane) sums[lane] += energy(c + lane);
+  for (int lane = 0; c < n; ++c, ++lane) sums[lane] += energy(c);
+  double sum = 0;
+  for (const float lane : sums) sum += double{lane};
+  return sum;
+}
+
+void spring_blocks(int n, ConstSpringHessianRow spring, const float* mask, const float* other,
+                   MutableBlockRow6 out) {
+  const float *t = spring.t, *x = spring.x, *y = spring.y, *z = spring.z;
+  float *xx = out.entry[0], *xy = out.entry[1], *xz = out.entry[2], *yy = out.entry[3],
+        *yz = out.entry[4], *zz = out.entry[5];
+#pragma omp simd
+  for (int c = 0; c < n; ++c) {
+    const float k = -mask[c] * other[c];
+    xx[c] = k * (t[c] + x[c] * x[c]);
+    xy[c] = k * (x[c] * y[c]);
+    xz[c] = k * (x[c] * z[c]);
+    yy[c] = k * (t[c] + y[c] * y[c]);
+    yz[c] = k * (y[c] * z[c]);
+    zz[c] = k * (t[c] + z[c] * z[c]);
+  }
+}
+
+}  // namespace weft::WEFT_KERNEL_SET

@@ -1,0 +1,33 @@
+#include "weft/cloth/newton/block_level.h"
+
+namespace weft {
+namespace {
+
+/// Bending's part of the diagonal that makes line relaxation, which leaves out the rest of its
+/// stencil, contract at the same damping as for springs: the largest eigenvalue of a biharmonic
+/// stencil is 3.2 times its diagonal, that of springs twice.
+constexpr float bending_share = 1.6F;
+
+}  // namespace
+
+BlockLevel::BlockLevel(int n, Seams seam_classes, BendingStencil stiffness, bool finest)
+    : size(n),
+      seams(std::move(seam_classes)),
+      bending(std::move(stiffness)),
+      extra(bending.diagonal(seams)),
+      rows(n, true),
+      cols(n, false),
+      rhs(n, n),
+      value(n, n),
+      residual(n, n),
+      curved(n, n) {
+  if (finest)
+    stencil.centre = PaddedBlocks(n, n);
+  else
+    stencil = BlockStencil(n);
+  if (!seams.empty()) joined = PaddedBlocks(n, n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) extra(r, c) *= bending_share;
+}
+
+}  // namespace weft

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "weft/cloth/newton/bending_stencil.h"
+#include "weft/cloth/newton/line_factor.h"
+#include "weft/cloth/newton/padded_planes.h"
+#include "weft/cloth/newton/seams.h"
+
+namespace weft {
+
+/// Nine-point stencils of 3 x 3 blocks: own parts, each sample's centre and the blocks to the four
+/// neighbours after it.
+struct BlockStencil {
+  PaddedBlocks centre, right, below_left, below, below_right;
+
+  BlockStencil() = default;
+  explicit BlockStencil(int n)
+      : centre(n, n), right(n, n), below_left(n, n), below(n, n), below_right(n, n) {}
+};
+
+/// A level of the multigrid preconditioner.
+struct BlockLevel {
+  int size = 0;
+  Seams seams;
+  BendingStencil bending;
+  PaddedPlane extra;     ///< added to diagonals for the smoother [N/m]
+  BlockStencil stencil;  ///< on the finest level the centre only
+  PaddedBlocks joined;   ///< the centres summed over seam copies; empty without seams
+  LineFactor rows, cols;
+  PaddedVectors rhs, value, residual;
+  PaddedVectors curved;  ///< bending's u; scratch
+
+  BlockLevel(int n, Seams seam_classes, BendingStencil stiffness, bool finest);
+  /// The diagonal blocks that lines are factored with.
+  [[nodiscard]] const PaddedBlocks& diagonal() const {
+    return seams.empty() ? stencil.centre : joined;
+  }
+};
+
+}  // namespace weft

@@ -1,0 +1,407 @@
+#include "weft/cloth/newton/block_multigrid.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace weft {
+namespace {
+
+/// Of line relaxation, whose largest eigenvalue is close to 2 for springs, along rows and columns.
+constexpr float damping = 0.73F;
+/// Levels of at most so many samples a side are left to one worker: barriers would cost more.
+constexpr int lone_size = 33;
+/// What holds a pinned sample. [N/m]
+constexpr float pinned_stiffness = 1e20F;
+/// Where the coarsest level is too large to be factored.
+constexpr int coarsest_sweeps = 8;
+
+RowTriple rows_around(const PaddedVectors& field, int r) {
+  return {field.row(r - 1), field.row(r), field.row(r + 1)};
+}
+
+BlockRow6 row_of(const PaddedBlocks& blocks, int r, int shift = 0) {
+  BlockRow6 row{};
+  for (int k = 0; k < 6; ++k) row.entry[k] = blocks.entry[k].row(r) + shift;
+  return row;
+}
+
+BlockStencilRow stencil_row(const BlockStencil& s, int r) {
+  return {row_of(s.centre, r),
+          row_of(s.right, r),
+          row_of(s.below_left, r),
+          row_of(s.below, r),
+          row_of(s.below_right, r),
+          row_of(s.right, r, -1),
+          row_of(s.below_left, r - 1, 1),
+          row_of(s.below, r - 1),
+          row_of(s.below_right, r - 1, -1)};
+}
+
+void view_blocks(const PaddedBlocks& blocks, PlaneView* views) {
+  for (int k = 0; k < 6; ++k) views[k] = {blocks.entry[k].row(0), blocks.entry[k].stride()};
+}
+
+std::vector<BlockLevel> make_levels(const Cloth& cloth) {
+  std::vector<BlockLevel> levels;
+  int n = cloth.size;
+  levels.emplace_back(n, Seams(cloth.mates), BendingStencil(cloth.bending), true);
+  while (n > CoarsestSolver::max_size) {
+    const BlockLevel& fine = levels.back();
+    n = n / 2 + 1;
+    levels.emplace_back(n, fine.seams.coarsened(), fine.bending.coarsened(), false);
+  }
+  return levels;
+}
+
+}  // namespace
+
+BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKernels& kernels)
+    : cloth_(cloth),
+      kernels_(&kernels),
+      levels_(make_levels(cloth)),
+      coarsest_(levels_.size() > 1 ? CoarsestSolver(levels_.back()) : CoarsestSolver()),
+      galerkin_(cloth.size, workers),
+      mask_(cloth.size, cloth.size),
+      free_extra_(cloth.size, cloth.size) {
+  for (int r = 0; r < cloth.size; ++r)
+    for (int c = 0; c < cloth.size; ++c) free_extra_(r, c) = levels_.front().extra(r, c);
+  for (int i = 0; i < workers; ++i)
+    scratch_.emplace_back(
+        std::max(LineFactor::scratch_size(cloth.size), std::size_t(cloth.size) + 64));
+  renew_pins();
+}
+
+void BlockMultigrid::renew_pins() {
+  const int n = cloth_.size;
+  PaddedPlane& extra = levels_.front().extra;
+  pinned_.clear();
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const bool moves = cloth_.inverse_mass(r, c) > 0;
+      mask_(r, c) = moves ? 1.0F : 0.0F;
+      extra(r, c) = moves ? free_extra_(r, c) : pinned_stiffness;
+      if (!moves) pinned_.push_back(r * n + c);
+    }
+}
+
+std::span<float> BlockMultigrid::scratch(const Workers& workers) {
+  return scratch_[workers.rank()];
+}
+
+void BlockMultigrid::clear_pins(PaddedVectors& field, const Workers& workers) const {
+  const Range mine = workers.share(static_cast<int>(pinned_.size()));
+  for (int i = mine.first; i < mine.last; ++i) {
+    const int r = pinned_[i] / cloth_.size, c = pinned_[i] % cloth_.size;
+    field.x(r, c) = field.y(r, c) = field.z(r, c) = 0;
+  }
+}
+
+void BlockMultigrid::bend(BlockLevel& level, const PaddedVectors& x, const Workers& workers) {
+  if (!level.bending.active()) return;
+  const Range mine = workers.share(level.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    level.bending.bend_row(x, r, *kernels_, level.curved);
+  workers.barrier();
+  if (level.seams.empty()) return;
+  level.seams.sum(workers, {&level.curved.x, &level.curved.y, &level.curved.z});
+  workers.barrier();
+}
+
+void BlockMultigrid::add_border_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
+  const BorderBending& border = cloth_.bending.border;
+  if (border.starts.empty()) return;
+  for (int i = border.starts[row]; i < border.starts[row + 1]; ++i) {
+    const BorderBending::Edge& edge = border.edges[i];
+    const int c = edge.col, r2 = edge.other_row, c2 = edge.other_col;
+    out.x(row, c) += edge.stiffness * (x.x(row, c) - x.x(r2, c2));
+    out.y(row, c) += edge.stiffness * (x.y(row, c) - x.y(r2, c2));
+    out.z(row, c) += edge.stiffness * (x.z(row, c) - x.z(r2, c2));
+  }
+}
+
+void BlockMultigrid::add_contact_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
+  if (contacts_.touched == nullptr || contacts_.touched[row] == 0) return;
+  kernels_->add_blocks(cloth_.size, row_of(*contacts_.blocks, row), x.row(row), out.row(row));
+}
+
+void BlockMultigrid::add_bending_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
+  const BlockLevel& level = levels_.front();
+  add_border_row(x, row, out);
+  if (level.bending.active()) level.bending.unbend_row(level.curved, row, *kernels_, out);
+}
+
+void BlockMultigrid::apply_row(std::size_t index, const PaddedVectors& x, int row,
+                               PaddedVectors& out) const {
+  const BlockLevel& level = levels_[index];
+  if (index == 0) {
+    springs_->apply_row(x, row, out);
+    return add_bending_row(x, row, out);
+  }
+  kernels_->apply_blocks(level.size, stencil_row(level.stencil, row), rows_around(x, row),
+                         out.row(row));
+  if (level.bending.active()) level.bending.unbend_row(level.curved, row, *kernels_, out);
+}
+
+void BlockMultigrid::complete(std::size_t index, PaddedVectors& out, const Workers& workers) const {
+  workers.barrier();
+  const BlockLevel& level = levels_[index];
+  if (!level.seams.empty()) {
+    level.seams.sum(workers, {&out.x, &out.y, &out.z});
+    workers.barrier();
+  }
+  if (index > 0 || pinned_.empty()) return;
+  clear_pins(out, workers);
+  workers.barrier();
+}
+
+void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, PaddedVectors& out,
+                           Worker& worker) {
+  const Workers all(worker, false);
+  if (parts.curved != nullptr)
+    parts.curved->change(x, worker);
+  else
+    bend(levels_.front(), x, all);
+  const Range mine = all.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    springs_->apply_row(x, r, out);
+    if (parts.curved != nullptr)
+      parts.curved->add_row(r, out);
+    else
+      add_bending_row(x, r, out);
+    if (parts.contacts != nullptr && parts.contacts->row(r)) parts.contacts->add_row(r, out.row(r));
+  }
+  complete(0, out, all);
+}
+
+void BlockMultigrid::add_loads(const ContactLoads& contacts, float factor, PaddedVectors& field,
+                               Worker& worker) {
+  const Workers all(worker, false);
+  BlockLevel& level = levels_.front();
+  PaddedVectors& sum = level.curved;
+  const Range mine = all.share(level.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    kernels_->scale_rows(level.size, 0, sum.row(r));
+    contacts.add_row(r, sum.row(r));
+  }
+  complete(0, sum, all);
+  for (int r = mine.first; r < mine.last; ++r)
+    kernels_->add_scaled(level.size, factor, std::as_const(sum).row(r), field.row(r));
+  worker.barrier();
+}
+
+void BlockMultigrid::add_bending_gradient(const PaddedVectors& position, PaddedVectors& gradient,
+                                          Worker& worker) {
+  const Workers all(worker, false);
+  bend(levels_.front(), position, all);
+  const Range mine = all.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) add_bending_row(position, r, gradient);
+  worker.barrier();
+}
+
+double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& sums,
+                                      const PaddedPlane& share, Worker& worker) {
+  const BlockLevel& level = levels_.front();
+  if (!level.bending.active()) return 0;
+  bend(levels_.front(), position, Workers(worker, false));
+  const BorderBending& border = cloth_.bending.border;
+  return sums.sum(worker, [&](int r) {
+    const ConstRow3 u = level.curved.row(r);
+    double energy = 0.5 * kernels_->dot(level.size, share.row(r), u, u);
+    if (border.starts.empty()) return energy;
+    for (int i = border.starts[r]; i < border.starts[r + 1]; ++i) {
+      const BorderBending::Edge& edge = border.edges[i];
+      const Vec3f way{position.x(edge.other_row, edge.other_col) - position.x(r, edge.col),
+                      position.y(edge.other_row, edge.other_col) - position.y(r, edge.col),
+                      position.z(edge.other_row, edge.other_col) - position.z(r, edge.col)};
+      // Each edge is there from both of its ends.
+      energy += 0.25 * edge.stiffness * squared_length(vec_cast<double>(way));
+    }
+    return energy;
+  });
+}
+
+void BlockMultigrid::residual(std::size_t index, const Workers& workers) {
+  BlockLevel& level = levels_[index];
+  bend(level, level.value, workers);
+  const Range mine = workers.share(level.size);
+  // Without seams and pins a row is complete at once.
+  const bool at_once = level.seams.empty() && (index > 0 || pinned_.empty());
+  const auto subtract_row = [&](int r) {
+    kernels_->subtract(level.size, std::as_const(level.rhs).row(r),
+                       std::as_const(level.residual).row(r), level.residual.row(r));
+  };
+  for (int r = mine.first; r < mine.last; ++r) {
+    apply_row(index, level.value, r, level.residual);
+    if (index == 0) add_contact_row(level.value, r, level.residual);
+    if (at_once) subtract_row(r);
+  }
+  complete(index, level.residual, workers);
+  if (at_once) return;
+  for (int r = mine.first; r < mine.last; ++r) subtract_row(r);
+  workers.barrier();
+}
+
+void BlockMultigrid::solve_lines(const LineFactor& lines, const PaddedVectors& rhs,
+                                 LineFactor::Solve how, PaddedVectors& out,
+                                 const Workers& workers) {
+  const Range mine = workers.share(lines.blocks());
+  for (int b = mine.first; b < mine.last; ++b)
+    lines.solve(b, rhs, how, scratch(workers), out, *kernels_);
+  workers.barrier();
+}
+
+void BlockMultigrid::smooth(std::size_t index, Direction direction, bool from_zero,
+                            const Workers& workers) {
+  BlockLevel& level = levels_[index];
+  if (!from_zero) residual(index, workers);
+  const LineFactor& lines = direction == Direction::rows ? level.rows : level.cols;
+  if (!level.seams.empty()) return smooth_seamed(level, lines, from_zero, workers);
+  solve_lines(lines, from_zero ? level.rhs : level.residual, {damping, !from_zero}, level.value,
+              workers);
+}
+
+/// A particle with c copies lies on c lines: each sees 1 / sqrt c of its residual and gives as much
+/// of its correction, so that the sum is symmetric.
+void BlockMultigrid::smooth_seamed(BlockLevel& level, const LineFactor& lines, bool from_zero,
+                                   const Workers& workers) {
+  const Range mine = workers.share(level.size);
+  PaddedVectors &r = level.residual, &y = level.curved;
+  const int n = level.size;
+  if (from_zero) {
+    for (int row = mine.first; row < mine.last; ++row)
+      kernels_->scale_add(n, std::as_const(level.rhs).row(row), 0, r.row(row));
+    workers.barrier();
+  }
+  level.seams.share_by_root(workers, {&r.x, &r.y, &r.z});
+  workers.barrier();
+  solve_lines(lines, r, {damping, false}, y, workers);
+  level.seams.share_by_root(workers, {&y.x, &y.y, &y.z});
+  workers.barrier();
+  level.seams.sum(workers, {&y.x, &y.y, &y.z});
+  workers.barrier();
+  for (int row = mine.first; row < mine.last; ++row) {
+    if (from_zero)
+      kernels_->scale_add(n, std::as_const(y).row(row), 0, level.value.row(row));
+    else
+      kernels_->add_scaled(n, 1, std::as_const(y).row(row), level.value.row(row));
+  }
+  workers.barrier();
+}
+
+void BlockMultigrid::restrict_residual(BlockLevel& fine, BlockLevel& coarse,
+                                       const Workers& workers) {
+  if (!fine.seams.empty()) {
+    fine.seams.share(workers, {&fine.residual.x, &fine.residual.y, &fine.residual.z});
+    workers.barrier();
+  }
+  const Range mine = workers.share(coarse.size);
+  for (int q = mine.first; q < mine.last; ++q)
+    kernels_->restrict_row(fine.size, coarse.size, rows_around(fine.residual, 2 * q),
+                           scratch(workers).data(), coarse.rhs.row(q));
+  workers.barrier();
+  if (coarse.seams.empty()) return;
+  coarse.seams.sum(workers, {&coarse.rhs.x, &coarse.rhs.y, &coarse.rhs.z});
+  workers.barrier();
+}
+
+void BlockMultigrid::prolong(const BlockLevel& coarse, std::size_t fine_index,
+                             const Workers& workers) {
+  BlockLevel& fine = levels_[fine_index];
+  const Range mine = workers.share(fine.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    kernels_->prolong_row(fine.size, coarse.value.row(r / 2), coarse.value.row((r + 1) / 2),
+                          scratch(workers).data(), fine.value.row(r));
+  workers.barrier();
+  if (!fine.seams.empty()) {
+    fine.seams.average(workers, {&fine.value.x, &fine.value.y, &fine.value.z});
+    workers.barrier();
+  }
+  if (fine_index > 0 || pinned_.empty()) return;
+  clear_pins(fine.value, workers);
+  workers.barrier();
+}
+
+void BlockMultigrid::cycle_coarsest(std::size_t index, const Workers& workers) {
+  if (levels_.size() > 1) {
+    if (workers.alone() || workers.rank() == 0) coarsest_.solve(levels_[index]);
+    workers.barrier();
+    return;
+  }
+  smooth(index, Direction::rows, true, workers);
+  for (int i = 1; i < coarsest_sweeps; ++i)
+    smooth(index, i % 2 == 0 ? Direction::rows : Direction::cols, false, workers);
+}
+
+void BlockMultigrid::cycle(std::size_t index, const Workers& workers) {
+  if (!workers.alone() && levels_[index].size <= lone_size) {
+    if (workers.rank() == 0) cycle(index, Workers(workers.worker(), true));
+    return workers.barrier();
+  }
+  if (index + 1 == levels_.size()) return cycle_coarsest(index, workers);
+  smooth(index, Direction::rows, true, workers);
+  smooth(index, Direction::cols, false, workers);
+  residual(index, workers);
+  restrict_residual(levels_[index], levels_[index + 1], workers);
+  cycle(index + 1, workers);
+  prolong(levels_[index + 1], index, workers);
+  smooth(index, Direction::cols, false, workers);
+  smooth(index, Direction::rows, false, workers);
+}
+
+void BlockMultigrid::cycle(Worker& worker) { cycle(0, Workers(worker, false)); }
+
+void BlockMultigrid::join_centres(BlockLevel& level, const Workers& workers) {
+  if (level.seams.empty()) return;
+  const Range mine = workers.share(level.size);
+  for (int k = 0; k < 6; ++k)
+    for (int r = mine.first; r < mine.last; ++r)
+      std::copy_n(level.stencil.centre.entry[k].row(r), level.size, level.joined.entry[k].row(r));
+  workers.barrier();
+  auto& e = level.joined.entry;
+  level.seams.sum(workers, {&e[0], &e[1], &e[2], &e[3], &e[4], &e[5]});
+  workers.barrier();
+}
+
+void BlockMultigrid::factor(std::size_t index, const Workers& workers) {
+  BlockLevel& level = levels_[index];
+  const int blocks = level.rows.blocks();
+  const Range mine = workers.share(2 * blocks);
+  for (int b = mine.first; b < mine.last; ++b) {
+    const bool along_rows = b < blocks;
+    LineFactor& lines = along_rows ? level.rows : level.cols;
+    const int block = along_rows ? b : b - blocks;
+    const PlaneView extra{level.extra.row(0), level.extra.stride()};
+    if (index == 0) {
+      SpringLineMatrix matrix{{}, extra, {}};
+      view_blocks(level.diagonal(), matrix.diagonal);
+      const auto views = springs_->views(along_rows ? 0 : 1);
+      std::copy(views.begin(), views.end(), matrix.coupling);
+      lines.factor(block, matrix, *kernels_);
+    } else {
+      LineMatrix matrix{{}, extra, {}};
+      view_blocks(level.diagonal(), matrix.diagonal);
+      view_blocks(along_rows ? level.stencil.right : level.stencil.below, matrix.coupling);
+      lines.factor(block, matrix, *kernels_);
+    }
+  }
+}
+
+void BlockMultigrid::set_up(const SpringHessian& springs, Worker& worker) {
+  const Workers all(worker, false);
+  if (worker.rank() == 0) springs_ = &springs;
+  worker.barrier();
+  join_centres(levels_.front(), all);
+  for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
+    if (i == 0)
+      galerkin_.coarsen(springs, levels_[0], mask_, levels_[1], all, *kernels_);
+    else
+      galerkin_.coarsen(levels_[i], levels_[i + 1], all, *kernels_);
+    worker.barrier();
+    join_centres(levels_[i + 1], all);
+  }
+  for (std::size_t i = 0; i < levels_.size(); ++i) factor(i, all);
+  if (worker.rank() == 0 && levels_.size() > 1) coarsest_.factor(levels_.back());
+  worker.barrier();
+}
+
+}  // namespace weft

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <vector>
+
+#include "weft/cloth/integrate/contact_loads.h"
+#include "weft/cloth/newton/block_level.h"
+#include "weft/cloth/newton/coarsest_solver.h"
+#include "weft/cloth/newton/curved_bending.h"
+#include "weft/cloth/newton/galerkin.h"
+#include "weft/cloth/newton/spring_hessian.h"
+#include "weft/cloth/newton/workers.h"
+#include "weft/core/ordered_sum.h"
+
+namespace weft {
+
+/// A V-cycle that preconditions the step's linear system A = M / h^2 + springs + bending +
+/// contacts. Cloth is stiff along its threads and soft across them, so points relaxed one by one
+/// converge slowly; lines along rows and along columns, solved exactly in turns, do not care how
+/// stiff the threads are [trottenberg01, section 5.1]. Coarse levels are Galerkin products of 3 x 3
+/// blocks. The cycle is symmetric: rows, columns, coarse correction, columns, rows.
+class BlockMultigrid {
+ public:
+  /// @param cloth  kept by reference  @param workers  of the team that will call
+  BlockMultigrid(const Cloth& cloth, int workers, const NewtonKernels& kernels);
+
+  // To be called by every worker; each ends with a barrier.
+
+  /// Takes over linearised springs, whose centres stand in centres() already.
+  void set_up(const SpringHessian& springs, Worker& worker);
+  /// value() = about A^-1 rhs().
+  void cycle(Worker& worker);
+  /// out = A x on the finest level, seam copies equal, 0 where pinned.
+  /// What only the exact operator has, not the cycle; null: none.
+  struct ExactParts {
+    const ContactLoads* contacts = nullptr;  ///< whose loads are their part of the product
+    CurvedBending* curved = nullptr;         ///< instead of flat bending
+  };
+  void apply(const PaddedVectors& x, const ExactParts& parts, PaddedVectors& out, Worker& worker);
+  /// Adds loads of contacts, summed over seam copies, to a field, 0 where pinned.
+  void add_loads(const ContactLoads& contacts, float factor, PaddedVectors& field, Worker& worker);
+  /// Sums the centres over seam copies: what diagonal() of the finest level gives.
+  void join_centres(Worker& worker) { join_centres(levels_.front(), Workers(worker, false)); }
+
+  /// Adds the gradient of flat bending at positions to a gradient's own part.
+  void add_bending_gradient(const PaddedVectors& position, PaddedVectors& gradient, Worker& worker);
+  /// Of flat bending at positions, all workers get it [J].
+  double bending_energy(const PaddedVectors& position, RowSums& sums, const PaddedPlane& share,
+                        Worker& worker);
+  void clear_pins(PaddedVectors& field, Worker& worker) const {
+    clear_pins(field, Workers(worker, false));
+    worker.barrier();
+  }
+  /// Sums own parts over seam copies and clears pins.
+  void complete(PaddedVectors& field, Worker& worker) const {
+    complete(0, field, Workers(worker, false));
+  }
+
+  /// To be called when particles have been pinned or let go.
+  void renew_pins();
+
+  /// Of the finest level, own parts: to be filled before set_up.
+  [[nodiscard]] PaddedBlocks& centres() { return levels_.front().stencil.centre; }
+  /// Whether rows of these blocks are added to the springs in the cycle's products, by row; the
+  /// centres hold them already.
+  struct ContactRows {
+    const PaddedBlocks* blocks = nullptr;
+    const char* touched = nullptr;  ///< [n]
+  };
+  void set_contacts(ContactRows contacts) { contacts_ = contacts; }
+  /// [n x n] seam copies equal [N]
+  [[nodiscard]] PaddedVectors& rhs() { return levels_.front().rhs; }
+  [[nodiscard]] const PaddedVectors& value() const { return levels_.front().value; }
+  [[nodiscard]] const BlockLevel& finest() const { return levels_.front(); }
+  [[nodiscard]] const Seams& seams() const { return levels_.front().seams; }
+  [[nodiscard]] const PaddedPlane& mask() const { return mask_; }
+
+ private:
+  enum class Direction { rows, cols };
+  void bend(BlockLevel& level, const PaddedVectors& x, const Workers& workers);
+  void add_contact_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
+  void add_bending_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
+  void apply_row(std::size_t index, const PaddedVectors& x, int row, PaddedVectors& out) const;
+  /// Sums over seam copies and clears pins.
+  void complete(std::size_t index, PaddedVectors& out, const Workers& workers) const;
+  void residual(std::size_t index, const Workers& workers);
+  void smooth(std::size_t index, Direction direction, bool from_zero, const Workers& workers);
+  void smooth_seamed(BlockLevel& level, const LineFactor& lines, bool from_zero,
+                     const Workers& workers);
+  void solve_lines(const LineFactor& lines, const PaddedVectors& rhs, LineFactor::Solve how,
+                   PaddedVectors& out, const Workers& workers);
+  void restrict_residual(BlockLevel& fine, BlockLevel& coarse, const Workers& workers);
+  void prolong(const BlockLevel& coarse, std::size_t fine_index, const Workers& workers);
+  void cycle(std::size_t index, const Workers& workers);
+  void cycle_coarsest(std::size_t index, const Workers& workers);
+  void factor(std::size_t index, const Workers& workers);
+  void join_centres(BlockLevel& level, const Workers& workers);
+  void clear_pins(PaddedVectors& field, const Workers& workers) const;
+  void add_border_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
+  [[nodiscard]] std::span<float> scratch(const Workers& workers);
+
+  const Cloth& cloth_;
+  const NewtonKernels* kernels_;
+  const SpringHessian* springs_ = nullptr;
+  std::vector<BlockLevel> levels_;
+  CoarsestSolver coarsest_;
+  Galerkin galerkin_;
+  PaddedPlane mask_;         // 1 where the particle moves
+  PaddedPlane free_extra_;   // the finest level's addition to diagonals without pins
+  std::vector<int> pinned_;  // samples, all copies
+  std::vector<std::vector<float>> scratch_;
+  ContactRows contacts_;
+};
+
+}  // namespace weft

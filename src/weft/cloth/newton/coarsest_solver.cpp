@@ -1,0 +1,103 @@
+#include "weft/cloth/newton/coarsest_solver.h"
+
+#include <algorithm>
+#include <array>
+
+#include "weft/cloth/bending.h"
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+namespace {
+
+constexpr std::array<std::array<int, 3>, 3> entry_of{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
+/// Pivots below this part of their entry belong to nothing that moves.
+constexpr double least_pivot = 1e-10;
+
+}  // namespace
+
+CoarsestSolver::CoarsestSolver(const BlockLevel& level) {
+  const int n = level.size, samples = n * n;
+  node_.resize(samples, -1);
+  for (int i = 0; i < level.seams.class_count(); ++i)
+    for (const int s : level.seams.samples(i)) node_[s] = level.seams.samples(i).front();
+  int nodes = 0;
+  for (int s = 0; s < samples; ++s)
+    node_[s] = node_[s] < 0 || node_[s] == s ? nodes++ : node_[node_[s]];
+  unknowns_ = 3 * nodes;
+  matrix_.resize(static_cast<std::size_t>(unknowns_) * unknowns_);
+  value_.resize(unknowns_);
+  std::vector<double> curve(static_cast<std::size_t>(nodes) * nodes);  // M
+  for (int s = 0; s < samples; ++s)
+    for (int k = 0; k < level.bending.neighbours(); ++k) {
+      const int r = s / n + bending_offsets[k].down, c = s % n + bending_offsets[k].right;
+      if (r < 0 || r >= n || c < 0 || c >= n) continue;
+      const double w = level.bending.weight(k, s / n, s % n);
+      curve[node_[s] * nodes + node_[r * n + c]] += w;
+      curve[node_[s] * nodes + node_[s]] -= w;
+    }
+  bending_.resize(curve.size());
+  for (int i = 0; i < nodes; ++i)
+    for (int j = 0; j < nodes; ++j)
+      for (int k = 0; k < nodes; ++k)
+        bending_[i * nodes + j] += curve[k * nodes + i] * curve[k * nodes + j];
+}
+
+void CoarsestSolver::add_block(int from, int to, const PaddedBlocks& blocks, int row, int col) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      at(3 * from + i, 3 * to + j) += double{blocks.entry[entry_of[i][j]](row, col)};
+}
+
+void CoarsestSolver::factor(const BlockLevel& level) noexcept {
+  const int n = level.size, nodes = unknowns_ / 3;
+  std::fill(matrix_.begin(), matrix_.end(), 0.0);
+  for (int i = 0; i < nodes; ++i)
+    for (int j = 0; j < nodes; ++j)
+      for (int k = 0; k < 3; ++k) at(3 * i + k, 3 * j + k) = bending_[i * nodes + j];
+  const std::array<const PaddedBlocks*, 4> after{&level.stencil.right, &level.stencil.below,
+                                                 &level.stencil.below_right,
+                                                 &level.stencil.below_left};
+  for (int s = 0; s < n * n; ++s) {
+    const int r = s / n, c = s % n;
+    add_block(node_[s], node_[s], level.stencil.centre, r, c);
+    for (int d = 0; d < 4; ++d) {
+      const auto [down, right] = spring_offsets[d];
+      if (r + down >= n || c + right >= n || c + right < 0) continue;
+      const int other = node_[(r + down) * n + c + right];
+      add_block(node_[s], other, *after[d], r, c);
+      add_block(other, node_[s], *after[d], r, c);
+    }
+  }
+  for (int j = 0; j < unknowns_; ++j) {
+    const double before = at(j, j);
+    double pivot = before;
+    for (int k = 0; k < j; ++k) pivot -= at(j, k) * at(j, k) * at(k, k);
+    // D is kept on the diagonal until all is done.
+    const bool moves = pivot > least_pivot * before && pivot > 0;
+    for (int i = j + 1; i < unknowns_; ++i) {
+      double sum = at(i, j);
+      for (int k = 0; k < j; ++k) sum -= at(i, k) * at(j, k) * at(k, k);
+      at(i, j) = moves ? sum / pivot : 0;
+    }
+    at(j, j) = moves ? pivot : 0;
+  }
+}
+
+void CoarsestSolver::solve(BlockLevel& level) noexcept {
+  const int n = level.size;
+  const std::array<const PaddedPlane*, 3> rhs{&level.rhs.x, &level.rhs.y, &level.rhs.z};
+  for (int s = 0; s < n * n; ++s)
+    for (int k = 0; k < 3; ++k) value_[3 * node_[s] + k] = (*rhs[k])(s / n, s % n);
+  for (int i = 0; i < unknowns_; ++i)
+    for (int k = 0; k < i; ++k) value_[i] -= at(i, k) * value_[k];
+  for (int i = unknowns_ - 1; i >= 0; --i) {
+    value_[i] = at(i, i) > 0 ? value_[i] / at(i, i) : 0;
+    for (int k = i + 1; k < unknowns_; ++k) value_[i] -= at(k, i) * value_[k];
+  }
+  const std::array<PaddedPlane*, 3> value{&level.value.x, &level.value.y, &level.value.z};
+  for (int s = 0; s < n * n; ++s)
+    for (int k = 0; k < 3; ++k)
+      (*value[k])(s / n, s % n) = static_cast<float>(value_[3 * node_[s] + k]);
+}
+
+}  // namespace weft

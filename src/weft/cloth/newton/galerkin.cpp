@@ -1,0 +1,119 @@
+#include "weft/cloth/newton/galerkin.h"
+
+#include <algorithm>
+
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+namespace {
+
+constexpr int frame = 16;
+constexpr int blocks_a_row = 5, entries = 6;
+
+BlockRow6 row_of(const PaddedBlocks& blocks, int r) {
+  BlockRow6 row{};
+  for (int k = 0; k < entries; ++k) row.entry[k] = blocks.entry[k].row(r);
+  return row;
+}
+MutableBlockRow6 row_of(PaddedBlocks& blocks, int r) {
+  MutableBlockRow6 row{};
+  for (int k = 0; k < entries; ++k) row.entry[k] = blocks.entry[k].row(r);
+  return row;
+}
+StencilBlocks rows_of(const BlockStencil& stencil, int r) {
+  return {row_of(stencil.centre, r), row_of(stencil.right, r), row_of(stencil.below_left, r),
+          row_of(stencil.below, r), row_of(stencil.below_right, r)};
+}
+MutableStencilBlocks rows_of(BlockStencil& stencil, int r) {
+  return {row_of(stencil.centre, r), row_of(stencil.right, r), row_of(stencil.below_left, r),
+          row_of(stencil.below, r), row_of(stencil.below_right, r)};
+}
+
+}  // namespace
+
+Galerkin::Rows::Rows(int cols)
+    : values(static_cast<std::size_t>(cols + 2 * frame) * blocks_a_row * entries),
+      stride(cols + 2 * frame) {}
+
+StencilBlocks Galerkin::Rows::read() const {
+  StencilBlocks rows{};
+  BlockRow6* const all[] = {&rows.centre, &rows.right, &rows.below_left, &rows.below,
+                            &rows.below_right};
+  for (int b = 0; b < blocks_a_row; ++b)
+    for (int k = 0; k < entries; ++k)
+      all[b]->entry[k] = values.data() + (b * entries + k) * stride + frame;
+  return rows;
+}
+
+MutableStencilBlocks Galerkin::Rows::write() {
+  MutableStencilBlocks rows{};
+  MutableBlockRow6* const all[] = {&rows.centre, &rows.right, &rows.below_left, &rows.below,
+                                   &rows.below_right};
+  for (int b = 0; b < blocks_a_row; ++b)
+    for (int k = 0; k < entries; ++k)
+      all[b]->entry[k] = values.data() + (b * entries + k) * stride + frame;
+  return rows;
+}
+
+Galerkin::Galerkin(int size, int workers) : scratch_(workers) {
+  for (Scratch& own : scratch_) {
+    own.fine = Rows(size);
+    for (Rows& half : own.half) half = Rows(size / 2 + 1);
+  }
+}
+
+template <class FineRow>
+void Galerkin::coarsen_rows(int fine_size, BlockLevel& coarse, const Workers& workers,
+                            const NewtonKernels& kernels, const FineRow& fine_row) {
+  Scratch& own = scratch_[workers.alone() ? 0 : workers.rank()];
+  const int m = coarse.size;
+  // The half-coarsened rows 2 q - 1, 2 q, 2 q + 1 stand in turns.
+  const auto slot = [](int fine) { return (fine + 3) % 3; };
+  const auto make = [&](int fine) {
+    Rows& half = own.half[slot(fine)];
+    if (fine < 0 || fine >= fine_size)
+      std::fill(half.values.begin(), half.values.end(), 0.0F);
+    else
+      kernels.coarsen_columns(m, fine_row(fine, own.fine), half.write());
+  };
+  const Range mine = workers.share(m);
+  for (int q = mine.first; q < mine.last; ++q) {
+    if (q == mine.first) make(2 * q - 1);
+    make(2 * q);
+    make(2 * q + 1);
+    const StencilBlocks half[3] = {own.half[slot(2 * q - 1)].read(), own.half[slot(2 * q)].read(),
+                                   own.half[slot(2 * q + 1)].read()};
+    kernels.coarsen_rows(m, half, rows_of(coarse.stencil, q));
+  }
+}
+
+void Galerkin::coarsen(const SpringHessian& springs, const BlockLevel& fine,
+                       const PaddedPlane& mask, BlockLevel& coarse, const Workers& workers,
+                       const NewtonKernels& kernels) {
+  const int n = fine.size;
+  const auto fine_row = [&](int r, Rows& scratch) {
+    const MutableStencilBlocks rows = scratch.write();
+    const MutableBlockRow6* const after[] = {&rows.right, &rows.below, &rows.below_right,
+                                             &rows.below_left};
+    const float* here = mask.row(r);
+    for (int d = 0; d < 4; ++d) {
+      const auto [down, right] = spring_offsets[d];
+      kernels.spring_blocks(n, springs.springs_row(d, r), here, mask.row(r + down) + right,
+                            *after[d]);
+    }
+    for (int k = 0; k < entries; ++k) {
+      const float* centre = fine.stencil.centre.entry[k].row(r);
+      for (int c = 0; c < n; ++c) rows.centre.entry[k][c] = here[c] * centre[c];
+    }
+    return scratch.read();
+  };
+  coarsen_rows(n, coarse, workers, kernels, fine_row);
+}
+
+void Galerkin::coarsen(const BlockLevel& fine, BlockLevel& coarse, const Workers& workers,
+                       const NewtonKernels& kernels) {
+  const auto fine_row = [&](int r, Rows&) { return rows_of(fine.stencil, r); };
+  coarsen_rows(fine.size, coarse, workers, kernels, fine_row);
+}
+
+}  // namespace weft

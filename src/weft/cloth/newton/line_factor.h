@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <span>
+
+#include "weft/cloth/kernels/newton_kernels.h"
+#include "weft/cloth/newton/padded_planes.h"
+
+namespace weft {
+
+/// The lines of an n x n grid in one direction, in blocks that are solved side by side.
+class LineFactor {
+ public:
+  LineFactor(int size, bool along_rows);
+
+  [[nodiscard]] int blocks() const { return (size_ + line_lanes - 1) / line_lanes; }
+  /// Factors a block of lines of springs, or of blocks.
+  void factor(int block, const SpringLineMatrix& matrix, const NewtonKernels& kernels);
+  void factor(int block, const LineMatrix& matrix, const NewtonKernels& kernels);
+  /// out = (add ? out : 0) + scale * solution of a block of lines.
+  struct Solve {
+    float scale = 1;
+    bool add = false;
+  };
+  void solve(int block, const PaddedVectors& rhs, Solve how, std::span<float> scratch,
+             PaddedVectors& out, const NewtonKernels& kernels) const;
+  /// Floats of scratch that solve wants.
+  [[nodiscard]] static std::size_t scratch_size(int size) {
+    return static_cast<std::size_t>(size) * 3 * line_lanes;
+  }
+
+ private:
+  [[nodiscard]] LineBlock at(int block) const;
+  [[nodiscard]] float* factor_of(int block) const;
+  struct Free {
+    void operator()(float* p) const { ::operator delete (p, std::align_val_t{64}); }
+  };
+
+  int size_;
+  bool along_rows_;
+  std::unique_ptr<float[], Free> factors_;
+};
+
+}  // namespace weft

@@ -1,0 +1,459 @@
+#include "weft/cloth/newton/newton_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "weft/cloth/integrate/proposal.h"
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+namespace {
+
+void copy_row(ConstRow3 from, Row3 to, int n) {
+  std::copy_n(from.x, n, to.x);
+  std::copy_n(from.y, n, to.y);
+  std::copy_n(from.z, n, to.z);
+}
+
+void clear_row(Row3 row, int n) {
+  std::fill_n(row.x, n, 0.0F);
+  std::fill_n(row.y, n, 0.0F);
+  std::fill_n(row.z, n, 0.0F);
+}
+
+/// Energy that a step gains, over its kinetic energy: less is taken out of velocities, more asks
+/// for another linearisation.
+constexpr double harmless_gain = 0.02;
+/// How often a run linearises, and how often it halves a step that leads up.
+constexpr int most_linearisations = 4, most_halvings = 5;
+/// How often a run finds out which contacts press.
+constexpr int most_contact_rounds = 2;
+
+bool same_row(ConstRow3 a, ConstRow3 b, int n) {
+  return std::equal(a.x, a.x + n, b.x) && std::equal(a.y, a.y + n, b.y) &&
+         std::equal(a.z, a.z + n, b.z);
+}
+
+/// a + factor b
+void add_row(int n, ConstRow3 a, float factor, ConstRow3 b, Row3 out) {
+  for (int c = 0; c < n; ++c) {
+    out.x[c] = a.x[c] + factor * b.x[c];
+    out.y[c] = a.y[c] + factor * b.y[c];
+    out.z[c] = a.z[c] + factor * b.z[c];
+  }
+}
+
+}  // namespace
+
+NewtonSolver::NewtonSolver(const Cloth& cloth, ThreadTeam& team)
+    : cloth_(cloth),
+      team_(team),
+      kernels_(newton_kernels_for(team.instructions())),
+      springs_(cloth, kernels_),
+      multigrid_(cloth, team.size(), kernels_),
+      curved_(cloth, team.instructions()),
+      contacts_(cloth),
+      start_(rest_state(cloth)),
+      next_(rest_state(cloth)),
+      state_(cloth.size),
+      plain_(curved_.active() ? Planes3(cloth.size) : Planes3()),
+      wanted_(cloth.size, cloth.size),
+      step_(cloth.size, cloth.size),
+      direction_(cloth.size, cloth.size),
+      product_(cloth.size, cloth.size),
+      residual_(cloth.size, cloth.size),
+      share_(cloth.size, cloth.size),
+      own_mass_(cloth.size, cloth.size),
+      contact_blocks_(cloth.size, cloth.size),
+      contact_rows_(static_cast<std::size_t>(cloth.size)),
+      sums_(cloth.size),
+      known_rows_(static_cast<std::size_t>(cloth.size)),
+      largest_(static_cast<std::size_t>(cloth.size)) {
+  for (int r = 0; r < cloth.size; ++r) std::fill_n(share_.row(r), cloth.size, 1.0F);
+  team_.run([&](Worker& worker) {
+    if (worker.rank() == 0) multigrid_.seams().share(Workers(worker, true), {&share_});
+  });
+  for (int r = 0; r < cloth.size; ++r)
+    for (int c = 0; c < cloth.size; ++c) own_mass_(r, c) = share_(r, c) * cloth.mass(r, c);
+}
+
+void NewtonSolver::begin(const StepInput& input, const ClothState& state) {
+  input_ = input;
+  iterations_ = 0;
+  correction_ = 0;
+  const bool same_gravity = input.gravity == known_gravity_;
+  known_gravity_ = input.gravity;
+  springs_.set_time_step(input.time_step);
+  multigrid_.renew_pins();
+  const auto h = static_cast<float>(input.time_step);
+  team_.run([&](Worker& worker) {
+    copy_rows(state, start_, worker);
+    const Range mine = worker.share(cloth_.size);
+    for (int r = mine.first; r < mine.last; ++r) {
+      const ConstRow3 x = row_of(state.position, r), v = row_of(state.velocity, r);
+      known_rows_[r] = same_row(x, std::as_const(state_.position).row(r), cloth_.size) ? 1 : 0;
+      add_row(cloth_.size, x, h, v, row_of(next_.position, r));
+      copy_row(v, row_of(next_.velocity, r), cloth_.size);
+      for (int c = 0; c < cloth_.size; ++c) {
+        wanted_.x(r, c) = v.x[c] + h * input.gravity.x;
+        wanted_.y(r, c) = v.y[c] + h * input.gravity.y;
+        wanted_.z(r, c) = v.z[c] + h * input.gravity.z;
+      }
+    }
+  });
+  // What a run left is often where the next begins: its energy is known.
+  const bool known =
+      same_gravity && std::find(known_rows_.begin(), known_rows_.end(), 0) == known_rows_.end();
+  start_potential_ = known ? potential_ : HUGE_VAL;
+  set_pins(cloth_, start_, input.time_step, next_);
+  driven_ = std::any_of(cloth_.pins.begin(), cloth_.pins.end(), [&](const Pin& held) {
+    return vec_cast<float>(held.target) != start_.position.at(held.sample);
+  });
+  mass_ = 0;
+  for (int r = 0; r < cloth_.size; ++r)
+    for (int c = 0; c < cloth_.size; ++c)
+      if (cloth_.inverse_mass(r, c) > 0) mass_ += double{own_mass_(r, c)};
+  if (!(mass_ > 0)) mass_ = 1;  // all is pinned
+}
+
+void NewtonSolver::read_state(Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    copy_row(row_of(std::as_const(next_.position), r), state_.position.row(r), cloth_.size);
+    copy_row(row_of(std::as_const(next_.velocity), r), state_.velocity.row(r), cloth_.size);
+    copy_row(row_of(std::as_const(start_.position), r), state_.start.row(r), cloth_.size);
+  }
+  worker.barrier();
+}
+
+void NewtonSolver::linearise(Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) springs_.linearise_row(state_, r);
+  worker.barrier();
+  for (int r = mine.first; r < mine.last; ++r) springs_.gradient_row(state_, wanted_, r, residual_);
+  if (curved_.active()) {
+    take_plain(state_.position, worker);
+    curved_.set_position(plain_, worker);
+    for (int r = mine.first; r < mine.last; ++r) curved_.add_row(r, residual_);
+  } else {
+    multigrid_.add_bending_gradient(state_.position, residual_, worker);
+  }
+  for (int r = mine.first; r < mine.last; ++r)
+    kernels_.scale_rows(cloth_.size, -1, residual_.row(r));
+  multigrid_.complete(residual_, worker);
+}
+
+/// With the contacts that press.
+void NewtonSolver::set_up_multigrid(Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  const ContactLoads& loads = contacts_.loads();
+  for (int r = mine.first; r < mine.last; ++r) {
+    springs_.diagonal_row(r, multigrid_.centres());
+    const bool touched = contacts_.active() > 0 && loads.row(r);
+    contact_rows_[r] = touched ? 1 : 0;
+    if (!touched) continue;
+    std::array<float*, 6> blocks{};
+    for (int k = 0; k < 6; ++k) {
+      blocks[k] = contact_blocks_.entry[k].row(r);
+      std::fill_n(blocks[k], cloth_.size, 0.0F);
+    }
+    loads.add_blocks(r, blocks);
+    for (int k = 0; k < 6; ++k)
+      for (int c = 0; c < cloth_.size; ++c) multigrid_.centres().entry[k](r, c) += blocks[k][c];
+  }
+  worker.barrier();
+  multigrid_.set_up(springs_, worker);
+}
+
+void NewtonSolver::add_contact_forces(float sign, Worker& worker) {
+  if (contacts_.active() == 0) return;
+  contacts_.load_forces(step_, worker);
+  multigrid_.add_loads(contacts_.loads(), sign, residual_, worker);
+}
+
+/// @return whether contacts are taken otherwise than before
+bool NewtonSolver::choose_contacts(Worker& worker) {
+  if (contacts_.empty()) return false;
+  add_contact_forces(-1, worker);
+  const bool changed = contacts_.choose(step_, worker);
+  add_contact_forces(1, worker);
+  return changed;
+}
+
+double NewtonSolver::dot(const PaddedVectors& a, const PaddedVectors& b, Worker& worker) {
+  const bool seamed = !multigrid_.seams().empty();
+  return sums_.sum(worker, [&](int r) {
+    return kernels_.dot(cloth_.size, seamed ? share_.row(r) : nullptr, a.row(r), b.row(r));
+  });
+}
+
+/// Inner forces sum to nothing: what nothing holds moves as a whole as if it were one particle. So
+/// free fall is exact, and few iterations lose no momentum.
+void NewtonSolver::remove_drift(Worker& worker) {
+  if (!cloth_.pins.empty() || contacts_.active() > 0) return;
+  const Range mine = worker.share(cloth_.size);
+  const auto h = static_cast<float>(input_.time_step);
+  double sum[3];
+  const PaddedPlane* const residual[3] = {&residual_.x, &residual_.y, &residual_.z};
+  for (int k = 0; k < 3; ++k)
+    sum[k] = sums_.sum(worker, [&](int r) {
+      const float *f = residual[k]->row(r), *share = share_.row(r);
+      return lane_sum(cloth_.size, [&](int c) { return double{share[c]} * double{f[c]}; });
+    });
+  const double per_force = double{h} * double{h} / mass_;
+  const float way[3] = {static_cast<float>(sum[0] * per_force),
+                        static_cast<float>(sum[1] * per_force),
+                        static_cast<float>(sum[2] * per_force)};
+  PaddedPlane* const step[3] = {&step_.x, &step_.y, &step_.z};
+  PaddedPlane* const left[3] = {&residual_.x, &residual_.y, &residual_.z};
+  const float per_square = 1 / (h * h);
+  for (int r = mine.first; r < mine.last; ++r)
+    for (int k = 0; k < 3; ++k)
+      for (int c = 0; c < cloth_.size; ++c) {
+        (*step[k])(r, c) += way[k];
+        (*left[k])(r, c) -= per_square * cloth_.mass(r, c) * way[k];
+      }
+  worker.barrier();
+}
+
+void NewtonSolver::iterate(Progress& progress, Worker& worker) {
+  const int n = cloth_.size;
+  const Range mine = worker.share(n);
+  for (int r = mine.first; r < mine.last; ++r)
+    copy_row(std::as_const(residual_).row(r), multigrid_.rhs().row(r), n);
+  worker.barrier();
+  multigrid_.cycle(worker);
+  const double slope = dot(residual_, multigrid_.value(), worker);
+  const auto beta = static_cast<float>(progress.slope > 0 ? slope / progress.slope : 0);
+  progress.slope = slope;
+  for (int r = mine.first; r < mine.last; ++r) {
+    kernels_.scale_add(n, multigrid_.value().row(r), beta, direction_.row(r));
+    largest_[r] = kernels_.largest(n, std::as_const(direction_).row(r));
+  }
+  worker.barrier();
+  const bool touching = contacts_.active() > 0;
+  if (touching) contacts_.load_product(direction_, worker);
+  multigrid_.apply(direction_,
+                   {touching ? &contacts_.loads() : nullptr, curved_.active() ? &curved_ : nullptr},
+                   product_, worker);
+  const double curvature = dot(direction_, product_, worker);
+  const double length = curvature > 0 && slope > 0 ? slope / curvature : 0;
+  for (int r = mine.first; r < mine.last; ++r) {
+    kernels_.add_scaled(n, static_cast<float>(length), std::as_const(direction_).row(r),
+                        step_.row(r));
+    kernels_.add_scaled(n, static_cast<float>(-length), std::as_const(product_).row(r),
+                        residual_.row(r));
+  }
+  worker.barrier();
+  progress.correction =
+      length * std::sqrt(double{*std::max_element(largest_.begin(), largest_.end())});
+  if (worker.rank() == 0) last_length_ = length;
+  // What this iteration took off the energy, as a force on every particle over its weight.
+  progress.force = std::sqrt(length * slope / mass_) / (input_.time_step * 9.81);
+  ++progress.iterations;
+}
+
+void NewtonSolver::solve(const NewtonOptions& options, Progress& progress, Worker& worker) {
+  progress.slope = 0;
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) clear_row(direction_.row(r), cloth_.size);
+  worker.barrier();
+  for (int i = 0; i < options.max_iterations; ++i) {
+    iterate(progress, worker);
+    if (progress.force < options.tolerance) break;
+  }
+}
+
+void NewtonSolver::move_state(float length, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  const auto per_step = static_cast<float>(1 / input_.time_step);
+  for (int r = mine.first; r < mine.last; ++r) {
+    kernels_.add_scaled(cloth_.size, length, std::as_const(step_).row(r), state_.position.row(r));
+    kernels_.add_scaled(cloth_.size, length * per_step, std::as_const(step_).row(r),
+                        state_.velocity.row(r));
+  }
+  worker.barrier();
+}
+
+void NewtonSolver::write_state(Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    copy_row(std::as_const(state_.position).row(r), row_of(next_.position, r), cloth_.size);
+    copy_row(std::as_const(state_.velocity).row(r), row_of(next_.velocity, r), cloth_.size);
+  }
+  worker.barrier();
+}
+
+void NewtonSolver::take_plain(const PaddedVectors& position, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    copy_row(position.row(r), row_of(plain_, r), cloth_.size);
+  worker.barrier();
+}
+
+double NewtonSolver::bending_energy(const PaddedVectors& position, Worker& worker) {
+  if (!curved_.active()) return multigrid_.bending_energy(position, sums_, share_, worker);
+  take_plain(position, worker);
+  curved_.set_position(plain_, worker);
+  return sums_.sum(worker, [&](int r) { return r == 0 ? curved_.energy() : 0.0; });
+}
+
+double NewtonSolver::energy(float length, Worker& worker) {
+  const double inner = sums_.sum(worker, [&](int r) {
+    const float* mass = own_mass_.row(r);
+    const ConstRow3 v = std::as_const(state_.velocity).row(r), w = std::as_const(wanted_).row(r);
+    return springs_.damped_energy_row(state_, r) + lane_sum(cloth_.size, [&](int c) {
+             const double x = v.x[c] - w.x[c], y = v.y[c] - w.y[c], z = v.z[c] - w.z[c];
+             return 0.5 * mass[c] * (x * x + y * y + z * z);
+           });
+  });
+  const double contacts = contacts_.empty() ? 0 : contacts_.energy(step_, length, worker);
+  return inner + bending_energy(state_.position, worker) + contacts;
+}
+
+/// Halves the last step until it lowers the energy.
+void NewtonSolver::shorten_step(Worker& worker) {
+  double after = energy(1, worker);
+  move_state(-1, worker);
+  const double before = energy(0, worker);
+  float length = 1;
+  move_state(length, worker);
+  for (int i = 0; after > before && i < most_halvings; ++i) {
+    length *= 0.5F;
+    move_state(-length, worker);
+    after = energy(length, worker);
+  }
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    kernels_.scale_rows(cloth_.size, length, step_.row(r));
+  worker.barrier();
+}
+
+/// Solves once, linearised at state_, which it moves on.
+void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) clear_row(step_.row(r), cloth_.size);
+  linearise(worker);
+  if (!contacts_.empty()) {
+    for (int r = mine.first; r < mine.last; ++r) springs_.diagonal_row(r, multigrid_.centres());
+    worker.barrier();
+    multigrid_.join_centres(worker);
+    contacts_.place(state_.velocity, multigrid_.finest().diagonal(), worker);
+  }
+  choose_contacts(worker);
+  remove_drift(worker);
+  for (int round = 0; round < most_contact_rounds; ++round) {
+    set_up_multigrid(worker);
+    solve(options, progress, worker);
+    if (contacts_.empty() || round + 1 == most_contact_rounds) break;
+    if (!choose_contacts(worker)) break;
+  }
+  multigrid_.clear_pins(step_, worker);
+  move_state(1, worker);
+}
+
+/// One linearisation does where cloth moves on as it did; where the state has gained energy it did
+/// not, as after an impact.
+void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Worker& worker) {
+  const double kinetic_before = kinetic(start_.velocity, worker);
+  const double known =
+      start_potential_ < HUGE_VAL ? start_potential_ : potential(state_.start, worker);
+  const double fall = input_.time_step * length(input_.gravity);
+  const double allowed = harmless_gain * (kinetic_before + 0.5 * mass_ * fall * fall);
+  double gain = 0, now = 0;
+  for (int i = 0; i < most_linearisations; ++i) {
+    advance(options, progress, worker);
+    now = potential(state_.position, worker);
+    gain = now + kinetic(state_.velocity, worker) - known - kinetic_before;
+    if (driven_ || gain <= allowed) break;
+    shorten_step(worker);
+  }
+  worker.barrier();
+  if (worker.rank() == 0) {
+    start_potential_ = known;
+    potential_ = now;
+  }
+  if (!driven_ && gain > 0) calm(gain, worker);
+}
+
+void NewtonSolver::run(std::span<const Contact> contacts, const NewtonOptions& options) {
+  contacts_.take(contacts, start_.position, input_);
+  for (const Contact& contact : contacts) driven_ = driven_ || contact.slide != Vec3f{};
+  multigrid_.set_contacts({&contact_blocks_, contact_rows_.data()});
+  team_.run([&](Worker& worker) {
+    read_state(worker);
+    Progress progress;
+    descend(options, progress, worker);
+    if (!contacts_.empty()) contacts_.measure(step_, worker);
+    write_state(worker);
+    if (worker.rank() != 0) return;
+    iterations_ += progress.iterations;
+    correction_ = progress.correction / cloth_.rest_spacing;
+  });
+}
+
+double NewtonSolver::potential(const PaddedVectors& position, Worker& worker) {
+  const Vec3f g = input_.gravity;
+  const double springs_and_gravity = sums_.sum(worker, [&](int r) {
+    const float* mass = own_mass_.row(r);
+    const ConstRow3 x = position.row(r);
+    return springs_.energy_row(position, r) - lane_sum(cloth_.size, [&](int c) {
+             return double{mass[c]} * (double{g.x} * double{x.x[c]} + double{g.y} * double{x.y[c]} +
+                                       double{g.z} * double{x.z[c]});
+           });
+  });
+  return springs_and_gravity + bending_energy(position, worker);
+}
+
+template <class Field>
+double NewtonSolver::kinetic(const Field& velocity, Worker& worker) {
+  return sums_.sum(worker, [&](int r) {
+    ConstRow3 v{};
+    if constexpr (std::is_same_v<Field, Planes3>)
+      v = row_of(velocity, r);
+    else
+      v = velocity.row(r);
+    return 0.5 * kernels_.dot(cloth_.size, own_mass_.row(r), v, v);
+  });
+}
+
+/// Takes an excess of energy out of what velocities differ from their mean by.
+void NewtonSolver::calm(double excess, Worker& worker) {
+  PaddedVectors& v = state_.velocity;
+  PaddedPlane* const planes[3] = {&v.x, &v.y, &v.z};
+  double mean[3], mean_energy = 0;
+  for (int k = 0; k < 3; ++k) {
+    mean[k] = sums_.sum(worker, [&](int r) {
+      const float *mass = own_mass_.row(r), *speed = planes[k]->row(r),
+                  *free = multigrid_.mask().row(r);
+      return lane_sum(cloth_.size,
+                      [&](int c) { return double{free[c]} * mass[c] * double{speed[c]}; });
+    });
+    mean[k] /= mass_;
+    mean_energy += 0.5 * mass_ * mean[k] * mean[k];
+  }
+  const double inner = kinetic(std::as_const(v), worker) - mean_energy;
+  const double left = inner > excess ? std::sqrt((inner - excess) / inner) : 0;
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    for (int k = 0; k < 3; ++k)
+      for (int c = 0; c < cloth_.size; ++c)
+        if (multigrid_.mask()(r, c) > 0) {
+          float& speed = (*planes[k])(r, c);
+          speed = static_cast<float>(mean[k] + left * (double{speed} - mean[k]));
+        }
+  worker.barrier();
+}
+
+void NewtonSolver::last_corrections(Grid<float>& sizes) const {
+  const auto scale = static_cast<float>(last_length_ / cloth_.rest_spacing);
+  for (int r = 0; r < cloth_.size; ++r)
+    for (int c = 0; c < cloth_.size; ++c)
+      sizes(r, c) =
+          scale * length(Vec3f{direction_.x(r, c), direction_.y(r, c), direction_.z(r, c)});
+}
+
+}  // namespace weft

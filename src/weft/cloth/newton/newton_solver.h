@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/newton/block_multigrid.h"
+#include "weft/cloth/newton/contact_system.h"
+#include "weft/cloth/newton/curved_bending.h"
+#include "weft/cloth/newton/spring_hessian.h"
+#include "weft/core/ordered_sum.h"
+
+namespace weft {
+
+/// One step of implicit Euler by Newton's method: the energy
+///   E(x) = |x - y|^2_M / (2 h^2) + springs(x) + bending(x) + contacts(x),  y = x0 + h v0 + h^2 g,
+/// is linearised at x0 + h v0, and again wherever run() is called, with the positive part of its
+/// Hessian; conjugate gradients preconditioned by BlockMultigrid find the step [nocedal06]. A state
+/// at rest stays at rest, whatever the number of iterations. Where nothing drives the cloth, a run
+/// adds no energy: it linearises again where it would add much, and takes what is left from the
+/// velocities, less their mean.
+class NewtonSolver {
+ public:
+  /// @param cloth  kept by reference, as is the team
+  NewtonSolver(const Cloth& cloth, ThreadTeam& team);
+
+  /// Starts a step: next() flies on at its velocity, pins are where they shall go.
+  void begin(const StepInput& input, const ClothState& state);
+  /// Linearises at next(), as the caller left it, and makes it the solution.
+  void run(std::span<const Contact> contacts, const NewtonOptions& options);
+  [[nodiscard]] ClothState& next() { return next_; }
+  /// Normal forces of the contacts of the last run, in their order, as far as friction has not
+  /// spent them [N].
+  [[nodiscard]] std::span<const float> contact_forces() const { return contacts_.forces(); }
+  /// Conjugate gradients' iterations since begin.
+  [[nodiscard]] int iterations() const { return iterations_; }
+  /// The largest correction of the last iteration over the rest spacing.
+  [[nodiscard]] double correction() const { return correction_; }
+  /// That of every sample. @param sizes [n x n]
+  void last_corrections(Grid<float>& sizes) const;
+
+ private:
+  /// What conjugate gradients carry from one iteration to the next; every worker has its own.
+  struct Progress {
+    double slope = 0;       ///< residual . preconditioned residual [N m]
+    double correction = 0;  ///< [m]
+    double force = 0;       ///< of the last correction, over particles' weight
+    int iterations = 0;
+  };
+  void read_state(Worker& worker);
+  void linearise(Worker& worker);
+  void set_up_multigrid(Worker& worker);
+  void add_contact_forces(float sign, Worker& worker);
+  void remove_drift(Worker& worker);
+  bool choose_contacts(Worker& worker);
+  void solve(const NewtonOptions& options, Progress& progress, Worker& worker);
+  void iterate(Progress& progress, Worker& worker);
+  void advance(const NewtonOptions& options, Progress& progress, Worker& worker);
+  void descend(const NewtonOptions& options, Progress& progress, Worker& worker);
+  void shorten_step(Worker& worker);
+  /// E of state_, to which a part of step_ has led [J].
+  double energy(float length, Worker& worker);
+  /// state_ += length * step_.
+  void move_state(float length, Worker& worker);
+  void write_state(Worker& worker);
+  void take_plain(const PaddedVectors& position, Worker& worker);
+  [[nodiscard]] double dot(const PaddedVectors& a, const PaddedVectors& b, Worker& worker);
+  /// Springs, bending and gravity [J].
+  double potential(const PaddedVectors& position, Worker& worker);
+  double bending_energy(const PaddedVectors& position, Worker& worker);
+  template <class Field>
+  double kinetic(const Field& velocity, Worker& worker);
+  void calm(double excess, Worker& worker);
+
+  const Cloth& cloth_;
+  ThreadTeam& team_;
+  const NewtonKernels& kernels_;
+  SpringHessian springs_;
+  BlockMultigrid multigrid_;
+  CurvedBending curved_;
+  ContactSystem contacts_;
+  StepInput input_;
+  ClothState start_, next_;
+  PaddedState state_;                         // next_, and the start, with frames
+  Planes3 plain_;                             // its positions, for curved bending
+  PaddedVectors wanted_;                      // v0 + h g [m/s]
+  PaddedVectors step_, direction_, product_;  // [m], [m], [N]
+  PaddedVectors residual_;                    // [N]
+  PaddedPlane share_;                         // 1 / number of copies
+  Grid<float> own_mass_;                      // share of the mass [kg]
+  PaddedBlocks contact_blocks_;               // where contacts press [N/m]
+  std::vector<char> contact_rows_;            // [n] whether any
+  RowSums sums_;
+  std::vector<char> known_rows_;  // [n] whether the last potential was of the start's positions
+  double potential_ = HUGE_VAL;   // of state_'s positions, as the last run left them [J]
+  double start_potential_ = HUGE_VAL;  // of the start's; infinite: not known yet [J]
+  Vec3f known_gravity_;                // that it was for
+  std::vector<float> largest_;         // [n] squared direction of each row [m^2]
+  double mass_ = 0;                    // of all that moves [kg]
+  double last_length_ = 0;             // of the last step along direction_
+  bool driven_ = false;                // by pins or obstacles that move
+  int iterations_ = 0;
+  double correction_ = 0;
+};
+
+}  // namespace weft

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <new>
+
+#include "weft/cloth/kernels/row_pointers.h"
+
+namespace weft {
+
+/// rows x cols floats inside a frame of zeros, so that stencils need no borders: two rows above and
+/// below, and at least 16 columns on either side. Rows begin on cache lines, and neighbouring rows
+/// never fall on the same cache sets. Only elements inside may be written.
+class PaddedPlane {
+ public:
+  PaddedPlane() = default;
+  PaddedPlane(int rows, int cols) : rows_(rows), cols_(cols), stride_(stride_for(cols)) {
+    const std::size_t count = static_cast<std::size_t>(stride_) * (rows + 2 * frame_rows);
+    data_.reset(static_cast<float*>(::operator new(count * sizeof(float), alignment)));
+    for (std::size_t i = 0; i < count; ++i) data_[i] = 0;
+  }
+
+  [[nodiscard]] int rows() const { return rows_; }
+  [[nodiscard]] int cols() const { return cols_; }
+  [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
+  /// @param r  from -2 to rows + 1
+  [[nodiscard]] float* row(int r) { return data_.get() + offset(r); }
+  [[nodiscard]] const float* row(int r) const { return data_.get() + offset(r); }
+  [[nodiscard]] float& operator()(int r, int c) { return row(r)[c]; }
+  [[nodiscard]] float operator()(int r, int c) const { return row(r)[c]; }
+
+ private:
+  static constexpr int frame_rows = 2, frame_cols = 16;
+  static constexpr std::align_val_t alignment{64};
+  struct Free {
+    void operator()(float* p) const { ::operator delete(p, alignment); }
+  };
+  static std::ptrdiff_t stride_for(int cols) {
+    const std::ptrdiff_t wide = (cols + 2 * frame_cols + 15) / 16 * 16;
+    return wide % 256 == 0 ? wide + 16 : wide;
+  }
+  [[nodiscard]] std::ptrdiff_t offset(int r) const {
+    return (r + frame_rows) * stride_ + frame_cols;
+  }
+
+  int rows_ = 0, cols_ = 0;
+  std::ptrdiff_t stride_ = 0;
+  std::unique_ptr<float[], Free> data_;
+};
+
+/// A vector a sample.
+struct PaddedVectors {
+  PaddedPlane x, y, z;
+
+  PaddedVectors() = default;
+  PaddedVectors(int rows, int cols) : x(rows, cols), y(rows, cols), z(rows, cols) {}
+  [[nodiscard]] int rows() const { return x.rows(); }
+  [[nodiscard]] Row3 row(int r) { return {x.row(r), y.row(r), z.row(r)}; }
+  [[nodiscard]] ConstRow3 row(int r) const { return {x.row(r), y.row(r), z.row(r)}; }
+};
+
+/// A symmetric 3 x 3 block a sample: xx, xy, xz, yy, yz, zz.
+struct PaddedBlocks {
+  std::array<PaddedPlane, 6> entry;
+
+  PaddedBlocks() = default;
+  PaddedBlocks(int rows, int cols) {
+    for (PaddedPlane& plane : entry) plane = PaddedPlane(rows, cols);
+  }
+};
+
+}  // namespace weft

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "weft/cloth/newton/padded_planes.h"
+#include "weft/cloth/newton/workers.h"
+#include "weft/image/border_mates.h"
+
+namespace weft {
+
+/// The classes of seam copies (mates) of a level: samples that are one particle. Each class is the
+/// work of one worker; callers place barriers before and after.
+class Seams {
+ public:
+  Seams() = default;
+  explicit Seams(const BorderMates& mates);
+  /// Of the next coarser level, whose node (r, c) stands at (2 r, 2 c) of this one, or at its last
+  /// row or column. Copies whose places fall between coarse nodes are joined to the nearer one: a
+  /// level that is only part of a preconditioner need not match exactly, but must not be cut open.
+  [[nodiscard]] Seams coarsened() const;
+
+  [[nodiscard]] bool empty() const { return starts_.size() <= 1; }
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] int class_count() const { return static_cast<int>(starts_.size()) - 1; }
+  /// Samples, row * n + col, ascending.
+  [[nodiscard]] std::span<const int> samples(int index) const {
+    return std::span(samples_).subspan(starts_[index], starts_[index + 1] - starts_[index]);
+  }
+
+  /// Every copy gets the sum over its class, added in ascending order of samples.
+  void sum(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
+  /// Every copy gets the mean.
+  void average(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
+  /// Every copy is multiplied by 1 / c, or 1 / sqrt c, c being the number of copies.
+  void share(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
+  void share_by_root(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
+
+ private:
+  void set_classes(std::vector<std::vector<int>> classes);
+
+  int size_ = 0;
+  std::vector<int> starts_{0}, samples_;
+  std::vector<float> inverse_count_, inverse_root_;  // of each class
+};
+
+}  // namespace weft

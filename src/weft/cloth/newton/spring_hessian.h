@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+
+#include "weft/cloth/cloth.h"
+#include "weft/cloth/kernels/newton_kernels.h"
+#include "weft/cloth/newton/padded_planes.h"
+
+namespace weft {
+
+/// Stretch springs beyond the material's strain limit are stiffer by this factor. [results]
+inline constexpr float strain_limit_factor = 10;
+
+/// Positions and velocities of a step, with their frames. [m], [m/s]
+struct PaddedState {
+  PaddedVectors position, velocity, start;
+  explicit PaddedState(int n) : position(n, n), velocity(n, n), start(n, n) {}
+};
+
+/// Stretch and shear springs linearised at a state: the Hessian of each is t 1 + s s^T with
+/// t = k max(0, 1 - l0 / l) across the spring and t + |s|^2 = k along it, the positive part of the
+/// true one; damping of the relative motion along springs adds its rate over h along them.
+/// Rows are independent of one another.
+class SpringHessian {
+ public:
+  /// @param cloth  kept by reference
+  SpringHessian(const Cloth& cloth, const NewtonKernels& kernels);
+
+  void set_time_step(double time_step);
+
+  /// Linearises the springs that start from a row.
+  void linearise_row(const PaddedState& state, int row);
+  /// The energy of the springs that start from a row [J].
+  [[nodiscard]] double energy_row(const PaddedVectors& position, int row) const;
+  /// And what damping takes from them in a step, half of it: what a step minimises [J].
+  [[nodiscard]] double damped_energy_row(const PaddedState& state, int row) const;
+  /// The gradient of inertia and springs of a row's own part [N], where linearised.
+  /// @param wanted  velocities without inner forces [m/s]
+  void gradient_row(const PaddedState& state, const PaddedVectors& wanted, int row,
+                    PaddedVectors& out) const;
+  void diagonal_row(int row, PaddedBlocks& out) const;
+  /// out = (M / h^2 + springs) x, own part.
+  void apply_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
+
+  /// Own part of M / h^2 [N/m].
+  [[nodiscard]] const PaddedPlane& inertia() const { return inertia_; }
+  /// The springs of a direction that start from a row.
+  [[nodiscard]] ConstSpringHessianRow springs_row(int direction, int row) const;
+  /// Views of t, x, y, z of a direction.
+  [[nodiscard]] std::array<PlaneView, 4> views(int direction) const;
+
+ private:
+  static constexpr int directions = 4;
+  struct Direction {
+    PaddedPlane t, x, y, z, f;
+  };
+  [[nodiscard]] LinearisedSprings springs_at(int direction, const PaddedVectors& position,
+                                             int row) const;
+  [[nodiscard]] SpringRing ring_at(int row) const;
+
+  const Cloth& cloth_;
+  const NewtonKernels* kernels_;
+  double time_step_ = 0;
+  std::array<Direction, directions> springs_;
+  PaddedPlane inertia_, momentum_;  // own parts of M / h^2, M / h
+};
+
+}  // namespace weft
