@@ -116,7 +116,7 @@ TEST(Bending, LaplacianDoesNotDependOnTheParameterization) {
     const double area = total_mass(cloth) / cloth.material.density;
     const double energy = bending_energy(cloth, mapped(rest, bowl));
     // Along the border only the second derivative there counts.
-    const double density = 0.5 * stiff.bending * (9 - 2 * 0.75 * (2 - 1.0 / 9));
+    const double density = 0.5 * stiff.bending.warp * (9 - 2 * 0.75 * (2 - 1.0 / 9));
     EXPECT_NEAR(energy / (density * area), 1, 0.05);
   }
 }
@@ -132,7 +132,7 @@ TEST(Bending, RolledStripHasTheEnergyOfItsCurvature) {
   const Cloth cloth = flat_cloth(flat_sheet(n));
   const auto roll = [](Vec3d p) { return Vec3d{0.5 * sine(2 * p.x), -0.5 * cosine(2 * p.x), p.z}; };
   const double energy = bending_energy(cloth, mapped(cloth.rest, roll));
-  const double wanted = 0.5 * stiff.bending * 4 * (1 - 1.0 / (n - 1));
+  const double wanted = 0.5 * stiff.bending.warp * 4 * (1 - 1.0 / (n - 1));
   EXPECT_NEAR(energy / wanted, 1, 1e-3);
 }
 
@@ -142,7 +142,7 @@ TEST(Bending, SaddleHasTheEnergyOfItsTwist) {
   const auto relative_energy = [&](const Planes3& rest) {
     const Cloth cloth = flat_cloth(rest);
     const double area = total_mass(cloth) / cloth.material.density;
-    return bending_energy(cloth, mapped(rest, saddle)) / (0.75 * stiff.bending * 0.64 * area);
+    return bending_energy(cloth, mapped(rest, saddle)) / (0.75 * stiff.bending.warp * 0.64 * area);
   };
   EXPECT_NEAR(relative_energy(flat_sheet(9)), 1, 1e-4);
   EXPECT_NEAR(relative_energy(uneven_sheet(33)), 1, 0.05);
@@ -296,7 +296,7 @@ TEST(Bending, CheckerboardMeetsItsBoundInside) {
   const Cloth cloth = flat_cloth(flat_sheet(9));
   const double d = 1.0 / 8;
   // One particle's part of M^T M of a checkerboard is B d^2 (8 / d^2)^2; of the edges, 8 k 8.
-  const double exact = stiff.bending * 64 / (d * d);
+  const double exact = stiff.bending.warp * 64 / (d * d);
   EXPECT_NEAR(bending_bound(cloth, stretch_u)(4, 4) * 8, exact, 1e-4 * exact);
 }
 

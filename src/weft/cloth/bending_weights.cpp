@@ -254,7 +254,7 @@ BendingPlanes make_bending(const RestShape& shape, const Material& material) {
   const int n = shape.size();
   const RingReader reader(shape);
   const double reach = reach_of(shape.position);
-  Writer writer(n, material.bending, planes);
+  Writer writer(n, material.bending.warp, planes);
   const auto add = [&](std::span<const int> samples) {
     Surroundings around = reader.read(samples);
     set_weights(around, shape.mean_spacing);
@@ -269,7 +269,7 @@ BendingPlanes make_bending(const RestShape& shape, const Material& material) {
     if (!has_mates[static_cast<std::size_t>(s)]) add(std::span(&s, 1));
   writer.finish();
   if (planes.active && !planes.curved) {
-    planes.border = make_border_bending(shape, material.bending);
+    planes.border = make_border_bending(shape, material.bending.warp);
     add_to_diagonal(planes.border, planes.diagonal);
   }
   return planes;

@@ -56,8 +56,8 @@ Json collider_json(const ColliderOptions& options) {
 
 Json material_json(const Material& m) {
   return {
-      {"density", m.density},           {"stretch", m.stretch},           {"shear", m.shear},
-      {"bending", m.bending},           {"bend_springs", m.bend_springs}, {"damping", m.damping},
+      {"density", m.density},           {"stretch", m.stretch.warp},      {"shear", m.shear},
+      {"bending", m.bending.warp},      {"bend_springs", m.bend_springs}, {"damping", m.damping},
       {"strain_limit", m.strain_limit}, {"thickness", m.thickness}};
 }
 
