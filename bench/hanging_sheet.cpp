@@ -27,6 +27,7 @@ Scene hanging_sheet(int size) {
   sheet.material.stretch = sheet.material.shear = 2000;
   sheet.material.bending = 0;
   sheet.material.bend_springs = 0.5;
+  sheet.material.strain_limit = 0.05;
   sheet.pins = {{ImagePin{{0, 0}}}, {ImagePin{{1, 0}}}};
   scene.cloths = {sheet};
   return scene;

@@ -14,7 +14,7 @@ void require_sound(const Scene& scene) {
     require(!cloth.name.empty() && cloth.name.find('/') == cloth.name.npos, "names are file names");
     require(cloth.size >= least_image_size && cloth.size <= largest_image_size,
             "sizes are in range");
-    require(std::isfinite(cloth.friction) && std::isfinite(cloth.material.stretch),
+    require(std::isfinite(cloth.friction) && std::isfinite(cloth.material.stretch.warp),
             "numbers are finite");
   }
 }

@@ -18,6 +18,7 @@ void add_drape(CLI::App& program, const Context& context);
 void add_render(CLI::App& program, const Context& context);
 void add_view(CLI::App& program, const Context& context);
 void add_shapes(CLI::App& program, const Context& context);
+void add_fabric(CLI::App& program, const Context& context);
 void add_table5(CLI::App& program, const Context& context);
 void add_demo(CLI::App& program, const Context& context);
 

@@ -97,6 +97,7 @@ int run(int argc, char** argv) {
   add_render(program, context);
   add_view(program, context);
   add_shapes(program, context);
+  add_fabric(program, context);
   add_table5(program, context);
   add_demo(program, context);
   program.require_subcommand(1);

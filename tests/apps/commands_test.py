@@ -64,6 +64,7 @@ class Commands(ProgramTest):
         self.assert_named("simulate", self.run_json("drape", "builtin:sheet", "ball.exr", "-o", "run", "--size", "17",
                                                     "--frames", "1"))
         self.assert_named("render", self.run_json("render", "ball.exr", "-o", "ball.png"))
+        self.assert_named("fabric", self.run_json("fabric", "--mass", "150", "--length", "20"))
 
     def test_reports_are_one_object_each(self):
         done = self.run_weft("shapes", "--json")

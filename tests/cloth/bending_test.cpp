@@ -14,6 +14,8 @@ namespace {
 using namespace testing;
 
 const Material stiff{.bending = 1e-3};
+/// Nine times stiffer along the warp.
+const Material woven{.bending = {1e-3, 1e-3 / 9}};
 
 /// A flat square whose samples are unevenly spread and whose grid lines are not at right angles.
 Planes3 uneven_sheet(int n) {
@@ -99,11 +101,12 @@ TEST(Bending, AffineMapsOfFlatClothFeelNone) {
   const auto affine = [](Vec3d p) {
     return Vec3d{1.3 * p.x + 0.2 * p.z, 0.4 * p.x - 0.7 * p.z + 0.1, 0.8 * p.z - 0.3 * p.x};
   };
-  for (const Planes3& rest : {flat_sheet(17), uneven_sheet(17), disk(17)}) {
-    const Cloth cloth = flat_cloth(rest);
-    EXPECT_FALSE(cloth.bending.curved);
-    EXPECT_LT(largest(forces(cloth, mapped(rest, affine))), force_of_a_hair(cloth));
-  }
+  for (const Material& material : {stiff, woven})
+    for (const Planes3& rest : {flat_sheet(17), uneven_sheet(17), disk(17)}) {
+      const Cloth cloth = flat_cloth(rest, material);
+      EXPECT_FALSE(cloth.bending.curved);
+      EXPECT_LT(largest(forces(cloth, mapped(rest, affine))), force_of_a_hair(cloth));
+    }
 }
 
 TEST(Bending, LaplacianDoesNotDependOnTheParameterization) {
@@ -116,7 +119,7 @@ TEST(Bending, LaplacianDoesNotDependOnTheParameterization) {
     const double area = total_mass(cloth) / cloth.material.density;
     const double energy = bending_energy(cloth, mapped(rest, bowl));
     // Along the border only the second derivative there counts.
-    const double density = 0.5 * stiff.bending * (9 - 2 * 0.75 * (2 - 1.0 / 9));
+    const double density = 0.5 * stiff.bending.warp * (9 - 2 * 0.75 * (2 - 1.0 / 9));
     EXPECT_NEAR(energy / (density * area), 1, 0.05);
   }
 }
@@ -132,8 +135,84 @@ TEST(Bending, RolledStripHasTheEnergyOfItsCurvature) {
   const Cloth cloth = flat_cloth(flat_sheet(n));
   const auto roll = [](Vec3d p) { return Vec3d{0.5 * sine(2 * p.x), -0.5 * cosine(2 * p.x), p.z}; };
   const double energy = bending_energy(cloth, mapped(cloth.rest, roll));
-  const double wanted = 0.5 * stiff.bending * 4 * (1 - 1.0 / (n - 1));
+  const double wanted = 0.5 * stiff.bending.warp * 4 * (1 - 1.0 / (n - 1));
   EXPECT_NEAR(energy / wanted, 1, 1e-3);
+}
+
+/// Rows along x, columns 30 degrees off z.
+Planes3 skew_sheet(int n) {
+  return mapped(flat_sheet(n), [](Vec3d p) { return Vec3d{p.x + 0.5 * p.z, 0, p.z}; });
+}
+
+/// Rows along (cos, sin) of an angle of 30 degrees in the plane of x and z.
+constexpr double row_x = 0.86602540378443865, row_z = 0.5;
+Planes3 turned_sheet(int n) {
+  return mapped(flat_sheet(n), [](Vec3d p) {
+    return Vec3d{row_x * p.x - row_z * p.z, 0, row_z * p.x + row_x * p.z};
+  });
+}
+
+/// The stiffness B of a cloth rolled onto a cylinder of radius 1/2 that bends x, or z, from its
+/// energy B/2 4 on all of its area.
+double rolled_stiffness(const Cloth& cloth, bool bends_x) {
+  const auto roll = [&](Vec3d p) {
+    const double along = bends_x ? p.x : p.z, rest = bends_x ? p.z : p.x;
+    return Vec3d{0.5 * sine(2 * along), -0.5 * cosine(2 * along), rest};
+  };
+  const double area = total_mass(cloth) / cloth.material.density;
+  return bending_energy(cloth, mapped(cloth.rest, roll)) / (0.5 * 4 * area);
+}
+
+TEST(Bending, CylindersBendTheirWarpOrTheirWeft) {
+  const int n = 33;
+  const double inner = 1 - 1.0 / (n - 1);  // half a row at either end is not bent
+  const Cloth cloth = flat_cloth(flat_sheet(n), woven);
+  EXPECT_NEAR(rolled_stiffness(cloth, true) / (woven.bending.warp * inner), 1, 1e-3);
+  EXPECT_NEAR(rolled_stiffness(cloth, false) / (woven.bending.weft * inner), 1, 1e-3);
+}
+
+TEST(Bending, WarpFollowsTheRowsAndWeftIsAtRightAnglesToThem) {
+  const Cloth skew = flat_cloth(skew_sheet(65), woven);
+  EXPECT_NEAR(rolled_stiffness(skew, true) / woven.bending.warp, 1, 0.05);
+  EXPECT_NEAR(rolled_stiffness(skew, false) / woven.bending.weft, 1, 0.05);
+}
+
+TEST(Bending, BiasIsBetweenWarpAndWeft) {
+  // sqrt(B) in a direction: that of the warp times its cosine squared, and of the weft by the sine.
+  const Cloth cloth = flat_cloth(turned_sheet(65), woven);
+  const double warp = std::sqrt(woven.bending.warp), weft = std::sqrt(woven.bending.weft);
+  const double along_x = warp * 0.75 + weft * 0.25, along_z = warp * 0.25 + weft * 0.75;
+  EXPECT_NEAR(rolled_stiffness(cloth, true) / (along_x * along_x), 1, 0.05);
+  EXPECT_NEAR(rolled_stiffness(cloth, false) / (along_z * along_z), 1, 0.05);
+}
+
+TEST(Bending, WovenBowlHasTheEnergyOfBothCurvatures) {
+  // y = x^2 / 2 + x z / 3 + z^2: second derivatives 1 and 2, the Gaussian curvature 2 - 1/9.
+  const auto bowl = [](Vec3d p) {
+    return Vec3d{p.x, 0.5 * p.x * p.x + p.x * p.z / 3 + p.z * p.z, p.z};
+  };
+  const double warp = std::sqrt(woven.bending.warp), weft = std::sqrt(woven.bending.weft);
+  const double sum = warp + 2 * weft;
+  const double density = 0.5 * sum * sum - 0.75 * warp * weft * (2 - 1.0 / 9);
+  for (const Planes3& rest : {flat_sheet(65), skew_sheet(65)}) {
+    const Cloth cloth = flat_cloth(rest, woven);
+    const double area = total_mass(cloth) / cloth.material.density;
+    EXPECT_NEAR(bending_energy(cloth, mapped(rest, bowl)) / (density * area), 1, 0.05);
+  }
+}
+
+TEST(Bending, ExchangedThreadsAreATransposedCloth) {
+  const int n = 17;
+  const Planes3 rest = uneven_sheet(n);
+  Planes3 transposed(n), p(n), q(n);
+  const Cloth one = flat_cloth(flat_sheet(n), woven);
+  for (int s = 0; s < n * n; ++s) transposed.set(s % n * n + s / n, one.rest.at(s));
+  const Cloth other = flat_cloth(transposed, {.bending = {1e-3 / 9, 1e-3}});
+  p = rest;
+  shake(one, 0.01, p);
+  for (int s = 0; s < n * n; ++s) q.set(s % n * n + s / n, p.at(s));
+  const double energy = bending_energy(one, p);
+  EXPECT_NEAR(bending_energy(other, q), energy, 1e-5 * energy);
 }
 
 TEST(Bending, SaddleHasTheEnergyOfItsTwist) {
@@ -142,7 +221,7 @@ TEST(Bending, SaddleHasTheEnergyOfItsTwist) {
   const auto relative_energy = [&](const Planes3& rest) {
     const Cloth cloth = flat_cloth(rest);
     const double area = total_mass(cloth) / cloth.material.density;
-    return bending_energy(cloth, mapped(rest, saddle)) / (0.75 * stiff.bending * 0.64 * area);
+    return bending_energy(cloth, mapped(rest, saddle)) / (0.75 * stiff.bending.warp * 0.64 * area);
   };
   EXPECT_NEAR(relative_energy(flat_sheet(9)), 1, 1e-4);
   EXPECT_NEAR(relative_energy(uneven_sheet(33)), 1, 0.05);
@@ -152,9 +231,11 @@ TEST(Bending, SaddleHasTheEnergyOfItsTwist) {
 TEST(Bending, NoShapeHasNegativeEnergy) {
   // The lowest eigenvalue, by the powers of what the highest one is more than the matrix.
   const auto narrow = [](Vec3d p) { return Vec3d{p.x, 0, 0.25 * p.z}; };
+  std::vector<Cloth> cloths{flat_cloth(flat_sheet(9), woven), flat_cloth(uneven_sheet(9), woven)};
   for (const Planes3& rest :
-       {flat_sheet(9), uneven_sheet(9), disk(9), uneven_sheet(17), mapped(flat_sheet(9), narrow)}) {
-    const Cloth cloth = flat_cloth(rest);
+       {flat_sheet(9), uneven_sheet(9), disk(9), uneven_sheet(17), mapped(flat_sheet(9), narrow)})
+    cloths.push_back(flat_cloth(rest));
+  for (const Cloth& cloth : cloths) {
     Planes3 way(cloth.size);
     shake(cloth, 1, way);
     const auto normalize = [&](Planes3& planes) {
@@ -185,7 +266,8 @@ void move(const Cloth& cloth, int sample, Vec3f by, Planes3& planes) {
 }
 
 TEST(Bending, ForcesAreMinusTheGradient) {
-  for (const Cloth& cloth : {flat_cloth(uneven_sheet(9)), torus_cloth(9, stiff)}) {
+  for (const Cloth& cloth : {flat_cloth(uneven_sheet(9)), torus_cloth(9, stiff),
+                             flat_cloth(uneven_sheet(9), woven), torus_cloth(9, woven)}) {
     Planes3 p = cloth.rest;
     shake(cloth, 0.03, p);
     const Planes3 force = forces(cloth, p);
@@ -204,13 +286,15 @@ TEST(Bending, ForcesAreMinusTheGradient) {
 }
 
 TEST(Bending, TurnedTorusFeelsNone) {
-  const Cloth cloth = torus_cloth(33, stiff);
-  EXPECT_TRUE(cloth.bending.curved);
-  EXPECT_LT(largest(forces(cloth, cloth.rest)), force_of_a_hair(cloth));
-  const double left = largest(forces(cloth, mapped(cloth.rest, turned)));
-  EXPECT_LT(left, force_of_a_hair(cloth));
-  const auto wider = [](Vec3d p) { return 1.1 * p; };
-  EXPECT_GT(largest(forces(cloth, mapped(cloth.rest, wider))), 10 * left);
+  for (const Material& material : {stiff, woven}) {
+    const Cloth cloth = torus_cloth(33, material);
+    EXPECT_TRUE(cloth.bending.curved);
+    EXPECT_LT(largest(forces(cloth, cloth.rest)), force_of_a_hair(cloth));
+    const double left = largest(forces(cloth, mapped(cloth.rest, turned)));
+    EXPECT_LT(left, force_of_a_hair(cloth));
+    const auto wider = [](Vec3d p) { return 1.1 * p; };
+    EXPECT_GT(largest(forces(cloth, mapped(cloth.rest, wider))), 10 * left);
+  }
 }
 
 TEST(Bending, TurnedFlatClothStaysFlat) {
@@ -219,7 +303,8 @@ TEST(Bending, TurnedFlatClothStaysFlat) {
 }
 
 TEST(Bending, ForcesOfOneClothAddUpToNone) {
-  for (const Cloth& cloth : {flat_cloth(uneven_sheet(17)), torus_cloth(17, stiff)}) {
+  for (const Cloth& cloth :
+       {flat_cloth(uneven_sheet(17)), torus_cloth(17, stiff), torus_cloth(17, woven)}) {
     Planes3 p = cloth.rest;
     shake(cloth, 0.01, p);
     const Planes3 force = forces(cloth, p);
@@ -231,7 +316,8 @@ TEST(Bending, ForcesOfOneClothAddUpToNone) {
 }
 
 TEST(Bending, ForcesTurnNothing) {
-  for (const Cloth& cloth : {flat_cloth(uneven_sheet(17)), torus_cloth(17, stiff)}) {
+  for (const Cloth& cloth :
+       {flat_cloth(uneven_sheet(17)), torus_cloth(17, stiff), torus_cloth(17, woven)}) {
     Planes3 p = cloth.rest;
     shake(cloth, 0.01, p);
     const Planes3 force = forces(cloth, p);
@@ -244,7 +330,8 @@ TEST(Bending, ForcesTurnNothing) {
 }
 
 TEST(Bending, ChangeIsTheDerivativeAtRest) {
-  for (const Cloth& cloth : {flat_cloth(uneven_sheet(17)), torus_cloth(17, stiff)}) {
+  for (const Cloth& cloth :
+       {flat_cloth(uneven_sheet(17)), torus_cloth(17, stiff), torus_cloth(17, woven)}) {
     Planes3 way(17), ahead = cloth.rest, behind = cloth.rest;
     shake(cloth, 1, way, 2);
     const float step = 0x1p-12F;
@@ -273,7 +360,8 @@ TEST(Bending, RotationsOfCurvedClothMeetNoResistance) {
 
 TEST(Bending, BoundIsNotExceeded) {
   for (const Cloth& cloth :
-       {flat_cloth(flat_sheet(9)), flat_cloth(uneven_sheet(9)), torus_cloth(9, stiff)}) {
+       {flat_cloth(flat_sheet(9)), flat_cloth(uneven_sheet(9)), torus_cloth(9, stiff),
+        flat_cloth(uneven_sheet(9), woven), torus_cloth(9, woven)}) {
     for (int seed = 1; seed <= 20; ++seed) {
       Planes3 way(9);
       shake(cloth, 1, way, seed);
@@ -296,14 +384,15 @@ TEST(Bending, CheckerboardMeetsItsBoundInside) {
   const Cloth cloth = flat_cloth(flat_sheet(9));
   const double d = 1.0 / 8;
   // One particle's part of M^T M of a checkerboard is B d^2 (8 / d^2)^2; of the edges, 8 k 8.
-  const double exact = stiff.bending * 64 / (d * d);
+  const double exact = stiff.bending.warp * 64 / (d * d);
   EXPECT_NEAR(bending_bound(cloth, stretch_u)(4, 4) * 8, exact, 1e-4 * exact);
 }
 
 TEST(Bending, DiagonalIsThatOfTheMatrix) {
   Cloth torus = torus_cloth(9, stiff);
   torus.bending.curved = false;  // as if its normals did not turn
-  for (const Cloth& cloth : {flat_cloth(uneven_sheet(9)), torus})
+  for (const Cloth& cloth :
+       {flat_cloth(uneven_sheet(9)), flat_cloth(uneven_sheet(9), woven), torus})
     for (const int sample : {0, 3, 8, 9, 12, 40, 63, 72, 80}) {
       const int first = cloth.mates.representative(sample);
       Planes3 unit(9);

@@ -23,10 +23,10 @@ TEST(Cloth, UniformGridHasTheStiffnessOfTheFabric) {
   for (const int n : {9, 33}) {
     const Cloth cloth = sheet_cloth(n, material);
     const int middle = n / 2;
-    EXPECT_NEAR(cloth.springs[stretch_u].stiffness(middle, middle), material.stretch, 1);
-    EXPECT_NEAR(cloth.springs[stretch_v].stiffness(middle, middle), material.stretch, 1);
-    EXPECT_NEAR(cloth.springs[stretch_u].stiffness(0, middle), material.stretch / 2, 1);
-    EXPECT_NEAR(cloth.springs[stretch_v].stiffness(middle, n - 1), material.stretch / 2, 1);
+    EXPECT_NEAR(cloth.springs[stretch_u].stiffness(middle, middle), material.stretch.warp, 1);
+    EXPECT_NEAR(cloth.springs[stretch_v].stiffness(middle, middle), material.stretch.warp, 1);
+    EXPECT_NEAR(cloth.springs[stretch_u].stiffness(0, middle), material.stretch.warp / 2, 1);
+    EXPECT_NEAR(cloth.springs[stretch_v].stiffness(middle, n - 1), material.stretch.warp / 2, 1);
     EXPECT_NEAR(cloth.springs[shear_1].stiffness(0, 0), material.shear / 2, 1);
     EXPECT_NEAR(cloth.springs[shear_2].stiffness(0, 1), material.shear / 2, 1);
     EXPECT_FLOAT_EQ(cloth.springs[bend_u].stiffness(middle, 0), 0.5F);

@@ -61,7 +61,7 @@ TEST(CoarseLimit, KeepsMomentumAndMatesAlsoWhereMatesDoNotHalve) {
   Planes3 rest = flat_sheet(n);
   const BorderMates odd(n, {{15, 17, 1}});
   rest.set(border_sample(n, 17), rest.at(border_sample(n, 15)));
-  for (const Cloth& cloth : {sheet_cloth(n), torus_cloth(n), make_cloth(rest, odd, {})}) {
+  for (const Cloth& cloth : {sheet_cloth(n), torus_cloth(n), make_cloth(rest, odd, soft_fabric)}) {
     ClothState state = rest_state(cloth);
     for (int s = 0; s < n * n; ++s) state.position.set(s, 1.4F * state.position.at(s));
     shake(cloth, 0.02, state.position);

@@ -26,7 +26,9 @@ BorderMates double_torus_mates(int n) {
 
 /// A square whose springs are all alike, glued into a closed surface: what fills no room, but
 /// a filter only knows rest lengths.
-Cloth glued_square(int n, const BorderMates& mates) { return make_cloth(flat_sheet(n), mates, {}); }
+Cloth glued_square(int n, const BorderMates& mates) {
+  return make_cloth(flat_sheet(n), mates, soft_fabric);
+}
 
 struct Solver {
   Solver(const Cloth& of, int sweeps)
@@ -152,7 +154,7 @@ TEST(MultigridConvergence, IterationsDoNotGrowWithSizeOnATShirt) {
     Planes3 rest(n);
     for (int s = 0; s < n * n; ++s)
       rest.set(s, vec_cast<float>(shirt.image.world_position(s / n, s % n)));
-    counts.push_back(iterations_of(make_cloth(rest, shirt.image.mates, {})));
+    counts.push_back(iterations_of(make_cloth(rest, shirt.image.mates, soft_fabric)));
   }
   for (const int count : counts) EXPECT_LE(count, 14);
 }

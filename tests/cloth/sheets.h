@@ -36,10 +36,13 @@ inline Planes3 torus(int n, double radius = 0.4, double tube = 0.15) {
   return p;
 }
 
-inline Cloth sheet_cloth(int n, const Material& material = {}) {
+/// A tenth of a fabric's stiffness, and a limit: what methods of few iterations can hold.
+inline const Material soft_fabric{.stretch = 2000, .shear = 500, .strain_limit = 0.05};
+
+inline Cloth sheet_cloth(int n, const Material& material = soft_fabric) {
   return make_cloth(flat_sheet(n), no_mates(n), material);
 }
-inline Cloth torus_cloth(int n, const Material& material = {}) {
+inline Cloth torus_cloth(int n, const Material& material = soft_fabric) {
   return make_cloth(torus(n), torus_mates(n), material);
 }
 

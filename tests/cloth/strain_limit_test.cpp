@@ -40,7 +40,7 @@ TEST(StrainLimit, CompressedSpringsAreLimitedToo) {
 
 TEST(StrainLimit, OneSpringEndsExactlyAtTheLimit) {
   Planes3 rest = flat_sheet(2);
-  const Cloth cloth = make_cloth(rest, no_mates(2), {});
+  const Cloth cloth = make_cloth(rest, no_mates(2), soft_fabric);
   ClothState state = rest_state(cloth);
   for (const int r : {0, 1}) state.position.x(r, 1) += 1;
   ThreadTeam team(1);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/cloth/sheets.h"
 #include "weft/collide/intersections.h"
 #include "weft/image/rebuild.h"
 #include "weft/sim/simulation.h"
@@ -14,6 +15,7 @@ Scene sheet_on_sphere(const ColliderOptions& collider) {
   cloth.name = "sheet";
   cloth.surface = "builtin:sheet";
   cloth.size = 33;
+  cloth.material = weft::testing::soft_fabric;
   cloth.placement.translate = {0, 0.53, 0};
   scene.cloths = {cloth};
   SceneBody body;
@@ -25,7 +27,7 @@ Scene sheet_on_sphere(const ColliderOptions& collider) {
   return scene;
 }
 
-class Guarding : public testing::TestWithParam<const char*> {};
+class Guarding : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Guarding, DrapesWithoutIntersectionsAndWithTheSameBitsOnEveryTeam) {
   std::string hash;
@@ -47,7 +49,8 @@ TEST_P(Guarding, DrapesWithoutIntersectionsAndWithTheSameBitsOnEveryTeam) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Guarding, testing::Values("pyramid", "sphere_tree", "spatial_hash"),
+INSTANTIATE_TEST_SUITE_P(Every, Guarding,
+                         ::testing::Values("pyramid", "sphere_tree", "spatial_hash"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

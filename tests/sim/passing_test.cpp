@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/cloth/sheets.h"
 #include "weft/collide/ccd.h"
 #include "weft/image/rebuild.h"
 #include "weft/sim/simulation.h"
@@ -132,6 +133,7 @@ Scene one_step_a_frame() {
   cloth.name = "sheet";
   cloth.surface = "builtin:sheet";
   cloth.size = 25;
+  cloth.material = weft::testing::soft_fabric;
   scene.cloths = {cloth};
   return scene;
 }

@@ -124,6 +124,15 @@ TEST(SceneFile, WrongTypesAndRangesNameTheKey) {
             "s.json:cloths[0].size: 4; a whole number from 5 to 8193 is wanted");
   EXPECT_EQ(error_of(with_cloth(R"("material":{"stretch":-1})")),
             "s.json:cloths[0].material.stretch: -1; a number >= 0 is wanted");
+  for (const std::string wrong : {"[1]", "[1,2,3]", "[]", R"([1,"2"])", "[1,-2]"})
+    for (const std::string key : {"stretch", "bending"})
+      EXPECT_EQ(error_of(with_cloth(R"("material":{")" + key + "\":" + wrong + "}")),
+                "s.json:cloths[0].material." + key + ": " + wrong +
+                    "; two numbers >= 0, [warp, weft], or one are wanted");
+  EXPECT_EQ(error_of(with_cloth(R"("material":{"bending":"much"})")),
+            "s.json:cloths[0].material.bending: \"much\"; a number >= 0 is wanted");
+  EXPECT_EQ(error_of(with_cloth(R"("material":{"shear":[1,2]})")),
+            "s.json:cloths[0].material.shear: [1,2]; a number >= 0 is wanted");
   EXPECT_EQ(error_of(with_cloth(R"("translate":[0,1])")),
             "s.json:cloths[0].translate: [0,1]; a list of 3 finite numbers is wanted");
   EXPECT_EQ(error_of(with_cloth(R"("friction":"much")")),
@@ -240,6 +249,23 @@ TEST(SceneFile, NamedMaterialsAreTakenWhole) {
   }
 }
 
+TEST(SceneFile, WarpAndWeftAreTwoNumbersOrOne) {
+  const auto material = [](const std::string& keys) {
+    return parse_scene(with_cloth("\"material\":{" + keys + "}"), "s.json", "").cloths[0].material;
+  };
+  EXPECT_EQ(material(R"("stretch":[30000,15000])").stretch, WarpWeft(30000, 15000));
+  EXPECT_EQ(material(R"("bending":[2e-5,1e-5])").bending, WarpWeft(2e-5, 1e-5));
+  EXPECT_EQ(material(R"("stretch":7000,"bending":3e-6)").stretch, WarpWeft(7000, 7000));
+  EXPECT_EQ(material(R"("stretch":7000)").bending, Material{}.bending);
+}
+
+TEST(SceneFile, WriterTellsWarpAndWeftApartOnlyWhereTheyDiffer) {
+  const nlohmann::json material =
+      parse_json(material_text({.stretch = {3e4, 15e3}, .bending = 2e-5}), 32);
+  EXPECT_EQ(material["stretch"], (nlohmann::json{3e4, 15e3}));
+  EXPECT_EQ(material["bending"], 2e-5);
+}
+
 TEST(SceneFile, RelativeSurfacesAreTakenFromTheScenesFolder) {
   const Scene scene =
       parse_scene(R"({"cloths":[{"surface":"../m/a.obj"}]})", "s.json", "/data/scenes");
@@ -260,6 +286,8 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   cloth.surface = (folder / "mesh.obj").string();
   cloth.placement = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
   cloth.material.density = 0.123;
+  cloth.material.stretch = {2e4, 1e4};
+  cloth.material.bending = {2e-5, 1e-5};
   cloth.velocity = {1, 2, 3};
   cloth.pins = {ImagePin{{0, 1}}, NearestPin{{1, 2, 3}}, RegionPin{{0, 0.25}, {0.5, 1}}};
   cloth.pins[1].path = {{0.5, {0, 0, 10}, {1, 2, 3}}, {1.5, {}, {4, 5, 6}}};
@@ -286,6 +314,8 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   EXPECT_EQ(back.cloths[0].surface, cloth.surface);
   EXPECT_EQ(back.cloths[0].placement.rotate, cloth.placement.rotate);
   EXPECT_EQ(back.cloths[0].material.density, 0.123);
+  EXPECT_EQ(back.cloths[0].material.stretch, WarpWeft(2e4, 1e4));
+  EXPECT_EQ(back.cloths[0].material.bending, WarpWeft(2e-5, 1e-5));
   EXPECT_EQ(std::get<TwoLevelOptions>(back.integrator).filter_stiffness, 0.7);
   EXPECT_EQ(std::get<RegionPin>(back.cloths[0].pins[2].place).lower, (Vec2d{0, 0.25}));
   EXPECT_EQ(back.cloths[0].pins[1].path.at(1).translate, (Vec3d{4, 5, 6}));

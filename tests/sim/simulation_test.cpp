@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/cloth/sheets.h"
 #include "weft/core/error.h"
 #include "weft/core/math.h"
 
@@ -140,6 +141,7 @@ TEST(Simulation, NoParticleEndsUnderTheGround) {
 TEST(Simulation, LimiterCarriesTheSoftSpringsOfTwoLevel) {
   Scene scene = free_fall(TwoLevelOptions{});
   scene.cloths[0] = sheet(65, {0, 2, 0});
+  scene.cloths[0].material = weft::testing::soft_fabric;
   scene.cloths[0].pins = {ImagePin{{0, 0}}, ImagePin{{1, 0}}};
   Simulation simulation(scene, "hang", 2);
   FrameReport report;

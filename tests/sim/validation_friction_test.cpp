@@ -55,7 +55,7 @@ class Slope {
       const Vec3d p = side * vec_cast<double>(rest.at(s));
       rest.set(s, vec_cast<float>(Vec3d{cosine_ * p.x, 1 + sine_ * p.x, p.z}));
     }
-    return make_cloth(rest, no_mates(17), {});
+    return make_cloth(rest, no_mates(17), soft_fabric);
   }
 
   double cosine_, sine_;

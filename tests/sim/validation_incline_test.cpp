@@ -19,6 +19,7 @@ double slide(double tangent, double friction, double seconds, const IntegratorOp
   scene.integrator = integrator;
   SceneCloth cloth;
   cloth.size = 17;
+  cloth.material = soft_fabric;
   cloth.placement.scale = {0.2, 1, 0.2};
   cloth.placement.translate = {0, 0.0061, 0};
   cloth.friction = friction * friction / ground_friction;  // coefficients meet in their mean

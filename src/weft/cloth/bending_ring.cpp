@@ -57,7 +57,14 @@ void RingReader::add_sample(int sample, Surroundings& around) const {
     around.free = around.free || at.border;
     around.ring.push_back(at);
   }
+  around.rows.push_back(row_direction(row, col));
   add_area(row, col, around);
+}
+
+Vec3d RingReader::row_direction(int row, int col) const {
+  const int before = inside(row, col - 1) ? col - 1 : col;
+  const int after = inside(row, col + 1) ? col + 1 : col;
+  return normalized(place(row * n_ + after) - place(row * n_ + before));
 }
 
 void RingReader::mark_border(int sample, int there, Neighbour& at) const {

@@ -23,8 +23,9 @@ struct Neighbour {
 struct Surroundings {
   std::vector<Neighbour> ring;
   Vec3d area_vector;
-  double spacing = 0;  ///< mean straight edge [m]
-  bool free = false;   ///< on a free border
+  std::vector<Vec3d> rows;  ///< where rows run at each of the samples, unit length or none
+  double spacing = 0;       ///< mean straight edge [m]
+  bool free = false;        ///< on a free border
 };
 
 /// Whether a neighbour lies along a row or column.
@@ -44,6 +45,7 @@ class RingReader {
   [[nodiscard]] bool inside(int row, int col) const;
   void add_sample(int sample, Surroundings& around) const;
   void mark_border(int sample, int there, Neighbour& at) const;
+  [[nodiscard]] Vec3d row_direction(int row, int col) const;
   void add_area(int row, int col, Surroundings& around) const;
 
   const RestShape& shape_;

@@ -18,6 +18,21 @@ namespace {
 constexpr int conditions = 5;
 using Column = std::array<double, conditions>;
 
+/// The operator L = a d^2/du^2 + b d^2/dv^2 that weights are to be, u along the rows: a and b are
+/// square roots of the two stiffnesses over the larger one.
+struct Operator {
+  double stiffness = 0;  ///< the larger of warp's and weft's [N m]
+  double along_rows = 1, along_columns = 1;
+
+  explicit Operator(WarpWeft bending)
+      : stiffness(std::max(bending.warp, bending.weft)),
+        along_rows(std::sqrt(bending.warp / stiffness)),
+        along_columns(std::sqrt(bending.weft / stiffness)) {}
+};
+
+/// What weights around a particle have to meet, in its tangent plane.
+using Moments = Column;
+
 /// Second moments may miss by this part of what meeting them would cost where they cannot be met;
 /// the affine conditions are as good as hard.
 constexpr double softness = 1e-3, affine_softness = 1e-11;
@@ -45,11 +60,12 @@ double wish_between(const Surroundings& around, const Neighbour& at) {
 }
 
 /// Sets the stencil asked for: the five-point one, along free borders the second difference.
-void set_wishes(Surroundings& around) {
+void set_wishes(const Operator& wanted_operator, Surroundings& around) {
   for (Neighbour& at : around.ring) {
     const bool wanted = straight(at) && (!around.free || at.border);
     const double relative = squared_length(at.edge) / (around.spacing * around.spacing);
-    at.wish = wanted ? wish_between(around, at) : 0;
+    const double part = at.place < 2 ? wanted_operator.along_rows : wanted_operator.along_columns;
+    at.wish = wanted ? part * wish_between(around, at) : 0;
     at.cost = relative * relative / at.share *
               (wanted ? 1 : (around.free ? across_border_cost : diagonal_cost));
   }
@@ -65,8 +81,15 @@ Vec3d border_direction(const Surroundings& around) {
   return -dot(a, b) < most_turn ? Vec3d{} : normalized(b - a);
 }
 
-/// Lays the ring out in the tangent plane. @return whether it could
-bool flatten(Surroundings& around) {
+/// The axes of a tangent plane; none where the neighbours span no plane.
+struct Frame {
+  Vec3d along, across;
+
+  [[nodiscard]] bool good() const { return squared_length(across) > 0.5; }
+};
+
+/// Lays the ring out in the tangent plane.
+Frame flatten(Surroundings& around) {
   const Vec3d normal = normalized(around.area_vector);
   Vec3d along = around.free ? border_direction(around)
                             : (around.ring.empty() ? Vec3d{} : around.ring.front().edge);
@@ -76,7 +99,24 @@ bool flatten(Surroundings& around) {
     at.x = dot(at.edge, along) / around.spacing;
     at.y = dot(at.edge, across) / around.spacing;
   }
-  return squared_length(across) > 0.5;
+  return {along, across};
+}
+
+/// The moments of L: twice its tensor. Where samples of one particle disagree about the rows their
+/// tensors are averaged. A free border bends along itself alone, by what L makes of that.
+Moments moments_of(const Operator& wanted, const Frame& frame, const Surroundings& around) {
+  double along = 0, both = 0;  // the double angle's cosine and sine, averaged
+  for (const Vec3d row : around.rows) {
+    const Vec2d at{dot(row, frame.along), dot(row, frame.across)};
+    const double squared = dot(at, at);
+    if (!(squared > 0)) continue;
+    along += (at.x * at.x - at.y * at.y) / (squared * static_cast<double>(around.rows.size()));
+    both += 2 * at.x * at.y / (squared * static_cast<double>(around.rows.size()));
+  }
+  const double sum = wanted.along_rows + wanted.along_columns;
+  const double difference = wanted.along_rows - wanted.along_columns;
+  if (around.free) return {0, 0, sum + difference * along, 0, 0};
+  return {0, 0, sum + difference * along, difference * both, sum - difference * along};
 }
 
 Column column_of(const Neighbour& at) {
@@ -100,8 +140,8 @@ Column solve(std::array<Column, conditions> a, Column b) {
 
 /// The least change of the wished weights that meets the conditions.
 /// @param wanted  count of conditions: 2, the affine ones alone, or all
-void fit(Surroundings& around, int wanted) {
-  Column missing{0, 0, 2, 0, around.free ? 0.0 : 2.0};
+void fit(const Moments& moments, int wanted, Surroundings& around) {
+  Column missing = moments;
   std::array<Column, conditions> gram{};
   for (int i = 0; i < conditions; ++i)
     gram[i][i] = i < 2 ? affine_softness : (i < wanted ? softness : 1.0);
@@ -125,8 +165,7 @@ void fit(Surroundings& around, int wanted) {
 
 /// The largest of the conditions that weights miss.
 template <class Weight>
-double largest_miss(const Surroundings& around, int count, const Weight& weight) {
-  Column missing{0, 0, 2, 0, around.free ? 0.0 : 2.0};
+double largest_miss(const Surroundings& around, Column missing, int count, const Weight& weight) {
   double most = 0;
   for (int i = 0; i < count; ++i) {
     for (const Neighbour& at : around.ring) missing[i] -= weight(at) * column_of(at)[i];
@@ -142,7 +181,7 @@ void finish(Surroundings& around, double mean_spacing) {
   double sum = 0;
   for (const Neighbour& at : around.ring) sum += std::abs(at.weight);
   const bool good = std::isfinite(sum) && around.spacing > 0 &&
-                    largest_miss(around, 2, [](const Neighbour& at) { return at.weight; }) <=
+                    largest_miss(around, {}, 2, [](const Neighbour& at) { return at.weight; }) <=
                         affine * std::max(1.0, sum);
   const double least = least_spacing * mean_spacing;
   const double most = 8 / (least * least), spacing = around.spacing * around.spacing;
@@ -150,14 +189,17 @@ void finish(Surroundings& around, double mean_spacing) {
   for (Neighbour& at : around.ring) at.weight *= scale;
 }
 
-void set_weights(Surroundings& around, double mean_spacing) {
-  if (!(around.spacing > 0) || !flatten(around)) {
+void set_weights(const Operator& wanted, double mean_spacing, Surroundings& around) {
+  const Frame frame = around.spacing > 0 ? flatten(around) : Frame{};
+  if (!frame.good()) {
     for (Neighbour& at : around.ring) at.weight = 0;
     return;
   }
-  set_wishes(around);
-  const double miss = largest_miss(around, conditions, [](const Neighbour& a) { return a.wish; });
-  fit(around, miss < straight_enough ? 2 : conditions);
+  set_wishes(wanted, around);
+  const Moments moments = moments_of(wanted, frame, around);
+  const double miss =
+      largest_miss(around, moments, conditions, [](const Neighbour& a) { return a.wish; });
+  fit(moments, miss < straight_enough ? 2 : conditions, around);
   finish(around, mean_spacing);
 }
 
@@ -254,10 +296,11 @@ BendingPlanes make_bending(const RestShape& shape, const Material& material) {
   const int n = shape.size();
   const RingReader reader(shape);
   const double reach = reach_of(shape.position);
-  Writer writer(n, material.bending, planes);
+  const Operator wanted(material.bending);
+  Writer writer(n, wanted.stiffness, planes);
   const auto add = [&](std::span<const int> samples) {
     Surroundings around = reader.read(samples);
-    set_weights(around, shape.mean_spacing);
+    set_weights(wanted, shape.mean_spacing, around);
     writer.write(samples, area_around(shape, samples), reach, around);
   };
   std::vector<bool> has_mates(static_cast<std::size_t>(n) * n, false);
@@ -269,7 +312,8 @@ BendingPlanes make_bending(const RestShape& shape, const Material& material) {
     if (!has_mates[static_cast<std::size_t>(s)]) add(std::span(&s, 1));
   writer.finish();
   if (planes.active && !planes.curved) {
-    planes.border = make_border_bending(shape, material.bending);
+    const double both = std::sqrt(material.bending.warp * material.bending.weft);
+    planes.border = make_border_bending(shape, both);
     add_to_diagonal(planes.border, planes.diagonal);
   }
   return planes;

@@ -22,9 +22,11 @@ void check_material(const Material& m) {
   const auto positive = [](double v) { return std::isfinite(v) && v > 0; };
   const auto not_negative = [](double v) { return std::isfinite(v) && v >= 0; };
   require(positive(m.density), "density", m.density, "a density above 0 kg/m^2");
-  require(not_negative(m.stretch), "stretch", m.stretch, "a stiffness of at least 0 N/m");
+  for (const double stretch : {m.stretch.warp, m.stretch.weft})
+    require(not_negative(stretch), "stretch", stretch, "a stiffness of at least 0 N/m");
   require(not_negative(m.shear), "shear", m.shear, "a stiffness of at least 0 N/m");
-  require(not_negative(m.bending), "bending", m.bending, "a stiffness of at least 0 N m");
+  for (const double bending : {m.bending.warp, m.bending.weft})
+    require(not_negative(bending), "bending", bending, "a stiffness of at least 0 N m");
   require(not_negative(m.bend_springs), "bend_springs", m.bend_springs,
           "a stiffness of at least 0 N/m");
   require(not_negative(m.damping), "damping", m.damping, "a rate of at least 0 1/s");

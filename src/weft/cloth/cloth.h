@@ -37,14 +37,15 @@ struct BorderBending {
   std::vector<int> starts;  ///< [n + 1] where each row's begin; empty without edges
 };
 
-/// Resistance to bending, B/2 sum area |L x - R|^2, as |u|^2 / 2 with u = M x - sqrt(B area) R and
-/// M = sqrt(B area) L: element (r, c) of a weight plane belongs to a neighbour of sample (r, c),
-/// (M x)_i = sum_j weight_j (x_j - x_i), a class of mates adding up what its samples see. L is a
-/// Laplacian of the rest surface that vanishes on affine maps of it; along free borders it is the
+/// Resistance to bending, sum area |L x - R|^2 / 2 with L = sqrt(B_warp) d^2/du^2 +
+/// sqrt(B_weft) d^2/dv^2 of the rest surface, as |u|^2 / 2 with u = M x - sqrt(area) R and
+/// M = sqrt(area) L: element (r, c) of a weight plane belongs to a neighbour of sample (r, c),
+/// (M x)_i = sum_j weight_j (x_j - x_i), a class of mates adding up what its samples see. L
+/// vanishes on affine maps of the rest surface; along free borders it is the
 /// second derivative along the border alone, at free corners nothing.
 struct BendingPlanes {
   std::array<Grid<float>, bending_neighbours> weight;  ///< [n x n] each [sqrt(N/m)]
-  Grid<float> rest;        ///< [n x n] sqrt(B area) H0, the same on all of a class [sqrt(N m)]
+  Grid<float> rest;        ///< [n x n] sqrt(area) |R|, the same on all of a class [sqrt(N m)]
   BorderBending border;    ///< added to it, so that free borders resist saddles
   Grid<float> diagonal;    ///< [n x n] of M^T M and what borders add, of the class on its
                            ///< representative, else 0 [N/m]

@@ -71,8 +71,9 @@ double stiffness_of(const RestShape& shape, const Material& material, SpringDire
   const double squared = at.rest_length * at.rest_length;
   switch (direction) {
     case stretch_u:
+      return material.stretch.warp * strip_area(shape, direction, at.row, at.col) / squared;
     case stretch_v:
-      return material.stretch * strip_area(shape, direction, at.row, at.col) / squared;
+      return material.stretch.weft * strip_area(shape, direction, at.row, at.col) / squared;
     case shear_1:
     case shear_2:
       return material.shear * strip_area(shape, direction, at.row, at.col) / squared;

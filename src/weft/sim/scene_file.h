@@ -25,4 +25,7 @@ void write_scene(const std::filesystem::path& path, const Scene& scene);
 /// The same in memory: what a file at that path would hold.
 std::string scene_text(const Scene& scene, const std::filesystem::path& path);
 
+/// A material as the JSON object that a scene file holds, in one line.
+std::string material_text(const Material& material);
+
 }  // namespace weft

@@ -55,10 +55,15 @@ Json collider_json(const ColliderOptions& options) {
   return json;
 }
 
+/// One number where warp and weft are alike.
+Json to_json(WarpWeft pair) {
+  return pair.warp == pair.weft ? Json(pair.warp) : Json{pair.warp, pair.weft};
+}
+
 Json material_json(const Material& m) {
   return {
-      {"density", m.density},           {"stretch", m.stretch},           {"shear", m.shear},
-      {"bending", m.bending},           {"bend_springs", m.bend_springs}, {"damping", m.damping},
+      {"density", m.density},           {"stretch", to_json(m.stretch)},  {"shear", m.shear},
+      {"bending", to_json(m.bending)},  {"bend_springs", m.bend_springs}, {"damping", m.damping},
       {"strain_limit", m.strain_limit}, {"thickness", m.thickness}};
 }
 
@@ -159,6 +164,8 @@ std::string scene_text(const Scene& scene, const fs::path& path) {
                       "another name is wanted");
   }
 }
+
+std::string material_text(const Material& material) { return material_json(material).dump(); }
 
 void write_scene(const fs::path& path, const Scene& scene) {
   const std::string text = scene_text(scene, path);

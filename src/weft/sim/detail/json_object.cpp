@@ -29,6 +29,14 @@ std::string described(NumberRange range) {
   return "a finite number is wanted";
 }
 
+/// Whether a value is a list [warp, weft] of stiffnesses.
+bool is_pair(const nlohmann::json& value) {
+  const auto good = [](const nlohmann::json& one) {
+    return one.is_number() && std::isfinite(one.get<double>()) && one.get<double>() >= 0;
+  };
+  return value.is_array() && value.size() == 2 && good(value[0]) && good(value[1]);
+}
+
 }  // namespace
 
 JsonPlace JsonPlace::key(std::string_view name) const {
@@ -100,6 +108,15 @@ Vec3d JsonObject::vector(std::string_view key, Vec3d fallback) const {
   if (value == nullptr) return fallback;
   const std::vector<double> v = numbers_of(*value, place_.key(key), 3);
   return {v[0], v[1], v[2]};
+}
+
+WarpWeft JsonObject::warp_weft(std::string_view key, WarpWeft fallback) const {
+  const nlohmann::json* value = find(key);
+  if (value == nullptr) return fallback;
+  if (!value->is_array()) return number(key, 0, not_negative);
+  if (!is_pair(*value))
+    place_.key(key).fail(shown(*value), "two numbers >= 0, [warp, weft], or one are wanted");
+  return {(*value)[0].get<double>(), (*value)[1].get<double>()};
 }
 
 std::vector<double> numbers_of(const nlohmann::json& value, const JsonPlace& place,

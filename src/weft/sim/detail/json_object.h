@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "weft/cloth/material.h"
 #include "weft/core/vec.h"
 
 namespace weft {
@@ -47,6 +48,8 @@ class JsonObject {
   [[nodiscard]] bool boolean(std::string_view key, bool fallback) const;
   [[nodiscard]] std::string text(std::string_view key, std::string_view fallback) const;
   [[nodiscard]] Vec3d vector(std::string_view key, Vec3d fallback) const;
+  /// One number >= 0 for warp and weft, or a list of both.
+  [[nodiscard]] WarpWeft warp_weft(std::string_view key, WarpWeft fallback) const;
 
  private:
   const nlohmann::json& value_;

@@ -89,9 +89,9 @@ Material read_material(const nlohmann::json& value, const JsonPlace& place) {
   const Material fallback;
   Material material;
   material.density = object.number("density", fallback.density, positive);
-  material.stretch = object.number("stretch", fallback.stretch, not_negative);
+  material.stretch = object.warp_weft("stretch", fallback.stretch);
   material.shear = object.number("shear", fallback.shear, not_negative);
-  material.bending = object.number("bending", fallback.bending, not_negative);
+  material.bending = object.warp_weft("bending", fallback.bending);
   material.bend_springs = object.number("bend_springs", fallback.bend_springs, not_negative);
   material.damping = object.number("damping", fallback.damping, not_negative);
   material.strain_limit = object.number("strain_limit", fallback.strain_limit, {0, 0.999, false});

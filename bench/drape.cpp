@@ -1,0 +1,83 @@
+// Cusick's drape test of one fabric: what bench/drape.py makes its table of.
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/sim/drape_coefficient.h"
+#include "weft/sim/materials.h"
+
+namespace weft::bench {
+namespace {
+
+struct Words {
+  std::string name, integrator;
+  double mass = 0, bending = 0, fit = 0;  ///< [g/m^2], [uN m], [%]
+  DrapeTestOptions test;
+};
+
+Material material_of(const Words& words) {
+  if (!words.name.empty()) {
+    const auto named = find_material(words.name);
+    if (!named) throw UsageError("--material", words.name, "the name of a material is wanted");
+    return *named;
+  }
+  Material material;
+  material.density = words.mass / 1000;
+  material.bending = words.bending * 1e-6;
+  return material;
+}
+
+int run(const Words& words) {
+  DrapeTestOptions options = words.test;
+  if (words.integrator == "implicit") options.integrator = ImplicitOptions{};
+  Material material = material_of(words);
+  const auto start = std::chrono::steady_clock::now();
+  DrapeResult result;
+  if (words.fit > 0) {
+    FittedBending fitted = fit_bending(material, words.fit / 100, options);
+    material.bending = fitted.bending;
+    result = std::move(fitted.drape);
+  } else {
+    result = measure_drape(material, options);
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  fmt::print(R"({{"bending":[{},{}],"coefficient":{},"spread":{},"folds":{},"kinetic_energy":{},)"
+             R"("integrator":"{}","seconds":{}}})"
+             "\n",
+             material.bending.warp, material.bending.weft, result.coefficient, result.spread,
+             result.folds(), result.kinetic_energy, name_of(options.integrator), seconds.count());
+  return 0;
+}
+
+int parse_and_run(int argc, char** argv) {
+  Words words;
+  CLI::App program{"Drapes discs of a fabric over Cusick's support and prints one JSON object."};
+  program.add_option("--material", words.name, "A name of docs/materials.md; else:");
+  program.add_option("--mass", words.mass, "Of a square metre [g]");
+  program.add_option("--bending", words.bending, "B [uN m]");
+  program.add_option("--fit", words.fit, "Find B of this drape coefficient [%]");
+  program.add_option("--size", words.test.size, "Samples a side")->capture_default_str();
+  program.add_option("--starts", words.test.starts, "Discs")->capture_default_str();
+  program.add_option("--seconds", words.test.seconds, "Of a run")->capture_default_str();
+  program.add_option("--integrator", words.integrator, "The library's default, or implicit")
+      ->check(CLI::IsMember({"", "implicit"}));
+  CLI11_PARSE(program, argc, argv);
+  return run(words);
+}
+
+}  // namespace
+}  // namespace weft::bench
+
+int main(int argc, char** argv) {
+  try {
+    return weft::bench::parse_and_run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench: error: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,251 @@
+#include "weft/sim/drape_coefficient.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "weft/cloth/measure.h"
+#include "weft/core/error.h"
+#include "weft/core/math.h"
+#include "weft/core/random.h"
+#include "weft/image/builtin.h"
+#include "weft/sim/shadow.h"
+
+namespace weft {
+namespace {
+
+constexpr double disc_radius = 0.15, support_radius = 0.09;  // [m]
+constexpr double gravity = 9.81;
+/// Waves around the disc that a push is made of, and its largest speed [m/s].
+constexpr std::array waves{2, 3, 4, 5, 6, 7, 8};
+constexpr double push_speed = 0.05;
+/// A disc rests when its mean speed stays below the first from one look to the next [m/s], [s].
+constexpr double still_speed = 5e-4, time_between_looks = 0.25, least_seconds = 1.5;
+/// Bending lengths between which fits look; cloth measures 1 to 5 cm [m].
+constexpr double softest_length = 0.005, stiffest_length = 0.1;
+/// A fit ends where it is this near, or knows B within this part.
+constexpr double near = 0.003, bending_tolerance = 0.01;
+
+double radius_of(Vec3d p) { return std::sqrt(p.x * p.x + p.z * p.z); }
+
+Planes3 flat_disc(int n) {
+  if (n < 9 || n % 2 == 0)
+    throw SceneError("drape test", fmt::format("a size of {}", n),
+                     "an odd one of at least 9 is wanted");
+  Planes3 rest = world_positions(make_image_shape("disk", n));
+  for (int s = 0; s < n * n; ++s) rest.set(s, static_cast<float>(2 * disc_radius) * rest.at(s));
+  return rest;
+}
+
+/// The radius of the outermost pinned ring: bending begins half a spacing before it.
+double pinned_radius(int n) {
+  const double spacing = 2 * disc_radius / (n - 1);
+  return spacing * std::floor(support_radius / spacing + 1);
+}
+
+Cloth pinned_disc(const Material& material, int n) {
+  const Planes3 rest = flat_disc(n);
+  Cloth cloth = make_cloth(rest, BorderMates(n, {}), material);
+  const double pinned = pinned_radius(n) + 1e-3 * disc_radius / n;
+  for (int s = 0; s < n * n; ++s) {
+    const Vec3d p = vec_cast<double>(rest.at(s));
+    if (radius_of(p) <= pinned) pin(cloth, s, p);
+  }
+  return cloth;
+}
+
+/// Level, with the speeds of a few random waves around it that grow towards its edge.
+ClothState pushed_disc(const Cloth& cloth, Random& random) {
+  std::array<double, waves.size()> strength{}, phase{};
+  for (std::size_t i = 0; i < waves.size(); ++i) {
+    strength[i] = random.uniform(-1, 1) * push_speed / waves.size();
+    phase[i] = random.uniform(0, 2 * pi);
+  }
+  ClothState state = rest_state(cloth);
+  for (int s = 0; s < cloth.size * cloth.size; ++s) {
+    const Vec3d p = vec_cast<double>(cloth.rest.at(s));
+    if (cloth.inverse_mass(s / cloth.size, s % cloth.size) == 0) continue;
+    const double angle = arc_tangent(p.z, p.x), out = radius_of(p) / disc_radius;
+    double speed = 0;
+    for (std::size_t i = 0; i < waves.size(); ++i)
+      speed += strength[i] * sine(waves[i] * angle + phase[i]);
+    state.velocity.set(s, {0, static_cast<float>(out * speed), 0});
+  }
+  return state;
+}
+
+void fall(const Cloth& cloth, const DrapeTestOptions& options, Progress& progress,
+          ClothState& state) {
+  ThreadTeam team(options.team);
+  const StepInput input{options.time_step, {0, -static_cast<float>(gravity), 0}};
+  const auto integrator = make_integrator(options.integrator, cloth, input, team);
+  const int steps = static_cast<int>(options.seconds / options.time_step + 0.5);
+  const int look = std::max(1, static_cast<int>(time_between_looks / options.time_step));
+  const double disc_mass = pi * disc_radius * disc_radius * cloth.material.density;
+  const double still = 0.5 * disc_mass * still_speed * still_speed;
+  bool rested = false;
+  for (int i = 1; i <= steps; ++i) {
+    integrator->begin(input, state);
+    integrator->iterate({});
+    integrator->end(state);
+    if (i % look != 0) continue;
+    progress.update("", static_cast<double>(i) / steps);
+    const bool rests = kinetic_energy(cloth, state) < still;
+    if (rests && rested && i * options.time_step >= least_seconds) return;
+    rested = rests;
+  }
+}
+
+/// How often a closed line rises by a fifth of its height.
+int count_folds(const std::vector<double>& line) {
+  const auto [least, most] = std::minmax_element(line.begin(), line.end());
+  const double rise = 0.2 * (*most - *least);
+  if (*most - *least < 0.02 * disc_radius) return 0;
+  const auto start = static_cast<std::size_t>(least - line.begin());
+  int folds = 0;
+  double lowest = *least, highest = *least;
+  bool rising = false;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    const double value = line[(start + i) % line.size()];
+    lowest = std::min(lowest, value);
+    highest = std::max(highest, value);
+    if (!rising && value > lowest + rise) {
+      rising = true;
+      highest = value;
+      ++folds;
+    } else if (rising && value < highest - rise) {
+      rising = false;
+      lowest = value;
+    }
+  }
+  return folds;
+}
+
+/// How far out the disc's edge lies, once around.
+std::vector<double> outline(const Planes3& position) {
+  const int n = position.size();
+  std::vector<double> radii;
+  for (int p = 0; p < 4 * (n - 1); ++p)
+    radii.push_back(radius_of(vec_cast<double>(position.at(border_sample(n, p)))));
+  return radii;
+}
+
+DrapedDisc measure_disc(const Cloth& cloth, const ClothState& state) {
+  const double support = pi * support_radius * support_radius;
+  const double whole = pi * disc_radius * disc_radius;
+  const double shadow = shadow_area(state.position);
+  return {(shadow - support) / (whole - support), count_folds(outline(state.position)),
+          kinetic_energy(cloth, state)};
+}
+
+void summarise(DrapeResult& result) {
+  const auto count = static_cast<double>(result.discs.size());
+  for (const DrapedDisc& disc : result.discs) {
+    result.coefficient += disc.coefficient / count;
+    result.kinetic_energy = std::max(result.kinetic_energy, disc.kinetic_energy);
+  }
+  double squares = 0;
+  for (const DrapedDisc& disc : result.discs) {
+    const double off = disc.coefficient - result.coefficient;
+    squares += off * off;
+  }
+  result.spread = count > 1 ? std::sqrt(squares / (count - 1)) : 0;
+}
+
+/// The bracket of a fit.
+struct Bracket {
+  double soft = 0, stiff = 0;  ///< B [N m]
+};
+
+class Fit {
+ public:
+  Fit(Material material, double wanted, const DrapeTestOptions& options)
+      : material_(material), wanted_(wanted), options_(options) {}
+
+  FittedBending run() {
+    Bracket bracket{bending_of_length(material_.density, softest_length),
+                    bending_of_length(material_.density, stiffest_length)};
+    check_reach(bracket);
+    FittedBending last = drape(std::sqrt(bracket.soft * bracket.stiff)), best = last;
+    while (bracket.stiff > (1 + bending_tolerance) * bracket.soft && miss(best) > near) {
+      (last.drape.coefficient < wanted_ ? bracket.soft : bracket.stiff) = last.bending;
+      last = drape(std::sqrt(bracket.soft * bracket.stiff));
+      // Where the number of folds changes the coefficient may jump over what is wanted.
+      if (miss(last) < miss(best)) best = last;
+    }
+    return best;
+  }
+
+ private:
+  FittedBending drape(double bending) {
+    material_.bending = bending;
+    // As many as halving the bracket takes.
+    constexpr double most_trials = 12;
+    DrapeTestOptions options = options_;
+    PartOfProgress part(options_.progress, "draping discs", std::min(1.0, trials_ / most_trials),
+                        std::min(1.0, (trials_ + 1) / most_trials));
+    options.progress = &part;
+    ++trials_;
+    return {bending, measure_drape(material_, options)};
+  }
+
+  void check_reach(const Bracket& bracket) {
+    const double least = drape(bracket.soft).drape.coefficient;
+    const double most = drape(bracket.stiff).drape.coefficient;
+    if (wanted_ > least && wanted_ < most) return;
+    throw InputError("drape",
+                     fmt::format("{:.1f} %, which no bending stiffness of cloth gives at "
+                                 "{:g} kg/m^2",
+                                 100 * wanted_, material_.density),
+                     fmt::format("one of {:.1f} to {:.1f} % is wanted", 100 * least, 100 * most));
+  }
+
+  [[nodiscard]] double miss(const FittedBending& fit) const {
+    return std::abs(fit.drape.coefficient - wanted_);
+  }
+
+  Material material_;
+  double wanted_;
+  const DrapeTestOptions& options_;
+  int trials_ = 0;
+};
+
+}  // namespace
+
+double DrapeResult::folds() const {
+  double sum = 0;
+  for (const DrapedDisc& disc : discs) sum += disc.folds;
+  return discs.empty() ? 0 : sum / static_cast<double>(discs.size());
+}
+
+DrapeResult measure_drape(const Material& material, const DrapeTestOptions& options) {
+  const Cloth cloth = pinned_disc(material, options.size);
+  Random random(options.seed);
+  DrapeResult result;
+  for (int i = 0; i < options.starts; ++i) {
+    PartOfProgress part(options.progress, "draping discs", double(i) / options.starts,
+                        double(i + 1) / options.starts);
+    ClothState state = pushed_disc(cloth, random);
+    fall(cloth, options, part, state);
+    result.discs.push_back(measure_disc(cloth, state));
+  }
+  summarise(result);
+  return result;
+}
+
+FittedBending fit_bending(Material material, double coefficient, const DrapeTestOptions& options) {
+  return Fit(material, coefficient, options).run();
+}
+
+double bending_of_length(double density, double length) {
+  return density * gravity * length * length * length;
+}
+
+double length_of_bending(double density, double bending) {
+  return std::cbrt(bending / (density * gravity));
+}
+
+}  // namespace weft
