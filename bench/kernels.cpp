@@ -174,8 +174,8 @@ class Sheet {
                 .kinetic;
     });
   }
-  void limit() { limit_.limit({1}, step_seconds, state_, team_); }
-  void limit_coarsely() { coarse_limit_.limit(1, step_seconds, state_, team_); }
+  void limit() { limit_.limit({.passes = 1}, step_seconds, state_, team_); }
+  void limit_coarsely() { coarse_limit_.limit({.passes = 1}, step_seconds, state_, team_); }
   void step() {
     integrator_->begin({step_seconds, {0, -9.81F, 0}}, before_);
     integrator_->iterate({});

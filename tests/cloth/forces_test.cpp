@@ -14,9 +14,10 @@ using namespace testing;
 
 Planes3 elastic_forces(const Cloth& cloth, const Planes3& position) {
   Planes3 force(cloth.size);
+  const SpringForces forces(cloth);
   ThreadTeam team(1);
   team.run([&](Worker& worker) {
-    for (int r = 0; r < cloth.size; ++r) gather_elastic(cloth, r, position, force);
+    for (int r = 0; r < cloth.size; ++r) forces.gather_elastic(r, position, force);
     sum_over_mates(cloth.mates, worker, {&force.x, &force.y, &force.z});
   });
   return force;
@@ -78,7 +79,8 @@ TEST(Forces, DampingLeavesRigidMotionAlone) {
   for (int s = 0; s < 17 * 17; ++s)
     state.velocity.set(s, Vec3f{1, 2, 3} + cross(turn, state.position.at(s)));
   Planes3 force(17);
-  for (int r = 0; r < 17; ++r) gather_damped(cloth, r, state, force);
+  const SpringForces forces(cloth);
+  for (int r = 0; r < 17; ++r) forces.gather_damped(r, state, force);
   EXPECT_LT(largest(force), 1e-8);
 }
 
@@ -90,7 +92,8 @@ TEST(Forces, DampingSlowsAPairAtTheGivenRate) {
   state.velocity.x(0, 1) = 1;
   state.velocity.x(1, 1) = 1;
   Planes3 force(2);
-  for (int r = 0; r < 2; ++r) gather_damped(cloth, r, state, force);
+  const SpringForces forces(cloth);
+  for (int r = 0; r < 2; ++r) forces.gather_damped(r, state, force);
   const double m = cloth.mass(0, 0);
   // Half a reduced mass for the spring along the border; the diagonal takes cos^2 45 degrees of a
   // whole.
@@ -113,8 +116,8 @@ TEST(SpringMatrix, IsTheDerivativeOfTheForces) {
       ahead.set(s, p.at(s) + step * way.at(s));
       behind.set(s, p.at(s) - step * way.at(s));
     }
-    SpringMatrix matrix(cloth.size);
-    for (int r = 0; r < cloth.size; ++r) matrix.linearise_row(cloth, p, 1, r);
+    SpringMatrix matrix(cloth);
+    for (int r = 0; r < cloth.size; ++r) matrix.linearise_row(p, 1, r);
     for (int r = 0; r < cloth.size; ++r) matrix.multiply_row(way, image, r);
     ThreadTeam team(1);
     team.run([&](Worker& worker) {
@@ -133,8 +136,8 @@ TEST(SpringMatrix, CompressedSpringsKeepItPositive) {
   const Cloth cloth = sheet_cloth(9);
   Planes3 p = cloth.rest, way(9), image(9);
   for (int s = 0; s < 81; ++s) p.set(s, 0.5F * p.at(s));
-  SpringMatrix matrix(9);
-  for (int r = 0; r < 9; ++r) matrix.linearise_row(cloth, p, 1.0 / 240, r);
+  SpringMatrix matrix(cloth);
+  for (int r = 0; r < 9; ++r) matrix.linearise_row(p, 1.0 / 240, r);
   for (int seed = 1; seed < 20; ++seed) {
     way = Planes3(9);
     shake(cloth, 1, way, seed);

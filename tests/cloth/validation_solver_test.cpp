@@ -13,12 +13,13 @@ using namespace testing;
 /// Springs and bending, whole.
 Planes3 forces(const Cloth& cloth, const Planes3& position) {
   Planes3 force(cloth.size);
+  const SpringForces springs(cloth);
   BendingPass bending(cloth);
   ThreadTeam alone(1);
   alone.run([&](Worker& worker) {
     bending.curve(position, worker);
     for (int r = 0; r < cloth.size; ++r) {
-      gather_elastic(cloth, r, position, force);
+      springs.gather_elastic(r, position, force);
       bending.add_row(1, r, force);
     }
     sum_over_mates(cloth.mates, worker, {&force.x, &force.y, &force.z});

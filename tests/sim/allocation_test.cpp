@@ -64,8 +64,8 @@ struct Step {
     const MovingCloth moving{state.position, next->position, next->velocity, cloth.inverse_mass};
     collider.detect(std::span(&moving, 1), input.time_step, team);
     next = &integrator.iterate(collider.contacts(0));
-    coarse.limit(2, input.time_step, *next, team);
-    limit.limit({}, input.time_step, *next, team);
+    coarse.limit({.passes = 2, .strain = 0.05}, input.time_step, *next, team);
+    limit.limit({.strain = 0.05}, input.time_step, *next, team);
     collider.correct(0, moving, integrator.contact_forces(), input.time_step, team);
     collider.guard(std::span(&moving, 1), input.time_step, team);
     integrator.end(state);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -270,6 +271,23 @@ TEST(SceneFile, RelativeSurfacesAreTakenFromTheScenesFolder) {
   const Scene scene =
       parse_scene(R"({"cloths":[{"surface":"../m/a.obj"}]})", "s.json", "/data/scenes");
   EXPECT_EQ(scene.cloths[0].surface, "/data/m/a.obj");
+}
+
+TEST(SceneFile, LimiterPassesAreAKeyOfMethodsThatHaveALimiter) {
+  for (const char* type : {"explicit", "desbrun", "two_level", "multigrid"}) {
+    const std::string text =
+        fmt::format(R"({{"cloths":[{{}}],"integrator":{{"type":"{}","limiter_passes":7}}}})", type);
+    EXPECT_EQ(parse_scene(text, "s.json", "").limiter_passes, 7) << type;
+  }
+  EXPECT_NE(error_of(R"({"cloths":[{}],"integrator":{"type":"implicit","limiter_passes":7}})")
+                .find("s.json:integrator.limiter_passes: unknown key"),
+            std::string::npos);
+  // Nor is it written there.
+  Scene scene;
+  scene.cloths.resize(1);
+  scene.integrator = ImplicitOptions{};
+  scene.limiter_passes = 7;
+  EXPECT_EQ(scene_text(scene, "s.json").find("limiter_passes"), std::string::npos);
 }
 
 TEST(SceneFile, WrittenSceneReadsBackTheSame) {

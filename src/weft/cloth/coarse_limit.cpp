@@ -82,12 +82,15 @@ std::unique_ptr<CoarseLimit::Level> CoarseLimit::coarsened(const Cloth& fine) {
 }
 
 CoarseLimit::CoarseLimit(const Cloth& cloth, const ThreadTeam& team)
-    : cloth_(cloth), moves_(cloth.size, cloth.size, 1), correction_(cloth.size) {
+    : cloth_(cloth),
+      moves_(cloth.size, cloth.size, 1),
+      correction_(cloth.size),
+      velocities_(cloth, team) {
   const Cloth* fine = &cloth;
   while (fine->size % 2 == 1 && (fine->size - 1) / 2 + 1 >= least_level_size) {
     levels_.push_back(coarsened(*fine));
     fine = &levels_.back()->cloth;
-    levels_.back()->limit = std::make_unique<StrainLimit>(*fine, team);
+    levels_.back()->passes = std::make_unique<StrainPasses>(*fine, team);
   }
 }
 
@@ -110,7 +113,8 @@ void CoarseLimit::sample(const ClothState& state) {
 }
 
 /// Takes over what the level below found, and adds to it.
-void CoarseLimit::limit_level(std::size_t index, const Bounds& bounds, Worker& worker) {
+void CoarseLimit::limit_level(std::size_t index, int passes, const StrainBounds& bounds,
+                              Worker& worker) {
   Level& level = *levels_[index];
   Planes3 &x = level.state.position, &d = level.state.velocity;
   const bool coarsest = index + 1 == levels_.size();
@@ -120,13 +124,12 @@ void CoarseLimit::limit_level(std::size_t index, const Bounds& bounds, Worker& w
   }
   average_over_mates(level.cloth.mates, worker, {&d.x, &d.y, &d.z});
   for (int r = 0; r < level.cloth.size; ++r) add_row(d, 1, r, x);
-  level.limit->passes(bounds.passes, {0, bounds.longest, 1}, level.state, worker);
+  level.passes->run(passes, {0, bounds.longest, 1, bounds.as_printed}, {x, d}, worker);
   copy_to_mates(level.cloth.mates, worker, {&x.x, &x.y, &x.z, &d.x, &d.y, &d.z});
 }
 
-/// Adds what the levels found to the cloth itself.
-void CoarseLimit::apply(double time_step, ClothState& state, Worker& worker) {
-  const auto inverse_step = static_cast<float>(1 / time_step);
+/// What the levels found, for the cloth itself. Ends with a barrier.
+void CoarseLimit::interpolate_corrections(Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {
     for (int c = 0; c < cloth_.size; ++c)
@@ -137,22 +140,32 @@ void CoarseLimit::apply(double time_step, ClothState& state, Worker& worker) {
   worker.barrier();
   average_over_mates(cloth_.mates, worker, {&correction_.x, &correction_.y, &correction_.z});
   worker.barrier();
-  for (int r = mine.first; r < mine.last; ++r) {
-    add_row(correction_, 1, r, state.position);
-    add_row(correction_, inverse_step, r, state.velocity);
-  }
 }
 
-void CoarseLimit::limit(int passes, double time_step, ClothState& state,
+void CoarseLimit::apply(const StrainBounds& bounds, ClothState& state, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    add_row(correction_, 1, r, state.position);
+    if (bounds.as_printed) add_row(correction_, bounds.inverse_step, r, state.velocity);
+  }
+  if (!bounds.as_printed) velocities_.add(correction_, bounds.inverse_step, state.velocity, worker);
+}
+
+void CoarseLimit::limit(const LimitOptions& options, double time_step, ClothState& state,
                         ThreadTeam& team) noexcept {
-  if (levels_.empty() || cloth_.material.strain_limit <= 0 || passes <= 0) return;
+  const double limit = strain_limit_of(options, cloth_.material);
+  if (levels_.empty() || limit <= 0 || options.passes <= 0) return;
   sample(state);
-  const Bounds bounds{passes, 1 + static_cast<float>(cloth_.material.strain_limit)};
+  const StrainBounds bounds{0, 1 + static_cast<float>(limit), static_cast<float>(1 / time_step),
+                            options.as_printed};
   ThreadTeam alone(1);
   alone.run([&](Worker& worker) {
-    for (std::size_t i = levels_.size(); i-- > 0;) limit_level(i, bounds, worker);
+    for (std::size_t i = levels_.size(); i-- > 0;) limit_level(i, options.passes, bounds, worker);
   });
-  team.run([&](Worker& worker) { apply(time_step, state, worker); });
+  team.run([&](Worker& worker) {
+    interpolate_corrections(worker);
+    apply(bounds, state, worker);
+  });
 }
 
 }  // namespace weft

@@ -1,7 +1,6 @@
 #include "weft/cloth/forces.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "weft/cloth/neighbours.h"
 
@@ -10,71 +9,45 @@ namespace {
 
 void clear_row(Planes3& planes, int row) {
   const Row3 out = row_of(planes, row);
-  const int n = planes.size();
-  std::fill(out.x, out.x + n, 0.0F);
-  std::fill(out.y, out.y + n, 0.0F);
-  std::fill(out.z, out.z + n, 0.0F);
+  for (float* values : {out.x, out.y, out.z}) std::fill(values, values + planes.size(), 0.0F);
 }
 
-void add_elastic(const NeighbourRow& to, const SpringPlane& springs, ConstRow3 here,
-                 ConstRow3 there, Row3 force) {
-  const float* stiffness = springs.stiffness.row(to.spring_row);
-  const float* rest = springs.rest_length.row(to.spring_row);
-  const int shift = to.shift;
-  const int spring = to.spring_shift;
-#pragma omp simd
-  for (int c = to.first; c < to.last; ++c) {
-    const float dx = there.x[c + shift] - here.x[c];
-    const float dy = there.y[c + shift] - here.y[c];
-    const float dz = there.z[c + shift] - here.z[c];
-    const float squared = dx * dx + dy * dy + dz * dz;
-    const float length = std::sqrt(squared > least_squared_length ? squared : least_squared_length);
-    const float pull = stiffness[c + spring] * (length - rest[c + spring]) / length;
-    force.x[c] += pull * dx;
-    force.y[c] += pull * dy;
-    force.z[c] += pull * dz;
-  }
-}
-
-void add_axial_damping(const NeighbourRow& to, const SpringPlane& springs, const ClothState& state,
-                       int row, Row3 force) {
-  const float* damping = springs.damping.row(to.spring_row);
-  const ConstRow3 here = row_of(state.position, row);
-  const ConstRow3 there = row_of(state.position, to.other_row);
-  const ConstRow3 speed = row_of(state.velocity, row);
-  const ConstRow3 other = row_of(state.velocity, to.other_row);
-  const int shift = to.shift;
-#pragma omp simd
-  for (int c = to.first; c < to.last; ++c) {
-    const float dx = there.x[c + shift] - here.x[c];
-    const float dy = there.y[c + shift] - here.y[c];
-    const float dz = there.z[c + shift] - here.z[c];
-    const float squared = dx * dx + dy * dy + dz * dz;
-    const float along = dx * (other.x[c + shift] - speed.x[c]) +
-                        dy * (other.y[c + shift] - speed.y[c]) +
-                        dz * (other.z[c + shift] - speed.z[c]);
-    const float pull = damping[c + to.spring_shift] * along /
-                       (squared > least_squared_length ? squared : least_squared_length);
-    force.x[c] += pull * dx;
-    force.y[c] += pull * dy;
-    force.z[c] += pull * dz;
-  }
+/// Without velocities.
+NeighbourSprings springs_of(const Cloth& cloth, const NeighbourRow& to, int row,
+                            const Planes3& position) {
+  const SpringPlane& springs = cloth.springs[to.direction];
+  const int at = to.spring_row, shift = to.spring_shift;
+  return {to.first,
+          to.last,
+          springs.rest_length.row(at) + shift,
+          springs.stiffness.row(at) + shift,
+          springs.damping.row(at) + shift,
+          row_of(position, row),
+          shifted(row_of(position, to.other_row), to.shift),
+          {},
+          {}};
 }
 
 }  // namespace
 
-void gather_elastic(const Cloth& cloth, int row, const Planes3& position, Planes3& force) {
+SpringForces::SpringForces(const Cloth& cloth, InstructionSet instructions)
+    : cloth_(cloth), kernels_(implicit_kernels_for(instructions)) {}
+
+void SpringForces::gather_elastic(int row, const Planes3& position, Planes3& force) const {
   clear_row(force, row);
-  for (const NeighbourRow& to : NeighbourRows(cloth.size, row))
-    add_elastic(to, cloth.springs[to.direction], row_of(position, row),
-                row_of(position, to.other_row), row_of(force, row));
+  for (const NeighbourRow& to : NeighbourRows(cloth_.size, row, used_directions(cloth_)))
+    kernels_.elastic(springs_of(cloth_, to, row, position), row_of(force, row));
 }
 
-void gather_damped(const Cloth& cloth, int row, const ClothState& state, Planes3& force) {
-  gather_elastic(cloth, row, state.position, force);
-  if (cloth.material.damping == 0) return;
-  for (const NeighbourRow& to : NeighbourRows(cloth.size, row))
-    add_axial_damping(to, cloth.springs[to.direction], state, row, row_of(force, row));
+void SpringForces::gather_damped(int row, const ClothState& state, Planes3& force) const {
+  gather_elastic(row, state.position, force);
+  if (cloth_.material.damping == 0) return;
+  for (const NeighbourRow& to : NeighbourRows(cloth_.size, row, used_directions(cloth_))) {
+    NeighbourSprings springs = springs_of(cloth_, to, row, state.position);
+    springs.velocity = row_of(state.velocity, row);
+    springs.other_velocity = shifted(row_of(state.velocity, to.other_row), to.shift);
+    kernels_.axial_damping(springs, row_of(force, row));
+  }
 }
 
 }  // namespace weft

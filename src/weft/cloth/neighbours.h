@@ -24,11 +24,11 @@ struct NeighbourRow {
   int first = 0, last = 0;
 };
 
-/// Those neighbours of a row that lie within the image.
+/// Those neighbours of a row that lie within the image, in the first so many directions.
 class NeighbourRows {
  public:
-  NeighbourRows(int size, int row) {
-    for (int direction = 0; direction < spring_directions; ++direction) {
+  NeighbourRows(int size, int row, int directions = spring_directions) {
+    for (int direction = 0; direction < directions; ++direction) {
       const auto [down, right] = spring_offsets[direction];
       add(size, {direction, row + down, right, row, 0});
       add(size, {direction, row - down, -right, row - down, -right});
@@ -48,6 +48,14 @@ class NeighbourRows {
   int count_ = 0;
 };
 
+/// How many directions have springs at all: those of second neighbours come last.
+inline int used_directions(const Cloth& cloth) {
+  return cloth.material.bend_springs > 0 ? spring_directions : bend_u;
+}
+
+inline ConstRow3 shifted(ConstRow3 row, int shift) {
+  return {row.x + shift, row.y + shift, row.z + shift};
+}
 inline ConstRow3 row_of(const Planes3& planes, int r) {
   return {planes.x.row(r), planes.y.row(r), planes.z.row(r)};
 }

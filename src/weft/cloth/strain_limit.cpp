@@ -1,213 +1,49 @@
 #include "weft/cloth/strain_limit.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 
 #include "weft/cloth/mates.h"
-#include "weft/cloth/neighbours.h"
-
-// Springs are limited in eight colours: each of the four directions in two, such that no two
-// springs of a colour share a particle. Where there are mates, springs with an end on the border
-// join classes in ways that no such colouring knows, and they are few: one worker takes them in
-// their order, on the representatives, once the colours of a pass are done.
 
 namespace weft {
 namespace {
 
-/// Passes over fewer samples are left to one worker: barriers would cost more.
-constexpr int samples_worth_sharing = 4096;
-constexpr int least_block = 32, most_blocks = 64;
 /// Corrections lead so much farther than the limit, so that rounding and the last of the passes
 /// leave none beyond it.
 constexpr float margin = 0.985F;
-/// Of the corrections from the second pass on: the first leaves single springs at their limit.
-constexpr float over_relaxation = 1.75F;
-
-int block_size(int n) {
-  const int wanted = (n + most_blocks - 1) / most_blocks;
-  return (wanted + least_block - 1) / least_block * least_block;
-}
-
-std::uint64_t bits(int first, int last) {
-  const std::uint64_t below_last = last >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << last) - 1;
-  return below_last & ~((std::uint64_t{1} << first) - 1);
-}
-
-/// How far the first end of a spring moves along its vector per unit of its inverse mass.
-float correction(float squared, float rest, float inverse_masses, const StrainBounds& bounds) {
-  const float low = rest * bounds.shortest, high = rest * bounds.longest;
-  if (squared >= low * low && squared <= high * high) return 0;
-  if (!(squared > 0 && inverse_masses > 0)) return 0;
-  const float length = std::sqrt(squared);
-  const float wanted = length > high ? high : (length < low ? low : length);
-  return (length - wanted) / (length * inverse_masses);
-}
 
 }  // namespace
 
-struct StrainLimit::Sweep {
-  const StrainBounds& bounds;
-  ClothState& state;
-  Worker& worker;
-  bool alone;
-  float relaxation;
-
-  [[nodiscard]] Range share(int count) const {
-    return alone ? Range{0, count} : worker.share(count);
-  }
-  void barrier() const {
-    if (!alone) worker.barrier();
-  }
-};
-
 StrainLimit::StrainLimit(const Cloth& cloth, const ThreadTeam& team)
-    : cloth_(cloth),
-      kernels_(&kernels_for(team.instructions())),
-      first_(cloth.mates.class_count() > 0 ? 1 : 0),
-      block_(block_size(cloth.size)),
-      active_(static_cast<std::size_t>(cloth.size)),
-      changed_(static_cast<std::size_t>(cloth.size)) {}
+    : cloth_(cloth), passes_(cloth, team), velocities_(cloth, team), correction_(cloth.size) {}
 
-LimitedRows StrainLimit::join(const Sweep& sweep, const SpringPlane& springs, int row) const {
-  const int other = row + springs.down;
-  ClothState& state = sweep.state;
-  return {row_of(state.position, row),
-          row_of(state.position, other),
-          row_of(state.velocity, row),
-          row_of(state.velocity, other),
-          cloth_.inverse_mass.row(row),
-          cloth_.inverse_mass.row(other),
-          springs.rest_length.row(row),
-          springs.right,
-          first_ + std::max(0, -springs.right),
-          cloth_.size - first_ - std::max(0, springs.right),
-          1,
-          sweep.bounds.shortest,
-          sweep.bounds.longest,
-          sweep.bounds.inverse_step,
-          sweep.relaxation};
+double strain_limit_of(const LimitOptions& options, const Material& material) {
+  return options.strain > 0 ? options.strain : material.strain_limit;
 }
 
-Range StrainLimit::columns_of(int first_block, int last_block) const {
-  return {first_block * block_, std::min(cloth_.size, last_block * block_)};
-}
-
-/// Springs that start from a run of blocks.
-void StrainLimit::limit_run(LimitedRows rows, Range blocks, int row) {
-  const LimitedRows whole = rows;
-  const auto cut_to = [&](Range columns) {
-    const int skipped = std::max(0, columns.first - whole.first);
-    rows.first = whole.first + (skipped + whole.step - 1) / whole.step * whole.step;
-    rows.last = std::min(whole.last, columns.last);
-    return rows.first < rows.last && kernels_->breaks_limit(rows);
-  };
-  if (!cut_to(columns_of(blocks.first, blocks.last))) return;
-  for (int b = blocks.first; b < blocks.last; ++b) {
-    if (!cut_to(columns_of(b, b + 1))) continue;
-    kernels_->limit(rows);
-    changed_[row] |= bits(b, b + 1);
-  }
-}
-
-/// One colour: along rows by column parity, else by row parity.
-void StrainLimit::limit_colour(const Sweep& sweep, int direction, int parity) {
-  const SpringPlane& springs = cloth_.springs[direction];
-  const int rows = cloth_.size - 2 * first_ - springs.down;
-  const bool by_column = springs.down == 0;
-  const Range mine = sweep.share(by_column ? rows : (rows + 1 - parity) / 2);
-  const int blocks = (cloth_.size + block_ - 1) / block_;
-  for (int i = mine.first; i < mine.last; ++i) {
-    const int row = first_ + (by_column ? i : 2 * i + parity);
-    if (active_[row] == 0) continue;
-    LimitedRows joined = join(sweep, springs, row);
-    if (by_column) {
-      joined.first += parity;
-      joined.step = 2;
-    }
-    for (int b = 0; b < blocks;) {
-      int end = b;
-      while (end < blocks && (active_[row] >> end & 1U) != 0) ++end;
-      if (end > b) limit_run(joined, {b, end}, row);
-      b = end + 1;
-    }
-  }
-}
-
-void StrainLimit::limit_border(const Sweep& sweep) {
-  const int n = cloth_.size;
-  const float per_step = sweep.bounds.inverse_step;
-  Planes3 &x = sweep.state.position, &v = sweep.state.velocity;
-  for (const BorderSpring& spring : cloth_.border_springs) {
-    const int i = spring.from, j = spring.to;
-    const float wi = cloth_.inverse_mass(i / n, i % n), wj = cloth_.inverse_mass(j / n, j % n);
-    const Vec3f d = x.at(j) - x.at(i);
-    const float s =
-        sweep.relaxation * correction(dot(d, d), spring.rest_length, wi + wj, sweep.bounds);
-    if (s == 0) continue;
-    x.set(i, x.at(i) + s * wi * d);
-    x.set(j, x.at(j) - s * wj * d);
-    v.set(i, v.at(i) + s * wi * per_step * d);
-    v.set(j, v.at(j) - s * wj * per_step * d);
-    for (const int sample : {i, j})
-      changed_[sample / n] |= bits(sample % n / block_, sample % n / block_ + 1);
-  }
-}
-
-void StrainLimit::pass(const Sweep& sweep) {
-  for (const SpringDirection direction : {stretch_u, stretch_v, shear_1, shear_2})
-    for (const int parity : {0, 1}) {
-      limit_colour(sweep, direction, parity);
-      sweep.barrier();
-    }
-  if (first_ > 0 && (sweep.alone || sweep.worker.rank() == 0)) limit_border(sweep);
-}
-
-int StrainLimit::changed_blocks() const {
-  int count = 0;
-  for (const std::uint64_t row : changed_) count += std::popcount(row);
-  return count;
-}
-
-/// What the last pass changed may have broken what it or the blocks beside it are joined by.
-void StrainLimit::renew_active() {
-  const int n = cloth_.size;
-  for (int r = 0; r < n; ++r) {
-    const std::uint64_t near =
-        changed_[r] | (r > 0 ? changed_[r - 1] : 0) | (r + 1 < n ? changed_[r + 1] : 0);
-    active_[r] = near | near << 1U | near >> 1U;
-  }
-  std::fill(changed_.begin(), changed_.end(), 0);
-}
-
-void StrainLimit::passes(int count, const StrainBounds& bounds, ClothState& state,
-                         Worker& worker) noexcept {
-  if (worker.rank() == 0) {
-    std::fill(active_.begin(), active_.end(), ~std::uint64_t{0});
-    std::fill(changed_.begin(), changed_.end(), 0);
-  }
+/// Corrections are gathered apart from the velocities, which then get what of them is safe.
+void StrainLimit::limit_safely(int passes, const StrainBounds& bounds, ClothState& state,
+                               Worker& worker) {
+  if (!passes_.run(passes, {0, bounds.longest}, {state.position, correction_}, worker)) return;
+  velocities_.add(correction_, bounds.inverse_step, state.velocity, worker);
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    for (Grid<float>* plane : {&correction_.x, &correction_.y, &correction_.z})
+      std::fill(plane->row(r), plane->row(r) + cloth_.size, 0.0F);
   worker.barrier();
-  bool alone = false;
-  for (int i = 0; i < count; ++i) {
-    if (!alone || worker.rank() == 0)
-      pass({bounds, state, worker, alone, i == 0 ? 1.0F : over_relaxation});
-    worker.barrier();
-    const int changed = changed_blocks();
-    alone = changed * block_ < samples_worth_sharing;
-    worker.barrier();
-    if (changed == 0) return;
-    if (worker.rank() == 0) renew_active();
-    worker.barrier();
-  }
 }
 
 void StrainLimit::limit(const LimitOptions& options, double time_step, ClothState& state,
                         ThreadTeam& team) noexcept {
-  if (cloth_.material.strain_limit <= 0 || options.passes <= 0) return;
-  const auto elongation = margin * static_cast<float>(cloth_.material.strain_limit);
-  const StrainBounds bounds{1 - elongation, 1 + elongation, static_cast<float>(1 / time_step)};
+  const double limit = strain_limit_of(options, cloth_.material);
+  if (limit <= 0 || options.passes <= 0) return;
+  const auto elongation = margin * static_cast<float>(limit);
+  const StrainBounds bounds{1 - elongation, 1 + elongation, static_cast<float>(1 / time_step),
+                            options.as_printed};
   team.run([&](Worker& worker) {
-    passes(options.passes, bounds, state, worker);
+    if (options.as_printed)
+      passes_.run(options.passes, bounds, {state.position, state.velocity}, worker);
+    else
+      limit_safely(options.passes, bounds, state, worker);
     copy_to_mates(cloth_.mates, worker,
                   {&state.position.x, &state.position.y, &state.position.z, &state.velocity.x,
                    &state.velocity.y, &state.velocity.z});

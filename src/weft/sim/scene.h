@@ -93,7 +93,8 @@ struct Scene {
   std::optional<double> ground = 0.0;
   std::optional<WindOptions> wind;  ///< none: no air
   IntegratorOptions integrator;
-  std::optional<int> limiter_passes;  ///< a step; none: what suits the integrator
+  /// A step; none: what suits the integrator. Only for those of has_limiter.
+  std::optional<int> limiter_passes;
   ColliderOptions collider;
   MeshFrame files;  ///< what the numbers of meshes and caches mean, read and written
   std::vector<SceneCloth> cloths;

@@ -16,8 +16,8 @@ inline constexpr std::array<std::string_view, 2> explicit_integrator{"type", "li
 inline constexpr std::array<std::string_view, 2> desbrun_integrator{"type", "limiter_passes"};
 inline constexpr std::array<std::string_view, 3> newton_integrator{"type", "max_iterations",
                                                                    "tolerance"};
-inline constexpr std::array<std::string_view, 4> implicit_integrator{"type", "limiter_passes",
-                                                                     "max_iterations", "tolerance"};
+inline constexpr std::array<std::string_view, 3> implicit_integrator{"type", "max_iterations",
+                                                                     "tolerance"};
 inline constexpr std::array<std::string_view, 4> multigrid_integrator{
     "type", "limiter_passes", "max_iterations", "tolerance"};
 inline constexpr std::array<std::string_view, 6> two_level_integrator{

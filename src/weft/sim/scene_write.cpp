@@ -140,7 +140,8 @@ Json scene_json(const Scene& scene, const fs::path& folder) {
     json["wind"]["lift"] = scene.wind->lift;
   }
   json["integrator"] = std::visit(IntegratorWriter{}, scene.integrator);
-  if (scene.limiter_passes) json["integrator"]["limiter_passes"] = *scene.limiter_passes;
+  if (scene.limiter_passes && has_limiter(scene.integrator))
+    json["integrator"]["limiter_passes"] = *scene.limiter_passes;
   json["collider"] = collider_json(scene.collider);
   json["unit"] = scene.files.unit.name;
   json["up"] = scene.files.up();

@@ -19,10 +19,37 @@ namespace {
 /// springs are so soft that the limiter carries the cloth: there both take turns, the collider
 /// last.
 constexpr int rounds_of_soft_springs = 4;
-/// Stiff springs leave the limiter a few samples about pins, more of them in finer images, which it
-/// has to bring up the whole cloth's weight by: many passes, that cost little.
-LimitOptions suitable_limit(bool soft, int size) {
-  return {soft ? 10 : std::clamp(size / 2, 60, 128)};
+/// What the two-level method is limited at where the material says nothing: its springs are none of
+/// the material's. [zink07]
+constexpr double strain_of_soft_springs = 0.05;
+
+/// Passes that suit a method. Stiff springs leave the limiter a few samples about pins, more of
+/// them in finer images, which it has to bring up the whole cloth's weight by: many passes, that
+/// cost little.
+struct SuitablePasses {
+  int size;
+  int operator()(const TwoLevelOptions& /*options*/) const { return 10; }
+  int operator()(const DesbrunOptions& /*options*/) const { return std::clamp(size / 2, 60, 128); }
+  int operator()(const MultigridOptions& /*options*/) const {
+    return std::clamp(size / 2, 60, 128);
+  }
+  /// Any other method holds its cloth by the springs themselves.
+  template <class Other>
+  int operator()(const Other& /*options*/) const {
+    return 0;
+  }
+};
+
+LimitOptions limit_for(const Scene& scene, const Cloth& cloth) {
+  LimitOptions limit{
+      has_limiter(scene.integrator)
+          ? scene.limiter_passes.value_or(std::visit(SuitablePasses{cloth.size}, scene.integrator))
+          : 0};
+  const auto* soft = std::get_if<TwoLevelOptions>(&scene.integrator);
+  if (soft == nullptr) return limit;
+  if (cloth.material.strain_limit == 0) limit.strain = strain_of_soft_springs;
+  limit.as_printed = soft->as_printed;
+  return limit;
 }
 /// Of the limiter on each coarse level.
 constexpr int coarse_passes = 2;
@@ -84,15 +111,12 @@ int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport&
   const SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
   StageClock clock;
-  LimitOptions limiter = suitable_limit(soft, cloth.cloth.size);
-  limiter.passes = scene.limiter_passes.value_or(limiter.passes);
-  // Newton's method has the limit in its energy.
-  if (std::holds_alternative<NewtonOptions>(scene.integrator)) limiter.passes = 0;
+  const LimitOptions limiter = limit_for(scene, cloth.cloth);
+  LimitOptions coarse_limiter = limiter;
+  coarse_limiter.passes = std::min(coarse_passes, limiter.passes);
   int contacts = 0;
   for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
-    if (soft)
-      mover.coarse_limit.limit(std::min(coarse_passes, limiter.passes), time_step, next,
-                               solvers(index));
+    if (soft) mover.coarse_limit.limit(coarse_limiter, time_step, next, solvers(index));
     mover.limit.limit(limiter, time_step, next, solvers(index));
     report.limit_ms += clock.lap();
     const int touched = collider->correct(index, moving[index], mover.integrator->contact_forces(),

@@ -1,8 +1,9 @@
 #include "weft/cloth/integrate/coarse_levels.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
-#include "weft/cloth/integrate/blocks.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/mip_levels.h"
 #include "weft/cloth/neighbours.h"
@@ -16,16 +17,14 @@ constexpr int least_level_size = 3;
 // whatever s is, and 4/9 of the mass that its weights sum up.
 constexpr float spring_share = 0.7F, mass_share = 4.0F / 9;
 
-void multiply_row(const Blocks& blocks, Planes3& values, int row) {
-  const Row3 v = row_of(values, row);
-  std::array<const float*, 6> d{};
-  for (int i = 0; i < 6; ++i) d[i] = blocks[i].row(row);
-  for (int c = 0; c < values.size(); ++c) {
-    const float x = v.x[c], y = v.y[c], z = v.z[c];
-    v.x[c] = d[0][c] * x + d[1][c] * y + d[2][c] * z;
-    v.y[c] = d[1][c] * x + d[3][c] * y + d[4][c] * z;
-    v.z[c] = d[2][c] * x + d[4][c] * y + d[5][c] * z;
-  }
+/// A plane around every second row, weighed.
+WeighedRows rows_around(const Grid<float>& fine, const Grid<float>* weight, int row) {
+  const int r = 2 * row;
+  const auto at = [&](const Grid<float>* plane, int from) {
+    return plane == nullptr || from < 0 || from >= fine.rows() ? nullptr : plane->row(from);
+  };
+  return {at(&fine, r - 1),  fine.row(r),   at(&fine, r + 1),
+          at(weight, r - 1), at(weight, r), at(weight, r + 1)};
 }
 
 }  // namespace
@@ -42,8 +41,10 @@ CoarseLevels::Level CoarseLevels::make_level(const BorderMates& mates) {
   return level;
 }
 
-CoarseLevels::CoarseLevels(const Cloth& cloth)
+CoarseLevels::CoarseLevels(const Cloth& cloth, InstructionSet instructions)
     : cloth_(cloth),
+      table_(kernels_for(instructions)),
+      kernels_(implicit_kernels_for(instructions)),
       finest_(make_level(cloth.mates)),
       share_(finest_.share),
       moves_(cloth.size, cloth.size) {
@@ -78,38 +79,28 @@ void CoarseLevels::take_contacts_row(const ContactTerms& contacts, int row) {
   }
 }
 
-void CoarseLevels::invert_row(Level& level, bool contacts, int row) {
-  for (int c = 0; c < level.size(); ++c) {
-    const float mass = mass_share * level.mass(row, c);
-    const auto entry = [&](int i) {
-      const float held = contacts ? mass_share * level.contact[i](row, c) : 0.0F;
-      return spring_share * level.spring[i](row, c) + held;
-    };
-    const Symmetric3 block{entry(0) + mass, entry(1), entry(2),
-                           entry(3) + mass, entry(4), entry(5) + mass};
-    const bool moves = block.xx + block.yy + block.zz > 0;
-    const Symmetric3 result = moves ? inverse(block) : Symmetric3{};
-    level.inverse[0](row, c) = result.xx;
-    level.inverse[1](row, c) = result.xy;
-    level.inverse[2](row, c) = result.xz;
-    level.inverse[3](row, c) = result.yy;
-    level.inverse[4](row, c) = result.yz;
-    level.inverse[5](row, c) = result.zz;
-  }
+void CoarseLevels::invert_row(Level& level, bool contacts, int row) const {
+  const Blocks &spring = level.spring, &contact = level.contact;
+  kernels_.invert_blocks(
+      level.size(),
+      {row_of(spring, row), contacts ? row_of(contact, row) : row_of(spring, row),
+       level.mass.row(row), nullptr, spring_share, contacts ? mass_share : 0, mass_share},
+      row_of(level.inverse, row));
 }
 
-void CoarseLevels::coarsen_row(const Level& fine, bool contacts, Level& coarse, int row) {
-  const int last = coarse.size() - 1;
+void CoarseLevels::coarsen_row(const Level& fine, bool contacts, Level& coarse, int row) const {
+  const int n = fine.size(), last = coarse.size() - 1;
   float* line = coarse.line.row(row);
-  restrict_plane_row(fine.mass, &fine.share, row, line, coarse.mass.row(row));
+  kernels_.restrict_plane(n, rows_around(fine.mass, &fine.share, row), line, coarse.mass.row(row));
   for (int i = 0; i < 6; ++i) {
     float* out = coarse.spring[i].row(row);
-    restrict_plane_row(fine.spring[i], nullptr, row, line, out);
+    kernels_.restrict_plane(n, rows_around(fine.spring[i], nullptr, row), line, out);
     // The weights that were summed, so that a mean remains.
     const float height = row == 0 || row == last ? 1.5F : 2.0F;
     for (int c = 0; c <= last; ++c) out[c] /= height * (c == 0 || c == last ? 1.5F : 2.0F);
     if (contacts)
-      restrict_plane_row(fine.contact[i], &fine.share, row, line, coarse.contact[i].row(row));
+      kernels_.restrict_plane(n, rows_around(fine.contact[i], &fine.share, row), line,
+                              coarse.contact[i].row(row));
   }
 }
 
@@ -144,22 +135,30 @@ void CoarseLevels::prepare(const Blocks& diagonal, const ContactTerms& contacts,
   worker.barrier();
 }
 
-void CoarseLevels::restrict_row(const Level& fine, const Planes3& in, Level& coarse, int row) {
+void CoarseLevels::restrict_row(const Level& fine, const Planes3& in, Level& coarse,
+                                int row) const {
   float* line = coarse.line.row(row);
   const Row3 out = row_of(coarse.value, row);
-  restrict_plane_row(in.x, &fine.share, row, line, out.x);
-  restrict_plane_row(in.y, &fine.share, row, line, out.y);
-  restrict_plane_row(in.z, &fine.share, row, line, out.z);
+  kernels_.restrict_plane(fine.size(), rows_around(in.x, &fine.share, row), line, out.x);
+  kernels_.restrict_plane(fine.size(), rows_around(in.y, &fine.share, row), line, out.y);
+  kernels_.restrict_plane(fine.size(), rows_around(in.z, &fine.share, row), line, out.z);
+}
+
+/// Three rows of the next coarser level, in the scratch of a row.
+Row3 CoarseLevels::interpolation_lines(Level& level, int row) const {
+  float* line = level.line.row(row);
+  const int coarse = (level.size() + 1) / 2;
+  return {line, line + coarse, line + 2 * std::ptrdiff_t{coarse}};
 }
 
 /// Residual to correction, with what the levels below found.
-void CoarseLevels::correct_row(Level& level, const Level* below, int row) {
-  multiply_row(level.inverse, level.value, row);
-  if (below == nullptr) return;
+void CoarseLevels::correct_row(Level& level, const Level* below, int row) const {
   const Row3 out = row_of(level.value, row);
-  add_interpolated_row(below->value.x, row, nullptr, out.x);
-  add_interpolated_row(below->value.y, row, nullptr, out.y);
-  add_interpolated_row(below->value.z, row, nullptr, out.z);
+  kernels_.multiply_blocks(level.size(), row_of(std::as_const(level.inverse), row), out);
+  if (below == nullptr) return;
+  table_.interpolate(level.size(), row_of(below->value, row / 2),
+                     row_of(below->value, (row + 1) / 2), level.share.row(row),
+                     interpolation_lines(level, row), out);
 }
 
 /// All levels but the first: a third of its work, not worth their barriers.
@@ -195,13 +194,10 @@ void CoarseLevels::solve(const Planes3& residual, Worker& worker) {
   worker.barrier();
 }
 
-void CoarseLevels::add_row(Planes3& out, int row) const {
+void CoarseLevels::add_row(Planes3& out, int row) {
   const Planes3& value = levels_.front().value;
-  const Row3 to = row_of(out, row);
-  const float* moves = moves_.row(row);
-  add_interpolated_row(value.x, row, moves, to.x);
-  add_interpolated_row(value.y, row, moves, to.y);
-  add_interpolated_row(value.z, row, moves, to.z);
+  table_.interpolate(cloth_.size, row_of(value, row / 2), row_of(value, (row + 1) / 2),
+                     moves_.row(row), interpolation_lines(finest_, row), row_of(out, row));
 }
 
 }  // namespace weft

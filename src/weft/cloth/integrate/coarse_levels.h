@@ -18,7 +18,7 @@ namespace weft {
 /// any level the preconditioner is block-Jacobi alone.
 class CoarseLevels {
  public:
-  explicit CoarseLevels(const Cloth& cloth);
+  CoarseLevels(const Cloth& cloth, InstructionSet instructions);
   [[nodiscard]] bool empty() const { return levels_.empty(); }
   /// Whether mates differ after add_row, so that their mean is wanted.
   [[nodiscard]] bool parts_mates() const { return finest_.cut_below; }
@@ -33,7 +33,7 @@ class CoarseLevels {
   void solve(const Planes3& residual, Worker& worker);
 
   /// Adds the corrections, interpolated, to a row of the finest level; nothing where pinned.
-  void add_row(Planes3& out, int row) const;
+  void add_row(Planes3& out, int row);
 
  private:
   struct Level {
@@ -44,22 +44,26 @@ class CoarseLevels {
     Blocks spring;      ///< mean of the finest level's blocks without mass [kg]
     Blocks contact;     ///< sum of the contacts' blocks by bilinear weights [kg]
     Blocks inverse;     ///< [1/kg]
-    Grid<float> line;   ///< scratch: a finer row for each row
+    Grid<float> line;   ///< scratch: a finer row for each row, or three coarser
     bool cut_below =
         false;  ///< the next level lacks mates: its corrections are averaged over these
     [[nodiscard]] int size() const { return share.rows(); }
   };
   static Level make_level(const BorderMates& mates);
-  static void invert_row(Level& level, bool contacts, int row);
-  static void correct_row(Level& level, const Level* below, int row);
-  static void restrict_row(const Level& fine, const Planes3& in, Level& coarse, int row);
-  static void coarsen_row(const Level& fine, bool contacts, Level& coarse, int row);
+  void invert_row(Level& level, bool contacts, int row) const;
+  void correct_row(Level& level, const Level* below, int row) const;
+  void restrict_row(const Level& fine, const Planes3& in, Level& coarse, int row) const;
+  void coarsen_row(const Level& fine, bool contacts, Level& coarse, int row) const;
   static void sum_level(Level& level, bool contacts, Worker& worker);
   void take_row(const Blocks& diagonal, int row);
   void take_contacts_row(const ContactTerms& contacts, int row);
   void solve_below();
 
+  [[nodiscard]] Row3 interpolation_lines(Level& level, int row) const;
+
   const Cloth& cloth_;
+  const KernelTable& table_;
+  const ImplicitKernels& kernels_;
   Level finest_;       ///< without values and inverses
   Grid<float> share_;  ///< finest level: pinned or not
   Grid<float> moves_;  ///< finest level: 1 where not pinned

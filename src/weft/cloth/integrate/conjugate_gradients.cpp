@@ -2,26 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "weft/cloth/integrate/blocks.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/neighbours.h"
 
 namespace weft {
 namespace {
 
-float dot_at(ConstRow3 a, ConstRow3 b, int c) {
-  return a.x[c] * b.x[c] + a.y[c] * b.y[c] + a.z[c] * b.z[c];
-}
-
 ConstRow3 const_row_of(const Planes3& planes, int r) { return row_of(planes, r); }
 
 }  // namespace
 
-ConjugateGradients::ConjugateGradients(const Cloth& cloth)
+ConjugateGradients::ConjugateGradients(const Cloth& cloth, InstructionSet instructions)
     : cloth_(cloth),
+      table_(kernels_for(instructions)),
+      kernels_(implicit_kernels_for(instructions)),
       own_mass_(cloth.size, cloth.size),
-      coarse_(cloth),
+      coarse_(cloth, instructions),
       direction_(cloth.size),
       image_(cloth.size),
       preconditioned_(cloth.size),
@@ -35,33 +33,14 @@ ConjugateGradients::ConjugateGradients(const Cloth& cloth)
     }
 }
 
-/// The inverses of the diagonal blocks by cofactors; zero where pinned, which filters the system.
+/// The inverses of the diagonal blocks; zero where pinned, which filters the system.
 void ConjugateGradients::invert_row(const System& system, int row) {
-  std::array<const float*, 6> in{};
-  std::array<float*, 6> out{};
-  for (int i = 0; i < 6; ++i) {
-    in[i] = system.diagonal[i].row(row);
-    out[i] = inverse_[i].row(row);
-  }
   const bool held = !system.contacts.empty();
-  std::array<const float*, 6> contact = in;
-  for (int i = 0; i < 6 && held; ++i) contact[i] = system.contacts.blocks()[i].row(row);
-  const float scale = held ? 1 : 0;
-  const float* inverse_mass = cloth_.inverse_mass.row(row);
-#pragma omp simd
-  for (int c = 0; c < cloth_.size; ++c) {
-    const Symmetric3 block =
-        inverse({in[0][c] + scale * contact[0][c], in[1][c] + scale * contact[1][c],
-                 in[2][c] + scale * contact[2][c], in[3][c] + scale * contact[3][c],
-                 in[4][c] + scale * contact[4][c], in[5][c] + scale * contact[5][c]});
-    const bool moves = inverse_mass[c] > 0;
-    out[0][c] = moves ? block.xx : 0.0F;
-    out[1][c] = moves ? block.xy : 0.0F;
-    out[2][c] = moves ? block.xz : 0.0F;
-    out[3][c] = moves ? block.yy : 0.0F;
-    out[4][c] = moves ? block.yz : 0.0F;
-    out[5][c] = moves ? block.zz : 0.0F;
-  }
+  const BlockRow own = row_of(system.diagonal, row);
+  kernels_.invert_blocks(cloth_.size,
+                         {own, held ? row_of(system.contacts.blocks(), row) : own, nullptr,
+                          cloth_.inverse_mass.row(row), 1, held ? 1.0F : 0.0F, 0},
+                         row_of(inverse_, row));
 }
 
 /// Row of out = (M + S + bending + contacts) in, each sample's own part. Bending has been curved,
@@ -70,31 +49,15 @@ void ConjugateGradients::apply_row(const System& system, const Planes3& in, Plan
                                    int row) const {
   system.springs.multiply_row(in, out, row);
   system.bending.add_row(-system.squared_step, row, out);
-  const ConstRow3 v = row_of(in, row);
   const Row3 sum = row_of(out, row);
-  const float* mass = own_mass_.row(row);
-#pragma omp simd
-  for (int c = 0; c < cloth_.size; ++c) {
-    sum.x[c] += mass[c] * v.x[c];
-    sum.y[c] += mass[c] * v.y[c];
-    sum.z[c] += mass[c] * v.z[c];
-  }
+  kernels_.add_mass(cloth_.size, own_mass_.row(row), row_of(in, row), sum);
   if (system.contacts.loads().row(row)) system.contacts.loads().add_row(row, sum);
 }
 
 /// z = P^-1 r on a row.
 void ConjugateGradients::precondition_row(const Planes3& r, int row) {
-  const ConstRow3 in = row_of(r, row);
-  const Row3 z = row_of(preconditioned_, row);
-  std::array<const float*, 6> d{};
-  for (int i = 0; i < 6; ++i) d[i] = inverse_[i].row(row);
-#pragma omp simd
-  for (int c = 0; c < cloth_.size; ++c) {
-    const float x = in.x[c], y = in.y[c], w = in.z[c];
-    z.x[c] = d[0][c] * x + d[1][c] * y + d[2][c] * w;
-    z.y[c] = d[1][c] * x + d[3][c] * y + d[4][c] * w;
-    z.z[c] = d[2][c] * x + d[4][c] * y + d[5][c] * w;
-  }
+  table_.apply_blocks(cloth_.size, 1, row_of(std::as_const(inverse_), row), row_of(r, row),
+                      row_of(preconditioned_, row));
   if (!coarse_.empty()) coarse_.add_row(preconditioned_, row);
 }
 
@@ -112,42 +75,22 @@ double ConjugateGradients::precondition(const Planes3& r, Worker& worker) {
   }
   return sums_.sum(worker, [&](int row) {
     if (!apart) precondition_row(r, row);
-    const ConstRow3 in = row_of(r, row), z = const_row_of(preconditioned_, row);
-    const float* counted = cloth_.counted.row(row);
-    return lane_sum(cloth_.size, [&](int c) { return double{counted[c] * dot_at(in, z, c)}; });
+    return table_.dot(cloth_.size, cloth_.counted.row(row), row_of(r, row),
+                      const_row_of(preconditioned_, row));
   });
 }
 
 /// v += alpha p, r -= alpha q on a row.
 void ConjugateGradients::step_row(double alpha, Planes3& r, Planes3& v, int row) {
-  const auto a = static_cast<float>(alpha);
-  const ConstRow3 p = const_row_of(direction_, row), q = const_row_of(image_, row);
-  const Row3 to = row_of(v, row), rest = row_of(r, row);
-#pragma omp simd
-  for (int c = 0; c < cloth_.size; ++c) {
-    to.x[c] += a * p.x[c];
-    to.y[c] += a * p.y[c];
-    to.z[c] += a * p.z[c];
-    rest.x[c] -= a * q.x[c];
-    rest.y[c] -= a * q.y[c];
-    rest.z[c] -= a * q.z[c];
-  }
-  float largest = 0;
-  for (int c = 0; c < cloth_.size; ++c) largest = std::max(largest, dot_at(p, p, c));
-  squared_steps_[row] = largest;
+  squared_steps_[row] = kernels_.gradient_step(
+      cloth_.size, {static_cast<float>(alpha), const_row_of(direction_, row),
+                    const_row_of(image_, row), row_of(r, row), row_of(v, row)});
 }
 
 /// p = z + beta p on a row.
 void ConjugateGradients::turn_row(double beta, int row) {
-  const auto b = static_cast<float>(beta);
-  const ConstRow3 z = const_row_of(preconditioned_, row);
-  const Row3 p = row_of(direction_, row);
-#pragma omp simd
-  for (int c = 0; c < cloth_.size; ++c) {
-    p.x[c] = z.x[c] + b * p.x[c];
-    p.y[c] = z.y[c] + b * p.y[c];
-    p.z[c] = z.z[c] + b * p.z[c];
-  }
+  kernels_.update_direction(cloth_.size, static_cast<float>(beta),
+                            const_row_of(preconditioned_, row), row_of(direction_, row));
 }
 
 double ConjugateGradients::largest_step() const {
@@ -162,13 +105,7 @@ void ConjugateGradients::start(const System& system, Planes3& r, const Planes3& 
   for (int row = mine.first; row < mine.last; ++row) {
     invert_row(system, row);
     apply_row(system, v, image_, row);
-    const Row3 to = row_of(r, row);
-    const ConstRow3 q = const_row_of(image_, row);
-    for (int c = 0; c < cloth_.size; ++c) {
-      to.x[c] -= q.x[c];
-      to.y[c] -= q.y[c];
-      to.z[c] -= q.z[c];
-    }
+    kernels_.subtract(cloth_.size, const_row_of(image_, row), row_of(r, row));
   }
   worker.barrier();
   sum_over_mates(cloth_.mates, worker, {&r.x, &r.y, &r.z});
@@ -188,8 +125,8 @@ SolveReport ConjugateGradients::iterate(const System& system, const Stop& stop, 
     if (!system.contacts.empty()) system.contacts.multiply(direction_, worker);
     const double pq = sums_.sum(worker, [&](int row) {
       apply_row(system, direction_, image_, row);
-      const ConstRow3 p = const_row_of(direction_, row), q = const_row_of(image_, row);
-      return lane_sum(cloth_.size, [&](int c) { return double{dot_at(p, q, c)}; });
+      return table_.dot(cloth_.size, nullptr, const_row_of(direction_, row),
+                        const_row_of(image_, row));
     });
     if (!(pq > 0)) break;
     sum_over_mates(cloth_.mates, worker, {&image_.x, &image_.y, &image_.z});

@@ -23,7 +23,7 @@ struct SolveReport {
 /// same bits.
 class ConjugateGradients {
  public:
-  explicit ConjugateGradients(const Cloth& cloth);
+  ConjugateGradients(const Cloth& cloth, InstructionSet instructions);
 
   struct System {
     const SpringMatrix& springs;
@@ -58,6 +58,8 @@ class ConjugateGradients {
   void restore_momentum(const Planes3& r, Planes3& v, Worker& worker);
 
   const Cloth& cloth_;
+  const KernelTable& table_;
+  const ImplicitKernels& kernels_;
   double total_mass_ = 0;  ///< [kg]
   Grid<float> own_mass_;   ///< the particle's mass on its representative, else 0
   Blocks inverse_;

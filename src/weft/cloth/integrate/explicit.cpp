@@ -20,7 +20,9 @@ class Explicit final : public Integrator {
       : cloth_(cloth),
         typical_step_(typical.time_step),
         team_(team),
+        kernels_(implicit_kernels_for(team.instructions())),
         force_(cloth.size),
+        forces_(cloth, team.instructions()),
         bending_(cloth, team.instructions()),
         next_(rest_state(cloth)) {}
 
@@ -31,7 +33,7 @@ class Explicit final : public Integrator {
       const Range mine = worker.share(cloth_.size);
       bending_.curve(state.position, worker);
       for (int r = mine.first; r < mine.last; ++r) {
-        gather_damped(cloth_, r, state, force_);
+        forces_.gather_damped(r, state, force_);
         bending_.add_row(1, r, force_);
       }
       worker.barrier();
@@ -68,27 +70,24 @@ class Explicit final : public Integrator {
 
  private:
   void advance_row(const StepInput& input, const ClothState& state, int row) {
-    const auto h = static_cast<float>(input.time_step);
-    const ConstRow3 x = row_of(state.position, row), v = row_of(state.velocity, row);
-    const ConstRow3 f = row_of(std::as_const(force_), row);
-    const Row3 x1 = row_of(next_.position, row), v1 = row_of(next_.velocity, row);
-    const float* inverse_mass = cloth_.inverse_mass.row(row);
     const Vec3f g = input.gravity;
-#pragma omp simd
-    for (int c = 0; c < cloth_.size; ++c) {
-      v1.x[c] = v.x[c] + h * (f.x[c] * inverse_mass[c] + g.x);
-      v1.y[c] = v.y[c] + h * (f.y[c] * inverse_mass[c] + g.y);
-      v1.z[c] = v.z[c] + h * (f.z[c] * inverse_mass[c] + g.z);
-      x1.x[c] = x.x[c] + h * v1.x[c];
-      x1.y[c] = x.y[c] + h * v1.y[c];
-      x1.z[c] = x.z[c] + h * v1.z[c];
-    }
+    kernels_.advance(cloth_.size,
+                     {static_cast<float>(input.time_step),
+                      {g.x, g.y, g.z},
+                      row_of(state.position, row),
+                      row_of(state.velocity, row),
+                      row_of(std::as_const(force_), row),
+                      cloth_.inverse_mass.row(row),
+                      cloth_.counted.row(row)},
+                     row_of(next_.position, row), row_of(next_.velocity, row));
   }
 
   const Cloth& cloth_;
   double typical_step_;  // [s]
   ThreadTeam& team_;
+  const ImplicitKernels& kernels_;
   Planes3 force_;
+  SpringForces forces_;
   BendingPass bending_;
   ClothState next_;
   double time_step_ = 1, seconds_ = 0;

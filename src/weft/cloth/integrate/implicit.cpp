@@ -32,12 +32,14 @@ class Implicit final : public Integrator {
         team_(team),
         start_(rest_state(cloth)),
         next_(rest_state(cloth)),
+        kernels_(implicit_kernels_for(team.instructions())),
         force_(cloth.size),
         right_(cloth.size),
-        springs_(cloth.size),
+        forces_(cloth, team.instructions()),
+        springs_(cloth, team.instructions()),
         bending_(cloth, team.instructions()),
         contacts_(cloth),
-        solver_(cloth) {
+        solver_(cloth, team.instructions()) {
     for (Grid<float>& plane : diagonal_) plane = Grid<float>(cloth.size, cloth.size);
   }
 
@@ -52,10 +54,10 @@ class Implicit final : public Integrator {
       bending_.curve(start_.position, worker);
       const Range mine = worker.share(cloth_.size);
       for (int r = mine.first; r < mine.last; ++r) {
-        springs_.linearise_row(cloth_, state.position, input.time_step, r);
-        gather_elastic(cloth_, r, state.position, force_);
+        springs_.linearise_row(start_.position, input.time_step, r);
+        forces_.gather_elastic(r, start_.position, force_);
         bending_.add_row(1, r, force_);
-        fall_row(state, r);
+        fall_row(r);
       }
       worker.barrier();
       for (int r = mine.first; r < mine.last; ++r) diagonal_row(r);
@@ -142,17 +144,21 @@ class Implicit final : public Integrator {
     report_.residual = solved.correction * to_residual;
   }
 
-  /// The guess: v + h g, and where it leads.
-  void fall_row(const ClothState& state, int row) {
-    const auto h = static_cast<float>(input_.time_step);
-    const ConstRow3 v = row_of(state.velocity, row);
-    const Row3 v1 = row_of(next_.velocity, row);
+  /// Where a row was when the step began, and what acts on it.
+  [[nodiscard]] StartRow start_row(int row) const {
     const Vec3f g = input_.gravity;
-    for (int c = 0; c < cloth_.size; ++c) {
-      v1.x[c] = v.x[c] + h * g.x;
-      v1.y[c] = v.y[c] + h * g.y;
-      v1.z[c] = v.z[c] + h * g.z;
-    }
+    return {static_cast<float>(input_.time_step),
+            {g.x, g.y, g.z},
+            row_of(start_.position, row),
+            row_of(start_.velocity, row),
+            row_of(force_, row),
+            cloth_.mass.row(row),
+            cloth_.counted.row(row)};
+  }
+
+  /// The guess: v + h g, and where it leads.
+  void fall_row(int row) {
+    kernels_.fall(cloth_.size, start_row(row), row_of(next_.velocity, row));
     move_row(row);
   }
 
@@ -176,31 +182,14 @@ class Implicit final : public Integrator {
 
   /// M (v + h g) + h f + contacts, each sample's own part.
   void right_row(int row) {
-    const auto h = static_cast<float>(input_.time_step);
-    const Vec3f g = input_.gravity;
-    const ConstRow3 v = row_of(std::as_const(start_.velocity), row);
-    const ConstRow3 f = row_of(std::as_const(force_), row);
-    const float *mass = cloth_.mass.row(row), *counted = cloth_.counted.row(row);
     const Row3 b = row_of(right_, row);
-    for (int c = 0; c < cloth_.size; ++c) {
-      const float own = mass[c] * counted[c];
-      b.x[c] = own * (v.x[c] + h * g.x) + h * f.x[c];
-      b.y[c] = own * (v.y[c] + h * g.y) + h * f.y[c];
-      b.z[c] = own * (v.z[c] + h * g.z) + h * f.z[c];
-    }
+    kernels_.right_side(cloth_.size, start_row(row), b);
     if (contacts_.loads().row(row)) contacts_.loads().add_row(row, b);
   }
 
   void move_row(int row) {
-    const auto h = static_cast<float>(input_.time_step);
-    const ConstRow3 x = row_of(std::as_const(start_.position), row);
-    const ConstRow3 v1 = row_of(std::as_const(next_.velocity), row);
-    const Row3 x1 = row_of(next_.position, row);
-    for (int c = 0; c < cloth_.size; ++c) {
-      x1.x[c] = x.x[c] + h * v1.x[c];
-      x1.y[c] = x.y[c] + h * v1.y[c];
-      x1.z[c] = x.z[c] + h * v1.z[c];
-    }
+    kernels_.move(cloth_.size, start_row(row), row_of(std::as_const(next_.velocity), row),
+                  row_of(next_.position, row));
   }
 
   ImplicitOptions options_;
@@ -208,7 +197,9 @@ class Implicit final : public Integrator {
   ThreadTeam& team_;
   StepInput input_;
   ClothState start_, next_;
+  const ImplicitKernels& kernels_;
   Planes3 force_, right_;
+  SpringForces forces_;
   SpringMatrix springs_;
   BendingPass bending_;
   Blocks diagonal_;

@@ -26,7 +26,7 @@ struct StepReport {
   double forces_seconds = 0, solve_seconds = 0;
 };
 
-/// Explicit Euler with Provot's limit [provot95].
+/// Explicit Euler [provot95]; with Provot's limit where `limiter_passes` asks for it.
 struct ExplicitOptions {};
 /// Linearised implicit Euler, conjugate gradients without a matrix [baraff98].
 struct ImplicitOptions {
@@ -37,11 +37,14 @@ struct ImplicitOptions {
 };
 /// One dense filter W of the cloth's own springs [desbrun99].
 struct DesbrunOptions {};
-/// The paper's local and global filters [zink07].
+/// The paper's local and global filters [zink07]. Its soft springs leave all stretch to the
+/// limiter, at 5 % where the material has no limit of its own.
 struct TwoLevelOptions {
-  int local_size = 11;      ///< n_l, odd
-  int global_size = 0;      ///< n_g, n - 1 a multiple of n_g - 1; 0: the largest such up to 17
-  bool as_printed = false;  ///< f_l + interpolate(f_g), and the printed torque correction
+  int local_size = 11;  ///< n_l, odd
+  int global_size = 0;  ///< n_g, n - 1 a multiple of n_g - 1; 0: the largest such up to 17
+  /// f_l + interpolate(f_g), the printed torque correction, and a limiter that limits diagonals and
+  /// shortening too and lends velocities its whole corrections.
+  bool as_printed = false;
   /// k of the filter and of its soft springs [N/m]; 0: the largest known stable.
   double filter_stiffness = 0;
 };
@@ -64,6 +67,11 @@ struct NewtonOptions {
 };
 using IntegratorOptions = std::variant<NewtonOptions, MultigridOptions, ImplicitOptions,
                                        ExplicitOptions, DesbrunOptions, TwoLevelOptions>;
+
+/// Whether the strain limiter goes with a method, so that `limiter_passes` is a key of it: with
+/// those of the literature that came with it, and with multigrid, whose few iterations may leave
+/// springs too long. Implicit Euler solved to the end holds its cloth by the springs themselves.
+bool has_limiter(const IntegratorOptions& options);
 
 /// The name in scene file and command line: newton, multigrid, implicit, explicit, desbrun,
 /// two_level.

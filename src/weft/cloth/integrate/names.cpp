@@ -15,6 +15,11 @@ struct NameOf {
 
 }  // namespace
 
+bool has_limiter(const IntegratorOptions& options) {
+  return !std::holds_alternative<NewtonOptions>(options) &&
+         !std::holds_alternative<ImplicitOptions>(options);
+}
+
 std::string_view name_of(const IntegratorOptions& options) { return std::visit(NameOf{}, options); }
 
 }  // namespace weft

@@ -3,12 +3,24 @@
 #include <array>
 
 #include "weft/cloth/cloth.h"
-#include "weft/core/thread_team.h"
+#include "weft/cloth/kernels/implicit_kernels.h"
+#include "weft/core/instruction_set.h"
 
 namespace weft {
 
+struct NeighbourRow;
+
 /// A symmetric 3 x 3 matrix a sample, upper triangle: xx, xy, xz, yy, yz, zz.
 using Blocks = std::array<Grid<float>, 6>;
+
+inline BlockRow row_of(const Blocks& blocks, int r) {
+  return {blocks[0].row(r), blocks[1].row(r), blocks[2].row(r),
+          blocks[3].row(r), blocks[4].row(r), blocks[5].row(r)};
+}
+inline BlockRowOut row_of(Blocks& blocks, int r) {
+  return {blocks[0].row(r), blocks[1].row(r), blocks[2].row(r),
+          blocks[3].row(r), blocks[4].row(r), blocks[5].row(r)};
+}
 
 /// S = h^2 K + h C, the part of implicit Euler's matrix that springs make: K the stiffness matrix
 /// with its transverse part held non-negative, C the damping along the springs. For one spring of
@@ -18,11 +30,12 @@ using Blocks = std::array<Grid<float>, 6>;
 /// part.
 class SpringMatrix {
  public:
-  explicit SpringMatrix(int size);
+  /// @param cloth  kept by reference
+  explicit SpringMatrix(const Cloth& cloth, InstructionSet instructions = best_instruction_set());
 
   /// Computes the springs that start in a row. Let all rows be done before the next functions are
   /// used.
-  void linearise_row(const Cloth& cloth, const Planes3& position, double time_step, int row);
+  void linearise_row(const Planes3& position, double time_step, int row);
   /// Row `row` of out = S in. [in: m/s, out: kg m/s]
   void multiply_row(const Planes3& in, Planes3& out, int row) const;
   /// Adds the diagonal blocks of S to a row of blocks.
@@ -33,7 +46,10 @@ class SpringMatrix {
     Grid<float> transverse;  ///< a
     Planes3 axial;           ///< s
   };
-  int size_;
+  [[nodiscard]] NeighbourBlocks blocks_of(const NeighbourRow& to) const;
+
+  const Cloth& cloth_;
+  const ImplicitKernels& kernels_;
   std::array<Direction, spring_directions> directions_;
 };
 

@@ -79,8 +79,8 @@ double highest_squared_frequency(const Cloth& cloth, ThreadTeam& team) {
   constexpr int iterations = 200;
   Cloth undamped = cloth;
   for (SpringPlane& plane : undamped.springs) plane.damping.fill(0);
-  Stiffness stiffness{SpringMatrix(cloth.size), BendingPass(cloth)};
-  for (int r = 0; r < cloth.size; ++r) stiffness.springs.linearise_row(undamped, cloth.rest, 1, r);
+  Stiffness stiffness{SpringMatrix(undamped), BendingPass(cloth)};
+  for (int r = 0; r < cloth.size; ++r) stiffness.springs.linearise_row(cloth.rest, 1, r);
   Planes3 v = random_motion(cloth), kv(cloth.size);
   RowSums sums(cloth.size);
   double result = 0;

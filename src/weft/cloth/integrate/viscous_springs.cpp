@@ -5,13 +5,6 @@
 #include "weft/cloth/neighbours.h"
 
 namespace weft {
-namespace {
-
-ConstRow3 shifted(ConstRow3 row, int shift) {
-  return {row.x + shift, row.y + shift, row.z + shift};
-}
-
-}  // namespace
 
 ViscousSprings::ViscousSprings(const Cloth& cloth, const ThreadTeam& team)
     : cloth_(cloth), kernels_(filtering_kernels_for(team.instructions())) {

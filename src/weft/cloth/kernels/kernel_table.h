@@ -4,9 +4,12 @@
 
 #include "weft/cloth/kernels/row_pointers.h"
 
-// The inner loops of stepping: each works on one row of n samples, reads its neighbours' rows and
-// writes nothing but what it is given to write. They are compiled once for every instruction set
-// (kernels/rows/) and give the same bits in each: no sum's order depends on the vector's width.
+// Inner loops that are compiled once for every instruction set (kernels/rows/): each works on one
+// row of n samples, reads its neighbours' rows and writes nothing but what it is given to write.
+// They give the same bits in each set: no sum's order depends on the vector's width. Here stand
+// those of multigrid, bending, the strain limiter and the look for runaways; implicit and explicit
+// have theirs in implicit_kernels.h, desbrun and two_level in filtering_kernels.h. What is outside
+// these tables, such as contacts, wind, mates and the normals of curved cloth, is compiled once.
 
 namespace weft {
 

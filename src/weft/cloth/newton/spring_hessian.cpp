@@ -5,8 +5,6 @@
 namespace weft {
 namespace {
 
-ConstRow3 shifted(ConstRow3 row, int by) { return {row.x + by, row.y + by, row.z + by}; }
-
 RowTriple rows_around(const PaddedVectors& field, int r) {
   return {field.row(r - 1), field.row(r), field.row(r + 1)};
 }
