@@ -63,8 +63,11 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
       galerkin_(cloth.size, workers),
       mask_(cloth.size, cloth.size),
       free_extra_(cloth.size, cloth.size) {
+  // Second-neighbour springs are not in the stencil: the smoother knows what bounds them.
+  const auto far_stiffness = static_cast<float>(8 * cloth.material.bend_springs);
   for (int r = 0; r < cloth.size; ++r)
-    for (int c = 0; c < cloth.size; ++c) free_extra_(r, c) = levels_.front().extra(r, c);
+    for (int c = 0; c < cloth.size; ++c)
+      free_extra_(r, c) = levels_.front().extra(r, c) + far_stiffness;
   for (int i = 0; i < workers; ++i)
     scratch_.emplace_back(
         std::max(LineFactor::scratch_size(cloth.size), std::size_t(cloth.size) + 64));

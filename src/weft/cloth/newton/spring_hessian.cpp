@@ -1,5 +1,7 @@
 #include "weft/cloth/newton/spring_hessian.h"
 
+#include <algorithm>
+
 #include "weft/cloth/neighbours.h"
 
 namespace weft {
@@ -14,11 +16,14 @@ RowTriple rows_around(const PaddedVectors& field, int r) {
 SpringHessian::SpringHessian(const Cloth& cloth, const NewtonKernels& kernels)
     : cloth_(cloth),
       kernels_(&kernels),
+      directions_(cloth.material.bend_springs > 0 ? spring_directions : near_directions),
       inertia_(cloth.size, cloth.size),
       momentum_(cloth.size, cloth.size) {
   const int n = cloth.size;
-  for (Direction& one : springs_)
+  for (int d = 0; d < directions_; ++d) {
+    Direction& one = springs_[d];
     for (PaddedPlane* plane : {&one.t, &one.x, &one.y, &one.z, &one.f}) *plane = PaddedPlane(n, n);
+  }
 }
 
 void SpringHessian::set_time_step(double time_step) {
@@ -61,7 +66,7 @@ LinearisedSprings SpringHessian::springs_at(int direction, const PaddedVectors& 
 }
 
 void SpringHessian::linearise_row(const PaddedState& state, int row) {
-  for (int d = 0; d < directions; ++d) {
+  for (int d = 0; d < directions_; ++d) {
     LinearisedSprings springs = springs_at(d, state.position, row);
     const SpringPlane& plane = cloth_.springs[d];
     springs.speed_here = state.velocity.row(row);
@@ -77,14 +82,14 @@ void SpringHessian::linearise_row(const PaddedState& state, int row) {
 
 double SpringHessian::energy_row(const PaddedVectors& position, int row) const {
   double energy = 0;
-  for (int d = 0; d < directions; ++d)
+  for (int d = 0; d < directions_; ++d)
     energy += kernels_->spring_energy(cloth_.size, springs_at(d, position, row));
   return energy;
 }
 
 double SpringHessian::damped_energy_row(const PaddedState& state, int row) const {
   double energy = 0;
-  for (int d = 0; d < directions; ++d) {
+  for (int d = 0; d < directions_; ++d) {
     LinearisedSprings springs = springs_at(d, state.position, row);
     const SpringPlane& plane = cloth_.springs[d];
     springs.speed_here = state.velocity.row(row);
@@ -110,7 +115,7 @@ std::array<PlaneView, 4> SpringHessian::views(int direction) const {
 
 SpringRing SpringHessian::ring_at(int row) const {
   SpringRing ring{};
-  for (int d = 0; d < directions; ++d) {
+  for (int d = 0; d < near_directions; ++d) {
     const auto [down, right] = spring_offsets[d];
     ring.spring[2 * d] = springs_row(d, row);
     ConstSpringHessianRow back = springs_row(d, row - down);
@@ -120,10 +125,31 @@ SpringRing SpringHessian::ring_at(int row) const {
   return ring;
 }
 
+/// Calls visit(col, spring, col of spring, other row, other col) for the second-neighbour springs
+/// of the particles of a row.
+template <class Visit>
+void SpringHessian::for_far_springs(int row, const Visit& visit) const {
+  const int n = cloth_.size;
+  for (int d = near_directions; d < directions_; ++d)
+    for (const int way : {1, -1}) {
+      const int down = way * spring_offsets[d].down, right = way * spring_offsets[d].right;
+      if (row + down < 0 || row + down >= n) continue;
+      const ConstSpringHessianRow springs = springs_row(d, way > 0 ? row : row + down);
+      for (int c = std::max(0, -right); c < n - std::max(0, right); ++c)
+        visit(c, springs, way > 0 ? c : c + right, row + down, c + right);
+    }
+}
+
 void SpringHessian::gradient_row(const PaddedState& state, const PaddedVectors& wanted, int row,
                                  PaddedVectors& out) const {
   kernels_->gradient(cloth_.size, ring_at(row), rows_around(state.position, row),
                      momentum_.row(row), state.velocity.row(row), wanted.row(row), out.row(row));
+  const PaddedVectors& at = state.position;
+  for_far_springs(row, [&](int c, const ConstSpringHessianRow& springs, int s, int r2, int c2) {
+    out.x(row, c) -= springs.f[s] * (at.x(r2, c2) - at.x(row, c));
+    out.y(row, c) -= springs.f[s] * (at.y(r2, c2) - at.y(row, c));
+    out.z(row, c) -= springs.f[s] * (at.z(r2, c2) - at.z(row, c));
+  });
 }
 
 void SpringHessian::diagonal_row(int row, PaddedBlocks& out) const {
@@ -135,6 +161,14 @@ void SpringHessian::diagonal_row(int row, PaddedBlocks& out) const {
 void SpringHessian::apply_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
   kernels_->apply_springs(cloth_.size, ring_at(row), rows_around(x, row), inertia_.row(row),
                           out.row(row));
+  for_far_springs(row, [&](int c, const ConstSpringHessianRow& springs, int s, int r2, int c2) {
+    const float dx = x.x(row, c) - x.x(r2, c2), dy = x.y(row, c) - x.y(r2, c2),
+                dz = x.z(row, c) - x.z(r2, c2);
+    const float along = springs.x[s] * dx + springs.y[s] * dy + springs.z[s] * dz;
+    out.x(row, c) += springs.t[s] * dx + along * springs.x[s];
+    out.y(row, c) += springs.t[s] * dy + along * springs.y[s];
+    out.z(row, c) += springs.t[s] * dz + along * springs.z[s];
+  });
 }
 
 }  // namespace weft

@@ -17,7 +17,7 @@ struct PaddedState {
   explicit PaddedState(int n) : position(n, n), velocity(n, n), start(n, n) {}
 };
 
-/// Stretch and shear springs linearised at a state: the Hessian of each is t 1 + s s^T with
+/// Springs linearised at a state: the Hessian of each is t 1 + s s^T with
 /// t = k max(0, 1 - l0 / l) across the spring and t + |s|^2 = k along it, the positive part of the
 /// true one; damping of the relative motion along springs adds its rate over h along them.
 /// Rows are independent of one another.
@@ -50,10 +50,12 @@ class SpringHessian {
   [[nodiscard]] std::array<PlaneView, 4> views(int direction) const;
 
  private:
-  static constexpr int directions = 4;
+  static constexpr int near_directions = 4;
   struct Direction {
     PaddedPlane t, x, y, z, f;
   };
+  template <class Visit>
+  void for_far_springs(int row, const Visit& visit) const;
   [[nodiscard]] LinearisedSprings springs_at(int direction, const PaddedVectors& position,
                                              int row) const;
   [[nodiscard]] SpringRing ring_at(int row) const;
@@ -61,7 +63,8 @@ class SpringHessian {
   const Cloth& cloth_;
   const NewtonKernels* kernels_;
   double time_step_ = 0;
-  std::array<Direction, directions> springs_;
+  int directions_;  // with or without second neighbours
+  std::array<Direction, spring_directions> springs_;
   PaddedPlane inertia_, momentum_;  // own parts of M / h^2, M / h
 };
 

@@ -1,0 +1,406 @@
+#include <gtest/gtest.h>
+
+#include "tests/cloth/sheets.h"
+#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/measure.h"
+#include "weft/cloth/newton/block_multigrid.h"
+#include "weft/cloth/newton/newton_solver.h"
+#include "weft/cloth/newton/seams.h"
+#include "weft/core/error.h"
+
+namespace weft {
+namespace {
+
+using namespace testing;
+
+constexpr double step = 1.0 / 240;
+constexpr Vec3d gravity{0, -9.81, 0};
+
+/// The sides of a square a b a' b' c d c' d' in eighths: a closed surface of genus 2.
+BorderMates double_torus_mates(int n) {
+  const int half = (n - 1) / 2;
+  return {n,
+          {{0, 3 * half, half},
+           {half, 4 * half, half},
+           {4 * half, 7 * half, half},
+           {5 * half, 8 * half, half}}};
+}
+
+/// True cotton, light and stiff cloth, and one with warp and weft.
+const Material cotton{.density = 0.15, .stretch = 20000, .shear = 100, .bending = 1.2e-5};
+const Material hard{.density = 0.02, .stretch = 100000, .shear = 20, .bending = 1e-5, .damping = 0};
+const Material woven{
+    .density = 0.1, .stretch = {30000, 9000}, .shear = 60, .bending = {2e-5, 4e-6}, .damping = 1};
+
+void hang(Cloth& cloth) {
+  for (const int s : {0, cloth.size - 1}) pin(cloth, s, vec_cast<double>(cloth.rest.at(s)));
+}
+
+double energy_of(const Cloth& cloth, const ClothState& state) {
+  return kinetic_energy(cloth, state) + potential_energy(cloth, state, gravity);
+}
+
+/// A linear system as a step meets it: springs linearised at a shaken state.
+struct System {
+  explicit System(const Cloth& of, double shaken = 0.2)
+      : cloth(of), springs(of, kernels), multigrid(of, 1, kernels), state(of.size) {
+    Planes3 at = of.rest;
+    shake(of, shaken * of.rest_spacing, at);
+    for (int r = 0; r < of.size; ++r)
+      for (int c = 0; c < of.size; ++c) {
+        const Vec3f p = at.at(r, c);
+        state.position.x(r, c) = state.start.x(r, c) = p.x;
+        state.position.y(r, c) = state.start.y(r, c) = p.y;
+        state.position.z(r, c) = state.start.z(r, c) = p.z;
+      }
+    springs.set_time_step(step);
+    team.run([&](Worker& worker) {
+      for (int r = 0; r < of.size; ++r) springs.linearise_row(state, r);
+      for (int r = 0; r < of.size; ++r) springs.diagonal_row(r, multigrid.centres());
+      multigrid.set_up(springs, worker);
+    });
+  }
+  PaddedVectors random_field(int seed) const {
+    Random random(static_cast<std::uint64_t>(seed));
+    Planes3 planes(cloth.size);
+    shake(cloth, 1, planes, seed);
+    PaddedVectors field(cloth.size, cloth.size);
+    for (int r = 0; r < cloth.size; ++r)
+      for (int c = 0; c < cloth.size; ++c) {
+        if (cloth.inverse_mass(r, c) == 0) continue;
+        field.x(r, c) = planes.x(r, c);
+        field.y(r, c) = planes.y(r, c);
+        field.z(r, c) = planes.z(r, c);
+      }
+    return field;
+  }
+  double dot(const PaddedVectors& a, const PaddedVectors& b) const {
+    double sum = 0;
+    for (int r = 0; r < cloth.size; ++r)
+      for (int c = 0; c < cloth.size; ++c)
+        if (cloth.counted(r, c) > 0)
+          sum += double{a.x(r, c)} * b.x(r, c) + double{a.y(r, c)} * b.y(r, c) +
+                 double{a.z(r, c)} * b.z(r, c);
+    return sum;
+  }
+  void times(const PaddedVectors& x, PaddedVectors& out) {
+    team.run([&](Worker& worker) { multigrid.apply(x, {}, out, worker); });
+  }
+  const PaddedVectors& cycle(const PaddedVectors& rhs) {
+    for (int r = 0; r < cloth.size; ++r)
+      for (int c = 0; c < cloth.size; ++c) {
+        multigrid.rhs().x(r, c) = rhs.x(r, c);
+        multigrid.rhs().y(r, c) = rhs.y(r, c);
+        multigrid.rhs().z(r, c) = rhs.z(r, c);
+      }
+    team.run([&](Worker& worker) { multigrid.cycle(worker); });
+    return multigrid.value();
+  }
+  /// Iterations of preconditioned conjugate gradients to a hundredth of the error's energy norm.
+  int iterations_to_a_hundredth() {
+    const int n = cloth.size;
+    const PaddedVectors solution = random_field(5);
+    PaddedVectors residual(n, n), direction(n, n), product(n, n), error = random_field(5);
+    times(solution, residual);
+    const double first = dot(solution, residual);
+    double slope = 0;
+    for (int i = 1; i < 60; ++i) {
+      const PaddedVectors& z = cycle(residual);
+      const double next = dot(residual, z);
+      const float beta = slope > 0 ? static_cast<float>(next / slope) : 0;
+      slope = next;
+      blend(1, z, beta, direction);
+      times(direction, product);
+      const auto length = static_cast<float>(slope / dot(direction, product));
+      blend(-length, product, 1, residual);
+      blend(-length, direction, 1, error);
+      times(error, product);
+      if (dot(error, product) < 1e-4 * first) return i;
+    }
+    return 60;
+  }
+  /// b = p a + q b
+  void blend(float p, const PaddedVectors& a, float q, PaddedVectors& b) const {
+    for (int r = 0; r < cloth.size; ++r)
+      for (int c = 0; c < cloth.size; ++c) {
+        b.x(r, c) = p * a.x(r, c) + q * b.x(r, c);
+        b.y(r, c) = p * a.y(r, c) + q * b.y(r, c);
+        b.z(r, c) = p * a.z(r, c) + q * b.z(r, c);
+      }
+  }
+
+  const Cloth& cloth;
+  ThreadTeam team{1};
+  const NewtonKernels& kernels = newton_kernels_for(team.instructions());
+  SpringHessian springs;
+  BlockMultigrid multigrid;
+  PaddedState state;
+};
+
+TEST(Newton, AtRestNothingMovesWhateverTheIterations) {
+  for (Cloth cloth : {sheet_cloth(33, cotton), torus_cloth(33, cotton), sheet_cloth(30, hard)})
+    for (const int iterations : {1, 2, 50}) {
+      ThreadTeam team(1);
+      const auto integrator = make_integrator(
+          NewtonOptions{.max_iterations = iterations, .tolerance = 0}, cloth, {}, team);
+      ClothState state = rest_state(cloth);
+      run(*integrator, {.time_step = step, .gravity = {}}, 20, state);
+      double farthest = 0;
+      for (int s = 0; s < cloth.size * cloth.size; ++s)
+        farthest = std::max(farthest, double{length(state.position.at(s) - cloth.rest.at(s))});
+      EXPECT_LT(farthest, 1e-6) << cloth.size << ", " << iterations << " iterations";
+      EXPECT_LT(kinetic_energy(cloth, state), 1e-9 * total_mass(cloth) * 9.81);
+    }
+}
+
+TEST(Newton, FreeFallIsExact) {
+  for (const Cloth& cloth :
+       {sheet_cloth(33, hard), torus_cloth(17, cotton), sheet_cloth(20, woven)}) {
+    ThreadTeam team(1);
+    const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
+    ClothState state = rest_state(cloth, {0.5F, 1, -0.25F});
+    const int steps = 24;
+    run(*integrator, {.time_step = step}, steps, state);
+    const double t = steps * step;
+    const Vec3d fallen = t * Vec3d{0.5, 1, -0.25} + (0.5 * t * (t + step)) * gravity;
+    for (int s = 0; s < cloth.size * cloth.size; ++s)
+      ASSERT_LT(length(vec_cast<double>(state.position.at(s) - cloth.rest.at(s)) - fallen), 4e-6);
+  }
+}
+
+TEST(Newton, FewIterationsKeepMomentumOfAllThatFlies) {
+  const Cloth cloth = sheet_cloth(33, cotton);
+  ThreadTeam team(1);
+  const auto integrator = make_integrator(NewtonOptions{.max_iterations = 1}, cloth, {}, team);
+  ClothState state = rest_state(cloth);
+  shake(cloth, 0.3 * cloth.rest_spacing, state.position);
+  run(*integrator, {.time_step = step, .gravity = {}}, 20, state);
+  // Springs that shaking strained by 30 % drive particles at metres a second, in all directions.
+  EXPECT_LT(length(momentum(cloth, state)), 2e-5 * total_mass(cloth));
+}
+
+TEST(Newton, TheCycleIsSymmetricAndPositive) {
+  Cloth pinned = sheet_cloth(33, cotton);
+  hang(pinned);
+  const Cloth double_torus = make_cloth(flat_sheet(33), double_torus_mates(33), cotton);
+  for (const Cloth& cloth : {pinned, sheet_cloth(30, hard), torus_cloth(33, woven),
+                             torus_cloth(20, cotton), double_torus}) {
+    System system(cloth);
+    const PaddedVectors a = system.random_field(1), b = system.random_field(2);
+    const double ab = system.dot(a, system.cycle(b)), bb = system.dot(b, system.cycle(b)),
+                 aa = system.dot(a, system.cycle(a)), ba = system.dot(b, system.cycle(a));
+    EXPECT_GT(aa, 0);
+    EXPECT_GT(bb, 0);
+    EXPECT_NEAR(ab, ba, 1e-4 * std::sqrt(aa * bb)) << cloth.size;
+  }
+}
+
+TEST(Newton, TheOperatorIsTheDerivativeOfTheGradient) {
+  for (const Cloth& cloth : {sheet_cloth(17, Material{.density = 0.2,
+                                             .stretch = 300,
+                                             .shear = 100,
+                                             .bending = 1e-3,
+                                             .bend_springs = 20,
+                                             .damping = 0})}) {
+    // Stretched, so that all of the true Hessian counts.
+    Planes3 stretched = cloth.rest;
+    for (int s = 0; s < cloth.size * cloth.size; ++s) stretched.set(s, 1.3F * stretched.at(s));
+    System system(cloth, 0);
+    PaddedState& state = system.state;
+    const PaddedVectors direction = system.random_field(3);
+    PaddedVectors wanted(cloth.size, cloth.size);
+    const auto gradient_at = [&](float length, PaddedVectors& out) {
+      for (int r = 0; r < cloth.size; ++r)
+        for (int c = 0; c < cloth.size; ++c) {
+          const Vec3f p = stretched.at(r, c);
+          state.position.x(r, c) = p.x + length * direction.x(r, c);
+          state.position.y(r, c) = p.y + length * direction.y(r, c);
+          state.position.z(r, c) = p.z + length * direction.z(r, c);
+          state.start.x(r, c) = p.x;
+          state.start.y(r, c) = p.y;
+          state.start.z(r, c) = p.z;
+          state.velocity.x(r, c) = static_cast<float>(length / step) * direction.x(r, c);
+          state.velocity.y(r, c) = static_cast<float>(length / step) * direction.y(r, c);
+          state.velocity.z(r, c) = static_cast<float>(length / step) * direction.z(r, c);
+        }
+      system.team.run([&](Worker& worker) {
+        for (int r = 0; r < cloth.size; ++r) system.springs.linearise_row(state, r);
+        for (int r = 0; r < cloth.size; ++r) system.springs.gradient_row(state, wanted, r, out);
+        system.multigrid.add_bending_gradient(state.position, out, worker);
+      });
+    };
+    constexpr float small = 2e-4F;
+    PaddedVectors ahead(cloth.size, cloth.size), behind(cloth.size, cloth.size),
+        product(cloth.size, cloth.size);
+    gradient_at(small, ahead);
+    gradient_at(-small, behind);
+    gradient_at(0, product);
+    system.times(direction, product);
+    system.blend(-0.5F / small, behind, 0.5F / small, ahead);
+    const double size = std::sqrt(system.dot(product, product));
+    system.blend(-1, product, 1, ahead);
+    EXPECT_LT(std::sqrt(system.dot(ahead, ahead)), 0.01 * size);
+  }
+}
+
+TEST(Newton, IterationsDoNotGrowWithTheImage) {
+  for (const Material& material : {cotton, hard, woven}) {
+    int most = 0;
+    for (const int n : {33, 50, 65, 129}) {
+      Cloth cloth = sheet_cloth(n, material);
+      hang(cloth);
+      most = std::max(most, System(cloth).iterations_to_a_hundredth());
+    }
+    EXPECT_LE(most, 8);
+  }
+}
+
+TEST(Newton, SeamsCostFewIterations) {
+  for (const int n : {33, 40, 65}) {
+    const Cloth around = torus_cloth(n, cotton);
+    EXPECT_LE(System(around).iterations_to_a_hundredth(), 10) << n;
+  }
+  const Cloth glued = make_cloth(flat_sheet(65), double_torus_mates(65), cotton);
+  EXPECT_LE(System(glued).iterations_to_a_hundredth(), 12);
+}
+
+TEST(Newton, CoarseSeamsJoinEverySampleOnce) {
+  // An odd seam: its copies fall between coarse nodes.
+  const BorderMates odd(17, {{1, 64 - 4, 9}});
+  Seams seams(odd);
+  for (int level = 0; level < 3; ++level) {
+    std::vector<int> seen(static_cast<std::size_t>(seams.size()) * seams.size());
+    std::size_t largest = 0;
+    for (int i = 0; i < seams.class_count(); ++i) {
+      largest = std::max(largest, seams.samples(i).size());
+      for (const int s : seams.samples(i)) EXPECT_EQ(++seen[s], 1);
+    }
+    EXPECT_LE(largest, 4U) << "level " << level;
+    EXPECT_GT(seams.class_count(), 0);
+    seams = seams.coarsened();
+  }
+}
+
+TEST(Newton, HangingClothFallsAsTheTightSolveDoes) {
+  for (const Material& material : {cotton, hard, woven}) {
+    Cloth cloth = sheet_cloth(33, material);
+    hang(cloth);
+    ThreadTeam team(1);
+    const auto usual = make_integrator(NewtonOptions{}, cloth, {}, team);
+    const auto tight =
+        make_integrator(NewtonOptions{.max_iterations = 40, .tolerance = 1e-6}, cloth, {}, team);
+    ClothState state = rest_state(cloth), exact = rest_state(cloth);
+    const StepInput input{.time_step = step};
+    for (int frame = 0; frame < 30; ++frame) {
+      run(*usual, input, 4, state);
+      for (int i = 0; i < 4; ++i) {
+        tight->begin(input, exact);
+        for (int k = 0; k < 4; ++k) tight->iterate({});
+        tight->end(exact);
+      }
+      EXPECT_NEAR(centre_of_mass(cloth, state).y, centre_of_mass(cloth, exact).y, 0.005) << frame;
+    }
+    EXPECT_LT(centre_of_mass(cloth, state).y, -0.45);
+  }
+}
+
+TEST(Newton, NoMaterialAndNoStepGainsEnergy) {
+  Random random(7);
+  const auto between = [&](double least, double most) {
+    double value = least;
+    // Log-uniform without a logarithm: a random power of two, then uniform within it.
+    const int doublings = static_cast<int>(random.uniform(0, 30));
+    for (int i = 0; i < doublings && 2 * value < most; ++i) value *= 2;
+    return std::min(most, value * random.uniform(1, 2));
+  };
+  for (int run_index = 0; run_index < 24; ++run_index) {
+    Material material;
+    material.density = between(0.02, 1);
+    material.stretch = {between(2000, 100000), between(2000, 100000)};
+    material.shear = between(10, 2000);
+    material.bending = {between(1e-6, 1e-4), between(1e-6, 1e-4)};
+    material.damping = run_index % 3 == 0 ? 0 : between(0.5, 5);
+    material.strain_limit = run_index % 8 == 0 ? 0.02 : 0;
+    const int n = 17 + static_cast<int>(random.uniform(0, 17));
+    const int substeps = 1 + static_cast<int>(random.uniform(0, 16));
+    Cloth cloth = sheet_cloth(n, material);
+    hang(cloth);
+    ThreadTeam team(1);
+    const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
+    ClothState state = rest_state(cloth);
+    const StepInput input{.time_step = 1.0 / (60 * substeps)};
+    double least = energy_of(cloth, state), gained = 0;
+    for (int i = 0; i < 60 * substeps; ++i) {
+      run(*integrator, input, 1, state);
+      const double energy = energy_of(cloth, state);
+      least = std::min(least, energy);
+      gained = std::max(gained, energy - least);
+    }
+    EXPECT_LT(gained, 1e-3 * total_mass(cloth) * 9.81)
+        << run_index << ": n " << n << ", substeps " << substeps << ", density "
+        << material.density;
+  }
+}
+
+TEST(Newton, ThreadsAndInstructionSetsGiveTheSameBits) {
+  Cloth hung = sheet_cloth(97, woven);
+  hang(hung);
+  const Cloth torus = torus_cloth(40, cotton);
+  for (const Cloth* cloth : {&hung, &torus}) {
+    std::string first;
+    for (const InstructionSet set : instruction_sets())
+      for (const int threads : {1, 2, 3, 7}) {
+        if (!has_instruction_set(set)) continue;
+        ThreadTeam team({threads, set});
+        const auto integrator = make_integrator(NewtonOptions{}, *cloth, {}, team);
+        ClothState state = rest_state(*cloth, {0.1F, 0, 0});
+        shake(*cloth, 0.1 * cloth->rest_spacing, state.position);
+        run(*integrator, {.time_step = step}, 6, state);
+        EXPECT_TRUE(mates_equal(*cloth, state));
+        if (first.empty()) first = hash_of(state);
+        EXPECT_EQ(hash_of(state), first) << name_of(set) << ", " << threads;
+      }
+  }
+}
+
+TEST(Newton, AStrainLimitHoldsWhatStretchesFar) {
+  const auto stretch_of = [](double limit) {
+    Cloth cloth =
+        sheet_cloth(33, {.density = 0.3, .stretch = 200, .shear = 50, .strain_limit = limit});
+    hang(cloth);
+    ThreadTeam team(1);
+    const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
+    ClothState state = rest_state(cloth);
+    run(*integrator, {.time_step = step}, 240, state);
+    return measure_strain(cloth, state).p99;
+  };
+  const double free = stretch_of(0), limited = stretch_of(0.03);
+  EXPECT_GT(free, 0.08);
+  // Ten times as stiff beyond the limit.
+  EXPECT_LT(limited, 0.03 + 0.15 * free);
+}
+
+TEST(Newton, PinsGoWhereTheyAreTaken) {
+  Cloth cloth = sheet_cloth(33, cotton);
+  hang(cloth);
+  ThreadTeam team(1);
+  const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
+  ClothState state = rest_state(cloth);
+  for (int i = 0; i < 60; ++i) {
+    for (Pin& held : cloth.pins) held.target.x += 0.002;
+    run(*integrator, {.time_step = step}, 1, state);
+    for (const Pin& held : cloth.pins)
+      ASSERT_EQ(state.position.at(held.sample), vec_cast<float>(held.target));
+  }
+  EXPECT_LT(measure_strain(cloth, state).p99, 0.02);
+}
+
+TEST(Newton, RefusesOptionsOutOfRange) {
+  const Cloth cloth = sheet_cloth(9);
+  ThreadTeam team(1);
+  EXPECT_THROW(make_integrator(NewtonOptions{.max_iterations = 0}, cloth, {}, team), SceneError);
+  EXPECT_THROW(make_integrator(NewtonOptions{.tolerance = -1}, cloth, {}, team), SceneError);
+}
+
+}  // namespace
+}  // namespace weft
