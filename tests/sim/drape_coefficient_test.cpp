@@ -14,7 +14,7 @@ DrapeTestOptions quick() {
   options.size = 17;
   options.starts = 2;
   options.time_step = 1.0 / 60;
-  options.seconds = 2;
+  options.seconds = 3;
   options.integrator = ImplicitOptions{};
   return options;
 }

@@ -23,7 +23,9 @@ constexpr double gravity = 9.81;
 constexpr std::array waves{2, 3, 4, 5, 6, 7, 8};
 constexpr double push_speed = 0.05;
 /// A disc rests when its mean speed stays below the first from one look to the next [m/s], [s].
-constexpr double still_speed = 5e-4, time_between_looks = 0.25, least_seconds = 1.5;
+constexpr double still_speed = 5e-4, time_between_looks = 0.25, least_seconds = 2;
+/// In which a disc's weight comes on [s].
+constexpr double lowering_seconds = 1;
 /// Bending lengths between which fits look; cloth measures 1 to 5 cm [m].
 constexpr double softest_length = 0.005, stiffest_length = 0.1;
 /// A fit ends where it is this near, or knows B within this part.
@@ -77,6 +79,13 @@ ClothState pushed_disc(const Cloth& cloth, Random& random) {
   return state;
 }
 
+/// The disc is let down, not dropped: its weight comes on bit by bit. Dropped discs fall into more
+/// folds than those of real tests.
+StepInput lowered(StepInput input, double seconds) {
+  input.gravity = static_cast<float>(std::min(1.0, seconds / lowering_seconds)) * input.gravity;
+  return input;
+}
+
 void fall(const Cloth& cloth, const DrapeTestOptions& options, Progress& progress,
           ClothState& state) {
   ThreadTeam team(options.team);
@@ -88,7 +97,7 @@ void fall(const Cloth& cloth, const DrapeTestOptions& options, Progress& progres
   const double still = 0.5 * disc_mass * still_speed * still_speed;
   bool rested = false;
   for (int i = 1; i <= steps; ++i) {
-    integrator->begin(input, state);
+    integrator->begin(lowered(input, i * options.time_step), state);
     integrator->iterate({});
     integrator->end(state);
     if (i % look != 0) continue;
