@@ -122,7 +122,7 @@ TEST(GuardingCollider, NothingPassesThroughItselfOrABodyHoweverItIsThrown) {
     const Primitives thrown(grid, cloth.start, cloth.position);
     before += meetings(thrown, thrown, true) + meetings(thrown, sphere, false);
     collider->detect(std::span(&moving, 1), step, team);
-    stopped += collider->guard(std::span(&moving, 1), step, team);
+    stopped += collider->guard(std::span(&moving, 1), step, team).stopped;
     EXPECT_EQ(meetings(thrown, thrown, true), 0) << round;
     EXPECT_EQ(meetings(thrown, sphere, false), 0) << round;
   }
@@ -185,7 +185,7 @@ TEST(GuardingCollider, WhatMeetsNothingIsLeftAlone) {
   const Planes3 wanted = cloth.position;
   ThreadTeam team(1);
   const MovingCloth moving = cloth.moving();
-  EXPECT_EQ(collider->guard(std::span(&moving, 1), step, team), 0);
+  EXPECT_EQ(collider->guard(std::span(&moving, 1), step, team).moved, 0);
   for (int s = 0; s < n * n; ++s) EXPECT_EQ(cloth.position.at(s), wanted.at(s));
 }
 

@@ -118,18 +118,21 @@ void BendingPass::add_border_row(float factor, int row, Planes3& out) const {
 }
 
 double BendingPass::energy() const {
-  if (!active()) return 0;
   double energy = 0;
-  for (int r = 0; r < cloth_.size; ++r) {
-    for (int c = 0; c < cloth_.size; ++c)
-      energy += 0.5 * cloth_.counted(r, c) * squared_length(vec_cast<double>(curved_.at(r, c)));
-    const BorderBending& border = cloth_.bending.border;
-    if (border.starts.empty()) continue;
-    for (int i = border.starts[r]; i < border.starts[r + 1]; ++i) {
-      const BorderBending::Edge& edge = border.edges[i];
-      const Vec3f way = field_->at(edge.other_row, edge.other_col) - field_->at(r, edge.col);
-      energy += 0.25 * edge.stiffness * squared_length(vec_cast<double>(way));
-    }
+  for (int r = 0; active() && r < cloth_.size; ++r) energy += row_energy(r);
+  return energy;
+}
+
+double BendingPass::row_energy(int row) const {
+  if (!active()) return 0;
+  const ConstRow3 u = row_of(curved_, row);
+  double energy = 0.5 * kernels_->dot(cloth_.size, cloth_.counted.row(row), u, u);
+  const BorderBending& border = cloth_.bending.border;
+  if (border.starts.empty()) return energy;
+  for (int i = border.starts[row]; i < border.starts[row + 1]; ++i) {
+    const BorderBending::Edge& edge = border.edges[i];
+    const Vec3f way = field_->at(edge.other_row, edge.other_col) - field_->at(row, edge.col);
+    energy += 0.25 * edge.stiffness * squared_length(vec_cast<double>(way));
   }
   return energy;
 }

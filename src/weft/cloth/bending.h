@@ -40,6 +40,8 @@ class BendingPass {
   void add_row(float factor, int row, Planes3& out) const;
   /// The energy of the last curve, over all particles [J].
   [[nodiscard]] double energy() const;
+  /// A row's part of it.
+  [[nodiscard]] double row_energy(int row) const;
 
  private:
   /// M field, whole. Ends with a barrier.

@@ -218,9 +218,9 @@ class PushCollider final : public Collider {
               double time_step, ThreadTeam& team) noexcept override {
     return pushers_[cloth].correct(moving, forces, time_step, team);
   }
-  int guard(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
-            ThreadTeam& /*team*/) noexcept override {
-    return 0;
+  FilterCounts guard(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
+                     ThreadTeam& /*team*/) noexcept override {
+    return {};
   }
   void save_marks(std::size_t /*cloth*/, std::vector<int>& marks) const override { marks.clear(); }
   void restore_marks(std::size_t /*cloth*/, std::span<const int> /*marks*/) override {}

@@ -72,10 +72,24 @@ struct MovingCloth {
   const Grid<float>& inverse_mass;  ///< 0: pinned, never moved
 };
 
+/// What a filter did to the proposals of a step; points are samples, mates counted once.
+struct FilterCounts {
+  int moved = 0;      ///< points that are elsewhere than proposed
+  int stopped = 0;    ///< of these, points held back on their way
+  int fell_back = 0;  ///< of these, points put back to where the step began
+  FilterCounts& operator+=(const FilterCounts& other) {
+    moved += other.moved;
+    stopped += other.stopped;
+    fell_back += other.fell_back;
+    return *this;
+  }
+};
+
 /// Keeps the cloths of a scene out of its bodies, and out of each other and themselves where it
 /// can. Cloths come in the order in which they were given. Nothing allocates or throws once warmed
-/// up. In a step: move_bodies where bodies move; detect; after the integrators' work correct, any
-/// number of times; guard.
+/// up. In a step: move_bodies where bodies move; detect, guard_guess, as often as wanted; after the
+/// integrators' work correct, any number of times; guard; commit. Instead of commit, rollback
+/// forgets the step: what follows has the bits that it would have without.
 class Collider {
  public:
   Collider() = default;
@@ -83,14 +97,29 @@ class Collider {
   Collider& operator=(const Collider&) = delete;
   virtual ~Collider() = default;
   /// Begins a step at whose end the bodies stand at `ends`; they start from where the last step
-  /// left them. @param ends  of each body [n x n] world [m], mates equal, valid until guard is
-  /// done; null where it stands still
+  /// left them. @param ends  of each body [n x n] world [m], mates equal, valid until commit or
+  /// rollback; null where it stands still
   virtual void move_bodies(std::span<const Planes3* const> ends) noexcept = 0;
   /// Finds the contacts of a step from the proposals.
   virtual void detect(std::span<const MovingCloth> cloths, double time_step,
                       ThreadTeam& team) noexcept = 0;
   /// What detect found for one cloth, for its integrator; empty for methods that only push.
   [[nodiscard]] virtual std::span<const Contact> contacts(std::size_t cloth) const noexcept = 0;
+  /// Those of them with bodies and the ground, which come first.
+  [[nodiscard]] virtual std::span<const Contact> obstacle_contacts(
+      std::size_t cloth) const noexcept {
+    return contacts(cloth);
+  }
+  /// Whether the last detect found anything near a cloth, so that proposals may have passed through
+  /// it.
+  [[nodiscard]] virtual bool anything_near() const noexcept { return false; }
+  /// Takes back what proposals passed through, so that a solve starts where nothing crosses.
+  /// Nothing is remembered of it, and velocities stay. @return how many points it moved; 0 for
+  /// methods that promise nothing
+  virtual int guard_guess(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
+                          ThreadTeam& /*team*/) noexcept {
+    return 0;
+  }
   /// Pushes out what is inside, stops its inward velocity, and holds it by friction. Mates are
   /// treated alike, so they stay equal.
   /// @param forces  normal forces of contacts(cloth) as solved, in their order; empty where the
@@ -98,10 +127,15 @@ class Collider {
   /// @return how many samples were in contact with obstacles
   virtual int correct(std::size_t cloth, const MovingCloth& moving, std::span<const float> forces,
                       double time_step, ThreadTeam& team) noexcept = 0;
-  /// The last change of positions in a step: what would pass through something stays before it.
-  /// @return how many samples were held back; 0 for methods that promise nothing
-  virtual int guard(std::span<const MovingCloth> cloths, double time_step,
-                    ThreadTeam& team) noexcept = 0;
+  /// The last change of positions in a step: what would pass through something stays before it, and
+  /// strikes it without bouncing. @return nothing for methods that promise nothing
+  virtual FilterCounts guard(std::span<const MovingCloth> cloths, double time_step,
+                             ThreadTeam& team) noexcept = 0;
+  /// The step stands: bodies are where it took them.
+  virtual void commit() noexcept {}
+  /// The step is as if it had not been: bodies, and what is known of samples, as at the last
+  /// commit.
+  virtual void rollback() noexcept {}
   /// What the collider knows of a cloth's samples beyond their positions, for a run that goes on
   /// later: which are inside bodies, [n * n], and with which cloths, itself first and then those
   /// after it, it may be tangled. Empty where there is nothing to know.

@@ -89,7 +89,8 @@ void GuardingCollider::move_bodies(std::span<const Planes3* const> ends) noexcep
   }
 }
 
-void GuardingCollider::finish_bodies() {
+void GuardingCollider::commit() noexcept {
+  for (GuardedOne& one : cloths_) one.body_contacts->commit();
   for (GuardedBody& body : bodies_) {
     if (body.end == &body.start) continue;
     body.start = *body.end;
@@ -97,6 +98,16 @@ void GuardingCollider::finish_bodies() {
     body.end = &body.start;
     body.most_moved = 0;
     body.moved = true;
+    ++body.motion;
+  }
+}
+
+void GuardingCollider::rollback() noexcept {
+  for (GuardedOne& one : cloths_) one.body_contacts->rollback();
+  for (GuardedBody& body : bodies_) {
+    if (body.end == &body.start) continue;
+    body.end = &body.start;
+    body.most_moved = 0;
     ++body.motion;
   }
 }
@@ -137,6 +148,8 @@ void GuardingCollider::detect(std::span<const MovingCloth> cloths, double time_s
       one.contacts.insert(one.contacts.end(), found.begin(), found.end());
     one.obstacle_contacts = one.contacts.size();
   }
+  near_ = std::any_of(cloths_.begin(), cloths_.end(),
+                      [](const GuardedOne& one) { return one.obstacle_contacts > 0; });
   find_tangles(cloths, team);
   find_pair_contacts(cloths, time_step, team);
 }
@@ -180,6 +193,7 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, d
       } else {
         broad_phase_->find(first, second, static_cast<float>(foresight * gap), team, cells_);
       }
+      near_ = near_ || !cells_.empty();
       pair_contacts_.find(
           {&a.grid, &b.grid, &cloths[i], &cloths[j], i == j, gap,
            std::sqrt(a.facts.friction * b.facts.friction), time_step, untangler_.marks(i, j)},

@@ -9,6 +9,7 @@
 #include "weft/collide/contacts/corner_contacts.h"
 #include "weft/collide/contacts/pair_contacts.h"
 #include "weft/collide/guard/cell_planes.h"
+#include "weft/collide/guard/impact.h"
 #include "weft/collide/guard/plane_guard.h"
 #include "weft/collide/guard/refuges.h"
 #include "weft/collide/pairs/cell_pairs.h"
@@ -32,10 +33,19 @@ class GuardingCollider final : public Collider {
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const noexcept override {
     return cloths_[cloth].contacts;
   }
+  [[nodiscard]] std::span<const Contact> obstacle_contacts(
+      std::size_t cloth) const noexcept override {
+    return std::span(cloths_[cloth].contacts).first(cloths_[cloth].obstacle_contacts);
+  }
+  [[nodiscard]] bool anything_near() const noexcept override { return near_; }
+  int guard_guess(std::span<const MovingCloth> cloths, double time_step,
+                  ThreadTeam& team) noexcept override;
   int correct(std::size_t cloth, const MovingCloth& moving, std::span<const float> forces,
               double time_step, ThreadTeam& team) noexcept override;
-  int guard(std::span<const MovingCloth> cloths, double time_step,
-            ThreadTeam& team) noexcept override;
+  FilterCounts guard(std::span<const MovingCloth> cloths, double time_step,
+                     ThreadTeam& team) noexcept override;
+  void commit() noexcept override;
+  void rollback() noexcept override;
   void save_marks(std::size_t cloth, std::vector<int>& marks) const override;
   void restore_marks(std::size_t cloth, std::span<const int> marks) override;
   [[nodiscard]] int self_contacts() const noexcept override { return self_contacts_; }
@@ -76,16 +86,25 @@ class GuardingCollider final : public Collider {
   static void copy_to_mates(const GuardedOne& one, const MovingCloth& moving);
   void find_planes(ThreadTeam& team);
   void add_ground_planes(std::span<const MovingCloth> cloths);
-  PlaneGuard::Result hold(std::span<const MovingCloth> cloths, double time_step, double farthest,
-                          ThreadTeam& team);
+  /// What a pass of the filter over a step's proposals is for.
+  enum class Pass { guess, end };
+  FilterCounts hold_all(std::span<const MovingCloth> cloths, double time_step, Pass pass,
+                        ThreadTeam& team);
+  PlaneGuard::Result hold(std::span<const MovingCloth> cloths, double farthest, ThreadTeam& team);
   /// Puts the points that were stopped, and those around them, at their refuges; or all.
-  void take_refuge(std::span<const MovingCloth> cloths, double time_step, int around, bool all);
+  void take_refuge(std::span<const MovingCloth> cloths, int around, bool all);
+  /// Lets both sides of the planes that points were held back by strike each other.
+  void strike_all(std::span<const MovingCloth> cloths, double time_step);
+  [[nodiscard]] ImpactSides sides_of(const SeparatingPlane& plane,
+                                     std::span<const MovingCloth> cloths) const;
+  void put_velocities(const SeparatingPlane& plane, const ImpactSides& sides,
+                      std::span<const MovingCloth> cloths) const;
+  [[nodiscard]] FilterCounts count_fates() const;
   /// @param spread  how far the bodies' ways reach, in rest spacings
   void carry_refuges(std::span<const MovingCloth> cloths, double spread, ThreadTeam& team);
   /// Of any sample of a body in this step; 0 where all stand still. [m/s]
   [[nodiscard]] double fastest_body(double time_step) const;
   [[nodiscard]] PlaneSide side_of(std::size_t surface) const;
-  void finish_bodies();
 
   std::vector<GuardedOne> cloths_;
   std::vector<GuardedBody> bodies_;
@@ -95,12 +114,14 @@ class GuardingCollider final : public Collider {
   double slack_ = 0, most_aside_ = 0;  // see PlaneGuard [m]
   int self_contacts_ = 0;
   bool carried_ = false;  // refuges go along with bodies in this step
+  bool near_ = false;     // see anything_near
   // Of one step:
   std::vector<MovingSurface> surfaces_;  // cloths, then bodies
   std::vector<ContactBody> contact_bodies_;
   std::vector<CellPair> cells_;
   std::vector<SeparatingPlane> planes_;
   std::vector<std::size_t> cloth_of_;  // [points]
+  std::vector<char> fates_;            // [points] of one pass: free, moved, stopped, fell back
   PairContacts pair_contacts_;
   CellPlanes cell_planes_;
   PlaneGuard plane_guard_;

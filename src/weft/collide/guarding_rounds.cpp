@@ -23,23 +23,7 @@ constexpr double held_in_spacings = 4;
 /// Before the ground, against rounding [m].
 constexpr double ground_margin = 2e-6;
 
-/// What velocities are limited by.
-struct Pace {
-  double time_step;  // [s]
-  double fastest;    // of bodies [m/s]
-};
-/// Its velocity changes by the same, but makes it no faster than it was or bodies are: what only
-/// makes room lends no energy.
-void move_to(const MovingCloth& cloth, int sample, Vec3f end, const Pace& pace) {
-  const Vec3f change = static_cast<float>(1 / pace.time_step) * (end - cloth.position.at(sample));
-  const Vec3f was = cloth.velocity.at(sample);
-  Vec3f now = was + change;
-  const double most = std::max(std::sqrt(double{squared_length(was)}), pace.fastest);
-  const double speed = std::sqrt(double{squared_length(now)});
-  if (speed > most) now = static_cast<float>(most / speed) * now;
-  cloth.position.set(sample, end);
-  cloth.velocity.set(sample, now);
-}
+enum Fate : char { free_point, moved_point, stopped_point, fallen_point };
 
 }  // namespace
 
@@ -91,29 +75,32 @@ void GuardingCollider::add_ground_planes(std::span<const MovingCloth> cloths) {
   }
 }
 
-PlaneGuard::Result GuardingCollider::hold(std::span<const MovingCloth> cloths, double time_step,
-                                          double farthest, ThreadTeam& team) {
+PlaneGuard::Result GuardingCollider::hold(std::span<const MovingCloth> cloths, double farthest,
+                                          ThreadTeam& team) {
   const auto at = [&](int point) {
     const std::size_t cloth = cloth_of_[point];
     const int sample = point - cloths_[cloth].first_point;
     return GuardedPoint{cloths[cloth].start.at(sample), cloths_[cloth].refuge->at(sample),
                         cloths[cloth].position.at(sample)};
   };
-  const double fastest = fastest_body(time_step);
   const auto put = [&](int point, Vec3f end) {
     const std::size_t cloth = cloth_of_[point];
-    const int sample = point - cloths_[cloth].first_point;
-    move_to(cloths[cloth], sample, end, {time_step, fastest});
+    cloths[cloth].position.set(point - cloths_[cloth].first_point, end);
+    fates_[point] = std::max<char>(fates_[point], moved_point);
   };
-  return plane_guard_.hold(planes_, points_, {slack_, farthest}, at, put, team);
+  const PlaneGuard::Result held =
+      plane_guard_.hold(planes_, points_, {slack_, farthest}, at, put, team);
+  for (const int point : plane_guard_.stopped())
+    fates_[point] = std::max<char>(fates_[point], stopped_point);
+  return held;
 }
 
-void GuardingCollider::take_refuge(std::span<const MovingCloth> cloths, double time_step,
-                                   int around, bool all) {
-  const double fastest = fastest_body(time_step);
+void GuardingCollider::take_refuge(std::span<const MovingCloth> cloths, int around, bool all) {
   const auto take = [&](std::size_t cloth, int row, int col) {
-    const int sample = row * cloths_[cloth].facts.size + col;
-    move_to(cloths[cloth], sample, cloths_[cloth].refuge->at(sample), {time_step, fastest});
+    const GuardedOne& one = cloths_[cloth];
+    const int sample = one.grid.point(row * one.facts.size + col);
+    cloths[cloth].position.set(sample, one.refuge->at(sample));
+    fates_[one.first_point + sample] = fallen_point;
   };
   for (std::size_t i = 0; all && i < cloths.size(); ++i)
     for (int r = 0; r < cloths_[i].facts.size; ++r)
@@ -127,6 +114,52 @@ void GuardingCollider::take_refuge(std::span<const MovingCloth> cloths, double t
       for (int c = std::max(0, col - around); c <= std::min(n - 1, col + around); ++c)
         take(cloth, r, c);
   }
+}
+
+ImpactSides GuardingCollider::sides_of(const SeparatingPlane& plane,
+                                       std::span<const MovingCloth> cloths) const {
+  ImpactSides sides;
+  sides.count_a = plane.count_a;
+  sides.count_b = plane.count_b;
+  for (int k = 0; k < plane.count_a + plane.count_b; ++k) {
+    const std::size_t cloth = cloth_of_[plane.points[k]];
+    const int n = cloths_[cloth].facts.size, sample = plane.points[k] - cloths_[cloth].first_point;
+    sides.points[k] = {dot(plane.turned, vec_cast<double>(cloths[cloth].velocity.at(sample))),
+                       cloths[cloth].inverse_mass(sample / n, sample % n)};
+  }
+  return sides;
+}
+
+void GuardingCollider::put_velocities(const SeparatingPlane& plane, const ImpactSides& sides,
+                                      std::span<const MovingCloth> cloths) const {
+  for (int k = 0; k < plane.count_a + plane.count_b; ++k) {
+    const std::size_t cloth = cloth_of_[plane.points[k]];
+    const int sample = plane.points[k] - cloths_[cloth].first_point;
+    const Vec3d was = vec_cast<double>(cloths[cloth].velocity.at(sample));
+    const double gained = sides.points[k].speed - dot(plane.turned, was);
+    if (gained != 0)
+      cloths[cloth].velocity.set(sample, vec_cast<float>(was + gained * plane.turned));
+  }
+}
+
+/// One after the other in the planes' order, which is the same for any team.
+void GuardingCollider::strike_all(std::span<const MovingCloth> cloths, double time_step) {
+  for (const int p : plane_guard_.struck()) {
+    ImpactSides sides = sides_of(planes_[p], cloths);
+    sides.body_speed = planes_[p].body_way / time_step;
+    strike(sides);
+    put_velocities(planes_[p], sides, cloths);
+  }
+}
+
+FilterCounts GuardingCollider::count_fates() const {
+  FilterCounts counts;
+  for (const char fate : fates_) {
+    if (fate >= moved_point) ++counts.moved;
+    if (fate >= stopped_point) ++counts.stopped;
+    if (fate == fallen_point) ++counts.fell_back;
+  }
+  return counts;
 }
 
 double GuardingCollider::fastest_body(double time_step) const {
@@ -154,39 +187,49 @@ void GuardingCollider::carry_refuges(std::span<const MovingCloth> cloths, double
   }
 }
 
-int GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_step,
-                            ThreadTeam& team) noexcept {
+int GuardingCollider::guard_guess(std::span<const MovingCloth> cloths, double time_step,
+                                  ThreadTeam& team) noexcept {
+  return hold_all(cloths, time_step, Pass::guess, team).moved;
+}
+
+FilterCounts GuardingCollider::guard(std::span<const MovingCloth> cloths, double time_step,
+                                     ThreadTeam& team) noexcept {
   if (untangler_.crossings() > 0) {
     untangler_.move(cloths, time_step);
     for (std::size_t i = 0; i < cloths_.size(); ++i) copy_to_mates(cloths_[i], cloths[i]);
   }
+  return hold_all(cloths, time_step, Pass::end, team);
+}
+
+FilterCounts GuardingCollider::hold_all(std::span<const MovingCloth> cloths, double time_step,
+                                        Pass pass, ThreadTeam& team) {
   gather_surfaces(cloths);
   for (std::size_t i = 0; i < cloths.size(); ++i) cloths_[i].refuge = &cloths[i].start;
   carried_ = false;
+  fates_.assign(static_cast<std::size_t>(points_), free_point);
   const bool moving = fastest_body(time_step) > 0;
-  int stopped = 0;
   double spread = least_spread;
   for (int round = 0; round < most_rounds; ++round) {
     broad_phase_->refit(surfaces_, team);
     find_planes(team);
     add_ground_planes(cloths);
-    const PlaneGuard::Result held =
-        hold(cloths, time_step, round < rounds_aside ? most_aside_ : slack_, team);
-    stopped += held.stopped + held.lost;
-    for (const int point : plane_guard_.lost()) {
-      GuardedOne& one = cloths_[cloth_of_[point]];
-      one.body_contacts->doubt(point - one.first_point);
+    const PlaneGuard::Result held = hold(cloths, round < rounds_aside ? most_aside_ : slack_, team);
+    if (pass == Pass::end) {
+      strike_all(cloths, time_step);
+      for (const int point : plane_guard_.lost()) {
+        GuardedOne& one = cloths_[cloth_of_[point]];
+        one.body_contacts->doubt(point - one.first_point);
+      }
     }
     if (held.lost > 0 && moving)
       carry_refuges(cloths, spread = std::min(2 * spread, most_spread), team);
     const bool settled = held.stopped + held.far == 0 && (held.lost == 0 || !moving);
     if (!settled && round >= rounds_on_the_way)
-      take_refuge(cloths, time_step, 1 << (round - rounds_on_the_way), round + 1 == most_rounds);
+      take_refuge(cloths, 1 << (round - rounds_on_the_way), round + 1 == most_rounds);
     for (std::size_t i = 0; i < cloths_.size(); ++i) copy_to_mates(cloths_[i], cloths[i]);
     if (settled) break;
   }
-  finish_bodies();
-  return stopped;
+  return count_fates();
 }
 
 }  // namespace weft

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "WEFTCKPT";
-constexpr std::uint32_t format_version = 5;
+constexpr std::uint32_t format_version = 6;
 constexpr std::size_t size_at = magic.size() + sizeof(format_version);
 constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
 constexpr std::size_t header_bytes = hash_at + sizeof(std::uint64_t);
@@ -33,11 +33,12 @@ void each_field(Report& f, const Visit& visit) {
   visit(f.iterations), visit(f.residual);
   visit(f.strain.mean), visit(f.strain.p99), visit(f.strain.max);
   visit(f.kinetic_energy), visit(f.potential_energy);
-  visit(f.contacts), visit(f.self_contacts), visit(f.smallest_gap);
+  visit(f.contacts), visit(f.self_contacts), visit(f.stopped), visit(f.fell_back);
+  visit(f.work), visit(f.smallest_gap);
   visit(f.centre_of_mass.x), visit(f.centre_of_mass.y), visit(f.centre_of_mass.z);
 }
-static_assert(sizeof(FrameReport) == 17 * 8, "a new field goes into each_field, and this count up");
-constexpr std::size_t frame_bytes = 15 * sizeof(double) + 3 * sizeof(int);
+static_assert(sizeof(FrameReport) == 19 * 8, "a new field goes into each_field, and this count up");
+constexpr std::size_t frame_bytes = 16 * sizeof(double) + 5 * sizeof(int);
 
 std::uint64_t hash_of(std::string_view bytes) {
   Hash hash;
@@ -105,6 +106,10 @@ void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   out.add(static_cast<std::uint64_t>(checkpoint.history.size()));
   for (const FrameReport& frame : checkpoint.history)
     each_field(frame, [&](auto value) { out.add(value); });
+  const SimulationState& state = checkpoint.state;
+  out.add(static_cast<std::int32_t>(state.levels.first));
+  out.add(static_cast<std::int32_t>(state.levels.most));
+  out.add(state.work.net), out.add(state.work.gross), out.add(state.work.pulled);
   out.add(static_cast<std::uint32_t>(checkpoint.state.cloths.size()));
   for (const ClothState& cloth : checkpoint.state.cloths) add_cloth(cloth, out);
   for (std::size_t i = 0; i < checkpoint.state.cloths.size(); ++i)
@@ -127,6 +132,11 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
   for (FrameReport& frame : checkpoint.history)
     each_field(frame, [&](auto& value) { in.read(value); });
   checkpoint.state.frame = static_cast<int>(frames);
+  StepLevels& levels = checkpoint.state.levels;
+  in.read(levels.first), in.read(levels.most);
+  if (!is_valid(levels)) return std::nullopt;
+  WorkDone& work = checkpoint.state.work;
+  in.read(work.net), in.read(work.gross), in.read(work.pulled);
   const auto cloths = in.next<std::uint32_t>();
   for (std::uint32_t i = 0; i < cloths; ++i) {
     std::optional<ClothState> cloth = next_cloth(in);

@@ -65,7 +65,37 @@ Json worst_strain(const RunReport& report) {
           {"max", worst->strain.max}};
 }
 
+/// The largest count of a frame, and which frame that was; 0 and null where none was.
+Json worst_count(const RunReport& report, int FrameReport::*count) {
+  const auto worst = std::max_element(
+      report.history.begin(), report.history.end(),
+      [&](const FrameReport& a, const FrameReport& b) { return a.*count < b.*count; });
+  if (worst == report.history.end() || (*worst).*count == 0)
+    return {{"count", 0}, {"frame", nullptr}};
+  return {{"count", (*worst).*count}, {"frame", worst - report.history.begin() + 1}};
+}
+
+Json thickness_json(const RunReport& report) {
+  Json json = Json::object();
+  for (const auto& [name, thickness] : report.thickness_used) json[name] = thickness;
+  return json;
+}
+
+/// Of energy_gained_mgl [m/s^2], [m].
+constexpr double usual_gravity = 9.81, usual_height = 1;
+
 }  // namespace
+
+double energy_gained(const RunReport& report) {
+  double least = report.start_energy, work = 0, gained = 0;
+  for (const FrameReport& frame : report.history) {
+    work += frame.work;
+    const double energy = frame.kinetic_energy + frame.potential_energy - work;
+    least = std::min(least, energy);
+    gained = std::max(gained, energy - least);
+  }
+  return gained;
+}
 
 std::string to_json(const RunReport& report) {
   const std::vector<double> residuals = column(report, &FrameReport::residual);
@@ -83,6 +113,11 @@ std::string to_json(const RunReport& report) {
       {"residual", {{"median", quantile(residuals, 0.5)}, {"max", quantile(residuals, 1)}}},
       {"contacts_max", report.contacts_max},
       {"self_contacts_max", report.self_contacts_max},
+      {"stopped", worst_count(report, &FrameReport::stopped)},
+      {"fell_back", worst_count(report, &FrameReport::fell_back)},
+      {"energy_gained", energy_gained(report)},
+      {"energy_gained_mgl", energy_gained(report) / (report.mass * usual_gravity * usual_height)},
+      {"thickness_used", thickness_json(report)},
       {"intersections", report.intersections.counts.total()}};
   json["centre_of_mass"] = Json::array();
   for (const Vec3d& c : report.centre_of_mass) json["centre_of_mass"].push_back({c.x, c.y, c.z});
@@ -99,7 +134,8 @@ std::string to_json(const RunReport& report) {
 std::string frames_csv_header() {
   return "frame,ms,forces_ms,solve_ms,collide_ms,limit_ms,iterations,residual,strain_mean,strain_"
          "p99,strain_max,"
-         "kinetic_energy,potential_energy,contacts,smallest_gap,com_x,com_y,com_z\n";
+         "kinetic_energy,potential_energy,contacts,stopped,fell_back,work,smallest_gap,com_x,com_y,"
+         "com_z\n";
 }
 
 std::string frames_csv_line(int frame, const FrameReport& f) {
@@ -108,10 +144,10 @@ std::string frames_csv_line(int frame, const FrameReport& f) {
       std::isfinite(f.smallest_gap) ? fmt::format("{:.6g}", f.smallest_gap) : "";
   return fmt::format(
              "{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{:.4g},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g},{}"
-             ",{},",
+             ",{},{},{:.6g},{},",
              frame, f.milliseconds, f.forces_ms, f.solve_ms, f.collide_ms, f.limit_ms, f.iterations,
              f.residual, f.strain.mean, f.strain.p99, f.strain.max, f.kinetic_energy,
-             f.potential_energy, f.contacts, gap) +
+             f.potential_energy, f.contacts, f.stopped, f.fell_back, f.work, gap) +
          fmt::format("{:.9g},{:.9g},{:.9g}\n", f.centre_of_mass.x, f.centre_of_mass.y,
                      f.centre_of_mass.z);
 }

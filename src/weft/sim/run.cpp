@@ -25,6 +25,9 @@ constexpr double default_seconds_between_checkpoints = 5;
 /// At least what frames.csv and the manifests take [bytes].
 constexpr std::size_t least_room = 16384, room_of_surface = 1024, room_of_frame = 256;
 
+/// Points that fall back in a frame, of all, before the run remarks on it.
+constexpr double most_fallen_part = 0.01;
+
 std::string listed(std::span<const std::string_view> names) {
   std::string text;
   for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
@@ -78,6 +81,10 @@ RunReport start_report(const Simulation& simulation, const Scene& scene, const s
   report.integrator = name_of(scene.integrator);
   report.time_step = 1 / (scene.frame_rate * scene.substeps);
   report.notes = simulation.notes();
+  report.start_energy = simulation.start_energy();
+  report.mass = simulation.mass();
+  for (std::size_t i = 0; i < simulation.cloths().size(); ++i)
+    report.thickness_used.emplace_back(simulation.cloths()[i].name, simulation.used_thickness(i));
   report.centre_of_mass.push_back(simulation.centre_of_mass());
   return report;
 }
@@ -154,6 +161,7 @@ class Run {
         keep_worst(recorder_->intersections());
       }
       note_untangling();
+      note_fallen();
       report_.state_hash = simulation_.state_hash();
     } catch (const OutputError&) {
       keep_what_fits();
@@ -225,6 +233,18 @@ class Run {
       report_.notes.push_back(fmt::format("what crossed at the start is apart since frame {}",
                                           *report_.untangled_frame));
     }
+  }
+
+  void note_fallen() {
+    const auto many = [&](const FrameReport& frame) {
+      return frame.fell_back > most_fallen_part * report_.particles;
+    };
+    const auto first = std::find_if(report_.history.begin(), report_.history.end(), many);
+    if (first == report_.history.end()) return;
+    report_.notes.push_back(
+        fmt::format("frame {}: {} of {} points were put back to where their step began, since they "
+                    "had nowhere else to go; more substeps are wanted",
+                    first - report_.history.begin() + 1, first->fell_back, report_.particles));
   }
 
   void keep_worst(const IntersectionCounts& counts) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "weft/core/progress.h"
@@ -37,8 +38,12 @@ struct RunReport {
   int frames = 0, particles = 0, threads = 1, substeps = 1;
   std::string scene, integrator;
   double time_step = 0;              ///< [s]
+  double start_energy = 0;           ///< kinetic plus potential, of frame 0 [J]
+  double mass = 0;                   ///< of all cloths [kg]
   std::vector<FrameReport> history;  ///< one a frame, from frame 1
-  StrainSummary strain;              ///< last frame
+  /// Of each cloth: its name, and the gap that it kept to cloth [m].
+  std::vector<std::pair<std::string, double>> thickness_used;
+  StrainSummary strain;  ///< last frame
   int contacts_max = 0, self_contacts_max = 0;
   FrameIntersections intersections;        ///< of the last frame; with verify: of the worst one
   IntersectionCounts start_intersections;  ///< of frame 0

@@ -11,6 +11,7 @@
 #include "weft/core/thread_team.h"
 #include "weft/image/convert.h"
 #include "weft/sim/scene.h"
+#include "weft/sim/step_levels.h"
 #include "weft/sim/surface_shelf.h"
 
 namespace weft {
@@ -24,8 +25,11 @@ struct FrameReport {
   double kinetic_energy = 0, potential_energy = 0;  ///< [J]
   int contacts = 0;                                 ///< with obstacles, largest of its steps
   int self_contacts = 0;                            ///< of cloth with cloth, largest of its steps
-  double smallest_gap = HUGE_VAL;                   ///< see Collider::smallest_gap [m]
-  Vec3d centre_of_mass;                             ///< all cloths together [m]
+  int stopped = 0;    ///< points that the collision filter held back, largest of its steps
+  int fell_back = 0;  ///< of these, points put back to the step's start, largest of its steps
+  double work = 0;    ///< of pins, moving bodies and wind [J]
+  double smallest_gap = HUGE_VAL;  ///< see Collider::smallest_gap [m]
+  Vec3d centre_of_mass;            ///< all cloths together [m]
 };
 
 /// A cloth of a running simulation, for those who draw or export it.
@@ -47,14 +51,25 @@ struct PlacedBody {
   std::optional<SourceMesh> source;        ///< unplaced, where the surface came from a mesh
 };
 
+/// What pins, moving bodies and wind did.
+struct WorkDone {
+  double net = 0;    ///< [J]
+  double gross = 0;  ///< sum of its sizes, step by step [J]
+  /// What the strain limit added while pins or bodies moved: the part of their pull that no spring
+  /// of the cloth explains. [J]
+  double pulled = 0;
+};
+
 /// All that the next frame depends on besides the scene: integrators carry nothing over from one
 /// step to the next, colliders only which samples are inside of bodies, and which cloths may
-/// be tangled.
+/// be tangled; and the length of steps that collisions asked for.
 struct SimulationState {
   int frame = 0;                   ///< frames done
   std::vector<ClothState> cloths;  ///< in the scene's order
   /// Of each cloth, what the collider knows of it, see Collider::save_marks.
   std::vector<std::vector<int>> marks{};
+  StepLevels levels{};  ///< of the next substep
+  WorkDone work{};      ///< up to this frame
 };
 
 /// Who helps a scene to life.
@@ -108,6 +123,12 @@ class Simulation {
   [[nodiscard]] std::string state_hash() const;
   [[nodiscard]] int particles() const;
   [[nodiscard]] Vec3d centre_of_mass() const;
+  [[nodiscard]] double mass() const;  ///< of all cloths together [kg]
+  /// Kinetic plus potential energy before the first frame [J].
+  [[nodiscard]] double start_energy() const;
+  /// The gap that a cloth keeps to itself and others: its material's thickness, or less where its
+  /// samples are so near each other that folds would lock. [m]
+  [[nodiscard]] double used_thickness(std::size_t cloth) const;
   /// What the last step found to press on a cloth.
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const;
   /// See Collider::crossings, of the last step.

@@ -21,6 +21,12 @@ constexpr double tolerance_under_contact = 1e-4;
 /// Residuals interpolated along secants drift away from the gradient.
 constexpr int iterations_between_restarts = 4;
 
+/// Squared, of positions in single precision, generously: what lies no farther from where it was
+/// left was not moved.
+constexpr float rounding = 1e-12F;
+/// Filters that are kept: of a step and of its halves.
+constexpr std::size_t most_filters = 7;
+
 void copy_row(ConstRow3 from, Row3 to, int n) {
   std::copy(from.x, from.x + n, to.x);
   std::copy(from.y, from.y + n, to.y);
@@ -33,8 +39,6 @@ Descent::Descent(const Cloth& cloth, double time_step, ThreadTeam& team)
     : cloth_(cloth),
       team_(team),
       kernels_(kernels_for(team.instructions())),
-      time_step_(time_step),
-      filter_(cloth, {time_step}, team),
       contacts_(cloth),
       springs_(cloth, team),
       bending_(cloth, team.instructions()),
@@ -45,15 +49,27 @@ Descent::Descent(const Cloth& cloth, double time_step, ThreadTeam& team)
       direction_(cloth.size),
       far_residual_(cloth.size),
       sums_(cloth.size),
-      largest_(static_cast<std::size_t>(cloth.size)) {}
+      largest_(static_cast<std::size_t>(cloth.size)) {
+  filters_.push_back({time_step, std::make_unique<MultigridFilter>(
+                                     cloth, MultigridFilter::Options{time_step}, team)});
+  filter_ = filters_.front().filter.get();
+}
 
 void Descent::renew_filter() {
-  if (input_.time_step != time_step_) {
-    time_step_ = input_.time_step;
-    filter_ = MultigridFilter(cloth_, {time_step_}, team_);
-  } else if (!filter_.knows_pins(cloth_)) {
-    filter_.renew_pins(cloth_);
+  const auto made = std::find_if(filters_.begin(), filters_.end(), [&](const TimedFilter& of) {
+    return of.time_step == input_.time_step;
+  });
+  if (made != filters_.end()) {
+    std::rotate(filters_.begin(), made, made + 1);
+  } else {
+    if (filters_.size() == most_filters) filters_.pop_back();
+    filters_.insert(
+        filters_.begin(),
+        {input_.time_step, std::make_unique<MultigridFilter>(
+                               cloth_, MultigridFilter::Options{input_.time_step}, team_)});
   }
+  filter_ = filters_.front().filter.get();
+  if (!filter_->knows_pins(cloth_)) filter_->renew_pins(cloth_);
 }
 
 void Descent::begin(const StepInput& input, const ClothState& state) {
@@ -77,11 +93,12 @@ void Descent::begin(const StepInput& input, const ClothState& state) {
 void Descent::run(std::span<const Contact> contacts, const MultigridOptions& options) {
   contacts_.take(contacts, start_.position, input_.time_step);
   team_.run([&](Worker& worker) {
-    contacts_.heed(next_.position, filter_.finest().inverse_diagonal, worker);
+    contacts_.heed(next_.position, filter_->finest().inverse_diagonal, worker);
     const Range mine = worker.share(cloth_.size);
     const auto pending = static_cast<float>(pending_way_);
     for (int r = mine.first; r < mine.last; ++r) {
       settle_row(pending, r);
+      take_moved_row(r);
       place_row(0, r);
     }
     worker.barrier();
@@ -147,6 +164,16 @@ void Descent::settle_row(float way, int row) {
   }
 }
 
+void Descent::take_moved_row(int row) {
+  const float* inverse_mass = cloth_.inverse_mass.row(row);
+  for (int c = 0; c < cloth_.size; ++c) {
+    const Vec3f x = next_.position.at(row, c), y = fall_.at(row, c);
+    const Vec3f moved = x - y - move_.at(row, c);
+    const float hair = rounding * (squared_length(x) + squared_length(y));
+    if (inverse_mass[c] > 0 && squared_length(moved) > hair) move_.set(row, c, x - y);
+  }
+}
+
 double Descent::look(Worker& worker) {
   const SpringRows::Motion motion{next_.position, start_.position, input_.time_step};
   bending_.curve(next_.position, worker);
@@ -157,7 +184,7 @@ double Descent::look(Worker& worker) {
     copy_row(springs_.row(motion, r, worker), out, cloth_.size);
     bending_.add_row(1, r, far_residual_);
     if (contacts_.loads().row(r)) contacts_.loads().add_row(r, out);
-    return kernels_.inertia(cloth_.size, filter_.mass_weight().row(r),
+    return kernels_.inertia(cloth_.size, filter_->mass_weight().row(r),
                             row_of(std::as_const(move_), r), row_of(std::as_const(direction_), r),
                             out);
   });
@@ -173,17 +200,17 @@ void Descent::take_residual(Course& course, Worker& worker) {
   for (int r = mine.first; r < mine.last; ++r) {
     const ConstRow3 far = row_of(std::as_const(far_residual_), r);
     if (course.exact)
-      copy_row(far, row_of(filter_.right(), r), cloth_.size);
+      copy_row(far, row_of(filter_->right(), r), cloth_.size);
     else
       kernels_.step_residual(cloth_.size, static_cast<float>(course.way), far,
-                             row_of(filter_.right(), r));
+                             row_of(filter_->right(), r));
   }
   course.exact = false;
   worker.barrier();
 }
 
 double Descent::turn(Course& course, Worker& worker) {
-  const double slope = filter_.cycle(worker);
+  const double slope = filter_->cycle(worker);
   double beta = course.slope > 0 ? slope / course.slope : 0;
   // Residuals that grow, or a direction that leads up, are no reason to go on as before.
   if (!(beta <= 1) || !(slope + beta * course.left > 0)) beta = 0;
@@ -191,7 +218,7 @@ double Descent::turn(Course& course, Worker& worker) {
   for (int r = mine.first; r < mine.last; ++r) {
     largest_[static_cast<std::size_t>(r)] = kernels_.turn(
         cloth_.size, {static_cast<float>(course.way), static_cast<float>(beta),
-                      row_of(std::as_const(fall_), r), row_of(std::as_const(filter_.value()), r),
+                      row_of(std::as_const(fall_), r), row_of(std::as_const(filter_->value()), r),
                       row_of(move_, r), row_of(direction_, r), row_of(next_.position, r)});
   }
   worker.barrier();
@@ -227,10 +254,10 @@ bool Descent::restart(Course& course, Worker& worker) {
 }
 
 bool Descent::judge_contacts(Worker& worker) {
-  bool changed = contacts_.heed(next_.position, filter_.finest().inverse_diagonal, worker);
+  bool changed = contacts_.heed(next_.position, filter_->finest().inverse_diagonal, worker);
   if (!contacts_.empty())
     changed = contacts_.judge({fall_, move_, direction_, 0}, worker) || changed;
-  filter_.renew_contacts(contacts_.loads(), worker);
+  filter_->renew_contacts(contacts_.loads(), worker);
   return changed;
 }
 

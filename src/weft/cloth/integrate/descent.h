@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -31,8 +32,8 @@ class Descent {
   /// @param contacts  of samples of the cloth
   void run(std::span<const Contact> contacts, const MultigridOptions& options);
 
-  /// Where the descent stands. What the caller changes here decides which contacts the next run
-  /// heeds; that goes on from where the last one ended.
+  /// Where the descent stands. The next run goes on from there, also where the caller moved
+  /// samples: a guess that was kept from passing through something is where the descent begins.
   [[nodiscard]] ClothState& next() { return next_; }
   /// Normal forces of the contacts of the last run, in their order, as far as friction has not
   /// spent them [N].
@@ -61,6 +62,8 @@ class Descent {
   void place_row(float way, int row);
   /// z += way d; d = 0.
   void settle_row(float way, int row);
+  /// z = x - y where the caller moved a sample.
+  void take_moved_row(int row);
   /// Minus the gradient at `next`: forces less inertia. Ends with a barrier.
   /// @return its dot product with d [N m]
   double look(Worker& worker);
@@ -83,8 +86,13 @@ class Descent {
   const Cloth& cloth_;
   ThreadTeam& team_;
   const KernelTable& kernels_;
-  double time_step_;  // [s] that the filter was made for
-  MultigridFilter filter_;
+  /// Of one time step. Steps that are halved and doubled need each again and again.
+  struct TimedFilter {
+    double time_step;  // [s]
+    std::unique_ptr<MultigridFilter> filter;
+  };
+  std::vector<TimedFilter> filters_;  // the one in use first
+  MultigridFilter* filter_;
   ContactSprings contacts_;
   SpringRows springs_;
   BendingPass bending_;

@@ -78,10 +78,10 @@ bool has_limiter(const IntegratorOptions& options);
 std::string_view name_of(const IntegratorOptions& options);
 
 /// Advances one cloth by one step, in parts, so that a collider can work between them:
-///   begin(input, state); next = iterate(contacts) (once or more); ... next may be changed ...;
-///   end(state).
+///   begin(input, state); next = iterate(contacts) (once or more, with contacts found anew);
+///   ... next may be changed ...; end(state).
 /// Nothing here allocates once constructed, but where the set of pins changes (multigrid, desbrun)
-/// or the time step (multigrid); nothing throws.
+/// or a time step is new (multigrid); nothing throws.
 class Integrator {
  public:
   Integrator() = default;
@@ -89,11 +89,16 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
   virtual ~Integrator() = default;
 
-  /// Takes the state at the start of the step and computes what does not depend on contacts.
+  /// Takes the state at the start of the step and computes what does not depend on contacts. May
+  /// be called again instead of end: the step starts anew, with another time step perhaps.
   virtual void begin(const StepInput& input, const ClothState& state) noexcept = 0;
-  /// The proposal as it stands. Before the first iterate, multigrid's is where the step leads
-  /// without the cloth's own forces: there contacts show what weighs on them.
+  /// The proposal as it stands.
   [[nodiscard]] virtual ClothState& proposal() noexcept = 0;
+  /// Whether begin proposes a guess, where the step leads without the cloth's own forces, and every
+  /// iterate starts from the proposal as the caller left it, the inertia staying that of the step's
+  /// start. Contacts are looked for at the guess then, and what it passed through is taken back
+  /// before the first iterate. Else the first iterate makes the first proposal.
+  [[nodiscard]] virtual bool starts_at_proposal() const noexcept { return false; }
   /// Proposes the state at the end of the step; the caller may change it in place (limit strain,
   /// truncate, push out of bodies) before the next iterate or end.
   virtual ClothState& iterate(std::span<const Contact> contacts) noexcept = 0;

@@ -25,6 +25,7 @@ class Multigrid final : public Integrator {
   }
 
   ClothState& proposal() noexcept override { return descent_.next(); }
+  [[nodiscard]] bool starts_at_proposal() const noexcept override { return true; }
 
   ClothState& iterate(std::span<const Contact> contacts) noexcept override {
     const Stopwatch watch;

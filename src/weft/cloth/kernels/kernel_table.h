@@ -134,6 +134,8 @@ inline constexpr int envelope_padding = 16;
 struct KernelTable {
   /// Adds the forces of springs to both ends [N]; `out` and `out_there` may be one row.
   void (*springs)(const SpringRun& run, Row3 lines, Row3 out, Row3 out_there);
+  /// @return their energy, sum of k/2 (length - rest)^2 [J]
+  double (*spring_energy)(const SpringRun& run);
   /// out += weight (there - here).
   void (*add_differences)(const DifferenceRow& row, Row3 out);
   /// The transpose: out += factor (own u - theirs u there), both weights those of one pair.

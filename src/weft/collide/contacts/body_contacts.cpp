@@ -16,21 +16,23 @@ constexpr double rounding = 1e-5;
 BodyContacts::BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
     : grid_(grid),
       kept_{cloth.thickness, cloth.friction},
-      inside_(static_cast<std::size_t>(grid.size()) * grid.size(), 0),
-      doubted_(inside_.size(), 0) {}
+      marks_{InsideMarks(static_cast<std::size_t>(grid.size()) * grid.size(), 0),
+             std::vector<char>(static_cast<std::size_t>(grid.size()) * grid.size(), 0), false},
+      kept_marks_(marks_) {}
 
 void BodyContacts::save(std::vector<int>& marks) const {
   marks.clear();
-  for (std::size_t s = 0; looked_ && s < inside_.size(); ++s)
-    marks.push_back(2 * inside_[s] + doubted_[s]);
+  for (std::size_t s = 0; marks_.looked && s < marks_.inside.size(); ++s)
+    marks.push_back(2 * marks_.inside[s] + marks_.doubted[s]);
 }
 
 void BodyContacts::restore(std::span<const int> marks) {
-  looked_ = marks.size() == inside_.size();
-  for (std::size_t s = 0; looked_ && s < inside_.size(); ++s) {
-    inside_[s] = marks[s] / 2;
-    doubted_[s] = static_cast<char>(marks[s] % 2);
+  marks_.looked = marks.size() == marks_.inside.size();
+  for (std::size_t s = 0; marks_.looked && s < marks_.inside.size(); ++s) {
+    marks_.inside[s] = marks[s] / 2;
+    marks_.doubted[s] = static_cast<char>(marks[s] % 2);
   }
+  commit();
 }
 
 std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, Vec3f start, double reach,
@@ -60,7 +62,7 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
   // What was outside and kept out cannot be inside now, whatever the normals of an image say that
   // folds or crosses itself somewhere.
   const bool behind = deep && body.query->behind(start, *found);
-  if (behind) inside_[sample] = body.number;
+  if (behind) marks_.inside[sample] = body.number;
   ClothPoint at;
   at.samples[0] = sample;
   at.start = start;
@@ -82,20 +84,20 @@ void BodyContacts::find_ground(const MovingCloth& cloth, const Ground& ground, i
 
 void BodyContacts::find_for_sample(const MovingCloth& cloth, std::span<const ContactBody> bodies,
                                    const Ground* ground, int sample, std::vector<Contact>& out) {
-  const int was_inside = inside_[sample];
-  inside_[sample] = 0;
+  const int was_inside = marks_.inside[sample];
+  marks_.inside[sample] = 0;
   for (const ContactBody& body : bodies) {
-    const bool doubt = !looked_ || was_inside == body.number || doubted_[sample] != 0;
+    const bool doubt = !marks_.looked || was_inside == body.number || marks_.doubted[sample] != 0;
     find_body(cloth, body, doubt && body.query->closed(), sample, out);
   }
-  doubted_[sample] = 0;
+  marks_.doubted[sample] = 0;
   if (ground != nullptr) find_ground(cloth, *ground, sample, out);
 }
 
 void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> bodies,
                         const Ground* ground, ThreadTeam& team) {
   known_.resize(bodies.size());
-  for (std::vector<Known>& known : known_) known.resize(inside_.size());
+  for (std::vector<Known>& known : known_) known.resize(marks_.inside.size());
   const int n = grid_.size();
   team.run([&](Worker& worker) {
     found_.fill(n * n, worker, [&](int s, std::vector<Contact>& out) {
@@ -104,7 +106,7 @@ void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> b
   });
   contacts_.clear();
   append(found_, contacts_);
-  looked_ = true;
+  marks_.looked = true;
 }
 
 }  // namespace weft

@@ -28,13 +28,16 @@ class BodyContacts {
   void find(const MovingCloth& cloth, std::span<const ContactBody> bodies, const Ground* ground,
             ThreadTeam& team);
   [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
-  [[nodiscard]] const InsideMarks& inside() const { return inside_; }
+  [[nodiscard]] const InsideMarks& inside() const { return marks_.inside; }
   /// A body moved onto this sample in the last step, so it may be inside now.
-  void doubt(int sample) { doubted_[sample] = 1; }
+  void doubt(int sample) { marks_.doubted[sample] = 1; }
   /// What is known of every sample, for going on elsewhere: its mark and whether it is in doubt.
   /// Empty before the first look.
   void save(std::vector<int>& marks) const;
   void restore(std::span<const int> marks);
+  /// What is known of samples is kept for rollback, which returns to it.
+  void commit() { kept_marks_ = marks_; }
+  void rollback() { marks_ = kept_marks_; }
 
  private:
   void find_for_sample(const MovingCloth& cloth, std::span<const ContactBody> bodies,
@@ -56,9 +59,12 @@ class BodyContacts {
   const SurfaceGrid& grid_;
   KeptGap kept_;
   std::vector<std::vector<Known>> known_;  // of each body [n * n]
-  InsideMarks inside_;                     // [n * n]
-  std::vector<char> doubted_;              // [n * n]
-  bool looked_ = false;
+  struct Marks {
+    InsideMarks inside;         // [n * n]
+    std::vector<char> doubted;  // [n * n]
+    bool looked = false;
+  };
+  Marks marks_, kept_marks_;
   ChunkedLists<std::vector<Contact>> found_;
   std::vector<Contact> contacts_;
 };

@@ -150,6 +150,19 @@ void PlaneGuard::settle(std::span<SeparatingPlane> planes, const Aside& aside) {
   }
 }
 
+void PlaneGuard::find_struck(std::span<const SeparatingPlane> planes) {
+  is_struck_.assign(planes.size(), 0);
+  for (int i = 0; i < static_cast<int>(involved_.size()); ++i) {
+    if (fates_[i] == Fate::free) continue;
+    const Vec3d wanted = vec_cast<double>(points_[i].end);
+    for (const Side& side : sides(i))
+      if (limit_of(planes[side.plane], side, points_[i].start).beyond(wanted) > 0)
+        is_struck_[side.plane] = 1;
+  }
+  for (int p = 0; p < static_cast<int>(planes.size()); ++p)
+    if (is_struck_[p] != 0) struck_.push_back(p);
+}
+
 PlaneGuard::Result PlaneGuard::count_fates() {
   Result result;
   for (std::size_t i = 0; i < fates_.size(); ++i) {

@@ -32,6 +32,8 @@ class PlaneGuard {
   [[nodiscard]] std::span<const int> stopped() const { return stopped_; }
   /// Those that it lost, ascending.
   [[nodiscard]] std::span<const int> lost() const { return lost_; }
+  /// Numbers of the planes that points it moved had been beyond.
+  [[nodiscard]] std::span<const int> struck() const { return struck_; }
   /// How far points may be moved aside.
   struct Aside {
     double slack = 0;     ///< what planes reckon with [m]
@@ -76,6 +78,7 @@ class PlaneGuard {
   void settle(std::span<SeparatingPlane> planes, const Aside& aside);
   bool make_still(std::span<SeparatingPlane> planes, int involved);
   Result count_fates();
+  void find_struck(std::span<const SeparatingPlane> planes);
 
   std::vector<int> involved_;  // points that planes name, ascending
   std::vector<int> index_;     // [count] of a point among them, -1: none
@@ -86,8 +89,9 @@ class PlaneGuard {
   std::vector<Fate> fates_;
   std::vector<char> still_;  // of planes
   std::vector<char> held_;   // of involved points: to be stopped
-  std::vector<int> stopped_, lost_;
-  std::vector<char> anew_;  // of involved points: to be placed anew
+  std::vector<int> stopped_, lost_, struck_;
+  std::vector<char> is_struck_;  // of planes
+  std::vector<char> anew_;       // of involved points: to be placed anew
 };
 
 template <class At, class Put>
@@ -96,6 +100,7 @@ PlaneGuard::Result PlaneGuard::hold(std::span<SeparatingPlane> planes, int count
                                     ThreadTeam& team) {
   stopped_.clear();
   lost_.clear();
+  struck_.clear();
   if (planes.empty()) return {};
   gather(planes, count);
   const int points = static_cast<int>(involved_.size());
@@ -110,6 +115,7 @@ PlaneGuard::Result PlaneGuard::hold(std::span<SeparatingPlane> planes, int count
     }
   });
   settle(planes, aside);
+  find_struck(planes);
   for (int i = 0; i < points; ++i)
     if (fates_[i] != Fate::free) put(involved_[i], ends_[i]);
   return count_fates();

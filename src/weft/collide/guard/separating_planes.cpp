@@ -128,6 +128,9 @@ Separation separate(const MovingFeature& a, const MovingFeature& b, const PlaneO
   out.turned = out.normal;
   put_levels(a, b, out);
   if (options.turn) turn(a, b, out);
+  if (b.body)
+    out.body_way =
+        most_along(out.turned, b.end, b.count) - most_along(out.turned, b.start, b.count);
   return Separation::plane;
 }
 

@@ -27,6 +27,7 @@ struct SeparatingPlane {
   /// How far a point is along a plane that turns is a quadratic function of time: its start, its
   /// end and this between, twice the middle Bernstein coefficient, keep it on its side.
   PlaneLevels halfway;
+  double body_way = 0;          ///< how far a body on side b moves along it during the step [m]
   std::array<int, 6> points{};  ///< of all cloths: side a's, then side b's; bodies have none here
   int count_a = 0, count_b = 0;
 };

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "weft/cloth/coarse_limit.h"
+#include "weft/cloth/energy_meter.h"
 #include "weft/cloth/strain_limit.h"
 #include "weft/sim/attachments.h"
 #include "weft/sim/driven_bodies.h"
+#include "weft/sim/driven_work.h"
 #include "weft/sim/grab.h"
 #include "weft/sim/pins.h"
 #include "weft/sim/runaway.h"
@@ -22,6 +24,9 @@ inline constexpr int least_shared_size = 97;
 /// The gap that a cloth keeps to obstacles. [m]
 double gap_of(const Cloth& cloth);
 
+/// Between parts of cloth. [m]
+double self_gap_of(const Cloth& cloth);
+
 /// What moves one cloth.
 struct Mover {
   std::unique_ptr<Integrator> integrator;
@@ -29,6 +34,14 @@ struct Mover {
   RunawayCheck runaway;
   StrainLimit limit;
   CoarseLimit coarse_limit;
+  EnergyMeter meter;
+  DrivenWork driven_work;
+  /// Of this step: where it started, after the wind; as it was solved, its strain limited; where it
+  /// ends.
+  Energy start, solved, end;
+  Planes3 calm_velocity;  // before the wind blew [m/s]
+  // Of this step: what the wind did, and what the strain limit did while something pulled. [J]
+  double wind_work = 0, pulled_work = 0;
 };
 
 struct Simulation::Parts {
@@ -60,17 +73,40 @@ struct Simulation::Parts {
   void move_driven(double seconds);
   /// Ends the step: bodies are where it took them.
   void bodies_arrive();
-  /// Advances by one substep, in as many pieces as fast bodies ask for. @param number  from 0
+  /// Advances by one substep, in as many steps as fast bodies and collisions ask for.
+  /// @param number  from 0
   void substep(int number, FrameReport& report);
   /// A power of 2: of a substep that ends at a time.
   [[nodiscard]] int pieces_until(double seconds);
-  /// Advances all cloths. @param seconds  at the end of the step @return particles in contact
-  int step(double seconds, FrameReport& report);
-  void check_for_runaway(double seconds);
+  /// What became of a step that was tried.
+  struct Tried {
+    bool refused = false;
+    StepVerdict verdict = StepVerdict::calm;
+    int contacts = 0;  // particles in contact
+    FilterCounts filtered;
+    double work = 0;  // of pins and bodies [J]
+  };
+  /// Tries to advance all cloths; a step that is not refused stands.
+  /// @param seconds  at the end of the step
+  Tried try_step(double seconds, bool may_refuse, FrameReport& report);
+  /// Proposes the end of the step, with the contacts that were found.
+  void solve_all(FrameReport& report);
+  /// Takes back what guesses passed through. @return whether there is anything to collide with
+  bool free_guesses();
+  void iterate_all();
+  /// Whether the contacts are others than those that were solved with; they are then.
+  bool renew_contacts();
+  /// What the step did after it was solved, by energy. @pre the filter is done
+  void judge(bool may_refuse, Tried& tried);
+  void take_excess(double excess);
+  void finish_step(const Tried& tried, FrameReport& report);
+  void refuse_step();
+  /// Before the filter: what that stops would look calm. @return whether motion is sane
+  bool check_for_runaway(double seconds, bool may_refuse);
   /// Begins a cloth's step, up to its first proposal.
   void propose(std::size_t index);
-  /// Solves a cloth's step with the contacts that were found.
-  void solve(std::size_t index);
+  /// Whether pins or bodies move in this step, which pull at cloth by its strain limit too.
+  [[nodiscard]] bool is_pulled(std::size_t index) const;
   /// Limits strain and pushes out. @return particles in contact
   int correct(std::size_t index, ClothState& next, FrameReport& report);
   /// Every cloth at its proposal, for the collider.
@@ -78,19 +114,17 @@ struct Simulation::Parts {
   void finish(std::size_t index, FrameReport& report);
   [[noreturn]] void stop_unstable(std::size_t index, BadParticle particle) const;
   void measure(FrameReport& report);
-  /// Springs that hold far more energy than the cloth can have gained ran away, though a limiter
-  /// may tame the motion.
-  void check_springs(std::size_t index, double kinetic, double springs) const;
+  /// Stops a run whose energy nothing explains, or whose cloth is torn.
+  void check_energy(const FrameReport& report, double own) const;
+  void check_strain(std::size_t index, const StrainSummary& strain) const;
+  [[noreturn]] void stop_torn(std::size_t index, const std::string& found) const;
+  [[nodiscard]] std::string advice_for(std::size_t index) const;
   [[nodiscard]] Vec3d centre() const;
   /// Only implicit methods heed contacts; the others are pushed out at the end of the step.
   [[nodiscard]] bool heeds_contacts() const {
-    return guesses() || std::holds_alternative<ImplicitOptions>(scene.integrator);
-  }
-  /// Whether the integrator's proposal is a guess before it has solved, at which contacts are
-  /// found.
-  [[nodiscard]] bool guesses() const {
     return std::holds_alternative<NewtonOptions>(scene.integrator) ||
-           std::holds_alternative<MultigridOptions>(scene.integrator);
+           std::holds_alternative<MultigridOptions>(scene.integrator) ||
+           std::holds_alternative<ImplicitOptions>(scene.integrator);
   }
   /// Who steps a cloth.
   [[nodiscard]] ThreadTeam& solvers(std::size_t index) {
@@ -114,9 +148,15 @@ struct Simulation::Parts {
   std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
   std::vector<Mover> movers;                        // one a cloth
   std::unique_ptr<Collider> collider;
-  std::vector<MovingCloth> moving;  // of this step
+  std::vector<MovingCloth> moving;                    // of this step
+  std::vector<std::vector<Contact>> solved_contacts;  // of each cloth
   Grab grab;
   int frame = 0;
+  StepLevels levels;
+  WorkDone work;
+  Energy start_energy;        // before the first frame
+  bool watched = false;       // the step's energy: there is something to collide with
+  bool known_energy = false;  // movers' start energies are those of the states
 };
 
 }  // namespace weft

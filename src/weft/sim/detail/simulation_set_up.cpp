@@ -21,14 +21,14 @@ constexpr double gap_in_spacings = 1.0 / 3, most_gap_in_thicknesses = 3;
 /// Between parts of cloth a gap of more than this part of the rest spacing would lock folds.
 constexpr double most_self_gap_in_spacings = 0.25;
 
-double self_gap_of(const Cloth& cloth) {
-  return std::min(cloth.material.thickness, most_self_gap_in_spacings * cloth.rest_spacing);
-}
-
 /// Of the ground, which scenes do not name a coefficient for.
 constexpr double ground_friction = 0.5;
 
 }  // namespace
+
+double self_gap_of(const Cloth& cloth) {
+  return std::min(cloth.material.thickness, most_self_gap_in_spacings * cloth.rest_spacing);
+}
 
 double gap_of(const Cloth& cloth) {
   const double thickness = cloth.material.thickness;
@@ -154,11 +154,17 @@ void Simulation::Parts::make_movers() {
         {make_integrator(scene.integrator, cloth.cloth, typical, solvers(i)),
          scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
          RunawayCheck(cloth.cloth, cloth.state, scene.gravity, drive_of(i)),
-         StrainLimit(cloth.cloth, solvers(i)), CoarseLimit(cloth.cloth, solvers(i))});
+         StrainLimit(cloth.cloth, solvers(i)), CoarseLimit(cloth.cloth, solvers(i)),
+         EnergyMeter(cloth.cloth, scene.gravity, solvers(i)),
+         DrivenWork(cloth.cloth, scene.gravity, solvers(i)), Energy{}, Energy{}, Energy{},
+         Planes3(scene.wind ? cloth.cloth.size : 0)});
     if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
       notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }
   moving.reserve(cloths.size());
+  solved_contacts.resize(cloths.size());
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    start_energy += movers[i].meter.measure(cloths[i].state);
 }
 
 double Simulation::Parts::drive_of(std::size_t index) const {

@@ -6,6 +6,7 @@
 namespace weft::WEFT_KERNEL_SET {
 
 void springs(const SpringRun& run, Row3 lines, Row3 out, Row3 out_there);
+double spring_energy(const SpringRun& run);
 void add_differences(const DifferenceRow& row, Row3 out);
 void add_transposed(const TransposedRow& row, Row3 out);
 double inertia(int n, const float* weight, ConstRow3 move, ConstRow3 direction, Row3 force);

@@ -84,6 +84,28 @@ void springs(const SpringRun& run, Row3 lines, Row3 out, Row3 out_there) {
   share_out(run, lines, out, out_there);
 }
 
+double spring_energy(const SpringRun& run) {
+  const float* __restrict k = run.springs.stiffness;
+  const float* __restrict rest = run.springs.rest_length;
+  const ConstRow3 p = run.here.position, q = run.there.position;
+  const int shift = run.shift;
+  const auto energy = [&](int c) {
+    const int j = c + shift;
+    const float dx = q.x[j] - p.x[c], dy = q.y[j] - p.y[c], dz = q.z[j] - p.z[c];
+    const float strained = __builtin_sqrtf(dx * dx + dy * dy + dz * dz) - rest[c];
+    return 0.5F * k[c] * strained * strained;
+  };
+  alignas(64) float sums[lanes] = {};
+  int c = run.first;
+  for (; c + lanes <= run.last; c += lanes)
+#pragma omp simd
+    for (int lane = 0; lane < lanes; ++lane) sums[lane] += energy(c + lane);
+  for (int lane = 0; c < run.last; ++c, ++lane) sums[lane] += energy(c);
+  double sum = 0;
+  for (int lane = 0; lane < lanes; ++lane) sum += double{sums[lane]};
+  return sum;
+}
+
 double inertia(int n, const float* weight, ConstRow3 move, ConstRow3 direction, Row3 force) {
   const float* __restrict w = weight;
   const ConstRow3 z = move, d = direction;

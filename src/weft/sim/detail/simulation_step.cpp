@@ -1,0 +1,340 @@
+// How a simulation advances.
+//
+// Each step: guesses where cloths go by themselves; what they passed through is taken back, so that
+// the solve starts where nothing crosses (springs know no orientation: started beyond a crossing,
+// they come to rest there, and the filter would stretch them back); contacts are looked for there
+// and again where the solve led; strain is limited, friction takes hold; the filter has the last
+// word. A step that the filter had to put back so far that springs hold much more energy for it, is
+// refused: all is as before it, and two halves take its place.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "weft/sim/detail/simulation_parts.h"
+#include "weft/sim/detail/stage_clock.h"
+
+namespace weft {
+namespace {
+
+/// The limiter pulls cloth into bodies, the collider stretches it again. The two-level method's
+/// springs are so soft that the limiter carries the cloth: there both take turns, the collider
+/// last.
+constexpr int rounds_of_soft_springs = 4;
+/// What the two-level method is limited at where the material says nothing: its springs are none of
+/// the material's. [zink07]
+constexpr double strain_of_soft_springs = 0.05;
+
+/// Passes that suit a method. Stiff springs leave the limiter a few samples about pins, more of
+/// them in finer images, which it has to bring up the whole cloth's weight by: many passes, that
+/// cost little.
+struct SuitablePasses {
+  int size;
+  int operator()(const TwoLevelOptions& /*options*/) const { return 10; }
+  int operator()(const DesbrunOptions& /*options*/) const { return std::clamp(size / 2, 60, 128); }
+  int operator()(const MultigridOptions& /*options*/) const {
+    return std::clamp(size / 2, 60, 128);
+  }
+  /// Any other method holds its cloth by the springs themselves.
+  template <class Other>
+  int operator()(const Other& /*options*/) const {
+    return 0;
+  }
+};
+
+LimitOptions limit_for(const Scene& scene, const Cloth& cloth) {
+  LimitOptions limit{
+      has_limiter(scene.integrator)
+          ? scene.limiter_passes.value_or(std::visit(SuitablePasses{cloth.size}, scene.integrator))
+          : 0};
+  const auto* soft = std::get_if<TwoLevelOptions>(&scene.integrator);
+  if (soft == nullptr) return limit;
+  if (cloth.material.strain_limit == 0) limit.strain = strain_of_soft_springs;
+  limit.as_printed = soft->as_printed;
+  return limit;
+}
+/// Of the limiter on each coarse level.
+constexpr int coarse_passes = 2;
+
+/// A step is refused in which points fall back to its start, or whose filter or response adds more
+/// than this part of the energy within cloths, and so much of their mass besides [J/kg].
+constexpr double most_added_part = 0.3, most_added = 0.01;
+/// One that adds less than this part of that is calm.
+constexpr double calm_part = 0.2;
+
+bool same(const Contact& a, const Contact& b) {
+  return a.samples == b.samples && a.weights == b.weights && a.normal == b.normal &&
+         a.offset == b.offset && a.slide == b.slide && a.lift == b.lift &&
+         a.stiffness == b.stiffness && a.friction == b.friction;
+}
+
+int level_of(int pieces) {
+  int level = 0;
+  while (1 << level < pieces) ++level;
+  return level;
+}
+
+}  // namespace
+
+void Simulation::Parts::bodies_arrive() {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].moves) bodies[i].positions = *driven.ends()[i];
+}
+
+void Simulation::Parts::move_driven(double seconds) {
+  driven.go(seconds, team);
+  if (driven.any_moves()) collider->move_bodies(driven.ends());
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    move_pins(pin_motions[i], seconds, cloths[i].cloth);
+    move_tied(tied_pins[i], driven.ends(), cloths[i].cloth);
+  }
+  if (grab.holds()) grab.move(time_step, scene.ground, cloths[grab.cloth()]);
+}
+
+void Simulation::Parts::propose(std::size_t index) {
+  SimulatedCloth& cloth = cloths[index];
+  Mover& mover = movers[index];
+  mover.wind_work = mover.pulled_work = 0;
+  if (mover.wind) {
+    known_energy = false;
+    mover.calm_velocity = cloth.state.velocity;
+    mover.wind->blow(time_step, cloth.state, solvers(index));
+    mover.wind_work =
+        mover.meter.kinetic(cloth.state.velocity) - mover.meter.kinetic(mover.calm_velocity);
+  }
+  mover.integrator->begin({time_step, vec_cast<float>(scene.gravity)}, cloth.state);
+  if (!mover.integrator->starts_at_proposal()) mover.integrator->iterate({});
+}
+
+bool Simulation::Parts::is_pulled(std::size_t index) const {
+  const SimulatedCloth& cloth = cloths[index];
+  if (soft || cloth.cloth.material.strain_limit <= 0) return false;
+  const auto& pins = cloth.cloth.pins;
+  return driven.any_moves() || std::any_of(pins.begin(), pins.end(), [&](const Pin& pin) {
+           return vec_cast<float>(pin.target) != cloth.state.position.at(pin.sample);
+         });
+}
+
+int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport& report) {
+  const SimulatedCloth& cloth = cloths[index];
+  Mover& mover = movers[index];
+  StageClock clock;
+  const LimitOptions limiter = limit_for(scene, cloth.cloth);
+  LimitOptions coarse_limiter = limiter;
+  coarse_limiter.passes = std::min(coarse_passes, limiter.passes);
+  int contacts = 0;
+  for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
+    if (soft) mover.coarse_limit.limit(coarse_limiter, time_step, next, solvers(index));
+    report.limit_ms += clock.lap();
+    const bool pulled = is_pulled(index);
+    const double before = pulled ? mover.meter.measure(next).total() : 0;
+    clock.lap();
+    // What it moves changes velocities as in a whole substep: the same way in a short step would be
+    // a shot.
+    mover.limit.limit(limiter, substep_time, next, solvers(index));
+    report.limit_ms += clock.lap();
+    if (watched || pulled) mover.solved = mover.meter.measure(next);
+    mover.pulled_work += pulled ? std::max(0.0, mover.solved.total() - before) : 0;
+    clock.lap();
+    const int touched = collider->correct(index, moving[index], mover.integrator->contact_forces(),
+                                          time_step, team);
+    report.collide_ms += clock.lap();
+    contacts = std::max(contacts, touched);
+    if (touched == 0) break;
+  }
+  return contacts;
+}
+
+void Simulation::Parts::gather_moving() {
+  moving.clear();
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    ClothState& next = movers[i].integrator->proposal();
+    moving.push_back(
+        {cloths[i].state.position, next.position, next.velocity, cloths[i].cloth.inverse_mass});
+  }
+}
+
+void Simulation::Parts::substep(int number, FrameReport& report) {
+  const double begin = substep_time * number, end = substep_time * (number + 1);
+  StepWalk walk(level_of(pieces_until(end)), levels);
+  while (!walk.done()) {
+    time_step = substep_time / walk.pieces();
+    const int piece = walk.index() + 1;
+    const double seconds = piece < walk.pieces() ? begin + time_step * piece : end;
+    move_driven(seconds);
+    const Tried tried = try_step(seconds, walk.may_halve(), report);
+    if (tried.refused) {
+      refuse_step();
+      walk.halve();
+    } else {
+      finish_step(tried, report);
+      walk.accept(tried.verdict);
+    }
+  }
+  levels = walk.next(levels);
+}
+
+int Simulation::Parts::pieces_until(double seconds) {
+  if (!driven.any_moves()) return 1;
+  driven.go(seconds, team);
+  double way = 0;
+  for (std::size_t c = 0; c < cloths.size(); ++c) {
+    const Box3d near = swept_box(cloths[c].state, substep_time, gap_of(cloths[c].cloth));
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (bodies[i].moves)
+        way = std::max(way, farthest_way(bodies[i].positions, *driven.ends()[i], near));
+  }
+  return pieces_for(way, most_way);
+}
+
+bool Simulation::Parts::check_for_runaway(double seconds, bool may_refuse) {
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const auto bad = movers[i].runaway.find(cloths[i].cloth, movers[i].integrator->proposal(),
+                                            seconds, solvers(i));
+    if (bad && may_refuse) return false;
+    if (bad) stop_unstable(i, *bad);
+  }
+  return true;
+}
+
+Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, bool may_refuse,
+                                                     FrameReport& report) {
+  Tried tried;
+  solve_all(report);
+  gather_moving();
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    tried.contacts += correct(i, movers[i].integrator->proposal(), report);
+  tried.refused = !check_for_runaway(seconds, may_refuse && watched);
+  if (tried.refused) return tried;
+  StageClock clock;
+  tried.filtered = collider->guard(moving, time_step, team);
+  report.collide_ms += clock.lap();
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    tried.work += movers[i].driven_work.measure(
+        {cloths[i].state, movers[i].integrator->proposal(), time_step},
+        collider->obstacle_contacts(i));
+  if (watched) judge(may_refuse, tried);
+  return tried;
+}
+
+void Simulation::Parts::iterate_all() {
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const std::span<const Contact> found = collider->contacts(i);
+    if (movers[i].integrator->starts_at_proposal() || (heeds_contacts() && !found.empty()))
+      movers[i].integrator->iterate(found);
+    solved_contacts[i].assign(found.begin(), found.end());
+  }
+}
+
+bool Simulation::Parts::renew_contacts() {
+  const auto renewed = [&](std::size_t i) {
+    const std::span<const Contact> found = collider->contacts(i);
+    return !std::equal(found.begin(), found.end(), solved_contacts[i].begin(),
+                       solved_contacts[i].end(), same);
+  };
+  bool any = false;
+  for (std::size_t i = 0; i < cloths.size(); ++i) any = any || renewed(i);
+  return any;
+}
+
+bool Simulation::Parts::free_guesses() {
+  const bool guards = !std::holds_alternative<PolarMapOptions>(scene.collider);
+  if (!heeds_contacts() && !guards) return false;
+  collider->detect(moving, time_step, team);
+  if (!guards || !heeds_contacts() || !collider->anything_near()) return false;
+  if (movers.front().integrator->starts_at_proposal() &&
+      collider->guard_guess(moving, time_step, team) > 0)
+    collider->detect(moving, time_step, team);
+  return true;
+}
+
+void Simulation::Parts::solve_all(FrameReport& report) {
+  for (std::size_t i = 0; i < cloths.size(); ++i) propose(i);
+  gather_moving();
+  StageClock clock;
+  watched = free_guesses();
+  report.collide_ms += clock.lap();
+  iterate_all();
+  gather_moving();
+  if (!watched) return;
+  clock.lap();
+  collider->detect(moving, time_step, team);
+  report.collide_ms += clock.lap();
+  if (renew_contacts()) iterate_all();
+}
+
+void Simulation::Parts::judge(bool may_refuse, Tried& tried) {
+  Energy start, solved, end;
+  double mass = 0;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    Mover& mover = movers[i];
+    if (!known_energy) mover.start = mover.meter.measure(cloths[i].state);
+    start += mover.start;
+    solved += mover.solved;
+    mass += mover.meter.mass();
+    mover.end = mover.meter.measure(mover.integrator->proposal());
+    end += mover.end;
+  }
+  known_energy = true;
+  const double added = end.total() - solved.total();
+  const double excess = std::min(added, end.total() - start.total() - tried.work);
+  const double limit = most_added_part * solved.inner() + most_added * mass;
+  const double fault = std::max(end.elastic - solved.elastic, excess);
+  const bool bad = !(fault <= limit) || tried.filtered.fell_back > 0;
+  tried.refused = bad && may_refuse;
+  tried.verdict = bad                         ? StepVerdict::forced
+                  : fault < calm_part * limit ? StepVerdict::calm
+                                              : StepVerdict::near;
+  if (!tried.refused && excess > 0) take_excess(excess);
+}
+
+/// Of each cloth by its share in what all gained.
+void Simulation::Parts::take_excess(double excess) {
+  double gained = 0;
+  const auto own = [](const Mover& mover) {
+    return std::max(0.0, mover.end.total() - mover.start.total());
+  };
+  for (const Mover& mover : movers) gained += own(mover);
+  for (Mover& mover : movers)
+    if (own(mover) > 0)
+      mover.end.kinetic -= mover.meter.take_out(excess * (own(mover) / gained),
+                                                mover.integrator->proposal().velocity);
+}
+
+void Simulation::Parts::refuse_step() {
+  collider->rollback();
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    if (movers[i].wind) cloths[i].state.velocity = movers[i].calm_velocity;
+  if (movers.front().wind) known_energy = false;
+}
+
+void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
+  collider->commit();
+  double done = tried.work;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    finish(i, report);
+    done += movers[i].wind_work;
+    work.pulled += movers[i].pulled_work;
+  }
+  // What it ends with the next one starts with.
+  known_energy = watched;
+  for (Mover& mover : movers) mover.start = mover.end;
+  work.net += done;
+  work.gross += std::abs(done);
+  report.work += done;
+  report.contacts = std::max(report.contacts, tried.contacts);
+  report.self_contacts = std::max(report.self_contacts, collider->self_contacts());
+  report.stopped = std::max(report.stopped, tried.filtered.stopped);
+  report.fell_back = std::max(report.fell_back, tried.filtered.fell_back);
+  bodies_arrive();
+}
+
+void Simulation::Parts::finish(std::size_t index, FrameReport& report) {
+  const StepReport stepped = movers[index].integrator->end(cloths[index].state);
+  report.forces_ms += 1000 * stepped.forces_seconds;
+  report.solve_ms += 1000 * stepped.solve_seconds;
+  report.iterations += stepped.iterations;
+  report.residual = std::max(report.residual, stepped.residual);
+}
+
+}  // namespace weft

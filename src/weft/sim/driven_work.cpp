@@ -1,0 +1,87 @@
+#include "weft/sim/driven_work.h"
+
+#include <algorithm>
+
+#include "weft/cloth/mates.h"
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+
+DrivenWork::DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team)
+    : cloth_(cloth),
+      gravity_(gravity),
+      team_(team),
+      springs_(cloth, team),
+      bending_(cloth, team.instructions()),
+      force_(cloth.size),
+      driven_(static_cast<std::size_t>(cloth.size) * cloth.size) {
+  samples_.reserve(driven_.size());
+}
+
+DrivenWork::Driven& DrivenWork::driven(int sample) {
+  Driven& found = driven_[sample];
+  if (found.weight == 0) samples_.push_back(sample);
+  return found;
+}
+
+void DrivenWork::add_pins(const DoneStep& step) {
+  for (const Pin& pin : cloth_.pins) {
+    const Vec3d way = vec_cast<double>(step.end.position.at(pin.sample)) -
+                      vec_cast<double>(step.start.position.at(pin.sample));
+    if (way != Vec3d{}) driven(pin.sample) = {way, 1, true};
+  }
+}
+
+void DrivenWork::add_contacts(std::span<const Contact> obstacles) {
+  for (const Contact& contact : obstacles) {
+    if (contact.slide == Vec3f{}) continue;
+    for (std::size_t k = 0; k < contact.samples.size(); ++k) {
+      const double weight = contact.weights[k];
+      if (!(weight > 0)) continue;
+      const int sample = cloth_.mates.representative(contact.samples[k]);
+      Driven& found = driven(sample);
+      if (found.pinned) continue;
+      found.way += weight * vec_cast<double>(contact.slide);
+      found.weight += weight;
+    }
+  }
+}
+
+void DrivenWork::find_forces(const DoneStep& step) {
+  const SpringRows::Motion motion{step.end.position, step.start.position, step.time_step};
+  team_.run([&](Worker& worker) {
+    if (bending_.active()) bending_.curve(step.end.position, worker);
+    springs_.begin(motion, worker);
+    const Range mine = worker.share(cloth_.size);
+    for (int r = mine.first; r < mine.last; ++r) {
+      const ConstRow3 row = springs_.row(motion, r, worker);
+      std::copy_n(row.x, cloth_.size, force_.x.row(r));
+      std::copy_n(row.y, cloth_.size, force_.y.row(r));
+      std::copy_n(row.z, cloth_.size, force_.z.row(r));
+      bending_.add_row(1, r, force_);
+    }
+    worker.barrier();
+    sum_over_mates(cloth_.mates, worker, {&force_.x, &force_.y, &force_.z});
+  });
+}
+
+double DrivenWork::measure(const DoneStep& step, std::span<const Contact> obstacles) noexcept {
+  add_pins(step);
+  add_contacts(obstacles);
+  if (samples_.empty()) return 0;
+  find_forces(step);
+  double work = 0;
+  for (const int s : samples_) {
+    const double mass = cloth_.mass(s / cloth_.size, s % cloth_.size);
+    const Vec3d gained =
+        vec_cast<double>(step.end.velocity.at(s)) - vec_cast<double>(step.start.velocity.at(s));
+    const Vec3d reaction =
+        mass * ((1 / step.time_step) * gained - gravity_) - vec_cast<double>(force_.at(s));
+    work += dot(reaction, (1 / driven_[s].weight) * driven_[s].way);
+    driven_[s] = {};
+  }
+  samples_.clear();
+  return work;
+}
+
+}  // namespace weft

@@ -1,0 +1,84 @@
+#include "weft/sim/step_levels.h"
+
+#include <gtest/gtest.h>
+
+namespace weft {
+namespace {
+
+TEST(StepLevels, CalmSubstepsAreOneStep) {
+  StepWalk walk(0, {});
+  EXPECT_EQ(walk.pieces(), 1);
+  walk.accept(StepVerdict::calm);
+  EXPECT_TRUE(walk.done());
+  EXPECT_EQ(walk.next({}), StepLevels{});
+}
+
+TEST(StepLevels, ARefusedStepBecomesTwoHalves) {
+  StepWalk walk(0, {});
+  walk.halve();
+  walk.halve();
+  EXPECT_EQ(walk.pieces(), 4);
+  walk.accept(StepVerdict::near);
+  EXPECT_EQ(walk.index(), 1);
+  walk.accept(StepVerdict::calm);
+  // Half is done, in calm: the other half is tried at once.
+  EXPECT_EQ(walk.pieces(), 2);
+  EXPECT_EQ(walk.index(), 1);
+  walk.accept(StepVerdict::calm);
+  EXPECT_TRUE(walk.done());
+}
+
+TEST(StepLevels, TheNextSubstepBeginsAsShortAndGrowsLonger) {
+  StepLevels levels;
+  StepWalk walk(0, levels);
+  walk.halve();
+  walk.halve();
+  while (!walk.done()) walk.accept(StepVerdict::near);
+  levels = walk.next(levels);
+  EXPECT_EQ(levels.first, 2);
+  for (const int first : {1, 0, 0}) {
+    StepWalk calm(0, levels);
+    EXPECT_EQ(calm.pieces(), 1 << levels.first);
+    while (!calm.done()) calm.accept(StepVerdict::calm);
+    levels = calm.next(levels);
+    EXPECT_EQ(levels.first, first);
+  }
+}
+
+TEST(StepLevels, WhereHalvingIsNoHelpItIsTriedLessAndLess) {
+  StepLevels levels;
+  for (const int most : {5, 4, 3, 2, 1, 1}) {
+    StepWalk walk(0, levels);
+    int steps = 0, refused = 0;
+    while (!walk.done()) {
+      if (walk.may_halve()) {
+        walk.halve();
+        ++refused;
+      } else {
+        walk.accept(StepVerdict::forced);
+        ++steps;
+      }
+    }
+    EXPECT_EQ(steps, 1 << levels.most);
+    EXPECT_LE(refused, levels.most);
+    levels = walk.next(levels);
+    EXPECT_EQ(levels.most, most);
+    EXPECT_TRUE(is_valid(levels));
+  }
+  StepWalk walk(0, levels);
+  walk.accept(StepVerdict::calm);
+  walk.accept(StepVerdict::calm);
+  EXPECT_EQ(walk.next(levels).most, 2);
+}
+
+TEST(StepLevels, BodiesThatAskForShortStepsGetThem) {
+  StepWalk walk(3, {1, 2});
+  EXPECT_EQ(walk.pieces(), 8);
+  EXPECT_FALSE(walk.may_halve());
+  for (int i = 0; i < 8; ++i) walk.accept(StepVerdict::calm);
+  EXPECT_TRUE(walk.done());
+  EXPECT_EQ(walk.next({1, 2}).first, 0);
+}
+
+}  // namespace
+}  // namespace weft
