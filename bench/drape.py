@@ -27,7 +27,8 @@ def drape(options, size, starts, *words):
         command += ["--integrator", options.integrator]
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
     if done.returncode != 0:
-        sys.exit(done.stderr.strip())
+        print(done.stderr.strip(), file=sys.stderr)
+        return None
     return json.loads(done.stdout)
 
 
@@ -37,7 +38,7 @@ def micro(bending):
 
 
 def cell(result):
-    return f"{100 * result['coefficient']:.1f} +- {100 * result['spread']:.1f} ({result['folds']:.1f})"
+    return "-" if result is None else f"{100 * result['coefficient']:.1f} +- {100 * result['spread']:.1f} ({result['folds']:.1f})"
 
 
 def named_row(options, name):
@@ -48,6 +49,8 @@ def named_row(options, name):
 def measured_row(options, name):
     mass, wanted, spread = MEASURED[name]
     fitted = drape(options, options.fit_size, options.fit_starts, "--mass", mass, "--fit", wanted)
+    if fitted is None:  # out of reach at that size
+        return [], [name, mass, f"{wanted} +- {spread}", "-", *("-" for _ in options.sizes)]
     bending = 1e6 * fitted["bending"][0]
     results = [drape(options, size, options.starts, "--mass", mass, "--bending", bending) for size in options.sizes]
     return results, [name, mass, f"{wanted} +- {spread}", micro(fitted["bending"]), *map(cell, results)]
@@ -74,7 +77,7 @@ def main():
             if options.only and name not in options.only and not (names is MEASURED and "measured" in options.only):
                 continue
             results, row = row_of(options, name)
-            restless = max(restless, *(result["kinetic_energy"] for result in results))
+            restless = max([restless, *(result["kinetic_energy"] for result in results)])
             rows.append(row)
             print(program.table(columns, [row]).splitlines()[-1], flush=True)
     text = program.table(columns, rows)
