@@ -99,6 +99,8 @@ class Integrator {
   /// start. Contacts are looked for at the guess then, and what it passed through is taken back
   /// before the first iterate. Else the first iterate makes the first proposal.
   [[nodiscard]] virtual bool starts_at_proposal() const noexcept { return false; }
+  /// Whether iterate solves for contacts and their friction, so that no response needs to follow.
+  [[nodiscard]] virtual bool solves_contacts() const noexcept { return false; }
   /// Proposes the state at the end of the step; the caller may change it in place (limit strain,
   /// truncate, push out of bodies) before the next iterate or end.
   virtual ClothState& iterate(std::span<const Contact> contacts) noexcept = 0;

@@ -24,6 +24,7 @@ class Newton final : public Integrator {
 
   ClothState& proposal() noexcept override { return solver_.next(); }
   [[nodiscard]] bool starts_at_proposal() const noexcept override { return true; }
+  [[nodiscard]] bool solves_contacts() const noexcept override { return true; }
 
   ClothState& iterate(std::span<const Contact> contacts) noexcept override {
     const Stopwatch watch;

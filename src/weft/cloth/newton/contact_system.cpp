@@ -15,6 +15,8 @@ constexpr double same_grip = 0.1;
 /// What is inside something when a step begins, having been put or pressed there, leaves at this
 /// speed at most, lest it be shot out. [m/s]
 constexpr double fastest_way_out = 0.5;
+/// What stands nearer than it should rises at this speed at most, which nobody sees. [m/s]
+constexpr double lifting_speed = 0.02;
 
 }  // namespace
 
@@ -31,7 +33,7 @@ void ContactSystem::take(std::span<const Contact> contacts, const Planes3& start
   slid_.resize(contacts.size());
   changed_.assign(contacts.size(), 0);
   stiffness_.assign(contacts.size(), 0.0F);
-  spare_.assign(contacts.size(), 0.0F);
+  force_.assign(contacts.size(), 0.0F);
   energy_.resize(contacts.size());
 }
 
@@ -64,10 +66,11 @@ void ContactSystem::place(const PaddedVectors& velocity, const PaddedBlocks& dia
     const bool soft = contact.stiffness > 0;
     const double own = ContactLoads::own_stiffness(contact, inverse_diagonal_);
     stiffness_[i] = soft ? contact.stiffness : static_cast<float>(relative_stiffness * own);
-    const double offset =
-        soft ? double{contact.offset}
-             : attainable_offset(contact, *start_, fastest_way_out * input_.time_step);
-    const Vec3d way = input_.time_step * sum(contact, velocity);
+    const double h = input_.time_step;
+    const double offset = soft ? double{contact.offset}
+                               : attainable_offset(contact, *start_, fastest_way_out * h) +
+                                     std::min(double{contact.lift}, lifting_speed * h);
+    const Vec3d way = h * sum(contact, velocity);
     depth_[i] = offset - dot(normal, point_of(contact, *start_)) - dot(normal, way);
     const Vec3d relative = way - vec_cast<double>(contact.slide);
     slid_[i] = relative - dot(normal, relative) * normal;
@@ -185,14 +188,9 @@ double ContactSystem::energy(const PaddedVectors& step, float part, Worker& work
 void ContactSystem::measure(const PaddedVectors& step, Worker& worker) {
   const std::span<const Contact> contacts = loads_.contacts();
   const Range mine = worker.share(static_cast<int>(contacts.size()));
-  for (int i = mine.first; i < mine.last; ++i) {
-    const double k = loads_.stiffness()[i], grip = loads_.grip()[i];
-    const Vec3d moved = sum(contacts[i], step);
-    const double force = std::max(0.0, k * depth_after(i, moved));
-    const double friction = grip * length(slid_after(i, moved));
-    const double spent = contacts[i].friction > 0 ? friction / contacts[i].friction : 0;
-    spare_[i] = static_cast<float>(std::max(0.0, force - spent));
-  }
+  for (int i = mine.first; i < mine.last; ++i)
+    force_[i] = static_cast<float>(
+        std::max(0.0, double{loads_.stiffness()[i]} * depth_after(i, sum(contacts[i], step))));
   worker.barrier();
 }
 

@@ -41,10 +41,11 @@ class ContactSystem {
   /// The energy of all contacts, whose points are beyond their half-spaces after a part of a step,
   /// and of friction as it is taken; all workers get it [J].
   double energy(const PaddedVectors& step, float part, Worker& worker);
-  /// Of each contact, the part of its normal force that friction has left to spare [N].
+  /// Computes the normal forces after a step.
   void measure(const PaddedVectors& step, Worker& worker);
 
-  [[nodiscard]] std::span<const float> forces() const { return spare_; }
+  /// Of each contact, in the order in which they were taken [N].
+  [[nodiscard]] std::span<const float> forces() const { return force_; }
   [[nodiscard]] const ContactLoads& loads() const { return loads_; }
   /// How many press.
   [[nodiscard]] int active() const { return loads_.stiff(); }
@@ -64,7 +65,7 @@ class ContactSystem {
   std::vector<double> depth_;     // at the linearisation [m]
   std::vector<Vec3d> slid_;       // along the obstacle, relative to it [m]
   std::vector<float> stiffness_;  // of each when it presses [N/m]
-  std::vector<float> spare_;
+  std::vector<float> force_;
   std::vector<double> energy_;
   std::vector<char> changed_;
   Grid<float> inverse_diagonal_;  // [m/N]

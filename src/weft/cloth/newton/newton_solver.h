@@ -30,8 +30,7 @@ class NewtonSolver {
   /// Linearises at next(), as the caller left it, and makes it the solution.
   void run(std::span<const Contact> contacts, const NewtonOptions& options);
   [[nodiscard]] ClothState& next() { return next_; }
-  /// Normal forces of the contacts of the last run, in their order, as far as friction has not
-  /// spent them [N].
+  /// Normal forces of the contacts of the last run, in their order [N].
   [[nodiscard]] std::span<const float> contact_forces() const { return contacts_.forces(); }
   /// Conjugate gradients' iterations since begin.
   [[nodiscard]] int iterations() const { return iterations_; }

@@ -107,6 +107,9 @@ struct Simulation::Parts {
   void propose(std::size_t index);
   /// Whether pins or bodies move in this step, which pull at cloth by its strain limit too.
   [[nodiscard]] bool is_pulled(std::size_t index) const;
+  /// Pushes out what the solve left in obstacles, where it does not heed them all.
+  /// @return particles in contact
+  int respond(std::size_t index);
   /// Limits strain and pushes out. @return particles in contact
   int correct(std::size_t index, ClothState& next, FrameReport& report);
   /// Every cloth at its proposal, for the collider.

@@ -115,6 +115,16 @@ bool Simulation::Parts::is_pulled(std::size_t index) const {
          });
 }
 
+int Simulation::Parts::respond(std::size_t index) {
+  const std::span<const float> forces = movers[index].integrator->contact_forces();
+  if (!movers[index].integrator->solves_contacts())
+    return collider->correct(index, moving[index], forces, time_step, team);
+  const std::span<const float> of_obstacles =
+      forces.first(std::min(forces.size(), collider->obstacle_contacts(index).size()));
+  return static_cast<int>(std::count_if(of_obstacles.begin(), of_obstacles.end(),
+                                        [](float force) { return force > 0; }));
+}
+
 int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport& report) {
   const SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
@@ -136,8 +146,7 @@ int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport&
     if (watched || pulled) mover.solved = mover.meter.measure(next);
     mover.pulled_work += pulled ? std::max(0.0, mover.solved.total() - before) : 0;
     clock.lap();
-    const int touched = collider->correct(index, moving[index], mover.integrator->contact_forces(),
-                                          time_step, team);
+    const int touched = respond(index);
     report.collide_ms += clock.lap();
     contacts = std::max(contacts, touched);
     if (touched == 0) break;
