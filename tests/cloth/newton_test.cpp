@@ -346,7 +346,7 @@ TEST(Newton, ThreadsAndInstructionSetsGiveTheSameBits) {
   Cloth hung = sheet_cloth(97, woven);
   hang(hung);
   const Cloth torus = torus_cloth(40, cotton);
-  for (const Cloth* cloth : {&hung, &torus}) {
+  for (const Cloth* cloth : std::initializer_list<const Cloth*>{&hung, &torus}) {
     std::string first;
     for (const InstructionSet set : instruction_sets())
       for (const int threads : {1, 2, 3, 7}) {

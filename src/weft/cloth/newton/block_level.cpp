@@ -28,6 +28,8 @@ BlockLevel::BlockLevel(int n, Seams seam_classes, BendingStencil stiffness, bool
   if (!seams.empty()) joined = PaddedBlocks(n, n);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) extra(r, c) *= bending_share;
+  for (int i = 0; i < seams.class_count(); ++i)
+    for (const int s : seams.samples(i).subspan(1)) extra(s / n, s % n) = holding_stiffness;
 }
 
 }  // namespace weft

@@ -7,6 +7,9 @@
 
 namespace weft {
 
+/// What holds a sample in a line's matrix. [N/m]
+inline constexpr float holding_stiffness = 1e20F;
+
 /// Nine-point stencils of 3 x 3 blocks: own parts, each sample's centre and the blocks to the four
 /// neighbours after it.
 struct BlockStencil {

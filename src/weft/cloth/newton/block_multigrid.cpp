@@ -1,6 +1,7 @@
 #include "weft/cloth/newton/block_multigrid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace weft {
@@ -10,8 +11,6 @@ namespace {
 constexpr float damping = 0.73F;
 /// Levels of at most so many samples a side are left to one worker: barriers would cost more.
 constexpr int lone_size = 33;
-/// What holds a pinned sample. [N/m]
-constexpr float pinned_stiffness = 1e20F;
 /// Where the coarsest level is too large to be factored.
 constexpr int coarsest_sweeps = 8;
 
@@ -71,6 +70,7 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
   for (int i = 0; i < workers; ++i)
     scratch_.emplace_back(
         std::max(LineFactor::scratch_size(cloth.size), std::size_t(cloth.size) + 64));
+  parted_.reserve(static_cast<std::size_t>(4) * cloth.size * 6);
   renew_pins();
 }
 
@@ -82,7 +82,7 @@ void BlockMultigrid::renew_pins() {
     for (int c = 0; c < n; ++c) {
       const bool moves = cloth_.inverse_mass(r, c) > 0;
       mask_(r, c) = moves ? 1.0F : 0.0F;
-      extra(r, c) = moves ? free_extra_(r, c) : pinned_stiffness;
+      extra(r, c) = moves ? free_extra_(r, c) : holding_stiffness;
       if (!moves) pinned_.push_back(r * n + c);
     }
 }
@@ -263,24 +263,14 @@ void BlockMultigrid::smooth(std::size_t index, Direction direction, bool from_ze
               workers);
 }
 
-/// A particle with c copies lies on c lines: each sees 1 / sqrt c of its residual and gives as much
-/// of its correction, so that the sum is symmetric.
+/// A particle belongs to the line of its first copy: on others it is held.
 void BlockMultigrid::smooth_seamed(BlockLevel& level, const LineFactor& lines, bool from_zero,
                                    const Workers& workers) {
   const Range mine = workers.share(level.size);
-  PaddedVectors &r = level.residual, &y = level.curved;
+  PaddedVectors& y = level.curved;
   const int n = level.size;
-  if (from_zero) {
-    for (int row = mine.first; row < mine.last; ++row)
-      kernels_->scale_add(n, std::as_const(level.rhs).row(row), 0, r.row(row));
-    workers.barrier();
-  }
-  level.seams.share_by_root(workers, {&r.x, &r.y, &r.z});
-  workers.barrier();
-  solve_lines(lines, r, {damping, false}, y, workers);
-  level.seams.share_by_root(workers, {&y.x, &y.y, &y.z});
-  workers.barrier();
-  level.seams.sum(workers, {&y.x, &y.y, &y.z});
+  solve_lines(lines, from_zero ? level.rhs : level.residual, {damping, false}, y, workers);
+  level.seams.copy(workers, {&y.x, &y.y, &y.z});
   workers.barrier();
   for (int row = mine.first; row < mine.last; ++row) {
     if (from_zero)
@@ -365,6 +355,71 @@ void BlockMultigrid::join_centres(BlockLevel& level, const Workers& workers) {
   workers.barrier();
 }
 
+/// Lines along a seam hold what all copies of their edges hold, as their diagonals do: else a seam
+/// would be as stiff against moving along itself as its threads are.
+void BlockMultigrid::join_edges(std::size_t index) {
+  parted_.clear();
+  for (const std::vector<BorderEdge>& group : levels_[index].seams.edges()) {
+    if (index == 0) {
+      join_springs(group);
+      continue;
+    }
+    BlockStencil& stencil = levels_[index].stencil;
+    for (int k = 0; k < 6; ++k) {
+      float sum = 0;
+      const auto entry = [&](const BorderEdge& edge) -> float& {
+        PaddedBlocks& blocks = edge.along_row ? stencil.right : stencil.below;
+        return blocks.entry[k](edge.row, edge.col);
+      };
+      for (const BorderEdge& edge : group) {
+        sum += entry(edge);
+        parted_.push_back(entry(edge));
+      }
+      for (const BorderEdge& edge : group) entry(edge) = sum;
+    }
+  }
+}
+
+/// Copies of a spring have one direction: the sum of t 1 + s s^T is of the same form.
+void BlockMultigrid::join_springs(const std::vector<BorderEdge>& group) {
+  float across = 0, along = 0;
+  const auto entry = [&](const BorderEdge& edge, int k) -> float& {
+    return (*springs_->planes(edge.along_row ? 0 : 1)[k])(edge.row, edge.col);
+  };
+  const auto squared = [&](const BorderEdge& edge) {
+    return entry(edge, 1) * entry(edge, 1) + entry(edge, 2) * entry(edge, 2) +
+           entry(edge, 3) * entry(edge, 3);
+  };
+  for (const BorderEdge& edge : group) {
+    across += entry(edge, 0);
+    along += squared(edge);
+  }
+  for (const BorderEdge& edge : group) {
+    const float own = squared(edge), factor = own > 0 ? std::sqrt(along / own) : 1;
+    for (int k = 0; k < 4; ++k) {
+      parted_.push_back(entry(edge, k));
+      entry(edge, k) = k == 0 ? across : factor * entry(edge, k);
+    }
+  }
+}
+
+void BlockMultigrid::part_edges(std::size_t index) {
+  std::size_t at = 0;
+  BlockStencil& stencil = levels_[index].stencil;
+  for (const std::vector<BorderEdge>& group : levels_[index].seams.edges()) {
+    if (index == 0) {
+      for (const BorderEdge& edge : group)
+        for (PaddedPlane* plane : springs_->planes(edge.along_row ? 0 : 1))
+          (*plane)(edge.row, edge.col) = parted_[at++];
+      continue;
+    }
+    for (int k = 0; k < 6; ++k)
+      for (const BorderEdge& edge : group)
+        (edge.along_row ? stencil.right : stencil.below).entry[k](edge.row, edge.col) =
+            parted_[at++];
+  }
+}
+
 void BlockMultigrid::factor(std::size_t index, const Workers& workers) {
   BlockLevel& level = levels_[index];
   const int blocks = level.rows.blocks();
@@ -389,7 +444,7 @@ void BlockMultigrid::factor(std::size_t index, const Workers& workers) {
   }
 }
 
-void BlockMultigrid::set_up(const SpringHessian& springs, Worker& worker) {
+void BlockMultigrid::set_up(SpringHessian& springs, Worker& worker) {
   const Workers all(worker, false);
   if (worker.rank() == 0) springs_ = &springs;
   worker.barrier();
@@ -402,7 +457,18 @@ void BlockMultigrid::set_up(const SpringHessian& springs, Worker& worker) {
     worker.barrier();
     join_centres(levels_[i + 1], all);
   }
-  for (std::size_t i = 0; i < levels_.size(); ++i) factor(i, all);
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    const bool seamed = !levels_[i].seams.edges().empty();
+    if (seamed) {
+      worker.barrier();
+      if (worker.rank() == 0) join_edges(i);
+      worker.barrier();
+    }
+    factor(i, all);
+    if (!seamed) continue;
+    worker.barrier();
+    if (worker.rank() == 0) part_edges(i);
+  }
   if (worker.rank() == 0 && levels_.size() > 1) coarsest_.factor(levels_.back());
   worker.barrier();
 }

@@ -26,7 +26,7 @@ class BlockMultigrid {
   // To be called by every worker; each ends with a barrier.
 
   /// Takes over linearised springs, whose centres stand in centres() already.
-  void set_up(const SpringHessian& springs, Worker& worker);
+  void set_up(SpringHessian& springs, Worker& worker);
   /// value() = about A^-1 rhs().
   void cycle(Worker& worker);
   /// out = A x on the finest level, seam copies equal, 0 where pinned.
@@ -93,6 +93,9 @@ class BlockMultigrid {
   void cycle(std::size_t index, const Workers& workers);
   void cycle_coarsest(std::size_t index, const Workers& workers);
   void factor(std::size_t index, const Workers& workers);
+  void join_edges(std::size_t index);
+  void join_springs(const std::vector<BorderEdge>& group);
+  void part_edges(std::size_t index);
   void join_centres(BlockLevel& level, const Workers& workers);
   void clear_pins(PaddedVectors& field, const Workers& workers) const;
   void add_border_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
@@ -100,7 +103,7 @@ class BlockMultigrid {
 
   const Cloth& cloth_;
   const NewtonKernels* kernels_;
-  const SpringHessian* springs_ = nullptr;
+  SpringHessian* springs_ = nullptr;
   std::vector<BlockLevel> levels_;
   CoarsestSolver coarsest_;
   Galerkin galerkin_;
@@ -108,6 +111,7 @@ class BlockMultigrid {
   PaddedPlane free_extra_;   // the finest level's addition to diagonals without pins
   std::vector<int> pinned_;  // samples, all copies
   std::vector<std::vector<float>> scratch_;
+  std::vector<float> parted_;  // blocks of border edges while they are joined
   ContactRows contacts_;
 };
 

@@ -190,31 +190,35 @@ double NewtonSolver::dot(const PaddedVectors& a, const PaddedVectors& b, Worker&
   });
 }
 
-/// Inner forces sum to nothing: what nothing holds moves as a whole as if it were one particle. So
-/// free fall is exact, and few iterations lose no momentum.
-void NewtonSolver::remove_drift(Worker& worker) {
-  if (!cloth_.pins.empty() || contacts_.active() > 0) return;
-  const Range mine = worker.share(cloth_.size);
-  const auto h = static_cast<float>(input_.time_step);
-  double sum[3];
+/// Inner forces sum to nothing: what nothing holds moves as a whole as if it were one particle.
+bool NewtonSolver::flies() const { return cloth_.pins.empty() && contacts_.active() == 0; }
+
+/// The step of the whole, from the residual: so that free fall is exact.
+Vec3d NewtonSolver::drift(Worker& worker) {
+  Vec3d sum;
   const PaddedPlane* const residual[3] = {&residual_.x, &residual_.y, &residual_.z};
+  double* const part[3] = {&sum.x, &sum.y, &sum.z};
   for (int k = 0; k < 3; ++k)
-    sum[k] = sums_.sum(worker, [&](int r) {
+    *part[k] = sums_.sum(worker, [&](int r) {
       const float *f = residual[k]->row(r), *share = share_.row(r);
       return lane_sum(cloth_.size, [&](int c) { return double{share[c]} * double{f[c]}; });
     });
-  const double per_force = double{h} * double{h} / mass_;
-  const float way[3] = {static_cast<float>(sum[0] * per_force),
-                        static_cast<float>(sum[1] * per_force),
-                        static_cast<float>(sum[2] * per_force)};
+  return (input_.time_step * input_.time_step / mass_) * sum;
+}
+
+/// Adds a step of the whole, and takes what it balances off the residual.
+void NewtonSolver::add_drift(Vec3d way, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  const auto h = static_cast<float>(input_.time_step);
+  const Vec3f moved = vec_cast<float>(way);
+  const float parts[3] = {moved.x, moved.y, moved.z}, per_square = 1 / (h * h);
   PaddedPlane* const step[3] = {&step_.x, &step_.y, &step_.z};
   PaddedPlane* const left[3] = {&residual_.x, &residual_.y, &residual_.z};
-  const float per_square = 1 / (h * h);
   for (int r = mine.first; r < mine.last; ++r)
     for (int k = 0; k < 3; ++k)
       for (int c = 0; c < cloth_.size; ++c) {
-        (*step[k])(r, c) += way[k];
-        (*left[k])(r, c) -= per_square * cloth_.mass(r, c) * way[k];
+        (*step[k])(r, c) += parts[k];
+        (*left[k])(r, c) -= per_square * cloth_.mass(r, c) * parts[k];
       }
   worker.barrier();
 }
@@ -344,13 +348,15 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
     contacts_.place(state_.velocity, multigrid_.finest().diagonal(), worker);
   }
   choose_contacts(worker);
-  remove_drift(worker);
+  if (flies()) add_drift(drift(worker), worker);
   for (int round = 0; round < most_contact_rounds; ++round) {
     set_up_multigrid(worker);
     solve(options, progress, worker);
     if (contacts_.empty() || round + 1 == most_contact_rounds) break;
     if (!choose_contacts(worker)) break;
   }
+  // What iterations left of it, so that few of them lose no momentum.
+  if (flies()) add_drift(drift(worker), worker);
   multigrid_.clear_pins(step_, worker);
   move_state(1, worker);
 }

@@ -51,7 +51,9 @@ class NewtonSolver {
   void linearise(Worker& worker);
   void set_up_multigrid(Worker& worker);
   void add_contact_forces(float sign, Worker& worker);
-  void remove_drift(Worker& worker);
+  [[nodiscard]] bool flies() const;
+  Vec3d drift(Worker& worker);
+  void add_drift(Vec3d way, Worker& worker);
   bool choose_contacts(Worker& worker);
   void solve(const NewtonOptions& options, Progress& progress, Worker& worker);
   void iterate(Progress& progress, Worker& worker);

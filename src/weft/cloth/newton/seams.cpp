@@ -1,8 +1,9 @@
 #include "weft/cloth/newton/seams.h"
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace weft {
 namespace {
@@ -42,8 +43,32 @@ void Seams::set_classes(std::vector<std::vector<int>> classes) {
     samples_.insert(samples_.end(), members.begin(), members.end());
     starts_.push_back(static_cast<int>(samples_.size()));
     inverse_count_.push_back(1 / static_cast<float>(members.size()));
-    inverse_root_.push_back(1 / std::sqrt(static_cast<float>(members.size())));
   }
+  find_edges();
+}
+
+void Seams::find_edges() {
+  const int n = size_;
+  std::map<int, int> first_copy;
+  for (int i = 0; i < class_count(); ++i)
+    for (const int s : samples(i)) first_copy[s] = samples(i).front();
+  const auto particle = [&](int s) {
+    const auto found = first_copy.find(s);
+    return found == first_copy.end() ? s : found->second;
+  };
+  std::map<std::pair<int, int>, std::vector<BorderEdge>> groups;
+  const auto add = [&](const BorderEdge& edge) {
+    const int s = edge.row * n + edge.col;
+    const int a = particle(s), b = particle(edge.along_row ? s + 1 : s + n);
+    if (a != b) groups[std::minmax(a, b)].push_back(edge);
+  };
+  for (int i = 0; i + 1 < n; ++i)
+    for (const int border : {0, n - 1}) {
+      add({true, border, i});
+      add({false, i, border});
+    }
+  for (auto& [ends, group] : groups)
+    if (group.size() > 1) edges_.push_back(std::move(group));
 }
 
 Seams Seams::coarsened() const {
@@ -90,19 +115,19 @@ void Seams::average(const Workers& workers, std::initializer_list<PaddedPlane*> 
     }
 }
 
+void Seams::copy(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
+  const Range mine = workers.share(class_count());
+  for (int i = mine.first; i < mine.last; ++i)
+    for (PaddedPlane* plane : planes)
+      for (const int s : samples(i).subspan(1))
+        at(*plane, size_, s) = at(*plane, size_, samples(i).front());
+}
+
 void Seams::share(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
   const Range mine = workers.share(class_count());
   for (int i = mine.first; i < mine.last; ++i)
     for (PaddedPlane* plane : planes)
       for (const int s : samples(i)) at(*plane, size_, s) *= inverse_count_[i];
-}
-
-void Seams::share_by_root(const Workers& workers,
-                          std::initializer_list<PaddedPlane*> planes) const {
-  const Range mine = workers.share(class_count());
-  for (int i = mine.first; i < mine.last; ++i)
-    for (PaddedPlane* plane : planes)
-      for (const int s : samples(i)) at(*plane, size_, s) *= inverse_root_[i];
 }
 
 }  // namespace weft

@@ -10,6 +10,12 @@
 
 namespace weft {
 
+/// An edge along a border of a level, from (row, col) to the right or below.
+struct BorderEdge {
+  bool along_row = true;
+  int row = 0, col = 0;
+};
+
 /// The classes of seam copies (mates) of a level: samples that are one particle. Each class is the
 /// work of one worker; callers place barriers before and after.
 class Seams {
@@ -29,20 +35,26 @@ class Seams {
     return std::span(samples_).subspan(starts_[index], starts_[index + 1] - starts_[index]);
   }
 
+  /// Groups of border edges that join the same two particles, two or more each.
+  [[nodiscard]] const std::vector<std::vector<BorderEdge>>& edges() const { return edges_; }
+
   /// Every copy gets the sum over its class, added in ascending order of samples.
   void sum(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
   /// Every copy gets the mean.
   void average(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
-  /// Every copy is multiplied by 1 / c, or 1 / sqrt c, c being the number of copies.
+  /// Every copy gets the value of the first.
+  void copy(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
+  /// Every copy is divided by the number of copies.
   void share(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
-  void share_by_root(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
 
  private:
   void set_classes(std::vector<std::vector<int>> classes);
+  void find_edges();
 
   int size_ = 0;
   std::vector<int> starts_{0}, samples_;
-  std::vector<float> inverse_count_, inverse_root_;  // of each class
+  std::vector<std::vector<BorderEdge>> edges_;
+  std::vector<float> inverse_count_;  // of each class
 };
 
 }  // namespace weft

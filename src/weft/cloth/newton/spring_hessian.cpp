@@ -105,6 +105,11 @@ ConstSpringHessianRow SpringHessian::springs_row(int direction, int row) const {
   return {from.t.row(row), from.x.row(row), from.y.row(row), from.z.row(row), from.f.row(row)};
 }
 
+std::array<PaddedPlane*, 4> SpringHessian::planes(int direction) {
+  Direction& from = springs_[direction];
+  return {&from.t, &from.x, &from.y, &from.z};
+}
+
 std::array<PlaneView, 4> SpringHessian::views(int direction) const {
   const Direction& from = springs_[direction];
   const auto view = [](const PaddedPlane& plane) {

@@ -46,6 +46,8 @@ class SpringHessian {
   [[nodiscard]] const PaddedPlane& inertia() const { return inertia_; }
   /// The springs of a direction that start from a row.
   [[nodiscard]] ConstSpringHessianRow springs_row(int direction, int row) const;
+  /// The planes t, x, y, z of a direction, for those who change them for a while.
+  [[nodiscard]] std::array<PaddedPlane*, 4> planes(int direction);
   /// Views of t, x, y, z of a direction.
   [[nodiscard]] std::array<PlaneView, 4> views(int direction) const;
 
