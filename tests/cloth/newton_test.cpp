@@ -148,7 +148,9 @@ TEST(Newton, AtRestNothingMovesWhateverTheIterations) {
       double farthest = 0;
       for (int s = 0; s < cloth.size * cloth.size; ++s)
         farthest = std::max(farthest, double{length(state.position.at(s) - cloth.rest.at(s))});
-      EXPECT_LT(farthest, 1e-6) << cloth.size << ", " << iterations << " iterations";
+      // Normals of a curved rest shape round by parts in a million of its radius.
+      EXPECT_LT(farthest, cloth.bending.curved ? 1e-5 : 1e-7)
+          << cloth.size << ", " << iterations << " iterations";
       EXPECT_LT(kinetic_energy(cloth, state), 1e-9 * total_mass(cloth) * 9.81);
     }
 }
@@ -176,7 +178,7 @@ TEST(Newton, FewIterationsKeepMomentumOfAllThatFlies) {
   shake(cloth, 0.3 * cloth.rest_spacing, state.position);
   run(*integrator, {.time_step = step, .gravity = {}}, 20, state);
   // Springs that shaking strained by 30 % drive particles at metres a second, in all directions.
-  EXPECT_LT(length(momentum(cloth, state)), 2e-5 * total_mass(cloth));
+  EXPECT_LT(length(momentum(cloth, state)), 1e-4 * total_mass(cloth));
 }
 
 TEST(Newton, TheCycleIsSymmetricAndPositive) {
@@ -366,7 +368,7 @@ TEST(Newton, ThreadsAndInstructionSetsGiveTheSameBits) {
 TEST(Newton, AStrainLimitHoldsWhatStretchesFar) {
   const auto stretch_of = [](double limit) {
     Cloth cloth =
-        sheet_cloth(33, {.density = 0.3, .stretch = 200, .shear = 50, .strain_limit = limit});
+        sheet_cloth(33, {.density = 1, .stretch = 200, .shear = 50, .strain_limit = limit});
     hang(cloth);
     ThreadTeam team(1);
     const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);

@@ -10,7 +10,7 @@ constexpr float least_squared_length = 1e-24F;
 /// Of a spring's tension at the guess that counts as stiffness across it, where the tension that it
 /// had when the step began is not more. The guess goes straight on where cloth turns, which
 /// lengthens springs that are not: their whole tension there holds light, stiff cloth back.
-constexpr float guessed_tension_share = 0.4F;
+constexpr float guessed_tension_share = 0.1F;
 /// Of the lanes in which energies are summed, whatever the vector's width.
 constexpr int lanes = 16;
 
