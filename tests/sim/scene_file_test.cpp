@@ -371,6 +371,7 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
   const auto& parts = schema["$defs"];
   EXPECT_EQ(properties_of(schema), as_set(scene_keys::scene));
   EXPECT_EQ(properties_of(parts["wind"]), as_set(scene_keys::wind));
+  EXPECT_EQ(properties_of(parts["newton"]), as_set(scene_keys::newton_integrator));
   EXPECT_EQ(properties_of(parts["implicit"]), as_set(scene_keys::implicit_integrator));
   EXPECT_EQ(properties_of(parts["explicit"]), as_set(scene_keys::explicit_integrator));
   EXPECT_EQ(properties_of(parts["desbrun"]), as_set(scene_keys::desbrun_integrator));
@@ -409,7 +410,14 @@ TEST(SceneSchema, DefaultsAreTheReadersDefaults) {
   check(schema["properties"], json);
   check(schema["$defs"]["cloth"]["properties"], json["cloths"][0]);
   check(schema["$defs"]["material"]["properties"], json["cloths"][0]["material"]);
-  check(schema["$defs"]["multigrid"]["properties"], json["integrator"]);
+  EXPECT_EQ(json["integrator"]["type"], schema["$defs"]["newton"]["properties"]["type"]["const"]);
+  for (const IntegratorOptions& integrator :
+       {IntegratorOptions{NewtonOptions{}}, IntegratorOptions{MultigridOptions{}},
+        IntegratorOptions{ImplicitOptions{}}, IntegratorOptions{TwoLevelOptions{}}}) {
+    scene.integrator = integrator;
+    const nlohmann::json written = parse_json(scene_text(scene, path), 32);
+    check(schema["$defs"][std::string(name_of(integrator))]["properties"], written["integrator"]);
+  }
   EXPECT_EQ(json["collider"]["type"], schema["$defs"]["pyramid"]["properties"]["type"]["const"]);
   scene.collider = PolarMapOptions{};
   const nlohmann::json polar_map = parse_json(scene_text(scene, path), 32);
