@@ -31,7 +31,7 @@ TEST(SceneFile, EmptyClothIsTheDefaults) {
   EXPECT_EQ(scene.frame_rate, 60);
   EXPECT_EQ(scene.substeps, 4);
   EXPECT_EQ(scene.ground, 0.0);
-  EXPECT_TRUE(std::holds_alternative<MultigridOptions>(scene.integrator));
+  EXPECT_TRUE(std::holds_alternative<NewtonOptions>(scene.integrator));
   ASSERT_EQ(scene.cloths.size(), 1);
   EXPECT_EQ(scene.cloths[0].surface, "builtin:sheet");
   EXPECT_EQ(scene.cloths[0].size, 257);
@@ -158,7 +158,7 @@ TEST(SceneFile, WhatIsNotJsonNamesTheLine) {
 
 TEST(SceneFile, UnknownNamesListWhatIsKnown) {
   EXPECT_EQ(error_of(R"({"cloths":[{}],"integrator":{"type":"midpoint"}})"),
-            "s.json:integrator.type: unknown integrator 'midpoint'; known are: implicit, "
+            "s.json:integrator.type: unknown integrator 'midpoint'; known are: newton, implicit, "
             "explicit, desbrun, two_level, multigrid");
   EXPECT_EQ(error_of(R"({"cloths":[{}],"collider":{"type":"octree"}})"),
             "s.json:collider.type: unknown collider 'octree'; known are: pyramid, polar_map, "

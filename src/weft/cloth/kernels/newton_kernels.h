@@ -21,6 +21,7 @@ struct LinearisedSprings {
   ConstRow3 speed_here, speed_there;               ///< velocities [m/s]
   ConstRow3 start_here, start_there;               ///< positions when the step began [m]
   float per_step, step;                            ///< 1 / h, h [1/s], [s]
+  float guessed_share;  ///< of the tension at the positions that is stiffness across, at least
   float limit, limit_factor;  ///< beyond limit * rest_length stiffer by this factor; 0: never
 };
 

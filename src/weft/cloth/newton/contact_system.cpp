@@ -30,6 +30,7 @@ void ContactSystem::take(std::span<const Contact> contacts, const Planes3& start
   input_ = input;
   first_ = true;
   depth_.resize(contacts.size());
+  lift_.resize(contacts.size());
   slid_.resize(contacts.size());
   changed_.assign(contacts.size(), 0);
   stiffness_.assign(contacts.size(), 0.0F);
@@ -67,9 +68,10 @@ void ContactSystem::place(const PaddedVectors& velocity, const PaddedBlocks& dia
     const double own = ContactLoads::own_stiffness(contact, inverse_diagonal_);
     stiffness_[i] = soft ? contact.stiffness : static_cast<float>(relative_stiffness * own);
     const double h = input_.time_step;
-    const double offset = soft ? double{contact.offset}
-                               : attainable_offset(contact, *start_, fastest_way_out * h) +
-                                     std::min(double{contact.lift}, lifting_speed * h);
+    lift_[i] = soft ? 0 : std::min(double{contact.lift}, lifting_speed * h);
+    const double offset = soft
+                              ? double{contact.offset}
+                              : attainable_offset(contact, *start_, fastest_way_out * h) + lift_[i];
     const Vec3d way = h * sum(contact, velocity);
     depth_[i] = offset - dot(normal, point_of(contact, *start_)) - dot(normal, way);
     const Vec3d relative = way - vec_cast<double>(contact.slide);
@@ -97,6 +99,22 @@ double ContactSystem::lone_compliance(const Contact& contact) const {
   return compliance * input_.time_step * input_.time_step;
 }
 
+/// What friction can stop sticks. Else it drags with its whole force where that lets the point come
+/// to: the point's way without friction, less what the force takes off it.
+double ContactSystem::grip_for(int index, const Sliding& sliding) const {
+  const Contact& contact = loads_.contacts()[index];
+  const double compliance = lone_compliance(contact);
+  if (!(compliance > 0)) return 0;
+  // Before any solve a contact is taken to stop its own point alone.
+  const double force = sliding.pressed ? double{stiffness_[index]} * sliding.depth
+                       : first_        ? std::max(0.0, sliding.depth - lift_[index]) / compliance
+                                       : 0;
+  const double most = contact.friction * force * compliance;
+  const double free = sliding.way * (1 + sliding.grip * compliance);
+  if (free <= most) return stiffness_[index];
+  return most / (compliance * (free - most));
+}
+
 bool ContactSystem::choose(int index, const PaddedVectors& step) {
   const Contact& contact = loads_.contacts()[index];
   float &k = loads_.stiffness()[index], &grip = loads_.grip()[index];
@@ -110,17 +128,10 @@ bool ContactSystem::choose(int index, const PaddedVectors& step) {
   }
   const double depth = depth_after(index, moved);
   k = depth > 0 ? stiffness_[index] : 0.0F;
-  grip = 0;
-  if (k > 0 && contact.friction > 0) {
-    const double compliance = lone_compliance(contact);
-    // Before any solve a contact is taken to stop its own point alone.
-    const double force = first_         ? (compliance > 0 ? depth / compliance : 0)
-                         : k_before > 0 ? double{k} * depth
-                                        : 0;
-    const double most = contact.friction * force, distance = length(slid_after(index, moved));
-    const double stick = stiffness_[index];
-    grip = static_cast<float>(stick * distance <= most ? stick : most / distance);
-  }
+  grip = k > 0 && contact.friction > 0
+             ? static_cast<float>(grip_for(
+                   index, {depth, length(slid_after(index, moved)), k_before > 0, grip_before}))
+             : 0.0F;
   return (k > 0) != (k_before > 0) ||
          std::abs(grip - grip_before) > same_grip * std::max(grip, grip_before);
 }

@@ -53,6 +53,13 @@ class ContactSystem {
  private:
   [[nodiscard]] Vec3d sum(const Contact& contact, const PaddedVectors& field) const;
   [[nodiscard]] double lone_compliance(const Contact& contact) const;
+  /// How a contact's point moved along its obstacle.
+  struct Sliding {
+    double depth, way;  ///< [m]
+    bool pressed;       ///< whether it was held along the normal as the point moved so
+    double grip;        ///< by which it was held along the surface [N/m]
+  };
+  [[nodiscard]] double grip_for(int index, const Sliding& sliding) const;
   bool choose(int index, const PaddedVectors& step);
   [[nodiscard]] double depth_after(int index, Vec3d step) const;
   [[nodiscard]] Vec3d slid_after(int index, Vec3d step) const;
@@ -63,6 +70,7 @@ class ContactSystem {
   StepInput input_;
   bool first_ = true;
   std::vector<double> depth_;     // at the linearisation [m]
+  std::vector<double> lift_;      // of that, what only raises the point [m]
   std::vector<Vec3d> slid_;       // along the obstacle, relative to it [m]
   std::vector<float> stiffness_;  // of each when it presses [N/m]
   std::vector<float> force_;

@@ -29,6 +29,8 @@ void clear_row(Row3 row, int n) {
 constexpr double harmless_gain = 0.02;
 /// How often a run linearises, and how often it halves a step that leads up.
 constexpr int most_linearisations = 4, most_halvings = 5;
+/// Of the tension at the guess that is stiffness across springs.
+constexpr float share_in_flight = 0.1F, share_in_contact = 1;
 /// How often a run finds out which contacts press.
 constexpr int most_contact_rounds = 2;
 
@@ -131,7 +133,8 @@ void NewtonSolver::read_state(Worker& worker) {
 
 void NewtonSolver::linearise(Worker& worker) {
   const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) springs_.linearise_row(state_, r);
+  const float guessed_share = contacts_.empty() ? share_in_flight : share_in_contact;
+  for (int r = mine.first; r < mine.last; ++r) springs_.linearise_row(state_, guessed_share, r);
   worker.barrier();
   for (int r = mine.first; r < mine.last; ++r) springs_.gradient_row(state_, wanted_, r, residual_);
   if (curved_.active()) {
@@ -255,6 +258,7 @@ void NewtonSolver::iterate(Progress& progress, Worker& worker) {
   progress.correction =
       length * std::sqrt(double{*std::max_element(largest_.begin(), largest_.end())});
   if (worker.rank() == 0) last_length_ = length;
+  progress.promised += 0.5 * length * slope;
   // What this iteration took off the energy, as a force on every particle over its weight.
   progress.force = std::sqrt(length * slope / mass_) / (input_.time_step * 9.81);
   ++progress.iterations;
@@ -348,6 +352,8 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
     contacts_.place(state_.velocity, multigrid_.finest().diagonal(), worker);
   }
   choose_contacts(worker);
+  progress.promised = 0;
+  if (driven_) progress.before = energy(0, worker);
   if (flies()) add_drift(drift(worker), worker);
   for (int round = 0; round < most_contact_rounds; ++round) {
     set_up_multigrid(worker);
@@ -361,28 +367,37 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
   move_state(1, worker);
 }
 
-/// One linearisation does where cloth moves on as it did; where the state has gained energy it did
-/// not, as after an impact.
+/// Where nothing drives the cloth, the energy that it gained; else what the energy of the step
+/// falls short of what was promised.
+double NewtonSolver::error_of(const Progress& progress, double known, double kinetic_before,
+                              Worker& worker) {
+  if (driven_) return energy(1, worker) - progress.before + progress.promised;
+  const double now = potential(state_.position, worker);
+  worker.barrier();
+  if (worker.rank() == 0) potential_ = now;
+  return now + kinetic(state_.velocity, worker) - known - kinetic_before;
+}
+
+/// One linearisation does where cloth moves on as it did; where it missed by much it does not, as
+/// after an impact.
 void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Worker& worker) {
   const double kinetic_before = kinetic(start_.velocity, worker);
-  const double known =
-      start_potential_ < HUGE_VAL ? start_potential_ : potential(state_.start, worker);
+  const double known = driven_                       ? 0
+                       : start_potential_ < HUGE_VAL ? start_potential_
+                                                     : potential(state_.start, worker);
   const double fall = input_.time_step * length(input_.gravity);
   const double allowed = harmless_gain * (kinetic_before + 0.5 * mass_ * fall * fall);
-  double gain = 0, now = 0;
+  double error = 0;
   for (int i = 0; i < most_linearisations; ++i) {
     advance(options, progress, worker);
-    now = potential(state_.position, worker);
-    gain = now + kinetic(state_.velocity, worker) - known - kinetic_before;
-    if (driven_ || gain <= allowed) break;
+    error = error_of(progress, known, kinetic_before, worker);
+    if (error <= allowed) break;
     shorten_step(worker);
   }
   worker.barrier();
-  if (worker.rank() == 0) {
-    start_potential_ = known;
-    potential_ = now;
-  }
-  if (!driven_ && gain > 0) calm(gain, worker);
+  if (worker.rank() == 0 && driven_) potential_ = HUGE_VAL;
+  if (worker.rank() == 0 && !driven_) start_potential_ = known;
+  if (!driven_ && error > 0) calm(error, worker);
 }
 
 void NewtonSolver::run(std::span<const Contact> contacts, const NewtonOptions& options) {

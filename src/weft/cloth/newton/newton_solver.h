@@ -45,6 +45,8 @@ class NewtonSolver {
     double slope = 0;       ///< residual . preconditioned residual [N m]
     double correction = 0;  ///< [m]
     double force = 0;       ///< of the last correction, over particles' weight
+    double before = 0;      ///< the energy where it was linearised, where the cloth is driven [J]
+    double promised = 0;    ///< how far that falls if it is what the linearisation says [J]
     int iterations = 0;
   };
   void read_state(Worker& worker);
@@ -60,6 +62,8 @@ class NewtonSolver {
   void advance(const NewtonOptions& options, Progress& progress, Worker& worker);
   void descend(const NewtonOptions& options, Progress& progress, Worker& worker);
   void shorten_step(Worker& worker);
+  /// What the last linearisation missed by [J].
+  double error_of(const Progress& progress, double known, double kinetic_before, Worker& worker);
   /// E of state_, to which a part of step_ has led [J].
   double energy(float length, Worker& worker);
   /// state_ += length * step_.

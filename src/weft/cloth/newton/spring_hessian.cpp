@@ -61,16 +61,18 @@ LinearisedSprings SpringHessian::springs_at(int direction, const PaddedVectors& 
           {},
           static_cast<float>(1 / time_step_),
           0,
+          0,
           1 + limit,
           limited ? strain_limit_factor : 0.0F};
 }
 
-void SpringHessian::linearise_row(const PaddedState& state, int row) {
+void SpringHessian::linearise_row(const PaddedState& state, float guessed_share, int row) {
   for (int d = 0; d < directions_; ++d) {
     LinearisedSprings springs = springs_at(d, state.position, row);
     const SpringPlane& plane = cloth_.springs[d];
     springs.speed_here = state.velocity.row(row);
     springs.speed_there = shifted(state.velocity.row(row + plane.down), plane.right);
+    springs.guessed_share = guessed_share;
     springs.start_here = state.start.row(row);
     springs.start_there = shifted(state.start.row(row + plane.down), plane.right);
     Direction& out = springs_[d];

@@ -28,8 +28,13 @@ class SpringHessian {
 
   void set_time_step(double time_step);
 
-  /// Linearises the springs that start from a row.
-  void linearise_row(const PaddedState& state, int row);
+  /// Linearises the springs that start from a row. Across itself a spring is as stiff as its
+  /// tension was when the step began, or as a part of that at the positions, whichever is more: a
+  /// guess goes straight on where cloth turns, which lengthens springs that are not, and their
+  /// whole tension there holds light, stiff cloth back; without any of it impacts are linearised
+  /// too softly.
+  /// @param guessed_share  that part
+  void linearise_row(const PaddedState& state, float guessed_share, int row);
   /// The energy of the springs that start from a row [J].
   [[nodiscard]] double energy_row(const PaddedVectors& position, int row) const;
   /// And what damping takes from them in a step, half of it: what a step minimises [J].

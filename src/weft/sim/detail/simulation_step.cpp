@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/core/contact_point.h"
 #include "weft/sim/detail/simulation_parts.h"
 #include "weft/sim/detail/stage_clock.h"
 
@@ -55,6 +56,10 @@ LimitOptions limit_for(const Scene& scene, const Cloth& cloth) {
 }
 /// Of the limiter on each coarse level.
 constexpr int coarse_passes = 2;
+
+/// What a solve with contacts leaves deeper in an obstacle than this part of the thickness, as
+/// where an impact went on beyond its last look, is pushed out.
+constexpr double harmless_depth = 0.75;
 
 /// A step is refused in which points fall back to its start, or whose filter or response adds more
 /// than this part of the energy within cloths, and so much of their mass besides [J/kg].
@@ -117,12 +122,17 @@ bool Simulation::Parts::is_pulled(std::size_t index) const {
 
 int Simulation::Parts::respond(std::size_t index) {
   const std::span<const float> forces = movers[index].integrator->contact_forces();
-  if (!movers[index].integrator->solves_contacts())
+  const std::span<const Contact> obstacles = collider->obstacle_contacts(index);
+  const double harmless = harmless_depth * cloths[index].cloth.material.thickness;
+  const auto is_deep = [&](const Contact& contact) {
+    return depth_of(contact, moving[index].position) > harmless;
+  };
+  if (!movers[index].integrator->solves_contacts() ||
+      std::any_of(obstacles.begin(), obstacles.end(), is_deep))
     return collider->correct(index, moving[index], forces, time_step, team);
-  const std::span<const float> of_obstacles =
-      forces.first(std::min(forces.size(), collider->obstacle_contacts(index).size()));
-  return static_cast<int>(std::count_if(of_obstacles.begin(), of_obstacles.end(),
-                                        [](float force) { return force > 0; }));
+  const std::span<const float> pressing = forces.first(std::min(forces.size(), obstacles.size()));
+  return static_cast<int>(
+      std::count_if(pressing.begin(), pressing.end(), [](float force) { return force > 0; }));
 }
 
 int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport& report) {
@@ -306,8 +316,9 @@ void Simulation::Parts::take_excess(double excess) {
   for (const Mover& mover : movers) gained += own(mover);
   for (Mover& mover : movers)
     if (own(mover) > 0)
-      mover.end.kinetic -= mover.meter.take_out(excess * (own(mover) / gained),
-                                                mover.integrator->proposal().velocity);
+      mover.meter.take_out(excess * (own(mover) / gained), mover.integrator->proposal().velocity);
+  // Measured again, not told from what was taken, so that a run that goes on here begins alike.
+  for (Mover& mover : movers) mover.end = mover.meter.measure(mover.integrator->proposal());
 }
 
 void Simulation::Parts::refuse_step() {

@@ -7,10 +7,6 @@ namespace {
 
 /// Below this a spring has no direction. [m^2]
 constexpr float least_squared_length = 1e-24F;
-/// Of a spring's tension at the guess that counts as stiffness across it, where the tension that it
-/// had when the step began is not more. The guess goes straight on where cloth turns, which
-/// lengthens springs that are not: their whole tension there holds light, stiff cloth back.
-constexpr float guessed_tension_share = 0.1F;
 /// Of the lanes in which energies are summed, whatever the vector's width.
 constexpr int lanes = 16;
 
@@ -57,7 +53,8 @@ void linearise(int n, const LinearisedSprings& in, SpringHessianRow out) {
   const float *rest = in.rest_length, *stiffness = in.stiffness, *damping = in.damping;
   const ConstRow3 a = in.here, b = in.there, va = in.speed_here, vb = in.speed_there,
                   oa = in.start_here, ob = in.start_there;
-  const float per_step = in.per_step, limit = in.limit, limit_factor = in.limit_factor;
+  const float per_step = in.per_step, limit = in.limit, limit_factor = in.limit_factor,
+              guessed_share = in.guessed_share;
   float *t = out.t, *sx = out.x, *sy = out.y, *sz = out.z, *f = out.f;
 #pragma omp simd
   for (int c = 0; c < n; ++c) {
@@ -71,7 +68,7 @@ void linearise(int n, const LinearisedSprings& in, SpringHessianRow out) {
     const float ox = ob.x[c] - oa.x[c], oy = ob.y[c] - oa.y[c], oz = ob.z[c] - oa.z[c];
     const float squared_before = larger(ox * ox + oy * oy + oz * oz, least_squared_length);
     const float held = k * (1 - rest[c] / std::sqrt(squared_before));
-    const float across = larger(larger(held, guessed_tension_share * tension), 0.0F);
+    const float across = larger(larger(held, guessed_share * tension), 0.0F);
     const float approach =
         x * (vb.x[c] - va.x[c]) + y * (vb.y[c] - va.y[c]) + z * (vb.z[c] - va.z[c]);
     const float axial = larger(k + stiffer + damping[c] * per_step - across, 0.0F);
