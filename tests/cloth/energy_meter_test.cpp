@@ -11,13 +11,19 @@ namespace {
 
 const Vec3d gravity{1, -9.81, 0.5};
 
+GeometryImage torus() {
+  ConvertOptions options;
+  options.size = 33;
+  return load_surface("builtin:torus", options).image;
+}
+
 /// A shaken torus, whose borders are seams.
 struct Shaken {
   GeometryImage image;
   Cloth cloth;
   ClothState state;
 
-  Shaken() : image(load_surface("builtin:torus", {.size = 33}).image) {
+  Shaken() : image(torus()) {
     Material material;
     material.bend_springs = 1;
     cloth = make_cloth(world_positions(image), image.mates, material);

@@ -241,7 +241,9 @@ class Run {
     };
     const auto first = std::find_if(report_.history.begin(), report_.history.end(), many);
     if (first == report_.history.end()) return;
-    report_.notes.push_back(
+    // What was said of the run as a whole stays last.
+    report_.notes.insert(
+        report_.notes.begin(),
         fmt::format("frame {}: {} of {} points were put back to where their step began, since they "
                     "had nowhere else to go; more substeps are wanted",
                     first - report_.history.begin() + 1, first->fell_back, report_.particles));

@@ -55,8 +55,8 @@ struct PlacedBody {
 struct WorkDone {
   double net = 0;    ///< [J]
   double gross = 0;  ///< sum of its sizes, step by step [J]
-  /// What the strain limit added while pins or bodies moved: the part of their pull that no spring
-  /// of the cloth explains. [J]
+  /// What the strain limit added while pins or bodies moved, and collisions while bodies did: the
+  /// part of their work that no spring of the cloth explains. [J]
   double pulled = 0;
 };
 

@@ -35,6 +35,8 @@ class StepWalk {
   /// Steps of the present length that come before this one.
   [[nodiscard]] int index() const { return done_ >> (StepLevels::deepest - level_); }
   [[nodiscard]] bool may_halve() const { return level_ < most_; }
+  /// Whether the step is shorter than what moves asks for.
+  [[nodiscard]] bool is_shortened() const { return level_ > least_; }
   void halve();
   void accept(StepVerdict verdict);
   /// Levels for the next substep: it begins where this one ended, one level longer if that was

@@ -84,7 +84,8 @@ struct Simulation::Parts {
     StepVerdict verdict = StepVerdict::calm;
     int contacts = 0;  // particles in contact
     FilterCounts filtered;
-    double work = 0;  // of pins and bodies [J]
+    double work = 0;    // of pins and bodies [J]
+    double pushed = 0;  // what response and filter added while bodies moved [J]
   };
   /// Tries to advance all cloths; a step that is not refused stands.
   /// @param seconds  at the end of the step
@@ -157,7 +158,10 @@ struct Simulation::Parts {
   int frame = 0;
   StepLevels levels;
   WorkDone work;
-  Energy start_energy;        // before the first frame
+  Energy start_energy;  // before the first frame
+  /// Strain, in steps that collisions shortened: what the limiter moves does not shrink with the
+  /// step, and leads cloth through itself again.
+  bool unlimited = false;
   bool watched = false;       // the step's energy: there is something to collide with
   bool known_energy = false;  // movers' start energies are those of the states
 };

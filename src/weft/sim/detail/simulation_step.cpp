@@ -139,7 +139,8 @@ int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport&
   const SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
   StageClock clock;
-  const LimitOptions limiter = limit_for(scene, cloth.cloth);
+  LimitOptions limiter = limit_for(scene, cloth.cloth);
+  if (unlimited) limiter.passes = 0;
   LimitOptions coarse_limiter = limiter;
   coarse_limiter.passes = std::min(coarse_passes, limiter.passes);
   int contacts = 0;
@@ -178,6 +179,7 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
   StepWalk walk(level_of(pieces_until(end)), levels);
   while (!walk.done()) {
     time_step = substep_time / walk.pieces();
+    unlimited = walk.is_shortened();
     const int piece = walk.index() + 1;
     const double seconds = piece < walk.pieces() ? begin + time_step * piece : end;
     move_driven(seconds);
@@ -304,6 +306,8 @@ void Simulation::Parts::judge(bool may_refuse, Tried& tried) {
   tried.verdict = bad                         ? StepVerdict::forced
                   : fault < calm_part * limit ? StepVerdict::calm
                                               : StepVerdict::near;
+  // Bodies push by the filter, too.
+  if (driven.any_moves()) tried.pushed = std::max(0.0, added);
   if (!tried.refused && excess > 0) take_excess(excess);
 }
 
@@ -317,8 +321,8 @@ void Simulation::Parts::take_excess(double excess) {
   for (Mover& mover : movers)
     if (own(mover) > 0)
       mover.meter.take_out(excess * (own(mover) / gained), mover.integrator->proposal().velocity);
-  // Measured again, not told from what was taken, so that a run that goes on here begins alike.
-  for (Mover& mover : movers) mover.end = mover.meter.measure(mover.integrator->proposal());
+  // What is left is measured, not reckoned: a run that goes on from here does so too.
+  known_energy = false;
 }
 
 void Simulation::Parts::refuse_step() {
@@ -331,13 +335,14 @@ void Simulation::Parts::refuse_step() {
 void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
   collider->commit();
   double done = tried.work;
+  work.pulled += tried.pushed;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     finish(i, report);
     done += movers[i].wind_work;
     work.pulled += movers[i].pulled_work;
   }
   // What it ends with the next one starts with.
-  known_energy = watched;
+  known_energy = known_energy && watched;
   for (Mover& mover : movers) mover.start = mover.end;
   work.net += done;
   work.gross += std::abs(done);
