@@ -191,14 +191,15 @@ void TightEnergy::gradient(const Field& position, Field& out) const {
   clear_pins(out);
 }
 
-void TightEnergy::linearise(const Field& position) {
+void TightEnergy::linearise(const Field& position, Hessian hessian) {
   for (Spring& spring : springs_) {
     const Vec3d between = position[spring.to] - position[spring.from];
     const double l = length(between);
     const bool over = spring.limit_length > 0 && l > spring.limit_length;
     const double axial =
         spring.stiffness * (over ? 1 + strain_limit_factor : 1) + spring.damping / step_;
-    spring.across = std::max(0.0, tension(spring, l) / l);
+    spring.across = tension(spring, l) / l;
+    if (hessian == Hessian::positive_part) spring.across = std::max(0.0, spring.across);
     spring.along = std::sqrt(std::max(0.0, axial - spring.across)) / l * between;
   }
 }
@@ -255,8 +256,8 @@ void TightSolver::set_up_preconditioner(const Field& position) {
 }
 
 /// step_ = -A^-1 gradient_. The cycle rounds to float, so directions are made conjugate to the last
-/// one with the residual's change.
-void TightSolver::solve() {
+/// one with the residual's change. @return false where A is not positive
+bool TightSolver::solve() {
   std::fill(step_.begin(), step_.end(), Vec3d{});
   std::fill(direction_.begin(), direction_.end(), Vec3d{});
   for (std::size_t s = 0; s < step_.size(); ++s) residual_[s] = -1.0 * gradient_[s];
@@ -266,16 +267,31 @@ void TightSolver::solve() {
     precondition(residual_, value_);
     const double next = dot(residual_, value_), changed = next - dot(before_, value_);
     if (i == 0) first = next;
-    if (!(next > options_.inner_tolerance * options_.inner_tolerance * first)) return;
+    if (!(next > options_.inner_tolerance * options_.inner_tolerance * first)) return true;
     const double beta = i > 0 ? std::max(0.0, changed / slope) : 0;
     for (std::size_t s = 0; s < step_.size(); ++s) direction_[s] = value_[s] + beta * direction_[s];
     slope = next;
     energy_.product(direction_, product_);
-    const double length = dot(residual_, direction_) / dot(direction_, product_);
+    const double curvature = dot(direction_, product_);
+    if (!(curvature > 0)) return false;
+    const double length = dot(residual_, direction_) / curvature;
     before_ = residual_;
     add(length, direction_, step_);
     add(-length, product_, residual_);
   }
+  return true;
+}
+
+/// Without the exact Hessian the last moves shrink by a tenth each where springs are compressed.
+void TightSolver::find_step(const Field& position, double last_move) {
+  energy_.gradient(position, gradient_);
+  set_up_preconditioner(position);
+  if (last_move < options_.exact_below) {
+    energy_.linearise(position, TightEnergy::Hessian::exact);
+    if (solve()) return;
+  }
+  energy_.linearise(position, TightEnergy::Hessian::positive_part);
+  (void)solve();
 }
 
 /// Halves step_ until it lowers the energy. @return the largest move of the whole step [m]
@@ -297,18 +313,15 @@ bool TightSolver::step(const StepInput& input, TightState& state) {
   springs_.set_time_step(input.time_step);
   Field position = state.position;
   add(input.time_step, state.velocity, position);
-  bool reached = false;
-  for (int i = 0; i < options_.max_newton && !reached; ++i) {
-    energy_.gradient(position, gradient_);
-    energy_.linearise(position);
-    set_up_preconditioner(position);
-    solve();
-    reached = move(position) < options_.tolerance;
+  double moved = HUGE_VAL;
+  for (int i = 0; i < options_.max_newton && moved >= options_.tolerance; ++i) {
+    find_step(position, moved);
+    moved = move(position);
   }
   for (std::size_t s = 0; s < position.size(); ++s)
     state.velocity[s] = (1 / input.time_step) * (position[s] - state.position[s]);
   state.position = std::move(position);
-  return reached;
+  return moved < options_.tolerance;
 }
 
 namespace {
@@ -362,7 +375,7 @@ DerivativeErrors check_derivatives() {
   const Field at = shaken(start.position, 1.4, 0.01);
   Field gradient(at.size()), product(at.size());
   energy.gradient(at, gradient);
-  energy.linearise(at);
+  energy.linearise(at, TightEnergy::Hessian::exact);
   DerivativeErrors errors;
   for (std::size_t s = 0; s < at.size(); ++s)
     for (double Vec3d::*part : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {

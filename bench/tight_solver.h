@@ -40,8 +40,10 @@ class TightEnergy {
   [[nodiscard]] double step_energy(const Field& position) const;
   /// dE/dx, 0 where pinned [N].
   void gradient(const Field& position, Field& out) const;
-  /// Takes the positive part of the Hessian at a position for product().
-  void linearise(const Field& position);
+  enum class Hessian { exact, positive_part };
+  /// Takes the Hessian at a position for product(); of its positive part springs that are shorter
+  /// than at rest have no stiffness across.
+  void linearise(const Field& position, Hessian hessian);
   /// out = A x, 0 where pinned. [x: m, out: N]
   void product(const Field& x, Field& out) const;
 
@@ -83,7 +85,8 @@ class TightEnergy {
 };
 
 struct TightOptions {
-  double tolerance = 1e-7;        ///< of the largest move of a Newton step [m]
+  double tolerance = 1e-7;    ///< of the largest move of a Newton step [m]
+  double exact_below = 1e-4;  ///< with moves shorter than this the exact Hessian is tried first [m]
   double inner_tolerance = 1e-3;  ///< of the residual in the preconditioner's norm, over the first
   int max_newton = 100, max_inner = 300;
 };
@@ -103,7 +106,8 @@ class TightSolver {
  private:
   void precondition(const Field& residual, Field& out);
   void set_up_preconditioner(const Field& position);
-  void solve();
+  void find_step(const Field& position, double last_move);
+  bool solve();
   double move(Field& position);
 
   const Cloth& cloth_;
@@ -118,7 +122,7 @@ class TightSolver {
 };
 
 /// The largest error of TightEnergy's gradient against central differences, over its largest
-/// component, and of its product against differences of the gradient where nothing is compressed.
+/// component, and of its product against differences of the gradient.
 struct DerivativeErrors {
   double gradient = 0, product = 0;
 };
