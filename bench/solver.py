@@ -13,12 +13,12 @@ import program
 
 
 def commit():
-    """The checkout's, with a plus where sources of the library differ from it."""
+    """The last that changed the library, with a plus where its sources differ from it."""
     def git(*words):
         done = subprocess.run(["git", *words], cwd=program.ROOT, capture_output=True, text=True, check=True)
         return done.stdout.strip()
 
-    return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "--", "src") else "")
+    return git("log", "-1", "--format=%h", "--", "src") + ("+" if git("status", "--porcelain", "--", "src") else "")
 
 
 def run(*words):
@@ -28,7 +28,7 @@ def run(*words):
     if done.returncode != 0:
         return None
     command = " ".join(["weft_bench_solver", *map(str, words)])
-    return f"`{command}` at commit {commit()}, {datetime.date.today()}:\n\n{done.stdout}"
+    return f"`{command}`, library at commit {commit()}, {datetime.date.today()}:\n\n{done.stdout}"
 
 
 def main():
