@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""The default integrator against steps solved to the end in double: a hanging sheet over 27 fabrics, and materials by
+chance (bench/solver_sweep.cpp).
+
+Usage: bench/solver.py [--sizes 65] [--random 40] [--jobs 1] [--write]
+"""
+import argparse
+import datetime
+import subprocess
+import sys
+
+import program
+
+
+def commit():
+    """The last that changed the library, with a plus where its sources differ from it."""
+    def git(*words):
+        done = subprocess.run(["git", *words], cwd=program.ROOT, capture_output=True, text=True, check=True)
+        return done.stdout.strip()
+
+    return git("log", "-1", "--format=%h", "--", "src") + ("+" if git("status", "--porcelain", "--", "src") else "")
+
+
+def run(*words):
+    """What it prints, under a line that says which program printed it; None where it fails."""
+    done = subprocess.run([program.PROGRAM.parent / "weft_bench_solver", *map(str, words)], stdout=subprocess.PIPE,
+                          text=True)
+    if done.returncode != 0:
+        return None
+    command = " ".join(["weft_bench_solver", *map(str, words)])
+    return f"`{command}`, library at commit {commit()}, {datetime.date.today()}:\n\n{done.stdout}"
+
+
+def main():
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("--sizes", default="65", help="samples a side, with commas between; nothing: no fabrics")
+    words.add_argument("--random", type=int, default=40, help="materials by chance; 0: none")
+    words.add_argument("--jobs", type=int, default=1, help="trials at a time, which lengthens times where cores are few")
+    words.add_argument("--write", action="store_true", help="renew the tables of docs/measured.md")
+    options = words.parse_args()
+    wanted = {"solver_fabrics": ["--sizes", options.sizes] if options.sizes else None,
+              "solver_random": ["--random", options.random] if options.random else None}
+    for mark, what in wanted.items():
+        text = run(*what, "--jobs", options.jobs) if what else ""
+        if text is None:
+            return 1
+        print(text)
+        if text and options.write:
+            program.write_between_marks("docs/measured.md", mark, text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

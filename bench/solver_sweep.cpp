@@ -1,0 +1,366 @@
+// The default integrator against steps solved to the end in double: a sheet that hangs by two
+// corners, over fabrics from soft and heavy to stiff and light, or over materials by chance.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/tight_solver.h"
+#include "weft/core/error.h"
+#include "weft/core/random.h"
+
+namespace weft::bench {
+namespace {
+
+constexpr double frame_rate = 60, gravity = 9.81, side = 1;
+
+struct Words {
+  std::vector<int> sizes{65};
+  std::string integrator = "newton";
+  int random = 0, jobs = 1, iterations = 0;
+  std::uint64_t seed = 1;
+  double tolerance = 1e-7;
+  bool fast = false;
+};
+
+/// One sheet to be hung.
+struct Trial {
+  int size = 65, substeps = 4;
+  Material material;
+  int compared_frames = 30;  ///< against the tight solve
+  int frames = 240;          ///< over which energy is watched
+};
+
+struct Outcome {
+  double centre = 0;        ///< largest distance of the centres of mass over compared frames [m]
+  double rms = 0;           ///< of particles' distances over compared frames [m]
+  double gained = 0;        ///< largest rise of the energy beyond its least so far [m g L]
+  double iterations = 0;    ///< a step
+  double milliseconds = 0;  ///< a frame
+  double strain = 0, tight_strain = 0;  ///< largest over the compared frames
+  int unsolved = 0;                     ///< tight steps that missed their tolerance
+};
+
+template <class Options>
+IntegratorOptions with_iterations(int most) {
+  Options options;
+  if (most > 0) {
+    options.max_iterations = most;
+    options.tolerance = 0;
+  }
+  return options;
+}
+
+IntegratorOptions method(const Words& words) {
+  const std::string& name = words.integrator;
+  if (name == "newton") return with_iterations<NewtonOptions>(words.iterations);
+  if (name == "multigrid") return with_iterations<MultigridOptions>(words.iterations);
+  if (name == "implicit") return with_iterations<ImplicitOptions>(words.iterations);
+  throw SceneError("--integrator", name, "newton, multigrid or implicit");
+}
+
+/// In the xz plane, rows along z, held at both ends of its first row.
+Cloth hung_sheet(const Trial& trial) {
+  const int n = trial.size;
+  Planes3 rest(n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c)
+      rest.set(r, c,
+               {static_cast<float>(c) / static_cast<float>(n - 1) - 0.5F, 0,
+                static_cast<float>(r) / static_cast<float>(n - 1) - 0.5F});
+  Cloth cloth = make_cloth(rest, {n, {}}, trial.material);
+  for (const int s : {0, n - 1}) pin(cloth, s, vec_cast<double>(cloth.rest.at(s)));
+  return cloth;
+}
+
+/// Of this thread, which alone works on a trial [s].
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// The largest rise of a number beyond its least value so far.
+class Rise {
+ public:
+  void add(double value) {
+    least_ = std::min(least_, value);
+    // Not a number counts as endless.
+    if (!(value - least_ <= most_)) most_ = std::isfinite(value) ? value - least_ : HUGE_VAL;
+  }
+  [[nodiscard]] double most() const { return most_; }
+
+ private:
+  double least_ = HUGE_VAL, most_ = 0;
+};
+
+/// A sheet moved by an integrator and, beside it, by tight solves.
+class Comparison {
+ public:
+  Comparison(const Trial& trial, const Words& words)
+      : trial_(trial),
+        cloth_(hung_sheet(trial)),
+        integrator_(make_integrator(method(words), cloth_, input(), team_)),
+        tight_(cloth_, {.tolerance = words.tolerance}),
+        state_(rest_state(cloth_)),
+        tight_state_(tight_state(state_)) {
+    energy_.add(total_energy());
+  }
+
+  Outcome run() {
+    for (int frame = 0; frame < trial_.frames; ++frame) {
+      const bool compared = frame < trial_.compared_frames;
+      for (int i = 0; i < trial_.substeps; ++i) step(compared);
+      if (compared) compare();
+    }
+    const double scale = energy().total_mass() * gravity * side;
+    outcome_.gained = energy_.most() / scale;
+    outcome_.rms = std::sqrt(outcome_.rms / trial_.compared_frames);
+    outcome_.iterations /= trial_.frames * trial_.substeps;
+    outcome_.milliseconds /= trial_.frames;
+    return outcome_;
+  }
+
+ private:
+  [[nodiscard]] StepInput input() const {
+    return {.time_step = 1 / (frame_rate * trial_.substeps)};
+  }
+  [[nodiscard]] const TightEnergy& energy() const { return tight_.energy(); }
+
+  void step(bool compared) {
+    const double start = cpu_seconds();
+    integrator_->begin(input(), state_);
+    integrator_->iterate({});
+    outcome_.iterations += integrator_->end(state_).iterations;
+    outcome_.milliseconds += 1e3 * (cpu_seconds() - start);
+    energy_.add(total_energy());
+    if (!compared) return;
+    if (!tight_.step(input(), tight_state_)) ++outcome_.unsolved;
+    raise(outcome_.strain, energy().largest_strain(tight_state(state_).position));
+    raise(outcome_.tight_strain, energy().largest_strain(tight_state_.position));
+  }
+
+  static void raise(double& most, double value) {
+    if (!(value <= most)) most = value;
+  }
+
+  void compare() {
+    const TightState now = tight_state(state_);
+    Vec3d off;
+    double squares = 0;
+    for (std::size_t s = 0; s < now.position.size(); ++s) {
+      const Vec3d apart = now.position[s] - tight_state_.position[s];
+      off += energy().mass(static_cast<int>(s)) / energy().total_mass() * apart;
+      squares += squared_length(apart);
+    }
+    raise(outcome_.centre, length(off));
+    outcome_.rms += squares / static_cast<double>(now.position.size());
+  }
+
+  /// In double, of the state that the integrator left [J].
+  [[nodiscard]] double total_energy() const {
+    const TightState now = tight_state(state_);
+    double sum = energy().elastic(now.position);
+    for (std::size_t s = 0; s < now.position.size(); ++s)
+      sum += energy().mass(static_cast<int>(s)) *
+             (0.5 * squared_length(now.velocity[s]) + gravity * now.position[s].y);
+    return sum;
+  }
+
+  const Trial& trial_;
+  Cloth cloth_;
+  ThreadTeam team_{1};
+  std::unique_ptr<Integrator> integrator_;
+  TightSolver tight_;
+  ClothState state_;
+  TightState tight_state_;
+  Rise energy_;
+  Outcome outcome_;
+};
+
+std::vector<Trial> fabrics(const Words& words) {
+  std::vector<Trial> trials;
+  for (const int size : words.sizes)
+    for (const double stretch : {2e3, 2e4, 1e5})
+      for (const double shear : {20., 200., 2000.})
+        for (const double density : {0.02, 0.2, 1.}) {
+          // The softest, the hardest, and one that cloth is made of.
+          const bool few = (stretch == 2e3 && shear == 20 && density == 1) ||
+                           (stretch == 1e5 && shear == 20 && density == 0.02) ||
+                           (stretch == 2e4 && shear == 200 && density == 0.2);
+          if (words.fast && !few) continue;
+          Trial trial;
+          trial.size = size;
+          trial.material = {.density = density,
+                            .stretch = stretch,
+                            .shear = shear,
+                            .bending = 1e-5,
+                            .damping = 0};
+          trials.push_back(trial);
+        }
+  return trials;
+}
+
+double log_uniform(Random& random, double low, double high) {
+  return low * std::exp(random.uniform() * std::log(high / low));
+}
+
+/// Compared for 120 steps, or as many as cost the time of those of 65 x 65 samples.
+Trial random_trial(std::uint64_t seed) {
+  Random random(seed);
+  const auto two = [&](double low, double high) {
+    const double warp = log_uniform(random, low, high);
+    return WarpWeft(warp, log_uniform(random, low, high));
+  };
+  Trial trial;
+  Material& m = trial.material;
+  m.density = log_uniform(random, 0.02, 1);
+  m.stretch = two(2e3, 1e5);
+  m.shear = log_uniform(random, 10, 2000);
+  m.bending = two(1e-6, 1e-4);
+  m.damping = random.uniform() < 0.5 ? 0 : log_uniform(random, 0.5, 5);
+  m.strain_limit = random.uniform() < 0.1 ? random.uniform(0.01, 0.05) : 0;
+  trial.size = 33 + random.index(129 - 33 + 1);
+  trial.substeps = static_cast<int>(std::lround(log_uniform(random, 1, 16)));
+  trial.frames = 120;
+  const double ratio = 65.0 / trial.size;
+  const int steps = static_cast<int>(120 * std::min(1.0, ratio * ratio));
+  trial.compared_frames = std::clamp(steps / trial.substeps, 1, trial.frames);
+  return trial;
+}
+
+std::vector<Trial> random_trials(const Words& words) {
+  std::vector<Trial> trials;
+  for (int i = 0; i < words.random; ++i)
+    trials.push_back(random_trial(words.seed + static_cast<std::uint64_t>(i)));
+  return trials;
+}
+
+/// On so many threads, each trial on one.
+std::vector<Outcome> run_all(const std::vector<Trial>& trials, const Words& words) {
+  std::vector<Outcome> outcomes(trials.size());
+  std::atomic<std::size_t> next{0}, done{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < trials.size(); i = next++) {
+      const double start = cpu_seconds();
+      Outcome& o = outcomes[i] = Comparison(trials[i], words).run();
+      fmt::print(stderr,
+                 "{}/{}: trial {}, n {}: centre {:.2f} mm, rms {:.1f} mm, energy {:.1e}, {} steps "
+                 "unsolved, {:.0f} s\n",
+                 ++done, trials.size(), i, trials[i].size, 1e3 * o.centre, 1e3 * o.rms, o.gained,
+                 o.unsolved, cpu_seconds() - start);
+    }
+  };
+  std::vector<std::thread> others;
+  for (int i = 1; i < words.jobs; ++i) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
+  return outcomes;
+}
+
+Outcome worst_of(const std::vector<Outcome>& outcomes) {
+  Outcome worst;
+  for (const Outcome& o : outcomes) {
+    for (double Outcome::*part :
+         {&Outcome::centre, &Outcome::rms, &Outcome::gained, &Outcome::iterations,
+          &Outcome::milliseconds, &Outcome::strain, &Outcome::tight_strain})
+      if (!(o.*part <= worst.*part)) worst.*part = o.*part;
+    worst.unsolved += o.unsolved;
+  }
+  return worst;
+}
+
+std::string measured(const Outcome& o) {
+  return fmt::format("{:.2f} | {:.1f} | {:.1e} | {:.2f} | {:.2f} | {}", 1e3 * o.centre, 1e3 * o.rms,
+                     o.gained, o.iterations, o.milliseconds, o.unsolved);
+}
+
+void print_fabrics(const std::vector<Trial>& trials, const std::vector<Outcome>& outcomes) {
+  fmt::print(
+      "| samples | stretch N/m | shear N/m | kg/m^2 | centre, worst mm | particles, rms mm "
+      "| energy gained, m g L | iterations a step | ms a frame | tight steps unsolved |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const Material& m = trials[i].material;
+    fmt::print("| {0} x {0} | {1:g} | {2:g} | {3:g} | {4} |\n", trials[i].size, m.stretch.warp,
+               m.shear, m.density, measured(outcomes[i]));
+  }
+  fmt::print("| worst | | | | {} |\n", measured(worst_of(outcomes)));
+}
+
+std::string fabric_of(const Trial& trial) {
+  const Material& m = trial.material;
+  return fmt::format(
+      "{0} x {0} | {1} | {10} | {2:.2g} | {3:.2g}, {4:.2g} | {5:.2g} | {6:.1g}, {7:.1g} | "
+      "{8:.2g} | {9:.2g}",
+      trial.size, trial.substeps, m.density, m.stretch.warp, m.stretch.weft, m.shear,
+      m.bending.warp, m.bending.weft, m.damping, 100 * m.strain_limit, trial.compared_frames);
+}
+
+std::string measured_strain(const Outcome& o) {
+  return fmt::format("{:.1e} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {}", o.gained, 100 * o.strain,
+                     100 * o.tight_strain, 1e3 * o.centre, 1e3 * o.rms, o.unsolved);
+}
+
+void print_random(const std::vector<Trial>& trials, const std::vector<Outcome>& outcomes,
+                  std::uint64_t seed) {
+  fmt::print(
+      "| seed | samples | substeps | compared frames | kg/m^2 | stretch N/m | shear N/m | bending "
+      "N m | damping "
+      "1/s | limit % | energy gained, m g L | largest strain % | of the tight solve % | "
+      "centre, worst mm | particles, rms mm | tight steps unsolved |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    fmt::print("| {} | {} | {} |\n", seed + i, fabric_of(trials[i]), measured_strain(outcomes[i]));
+  fmt::print("| worst | | | | | | | | | | {} |\n", measured_strain(worst_of(outcomes)));
+}
+
+void measure(const Words& words) {
+  (void)method(words);
+  const DerivativeErrors errors = check_derivatives();
+  fmt::print(stderr, "derivatives against differences: gradient {:.1e}, product {:.1e}\n",
+             errors.gradient, errors.product);
+  if (!(errors.gradient < 1e-6 && errors.product < 1e-5))
+    throw std::runtime_error("the tight solve's derivatives are wrong");
+  const bool by_chance = words.random > 0;
+  const std::vector<Trial> trials = by_chance ? random_trials(words) : fabrics(words);
+  const std::vector<Outcome> outcomes = run_all(trials, words);
+  if (by_chance)
+    print_random(trials, outcomes, words.seed);
+  else
+    print_fabrics(trials, outcomes);
+}
+
+}  // namespace
+}  // namespace weft::bench
+
+int main(int argc, char** argv) try {
+  weft::bench::Words words;
+  CLI::App program{"A hanging sheet by an integrator, against steps solved to the end in double."};
+  program.add_option("--sizes", words.sizes, "Samples a side")
+      ->delimiter(',')
+      ->capture_default_str();
+  program.add_option("--integrator", words.integrator, "newton, multigrid or implicit")
+      ->capture_default_str();
+  program.add_option("--random", words.random, "So many materials by chance instead of fabrics");
+  program.add_option("--seed", words.seed, "Of the first of them")->capture_default_str();
+  program.add_option("--iterations", words.iterations, "So many, instead of the defaults");
+  program.add_option("--tolerance", words.tolerance, "Of the tight solve's last move [m]")
+      ->capture_default_str();
+  program.add_option("--jobs", words.jobs, "Trials at a time")->capture_default_str();
+  program.add_flag("--fast", words.fast, "Three fabrics");
+  CLI11_PARSE(program, argc, argv);
+  weft::bench::measure(words);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "bench: error: %s\n", error.what());
+  return 1;
+}
