@@ -249,7 +249,7 @@ void TightSolver::set_up_preconditioner(const Field& position) {
   write(position, state_.position);
   write(position, state_.start);
   team_.run([&](Worker& worker) {
-    for (int r = 0; r < cloth_.size; ++r) springs_.linearise_row(state_, r);
+    for (int r = 0; r < cloth_.size; ++r) springs_.linearise_row(state_, 1, r);
     for (int r = 0; r < cloth_.size; ++r) springs_.diagonal_row(r, multigrid_.centres());
     multigrid_.set_up(springs_, worker);
   });

@@ -29,6 +29,8 @@ constexpr double most_unexplained_part = 0.05;
 /// Work is known less well where it is done in a few steps: of a pin that jumps, solves leave a
 /// good part of the forces unbalanced.
 constexpr double most_unexplained_work = 0.5;
+/// So many frames in a row.
+constexpr int frames_that_tell = 2;
 /// And one whose springs of highest strain, one in a hundred, exceed it beyond a material's limit.
 constexpr double most_strain = 1;
 
@@ -64,7 +66,7 @@ void Simulation::Parts::stop_torn(std::size_t index, const std::string& found) c
       advice_for(index));
 }
 
-void Simulation::Parts::check_energy(const FrameReport& report, double own) const {
+void Simulation::Parts::check_energy(const FrameReport& report, double own) {
   // The two-level method has soft springs of its own: the fabric's say nothing about it.
   if (soft) return;
   const double now = report.kinetic_energy + report.potential_energy;
@@ -73,7 +75,11 @@ void Simulation::Parts::check_energy(const FrameReport& report, double own) cons
   const double fallen = std::max(0.0, start_energy.total() - (now - own));
   const double come_by = start_energy.own() + fallen + work.pulled;
   const double most = most_unexplained_part * come_by + most_unexplained_work * work.gross;
-  if (!(gained > std::max(most_unexplained, most))) return;
+  // What a hand pulls on may be held back by bodies; and what the filter stretches in one frame the
+  // next one lets go: only what goes on runs away.
+  const bool beyond = !grab.holds() && gained > std::max(most_unexplained, most);
+  frames_beyond = beyond ? frames_beyond + 1 : 0;
+  if (frames_beyond < frames_that_tell) return;
   const auto wildest = std::max_element(
       cloths.begin(), cloths.end(), [](const SimulatedCloth& a, const SimulatedCloth& b) {
         return kinetic_energy(a.cloth, a.state) < kinetic_energy(b.cloth, b.state);

@@ -119,7 +119,7 @@ struct Simulation::Parts {
   [[noreturn]] void stop_unstable(std::size_t index, BadParticle particle) const;
   void measure(FrameReport& report);
   /// Stops a run whose energy nothing explains, or whose cloth is torn.
-  void check_energy(const FrameReport& report, double own) const;
+  void check_energy(const FrameReport& report, double own);
   void check_strain(std::size_t index, const StrainSummary& strain) const;
   [[noreturn]] void stop_torn(std::size_t index, const std::string& found) const;
   [[nodiscard]] std::string advice_for(std::size_t index) const;
@@ -156,6 +156,7 @@ struct Simulation::Parts {
   std::vector<std::vector<Contact>> solved_contacts;  // of each cloth
   Grab grab;
   int frame = 0;
+  int frames_beyond = 0;  // in a row, with more energy than is explained
   StepLevels levels;
   WorkDone work;
   Energy start_energy;  // before the first frame
