@@ -28,8 +28,10 @@ struct Material {
   /// Stiffness of second-neighbour springs, as given: the model of [zink07], which fades as the
   /// grid is refined [N/m].
   double bend_springs = 0;
-  double damping = 2;        ///< rate at which neighbours' relative motion dies away [1/s]
-  double strain_limit = 0;   ///< largest elongation that the limiter lets stand; 0: no limiter
+  double damping = 2;  ///< rate at which neighbours' relative motion dies away [1/s]
+  /// Elongation of stretch springs beyond which `newton` holds them ten times as stiffly besides,
+  /// and which the limiter of other methods lets stand; 0: none.
+  double strain_limit = 0;
   double thickness = 0.002;  ///< [m]
 };
 

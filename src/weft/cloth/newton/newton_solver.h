@@ -59,7 +59,9 @@ class NewtonSolver {
   bool choose_contacts(Worker& worker);
   void solve(const NewtonOptions& options, Progress& progress, Worker& worker);
   void iterate(Progress& progress, Worker& worker);
+  /// Solves once, linearised at state_, which it moves on by step_.
   void advance(const NewtonOptions& options, Progress& progress, Worker& worker);
+  /// Advances as often as linearisations miss by much, and takes out energy that was gained.
   void descend(const NewtonOptions& options, Progress& progress, Worker& worker);
   void shorten_step(Worker& worker);
   /// What the last linearisation missed by [J].
@@ -76,6 +78,7 @@ class NewtonSolver {
   double bending_energy(const PaddedVectors& position, Worker& worker);
   template <class Field>
   double kinetic(const Field& velocity, Worker& worker);
+  /// Takes an excess [J] out of state_'s velocities.
   void calm(double excess, Worker& worker);
 
   const Cloth& cloth_;

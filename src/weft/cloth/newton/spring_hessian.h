@@ -8,7 +8,7 @@
 
 namespace weft {
 
-/// Stretch springs beyond the material's strain limit are stiffer by this factor. [results]
+/// Beyond the material's strain limit stretch springs have this times their stiffness besides.
 inline constexpr float strain_limit_factor = 10;
 
 /// Positions and velocities of a step, with their frames. [m], [m/s]
