@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "WEFTCKPT";
-constexpr std::uint32_t format_version = 6;
+constexpr std::uint32_t format_version = 7;
 constexpr std::size_t size_at = magic.size() + sizeof(format_version);
 constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
 constexpr std::size_t header_bytes = hash_at + sizeof(std::uint64_t);
@@ -110,6 +110,7 @@ void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   out.add(static_cast<std::int32_t>(state.levels.first));
   out.add(static_cast<std::int32_t>(state.levels.most));
   out.add(state.work.net), out.add(state.work.gross), out.add(state.work.pulled);
+  out.add(state.work.least);
   out.add(static_cast<std::uint32_t>(checkpoint.state.cloths.size()));
   for (const ClothState& cloth : checkpoint.state.cloths) add_cloth(cloth, out);
   for (std::size_t i = 0; i < checkpoint.state.cloths.size(); ++i)
@@ -136,7 +137,7 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
   in.read(levels.first), in.read(levels.most);
   if (!is_valid(levels)) return std::nullopt;
   WorkDone& work = checkpoint.state.work;
-  in.read(work.net), in.read(work.gross), in.read(work.pulled);
+  in.read(work.net), in.read(work.gross), in.read(work.pulled), in.read(work.least);
   const auto cloths = in.next<std::uint32_t>();
   for (std::uint32_t i = 0; i < cloths; ++i) {
     std::optional<ClothState> cloth = next_cloth(in);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -58,6 +59,9 @@ struct WorkDone {
   /// What the strain limit added while pins or bodies moved, and collisions while bodies did: the
   /// part of their work that no spring of the cloth explains. [J]
   double pulled = 0;
+  /// The least energy that collisions have seen so far, less net: with new work the most that cloth
+  /// may hold. [J]
+  double least = HUGE_VAL;
 };
 
 /// All that the next frame depends on besides the scene: integrators carry nothing over from one

@@ -67,10 +67,19 @@ constexpr double most_added_part = 0.3, most_added = 0.01;
 /// One that adds less than this part of that is calm.
 constexpr double calm_part = 0.2;
 
+/// What springs that the filter stretched may hold of an energy that nothing put in, over what the
+/// cloth's weight does over its own length: the next solve lets it go. Taken out of the motion at
+/// once, it would stop whatever moves in a pile.
+constexpr double lent_part = 0.003;
+
 bool same(const Contact& a, const Contact& b) {
   return a.samples == b.samples && a.weights == b.weights && a.normal == b.normal &&
          a.offset == b.offset && a.slide == b.slide && a.lift == b.lift &&
          a.stiffness == b.stiffness && a.friction == b.friction;
+}
+
+double lent_energy(double mass, double density) {
+  return lent_part * mass * 9.81 * std::sqrt(mass / density);
 }
 
 int level_of(int pieces) {
@@ -286,21 +295,23 @@ void Simulation::Parts::solve_all(FrameReport& report) {
 
 void Simulation::Parts::judge(bool may_refuse, Tried& tried) {
   Energy start, solved, end;
-  double mass = 0;
+  double mass = 0, lent = 0, explained = work.net;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     Mover& mover = movers[i];
     if (!known_energy) mover.start = mover.meter.measure(cloths[i].state);
     start += mover.start;
     solved += mover.solved;
     mass += mover.meter.mass();
+    explained += mover.wind_work;
+    lent += lent_energy(mover.meter.mass(), cloths[i].cloth.material.density);
     mover.end = mover.meter.measure(mover.integrator->proposal());
     end += mover.end;
   }
   known_energy = true;
   const double added = end.total() - solved.total();
-  const double excess = std::min(added, end.total() - start.total() - tried.work);
+  const double gained = std::min(added, end.total() - start.total() - tried.work);
   const double limit = most_added_part * solved.inner() + most_added * mass;
-  const double fault = std::max(end.elastic - solved.elastic, excess);
+  const double fault = std::max(end.elastic - solved.elastic, gained);
   const bool bad = !(fault <= limit) || tried.filtered.fell_back > 0;
   tried.refused = bad && may_refuse;
   tried.verdict = bad                         ? StepVerdict::forced
@@ -308,7 +319,10 @@ void Simulation::Parts::judge(bool may_refuse, Tried& tried) {
                                               : StepVerdict::near;
   // Bodies push by the filter, too.
   if (driven.any_moves()) tried.pushed = std::max(0.0, added);
-  if (!tried.refused && excess > 0) take_excess(excess);
+  if (tried.refused) return;
+  work.least = std::min(work.least, start.total() - explained);
+  const double excess = std::min(gained, end.total() - explained - tried.work - work.least - lent);
+  if (excess > 0) take_excess(excess);
 }
 
 /// Of each cloth by its share in what all gained.
