@@ -25,6 +25,14 @@ TEST(StepPieces, SweptBoxHoldsWhereClothIsAndWhereItFlies) {
   EXPECT_EQ(box.upper, (Vec3d{3.25, 2.25, 3.25}));
 }
 
+TEST(StepPieces, TheFarthestOfAllWaysIsFound) {
+  const Planes3 from = all_at({1, 2, 3});
+  Planes3 to = from;
+  EXPECT_EQ(farthest_way(from, to), 0);
+  to.set(1, {1, 5, -1});
+  EXPECT_EQ(farthest_way(from, to), 5);
+}
+
 TEST(StepPieces, OnlyWaysNearClothCount) {
   const Box3d box{{0, 0, 0}, {1, 1, 1}};
   Planes3 from = all_at({9, 0, 0}), to = all_at({9, 9, 0});

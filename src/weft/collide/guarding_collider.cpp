@@ -13,6 +13,8 @@ constexpr double slack_in_gaps = 0.2, slack_in_spacings = 0.03;
 constexpr double aside_in_spacings = 1;
 /// Pairs are looked at that come within this many gaps, see PairContacts.
 constexpr double foresight = 1.5;
+/// Finer cloth bends round its thickness over several cells.
+constexpr double least_crease_in_gaps = 3;
 }  // namespace
 
 GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstacles& obstacles,
@@ -196,7 +198,8 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, d
       near_ = near_ || !cells_.empty();
       pair_contacts_.find(
           {&a.grid, &b.grid, &cloths[i], &cloths[j], i == j, gap,
-           std::sqrt(a.facts.friction * b.facts.friction), time_step, untangler_.marks(i, j)},
+           std::sqrt(a.facts.friction * b.facts.friction), time_step,
+           i == j && a.facts.rest_spacing >= least_crease_in_gaps * gap, untangler_.marks(i, j)},
           cells_, team, a.contacts, b.contacts);
     }
   self_contacts_ = before() - with_bodies;

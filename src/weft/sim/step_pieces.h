@@ -15,6 +15,9 @@ inline constexpr int most_pieces = 64;
 /// What a cloth sweeps as it flies on, and somewhat more. @param padding  [m]
 Box3d swept_box(const ClothState& cloth, double seconds, double padding) noexcept;
 
+/// The farthest that any sample goes. [m]
+double farthest_way(const Planes3& from, const Planes3& to) noexcept;
+
 /// The farthest that any sample goes whose way comes into a box. [m]
 double farthest_way(const Planes3& from, const Planes3& to, const Box3d& box) noexcept;
 

@@ -104,6 +104,9 @@ class Integrator {
   [[nodiscard]] virtual bool starts_at_proposal() const noexcept { return false; }
   /// Whether iterate solves for contacts and their friction, so that no response needs to follow.
   [[nodiscard]] virtual bool solves_contacts() const noexcept { return false; }
+  /// Between begin and iterate: what a cloth that meets contacts may gain in this step, as contacts
+  /// that were not there before push it off. Methods that keep no account of energy do not ask. [J]
+  virtual void lend(double /*energy*/) noexcept {}
   /// Proposes the state at the end of the step; the caller may change it in place (limit strain,
   /// truncate, push out of bodies) before the next iterate or end.
   virtual ClothState& iterate(std::span<const Contact> contacts) noexcept = 0;

@@ -26,6 +26,8 @@ class Newton final : public Integrator {
   [[nodiscard]] bool starts_at_proposal() const noexcept override { return true; }
   [[nodiscard]] bool solves_contacts() const noexcept override { return true; }
 
+  void lend(double energy) noexcept override { solver_.lend(energy); }
+
   ClothState& iterate(std::span<const Contact> contacts) noexcept override {
     const Stopwatch watch;
     solver_.run(contacts, options_);

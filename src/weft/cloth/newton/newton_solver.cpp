@@ -27,6 +27,8 @@ void clear_row(Row3 row, int n) {
 /// Energy that a step gains, over its kinetic energy: less is taken out of velocities, more asks
 /// for another linearisation.
 constexpr double harmless_gain = 0.02;
+/// And the part of what contacts lend that asks for one.
+constexpr double harmless_part = 0.25;
 /// How often a run linearises, and how often it halves a step that leads up.
 constexpr int most_linearisations = 4, most_halvings = 5;
 /// Of the tension at the guess that is stiffness across springs.
@@ -85,7 +87,7 @@ NewtonSolver::NewtonSolver(const Cloth& cloth, ThreadTeam& team)
 void NewtonSolver::begin(const StepInput& input, const ClothState& state) {
   input_ = input;
   iterations_ = 0;
-  correction_ = 0;
+  correction_ = lent_ = 0;
   const bool same_gravity = input.gravity == known_gravity_;
   known_gravity_ = input.gravity;
   springs_.set_time_step(input.time_step);
@@ -322,8 +324,8 @@ double NewtonSolver::energy(float length, Worker& worker) {
   return inner + bending_energy(state_.position, worker) + contacts;
 }
 
-/// Halves the last step until it lowers the energy.
-void NewtonSolver::shorten_step(Worker& worker) {
+/// Halves the last step until it lowers the energy. @return whether it had to
+bool NewtonSolver::shorten_step(Worker& worker) {
   double after = energy(1, worker);
   move_state(-1, worker);
   const double before = energy(0, worker);
@@ -338,6 +340,7 @@ void NewtonSolver::shorten_step(Worker& worker) {
   for (int r = mine.first; r < mine.last; ++r)
     kernels_.scale_rows(cloth_.size, length, step_.row(r));
   worker.barrier();
+  return length < 1;
 }
 
 /// Solves once, linearised at state_, which it moves on.
@@ -386,18 +389,20 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
                        : start_potential_ < HUGE_VAL ? start_potential_
                                                      : potential(state_.start, worker);
   const double fall = input_.time_step * length(input_.gravity);
-  const double allowed = harmless_gain * (kinetic_before + 0.5 * mass_ * fall * fall);
-  double error = 0;
-  for (int i = 0; i < most_linearisations; ++i) {
+  const double lent = contacts_.empty() ? 0 : lent_;
+  const double allowed =
+      harmless_gain * (kinetic_before + 0.5 * mass_ * fall * fall) + harmless_part * lent;
+  double error = HUGE_VAL;
+  for (int i = 0; i < most_linearisations && error > allowed; ++i) {
     advance(options, progress, worker);
     error = error_of(progress, known, kinetic_before, worker);
-    if (error <= allowed) break;
-    shorten_step(worker);
+    if (error > allowed && shorten_step(worker))
+      error = error_of(progress, known, kinetic_before, worker);
   }
   worker.barrier();
   if (worker.rank() == 0 && driven_) potential_ = HUGE_VAL;
   if (worker.rank() == 0 && !driven_) start_potential_ = known;
-  if (!driven_ && error > 0) calm(error, worker);
+  if (!driven_ && error > lent) calm(error - lent, worker);
 }
 
 void NewtonSolver::run(std::span<const Contact> contacts, const NewtonOptions& options) {

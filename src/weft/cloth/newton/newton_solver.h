@@ -27,6 +27,8 @@ class NewtonSolver {
 
   /// Starts a step: next() flies on at its velocity, pins are where they shall go.
   void begin(const StepInput& input, const ClothState& state);
+  /// What the cloth may gain in this step where it meets contacts [J].
+  void lend(double energy) { lent_ = energy; }
   /// Linearises at next(), as the caller left it, and makes it the solution.
   void run(std::span<const Contact> contacts, const NewtonOptions& options);
   [[nodiscard]] ClothState& next() { return next_; }
@@ -63,7 +65,7 @@ class NewtonSolver {
   void advance(const NewtonOptions& options, Progress& progress, Worker& worker);
   /// Advances as often as linearisations miss by much, and takes out energy that was gained.
   void descend(const NewtonOptions& options, Progress& progress, Worker& worker);
-  void shorten_step(Worker& worker);
+  bool shorten_step(Worker& worker);
   /// What the last linearisation missed by [J].
   double error_of(const Progress& progress, double known, double kinetic_before, Worker& worker);
   /// E of state_, to which a part of step_ has led [J].
@@ -105,6 +107,7 @@ class NewtonSolver {
   double start_potential_ = HUGE_VAL;  // of the start's; infinite: not known yet [J]
   Vec3f known_gravity_;                // that it was for
   std::vector<float> largest_;         // [n] squared direction of each row [m^2]
+  double lent_ = 0;                    // see lend [J]
   double mass_ = 0;                    // of all that moves [kg]
   double last_length_ = 0;             // of the last step along direction_
   bool driven_ = false;                // by pins or obstacles that move

@@ -15,8 +15,10 @@ namespace {
 constexpr double softness = 100;
 /// As for bodies: contacts begin this many gaps before the one that is kept.
 constexpr double foresight = 1.5;
-/// Edges that cross in layers lying flat on each other are left to samples and triangles.
+/// Of the gap, what edges that cross in layers lying flat on each other keep, which samples and
+/// triangles hold apart as a rule; and the two sides of a crease, which bending does.
 constexpr float flat = 0.8F;
+constexpr double worn = 0.5;
 
 /// One side of a contact: up to three samples of a cloth with weights that sum to 1.
 struct Side {
@@ -56,7 +58,9 @@ class Finder {
 
   void look_at(const CellPair& cells) {
     const SeenCell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
-    if (pair_.same && adjacent(a, b)) return;
+    const bool crease = pair_.same && adjacent(a, b);
+    if (crease && !pair_.creases) return;
+    gap_ = crease ? worn * pair_.gap : pair_.gap;
     const MovingSurface surface_a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
     const MovingSurface surface_b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
     const CellGaps gaps(surface_a, cells.a, surface_b, cells.b);
@@ -66,12 +70,11 @@ class Finder {
     const auto near = static_cast<float>(reach + gaps.most_approach()) + gaps.margin();
     samples_with_triangles(gaps, near, a, b);
     samples_with_triangles(gaps, near, b, a);
-    edges(gaps, near, a, b);
+    if (!crease) edges(gaps, near, a, b);
   }
 
  private:
-  /// Cells that share a corner fold onto each other at the crease only, where bending and the guard
-  /// see to them.
+  /// Cells that share a corner fold onto each other at the crease only.
   static bool adjacent(const SeenCell& a, const SeenCell& b) {
     if (a.next_to(b)) return true;
     if (!a.is_border() || !b.is_border()) return false;
@@ -119,7 +122,7 @@ class Finder {
   }
 
   void edges(const CellGaps& gaps, float near, const SeenCell& a, const SeenCell& b) {
-    if (gaps.parallel(flat)) return;
+    if (gaps.parallel(flat)) gap_ = worn * pair_.gap;
     const auto seen = [&](const SeenCell& cell) {
       std::array<SeenEdge, 3> edges{};
       const auto corners = cell.own_edges();
@@ -167,12 +170,12 @@ class Finder {
     if (!(distance > 0)) return;
     const Vec3d normal = (1 / distance) * apart;
     const Vec3d own_way = own.way(), other_way = other.way();
-    if (distance + dot(normal, own_way - other_way) >= foresight * pair_.gap) return;
+    if (distance + dot(normal, own_way - other_way) >= foresight * gap_) return;
     if (pair_.same) {
       add_joint(own, other, normal);
     } else {
       const Vec3d middle = 0.5 * (own.start() + other.start() + own_way + other_way);
-      const double half = 0.5 * pair_.gap, along = dot(normal, middle);
+      const double half = 0.5 * gap_, along = dot(normal, middle);
       add_half(own, normal, {along + half, other_way}, swapped ? of_b_ : of_a_);
       add_half(other, -normal, {-along + half, own_way}, swapped ? of_a_ : of_b_);
     }
@@ -191,7 +194,7 @@ class Finder {
     };
     put(own, 1);
     put(other, -1);
-    contact.offset = static_cast<float>(pair_.gap);
+    contact.offset = static_cast<float>(gap_);
     finish(normal, own.compliance() + other.compliance(), contact);
     of_a_.push_back(contact);
   }
@@ -220,6 +223,7 @@ class Finder {
 
   const ClothPair& pair_;
   std::vector<Contact>&of_a_, &of_b_;
+  double gap_ = 0;  // that contacts of the cells keep [m]
 };
 
 }  // namespace

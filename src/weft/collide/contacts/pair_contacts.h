@@ -19,6 +19,7 @@ struct ClothPair {
   double gap = 0;                       ///< that is kept [m]
   double friction = 0;                  ///< of the pair
   double time_step = 0;                 ///< [s]
+  bool creases = false;                 ///< whether cells that share a corner press, too
   const TangleMarks* tangle = nullptr;  ///< where they cross; else null
 };
 

@@ -40,6 +40,7 @@ struct Mover {
   /// ends.
   Energy start, solved, end;
   Planes3 calm_velocity;  // before the wind blew [m/s]
+  Planes3 guess;          // where this step's contacts were found first [m]
   // Of this step: what the wind did, and what the strain limit did while something pulled. [J]
   double wind_work = 0, pulled_work = 0;
 };
@@ -95,8 +96,12 @@ struct Simulation::Parts {
   /// Takes back what guesses passed through. @return whether there is anything to collide with
   bool free_guesses();
   void iterate_all();
-  /// Whether the contacts are others than those that were solved with; they are then.
-  bool renew_contacts();
+  /// Whether guesses may pass through what stands next to cloth.
+  [[nodiscard]] bool guesses_go_far() const;
+  /// Whether solves led where other contacts may be.
+  [[nodiscard]] bool solves_go_far() const;
+  /// Tells integrators what cloths may gain in the step, by what they had least. @pre wind blew
+  void lend();
   /// What the step did after it was solved, by energy. @pre the filter is done
   void judge(bool may_refuse, Tried& tried);
   void take_excess(double excess);
@@ -152,14 +157,14 @@ struct Simulation::Parts {
   std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
   std::vector<Mover> movers;                        // one a cloth
   std::unique_ptr<Collider> collider;
-  std::vector<MovingCloth> moving;                    // of this step
-  std::vector<std::vector<Contact>> solved_contacts;  // of each cloth
+  std::vector<MovingCloth> moving;  // of this step
   Grab grab;
   int frame = 0;
   int frames_beyond = 0;  // in a row, with more energy than is explained
   StepLevels levels;
   WorkDone work;
-  Energy start_energy;  // before the first frame
+  double most_energy = HUGE_VAL;  // that cloths may have at the end of the step without work [J]
+  Energy start_energy;            // before the first frame
   /// Strain, in steps that collisions shortened: what the limiter moves does not shrink with the
   /// step, and leads cloth through itself again.
   bool unlimited = false;

@@ -157,12 +157,11 @@ void Simulation::Parts::make_movers() {
          StrainLimit(cloth.cloth, solvers(i)), CoarseLimit(cloth.cloth, solvers(i)),
          EnergyMeter(cloth.cloth, scene.gravity, solvers(i)),
          DrivenWork(cloth.cloth, scene.gravity, solvers(i)), Energy{}, Energy{}, Energy{},
-         Planes3(scene.wind ? cloth.cloth.size : 0)});
+         Planes3(scene.wind ? cloth.cloth.size : 0), Planes3(cloth.cloth.size)});
     if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
       notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }
   moving.reserve(cloths.size());
-  solved_contacts.resize(cloths.size());
   for (std::size_t i = 0; i < cloths.size(); ++i)
     start_energy += movers[i].meter.measure(cloths[i].state);
 }
