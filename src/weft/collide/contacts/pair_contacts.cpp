@@ -64,13 +64,13 @@ class Finder {
     const MovingSurface surface_a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
     const MovingSurface surface_b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
     const CellGaps gaps(surface_a, cells.a, surface_b, cells.b);
-    const double reach = foresight * pair_.gap;
+    const double reach = foresight * gap_;
     if (gaps.apart(reach, reach)) return;
-    // What starts farther apart makes no contact.
-    const auto near = static_cast<float>(reach + gaps.most_approach()) + gaps.margin();
-    samples_with_triangles(gaps, near, a, b);
-    samples_with_triangles(gaps, near, b, a);
-    if (!crease) edges(gaps, near, a, b);
+    samples_with_triangles(gaps, a, b);
+    samples_with_triangles(gaps, b, a);
+    if (crease) return;
+    if (gaps.parallel(flat)) gap_ = worn * pair_.gap;
+    edges(gaps, a, b);
   }
 
  private:
@@ -86,13 +86,18 @@ class Finder {
 
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }
 
-  void samples_with_triangles(const CellGaps& gaps, float near, const SeenCell& own,
-                              const SeenCell& other) {
+  /// What starts farther apart makes no contact.
+  [[nodiscard]] float near(const CellGaps& gaps) const {
+    return static_cast<float>(foresight * gap_ + gaps.most_approach()) + gaps.margin();
+  }
+
+  void samples_with_triangles(const CellGaps& gaps, const SeenCell& own, const SeenCell& other) {
+    const float farthest = near(gaps);
     for (int half = 0; half < 2; ++half) {
       const std::array<int, 3> corners = other.grid->triangle_corners(other.cell, half);
       const SeenTriangle seen(gaps, other.second, corners);
       own.for_own_corners([&](int k) {
-        if (!seen.may_hold(gaps.start(own.second, k), near)) return;
+        if (!seen.may_hold(gaps.start(own.second, k), farthest)) return;
         const std::array<int, 3> triangle{other.samples[corners[0]], other.samples[corners[1]],
                                           other.samples[corners[2]]};
         if (!other.grid->folded(triangle))
@@ -121,8 +126,8 @@ class Finder {
                        [&](int corner) { return grid.point(corner) == grid.point(sample); });
   }
 
-  void edges(const CellGaps& gaps, float near, const SeenCell& a, const SeenCell& b) {
-    if (gaps.parallel(flat)) gap_ = worn * pair_.gap;
+  void edges(const CellGaps& gaps, const SeenCell& a, const SeenCell& b) {
+    const float reach = near(gaps);
     const auto seen = [&](const SeenCell& cell) {
       std::array<SeenEdge, 3> edges{};
       const auto corners = cell.own_edges();
@@ -132,7 +137,7 @@ class Finder {
     const std::array<SeenEdge, 3> of_b = seen(b);
     for (const SeenEdge& p : seen(a))
       for (const SeenEdge& q : of_b) {
-        const float farthest = near + p.half_length + q.half_length;
+        const float farthest = reach + p.half_length + q.half_length;
         if (squared_length(p.middle - q.middle) <= farthest * farthest)
           add_edges(p.samples, q.samples);
       }
