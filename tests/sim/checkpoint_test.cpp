@@ -105,7 +105,7 @@ TEST(Checkpoint, RefusalsSayWhatIsWrong) {
   EXPECT_NE(refusal("").find("is no checkpoint"), std::string::npos);
   std::string other_format = whole;
   other_format[8] = 9;
-  EXPECT_NE(refusal(other_format).find("format 9 instead of 6"), std::string::npos);
+  EXPECT_NE(refusal(other_format).find("format 9 instead of 7"), std::string::npos);
   std::string other_version = whole;
   other_version[header_bytes + 8] = '7';
   EXPECT_NE(refusal(hashed_again(other_version)).find("written by weft 7"), std::string::npos);
