@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 #include "weft/cloth/integrate/proposal.h"
@@ -11,18 +10,6 @@
 
 namespace weft {
 namespace {
-
-void copy_row(ConstRow3 from, Row3 to, int n) {
-  std::copy_n(from.x, n, to.x);
-  std::copy_n(from.y, n, to.y);
-  std::copy_n(from.z, n, to.z);
-}
-
-void clear_row(Row3 row, int n) {
-  std::fill_n(row.x, n, 0.0F);
-  std::fill_n(row.y, n, 0.0F);
-  std::fill_n(row.z, n, 0.0F);
-}
 
 /// Energy that a step gains, over its kinetic energy: less is taken out of velocities, more asks
 /// for another linearisation.
@@ -186,95 +173,6 @@ bool NewtonSolver::choose_contacts(Worker& worker) {
   return changed;
 }
 
-double NewtonSolver::dot(const PaddedVectors& a, const PaddedVectors& b, Worker& worker) {
-  const bool seamed = !multigrid_.seams().empty();
-  return sums_.sum(worker, [&](int r) {
-    return kernels_.dot(cloth_.size, seamed ? share_.row(r) : nullptr, a.row(r), b.row(r));
-  });
-}
-
-/// Inner forces sum to nothing: what nothing holds moves as a whole as if it were one particle.
-bool NewtonSolver::flies() const { return cloth_.pins.empty() && contacts_.active() == 0; }
-
-/// The step of the whole, from the residual: so that free fall is exact.
-Vec3d NewtonSolver::drift(Worker& worker) {
-  Vec3d sum;
-  const PaddedPlane* const residual[3] = {&residual_.x, &residual_.y, &residual_.z};
-  double* const part[3] = {&sum.x, &sum.y, &sum.z};
-  for (int k = 0; k < 3; ++k)
-    *part[k] = sums_.sum(worker, [&](int r) {
-      const float *f = residual[k]->row(r), *share = share_.row(r);
-      return lane_sum(cloth_.size, [&](int c) { return double{share[c]} * double{f[c]}; });
-    });
-  return (input_.time_step * input_.time_step / mass_) * sum;
-}
-
-/// Adds a step of the whole, and takes what it balances off the residual.
-void NewtonSolver::add_drift(Vec3d way, Worker& worker) {
-  const Range mine = worker.share(cloth_.size);
-  const auto h = static_cast<float>(input_.time_step);
-  const Vec3f moved = vec_cast<float>(way);
-  const float parts[3] = {moved.x, moved.y, moved.z}, per_square = 1 / (h * h);
-  PaddedPlane* const step[3] = {&step_.x, &step_.y, &step_.z};
-  PaddedPlane* const left[3] = {&residual_.x, &residual_.y, &residual_.z};
-  for (int r = mine.first; r < mine.last; ++r)
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < cloth_.size; ++c) {
-        (*step[k])(r, c) += parts[k];
-        (*left[k])(r, c) -= per_square * cloth_.mass(r, c) * parts[k];
-      }
-  worker.barrier();
-}
-
-void NewtonSolver::iterate(Progress& progress, Worker& worker) {
-  const int n = cloth_.size;
-  const Range mine = worker.share(n);
-  for (int r = mine.first; r < mine.last; ++r)
-    copy_row(std::as_const(residual_).row(r), multigrid_.rhs().row(r), n);
-  worker.barrier();
-  multigrid_.cycle(worker);
-  const double slope = dot(residual_, multigrid_.value(), worker);
-  const auto beta = static_cast<float>(progress.slope > 0 ? slope / progress.slope : 0);
-  progress.slope = slope;
-  for (int r = mine.first; r < mine.last; ++r) {
-    kernels_.scale_add(n, multigrid_.value().row(r), beta, direction_.row(r));
-    largest_[r] = kernels_.largest(n, std::as_const(direction_).row(r));
-  }
-  worker.barrier();
-  const bool touching = contacts_.active() > 0;
-  if (touching) contacts_.load_product(direction_, worker);
-  multigrid_.apply(direction_,
-                   {touching ? &contacts_.loads() : nullptr, curved_.active() ? &curved_ : nullptr},
-                   product_, worker);
-  const double curvature = dot(direction_, product_, worker);
-  const double length = curvature > 0 && slope > 0 ? slope / curvature : 0;
-  for (int r = mine.first; r < mine.last; ++r) {
-    kernels_.add_scaled(n, static_cast<float>(length), std::as_const(direction_).row(r),
-                        step_.row(r));
-    kernels_.add_scaled(n, static_cast<float>(-length), std::as_const(product_).row(r),
-                        residual_.row(r));
-  }
-  worker.barrier();
-  progress.correction =
-      length * std::sqrt(double{*std::max_element(largest_.begin(), largest_.end())});
-  if (worker.rank() == 0) last_length_ = length;
-  progress.promised += 0.5 * length * slope;
-  // What this iteration took off the energy, as a force on every particle over its weight.
-  progress.force = std::sqrt(length * slope / mass_) / (input_.time_step * 9.81);
-  ++progress.iterations;
-}
-
-void NewtonSolver::solve(const NewtonOptions& options, Progress& progress, Worker& worker) {
-  progress.slope = 0;
-  const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) clear_row(direction_.row(r), cloth_.size);
-  worker.barrier();
-  for (int i = 0; i < options.max_iterations; ++i) {
-    iterate(progress, worker);
-    if (progress.force < options.tolerance) break;
-  }
-}
-
 void NewtonSolver::move_state(float length, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   const auto per_step = static_cast<float>(1 / input_.time_step);
@@ -300,26 +198,6 @@ void NewtonSolver::take_plain(const PaddedVectors& position, Worker& worker) {
   for (int r = mine.first; r < mine.last; ++r)
     copy_row(position.row(r), row_of(plain_, r), cloth_.size);
   worker.barrier();
-}
-
-double NewtonSolver::bending_energy(const PaddedVectors& position, Worker& worker) {
-  if (!curved_.active()) return multigrid_.bending_energy(position, sums_, share_, worker);
-  take_plain(position, worker);
-  curved_.set_position(plain_, worker);
-  return sums_.sum(worker, [&](int r) { return r == 0 ? curved_.energy() : 0.0; });
-}
-
-double NewtonSolver::energy(float length, Worker& worker) {
-  const double inner = sums_.sum(worker, [&](int r) {
-    const float* mass = own_mass_.row(r);
-    const ConstRow3 v = std::as_const(state_.velocity).row(r), w = std::as_const(wanted_).row(r);
-    return springs_.damped_energy_row(state_, r) + lane_sum(cloth_.size, [&](int c) {
-             const double x = v.x[c] - w.x[c], y = v.y[c] - w.y[c], z = v.z[c] - w.z[c];
-             return 0.5 * mass[c] * (x * x + y * y + z * z);
-           });
-  });
-  const double contacts = contacts_.empty() ? 0 : contacts_.energy(step_, length, worker);
-  return inner + bending_energy(state_.position, worker) + contacts;
 }
 
 /// Halves the last step until it lowers the energy.
@@ -414,59 +292,6 @@ void NewtonSolver::run(std::span<const Contact> contacts, const NewtonOptions& o
     iterations_ += progress.iterations;
     correction_ = progress.correction / cloth_.rest_spacing;
   });
-}
-
-double NewtonSolver::potential(const PaddedVectors& position, Worker& worker) {
-  const Vec3f g = input_.gravity;
-  const double springs_and_gravity = sums_.sum(worker, [&](int r) {
-    const float* mass = own_mass_.row(r);
-    const ConstRow3 x = position.row(r);
-    return springs_.energy_row(position, r) - lane_sum(cloth_.size, [&](int c) {
-             return double{mass[c]} * (double{g.x} * double{x.x[c]} + double{g.y} * double{x.y[c]} +
-                                       double{g.z} * double{x.z[c]});
-           });
-  });
-  return springs_and_gravity + bending_energy(position, worker);
-}
-
-template <class Field>
-double NewtonSolver::kinetic(const Field& velocity, Worker& worker) {
-  return sums_.sum(worker, [&](int r) {
-    ConstRow3 v{};
-    if constexpr (std::is_same_v<Field, Planes3>)
-      v = row_of(velocity, r);
-    else
-      v = velocity.row(r);
-    return 0.5 * kernels_.dot(cloth_.size, own_mass_.row(r), v, v);
-  });
-}
-
-/// Takes an excess of energy out of what velocities differ from their mean by.
-void NewtonSolver::calm(double excess, Worker& worker) {
-  PaddedVectors& v = state_.velocity;
-  PaddedPlane* const planes[3] = {&v.x, &v.y, &v.z};
-  double mean[3], mean_energy = 0;
-  for (int k = 0; k < 3; ++k) {
-    mean[k] = sums_.sum(worker, [&](int r) {
-      const float *mass = own_mass_.row(r), *speed = planes[k]->row(r),
-                  *free = multigrid_.mask().row(r);
-      return lane_sum(cloth_.size,
-                      [&](int c) { return double{free[c]} * mass[c] * double{speed[c]}; });
-    });
-    mean[k] /= mass_;
-    mean_energy += 0.5 * mass_ * mean[k] * mean[k];
-  }
-  const double inner = kinetic(std::as_const(v), worker) - mean_energy;
-  const double left = inner > excess ? std::sqrt((inner - excess) / inner) : 0;
-  const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r)
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < cloth_.size; ++c)
-        if (multigrid_.mask()(r, c) > 0) {
-          float& speed = (*planes[k])(r, c);
-          speed = static_cast<float>(mean[k] + left * (double{speed} - mean[k]));
-        }
-  worker.barrier();
 }
 
 void NewtonSolver::last_corrections(Grid<float>& sizes) const {

@@ -76,8 +76,8 @@ class NewtonSolver {
   /// Springs, bending and gravity [J].
   double potential(const PaddedVectors& position, Worker& worker);
   double bending_energy(const PaddedVectors& position, Worker& worker);
-  template <class Field>
-  double kinetic(const Field& velocity, Worker& worker);
+  double kinetic(const Planes3& velocity, Worker& worker);
+  double kinetic(const PaddedVectors& velocity, Worker& worker);
   /// Takes an excess [J] out of state_'s velocities.
   void calm(double excess, Worker& worker);
 

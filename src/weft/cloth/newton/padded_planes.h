@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -59,6 +60,18 @@ struct PaddedVectors {
   [[nodiscard]] Row3 row(int r) { return {x.row(r), y.row(r), z.row(r)}; }
   [[nodiscard]] ConstRow3 row(int r) const { return {x.row(r), y.row(r), z.row(r)}; }
 };
+
+inline void copy_row(ConstRow3 from, Row3 to, int n) {
+  std::copy_n(from.x, n, to.x);
+  std::copy_n(from.y, n, to.y);
+  std::copy_n(from.z, n, to.z);
+}
+
+inline void clear_row(Row3 row, int n) {
+  std::fill_n(row.x, n, 0.0F);
+  std::fill_n(row.y, n, 0.0F);
+  std::fill_n(row.z, n, 0.0F);
+}
 
 /// A symmetric 3 x 3 block a sample: xx, xy, xz, yy, yz, zz.
 struct PaddedBlocks {
