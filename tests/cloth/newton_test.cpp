@@ -103,15 +103,15 @@ struct System {
     PaddedVectors residual(n, n), direction(n, n), product(n, n), error = random_field(5);
     times(solution, residual);
     const double first = dot(solution, residual);
-    double slope = 0;
+    double curvature = 0;
     for (int i = 1; i < 60; ++i) {
       const PaddedVectors& z = cycle(residual);
-      const double next = dot(residual, z);
-      const float beta = slope > 0 ? static_cast<float>(next / slope) : 0;
-      slope = next;
-      blend(1, z, beta, direction);
+      const double slope = dot(residual, z);
+      const double overlap = curvature > 0 ? dot(product, z) / curvature : 0;
+      blend(1, z, static_cast<float>(-overlap), direction);
       times(direction, product);
-      const auto length = static_cast<float>(slope / dot(direction, product));
+      curvature = dot(direction, product);
+      const auto length = static_cast<float>(slope / curvature);
       blend(-length, product, 1, residual);
       blend(-length, direction, 1, error);
       times(error, product);
@@ -181,19 +181,21 @@ TEST(Newton, FewIterationsKeepMomentumOfAllThatFlies) {
   EXPECT_LT(length(momentum(cloth, state)), 1e-4 * total_mass(cloth));
 }
 
-TEST(Newton, TheCycleIsSymmetricAndPositive) {
+TEST(Newton, TheCycleIsPositive) {
   Cloth pinned = sheet_cloth(33, cotton);
   hang(pinned);
   const Cloth double_torus = make_cloth(flat_sheet(33), double_torus_mates(33), cotton);
   for (const Cloth& cloth : {pinned, sheet_cloth(30, hard), torus_cloth(33, woven),
                              torus_cloth(20, cotton), double_torus}) {
     System system(cloth);
-    const PaddedVectors a = system.random_field(1), b = system.random_field(2);
-    const double ab = system.dot(a, system.cycle(b)), bb = system.dot(b, system.cycle(b)),
-                 aa = system.dot(a, system.cycle(a)), ba = system.dot(b, system.cycle(a));
-    EXPECT_GT(aa, 0);
-    EXPECT_GT(bb, 0);
-    EXPECT_NEAR(ab, ba, 1e-4 * std::sqrt(aa * bb)) << cloth.size;
+    PaddedVectors product(cloth.size, cloth.size);
+    for (const int seed : {1, 2, 3}) {
+      // Of smooth fields and of rough ones.
+      const PaddedVectors rough = system.random_field(seed);
+      EXPECT_GT(system.dot(rough, system.cycle(rough)), 0) << cloth.size;
+      system.times(rough, product);
+      EXPECT_GT(system.dot(product, system.cycle(product)), 0) << cloth.size;
+    }
   }
 }
 
@@ -247,20 +249,23 @@ TEST(Newton, TheOperatorIsTheDerivativeOfTheGradient) {
 
 TEST(Newton, IterationsDoNotGrowWithTheImage) {
   for (const Material& material : {cotton, hard, woven}) {
-    int most = 0;
+    int most = 0, small = 0;
     for (const int n : {33, 50, 65, 129}) {
       Cloth cloth = sheet_cloth(n, material);
       hang(cloth);
       most = std::max(most, System(cloth).iterations_to_a_hundredth());
+      if (n == 33) small = most;
     }
-    EXPECT_LE(most, 8);
+    // Of cycles that solve each line once.
+    EXPECT_LE(most, 12);
+    EXPECT_LE(most, small + 3);
   }
 }
 
 TEST(Newton, SeamsCostFewIterations) {
   for (const int n : {33, 40, 65}) {
     const Cloth around = torus_cloth(n, cotton);
-    EXPECT_LE(System(around).iterations_to_a_hundredth(), 10) << n;
+    EXPECT_LE(System(around).iterations_to_a_hundredth(), 14) << n;
   }
   const Cloth glued = make_cloth(flat_sheet(65), double_torus_mates(65), cotton);
   EXPECT_LE(System(glued).iterations_to_a_hundredth(), 12);

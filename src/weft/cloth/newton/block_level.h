@@ -30,9 +30,15 @@ struct BlockLevel {
   PaddedBlocks joined;   ///< the centres summed over seam copies; empty without seams
   LineFactor rows, cols;
   PaddedVectors rhs, value, residual;
-  PaddedVectors curved;  ///< bending's u; scratch
+  PaddedVectors curved;                ///< bending's u; scratch
+  std::vector<PaddedVectors> windows;  ///< three rows of that for each worker
 
-  BlockLevel(int n, Seams seam_classes, BendingStencil stiffness, bool finest);
+  struct Shape {
+    int size;
+    bool finest;
+    int workers;
+  };
+  BlockLevel(const Shape& shape, Seams seam_classes, BendingStencil stiffness);
   /// The diagonal blocks that lines are factored with.
   [[nodiscard]] const PaddedBlocks& diagonal() const {
     return seams.empty() ? stencil.centre : joined;

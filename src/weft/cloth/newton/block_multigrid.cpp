@@ -36,14 +36,16 @@ BlockStencilRow stencil_row(const BlockStencil& s, int r) {
           row_of(s.below_right, r - 1, -1)};
 }
 
-std::vector<BlockLevel> make_levels(const Cloth& cloth) {
+std::vector<BlockLevel> make_levels(const Cloth& cloth, int workers) {
   std::vector<BlockLevel> levels;
   int n = cloth.size;
-  levels.emplace_back(n, Seams(cloth.mates), BendingStencil(cloth.bending), true);
+  levels.emplace_back(BlockLevel::Shape{n, true, workers}, Seams(cloth.mates),
+                      BendingStencil(cloth.bending));
   while (n > CoarsestSolver::max_size) {
     const BlockLevel& fine = levels.back();
     n = n / 2 + 1;
-    levels.emplace_back(n, fine.seams.coarsened(), fine.bending.coarsened(), false);
+    levels.emplace_back(BlockLevel::Shape{n, false, workers}, fine.seams.coarsened(),
+                        fine.bending.coarsened());
   }
   return levels;
 }
@@ -53,7 +55,7 @@ std::vector<BlockLevel> make_levels(const Cloth& cloth) {
 BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKernels& kernels)
     : cloth_(cloth),
       kernels_(&kernels),
-      levels_(make_levels(cloth)),
+      levels_(make_levels(cloth, workers)),
       coarsest_(levels_.size() > 1 ? CoarsestSolver(levels_.back()) : CoarsestSolver()),
       galerkin_(cloth.size, workers),
       mask_(cloth.size, cloth.size),
@@ -74,13 +76,16 @@ void BlockMultigrid::renew_pins() {
   const int n = cloth_.size;
   PaddedPlane& extra = levels_.front().extra;
   pinned_.clear();
-  for (int r = 0; r < n; ++r)
+  pin_starts_.assign(static_cast<std::size_t>(n) + 1, 0);
+  for (int r = 0; r < n; ++r) {
     for (int c = 0; c < n; ++c) {
       const bool moves = cloth_.inverse_mass(r, c) > 0;
       mask_(r, c) = moves ? 1.0F : 0.0F;
       extra(r, c) = moves ? free_extra_(r, c) : holding_stiffness;
       if (!moves) pinned_.push_back(r * n + c);
     }
+    pin_starts_[r + 1] = static_cast<int>(pinned_.size());
+  }
 }
 
 std::span<float> BlockMultigrid::scratch(const Workers& workers) {
@@ -95,15 +100,46 @@ void BlockMultigrid::clear_pins(PaddedVectors& field, const Workers& workers) co
   }
 }
 
+void BlockMultigrid::clear_pins_of_row(int row, PaddedVectors& field) const {
+  for (int i = pin_starts_[row]; i < pin_starts_[row + 1]; ++i) {
+    const int c = pinned_[i] % cloth_.size;
+    field.x(row, c) = field.y(row, c) = field.z(row, c) = 0;
+  }
+}
+
 void BlockMultigrid::bend(BlockLevel& level, const PaddedVectors& x, const Workers& workers) {
-  if (!level.bending.active()) return;
   const Range mine = workers.share(level.size);
   for (int r = mine.first; r < mine.last; ++r)
-    level.bending.bend_row(x, r, *kernels_, level.curved);
+    level.bending.bend_row(x, r, *kernels_, level.curved.row(r));
   workers.barrier();
   if (level.seams.empty()) return;
   level.seams.sum(workers, {&level.curved.x, &level.curved.y, &level.curved.z});
   workers.barrier();
+}
+
+template <class Before, class After>
+void BlockMultigrid::add_bending(BlockLevel& level, const PaddedVectors& x, PaddedVectors& out,
+                                 const Workers& workers, const Before& before, const After& after) {
+  const Range mine = workers.share(level.size);
+  const BendingStencil& bending = level.bending;
+  // Seams join u between its two halves; else three rows of it at a time are enough.
+  const bool whole = bending.active() && !level.seams.empty();
+  if (whole) bend(level, x, workers);
+  PaddedVectors& window = level.windows[workers.rank()];
+  const auto slot = [](int r) { return (r + 3) % 3; };
+  const auto make = [&](int r) { bending.bend_row(x, r, *kernels_, window.row(slot(r))); };
+  for (int r = mine.first; r < mine.last; ++r) {
+    before(r);
+    if (whole) {
+      bending.unbend_row(rows_around(level.curved, r), r, *kernels_, out.row(r));
+    } else if (bending.active()) {
+      for (int next = r == mine.first ? r - 1 : r + 1; next <= r + 1; ++next) make(next);
+      const PaddedVectors& u = window;
+      bending.unbend_row({u.row(slot(r - 1)), u.row(slot(r)), u.row(slot(r + 1))}, r, *kernels_,
+                         out.row(r));
+    }
+    after(r);
+  }
 }
 
 void BlockMultigrid::add_border_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
@@ -123,24 +159,6 @@ void BlockMultigrid::add_contact_row(const PaddedVectors& x, int row, PaddedVect
   kernels_->add_blocks(cloth_.size, row_of(*contacts_.blocks, row), x.row(row), out.row(row));
 }
 
-void BlockMultigrid::add_bending_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
-  const BlockLevel& level = levels_.front();
-  add_border_row(x, row, out);
-  if (level.bending.active()) level.bending.unbend_row(level.curved, row, *kernels_, out);
-}
-
-void BlockMultigrid::apply_row(std::size_t index, const PaddedVectors& x, int row,
-                               PaddedVectors& out) const {
-  const BlockLevel& level = levels_[index];
-  if (index == 0) {
-    springs_->apply_row(x, row, out);
-    return add_bending_row(x, row, out);
-  }
-  kernels_->apply_blocks(level.size, stencil_row(level.stencil, row), rows_around(x, row),
-                         out.row(row));
-  if (level.bending.active()) level.bending.unbend_row(level.curved, row, *kernels_, out);
-}
-
 void BlockMultigrid::complete(std::size_t index, PaddedVectors& out, const Workers& workers) const {
   workers.barrier();
   const BlockLevel& level = levels_[index];
@@ -156,19 +174,31 @@ void BlockMultigrid::complete(std::size_t index, PaddedVectors& out, const Worke
 void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, PaddedVectors& out,
                            Worker& worker) {
   const Workers all(worker, false);
-  if (parts.curved != nullptr)
-    parts.curved->change(x, worker);
-  else
-    bend(levels_.front(), x, all);
-  const Range mine = all.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) {
-    springs_->apply_row(x, r, out);
-    if (parts.curved != nullptr)
-      parts.curved->add_row(r, out);
-    else
-      add_bending_row(x, r, out);
+  BlockLevel& level = levels_.front();
+  const auto finish = [&](int r) {
     if (parts.contacts != nullptr && parts.contacts->row(r)) parts.contacts->add_row(r, out.row(r));
+    // Copies share what all of them have: each adds its own part.
+    if (parts.row_products != nullptr)
+      parts.row_products[r] =
+          kernels_->dot(level.size, nullptr, x.row(r), std::as_const(out).row(r));
+    if (level.seams.empty()) clear_pins_of_row(r, out);
+  };
+  if (parts.curved != nullptr) {
+    parts.curved->change(x, worker);
+    const Range mine = all.share(level.size);
+    for (int r = mine.first; r < mine.last; ++r) {
+      springs_->apply_row(x, r, out);
+      parts.curved->add_row(r, out);
+      finish(r);
+    }
+  } else {
+    const auto begin = [&](int r) {
+      springs_->apply_row(x, r, out);
+      add_border_row(x, r, out);
+    };
+    add_bending(level, x, out, all, begin, finish);
   }
+  if (level.seams.empty()) return worker.barrier();
   complete(0, out, all);
 }
 
@@ -190,10 +220,9 @@ void BlockMultigrid::add_loads(const ContactLoads& contacts, float factor, Padde
 
 void BlockMultigrid::add_bending_gradient(const PaddedVectors& position, PaddedVectors& gradient,
                                           Worker& worker) {
-  const Workers all(worker, false);
-  bend(levels_.front(), position, all);
-  const Range mine = all.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) add_bending_row(position, r, gradient);
+  add_bending(
+      levels_.front(), position, gradient, Workers(worker, false),
+      [&](int r) { add_border_row(position, r, gradient); }, [](int) {});
   worker.barrier();
 }
 
@@ -221,22 +250,29 @@ double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& su
 
 void BlockMultigrid::residual(std::size_t index, const Workers& workers) {
   BlockLevel& level = levels_[index];
-  bend(level, level.value, workers);
-  const Range mine = workers.share(level.size);
-  // Without seams and pins a row is complete at once.
-  const bool at_once = level.seams.empty() && (index > 0 || pinned_.empty());
-  const auto subtract_row = [&](int r) {
+  const bool seamed = !level.seams.empty();
+  const auto begin = [&](int r) {
+    if (index == 0)
+      springs_->apply_row(level.value, r, level.residual);
+    else
+      kernels_->apply_blocks(level.size, stencil_row(level.stencil, r), rows_around(level.value, r),
+                             level.residual.row(r));
+  };
+  const auto subtract = [&](int r) {
     kernels_->subtract(level.size, std::as_const(level.rhs).row(r),
                        std::as_const(level.residual).row(r), level.residual.row(r));
+    if (index == 0) clear_pins_of_row(r, level.residual);
   };
-  for (int r = mine.first; r < mine.last; ++r) {
-    apply_row(index, level.value, r, level.residual);
+  add_bending(level, level.value, level.residual, workers, begin, [&](int r) {
     if (index == 0) add_contact_row(level.value, r, level.residual);
-    if (at_once) subtract_row(r);
-  }
-  complete(index, level.residual, workers);
-  if (at_once) return;
-  for (int r = mine.first; r < mine.last; ++r) subtract_row(r);
+    if (!seamed) subtract(r);
+  });
+  workers.barrier();
+  if (!seamed) return;
+  level.seams.sum(workers, {&level.residual.x, &level.residual.y, &level.residual.z});
+  workers.barrier();
+  const Range mine = workers.share(level.size);
+  for (int r = mine.first; r < mine.last; ++r) subtract(r);
   workers.barrier();
 }
 
@@ -297,16 +333,14 @@ void BlockMultigrid::prolong(const BlockLevel& coarse, std::size_t fine_index,
                              const Workers& workers) {
   BlockLevel& fine = levels_[fine_index];
   const Range mine = workers.share(fine.size);
-  for (int r = mine.first; r < mine.last; ++r)
+  for (int r = mine.first; r < mine.last; ++r) {
     kernels_->prolong_row(fine.size, coarse.value.row(r / 2), coarse.value.row((r + 1) / 2),
                           scratch(workers).data(), fine.value.row(r));
-  workers.barrier();
-  if (!fine.seams.empty()) {
-    fine.seams.average(workers, {&fine.value.x, &fine.value.y, &fine.value.z});
-    workers.barrier();
+    if (fine_index == 0) clear_pins_of_row(r, fine.value);
   }
-  if (fine_index > 0 || pinned_.empty()) return;
-  clear_pins(fine.value, workers);
+  workers.barrier();
+  if (fine.seams.empty()) return;
+  fine.seams.average(workers, {&fine.value.x, &fine.value.y, &fine.value.z});
   workers.barrier();
 }
 
@@ -328,13 +362,11 @@ void BlockMultigrid::cycle(std::size_t index, const Workers& workers) {
   }
   if (index + 1 == levels_.size()) return cycle_coarsest(index, workers);
   smooth(index, Direction::rows, true, workers);
-  smooth(index, Direction::cols, false, workers);
   residual(index, workers);
   restrict_residual(levels_[index], levels_[index + 1], workers);
   cycle(index + 1, workers);
   prolong(levels_[index + 1], index, workers);
   smooth(index, Direction::cols, false, workers);
-  smooth(index, Direction::rows, false, workers);
 }
 
 void BlockMultigrid::cycle(Worker& worker) { cycle(0, Workers(worker, false)); }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "weft/cloth/newton/newton_solver.h"
@@ -47,53 +48,82 @@ void NewtonSolver::add_drift(Vec3d way, Worker& worker) {
   worker.barrier();
 }
 
-void NewtonSolver::iterate(Progress& progress, Worker& worker) {
+/// The direction becomes the preconditioned residual, less what the last direction has of it.
+void NewtonSolver::turn(Progress& progress, Worker& worker) {
   const int n = cloth_.size;
   const Range mine = worker.share(n);
+  const PaddedVectors& value = multigrid_.value();
+  progress.slope = sums_.sum(worker, [&](int r) {
+    const float* share = multigrid_.seams().empty() ? nullptr : share_.row(r);
+    row_parts_[r] = kernels_.dot(n, share, std::as_const(product_).row(r), value.row(r));
+    return kernels_.dot(n, share, std::as_const(residual_).row(r), value.row(r));
+  });
+  const double overlap = progress.curvature > 0 ? total_of_rows() / progress.curvature : 0;
   for (int r = mine.first; r < mine.last; ++r)
-    copy_row(std::as_const(residual_).row(r), multigrid_.rhs().row(r), n);
+    kernels_.scale_add(n, value.row(r), static_cast<float>(-overlap), direction_.row(r));
   worker.barrier();
-  multigrid_.cycle(worker);
-  const double slope = dot(residual_, multigrid_.value(), worker);
-  const auto beta = static_cast<float>(progress.slope > 0 ? slope / progress.slope : 0);
-  progress.slope = slope;
-  for (int r = mine.first; r < mine.last; ++r) {
-    kernels_.scale_add(n, multigrid_.value().row(r), beta, direction_.row(r));
-    largest_[r] = kernels_.largest(n, std::as_const(direction_).row(r));
-  }
-  worker.barrier();
+}
+
+/// Goes along the direction to where the energy of the linearisation is least.
+void NewtonSolver::descend_direction(Progress& progress, Worker& worker) {
+  const int n = cloth_.size;
+  const Range mine = worker.share(n);
   const bool touching = contacts_.active() > 0;
   if (touching) contacts_.load_product(direction_, worker);
   multigrid_.apply(direction_,
-                   {touching ? &contacts_.loads() : nullptr, curved_.active() ? &curved_ : nullptr},
+                   {touching ? &contacts_.loads() : nullptr, curved_.active() ? &curved_ : nullptr,
+                    row_parts_.data()},
                    product_, worker);
-  const double curvature = dot(direction_, product_, worker);
-  const double length = curvature > 0 && slope > 0 ? slope / curvature : 0;
+  progress.curvature = total_of_rows();
+  const double length = progress.curvature > 0 ? progress.slope / progress.curvature : 0;
   for (int r = mine.first; r < mine.last; ++r) {
-    kernels_.add_scaled(n, static_cast<float>(length), std::as_const(direction_).row(r),
-                        step_.row(r));
+    const ConstRow3 direction = std::as_const(direction_).row(r);
+    largest_[r] = kernels_.largest(n, direction);
+    kernels_.add_scaled(n, static_cast<float>(length), direction, step_.row(r));
     kernels_.add_scaled(n, static_cast<float>(-length), std::as_const(product_).row(r),
                         residual_.row(r));
   }
   worker.barrier();
   progress.correction =
-      length * std::sqrt(double{*std::max_element(largest_.begin(), largest_.end())});
+      std::abs(length) * std::sqrt(double{*std::max_element(largest_.begin(), largest_.end())});
   if (worker.rank() == 0) last_length_ = length;
-  progress.promised += 0.5 * length * slope;
-  // What this iteration took off the energy, as a force on every particle over its weight.
-  progress.force = std::sqrt(length * slope / mass_) / (input_.time_step * 9.81);
+  progress.promised += 0.5 * length * progress.slope;
+  // What this took off the energy, as a force on every particle over its weight.
+  progress.force = std::sqrt(length * progress.slope / mass_) / (input_.time_step * 9.81);
+}
+
+void NewtonSolver::iterate(Progress& progress, Worker& worker) {
+  multigrid_.cycle(worker);
+  turn(progress, worker);
+  if (!(progress.slope > 0)) progress.slope = 0;
+  descend_direction(progress, worker);
   ++progress.iterations;
 }
 
+/// Starts along what the last step changed, which cloth that moves on is likely to change again.
+void NewtonSolver::start_direction(Progress& progress, Worker& worker) {
+  progress.curvature = 0;
+  if (!progress.first) {
+    const Range mine = worker.share(cloth_.size);
+    for (int r = mine.first; r < mine.last; ++r) clear_row(direction_.row(r), cloth_.size);
+    return worker.barrier();
+  }
+  progress.first = false;
+  multigrid_.clear_pins(direction_, worker);
+  progress.slope = dot(residual_, direction_, worker);
+  descend_direction(progress, worker);
+}
+
 void NewtonSolver::solve(const NewtonOptions& options, Progress& progress, Worker& worker) {
-  progress.slope = 0;
-  const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) clear_row(direction_.row(r), cloth_.size);
-  worker.barrier();
+  start_direction(progress, worker);
   for (int i = 0; i < options.max_iterations; ++i) {
     iterate(progress, worker);
     if (progress.force < options.tolerance) break;
   }
+}
+
+double NewtonSolver::total_of_rows() const {
+  return std::accumulate(row_parts_.begin(), row_parts_.end(), 0.0);
 }
 
 }  // namespace weft

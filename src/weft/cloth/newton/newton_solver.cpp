@@ -53,12 +53,13 @@ NewtonSolver::NewtonSolver(const Cloth& cloth, ThreadTeam& team)
       step_(cloth.size, cloth.size),
       direction_(cloth.size, cloth.size),
       product_(cloth.size, cloth.size),
-      residual_(cloth.size, cloth.size),
+      residual_(multigrid_.rhs()),
       share_(cloth.size, cloth.size),
       own_mass_(cloth.size, cloth.size),
       contact_blocks_(cloth.size, cloth.size),
       contact_rows_(static_cast<std::size_t>(cloth.size)),
       sums_(cloth.size),
+      row_parts_(static_cast<std::size_t>(cloth.size)),
       known_rows_(static_cast<std::size_t>(cloth.size)),
       largest_(static_cast<std::size_t>(cloth.size)) {
   for (int r = 0; r < cloth.size; ++r) std::fill_n(share_.row(r), cloth.size, 1.0F);
@@ -78,9 +79,21 @@ void NewtonSolver::begin(const StepInput& input, const ClothState& state) {
   springs_.set_time_step(input.time_step);
   multigrid_.renew_pins();
   const auto h = static_cast<float>(input.time_step);
+  const bool go_on = std::exchange(has_last_, false);
+  first_ = true;
   team_.run([&](Worker& worker) {
-    copy_rows(state, start_, worker);
     const Range mine = worker.share(cloth_.size);
+    for (int r = mine.first; r < mine.last; ++r) {
+      // What the last step changed is where the next begins to look.
+      const Row3 change = direction_.row(r);
+      if (go_on)
+        add_row(cloth_.size, row_of(state.velocity, r), -1,
+                row_of(std::as_const(start_).velocity, r), change);
+      else
+        clear_row(change, cloth_.size);
+    }
+    worker.barrier();
+    copy_rows(state, start_, worker);
     for (int r = mine.first; r < mine.last; ++r) {
       const ConstRow3 x = row_of(state.position, r), v = row_of(state.velocity, r);
       known_rows_[r] = same_row(x, std::as_const(state_.position).row(r), cloth_.size) ? 1 : 0;
@@ -285,6 +298,7 @@ void NewtonSolver::run(std::span<const Contact> contacts, const NewtonOptions& o
   team_.run([&](Worker& worker) {
     read_state(worker);
     Progress progress;
+    progress.first = first_;
     descend(options, progress, worker);
     if (!contacts_.empty()) contacts_.measure(step_, worker);
     write_state(worker);
@@ -292,6 +306,7 @@ void NewtonSolver::run(std::span<const Contact> contacts, const NewtonOptions& o
     iterations_ += progress.iterations;
     correction_ = progress.correction / cloth_.rest_spacing;
   });
+  first_ = false;
 }
 
 void NewtonSolver::last_corrections(Grid<float>& sizes) const {
