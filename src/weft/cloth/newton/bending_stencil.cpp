@@ -39,7 +39,7 @@ void BendingStencil::bend_row(const PaddedVectors& x, int row, const NewtonKerne
                               Row3 u) const {
   BendingRows rows{{}, neighbours_};
   for (int k = 0; k < neighbours_; ++k) rows.weight[k] = weights_[k].row(row);
-  kernels.bend(x.x.cols(), rows, rows_around(x, row), u);
+  kernels.bend(whole_vectors(x.x.cols()), rows, rows_around(x, row), u);
 }
 
 void BendingStencil::unbend_row(const RowTriple& u, int row, const NewtonKernels& kernels,
@@ -50,7 +50,7 @@ void BendingStencil::unbend_row(const RowTriple& u, int row, const NewtonKernels
     own.weight[k] = weights_[k].row(row);
     back.weight[k] = weights_[k ^ 1].row(row + to.down) + to.right;
   }
-  kernels.unbend(weights_[0].cols(), own, back, u, out);
+  kernels.unbend(whole_vectors(weights_[0].cols()), own, back, u, out);
 }
 
 PaddedPlane BendingStencil::diagonal(const Seams& seams) const {

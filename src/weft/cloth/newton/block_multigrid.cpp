@@ -156,7 +156,8 @@ void BlockMultigrid::add_border_row(const PaddedVectors& x, int row, PaddedVecto
 
 void BlockMultigrid::add_contact_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
   if (contacts_.touched == nullptr || contacts_.touched[row] == 0) return;
-  kernels_->add_blocks(cloth_.size, row_of(*contacts_.blocks, row), x.row(row), out.row(row));
+  kernels_->add_blocks(whole_vectors(cloth_.size), row_of(*contacts_.blocks, row), x.row(row),
+                       out.row(row));
 }
 
 void BlockMultigrid::complete(std::size_t index, PaddedVectors& out, const Workers& workers) const {
@@ -180,7 +181,7 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
     // Copies share what all of them have: each adds its own part.
     if (parts.row_products != nullptr)
       parts.row_products[r] =
-          kernels_->dot(level.size, nullptr, x.row(r), std::as_const(out).row(r));
+          kernels_->dot(whole_vectors(level.size), nullptr, x.row(r), std::as_const(out).row(r));
     if (level.seams.empty()) clear_pins_of_row(r, out);
   };
   if (parts.curved != nullptr) {
@@ -209,12 +210,13 @@ void BlockMultigrid::add_loads(const ContactLoads& contacts, float factor, Padde
   PaddedVectors& sum = level.curved;
   const Range mine = all.share(level.size);
   for (int r = mine.first; r < mine.last; ++r) {
-    kernels_->scale_rows(level.size, 0, sum.row(r));
+    kernels_->scale_rows(whole_vectors(level.size), 0, sum.row(r));
     contacts.add_row(r, sum.row(r));
   }
   complete(0, sum, all);
   for (int r = mine.first; r < mine.last; ++r)
-    kernels_->add_scaled(level.size, factor, std::as_const(sum).row(r), field.row(r));
+    kernels_->add_scaled(whole_vectors(level.size), factor, std::as_const(sum).row(r),
+                         field.row(r));
   worker.barrier();
 }
 
@@ -234,7 +236,7 @@ double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& su
   const BorderBending& border = cloth_.bending.border;
   return sums.sum(worker, [&](int r) {
     const ConstRow3 u = level.curved.row(r);
-    double energy = 0.5 * kernels_->dot(level.size, share.row(r), u, u);
+    double energy = 0.5 * kernels_->dot(whole_vectors(level.size), share.row(r), u, u);
     if (border.starts.empty()) return energy;
     for (int i = border.starts[r]; i < border.starts[r + 1]; ++i) {
       const BorderBending::Edge& edge = border.edges[i];
@@ -255,11 +257,11 @@ void BlockMultigrid::residual(std::size_t index, const Workers& workers) {
     if (index == 0)
       springs_->apply_row(level.value, r, level.residual);
     else
-      kernels_->apply_blocks(level.size, stencil_row(level.stencil, r), rows_around(level.value, r),
-                             level.residual.row(r));
+      kernels_->apply_blocks(whole_vectors(level.size), stencil_row(level.stencil, r),
+                             rows_around(level.value, r), level.residual.row(r));
   };
   const auto subtract = [&](int r) {
-    kernels_->subtract(level.size, std::as_const(level.rhs).row(r),
+    kernels_->subtract(whole_vectors(level.size), std::as_const(level.rhs).row(r),
                        std::as_const(level.residual).row(r), level.residual.row(r));
     if (index == 0) clear_pins_of_row(r, level.residual);
   };
@@ -306,9 +308,9 @@ void BlockMultigrid::smooth_seamed(BlockLevel& level, const LineFactor& lines, b
   workers.barrier();
   for (int row = mine.first; row < mine.last; ++row) {
     if (from_zero)
-      kernels_->scale_add(n, std::as_const(y).row(row), 0, level.value.row(row));
+      kernels_->scale_add(whole_vectors(n), std::as_const(y).row(row), 0, level.value.row(row));
     else
-      kernels_->add_scaled(n, 1, std::as_const(y).row(row), level.value.row(row));
+      kernels_->add_scaled(whole_vectors(n), 1, std::as_const(y).row(row), level.value.row(row));
   }
   workers.barrier();
 }

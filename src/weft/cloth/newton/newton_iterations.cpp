@@ -11,7 +11,8 @@ namespace weft {
 double NewtonSolver::dot(const PaddedVectors& a, const PaddedVectors& b, Worker& worker) {
   const bool seamed = !multigrid_.seams().empty();
   return sums_.sum(worker, [&](int r) {
-    return kernels_.dot(cloth_.size, seamed ? share_.row(r) : nullptr, a.row(r), b.row(r));
+    return kernels_.dot(whole_vectors(cloth_.size), seamed ? share_.row(r) : nullptr, a.row(r),
+                        b.row(r));
   });
 }
 
@@ -50,8 +51,8 @@ void NewtonSolver::add_drift(Vec3d way, Worker& worker) {
 
 /// The direction becomes the preconditioned residual, less what the last direction has of it.
 void NewtonSolver::turn(Progress& progress, Worker& worker) {
-  const int n = cloth_.size;
-  const Range mine = worker.share(n);
+  const int n = whole_vectors(cloth_.size);
+  const Range mine = worker.share(cloth_.size);
   const PaddedVectors& value = multigrid_.value();
   progress.slope = sums_.sum(worker, [&](int r) {
     const float* share = multigrid_.seams().empty() ? nullptr : share_.row(r);
@@ -66,8 +67,8 @@ void NewtonSolver::turn(Progress& progress, Worker& worker) {
 
 /// Goes along the direction to where the energy of the linearisation is least.
 void NewtonSolver::descend_direction(Progress& progress, Worker& worker) {
-  const int n = cloth_.size;
-  const Range mine = worker.share(n);
+  const int n = whole_vectors(cloth_.size);
+  const Range mine = worker.share(cloth_.size);
   const bool touching = contacts_.active() > 0;
   if (touching) contacts_.load_product(direction_, worker);
   multigrid_.apply(direction_,

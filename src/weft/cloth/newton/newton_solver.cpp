@@ -145,7 +145,7 @@ void NewtonSolver::linearise(Worker& worker) {
     multigrid_.add_bending_gradient(state_.position, residual_, worker);
   }
   for (int r = mine.first; r < mine.last; ++r)
-    kernels_.scale_rows(cloth_.size, -1, residual_.row(r));
+    kernels_.scale_rows(whole_vectors(cloth_.size), -1, residual_.row(r));
   multigrid_.complete(residual_, worker);
 }
 
@@ -190,8 +190,9 @@ void NewtonSolver::move_state(float length, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   const auto per_step = static_cast<float>(1 / input_.time_step);
   for (int r = mine.first; r < mine.last; ++r) {
-    kernels_.add_scaled(cloth_.size, length, std::as_const(step_).row(r), state_.position.row(r));
-    kernels_.add_scaled(cloth_.size, length * per_step, std::as_const(step_).row(r),
+    kernels_.add_scaled(whole_vectors(cloth_.size), length, std::as_const(step_).row(r),
+                        state_.position.row(r));
+    kernels_.add_scaled(whole_vectors(cloth_.size), length * per_step, std::as_const(step_).row(r),
                         state_.velocity.row(r));
   }
   worker.barrier();
@@ -227,7 +228,7 @@ void NewtonSolver::shorten_step(Worker& worker) {
   }
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r)
-    kernels_.scale_rows(cloth_.size, length, step_.row(r));
+    kernels_.scale_rows(whole_vectors(cloth_.size), length, step_.row(r));
   worker.barrier();
 }
 

@@ -10,9 +10,12 @@
 
 namespace weft {
 
+/// Columns of whole vectors, so that loops have no remainder: what is 0 in the frame stays 0.
+inline int whole_vectors(int cols) { return (cols + 15) / 16 * 16; }
+
 /// rows x cols floats inside a frame of zeros, so that stencils need no borders: two rows above and
 /// below, and at least 16 columns on either side. Rows begin on cache lines, and neighbouring rows
-/// never fall on the same cache sets. Only elements inside may be written.
+/// never fall on the same cache sets. Beyond the elements inside only zeros may be written.
 class PaddedPlane {
  public:
   PaddedPlane() = default;

@@ -149,7 +149,7 @@ void SpringHessian::for_far_springs(int row, const Visit& visit) const {
 
 void SpringHessian::gradient_row(const PaddedState& state, const PaddedVectors& wanted, int row,
                                  PaddedVectors& out) const {
-  kernels_->gradient(cloth_.size, ring_at(row), rows_around(state.position, row),
+  kernels_->gradient(whole_vectors(cloth_.size), ring_at(row), rows_around(state.position, row),
                      momentum_.row(row), state.velocity.row(row), wanted.row(row), out.row(row));
   const PaddedVectors& at = state.position;
   for_far_springs(row, [&](int c, const ConstSpringHessianRow& springs, int s, int r2, int c2) {
@@ -162,12 +162,12 @@ void SpringHessian::gradient_row(const PaddedState& state, const PaddedVectors& 
 void SpringHessian::diagonal_row(int row, PaddedBlocks& out) const {
   MutableBlockRow6 blocks{};
   for (int k = 0; k < 6; ++k) blocks.entry[k] = out.entry[k].row(row);
-  kernels_->diagonal(cloth_.size, ring_at(row), inertia_.row(row), blocks);
+  kernels_->diagonal(whole_vectors(cloth_.size), ring_at(row), inertia_.row(row), blocks);
 }
 
 void SpringHessian::apply_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
-  kernels_->apply_springs(cloth_.size, ring_at(row), rows_around(x, row), inertia_.row(row),
-                          out.row(row));
+  kernels_->apply_springs(whole_vectors(cloth_.size), ring_at(row), rows_around(x, row),
+                          inertia_.row(row), out.row(row));
   for_far_springs(row, [&](int c, const ConstSpringHessianRow& springs, int s, int r2, int c2) {
     const float dx = x.x(row, c) - x.x(r2, c2), dy = x.y(row, c) - x.y(r2, c2),
                 dz = x.z(row, c) - x.z(r2, c2);
