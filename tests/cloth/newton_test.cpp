@@ -56,7 +56,7 @@ struct System {
     springs.set_time_step(step);
     team.run([&](Worker& worker) {
       for (int r = 0; r < of.size; ++r) springs.linearise_row(state, 0.1F, r);
-      for (int r = 0; r < of.size; ++r) springs.diagonal_row(r, multigrid.centres());
+      for (int r = 0; r < of.size; ++r) multigrid.fill_diagonals(springs, r);
       multigrid.set_up(springs, worker);
     });
   }

@@ -15,8 +15,8 @@ BlockLevel::BlockLevel(const Shape& shape, Seams seam_classes, BendingStencil st
       seams(std::move(seam_classes)),
       bending(std::move(stiffness)),
       extra(bending.diagonal(seams)),
-      rows(size, true),
-      cols(size, false),
+      rows(size, true, shape.finest && seams.empty()),
+      cols(size, false, shape.finest && seams.empty()),
       rhs(size, size),
       value(size, size),
       residual(size, size),
@@ -27,6 +27,10 @@ BlockLevel::BlockLevel(const Shape& shape, Seams seam_classes, BendingStencil st
   else
     stencil = BlockStencil(n);
   for (int i = 0; i < shape.workers; ++i) windows.emplace_back(3, n);
+  if (shape.finest && seams.empty()) {
+    held_rows = PaddedBlocks(n, n);
+    held_cols = PaddedBlocks(n, n);
+  }
   if (!seams.empty()) joined = PaddedBlocks(n, n);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) extra(r, c) *= bending_share;

@@ -28,6 +28,8 @@ struct BlockLevel {
   PaddedPlane extra;     ///< added to diagonals for the smoother [N/m]
   BlockStencil stencil;  ///< on the finest level the centre only
   PaddedBlocks joined;   ///< the centres summed over seam copies; empty without seams
+  /// On a finest level without seams, what holds samples of lines besides their own springs.
+  PaddedBlocks held_rows, held_cols;
   LineFactor rows, cols;
   PaddedVectors rhs, value, residual;
   PaddedVectors curved;                ///< bending's u; scratch

@@ -27,7 +27,11 @@ class BlockMultigrid {
 
   // To be called by every worker; each ends with a barrier.
 
-  /// Takes over linearised springs, whose centres stand in centres() already.
+  /// Fills the diagonal blocks of a row of the finest level, before set_up; no barrier.
+  void fill_diagonals(const SpringHessian& springs, int row);
+  /// Adds blocks to those of a row.
+  void add_to_diagonals(const BlockRow6& blocks, int row);
+  /// Takes over linearised springs, whose diagonal blocks are filled already.
   void set_up(SpringHessian& springs, Worker& worker);
   /// value() = about A^-1 rhs().
   void cycle(Worker& worker);
@@ -61,7 +65,7 @@ class BlockMultigrid {
   /// To be called when particles have been pinned or let go.
   void renew_pins();
 
-  /// Of the finest level, own parts: to be filled before set_up.
+  /// Diagonal blocks of the finest level, own parts.
   [[nodiscard]] PaddedBlocks& centres() { return levels_.front().stencil.centre; }
   /// Whether rows of these blocks are added to the springs in the cycle's products, by row; the
   /// centres hold them already.

@@ -12,6 +12,12 @@ void view_blocks(const PaddedBlocks& blocks, PlaneView* views) {
   for (int k = 0; k < 6; ++k) views[k] = {blocks.entry[k].row(0), blocks.entry[k].stride()};
 }
 
+MutableBlockRow6 row_of(PaddedBlocks& blocks, int r) {
+  MutableBlockRow6 row{};
+  for (int k = 0; k < 6; ++k) row.entry[k] = blocks.entry[k].row(r);
+  return row;
+}
+
 }  // namespace
 
 void BlockMultigrid::join_centres(BlockLevel& level, const Workers& workers) {
@@ -49,6 +55,26 @@ void BlockMultigrid::join_edges(std::size_t index) {
       for (const BorderEdge& edge : group) entry(edge) = sum;
     }
   }
+}
+
+void BlockMultigrid::fill_diagonals(const SpringHessian& springs, int row) {
+  BlockLevel& level = levels_.front();
+  if (!level.seams.empty()) return springs.diagonal_row(row, level.stencil.centre);
+  springs.line_diagonals_row(row, level.extra.row(row),
+                             {row_of(level.stencil.centre, row), row_of(level.held_rows, row),
+                              row_of(level.held_cols, row)});
+}
+
+void BlockMultigrid::add_to_diagonals(const BlockRow6& blocks, int row) {
+  BlockLevel& level = levels_.front();
+  const auto add = [&](PaddedBlocks& to) {
+    for (int k = 0; k < 6; ++k)
+      for (int c = 0; c < level.size; ++c) to.entry[k](row, c) += blocks.entry[k][c];
+  };
+  add(level.stencil.centre);
+  if (!level.seams.empty()) return;
+  add(level.held_rows);
+  add(level.held_cols);
 }
 
 /// Copies of a spring have one direction: the sum of t 1 + s s^T is of the same form.
@@ -100,7 +126,13 @@ void BlockMultigrid::factor(std::size_t index, const Workers& workers) {
     LineFactor& lines = along_rows ? level.rows : level.cols;
     const int block = along_rows ? b : b - blocks;
     const PlaneView extra{level.extra.row(0), level.extra.stride()};
-    if (index == 0) {
+    if (index == 0 && level.seams.empty()) {
+      HeldLineMatrix matrix{};
+      view_blocks(along_rows ? level.held_rows : level.held_cols, matrix.held);
+      const auto views = springs_->views(along_rows ? 0 : 1);
+      std::copy(views.begin(), views.end(), matrix.spring);
+      lines.factor(block, matrix, *kernels_);
+    } else if (index == 0) {
       SpringLineMatrix matrix{{}, extra, {}};
       view_blocks(level.diagonal(), matrix.diagonal);
       const auto views = springs_->views(along_rows ? 0 : 1);

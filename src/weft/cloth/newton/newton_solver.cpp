@@ -154,7 +154,7 @@ void NewtonSolver::set_up_multigrid(Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   const ContactLoads& loads = contacts_.loads();
   for (int r = mine.first; r < mine.last; ++r) {
-    springs_.diagonal_row(r, multigrid_.centres());
+    multigrid_.fill_diagonals(springs_, r);
     const bool touched = contacts_.active() > 0 && loads.row(r);
     contact_rows_[r] = touched ? 1 : 0;
     if (!touched) continue;
@@ -164,8 +164,9 @@ void NewtonSolver::set_up_multigrid(Worker& worker) {
       std::fill_n(blocks[k], cloth_.size, 0.0F);
     }
     loads.add_blocks(r, blocks);
-    for (int k = 0; k < 6; ++k)
-      for (int c = 0; c < cloth_.size; ++c) multigrid_.centres().entry[k](r, c) += blocks[k][c];
+    BlockRow6 added{};
+    std::copy(blocks.begin(), blocks.end(), added.entry);
+    multigrid_.add_to_diagonals(added, r);
   }
   worker.barrier();
   multigrid_.set_up(springs_, worker);

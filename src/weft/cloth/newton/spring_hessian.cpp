@@ -165,6 +165,11 @@ void SpringHessian::diagonal_row(int row, PaddedBlocks& out) const {
   kernels_->diagonal(whole_vectors(cloth_.size), ring_at(row), inertia_.row(row), blocks);
 }
 
+void SpringHessian::line_diagonals_row(int row, const float* extra,
+                                       const LineDiagonals& out) const {
+  kernels_->line_diagonals(whole_vectors(cloth_.size), ring_at(row), inertia_.row(row), extra, out);
+}
+
 void SpringHessian::apply_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
   kernels_->apply_springs(whole_vectors(cloth_.size), ring_at(row), rows_around(x, row),
                           inertia_.row(row), out.row(row));

@@ -44,6 +44,8 @@ class SpringHessian {
   void gradient_row(const PaddedState& state, const PaddedVectors& wanted, int row,
                     PaddedVectors& out) const;
   void diagonal_row(int row, PaddedBlocks& out) const;
+  /// And what holds lines besides their own springs. @param extra  [n] added to that
+  void line_diagonals_row(int row, const float* extra, const LineDiagonals& out) const;
   /// out = (M / h^2 + springs) x, own part.
   void apply_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
 

@@ -129,6 +129,48 @@ void diagonal(int n, const SpringRing& ring, const float* mass, MutableBlockRow6
   }
 }
 
+void line_diagonals(int n, const SpringRing& ring, const float* mass, const float* extra,
+                    const LineDiagonals& out) {
+  const auto* s = ring.spring;
+  float *const *whole = out.whole.entry, *const *rows = out.rows.entry,
+               *const *cols = out.cols.entry;
+#pragma omp simd
+  for (int c = 0; c < n; ++c) {
+    float t = mass[c];
+    Sum6 shared{0, 0, 0, 0, 0, 0};
+    stiffen(s[4], c, t, shared);
+    stiffen(s[5], c, t, shared);
+    stiffen(s[6], c, t, shared);
+    stiffen(s[7], c, t, shared);
+    float along = 0, across = 0;
+    Sum6 row{0, 0, 0, 0, 0, 0}, col{0, 0, 0, 0, 0, 0};
+    stiffen(s[0], c, along, row);
+    stiffen(s[1], c, along, row);
+    stiffen(s[2], c, across, col);
+    stiffen(s[3], c, across, col);
+    const float in_row = t + extra[c] + across, in_col = t + extra[c] + along,
+                all = t + along + across;
+    rows[0][c] = shared.xx + col.xx + in_row;
+    rows[1][c] = shared.xy + col.xy;
+    rows[2][c] = shared.xz + col.xz;
+    rows[3][c] = shared.yy + col.yy + in_row;
+    rows[4][c] = shared.yz + col.yz;
+    rows[5][c] = shared.zz + col.zz + in_row;
+    cols[0][c] = shared.xx + row.xx + in_col;
+    cols[1][c] = shared.xy + row.xy;
+    cols[2][c] = shared.xz + row.xz;
+    cols[3][c] = shared.yy + row.yy + in_col;
+    cols[4][c] = shared.yz + row.yz;
+    cols[5][c] = shared.zz + row.zz + in_col;
+    whole[0][c] = shared.xx + row.xx + col.xx + all;
+    whole[1][c] = shared.xy + row.xy + col.xy;
+    whole[2][c] = shared.xz + row.xz + col.xz;
+    whole[3][c] = shared.yy + row.yy + col.yy + all;
+    whole[4][c] = shared.yz + row.yz + col.yz;
+    whole[5][c] = shared.zz + row.zz + col.zz + all;
+  }
+}
+
 void apply_springs(int n, const SpringRing& ring, const RowTriple& x, const float* mass, Row3 out) {
   const auto* s = ring.spring;
   const ConstRow3 above = x.above, here = x.here, below = x.below;
