@@ -90,6 +90,7 @@ class BlockMultigrid {
   void add_bending(BlockLevel& level, const PaddedVectors& x, PaddedVectors& out,
                    const Workers& workers, const Before& before, const After& after);
   void add_contact_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
+  void clear_pinned_blocks(int row);
   void clear_pins_of_row(int row, PaddedVectors& field) const;
   /// Sums over seam copies and clears pins.
   void complete(std::size_t index, PaddedVectors& out, const Workers& workers) const;

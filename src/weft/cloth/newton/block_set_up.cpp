@@ -59,10 +59,20 @@ void BlockMultigrid::join_edges(std::size_t index) {
 
 void BlockMultigrid::fill_diagonals(const SpringHessian& springs, int row) {
   BlockLevel& level = levels_.front();
-  if (!level.seams.empty()) return springs.diagonal_row(row, level.stencil.centre);
-  springs.line_diagonals_row(row, level.extra.row(row),
-                             {row_of(level.stencil.centre, row), row_of(level.held_rows, row),
-                              row_of(level.held_cols, row)});
+  if (level.seams.empty())
+    springs.line_diagonals_row(row, level.extra.row(row),
+                               {row_of(level.stencil.centre, row), row_of(level.held_rows, row),
+                                row_of(level.held_cols, row)});
+  else
+    springs.diagonal_row(row, level.stencil.centre);
+  clear_pinned_blocks(row);
+}
+
+/// What does not move has no part in coarser levels.
+void BlockMultigrid::clear_pinned_blocks(int row) {
+  for (int i = pin_starts_[row]; i < pin_starts_[row + 1]; ++i)
+    for (PaddedPlane& entry : levels_.front().stencil.centre.entry)
+      entry(row, pinned_[i] % cloth_.size) = 0;
 }
 
 void BlockMultigrid::add_to_diagonals(const BlockRow6& blocks, int row) {
@@ -72,6 +82,7 @@ void BlockMultigrid::add_to_diagonals(const BlockRow6& blocks, int row) {
       for (int c = 0; c < level.size; ++c) to.entry[k](row, c) += blocks.entry[k][c];
   };
   add(level.stencil.centre);
+  clear_pinned_blocks(row);
   if (!level.seams.empty()) return;
   add(level.held_rows);
   add(level.held_cols);
