@@ -45,6 +45,15 @@ struct RowTriple {
   ConstRow3 above, here, below;
 };
 
+/// A row of a field and the one below, and what springs pass from row to row. [N]
+struct SpringSweep {
+  ConstRow3 here, below;
+  const float* mass;                    ///< over h^2 [N/m]
+  ConstRow3 carried;                    ///< what springs from the row above do to this one
+  Row3 carry;                           ///< and those of this one to the row below
+  Row3 right, below_right, below_left;  ///< scratch with a frame
+};
+
 /// Weights of bending's second difference and the rows that it reads.
 struct BendingRows {
   const float* weight[ring_size];  ///< right, left, below, above, then diagonals as bending_offsets
@@ -124,8 +133,9 @@ struct NewtonKernels {
   /// @param extra  added to that on the diagonal
   void (*line_diagonals)(int n, const SpringRing& ring, const float* mass, const float* extra,
                          const LineDiagonals& out);
-  /// out = (mass / h^2 + springs) x.
-  void (*apply_springs)(int n, const SpringRing& ring, const RowTriple& x, const float* mass,
+  /// out = (mass / h^2 + springs) x, each spring looked at once, row after row.
+  /// @param springs  that start from the row: to the right, down, below right, below left
+  void (*apply_springs)(int n, const ConstSpringHessianRow* springs, const SpringSweep& at,
                         Row3 out);
   /// The energy of springs, and what their damping takes in a step; `step` 0: without that [J].
   double (*spring_energy)(int n, const LinearisedSprings& springs);

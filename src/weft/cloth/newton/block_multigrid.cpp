@@ -65,6 +65,7 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c)
       free_extra_(r, c) = levels_.front().extra(r, c) + far_stiffness;
+  for (int i = 0; i < workers; ++i) sweeps_.emplace_back(SpringHessian::sweep_rows, cloth.size);
   for (int i = 0; i < workers; ++i)
     scratch_.emplace_back(
         std::max(LineFactor::scratch_size(cloth.size), std::size_t(cloth.size) + 64));
@@ -176,6 +177,7 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
                            Worker& worker) {
   const Workers all(worker, false);
   BlockLevel& level = levels_.front();
+  SpringHessian::Sweep sweep{x, sweeps_[worker.rank()]};
   const auto finish = [&](int r) {
     if (parts.contacts != nullptr && parts.contacts->row(r)) parts.contacts->add_row(r, out.row(r));
     // Copies share what all of them have: each adds its own part.
@@ -188,13 +190,13 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
     parts.curved->change(x, worker);
     const Range mine = all.share(level.size);
     for (int r = mine.first; r < mine.last; ++r) {
-      springs_->apply_row(x, r, out);
+      springs_->apply_row(sweep, r, out);
       parts.curved->add_row(r, out);
       finish(r);
     }
   } else {
     const auto begin = [&](int r) {
-      springs_->apply_row(x, r, out);
+      springs_->apply_row(sweep, r, out);
       add_border_row(x, r, out);
     };
     add_bending(level, x, out, all, begin, finish);
@@ -253,9 +255,10 @@ double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& su
 void BlockMultigrid::residual(std::size_t index, const Workers& workers) {
   BlockLevel& level = levels_[index];
   const bool seamed = !level.seams.empty();
+  SpringHessian::Sweep sweep{level.value, sweeps_[workers.rank()]};
   const auto begin = [&](int r) {
     if (index == 0)
-      springs_->apply_row(level.value, r, level.residual);
+      springs_->apply_row(sweep, r, level.residual);
     else
       kernels_->apply_blocks(whole_vectors(level.size), stencil_row(level.stencil, r),
                              rows_around(level.value, r), level.residual.row(r));

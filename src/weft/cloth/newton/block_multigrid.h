@@ -124,7 +124,8 @@ class BlockMultigrid {
   std::vector<int> pinned_;      // samples, all copies
   std::vector<int> pin_starts_;  // [n + 1] where each row's begin
   std::vector<std::vector<float>> scratch_;
-  std::vector<float> parted_;  // blocks of border edges while they are joined
+  std::vector<PaddedVectors> sweeps_;  // of each worker
+  std::vector<float> parted_;          // blocks of border edges while they are joined
   ContactRows contacts_;
 };
 

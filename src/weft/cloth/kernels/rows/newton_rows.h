@@ -11,7 +11,7 @@ void gradient(int n, const SpringRing& ring, const RowTriple& x, const float* ma
 void diagonal(int n, const SpringRing& ring, const float* mass, MutableBlockRow6 out);
 void line_diagonals(int n, const SpringRing& ring, const float* mass, const float* extra,
                     const LineDiagonals& out);
-void apply_springs(int n, const SpringRing& ring, const RowTriple& x, const float* mass, Row3 out);
+void apply_springs(int n, const ConstSpringHessianRow* springs, const SpringSweep& at, Row3 out);
 double spring_energy(int n, const LinearisedSprings& springs);
 void bend(int n, const BendingRows& rows, const RowTriple& x, Row3 u);
 void unbend(int n, const BendingRows& own, const BendingRows& back, const RowTriple& u, Row3 out);
