@@ -73,7 +73,19 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
   renew_pins();
 }
 
-void BlockMultigrid::renew_pins() {
+bool BlockMultigrid::pins_changed() const {
+  const int n = cloth_.size;
+  int changed = 0;
+  for (int r = 0; r < n; ++r) {
+    const float *free = mask_.row(r), *inverse_mass = cloth_.inverse_mass.row(r);
+    for (int c = 0; c < n; ++c)
+      changed |= static_cast<int>(inverse_mass[c] > 0) ^ static_cast<int>(free[c] > 0);
+  }
+  return changed != 0;
+}
+
+bool BlockMultigrid::renew_pins() {
+  if (!pin_starts_.empty() && !pins_changed()) return false;
   const int n = cloth_.size;
   PaddedPlane& extra = levels_.front().extra;
   pinned_.clear();
@@ -87,6 +99,7 @@ void BlockMultigrid::renew_pins() {
     }
     pin_starts_[r + 1] = static_cast<int>(pinned_.size());
   }
+  return true;
 }
 
 std::span<float> BlockMultigrid::scratch(const Workers& workers) {

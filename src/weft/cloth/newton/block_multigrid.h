@@ -62,8 +62,8 @@ class BlockMultigrid {
     complete(0, field, Workers(worker, false));
   }
 
-  /// To be called when particles have been pinned or let go.
-  void renew_pins();
+  /// To be called when particles may have been pinned or let go. @return whether any was
+  bool renew_pins();
 
   /// Diagonal blocks of the finest level, own parts.
   [[nodiscard]] PaddedBlocks& centres() { return levels_.front().stencil.centre; }
@@ -90,6 +90,7 @@ class BlockMultigrid {
   void add_bending(BlockLevel& level, const PaddedVectors& x, PaddedVectors& out,
                    const Workers& workers, const Before& before, const After& after);
   void add_contact_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
+  [[nodiscard]] bool pins_changed() const;
   void clear_pinned_blocks(int row);
   void clear_pins_of_row(int row, PaddedVectors& field) const;
   /// Sums over seam copies and clears pins.

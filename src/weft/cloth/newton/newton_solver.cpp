@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "weft/cloth/integrate/proposal.h"
@@ -22,8 +23,10 @@ constexpr float share_in_flight = 0.1F, share_in_contact = 1;
 constexpr int most_contact_rounds = 2;
 
 bool same_row(ConstRow3 a, ConstRow3 b, int n) {
-  return std::equal(a.x, a.x + n, b.x) && std::equal(a.y, a.y + n, b.y) &&
-         std::equal(a.z, a.z + n, b.z);
+  const auto same = [n](const float* p, const float* q) {
+    return std::memcmp(p, q, static_cast<std::size_t>(n) * sizeof(float)) == 0;
+  };
+  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
 }
 
 /// a + factor b
@@ -68,6 +71,31 @@ NewtonSolver::NewtonSolver(const Cloth& cloth, ThreadTeam& team)
   });
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c) own_mass_(r, c) = share_(r, c) * cloth.mass(r, c);
+  find_mass();
+}
+
+/// Takes a row of the state at the start, and flies on from it.
+void NewtonSolver::begin_row(const ClothState& state, bool go_on, int row) {
+  const int n = cloth_.size;
+  const auto h = static_cast<float>(input_.time_step);
+  const ConstRow3 x = row_of(state.position, row), v = row_of(state.velocity, row);
+  // What the last step changed is where the next begins to look.
+  if (go_on)
+    add_row(n, v, -1, row_of(std::as_const(start_).velocity, row), direction_.row(row));
+  else
+    clear_row(direction_.row(row), n);
+  copy_row(x, row_of(start_.position, row), n);
+  copy_row(v, row_of(start_.velocity, row), n);
+  known_rows_[row] = same_row(x, std::as_const(state_.position).row(row), n) ? 1 : 0;
+  add_row(n, x, h, v, row_of(next_.position, row));
+  copy_row(v, row_of(next_.velocity, row), n);
+  const Vec3f gained = h * input_.gravity;
+  const Row3 wanted = wanted_.row(row);
+  for (int c = 0; c < n; ++c) {
+    wanted.x[c] = v.x[c] + gained.x;
+    wanted.y[c] = v.y[c] + gained.y;
+    wanted.z[c] = v.z[c] + gained.z;
+  }
 }
 
 void NewtonSolver::begin(const StepInput& input, const ClothState& state) {
@@ -77,34 +105,12 @@ void NewtonSolver::begin(const StepInput& input, const ClothState& state) {
   const bool same_gravity = input.gravity == known_gravity_;
   known_gravity_ = input.gravity;
   springs_.set_time_step(input.time_step);
-  multigrid_.renew_pins();
-  const auto h = static_cast<float>(input.time_step);
+  if (multigrid_.renew_pins()) find_mass();
   const bool go_on = std::exchange(has_last_, false);
   first_ = true;
   team_.run([&](Worker& worker) {
     const Range mine = worker.share(cloth_.size);
-    for (int r = mine.first; r < mine.last; ++r) {
-      // What the last step changed is where the next begins to look.
-      const Row3 change = direction_.row(r);
-      if (go_on)
-        add_row(cloth_.size, row_of(state.velocity, r), -1,
-                row_of(std::as_const(start_).velocity, r), change);
-      else
-        clear_row(change, cloth_.size);
-    }
-    worker.barrier();
-    copy_rows(state, start_, worker);
-    for (int r = mine.first; r < mine.last; ++r) {
-      const ConstRow3 x = row_of(state.position, r), v = row_of(state.velocity, r);
-      known_rows_[r] = same_row(x, std::as_const(state_.position).row(r), cloth_.size) ? 1 : 0;
-      add_row(cloth_.size, x, h, v, row_of(next_.position, r));
-      copy_row(v, row_of(next_.velocity, r), cloth_.size);
-      for (int c = 0; c < cloth_.size; ++c) {
-        wanted_.x(r, c) = v.x[c] + h * input.gravity.x;
-        wanted_.y(r, c) = v.y[c] + h * input.gravity.y;
-        wanted_.z(r, c) = v.z[c] + h * input.gravity.z;
-      }
-    }
+    for (int r = mine.first; r < mine.last; ++r) begin_row(state, go_on, r);
   });
   // What a run left is often where the next begins: its energy is known.
   const bool known =
@@ -114,6 +120,9 @@ void NewtonSolver::begin(const StepInput& input, const ClothState& state) {
   driven_ = std::any_of(cloth_.pins.begin(), cloth_.pins.end(), [&](const Pin& held) {
     return vec_cast<float>(held.target) != start_.position.at(held.sample);
   });
+}
+
+void NewtonSolver::find_mass() {
   mass_ = 0;
   for (int r = 0; r < cloth_.size; ++r)
     for (int c = 0; c < cloth_.size; ++c)

@@ -56,6 +56,8 @@ class NewtonSolver {
     double promised = 0;    ///< how far that falls if it is what the linearisation says [J]
     int iterations = 0;
   };
+  void begin_row(const ClothState& state, bool go_on, int row);
+  void find_mass();
   void read_state(Worker& worker);
   void linearise(Worker& worker);
   void set_up_multigrid(Worker& worker);
