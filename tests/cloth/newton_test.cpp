@@ -1,9 +1,14 @@
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/measure.h"
 #include "weft/cloth/newton/block_multigrid.h"
+#include "weft/cloth/newton/line_factor.h"
 #include "weft/cloth/newton/newton_solver.h"
 #include "weft/cloth/newton/seams.h"
 #include "weft/core/error.h"
@@ -400,6 +405,124 @@ TEST(Newton, PinsGoWhereTheyAreTaken) {
       ASSERT_EQ(state.position.at(held.sample), vec_cast<float>(held.target));
   }
   EXPECT_LT(measure_strain(cloth, state).p99, 0.02);
+}
+
+TEST(Newton, WhatIsForgottenShowsNowhere) {
+  Cloth cloth = sheet_cloth(33, cotton);
+  hang(cloth);
+  ThreadTeam team(1);
+  const StepInput input{.time_step = step};
+  const auto used = make_integrator(NewtonOptions{}, cloth, {}, team);
+  ClothState state = rest_state(cloth);
+  run(*used, input, 10, state);
+  ClothState anew = rest_state(cloth), going_on = rest_state(cloth);
+  for (ClothState* copy : {&anew, &going_on}) *copy = state;
+  const auto fresh = make_integrator(NewtonOptions{}, cloth, {}, team);
+  run(*fresh, input, 4, anew);
+  used->forget();
+  run(*used, input, 4, going_on);
+  EXPECT_EQ(hash_of(going_on), hash_of(anew));
+}
+
+TEST(Newton, ThePathBeforeSavesIterations) {
+  Cloth cloth = sheet_cloth(33, cotton);
+  hang(cloth);
+  ThreadTeam team(1);
+  int iterations[2]{};
+  for (const bool forgets : {false, true}) {
+    const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
+    ClothState state = rest_state(cloth);
+    for (int i = 0; i < 60; ++i) {
+      if (forgets) integrator->forget();
+      integrator->begin({.time_step = step}, state);
+      integrator->iterate({});
+      iterations[forgets ? 1 : 0] += integrator->end(state).iterations;
+    }
+  }
+  EXPECT_LT(iterations[0], 0.9 * iterations[1]);
+}
+
+/// A field of blocks t 1 + s s^T by chance, along rows or down columns, none after the last sample.
+struct RandomSprings {
+  PaddedPlane t, x, y, z;
+  RandomSprings(int n, bool along_rows, double stiffness, Random& random)
+      : t(n, n), x(n, n), y(n, n), z(n, n) {
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) {
+        if ((along_rows ? c : r) == n - 1) continue;
+        t(r, c) = static_cast<float>(random.uniform(0, 0.01 * stiffness));
+        for (PaddedPlane* plane : {&x, &y, &z})
+          (*plane)(r, c) = static_cast<float>(std::sqrt(stiffness) * random.uniform(-0.6, 0.6));
+      }
+  }
+  [[nodiscard]] std::array<double, 6> block(int r, int c) const {
+    const double a = x(r, c), b = y(r, c), d = z(r, c), across = t(r, c);
+    return {across + a * a, a * b, a * d, across + b * b, b * d, across + d * d};
+  }
+};
+
+PlaneView view_of(const PaddedPlane& plane) { return {plane.row(0), plane.stride()}; }
+
+/// The same lines, factored as springs in series and as blocks.
+double difference_of_factors(int n, bool along_rows, double stiffness, InstructionSet set) {
+  Random random(11);
+  const NewtonKernels& kernels = newton_kernels_for(set);
+  const RandomSprings springs(n, along_rows, stiffness, random);
+  PaddedBlocks held(n, n), whole(n, n), coupling(n, n);
+  PaddedPlane extra(n, n);
+  PaddedVectors rhs(n, n), one(n, n), other(n, n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const auto after = springs.block(r, c);
+      const auto before = (along_rows ? c : r) == 0
+                              ? std::array<double, 6>{}
+                              : springs.block(along_rows ? r : r - 1, along_rows ? c - 1 : c);
+      for (int k = 0; k < 6; ++k) {
+        const double own =
+            k == 0 || k == 3 || k == 5 ? random.uniform(2, 5) : random.uniform(-1, 1);
+        held.entry[k](r, c) = static_cast<float>(own);
+        whole.entry[k](r, c) = static_cast<float>(own + after[k] + before[k]);
+        coupling.entry[k](r, c) = static_cast<float>(-after[k]);
+      }
+      rhs.x(r, c) = static_cast<float>(random.uniform(-1, 1));
+      rhs.y(r, c) = static_cast<float>(random.uniform(-1, 1));
+      rhs.z(r, c) = static_cast<float>(random.uniform(-1, 1));
+    }
+  HeldLineMatrix series{
+      {}, {view_of(springs.t), view_of(springs.x), view_of(springs.y), view_of(springs.z)}};
+  LineMatrix blocks{{}, view_of(extra), {}};
+  for (int k = 0; k < 6; ++k) {
+    series.held[k] = view_of(held.entry[k]);
+    blocks.diagonal[k] = view_of(whole.entry[k]);
+    blocks.coupling[k] = view_of(coupling.entry[k]);
+  }
+  LineFactor as_series(n, along_rows, true), as_blocks(n, along_rows, false);
+  std::vector<float> scratch(LineFactor::scratch_size(n));
+  for (int b = 0; b < as_series.blocks(); ++b) {
+    as_series.factor(b, series, kernels);
+    as_blocks.factor(b, blocks, kernels);
+    as_series.solve(b, rhs, {}, scratch, one, kernels);
+    as_blocks.solve(b, rhs, {}, scratch, other, kernels);
+  }
+  double largest = 0, apart = 0;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c)
+      for (const auto plane : {&PaddedVectors::x, &PaddedVectors::y, &PaddedVectors::z}) {
+        const double a = (one.*plane)(r, c), b = (other.*plane)(r, c);
+        largest = std::max(largest, std::abs(b));
+        apart = std::max(apart, std::abs(a - b));
+      }
+  return apart / largest;
+}
+
+TEST(Newton, SpringsInSeriesAreSolvedAsTheirBlocks) {
+  for (const InstructionSet set : instruction_sets())
+    for (const int n : {7, 20, 33, 50})
+      for (const bool along_rows : {true, false}) {
+        if (!has_instruction_set(set)) continue;
+        EXPECT_LT(difference_of_factors(n, along_rows, 10, set), 1e-4) << n << ", " << along_rows;
+        EXPECT_LT(difference_of_factors(n, along_rows, 1e4, set), 0.02) << n << ", " << along_rows;
+      }
 }
 
 TEST(Newton, RefusesOptionsOutOfRange) {
