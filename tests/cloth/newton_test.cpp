@@ -1,9 +1,14 @@
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/measure.h"
 #include "weft/cloth/newton/block_multigrid.h"
+#include "weft/cloth/newton/line_factor.h"
 #include "weft/cloth/newton/newton_solver.h"
 #include "weft/cloth/newton/seams.h"
 #include "weft/core/error.h"
@@ -56,7 +61,7 @@ struct System {
     springs.set_time_step(step);
     team.run([&](Worker& worker) {
       for (int r = 0; r < of.size; ++r) springs.linearise_row(state, 0.1F, r);
-      for (int r = 0; r < of.size; ++r) springs.diagonal_row(r, multigrid.centres());
+      for (int r = 0; r < of.size; ++r) multigrid.fill_diagonals(springs, r);
       multigrid.set_up(springs, worker);
     });
   }
@@ -103,15 +108,15 @@ struct System {
     PaddedVectors residual(n, n), direction(n, n), product(n, n), error = random_field(5);
     times(solution, residual);
     const double first = dot(solution, residual);
-    double slope = 0;
+    double curvature = 0;
     for (int i = 1; i < 60; ++i) {
       const PaddedVectors& z = cycle(residual);
-      const double next = dot(residual, z);
-      const float beta = slope > 0 ? static_cast<float>(next / slope) : 0;
-      slope = next;
-      blend(1, z, beta, direction);
+      const double slope = dot(residual, z);
+      const double overlap = curvature > 0 ? dot(product, z) / curvature : 0;
+      blend(1, z, static_cast<float>(-overlap), direction);
       times(direction, product);
-      const auto length = static_cast<float>(slope / dot(direction, product));
+      curvature = dot(direction, product);
+      const auto length = static_cast<float>(slope / curvature);
       blend(-length, product, 1, residual);
       blend(-length, direction, 1, error);
       times(error, product);
@@ -181,19 +186,21 @@ TEST(Newton, FewIterationsKeepMomentumOfAllThatFlies) {
   EXPECT_LT(length(momentum(cloth, state)), 1e-4 * total_mass(cloth));
 }
 
-TEST(Newton, TheCycleIsSymmetricAndPositive) {
+TEST(Newton, TheCycleIsPositive) {
   Cloth pinned = sheet_cloth(33, cotton);
   hang(pinned);
   const Cloth double_torus = make_cloth(flat_sheet(33), double_torus_mates(33), cotton);
   for (const Cloth& cloth : {pinned, sheet_cloth(30, hard), torus_cloth(33, woven),
                              torus_cloth(20, cotton), double_torus}) {
     System system(cloth);
-    const PaddedVectors a = system.random_field(1), b = system.random_field(2);
-    const double ab = system.dot(a, system.cycle(b)), bb = system.dot(b, system.cycle(b)),
-                 aa = system.dot(a, system.cycle(a)), ba = system.dot(b, system.cycle(a));
-    EXPECT_GT(aa, 0);
-    EXPECT_GT(bb, 0);
-    EXPECT_NEAR(ab, ba, 1e-4 * std::sqrt(aa * bb)) << cloth.size;
+    PaddedVectors product(cloth.size, cloth.size);
+    for (const int seed : {1, 2, 3}) {
+      // Of smooth fields and of rough ones.
+      const PaddedVectors rough = system.random_field(seed);
+      EXPECT_GT(system.dot(rough, system.cycle(rough)), 0) << cloth.size;
+      system.times(rough, product);
+      EXPECT_GT(system.dot(product, system.cycle(product)), 0) << cloth.size;
+    }
   }
 }
 
@@ -247,20 +254,23 @@ TEST(Newton, TheOperatorIsTheDerivativeOfTheGradient) {
 
 TEST(Newton, IterationsDoNotGrowWithTheImage) {
   for (const Material& material : {cotton, hard, woven}) {
-    int most = 0;
+    int most = 0, small = 0;
     for (const int n : {33, 50, 65, 129}) {
       Cloth cloth = sheet_cloth(n, material);
       hang(cloth);
       most = std::max(most, System(cloth).iterations_to_a_hundredth());
+      if (n == 33) small = most;
     }
-    EXPECT_LE(most, 8);
+    // Of cycles that solve each line once.
+    EXPECT_LE(most, 12);
+    EXPECT_LE(most, small + 3);
   }
 }
 
 TEST(Newton, SeamsCostFewIterations) {
   for (const int n : {33, 40, 65}) {
     const Cloth around = torus_cloth(n, cotton);
-    EXPECT_LE(System(around).iterations_to_a_hundredth(), 10) << n;
+    EXPECT_LE(System(around).iterations_to_a_hundredth(), 14) << n;
   }
   const Cloth glued = make_cloth(flat_sheet(65), double_torus_mates(65), cotton);
   EXPECT_LE(System(glued).iterations_to_a_hundredth(), 12);
@@ -395,6 +405,124 @@ TEST(Newton, PinsGoWhereTheyAreTaken) {
       ASSERT_EQ(state.position.at(held.sample), vec_cast<float>(held.target));
   }
   EXPECT_LT(measure_strain(cloth, state).p99, 0.02);
+}
+
+TEST(Newton, WhatIsForgottenShowsNowhere) {
+  Cloth cloth = sheet_cloth(33, cotton);
+  hang(cloth);
+  ThreadTeam team(1);
+  const StepInput input{.time_step = step};
+  const auto used = make_integrator(NewtonOptions{}, cloth, {}, team);
+  ClothState state = rest_state(cloth);
+  run(*used, input, 10, state);
+  ClothState anew = rest_state(cloth), going_on = rest_state(cloth);
+  for (ClothState* copy : {&anew, &going_on}) *copy = state;
+  const auto fresh = make_integrator(NewtonOptions{}, cloth, {}, team);
+  run(*fresh, input, 4, anew);
+  used->forget();
+  run(*used, input, 4, going_on);
+  EXPECT_EQ(hash_of(going_on), hash_of(anew));
+}
+
+TEST(Newton, ThePathBeforeSavesIterations) {
+  Cloth cloth = sheet_cloth(33, cotton);
+  hang(cloth);
+  ThreadTeam team(1);
+  int iterations[2]{};
+  for (const bool forgets : {false, true}) {
+    const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
+    ClothState state = rest_state(cloth);
+    for (int i = 0; i < 60; ++i) {
+      if (forgets) integrator->forget();
+      integrator->begin({.time_step = step}, state);
+      integrator->iterate({});
+      iterations[forgets ? 1 : 0] += integrator->end(state).iterations;
+    }
+  }
+  EXPECT_LT(iterations[0], 0.9 * iterations[1]);
+}
+
+/// A field of blocks t 1 + s s^T by chance, along rows or down columns, none after the last sample.
+struct RandomSprings {
+  PaddedPlane t, x, y, z;
+  RandomSprings(int n, bool along_rows, double stiffness, Random& random)
+      : t(n, n), x(n, n), y(n, n), z(n, n) {
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) {
+        if ((along_rows ? c : r) == n - 1) continue;
+        t(r, c) = static_cast<float>(random.uniform(0, 0.01 * stiffness));
+        for (PaddedPlane* plane : {&x, &y, &z})
+          (*plane)(r, c) = static_cast<float>(std::sqrt(stiffness) * random.uniform(-0.6, 0.6));
+      }
+  }
+  [[nodiscard]] std::array<double, 6> block(int r, int c) const {
+    const double a = x(r, c), b = y(r, c), d = z(r, c), across = t(r, c);
+    return {across + a * a, a * b, a * d, across + b * b, b * d, across + d * d};
+  }
+};
+
+PlaneView view_of(const PaddedPlane& plane) { return {plane.row(0), plane.stride()}; }
+
+/// The same lines, factored as springs in series and as blocks.
+double difference_of_factors(int n, bool along_rows, double stiffness, InstructionSet set) {
+  Random random(11);
+  const NewtonKernels& kernels = newton_kernels_for(set);
+  const RandomSprings springs(n, along_rows, stiffness, random);
+  PaddedBlocks held(n, n), whole(n, n), coupling(n, n);
+  PaddedPlane extra(n, n);
+  PaddedVectors rhs(n, n), one(n, n), other(n, n);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const auto after = springs.block(r, c);
+      const auto before = (along_rows ? c : r) == 0
+                              ? std::array<double, 6>{}
+                              : springs.block(along_rows ? r : r - 1, along_rows ? c - 1 : c);
+      for (int k = 0; k < 6; ++k) {
+        const double own =
+            k == 0 || k == 3 || k == 5 ? random.uniform(2, 5) : random.uniform(-1, 1);
+        held.entry[k](r, c) = static_cast<float>(own);
+        whole.entry[k](r, c) = static_cast<float>(own + after[k] + before[k]);
+        coupling.entry[k](r, c) = static_cast<float>(-after[k]);
+      }
+      rhs.x(r, c) = static_cast<float>(random.uniform(-1, 1));
+      rhs.y(r, c) = static_cast<float>(random.uniform(-1, 1));
+      rhs.z(r, c) = static_cast<float>(random.uniform(-1, 1));
+    }
+  HeldLineMatrix series{
+      {}, {view_of(springs.t), view_of(springs.x), view_of(springs.y), view_of(springs.z)}};
+  LineMatrix blocks{{}, view_of(extra), {}};
+  for (int k = 0; k < 6; ++k) {
+    series.held[k] = view_of(held.entry[k]);
+    blocks.diagonal[k] = view_of(whole.entry[k]);
+    blocks.coupling[k] = view_of(coupling.entry[k]);
+  }
+  LineFactor as_series(n, along_rows, true), as_blocks(n, along_rows, false);
+  std::vector<float> scratch(LineFactor::scratch_size(n));
+  for (int b = 0; b < as_series.blocks(); ++b) {
+    as_series.factor(b, series, kernels);
+    as_blocks.factor(b, blocks, kernels);
+    as_series.solve(b, rhs, {}, scratch, one, kernels);
+    as_blocks.solve(b, rhs, {}, scratch, other, kernels);
+  }
+  double largest = 0, apart = 0;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c)
+      for (const auto plane : {&PaddedVectors::x, &PaddedVectors::y, &PaddedVectors::z}) {
+        const double a = (one.*plane)(r, c), b = (other.*plane)(r, c);
+        largest = std::max(largest, std::abs(b));
+        apart = std::max(apart, std::abs(a - b));
+      }
+  return apart / largest;
+}
+
+TEST(Newton, SpringsInSeriesAreSolvedAsTheirBlocks) {
+  for (const InstructionSet set : instruction_sets())
+    for (const int n : {7, 20, 33, 50})
+      for (const bool along_rows : {true, false}) {
+        if (!has_instruction_set(set)) continue;
+        EXPECT_LT(difference_of_factors(n, along_rows, 10, set), 1e-4) << n << ", " << along_rows;
+        EXPECT_LT(difference_of_factors(n, along_rows, 1e4, set), 0.02) << n << ", " << along_rows;
+      }
 }
 
 TEST(Newton, RefusesOptionsOutOfRange) {

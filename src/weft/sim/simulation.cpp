@@ -140,6 +140,8 @@ FrameReport Simulation::advance() {
   FrameReport report;
   StageClock clock;
   const int substeps = parts_->scene.substeps;
+  // A frame follows from positions and velocities alone, so that a run can be resumed at any.
+  for (const auto& mover : parts_->movers) mover.integrator->forget();
   for (int substep = 0; substep < substeps; ++substep) {
     update(parts_->progress, "simulate",
            (parts_->frame + static_cast<double>(substep) / substeps) /

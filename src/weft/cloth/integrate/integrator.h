@@ -117,6 +117,9 @@ class Integrator {
   /// largest of which is its residual. @param sizes [n x n]
   /// @return false where the method does not iterate; sizes are as they were
   virtual bool last_corrections(Grid<float>& /*sizes*/) const { return false; }
+  /// Where a method starts its search along what it found before: it starts anew. What follows
+  /// depends on the state alone then, as if there had been no step before.
+  virtual void forget() noexcept {}
   /// Makes the proposal the state; mates equal, pins where the proposal has them.
   virtual StepReport end(ClothState& state) noexcept = 0;
 

@@ -46,8 +46,11 @@ class Newton final : public Integrator {
     return true;
   }
 
+  void forget() noexcept override { solver_.forget(); }
+
   StepReport end(ClothState& state) noexcept override {
     accept(cloth_, solver_.next(), state, team_);
+    solver_.accept();
     return report_;
   }
 

@@ -45,6 +45,15 @@ struct RowTriple {
   ConstRow3 above, here, below;
 };
 
+/// A row of a field and the one below, and what springs pass from row to row. [N]
+struct SpringSweep {
+  ConstRow3 here, below;
+  const float* mass;                    ///< over h^2 [N/m]
+  ConstRow3 carried;                    ///< what springs from the row above do to this one
+  Row3 carry;                           ///< and those of this one to the row below
+  Row3 right, below_right, below_left;  ///< scratch with a frame
+};
+
 /// Weights of bending's second difference and the rows that it reads.
 struct BendingRows {
   const float* weight[ring_size];  ///< right, left, below, above, then diagonals as bending_offsets
@@ -57,6 +66,11 @@ struct BlockRow6 {
 };
 struct MutableBlockRow6 {
   float* entry[6];
+};
+
+/// Diagonal blocks of a row, whole and without the springs along rows, down columns.
+struct LineDiagonals {
+  MutableBlockRow6 whole, rows, cols;
 };
 
 /// A row of a nine-point stencil of blocks: centre, right, below left, below, below right, and
@@ -98,8 +112,14 @@ struct LineMatrix {
 struct SpringLineMatrix {
   PlaneView diagonal[6], extra, coupling[4];
 };
-/// Floats that the factor of a block of lines takes for each position: inverse and coupling blocks.
-inline constexpr int line_factor_entries = 12;
+/// Lines of springs t 1 + s s^T, t, x, y, z, to the position after, and the blocks that hold every
+/// sample besides: positive, and nothing of the line's own springs.
+struct HeldLineMatrix {
+  PlaneView held[6], spring[4];
+};
+/// Floats that the factor of a block of lines takes for each position: inverse and coupling blocks,
+/// or inverse blocks and springs.
+inline constexpr int line_factor_entries = 12, held_factor_entries = 10;
 
 struct NewtonKernels {
   void (*linearise)(int n, const LinearisedSprings& springs, SpringHessianRow out);
@@ -109,8 +129,13 @@ struct NewtonKernels {
                    ConstRow3 speed, ConstRow3 wanted, Row3 out);
   /// The diagonal blocks of mass / h^2 and springs.
   void (*diagonal)(int n, const SpringRing& ring, const float* mass, MutableBlockRow6 out);
-  /// out = (mass / h^2 + springs) x.
-  void (*apply_springs)(int n, const SpringRing& ring, const RowTriple& x, const float* mass,
+  /// And what holds lines along rows and down columns, besides their own springs.
+  /// @param extra  added to that on the diagonal
+  void (*line_diagonals)(int n, const SpringRing& ring, const float* mass, const float* extra,
+                         const LineDiagonals& out);
+  /// out = (mass / h^2 + springs) x, each spring looked at once, row after row.
+  /// @param springs  that start from the row: to the right, down, below right, below left
+  void (*apply_springs)(int n, const ConstSpringHessianRow* springs, const SpringSweep& at,
                         Row3 out);
   /// The energy of springs, and what their damping takes in a step; `step` 0: without that [J].
   double (*spring_energy)(int n, const LinearisedSprings& springs);
@@ -137,9 +162,13 @@ struct NewtonKernels {
   void (*factor_lines)(const LineBlock& lines, const LineMatrix& matrix, float* factor);
   void (*factor_spring_lines)(const LineBlock& lines, const SpringLineMatrix& matrix,
                               float* factor);
+  /// @param factor  [length x held_factor_entries x line_lanes]
+  void (*factor_held_lines)(const LineBlock& lines, const HeldLineMatrix& matrix, float* factor);
   /// out = (add ? out : 0) + scale * solution. @param scratch  [length x 3 x line_lanes]
   void (*solve_lines)(const LineBlock& lines, const float* factor, const PlaneView* rhs,
                       float scale, bool add, float* scratch, const MutablePlaneView* out);
+  void (*solve_held_lines)(const LineBlock& lines, const float* factor, const PlaneView* rhs,
+                           float scale, bool add, float* scratch, const MutablePlaneView* out);
 
   /// A coarse row: the transpose of bilinear interpolation. @param line  [n + 3] scratch
   void (*restrict_row)(int n, int m, const RowTriple& fine, float* line, Row3 coarse);

@@ -36,21 +36,21 @@ BendingStencil BendingStencil::coarsened() const {
 }
 
 void BendingStencil::bend_row(const PaddedVectors& x, int row, const NewtonKernels& kernels,
-                              PaddedVectors& u) const {
+                              Row3 u) const {
   BendingRows rows{{}, neighbours_};
   for (int k = 0; k < neighbours_; ++k) rows.weight[k] = weights_[k].row(row);
-  kernels.bend(x.x.cols(), rows, rows_around(x, row), u.row(row));
+  kernels.bend(whole_vectors(x.x.cols()), rows, rows_around(x, row), u);
 }
 
-void BendingStencil::unbend_row(const PaddedVectors& u, int row, const NewtonKernels& kernels,
-                                PaddedVectors& out) const {
+void BendingStencil::unbend_row(const RowTriple& u, int row, const NewtonKernels& kernels,
+                                Row3 out) const {
   BendingRows own{{}, neighbours_}, back{{}, neighbours_};
   for (int k = 0; k < neighbours_; ++k) {
     const BendingOffset to = bending_offsets[k];
     own.weight[k] = weights_[k].row(row);
     back.weight[k] = weights_[k ^ 1].row(row + to.down) + to.right;
   }
-  kernels.unbend(u.x.cols(), own, back, rows_around(u, row), out.row(row));
+  kernels.unbend(whole_vectors(weights_[0].cols()), own, back, u, out);
 }
 
 PaddedPlane BendingStencil::diagonal(const Seams& seams) const {

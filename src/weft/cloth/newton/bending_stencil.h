@@ -19,12 +19,10 @@ class BendingStencil {
   [[nodiscard]] BendingStencil coarsened() const;
 
   [[nodiscard]] bool active() const { return neighbours_ > 0; }
-  /// u = M x, own part of a row.
-  void bend_row(const PaddedVectors& x, int row, const NewtonKernels& kernels,
-                PaddedVectors& u) const;
-  /// out += M^T u, own part of a row. @param u  summed over seam copies
-  void unbend_row(const PaddedVectors& u, int row, const NewtonKernels& kernels,
-                  PaddedVectors& out) const;
+  /// u = M x, own part of a row, from -1 to n.
+  void bend_row(const PaddedVectors& x, int row, const NewtonKernels& kernels, Row3 u) const;
+  /// out += M^T u, own part of a row. @param u  around the row, summed over seam copies
+  void unbend_row(const RowTriple& u, int row, const NewtonKernels& kernels, Row3 out) const;
   /// The diagonal of M^T M, summed over seam copies. [N/m]
   [[nodiscard]] PaddedPlane diagonal(const Seams& seams) const;
   /// (M x)_i of a scalar field, own part.

@@ -10,21 +10,27 @@ constexpr float bending_share = 1.6F;
 
 }  // namespace
 
-BlockLevel::BlockLevel(int n, Seams seam_classes, BendingStencil stiffness, bool finest)
-    : size(n),
+BlockLevel::BlockLevel(const Shape& shape, Seams seam_classes, BendingStencil stiffness)
+    : size(shape.size),
       seams(std::move(seam_classes)),
       bending(std::move(stiffness)),
       extra(bending.diagonal(seams)),
-      rows(n, true),
-      cols(n, false),
-      rhs(n, n),
-      value(n, n),
-      residual(n, n),
-      curved(n, n) {
-  if (finest)
+      rows(size, true, shape.finest && seams.empty()),
+      cols(size, false, shape.finest && seams.empty()),
+      rhs(size, size),
+      value(size, size),
+      residual(size, size),
+      curved(size, size) {
+  const int n = size;
+  if (shape.finest)
     stencil.centre = PaddedBlocks(n, n);
   else
     stencil = BlockStencil(n);
+  for (int i = 0; i < shape.workers; ++i) windows.emplace_back(3, n);
+  if (shape.finest && seams.empty()) {
+    held_rows = PaddedBlocks(n, n);
+    held_cols = PaddedBlocks(n, n);
+  }
   if (!seams.empty()) joined = PaddedBlocks(n, n);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) extra(r, c) *= bending_share;

@@ -28,11 +28,19 @@ struct BlockLevel {
   PaddedPlane extra;     ///< added to diagonals for the smoother [N/m]
   BlockStencil stencil;  ///< on the finest level the centre only
   PaddedBlocks joined;   ///< the centres summed over seam copies; empty without seams
+  /// On a finest level without seams, what holds samples of lines besides their own springs.
+  PaddedBlocks held_rows, held_cols;
   LineFactor rows, cols;
   PaddedVectors rhs, value, residual;
-  PaddedVectors curved;  ///< bending's u; scratch
+  PaddedVectors curved;                ///< bending's u; scratch
+  std::vector<PaddedVectors> windows;  ///< three rows of that for each worker
 
-  BlockLevel(int n, Seams seam_classes, BendingStencil stiffness, bool finest);
+  struct Shape {
+    int size;
+    bool finest;
+    int workers;
+  };
+  BlockLevel(const Shape& shape, Seams seam_classes, BendingStencil stiffness);
   /// The diagonal blocks that lines are factored with.
   [[nodiscard]] const PaddedBlocks& diagonal() const {
     return seams.empty() ? stencil.centre : joined;

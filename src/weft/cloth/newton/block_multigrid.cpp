@@ -36,18 +36,16 @@ BlockStencilRow stencil_row(const BlockStencil& s, int r) {
           row_of(s.below_right, r - 1, -1)};
 }
 
-void view_blocks(const PaddedBlocks& blocks, PlaneView* views) {
-  for (int k = 0; k < 6; ++k) views[k] = {blocks.entry[k].row(0), blocks.entry[k].stride()};
-}
-
-std::vector<BlockLevel> make_levels(const Cloth& cloth) {
+std::vector<BlockLevel> make_levels(const Cloth& cloth, int workers) {
   std::vector<BlockLevel> levels;
   int n = cloth.size;
-  levels.emplace_back(n, Seams(cloth.mates), BendingStencil(cloth.bending), true);
+  levels.emplace_back(BlockLevel::Shape{n, true, workers}, Seams(cloth.mates),
+                      BendingStencil(cloth.bending));
   while (n > CoarsestSolver::max_size) {
     const BlockLevel& fine = levels.back();
     n = n / 2 + 1;
-    levels.emplace_back(n, fine.seams.coarsened(), fine.bending.coarsened(), false);
+    levels.emplace_back(BlockLevel::Shape{n, false, workers}, fine.seams.coarsened(),
+                        fine.bending.coarsened());
   }
   return levels;
 }
@@ -57,7 +55,7 @@ std::vector<BlockLevel> make_levels(const Cloth& cloth) {
 BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKernels& kernels)
     : cloth_(cloth),
       kernels_(&kernels),
-      levels_(make_levels(cloth)),
+      levels_(make_levels(cloth, workers)),
       coarsest_(levels_.size() > 1 ? CoarsestSolver(levels_.back()) : CoarsestSolver()),
       galerkin_(cloth.size, workers),
       mask_(cloth.size, cloth.size),
@@ -67,6 +65,7 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c)
       free_extra_(r, c) = levels_.front().extra(r, c) + far_stiffness;
+  for (int i = 0; i < workers; ++i) sweeps_.emplace_back(SpringHessian::sweep_rows, cloth.size);
   for (int i = 0; i < workers; ++i)
     scratch_.emplace_back(
         std::max(LineFactor::scratch_size(cloth.size), std::size_t(cloth.size) + 64));
@@ -74,17 +73,33 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
   renew_pins();
 }
 
-void BlockMultigrid::renew_pins() {
+bool BlockMultigrid::pins_changed() const {
+  const int n = cloth_.size;
+  int changed = 0;
+  for (int r = 0; r < n; ++r) {
+    const float *free = mask_.row(r), *inverse_mass = cloth_.inverse_mass.row(r);
+    for (int c = 0; c < n; ++c)
+      changed |= static_cast<int>(inverse_mass[c] > 0) ^ static_cast<int>(free[c] > 0);
+  }
+  return changed != 0;
+}
+
+bool BlockMultigrid::renew_pins() {
+  if (!pin_starts_.empty() && !pins_changed()) return false;
   const int n = cloth_.size;
   PaddedPlane& extra = levels_.front().extra;
   pinned_.clear();
-  for (int r = 0; r < n; ++r)
+  pin_starts_.assign(static_cast<std::size_t>(n) + 1, 0);
+  for (int r = 0; r < n; ++r) {
     for (int c = 0; c < n; ++c) {
       const bool moves = cloth_.inverse_mass(r, c) > 0;
       mask_(r, c) = moves ? 1.0F : 0.0F;
       extra(r, c) = moves ? free_extra_(r, c) : holding_stiffness;
       if (!moves) pinned_.push_back(r * n + c);
     }
+    pin_starts_[r + 1] = static_cast<int>(pinned_.size());
+  }
+  return true;
 }
 
 std::span<float> BlockMultigrid::scratch(const Workers& workers) {
@@ -99,15 +114,46 @@ void BlockMultigrid::clear_pins(PaddedVectors& field, const Workers& workers) co
   }
 }
 
+void BlockMultigrid::clear_pins_of_row(int row, PaddedVectors& field) const {
+  for (int i = pin_starts_[row]; i < pin_starts_[row + 1]; ++i) {
+    const int c = pinned_[i] % cloth_.size;
+    field.x(row, c) = field.y(row, c) = field.z(row, c) = 0;
+  }
+}
+
 void BlockMultigrid::bend(BlockLevel& level, const PaddedVectors& x, const Workers& workers) {
-  if (!level.bending.active()) return;
   const Range mine = workers.share(level.size);
   for (int r = mine.first; r < mine.last; ++r)
-    level.bending.bend_row(x, r, *kernels_, level.curved);
+    level.bending.bend_row(x, r, *kernels_, level.curved.row(r));
   workers.barrier();
   if (level.seams.empty()) return;
   level.seams.sum(workers, {&level.curved.x, &level.curved.y, &level.curved.z});
   workers.barrier();
+}
+
+template <class Before, class After>
+void BlockMultigrid::add_bending(BlockLevel& level, const PaddedVectors& x, PaddedVectors& out,
+                                 const Workers& workers, const Before& before, const After& after) {
+  const Range mine = workers.share(level.size);
+  const BendingStencil& bending = level.bending;
+  // Seams join u between its two halves; else three rows of it at a time are enough.
+  const bool whole = bending.active() && !level.seams.empty();
+  if (whole) bend(level, x, workers);
+  PaddedVectors& window = level.windows[workers.rank()];
+  const auto slot = [](int r) { return (r + 3) % 3; };
+  const auto make = [&](int r) { bending.bend_row(x, r, *kernels_, window.row(slot(r))); };
+  for (int r = mine.first; r < mine.last; ++r) {
+    before(r);
+    if (whole) {
+      bending.unbend_row(rows_around(level.curved, r), r, *kernels_, out.row(r));
+    } else if (bending.active()) {
+      for (int next = r == mine.first ? r - 1 : r + 1; next <= r + 1; ++next) make(next);
+      const PaddedVectors& u = window;
+      bending.unbend_row({u.row(slot(r - 1)), u.row(slot(r)), u.row(slot(r + 1))}, r, *kernels_,
+                         out.row(r));
+    }
+    after(r);
+  }
 }
 
 void BlockMultigrid::add_border_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
@@ -124,25 +170,8 @@ void BlockMultigrid::add_border_row(const PaddedVectors& x, int row, PaddedVecto
 
 void BlockMultigrid::add_contact_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
   if (contacts_.touched == nullptr || contacts_.touched[row] == 0) return;
-  kernels_->add_blocks(cloth_.size, row_of(*contacts_.blocks, row), x.row(row), out.row(row));
-}
-
-void BlockMultigrid::add_bending_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
-  const BlockLevel& level = levels_.front();
-  add_border_row(x, row, out);
-  if (level.bending.active()) level.bending.unbend_row(level.curved, row, *kernels_, out);
-}
-
-void BlockMultigrid::apply_row(std::size_t index, const PaddedVectors& x, int row,
-                               PaddedVectors& out) const {
-  const BlockLevel& level = levels_[index];
-  if (index == 0) {
-    springs_->apply_row(x, row, out);
-    return add_bending_row(x, row, out);
-  }
-  kernels_->apply_blocks(level.size, stencil_row(level.stencil, row), rows_around(x, row),
-                         out.row(row));
-  if (level.bending.active()) level.bending.unbend_row(level.curved, row, *kernels_, out);
+  kernels_->add_blocks(whole_vectors(cloth_.size), row_of(*contacts_.blocks, row), x.row(row),
+                       out.row(row));
 }
 
 void BlockMultigrid::complete(std::size_t index, PaddedVectors& out, const Workers& workers) const {
@@ -160,19 +189,32 @@ void BlockMultigrid::complete(std::size_t index, PaddedVectors& out, const Worke
 void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, PaddedVectors& out,
                            Worker& worker) {
   const Workers all(worker, false);
-  if (parts.curved != nullptr)
-    parts.curved->change(x, worker);
-  else
-    bend(levels_.front(), x, all);
-  const Range mine = all.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) {
-    springs_->apply_row(x, r, out);
-    if (parts.curved != nullptr)
-      parts.curved->add_row(r, out);
-    else
-      add_bending_row(x, r, out);
+  BlockLevel& level = levels_.front();
+  SpringHessian::Sweep sweep{x, sweeps_[worker.rank()]};
+  const auto finish = [&](int r) {
     if (parts.contacts != nullptr && parts.contacts->row(r)) parts.contacts->add_row(r, out.row(r));
+    // Copies share what all of them have: each adds its own part.
+    if (parts.row_products != nullptr)
+      parts.row_products[r] =
+          kernels_->dot(whole_vectors(level.size), nullptr, x.row(r), std::as_const(out).row(r));
+    if (level.seams.empty()) clear_pins_of_row(r, out);
+  };
+  if (parts.curved != nullptr) {
+    parts.curved->change(x, worker);
+    const Range mine = all.share(level.size);
+    for (int r = mine.first; r < mine.last; ++r) {
+      springs_->apply_row(sweep, r, out);
+      parts.curved->add_row(r, out);
+      finish(r);
+    }
+  } else {
+    const auto begin = [&](int r) {
+      springs_->apply_row(sweep, r, out);
+      add_border_row(x, r, out);
+    };
+    add_bending(level, x, out, all, begin, finish);
   }
+  if (level.seams.empty()) return worker.barrier();
   complete(0, out, all);
 }
 
@@ -183,21 +225,21 @@ void BlockMultigrid::add_loads(const ContactLoads& contacts, float factor, Padde
   PaddedVectors& sum = level.curved;
   const Range mine = all.share(level.size);
   for (int r = mine.first; r < mine.last; ++r) {
-    kernels_->scale_rows(level.size, 0, sum.row(r));
+    kernels_->scale_rows(whole_vectors(level.size), 0, sum.row(r));
     contacts.add_row(r, sum.row(r));
   }
   complete(0, sum, all);
   for (int r = mine.first; r < mine.last; ++r)
-    kernels_->add_scaled(level.size, factor, std::as_const(sum).row(r), field.row(r));
+    kernels_->add_scaled(whole_vectors(level.size), factor, std::as_const(sum).row(r),
+                         field.row(r));
   worker.barrier();
 }
 
 void BlockMultigrid::add_bending_gradient(const PaddedVectors& position, PaddedVectors& gradient,
                                           Worker& worker) {
-  const Workers all(worker, false);
-  bend(levels_.front(), position, all);
-  const Range mine = all.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) add_bending_row(position, r, gradient);
+  add_bending(
+      levels_.front(), position, gradient, Workers(worker, false),
+      [&](int r) { add_border_row(position, r, gradient); }, [](int) {});
   worker.barrier();
 }
 
@@ -209,7 +251,7 @@ double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& su
   const BorderBending& border = cloth_.bending.border;
   return sums.sum(worker, [&](int r) {
     const ConstRow3 u = level.curved.row(r);
-    double energy = 0.5 * kernels_->dot(level.size, share.row(r), u, u);
+    double energy = 0.5 * kernels_->dot(whole_vectors(level.size), share.row(r), u, u);
     if (border.starts.empty()) return energy;
     for (int i = border.starts[r]; i < border.starts[r + 1]; ++i) {
       const BorderBending::Edge& edge = border.edges[i];
@@ -225,22 +267,30 @@ double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& su
 
 void BlockMultigrid::residual(std::size_t index, const Workers& workers) {
   BlockLevel& level = levels_[index];
-  bend(level, level.value, workers);
-  const Range mine = workers.share(level.size);
-  // Without seams and pins a row is complete at once.
-  const bool at_once = level.seams.empty() && (index > 0 || pinned_.empty());
-  const auto subtract_row = [&](int r) {
-    kernels_->subtract(level.size, std::as_const(level.rhs).row(r),
-                       std::as_const(level.residual).row(r), level.residual.row(r));
+  const bool seamed = !level.seams.empty();
+  SpringHessian::Sweep sweep{level.value, sweeps_[workers.rank()]};
+  const auto begin = [&](int r) {
+    if (index == 0)
+      springs_->apply_row(sweep, r, level.residual);
+    else
+      kernels_->apply_blocks(whole_vectors(level.size), stencil_row(level.stencil, r),
+                             rows_around(level.value, r), level.residual.row(r));
   };
-  for (int r = mine.first; r < mine.last; ++r) {
-    apply_row(index, level.value, r, level.residual);
+  const auto subtract = [&](int r) {
+    kernels_->subtract(whole_vectors(level.size), std::as_const(level.rhs).row(r),
+                       std::as_const(level.residual).row(r), level.residual.row(r));
+    if (index == 0) clear_pins_of_row(r, level.residual);
+  };
+  add_bending(level, level.value, level.residual, workers, begin, [&](int r) {
     if (index == 0) add_contact_row(level.value, r, level.residual);
-    if (at_once) subtract_row(r);
-  }
-  complete(index, level.residual, workers);
-  if (at_once) return;
-  for (int r = mine.first; r < mine.last; ++r) subtract_row(r);
+    if (!seamed) subtract(r);
+  });
+  workers.barrier();
+  if (!seamed) return;
+  level.seams.sum(workers, {&level.residual.x, &level.residual.y, &level.residual.z});
+  workers.barrier();
+  const Range mine = workers.share(level.size);
+  for (int r = mine.first; r < mine.last; ++r) subtract(r);
   workers.barrier();
 }
 
@@ -274,9 +324,9 @@ void BlockMultigrid::smooth_seamed(BlockLevel& level, const LineFactor& lines, b
   workers.barrier();
   for (int row = mine.first; row < mine.last; ++row) {
     if (from_zero)
-      kernels_->scale_add(n, std::as_const(y).row(row), 0, level.value.row(row));
+      kernels_->scale_add(whole_vectors(n), std::as_const(y).row(row), 0, level.value.row(row));
     else
-      kernels_->add_scaled(n, 1, std::as_const(y).row(row), level.value.row(row));
+      kernels_->add_scaled(whole_vectors(n), 1, std::as_const(y).row(row), level.value.row(row));
   }
   workers.barrier();
 }
@@ -301,16 +351,14 @@ void BlockMultigrid::prolong(const BlockLevel& coarse, std::size_t fine_index,
                              const Workers& workers) {
   BlockLevel& fine = levels_[fine_index];
   const Range mine = workers.share(fine.size);
-  for (int r = mine.first; r < mine.last; ++r)
+  for (int r = mine.first; r < mine.last; ++r) {
     kernels_->prolong_row(fine.size, coarse.value.row(r / 2), coarse.value.row((r + 1) / 2),
                           scratch(workers).data(), fine.value.row(r));
-  workers.barrier();
-  if (!fine.seams.empty()) {
-    fine.seams.average(workers, {&fine.value.x, &fine.value.y, &fine.value.z});
-    workers.barrier();
+    if (fine_index == 0) clear_pins_of_row(r, fine.value);
   }
-  if (fine_index > 0 || pinned_.empty()) return;
-  clear_pins(fine.value, workers);
+  workers.barrier();
+  if (fine.seams.empty()) return;
+  fine.seams.average(workers, {&fine.value.x, &fine.value.y, &fine.value.z});
   workers.barrier();
 }
 
@@ -332,145 +380,13 @@ void BlockMultigrid::cycle(std::size_t index, const Workers& workers) {
   }
   if (index + 1 == levels_.size()) return cycle_coarsest(index, workers);
   smooth(index, Direction::rows, true, workers);
-  smooth(index, Direction::cols, false, workers);
   residual(index, workers);
   restrict_residual(levels_[index], levels_[index + 1], workers);
   cycle(index + 1, workers);
   prolong(levels_[index + 1], index, workers);
   smooth(index, Direction::cols, false, workers);
-  smooth(index, Direction::rows, false, workers);
 }
 
 void BlockMultigrid::cycle(Worker& worker) { cycle(0, Workers(worker, false)); }
-
-void BlockMultigrid::join_centres(BlockLevel& level, const Workers& workers) {
-  if (level.seams.empty()) return;
-  const Range mine = workers.share(level.size);
-  for (int k = 0; k < 6; ++k)
-    for (int r = mine.first; r < mine.last; ++r)
-      std::copy_n(level.stencil.centre.entry[k].row(r), level.size, level.joined.entry[k].row(r));
-  workers.barrier();
-  auto& e = level.joined.entry;
-  level.seams.sum(workers, {&e[0], &e[1], &e[2], &e[3], &e[4], &e[5]});
-  workers.barrier();
-}
-
-/// Lines along a seam hold what all copies of their edges hold, as their diagonals do: else a seam
-/// would be as stiff against moving along itself as its threads are.
-void BlockMultigrid::join_edges(std::size_t index) {
-  parted_.clear();
-  for (const std::vector<BorderEdge>& group : levels_[index].seams.edges()) {
-    if (index == 0) {
-      join_springs(group);
-      continue;
-    }
-    BlockStencil& stencil = levels_[index].stencil;
-    for (int k = 0; k < 6; ++k) {
-      float sum = 0;
-      const auto entry = [&](const BorderEdge& edge) -> float& {
-        PaddedBlocks& blocks = edge.along_row ? stencil.right : stencil.below;
-        return blocks.entry[k](edge.row, edge.col);
-      };
-      for (const BorderEdge& edge : group) {
-        sum += entry(edge);
-        parted_.push_back(entry(edge));
-      }
-      for (const BorderEdge& edge : group) entry(edge) = sum;
-    }
-  }
-}
-
-/// Copies of a spring have one direction: the sum of t 1 + s s^T is of the same form.
-void BlockMultigrid::join_springs(const std::vector<BorderEdge>& group) {
-  float across = 0, along = 0;
-  const auto entry = [&](const BorderEdge& edge, int k) -> float& {
-    return (*springs_->planes(edge.along_row ? 0 : 1)[k])(edge.row, edge.col);
-  };
-  const auto squared = [&](const BorderEdge& edge) {
-    return entry(edge, 1) * entry(edge, 1) + entry(edge, 2) * entry(edge, 2) +
-           entry(edge, 3) * entry(edge, 3);
-  };
-  for (const BorderEdge& edge : group) {
-    across += entry(edge, 0);
-    along += squared(edge);
-  }
-  for (const BorderEdge& edge : group) {
-    const float own = squared(edge), factor = own > 0 ? std::sqrt(along / own) : 1;
-    for (int k = 0; k < 4; ++k) {
-      parted_.push_back(entry(edge, k));
-      entry(edge, k) = k == 0 ? across : factor * entry(edge, k);
-    }
-  }
-}
-
-void BlockMultigrid::part_edges(std::size_t index) {
-  std::size_t at = 0;
-  BlockStencil& stencil = levels_[index].stencil;
-  for (const std::vector<BorderEdge>& group : levels_[index].seams.edges()) {
-    if (index == 0) {
-      for (const BorderEdge& edge : group)
-        for (PaddedPlane* plane : springs_->planes(edge.along_row ? 0 : 1))
-          (*plane)(edge.row, edge.col) = parted_[at++];
-      continue;
-    }
-    for (int k = 0; k < 6; ++k)
-      for (const BorderEdge& edge : group)
-        (edge.along_row ? stencil.right : stencil.below).entry[k](edge.row, edge.col) =
-            parted_[at++];
-  }
-}
-
-void BlockMultigrid::factor(std::size_t index, const Workers& workers) {
-  BlockLevel& level = levels_[index];
-  const int blocks = level.rows.blocks();
-  const Range mine = workers.share(2 * blocks);
-  for (int b = mine.first; b < mine.last; ++b) {
-    const bool along_rows = b < blocks;
-    LineFactor& lines = along_rows ? level.rows : level.cols;
-    const int block = along_rows ? b : b - blocks;
-    const PlaneView extra{level.extra.row(0), level.extra.stride()};
-    if (index == 0) {
-      SpringLineMatrix matrix{{}, extra, {}};
-      view_blocks(level.diagonal(), matrix.diagonal);
-      const auto views = springs_->views(along_rows ? 0 : 1);
-      std::copy(views.begin(), views.end(), matrix.coupling);
-      lines.factor(block, matrix, *kernels_);
-    } else {
-      LineMatrix matrix{{}, extra, {}};
-      view_blocks(level.diagonal(), matrix.diagonal);
-      view_blocks(along_rows ? level.stencil.right : level.stencil.below, matrix.coupling);
-      lines.factor(block, matrix, *kernels_);
-    }
-  }
-}
-
-void BlockMultigrid::set_up(SpringHessian& springs, Worker& worker) {
-  const Workers all(worker, false);
-  if (worker.rank() == 0) springs_ = &springs;
-  worker.barrier();
-  join_centres(levels_.front(), all);
-  for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
-    if (i == 0)
-      galerkin_.coarsen(springs, levels_[0], mask_, levels_[1], all, *kernels_);
-    else
-      galerkin_.coarsen(levels_[i], levels_[i + 1], all, *kernels_);
-    worker.barrier();
-    join_centres(levels_[i + 1], all);
-  }
-  for (std::size_t i = 0; i < levels_.size(); ++i) {
-    const bool seamed = !levels_[i].seams.edges().empty();
-    if (seamed) {
-      worker.barrier();
-      if (worker.rank() == 0) join_edges(i);
-      worker.barrier();
-    }
-    factor(i, all);
-    if (!seamed) continue;
-    worker.barrier();
-    if (worker.rank() == 0) part_edges(i);
-  }
-  if (worker.rank() == 0 && levels_.size() > 1) coarsest_.factor(levels_.back());
-  worker.barrier();
-}
 
 }  // namespace weft

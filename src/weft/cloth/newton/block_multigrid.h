@@ -17,7 +17,9 @@ namespace weft {
 /// contacts. Cloth is stiff along its threads and soft across them, so points relaxed one by one
 /// converge slowly; lines along rows and along columns, solved exactly in turns, do not care how
 /// stiff the threads are [trottenberg01, section 5.1]. Coarse levels are Galerkin products of 3 x 3
-/// blocks. The cycle is symmetric: rows, columns, coarse correction, columns, rows.
+/// blocks. A cycle relaxes rows, corrects on the coarser level and relaxes columns: half of a
+/// symmetric one, for conjugate gradients that make every direction conjugate to the last by its
+/// product.
 class BlockMultigrid {
  public:
   /// @param cloth  kept by reference  @param workers  of the team that will call
@@ -25,7 +27,11 @@ class BlockMultigrid {
 
   // To be called by every worker; each ends with a barrier.
 
-  /// Takes over linearised springs, whose centres stand in centres() already.
+  /// Fills the diagonal blocks of a row of the finest level, before set_up; no barrier.
+  void fill_diagonals(const SpringHessian& springs, int row);
+  /// Adds blocks to those of a row.
+  void add_to_diagonals(const BlockRow6& blocks, int row);
+  /// Takes over linearised springs, whose diagonal blocks are filled already.
   void set_up(SpringHessian& springs, Worker& worker);
   /// value() = about A^-1 rhs().
   void cycle(Worker& worker);
@@ -34,6 +40,7 @@ class BlockMultigrid {
   struct ExactParts {
     const ContactLoads* contacts = nullptr;  ///< whose loads are their part of the product
     CurvedBending* curved = nullptr;         ///< instead of flat bending
+    double* row_products = nullptr;          ///< [n] where x . A x goes, what each row has of it
   };
   void apply(const PaddedVectors& x, const ExactParts& parts, PaddedVectors& out, Worker& worker);
   /// Adds loads of contacts, summed over seam copies, to a field, 0 where pinned.
@@ -55,10 +62,10 @@ class BlockMultigrid {
     complete(0, field, Workers(worker, false));
   }
 
-  /// To be called when particles have been pinned or let go.
-  void renew_pins();
+  /// To be called when particles may have been pinned or let go. @return whether any was
+  bool renew_pins();
 
-  /// Of the finest level, own parts: to be filled before set_up.
+  /// Diagonal blocks of the finest level, own parts.
   [[nodiscard]] PaddedBlocks& centres() { return levels_.front().stencil.centre; }
   /// Whether rows of these blocks are added to the springs in the cycle's products, by row; the
   /// centres hold them already.
@@ -76,10 +83,16 @@ class BlockMultigrid {
 
  private:
   enum class Direction { rows, cols };
+  /// u of flat bending, summed over seam copies.
   void bend(BlockLevel& level, const PaddedVectors& x, const Workers& workers);
+  /// Adds M^T M x to a worker's rows in turn; before(row) fills one, after(row) has it whole.
+  template <class Before, class After>
+  void add_bending(BlockLevel& level, const PaddedVectors& x, PaddedVectors& out,
+                   const Workers& workers, const Before& before, const After& after);
   void add_contact_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
-  void add_bending_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
-  void apply_row(std::size_t index, const PaddedVectors& x, int row, PaddedVectors& out) const;
+  [[nodiscard]] bool pins_changed() const;
+  void clear_pinned_blocks(int row);
+  void clear_pins_of_row(int row, PaddedVectors& field) const;
   /// Sums over seam copies and clears pins.
   void complete(std::size_t index, PaddedVectors& out, const Workers& workers) const;
   void residual(std::size_t index, const Workers& workers);
@@ -107,11 +120,13 @@ class BlockMultigrid {
   std::vector<BlockLevel> levels_;
   CoarsestSolver coarsest_;
   Galerkin galerkin_;
-  PaddedPlane mask_;         // 1 where the particle moves
-  PaddedPlane free_extra_;   // the finest level's addition to diagonals without pins
-  std::vector<int> pinned_;  // samples, all copies
+  PaddedPlane mask_;             // 1 where the particle moves
+  PaddedPlane free_extra_;       // the finest level's addition to diagonals without pins
+  std::vector<int> pinned_;      // samples, all copies
+  std::vector<int> pin_starts_;  // [n + 1] where each row's begin
   std::vector<std::vector<float>> scratch_;
-  std::vector<float> parted_;  // blocks of border edges while they are joined
+  std::vector<PaddedVectors> sweeps_;  // of each worker
+  std::vector<float> parted_;          // blocks of border edges while they are joined
   ContactRows contacts_;
 };
 

@@ -32,27 +32,15 @@ MutableStencilBlocks rows_of(BlockStencil& stencil, int r) {
 }  // namespace
 
 Galerkin::Rows::Rows(int cols)
-    : values(static_cast<std::size_t>(cols + 2 * frame) * blocks_a_row * entries),
-      stride(cols + 2 * frame) {}
-
-StencilBlocks Galerkin::Rows::read() const {
-  StencilBlocks rows{};
-  BlockRow6* const all[] = {&rows.centre, &rows.right, &rows.below_left, &rows.below,
-                            &rows.below_right};
+    : values(static_cast<std::size_t>(cols + 2 * frame) * blocks_a_row * entries) {
+  BlockRow6* const from[] = {&read.centre, &read.right, &read.below_left, &read.below,
+                             &read.below_right};
+  MutableBlockRow6* const to[] = {&write.centre, &write.right, &write.below_left, &write.below,
+                                  &write.below_right};
+  float* row = values.data() + frame;
   for (int b = 0; b < blocks_a_row; ++b)
-    for (int k = 0; k < entries; ++k)
-      all[b]->entry[k] = values.data() + (b * entries + k) * stride + frame;
-  return rows;
-}
-
-MutableStencilBlocks Galerkin::Rows::write() {
-  MutableStencilBlocks rows{};
-  MutableBlockRow6* const all[] = {&rows.centre, &rows.right, &rows.below_left, &rows.below,
-                                   &rows.below_right};
-  for (int b = 0; b < blocks_a_row; ++b)
-    for (int k = 0; k < entries; ++k)
-      all[b]->entry[k] = values.data() + (b * entries + k) * stride + frame;
-  return rows;
+    for (int k = 0; k < entries; ++k, row += cols + 2 * frame)
+      from[b]->entry[k] = to[b]->entry[k] = row;
 }
 
 Galerkin::Galerkin(int size, int workers) : scratch_(workers) {
@@ -74,15 +62,15 @@ void Galerkin::coarsen_rows(int fine_size, BlockLevel& coarse, const Workers& wo
     if (fine < 0 || fine >= fine_size)
       std::fill(half.values.begin(), half.values.end(), 0.0F);
     else
-      kernels.coarsen_columns(m, fine_row(fine, own.fine), half.write());
+      kernels.coarsen_columns(m, fine_row(fine, own.fine), half.write);
   };
   const Range mine = workers.share(m);
   for (int q = mine.first; q < mine.last; ++q) {
     if (q == mine.first) make(2 * q - 1);
     make(2 * q);
     make(2 * q + 1);
-    const StencilBlocks half[3] = {own.half[slot(2 * q - 1)].read(), own.half[slot(2 * q)].read(),
-                                   own.half[slot(2 * q + 1)].read()};
+    const StencilBlocks half[3] = {own.half[slot(2 * q - 1)].read, own.half[slot(2 * q)].read,
+                                   own.half[slot(2 * q + 1)].read};
     kernels.coarsen_rows(m, half, rows_of(coarse.stencil, q));
   }
 }
@@ -92,20 +80,18 @@ void Galerkin::coarsen(const SpringHessian& springs, const BlockLevel& fine,
                        const NewtonKernels& kernels) {
   const int n = fine.size;
   const auto fine_row = [&](int r, Rows& scratch) {
-    const MutableStencilBlocks rows = scratch.write();
+    const MutableStencilBlocks& rows = scratch.write;
     const MutableBlockRow6* const after[] = {&rows.right, &rows.below, &rows.below_right,
                                              &rows.below_left};
     const float* here = mask.row(r);
     for (int d = 0; d < 4; ++d) {
       const auto [down, right] = spring_offsets[d];
-      kernels.spring_blocks(n, springs.springs_row(d, r), here, mask.row(r + down) + right,
-                            *after[d]);
+      kernels.spring_blocks(whole_vectors(n), springs.springs_row(d, r), here,
+                            mask.row(r + down) + right, *after[d]);
     }
-    for (int k = 0; k < entries; ++k) {
-      const float* centre = fine.stencil.centre.entry[k].row(r);
-      for (int c = 0; c < n; ++c) rows.centre.entry[k][c] = here[c] * centre[c];
-    }
-    return scratch.read();
+    StencilBlocks all = scratch.read;
+    all.centre = row_of(fine.stencil.centre, r);
+    return all;
   };
   coarsen_rows(n, coarse, workers, kernels, fine_row);
 }

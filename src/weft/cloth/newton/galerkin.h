@@ -16,7 +16,7 @@ class Galerkin {
   Galerkin(int size, int workers);
 
   /// Coarse rows of the finest level, whose blocks are springs'. Samples that do not move (mask 0)
-  /// have no part in it. The level's centres must be whole.
+  /// have no part in it; the level's centres are 0 there.
   void coarsen(const SpringHessian& springs, const BlockLevel& fine, const PaddedPlane& mask,
                BlockLevel& coarse, const Workers& workers, const NewtonKernels& kernels);
   void coarsen(const BlockLevel& fine, BlockLevel& coarse, const Workers& workers,
@@ -26,11 +26,10 @@ class Galerkin {
   /// The five rows of blocks of one row, with a frame.
   struct Rows {
     std::vector<float> values;
-    std::ptrdiff_t stride = 0;
+    StencilBlocks read{};
+    MutableStencilBlocks write{};
     Rows() = default;
     explicit Rows(int cols);
-    [[nodiscard]] StencilBlocks read() const;
-    [[nodiscard]] MutableStencilBlocks write();
   };
   struct Scratch {
     Rows fine;

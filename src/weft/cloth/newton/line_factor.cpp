@@ -4,9 +4,9 @@
 
 namespace weft {
 
-LineFactor::LineFactor(int size, bool along_rows) : size_(size), along_rows_(along_rows) {
-  const std::size_t count =
-      static_cast<std::size_t>(blocks()) * size * line_factor_entries * line_lanes;
+LineFactor::LineFactor(int size, bool along_rows, bool held)
+    : size_(size), along_rows_(along_rows), held_(held) {
+  const std::size_t count = static_cast<std::size_t>(blocks()) * size * entries() * line_lanes;
   factors_.reset(static_cast<float*>(::operator new (count * sizeof(float), std::align_val_t{64})));
   std::fill(factors_.get(), factors_.get() + count, 0.0F);
 }
@@ -17,8 +17,7 @@ LineBlock LineFactor::at(int block) const {
 }
 
 float* LineFactor::factor_of(int block) const {
-  return factors_.get() +
-         static_cast<std::size_t>(block) * size_ * line_factor_entries * line_lanes;
+  return factors_.get() + static_cast<std::size_t>(block) * size_ * entries() * line_lanes;
 }
 
 void LineFactor::factor(int block, const SpringLineMatrix& matrix, const NewtonKernels& kernels) {
@@ -29,6 +28,10 @@ void LineFactor::factor(int block, const LineMatrix& matrix, const NewtonKernels
   kernels.factor_lines(at(block), matrix, factor_of(block));
 }
 
+void LineFactor::factor(int block, const HeldLineMatrix& matrix, const NewtonKernels& kernels) {
+  kernels.factor_held_lines(at(block), matrix, factor_of(block));
+}
+
 void LineFactor::solve(int block, const PaddedVectors& rhs, Solve how, std::span<float> scratch,
                        PaddedVectors& out, const NewtonKernels& kernels) const {
   const PlaneView right[3] = {{rhs.x.row(0), rhs.x.stride()},
@@ -37,8 +40,8 @@ void LineFactor::solve(int block, const PaddedVectors& rhs, Solve how, std::span
   const MutablePlaneView result[3] = {{out.x.row(0), out.x.stride()},
                                       {out.y.row(0), out.y.stride()},
                                       {out.z.row(0), out.z.stride()}};
-  kernels.solve_lines(at(block), factor_of(block), right, how.scale, how.add, scratch.data(),
-                      result);
+  const auto solve_block = held_ ? kernels.solve_held_lines : kernels.solve_lines;
+  solve_block(at(block), factor_of(block), right, how.scale, how.add, scratch.data(), result);
 }
 
 }  // namespace weft

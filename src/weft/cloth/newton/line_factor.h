@@ -13,12 +13,14 @@ namespace weft {
 /// The lines of an n x n grid in one direction, in blocks that are solved side by side.
 class LineFactor {
  public:
-  LineFactor(int size, bool along_rows);
+  /// @param held  whether of springs and what holds their samples besides, else of blocks
+  LineFactor(int size, bool along_rows, bool held);
 
   [[nodiscard]] int blocks() const { return (size_ + line_lanes - 1) / line_lanes; }
   /// Factors a block of lines of springs, or of blocks.
   void factor(int block, const SpringLineMatrix& matrix, const NewtonKernels& kernels);
   void factor(int block, const LineMatrix& matrix, const NewtonKernels& kernels);
+  void factor(int block, const HeldLineMatrix& matrix, const NewtonKernels& kernels);
   /// out = (add ? out : 0) + scale * solution of a block of lines.
   struct Solve {
     float scale = 1;
@@ -34,12 +36,13 @@ class LineFactor {
  private:
   [[nodiscard]] LineBlock at(int block) const;
   [[nodiscard]] float* factor_of(int block) const;
+  [[nodiscard]] int entries() const { return held_ ? held_factor_entries : line_factor_entries; }
   struct Free {
     void operator()(float* p) const { ::operator delete (p, std::align_val_t{64}); }
   };
 
   int size_;
-  bool along_rows_;
+  bool along_rows_, held_;
   std::unique_ptr<float[], Free> factors_;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
+#include <cstring>
 #include <utility>
 
 #include "weft/cloth/integrate/proposal.h"
@@ -11,18 +11,6 @@
 
 namespace weft {
 namespace {
-
-void copy_row(ConstRow3 from, Row3 to, int n) {
-  std::copy_n(from.x, n, to.x);
-  std::copy_n(from.y, n, to.y);
-  std::copy_n(from.z, n, to.z);
-}
-
-void clear_row(Row3 row, int n) {
-  std::fill_n(row.x, n, 0.0F);
-  std::fill_n(row.y, n, 0.0F);
-  std::fill_n(row.z, n, 0.0F);
-}
 
 /// Energy that a step gains, over its kinetic energy: less is taken out of velocities, more asks
 /// for another linearisation.
@@ -37,8 +25,10 @@ constexpr float share_in_flight = 0.1F, share_in_contact = 1;
 constexpr int most_contact_rounds = 2;
 
 bool same_row(ConstRow3 a, ConstRow3 b, int n) {
-  return std::equal(a.x, a.x + n, b.x) && std::equal(a.y, a.y + n, b.y) &&
-         std::equal(a.z, a.z + n, b.z);
+  const auto same = [n](const float* p, const float* q) {
+    return std::memcmp(p, q, static_cast<std::size_t>(n) * sizeof(float)) == 0;
+  };
+  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
 }
 
 /// a + factor b
@@ -68,12 +58,13 @@ NewtonSolver::NewtonSolver(const Cloth& cloth, ThreadTeam& team)
       step_(cloth.size, cloth.size),
       direction_(cloth.size, cloth.size),
       product_(cloth.size, cloth.size),
-      residual_(cloth.size, cloth.size),
+      residual_(multigrid_.rhs()),
       share_(cloth.size, cloth.size),
       own_mass_(cloth.size, cloth.size),
       contact_blocks_(cloth.size, cloth.size),
       contact_rows_(static_cast<std::size_t>(cloth.size)),
       sums_(cloth.size),
+      row_parts_(static_cast<std::size_t>(cloth.size)),
       known_rows_(static_cast<std::size_t>(cloth.size)),
       largest_(static_cast<std::size_t>(cloth.size)) {
   for (int r = 0; r < cloth.size; ++r) std::fill_n(share_.row(r), cloth.size, 1.0F);
@@ -82,6 +73,31 @@ NewtonSolver::NewtonSolver(const Cloth& cloth, ThreadTeam& team)
   });
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c) own_mass_(r, c) = share_(r, c) * cloth.mass(r, c);
+  find_mass();
+}
+
+/// Takes a row of the state at the start, and flies on from it.
+void NewtonSolver::begin_row(const ClothState& state, bool go_on, int row) {
+  const int n = cloth_.size;
+  const auto h = static_cast<float>(input_.time_step);
+  const ConstRow3 x = row_of(state.position, row), v = row_of(state.velocity, row);
+  // What the last step changed is where the next begins to look.
+  if (go_on)
+    add_row(n, v, -1, row_of(std::as_const(start_).velocity, row), direction_.row(row));
+  else
+    clear_row(direction_.row(row), n);
+  copy_row(x, row_of(start_.position, row), n);
+  copy_row(v, row_of(start_.velocity, row), n);
+  known_rows_[row] = same_row(x, std::as_const(state_.position).row(row), n) ? 1 : 0;
+  add_row(n, x, h, v, row_of(next_.position, row));
+  copy_row(v, row_of(next_.velocity, row), n);
+  const Vec3f gained = h * input_.gravity;
+  const Row3 wanted = wanted_.row(row);
+  for (int c = 0; c < n; ++c) {
+    wanted.x[c] = v.x[c] + gained.x;
+    wanted.y[c] = v.y[c] + gained.y;
+    wanted.z[c] = v.z[c] + gained.z;
+  }
 }
 
 void NewtonSolver::begin(const StepInput& input, const ClothState& state) {
@@ -91,22 +107,12 @@ void NewtonSolver::begin(const StepInput& input, const ClothState& state) {
   const bool same_gravity = input.gravity == known_gravity_;
   known_gravity_ = input.gravity;
   springs_.set_time_step(input.time_step);
-  multigrid_.renew_pins();
-  const auto h = static_cast<float>(input.time_step);
+  if (multigrid_.renew_pins()) find_mass();
+  const bool go_on = std::exchange(has_last_, false);
+  first_ = true;
   team_.run([&](Worker& worker) {
-    copy_rows(state, start_, worker);
     const Range mine = worker.share(cloth_.size);
-    for (int r = mine.first; r < mine.last; ++r) {
-      const ConstRow3 x = row_of(state.position, r), v = row_of(state.velocity, r);
-      known_rows_[r] = same_row(x, std::as_const(state_.position).row(r), cloth_.size) ? 1 : 0;
-      add_row(cloth_.size, x, h, v, row_of(next_.position, r));
-      copy_row(v, row_of(next_.velocity, r), cloth_.size);
-      for (int c = 0; c < cloth_.size; ++c) {
-        wanted_.x(r, c) = v.x[c] + h * input.gravity.x;
-        wanted_.y(r, c) = v.y[c] + h * input.gravity.y;
-        wanted_.z(r, c) = v.z[c] + h * input.gravity.z;
-      }
-    }
+    for (int r = mine.first; r < mine.last; ++r) begin_row(state, go_on, r);
   });
   // What a run left is often where the next begins: its energy is known.
   const bool known =
@@ -116,6 +122,9 @@ void NewtonSolver::begin(const StepInput& input, const ClothState& state) {
   driven_ = std::any_of(cloth_.pins.begin(), cloth_.pins.end(), [&](const Pin& held) {
     return vec_cast<float>(held.target) != start_.position.at(held.sample);
   });
+}
+
+void NewtonSolver::find_mass() {
   mass_ = 0;
   for (int r = 0; r < cloth_.size; ++r)
     for (int c = 0; c < cloth_.size; ++c)
@@ -147,7 +156,7 @@ void NewtonSolver::linearise(Worker& worker) {
     multigrid_.add_bending_gradient(state_.position, residual_, worker);
   }
   for (int r = mine.first; r < mine.last; ++r)
-    kernels_.scale_rows(cloth_.size, -1, residual_.row(r));
+    kernels_.scale_rows(whole_vectors(cloth_.size), -1, residual_.row(r));
   multigrid_.complete(residual_, worker);
 }
 
@@ -156,7 +165,7 @@ void NewtonSolver::set_up_multigrid(Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   const ContactLoads& loads = contacts_.loads();
   for (int r = mine.first; r < mine.last; ++r) {
-    springs_.diagonal_row(r, multigrid_.centres());
+    multigrid_.fill_diagonals(springs_, r);
     const bool touched = contacts_.active() > 0 && loads.row(r);
     contact_rows_[r] = touched ? 1 : 0;
     if (!touched) continue;
@@ -166,8 +175,9 @@ void NewtonSolver::set_up_multigrid(Worker& worker) {
       std::fill_n(blocks[k], cloth_.size, 0.0F);
     }
     loads.add_blocks(r, blocks);
-    for (int k = 0; k < 6; ++k)
-      for (int c = 0; c < cloth_.size; ++c) multigrid_.centres().entry[k](r, c) += blocks[k][c];
+    BlockRow6 added{};
+    std::copy(blocks.begin(), blocks.end(), added.entry);
+    multigrid_.add_to_diagonals(added, r);
   }
   worker.barrier();
   multigrid_.set_up(springs_, worker);
@@ -188,101 +198,13 @@ bool NewtonSolver::choose_contacts(Worker& worker) {
   return changed;
 }
 
-double NewtonSolver::dot(const PaddedVectors& a, const PaddedVectors& b, Worker& worker) {
-  const bool seamed = !multigrid_.seams().empty();
-  return sums_.sum(worker, [&](int r) {
-    return kernels_.dot(cloth_.size, seamed ? share_.row(r) : nullptr, a.row(r), b.row(r));
-  });
-}
-
-/// Inner forces sum to nothing: what nothing holds moves as a whole as if it were one particle.
-bool NewtonSolver::flies() const { return cloth_.pins.empty() && contacts_.active() == 0; }
-
-/// The step of the whole, from the residual: so that free fall is exact.
-Vec3d NewtonSolver::drift(Worker& worker) {
-  Vec3d sum;
-  const PaddedPlane* const residual[3] = {&residual_.x, &residual_.y, &residual_.z};
-  double* const part[3] = {&sum.x, &sum.y, &sum.z};
-  for (int k = 0; k < 3; ++k)
-    *part[k] = sums_.sum(worker, [&](int r) {
-      const float *f = residual[k]->row(r), *share = share_.row(r);
-      return lane_sum(cloth_.size, [&](int c) { return double{share[c]} * double{f[c]}; });
-    });
-  return (input_.time_step * input_.time_step / mass_) * sum;
-}
-
-/// Adds a step of the whole, and takes what it balances off the residual.
-void NewtonSolver::add_drift(Vec3d way, Worker& worker) {
-  const Range mine = worker.share(cloth_.size);
-  const auto h = static_cast<float>(input_.time_step);
-  const Vec3f moved = vec_cast<float>(way);
-  const float parts[3] = {moved.x, moved.y, moved.z}, per_square = 1 / (h * h);
-  PaddedPlane* const step[3] = {&step_.x, &step_.y, &step_.z};
-  PaddedPlane* const left[3] = {&residual_.x, &residual_.y, &residual_.z};
-  for (int r = mine.first; r < mine.last; ++r)
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < cloth_.size; ++c) {
-        (*step[k])(r, c) += parts[k];
-        (*left[k])(r, c) -= per_square * cloth_.mass(r, c) * parts[k];
-      }
-  worker.barrier();
-}
-
-void NewtonSolver::iterate(Progress& progress, Worker& worker) {
-  const int n = cloth_.size;
-  const Range mine = worker.share(n);
-  for (int r = mine.first; r < mine.last; ++r)
-    copy_row(std::as_const(residual_).row(r), multigrid_.rhs().row(r), n);
-  worker.barrier();
-  multigrid_.cycle(worker);
-  const double slope = dot(residual_, multigrid_.value(), worker);
-  const auto beta = static_cast<float>(progress.slope > 0 ? slope / progress.slope : 0);
-  progress.slope = slope;
-  for (int r = mine.first; r < mine.last; ++r) {
-    kernels_.scale_add(n, multigrid_.value().row(r), beta, direction_.row(r));
-    largest_[r] = kernels_.largest(n, std::as_const(direction_).row(r));
-  }
-  worker.barrier();
-  const bool touching = contacts_.active() > 0;
-  if (touching) contacts_.load_product(direction_, worker);
-  multigrid_.apply(direction_,
-                   {touching ? &contacts_.loads() : nullptr, curved_.active() ? &curved_ : nullptr},
-                   product_, worker);
-  const double curvature = dot(direction_, product_, worker);
-  const double length = curvature > 0 && slope > 0 ? slope / curvature : 0;
-  for (int r = mine.first; r < mine.last; ++r) {
-    kernels_.add_scaled(n, static_cast<float>(length), std::as_const(direction_).row(r),
-                        step_.row(r));
-    kernels_.add_scaled(n, static_cast<float>(-length), std::as_const(product_).row(r),
-                        residual_.row(r));
-  }
-  worker.barrier();
-  progress.correction =
-      length * std::sqrt(double{*std::max_element(largest_.begin(), largest_.end())});
-  if (worker.rank() == 0) last_length_ = length;
-  progress.promised += 0.5 * length * slope;
-  // What this iteration took off the energy, as a force on every particle over its weight.
-  progress.force = std::sqrt(length * slope / mass_) / (input_.time_step * 9.81);
-  ++progress.iterations;
-}
-
-void NewtonSolver::solve(const NewtonOptions& options, Progress& progress, Worker& worker) {
-  progress.slope = 0;
-  const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) clear_row(direction_.row(r), cloth_.size);
-  worker.barrier();
-  for (int i = 0; i < options.max_iterations; ++i) {
-    iterate(progress, worker);
-    if (progress.force < options.tolerance) break;
-  }
-}
-
 void NewtonSolver::move_state(float length, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   const auto per_step = static_cast<float>(1 / input_.time_step);
   for (int r = mine.first; r < mine.last; ++r) {
-    kernels_.add_scaled(cloth_.size, length, std::as_const(step_).row(r), state_.position.row(r));
-    kernels_.add_scaled(cloth_.size, length * per_step, std::as_const(step_).row(r),
+    kernels_.add_scaled(whole_vectors(cloth_.size), length, std::as_const(step_).row(r),
+                        state_.position.row(r));
+    kernels_.add_scaled(whole_vectors(cloth_.size), length * per_step, std::as_const(step_).row(r),
                         state_.velocity.row(r));
   }
   worker.barrier();
@@ -304,26 +226,6 @@ void NewtonSolver::take_plain(const PaddedVectors& position, Worker& worker) {
   worker.barrier();
 }
 
-double NewtonSolver::bending_energy(const PaddedVectors& position, Worker& worker) {
-  if (!curved_.active()) return multigrid_.bending_energy(position, sums_, share_, worker);
-  take_plain(position, worker);
-  curved_.set_position(plain_, worker);
-  return sums_.sum(worker, [&](int r) { return r == 0 ? curved_.energy() : 0.0; });
-}
-
-double NewtonSolver::energy(float length, Worker& worker) {
-  const double inner = sums_.sum(worker, [&](int r) {
-    const float* mass = own_mass_.row(r);
-    const ConstRow3 v = std::as_const(state_.velocity).row(r), w = std::as_const(wanted_).row(r);
-    return springs_.damped_energy_row(state_, r) + lane_sum(cloth_.size, [&](int c) {
-             const double x = v.x[c] - w.x[c], y = v.y[c] - w.y[c], z = v.z[c] - w.z[c];
-             return 0.5 * mass[c] * (x * x + y * y + z * z);
-           });
-  });
-  const double contacts = contacts_.empty() ? 0 : contacts_.energy(step_, length, worker);
-  return inner + bending_energy(state_.position, worker) + contacts;
-}
-
 /// Halves the last step until it lowers the energy. @return whether it had to
 bool NewtonSolver::shorten_step(Worker& worker) {
   double after = energy(1, worker);
@@ -338,7 +240,7 @@ bool NewtonSolver::shorten_step(Worker& worker) {
   }
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r)
-    kernels_.scale_rows(cloth_.size, length, step_.row(r));
+    kernels_.scale_rows(whole_vectors(cloth_.size), length, step_.row(r));
   worker.barrier();
   return length < 1;
 }
@@ -417,6 +319,7 @@ void NewtonSolver::run(std::span<const Contact> contacts, const NewtonOptions& o
   team_.run([&](Worker& worker) {
     read_state(worker);
     Progress progress;
+    progress.first = first_;
     descend(options, progress, worker);
     if (!contacts_.empty()) contacts_.measure(step_, worker);
     write_state(worker);
@@ -424,59 +327,7 @@ void NewtonSolver::run(std::span<const Contact> contacts, const NewtonOptions& o
     iterations_ += progress.iterations;
     correction_ = progress.correction / cloth_.rest_spacing;
   });
-}
-
-double NewtonSolver::potential(const PaddedVectors& position, Worker& worker) {
-  const Vec3f g = input_.gravity;
-  const double springs_and_gravity = sums_.sum(worker, [&](int r) {
-    const float* mass = own_mass_.row(r);
-    const ConstRow3 x = position.row(r);
-    return springs_.energy_row(position, r) - lane_sum(cloth_.size, [&](int c) {
-             return double{mass[c]} * (double{g.x} * double{x.x[c]} + double{g.y} * double{x.y[c]} +
-                                       double{g.z} * double{x.z[c]});
-           });
-  });
-  return springs_and_gravity + bending_energy(position, worker);
-}
-
-template <class Field>
-double NewtonSolver::kinetic(const Field& velocity, Worker& worker) {
-  return sums_.sum(worker, [&](int r) {
-    ConstRow3 v{};
-    if constexpr (std::is_same_v<Field, Planes3>)
-      v = row_of(velocity, r);
-    else
-      v = velocity.row(r);
-    return 0.5 * kernels_.dot(cloth_.size, own_mass_.row(r), v, v);
-  });
-}
-
-/// Takes an excess of energy out of what velocities differ from their mean by.
-void NewtonSolver::calm(double excess, Worker& worker) {
-  PaddedVectors& v = state_.velocity;
-  PaddedPlane* const planes[3] = {&v.x, &v.y, &v.z};
-  double mean[3], mean_energy = 0;
-  for (int k = 0; k < 3; ++k) {
-    mean[k] = sums_.sum(worker, [&](int r) {
-      const float *mass = own_mass_.row(r), *speed = planes[k]->row(r),
-                  *free = multigrid_.mask().row(r);
-      return lane_sum(cloth_.size,
-                      [&](int c) { return double{free[c]} * mass[c] * double{speed[c]}; });
-    });
-    mean[k] /= mass_;
-    mean_energy += 0.5 * mass_ * mean[k] * mean[k];
-  }
-  const double inner = kinetic(std::as_const(v), worker) - mean_energy;
-  const double left = inner > excess ? std::sqrt((inner - excess) / inner) : 0;
-  const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r)
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < cloth_.size; ++c)
-        if (multigrid_.mask()(r, c) > 0) {
-          float& speed = (*planes[k])(r, c);
-          speed = static_cast<float>(mean[k] + left * (double{speed} - mean[k]));
-        }
-  worker.barrier();
+  first_ = false;
 }
 
 void NewtonSolver::last_corrections(Grid<float>& sizes) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -9,9 +10,12 @@
 
 namespace weft {
 
+/// Columns of whole vectors, so that loops have no remainder: what is 0 in the frame stays 0.
+inline int whole_vectors(int cols) { return (cols + 15) / 16 * 16; }
+
 /// rows x cols floats inside a frame of zeros, so that stencils need no borders: two rows above and
 /// below, and at least 16 columns on either side. Rows begin on cache lines, and neighbouring rows
-/// never fall on the same cache sets. Only elements inside may be written.
+/// never fall on the same cache sets. Beyond the elements inside only zeros may be written.
 class PaddedPlane {
  public:
   PaddedPlane() = default;
@@ -59,6 +63,18 @@ struct PaddedVectors {
   [[nodiscard]] Row3 row(int r) { return {x.row(r), y.row(r), z.row(r)}; }
   [[nodiscard]] ConstRow3 row(int r) const { return {x.row(r), y.row(r), z.row(r)}; }
 };
+
+inline void copy_row(ConstRow3 from, Row3 to, int n) {
+  std::copy_n(from.x, n, to.x);
+  std::copy_n(from.y, n, to.y);
+  std::copy_n(from.z, n, to.z);
+}
+
+inline void clear_row(Row3 row, int n) {
+  std::fill_n(row.x, n, 0.0F);
+  std::fill_n(row.y, n, 0.0F);
+  std::fill_n(row.z, n, 0.0F);
+}
 
 /// A symmetric 3 x 3 block a sample: xx, xy, xz, yy, yz, zz.
 struct PaddedBlocks {

@@ -1,6 +1,7 @@
 #include "weft/cloth/newton/spring_hessian.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "weft/cloth/neighbours.h"
 
@@ -149,7 +150,7 @@ void SpringHessian::for_far_springs(int row, const Visit& visit) const {
 
 void SpringHessian::gradient_row(const PaddedState& state, const PaddedVectors& wanted, int row,
                                  PaddedVectors& out) const {
-  kernels_->gradient(cloth_.size, ring_at(row), rows_around(state.position, row),
+  kernels_->gradient(whole_vectors(cloth_.size), ring_at(row), rows_around(state.position, row),
                      momentum_.row(row), state.velocity.row(row), wanted.row(row), out.row(row));
   const PaddedVectors& at = state.position;
   for_far_springs(row, [&](int c, const ConstSpringHessianRow& springs, int s, int r2, int c2) {
@@ -162,12 +163,35 @@ void SpringHessian::gradient_row(const PaddedState& state, const PaddedVectors& 
 void SpringHessian::diagonal_row(int row, PaddedBlocks& out) const {
   MutableBlockRow6 blocks{};
   for (int k = 0; k < 6; ++k) blocks.entry[k] = out.entry[k].row(row);
-  kernels_->diagonal(cloth_.size, ring_at(row), inertia_.row(row), blocks);
+  kernels_->diagonal(whole_vectors(cloth_.size), ring_at(row), inertia_.row(row), blocks);
 }
 
-void SpringHessian::apply_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
-  kernels_->apply_springs(cloth_.size, ring_at(row), rows_around(x, row), inertia_.row(row),
-                          out.row(row));
+void SpringHessian::line_diagonals_row(int row, const float* extra,
+                                       const LineDiagonals& out) const {
+  kernels_->line_diagonals(whole_vectors(cloth_.size), ring_at(row), inertia_.row(row), extra, out);
+}
+
+void SpringHessian::sweep_row(const Sweep& sweep, int row, Row3 out) const {
+  ConstSpringHessianRow springs[near_directions];
+  for (int d = 0; d < near_directions; ++d) springs[d] = springs_row(d, row);
+  PaddedVectors& scratch = sweep.scratch;
+  const int even = row & 1;
+  kernels_->apply_springs(
+      whole_vectors(cloth_.size), springs,
+      {sweep.x.row(row), sweep.x.row(row + 1), inertia_.row(row), std::as_const(scratch).row(even),
+       scratch.row(1 - even), scratch.row(2), scratch.row(3), scratch.row(4)},
+      out);
+}
+
+void SpringHessian::apply_row(Sweep& sweep, int row, PaddedVectors& out) const {
+  if (!sweep.started) {
+    // The row above is another's: what its springs do to this one is found again.
+    for (const int carry : {0, 1}) clear_row(sweep.scratch.row(carry), cloth_.size);
+    if (row > 0) sweep_row(sweep, row - 1, sweep.scratch.row(5));
+    sweep.started = true;
+  }
+  sweep_row(sweep, row, out.row(row));
+  const PaddedVectors& x = sweep.x;
   for_far_springs(row, [&](int c, const ConstSpringHessianRow& springs, int s, int r2, int c2) {
     const float dx = x.x(row, c) - x.x(r2, c2), dy = x.y(row, c) - x.y(r2, c2),
                 dz = x.z(row, c) - x.z(r2, c2);

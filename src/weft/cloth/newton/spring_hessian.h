@@ -44,8 +44,17 @@ class SpringHessian {
   void gradient_row(const PaddedState& state, const PaddedVectors& wanted, int row,
                     PaddedVectors& out) const;
   void diagonal_row(int row, PaddedBlocks& out) const;
-  /// out = (M / h^2 + springs) x, own part.
-  void apply_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
+  /// And what holds lines besides their own springs. @param extra  [n] added to that
+  void line_diagonals_row(int row, const float* extra, const LineDiagonals& out) const;
+  /// Rows of a product as they are worked through.
+  struct Sweep {
+    const PaddedVectors& x;
+    PaddedVectors& scratch;  ///< [sweep_rows x n]
+    bool started = false;
+  };
+  static constexpr int sweep_rows = 6;
+  /// out = (M / h^2 + springs) x, own part. Rows of a sweep in ascending order, none left out.
+  void apply_row(Sweep& sweep, int row, PaddedVectors& out) const;
 
   /// Own part of M / h^2 [N/m].
   [[nodiscard]] const PaddedPlane& inertia() const { return inertia_; }
@@ -66,6 +75,7 @@ class SpringHessian {
   [[nodiscard]] LinearisedSprings springs_at(int direction, const PaddedVectors& position,
                                              int row) const;
   [[nodiscard]] SpringRing ring_at(int row) const;
+  void sweep_row(const Sweep& sweep, int row, Row3 out) const;
 
   const Cloth& cloth_;
   const NewtonKernels* kernels_;

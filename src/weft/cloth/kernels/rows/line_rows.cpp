@@ -1,8 +1,8 @@
 #include "weft/cloth/kernels/rows/newton_rows.h"
 
-// Block tridiagonal systems of neighbouring lines, side by side in lanes. Factors are computed in
-// double and stored in float: light, stiff cloth leaves the Schur complements a small difference of
-// large blocks.
+// Block tridiagonal systems of neighbouring lines, side by side in lanes. Factors of blocks are
+// computed in double and stored in float: light, stiff cloth leaves the Schur complements a small
+// difference of large blocks. Of springs that difference is known.
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
@@ -10,27 +10,48 @@ namespace {
 constexpr int chunk = 16;
 /// A pivot is at least this part of its diagonal entry, so that rounding never makes one negative.
 constexpr double least_pivot = 2e-7;
+constexpr float least_series_pivot = 1e-6F;
 
-/// Element j of line i becomes tile[j][i].
+using Four = float __attribute__((vector_size(16)));
+using UnalignedFour = float __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// A 4 x 4 matrix, by rows, becomes its transpose.
+inline void transpose(Four* m) {
+  const Four a = __builtin_shufflevector(m[0], m[1], 0, 4, 1, 5),
+             b = __builtin_shufflevector(m[0], m[1], 2, 6, 3, 7),
+             c = __builtin_shufflevector(m[2], m[3], 0, 4, 1, 5),
+             d = __builtin_shufflevector(m[2], m[3], 2, 6, 3, 7);
+  m[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  m[1] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  m[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  m[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
+/// Element j of line i becomes tile[j][i]. Beyond the last line stands something finite.
 template <int lanes>
 inline void read_tile(const PlaneView& plane, const LineBlock& block, int position, int count,
                       float (*tile)[lanes]) {
   const int width = block.width;
   if (block.along_rows) {
-    for (int i = 0; i < width; ++i) {
-      const float* line = plane.base + (block.first + i) * plane.stride + position;
-      for (int j = 0; j < chunk; ++j) tile[j][i] = line[j];
+    for (int i = 0; i < width; i += 4) {
+      const float* line[4];
+      for (int k = 0; k < 4; ++k)
+        line[k] =
+            plane.base + (block.first + (i + k < width ? i + k : i)) * plane.stride + position;
+      for (int j = 0; j < chunk; j += 4) {
+        Four m[4];
+        for (int k = 0; k < 4; ++k) m[k] = *reinterpret_cast<const UnalignedFour*>(line[k] + j);
+        transpose(m);
+        for (int k = 0; k < 4; ++k) *reinterpret_cast<UnalignedFour*>(&tile[j + k][i]) = m[k];
+      }
     }
     return;
   }
   for (int j = 0; j < count; ++j) {
     const float* line = plane.base + (position + j) * plane.stride + block.first;
-    if (width == lanes) {
+    // Beyond the last line is the frame.
 #pragma omp simd
-      for (int i = 0; i < lanes; ++i) tile[j][i] = line[i];
-    } else {
-      for (int i = 0; i < width; ++i) tile[j][i] = line[i];
-    }
+    for (int i = 0; i < lanes; ++i) tile[j][i] = line[i];
   }
 }
 
@@ -39,13 +60,23 @@ inline void write_tile(const MutablePlaneView& plane, const LineBlock& block, in
                        int count, const float (*tile)[lanes], bool add) {
   const int width = block.width;
   if (block.along_rows) {
-    for (int i = 0; i < width; ++i) {
-      float* line = plane.base + (block.first + i) * plane.stride + position;
-      if (add)
-        for (int j = 0; j < count; ++j) line[j] += tile[j][i];
-      else
-        for (int j = 0; j < count; ++j) line[j] = tile[j][i];
-    }
+    for (int i = 0; i < width; i += 4)
+      for (int j = 0; j < count; j += 4) {
+        Four m[4];
+        for (int k = 0; k < 4; ++k) m[k] = *reinterpret_cast<const UnalignedFour*>(&tile[j + k][i]);
+        transpose(m);
+        float* const first = plane.base + (block.first + i) * plane.stride + position + j;
+        const int lines = width - i < 4 ? width - i : 4;
+        for (int k = 0; k < lines; ++k) {
+          float* const line = first + k * plane.stride;
+          if (j + 4 <= count) {
+            auto* const four = reinterpret_cast<UnalignedFour*>(line);
+            *four = add ? *four + m[k] : m[k];
+          } else {
+            for (int p = 0; p < count - j; ++p) line[p] = add ? line[p] + m[k][p] : m[k][p];
+          }
+        }
+      }
     return;
   }
   for (int j = 0; j < count; ++j) {
@@ -174,7 +205,78 @@ void factor(const LineBlock& block, const PlaneView* diagonal, const PlaneView& 
   }
 }
 
-/// out = base + sign G v for the blocks of a position
+/// Springs in series, in single precision without cancellation: with Q what holds a sample but for
+/// the spring K = t 1 + s s^T after it, which passes on P = K - K (Q + K)^-1 K.
+template <int lanes>
+struct Series {
+  alignas(64) float passed[6][lanes] = {};  // P
+
+  /// out = (Q + K)^-1 and K. @param held  Q without what the spring before passes on
+  void advance(const float (*held)[chunk][lanes], const float (*spring)[chunk][lanes], int j,
+               float* out) {
+#pragma omp simd
+    for (int i = 0; i < lanes; ++i) {
+      const float t = spring[0][j][i], x = spring[1][j][i], y = spring[2][j][i],
+                  z = spring[3][j][i];
+      const float a0 = held[0][j][i] + passed[0][i] + t, a1 = held[1][j][i] + passed[1][i],
+                  a2 = held[2][j][i] + passed[2][i], a3 = held[3][j][i] + passed[3][i] + t,
+                  a4 = held[4][j][i] + passed[4][i], a5 = held[5][j][i] + passed[5][i] + t;
+      // W = (Q + t 1)^-1 by L D L^T.
+      const float i0 = 1 / a0, l1 = a1 * i0, l2 = a2 * i0;
+      const float p1 = a3 - l1 * a1, least1 = least_series_pivot * a3;
+      const float i1 = 1 / (p1 > least1 ? p1 : least1), e4 = a4 - l1 * a2, m = e4 * i1;
+      const float p2 = a5 - l2 * a2 - m * e4, least2 = least_series_pivot * a5;
+      const float i2 = 1 / (p2 > least2 ? p2 : least2), n = m * l1 - l2;
+      const float w0 = i0 + l1 * l1 * i1 + n * n * i2, w1 = -(l1 * i1 + m * n * i2), w2 = n * i2,
+                  w3 = i1 + m * m * i2, w4 = -(m * i2), w5 = i2;
+      // (W^-1 + s s^T)^-1 = W - q q^T / (1 + s . q), q = W s.
+      const float qx = w0 * x + w1 * y + w2 * z, qy = w1 * x + w3 * y + w4 * z,
+                  qz = w2 * x + w4 * y + w5 * z;
+      const float part = 1 / (1 + x * qx + y * qy + z * qz);
+      const float rx = part * qx, ry = part * qy, rz = part * qz;
+      out[i] = w0 - rx * qx;
+      out[lanes + i] = w1 - rx * qy;
+      out[2 * lanes + i] = w2 - rx * qz;
+      out[3 * lanes + i] = w3 - ry * qy;
+      out[4 * lanes + i] = w4 - ry * qz;
+      out[5 * lanes + i] = w5 - rz * qz;
+      out[6 * lanes + i] = t;
+      out[7 * lanes + i] = x;
+      out[8 * lanes + i] = y;
+      out[9 * lanes + i] = z;
+      // P = t (1 - t W) + (s - t q) (s - t q)^T / (1 + s . q)
+      const float ux = x - t * qx, uy = y - t * qy, uz = z - t * qz, tt = t * t;
+      const float vx = part * ux, vy = part * uy, vz = part * uz;
+      passed[0][i] = t - tt * w0 + vx * ux;
+      passed[1][i] = vx * uy - tt * w1;
+      passed[2][i] = vx * uz - tt * w2;
+      passed[3][i] = t - tt * w3 + vy * uy;
+      passed[4][i] = vy * uz - tt * w4;
+      passed[5][i] = t - tt * w5 + vz * uz;
+    }
+  }
+};
+
+template <int lanes>
+void factor_series(const LineBlock& block, const HeldLineMatrix& matrix, float* factors) {
+  Series<lanes> state;
+  alignas(64) float held[6][chunk][lanes] = {}, spring[4][chunk][lanes] = {};
+  for (int position = 0; position < block.length; position += chunk) {
+    const int count = block.length - position < chunk ? block.length - position : chunk;
+    for (int k = 0; k < 6; ++k) read_tile<lanes>(matrix.held[k], block, position, count, held[k]);
+    for (int k = 0; k < 4; ++k)
+      read_tile<lanes>(matrix.spring[k], block, position, count, spring[k]);
+    for (int j = 0; j < count; ++j) {
+      // Lanes without a line solve for nothing.
+      for (int i = block.width; i < lanes; ++i) held[0][j][i] = held[3][j][i] = held[5][j][i] = 1;
+      state.advance(
+          held, spring, j,
+          factors + static_cast<std::ptrdiff_t>(position + j) * held_factor_entries * lanes);
+    }
+  }
+}
+
+/// out = G v for the blocks of a position
 template <int lanes>
 inline void multiply(const float* blocks, const float (*v)[lanes], float (*out)[lanes]) {
 #pragma omp simd
@@ -187,12 +289,37 @@ inline void multiply(const float* blocks, const float (*v)[lanes], float (*out)[
   }
 }
 
-template <int lanes>
+/// What a sample's neighbours on its line do to it: of blocks B v, of springs -(t v + s (s . v)).
+struct BlockPull {
+  static constexpr int entries = line_factor_entries;
+  template <int lanes>
+  static void apply(const float* blocks, const float (*v)[lanes], float (*out)[lanes]) {
+    multiply<lanes>(blocks, v, out);
+  }
+};
+struct SpringPull {
+  static constexpr int entries = held_factor_entries;
+  template <int lanes>
+  static void apply(const float* spring, const float (*v)[lanes], float (*out)[lanes]) {
+#pragma omp simd
+    for (int i = 0; i < lanes; ++i) {
+      const float t = spring[i], x = spring[lanes + i], y = spring[2 * lanes + i],
+                  z = spring[3 * lanes + i];
+      const float along = x * v[0][i] + y * v[1][i] + z * v[2][i];
+      out[0][i] = -(t * v[0][i] + along * x);
+      out[1][i] = -(t * v[1][i] + along * y);
+      out[2][i] = -(t * v[2][i] + along * z);
+    }
+  }
+};
+
+template <int lanes, class Pull>
 void solve(const LineBlock& block, const float* factors, const PlaneView* rhs, float scale,
            bool add, float* scratch, const MutablePlaneView* out) {
   using Vectors = float(*)[lanes];
-  constexpr std::ptrdiff_t entries = std::ptrdiff_t{line_factor_entries} * lanes;
-  alignas(64) float tile[3][chunk][lanes] = {};
+  constexpr std::ptrdiff_t entries = std::ptrdiff_t{Pull::entries} * lanes;
+  alignas(64) float tile[3][chunk][lanes];
+  if (block.width < lanes) __builtin_memset(tile, 0, sizeof tile);
   alignas(64) float passed[3][lanes] = {}, right[3][lanes];
   for (int position = 0; position < block.length; position += chunk) {
     const int count = block.length - position < chunk ? block.length - position : chunk;
@@ -205,7 +332,7 @@ void solve(const LineBlock& block, const float* factors, const PlaneView* rhs, f
 #pragma omp simd
         for (int i = 0; i < lanes; ++i) right[k][i] = tile[k][j][i] - passed[k][i];
       multiply<lanes>(blocks, right, here);
-      multiply<lanes>(blocks + 6 * lanes, here, passed);
+      Pull::template apply<lanes>(blocks + 6 * lanes, here, passed);
     }
   }
   alignas(64) float later[3][lanes] = {}, pulled[3][lanes];
@@ -216,7 +343,7 @@ void solve(const LineBlock& block, const float* factors, const PlaneView* rhs, f
       const std::ptrdiff_t p = position + j;
       const float* blocks = factors + p * entries;
       const auto here = reinterpret_cast<Vectors>(scratch + p * 3 * lanes);
-      multiply<lanes>(blocks + 6 * lanes, later, passed);
+      Pull::template apply<lanes>(blocks + 6 * lanes, later, passed);
       multiply<lanes>(blocks, passed, pulled);
       for (int k = 0; k < 3; ++k)
 #pragma omp simd
@@ -256,9 +383,24 @@ void factor_spring_lines(const LineBlock& lines, const SpringLineMatrix& matrix,
 void solve_lines(const LineBlock& lines, const float* factors, const PlaneView* rhs, float scale,
                  bool add, float* scratch, const MutablePlaneView* out) {
   if (lines.width > half_lanes)
-    solve<line_lanes>(lines, factors, rhs, scale, add, scratch, out);
+    solve<line_lanes, BlockPull>(lines, factors, rhs, scale, add, scratch, out);
   else
-    solve<half_lanes>(lines, factors, rhs, scale, add, scratch, out);
+    solve<half_lanes, BlockPull>(lines, factors, rhs, scale, add, scratch, out);
+}
+
+void factor_held_lines(const LineBlock& lines, const HeldLineMatrix& matrix, float* factors) {
+  if (lines.width > half_lanes)
+    factor_series<line_lanes>(lines, matrix, factors);
+  else
+    factor_series<half_lanes>(lines, matrix, factors);
+}
+
+void solve_held_lines(const LineBlock& lines, const float* factors, const PlaneView* rhs,
+                      float scale, bool add, float* scratch, const MutablePlaneView* out) {
+  if (lines.width > half_lanes)
+    solve<line_lanes, SpringPull>(lines, factors, rhs, scale, add, scratch, out);
+  else
+    solve<half_lanes, SpringPull>(lines, factors, rhs, scale, add, scratch, out);
 }
 
 }  // namespace weft::WEFT_KERNEL_SET

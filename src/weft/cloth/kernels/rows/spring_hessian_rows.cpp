@@ -37,14 +37,15 @@ inline void stiffen(const ConstSpringHessianRow& spring, int c, float& t, Sum6& 
   sum.zz += z * z;
 }
 
-/// g += (t + s s^T) (x_i - x_j): differences first, so that nothing cancels.
-inline void resist(const ConstSpringHessianRow& spring, int c, float dx, float dy, float dz,
-                   float& gx, float& gy, float& gz) {
+struct Force {
+  float x, y, z;
+};
+
+/// (t + s s^T) (x_i - x_j): differences first, so that nothing cancels.
+inline Force resist(const ConstSpringHessianRow& spring, int c, float dx, float dy, float dz) {
   const float x = spring.x[c], y = spring.y[c], z = spring.z[c], t = spring.t[c];
   const float along = x * dx + y * dy + z * dz;
-  gx += t * dx + along * x;
-  gy += t * dy + along * y;
-  gz += t * dz + along * z;
+  return {t * dx + along * x, t * dy + along * y, t * dz + along * z};
 }
 
 }  // namespace
@@ -129,24 +130,88 @@ void diagonal(int n, const SpringRing& ring, const float* mass, MutableBlockRow6
   }
 }
 
-void apply_springs(int n, const SpringRing& ring, const RowTriple& x, const float* mass, Row3 out) {
+void line_diagonals(int n, const SpringRing& ring, const float* mass, const float* extra,
+                    const LineDiagonals& out) {
   const auto* s = ring.spring;
-  const ConstRow3 above = x.above, here = x.here, below = x.below;
+  float *const *whole = out.whole.entry, *const *rows = out.rows.entry,
+               *const *cols = out.cols.entry;
+#pragma omp simd
+  for (int c = 0; c < n; ++c) {
+    float t = mass[c];
+    Sum6 shared{0, 0, 0, 0, 0, 0};
+    stiffen(s[4], c, t, shared);
+    stiffen(s[5], c, t, shared);
+    stiffen(s[6], c, t, shared);
+    stiffen(s[7], c, t, shared);
+    float along = 0, across = 0;
+    Sum6 row{0, 0, 0, 0, 0, 0}, col{0, 0, 0, 0, 0, 0};
+    stiffen(s[0], c, along, row);
+    stiffen(s[1], c, along, row);
+    stiffen(s[2], c, across, col);
+    stiffen(s[3], c, across, col);
+    const float in_row = t + extra[c] + across, in_col = t + extra[c] + along,
+                all = t + along + across;
+    rows[0][c] = shared.xx + col.xx + in_row;
+    rows[1][c] = shared.xy + col.xy;
+    rows[2][c] = shared.xz + col.xz;
+    rows[3][c] = shared.yy + col.yy + in_row;
+    rows[4][c] = shared.yz + col.yz;
+    rows[5][c] = shared.zz + col.zz + in_row;
+    cols[0][c] = shared.xx + row.xx + in_col;
+    cols[1][c] = shared.xy + row.xy;
+    cols[2][c] = shared.xz + row.xz;
+    cols[3][c] = shared.yy + row.yy + in_col;
+    cols[4][c] = shared.yz + row.yz;
+    cols[5][c] = shared.zz + row.zz + in_col;
+    whole[0][c] = shared.xx + row.xx + col.xx + all;
+    whole[1][c] = shared.xy + row.xy + col.xy;
+    whole[2][c] = shared.xz + row.xz + col.xz;
+    whole[3][c] = shared.yy + row.yy + col.yy + all;
+    whole[4][c] = shared.yz + row.yz + col.yz;
+    whole[5][c] = shared.zz + row.zz + col.zz + all;
+  }
+}
+
+void apply_springs(int n, const ConstSpringHessianRow* springs, const SpringSweep& at, Row3 out) {
+  const ConstRow3 here = at.here, below = at.below, carried = at.carried;
+  const Row3 right = at.right, below_right = at.below_right, below_left = at.below_left,
+             carry = at.carry;
+  const float* mass = at.mass;
+  const ConstSpringHessianRow to_right = springs[0], down = springs[1], to_below_right = springs[2],
+                              to_below_left = springs[3];
 #pragma omp simd
   for (int c = 0; c < n; ++c) {
     const float hx = here.x[c], hy = here.y[c], hz = here.z[c];
-    float gx = mass[c] * hx, gy = mass[c] * hy, gz = mass[c] * hz;
-    resist(s[0], c, hx - here.x[c + 1], hy - here.y[c + 1], hz - here.z[c + 1], gx, gy, gz);
-    resist(s[1], c, hx - here.x[c - 1], hy - here.y[c - 1], hz - here.z[c - 1], gx, gy, gz);
-    resist(s[2], c, hx - below.x[c], hy - below.y[c], hz - below.z[c], gx, gy, gz);
-    resist(s[3], c, hx - above.x[c], hy - above.y[c], hz - above.z[c], gx, gy, gz);
-    resist(s[4], c, hx - below.x[c + 1], hy - below.y[c + 1], hz - below.z[c + 1], gx, gy, gz);
-    resist(s[5], c, hx - above.x[c - 1], hy - above.y[c - 1], hz - above.z[c - 1], gx, gy, gz);
-    resist(s[6], c, hx - below.x[c - 1], hy - below.y[c - 1], hz - below.z[c - 1], gx, gy, gz);
-    resist(s[7], c, hx - above.x[c + 1], hy - above.y[c + 1], hz - above.z[c + 1], gx, gy, gz);
-    out.x[c] = gx;
-    out.y[c] = gy;
-    out.z[c] = gz;
+    const Force r = resist(to_right, c, hx - here.x[c + 1], hy - here.y[c + 1], hz - here.z[c + 1]);
+    const Force d = resist(down, c, hx - below.x[c], hy - below.y[c], hz - below.z[c]);
+    const Force a =
+        resist(to_below_right, c, hx - below.x[c + 1], hy - below.y[c + 1], hz - below.z[c + 1]);
+    const Force b =
+        resist(to_below_left, c, hx - below.x[c - 1], hy - below.y[c - 1], hz - below.z[c - 1]);
+    out.x[c] = mass[c] * hx + (r.x + d.x) + (a.x + b.x) + carried.x[c];
+    out.y[c] = mass[c] * hy + (r.y + d.y) + (a.y + b.y) + carried.y[c];
+    out.z[c] = mass[c] * hz + (r.z + d.z) + (a.z + b.z) + carried.z[c];
+    right.x[c] = r.x;
+    right.y[c] = r.y;
+    right.z[c] = r.z;
+    carry.x[c] = d.x;
+    carry.y[c] = d.y;
+    carry.z[c] = d.z;
+    below_right.x[c] = a.x;
+    below_right.y[c] = a.y;
+    below_right.z[c] = a.z;
+    below_left.x[c] = b.x;
+    below_left.y[c] = b.y;
+    below_left.z[c] = b.z;
+  }
+#pragma omp simd
+  for (int c = 0; c < n; ++c) {
+    out.x[c] -= right.x[c - 1];
+    out.y[c] -= right.y[c - 1];
+    out.z[c] -= right.z[c - 1];
+    carry.x[c] = -(carry.x[c] + below_right.x[c - 1] + below_left.x[c + 1]);
+    carry.y[c] = -(carry.y[c] + below_right.y[c - 1] + below_left.y[c + 1]);
+    carry.z[c] = -(carry.z[c] + below_right.z[c - 1] + below_left.z[c + 1]);
   }
 }
 

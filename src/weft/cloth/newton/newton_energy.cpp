@@ -1,0 +1,85 @@
+#include <cmath>
+#include <utility>
+
+#include "weft/cloth/neighbours.h"
+#include "weft/cloth/newton/newton_solver.h"
+
+// Energies of a step, and what they take from velocities.
+namespace weft {
+
+double NewtonSolver::bending_energy(const PaddedVectors& position, Worker& worker) {
+  if (!curved_.active()) return multigrid_.bending_energy(position, sums_, share_, worker);
+  take_plain(position, worker);
+  curved_.set_position(plain_, worker);
+  return sums_.sum(worker, [&](int r) { return r == 0 ? curved_.energy() : 0.0; });
+}
+
+double NewtonSolver::energy(float length, Worker& worker) {
+  const double inner = sums_.sum(worker, [&](int r) {
+    const float* mass = own_mass_.row(r);
+    const ConstRow3 v = std::as_const(state_.velocity).row(r), w = std::as_const(wanted_).row(r);
+    return springs_.damped_energy_row(state_, r) + lane_sum(cloth_.size, [&](int c) {
+             const double x = v.x[c] - w.x[c], y = v.y[c] - w.y[c], z = v.z[c] - w.z[c];
+             return 0.5 * mass[c] * (x * x + y * y + z * z);
+           });
+  });
+  const double contacts = contacts_.empty() ? 0 : contacts_.energy(step_, length, worker);
+  return inner + bending_energy(state_.position, worker) + contacts;
+}
+
+double NewtonSolver::potential(const PaddedVectors& position, Worker& worker) {
+  const Vec3f g = input_.gravity;
+  const double springs_and_gravity = sums_.sum(worker, [&](int r) {
+    const float* mass = own_mass_.row(r);
+    const ConstRow3 x = position.row(r);
+    return springs_.energy_row(position, r) - lane_sum(cloth_.size, [&](int c) {
+             return double{mass[c]} * (double{g.x} * double{x.x[c]} + double{g.y} * double{x.y[c]} +
+                                       double{g.z} * double{x.z[c]});
+           });
+  });
+  return springs_and_gravity + bending_energy(position, worker);
+}
+
+double NewtonSolver::kinetic(const Planes3& velocity, Worker& worker) {
+  return sums_.sum(worker, [&](int r) {
+    const ConstRow3 v = row_of(velocity, r);
+    return 0.5 * kernels_.dot(cloth_.size, own_mass_.row(r), v, v);
+  });
+}
+
+double NewtonSolver::kinetic(const PaddedVectors& velocity, Worker& worker) {
+  return sums_.sum(worker, [&](int r) {
+    const ConstRow3 v = velocity.row(r);
+    return 0.5 * kernels_.dot(cloth_.size, own_mass_.row(r), v, v);
+  });
+}
+
+/// Takes an excess of energy out of what velocities differ from their mean by.
+void NewtonSolver::calm(double excess, Worker& worker) {
+  PaddedVectors& v = state_.velocity;
+  PaddedPlane* const planes[3] = {&v.x, &v.y, &v.z};
+  double mean[3], mean_energy = 0;
+  for (int k = 0; k < 3; ++k) {
+    mean[k] = sums_.sum(worker, [&](int r) {
+      const float *mass = own_mass_.row(r), *speed = planes[k]->row(r),
+                  *free = multigrid_.mask().row(r);
+      return lane_sum(cloth_.size,
+                      [&](int c) { return double{free[c]} * mass[c] * double{speed[c]}; });
+    });
+    mean[k] /= mass_;
+    mean_energy += 0.5 * mass_ * mean[k] * mean[k];
+  }
+  const double inner = kinetic(std::as_const(v), worker) - mean_energy;
+  const double left = inner > excess ? std::sqrt((inner - excess) / inner) : 0;
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    for (int k = 0; k < 3; ++k)
+      for (int c = 0; c < cloth_.size; ++c)
+        if (multigrid_.mask()(r, c) > 0) {
+          float& speed = (*planes[k])(r, c);
+          speed = static_cast<float>(mean[k] + left * (double{speed} - mean[k]));
+        }
+  worker.barrier();
+}
+
+}  // namespace weft
