@@ -73,8 +73,9 @@ constexpr double calm_part = 0.2;
 constexpr double lent_part = 0.003;
 
 /// In parts of the least gap: a solve that led less far from where its contacts were found has met
-/// what there is to meet; a guess that goes less far passes through nothing that is not closer.
-constexpr double same_place = 0.1, next_to_start = 0.05;
+/// what there is to meet, as those begin half a gap before they press; a guess that goes less far
+/// passes through nothing that is not closer.
+constexpr double same_place = 0.25, next_to_start = 0.05;
 
 double lent_energy(double mass, double density) {
   return lent_part * mass * 9.81 * std::sqrt(mass / density);
