@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "weft/cloth/bending.h"
 #include "weft/cloth/neighbours.h"
@@ -250,7 +251,7 @@ void TightSolver::set_up_preconditioner(const Field& position) {
   write(position, state_.start);
   team_.run([&](Worker& worker) {
     for (int r = 0; r < cloth_.size; ++r) springs_.linearise_row(state_, 1, r);
-    for (int r = 0; r < cloth_.size; ++r) springs_.diagonal_row(r, multigrid_.centres());
+    for (int r = 0; r < cloth_.size; ++r) multigrid_.fill_diagonals(springs_, r);
     multigrid_.set_up(springs_, worker);
   });
 }
@@ -267,6 +268,7 @@ bool TightSolver::solve() {
     precondition(residual_, value_);
     const double next = dot(residual_, value_), changed = next - dot(before_, value_);
     if (i == 0) first = next;
+    if (!std::isfinite(next)) throw std::runtime_error("the cycle gives no number");
     if (!(next > options_.inner_tolerance * options_.inner_tolerance * first)) return true;
     const double beta = i > 0 ? std::max(0.0, changed / slope) : 0;
     for (std::size_t s = 0; s < step_.size(); ++s) direction_[s] = value_[s] + beta * direction_[s];

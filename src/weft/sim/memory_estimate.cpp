@@ -30,7 +30,7 @@ struct ClothBytes {
   double samples;
   double operator()(const ExplicitOptions&) const { return 385 * samples; }
   double operator()(const TwoLevelOptions&) const { return 445 * samples; }
-  double operator()(const NewtonOptions&) const { return 1500 * samples; }
+  double operator()(const NewtonOptions&) const { return 1150 * samples; }
   double operator()(const MultigridOptions&) const { return 640 * samples; }
   double operator()(const ImplicitOptions&) const { return 785 * samples; }
   /// Its filter is one dense matrix.

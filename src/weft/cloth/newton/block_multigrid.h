@@ -65,8 +65,6 @@ class BlockMultigrid {
   /// To be called when particles may have been pinned or let go. @return whether any was
   bool renew_pins();
 
-  /// Diagonal blocks of the finest level, own parts.
-  [[nodiscard]] PaddedBlocks& centres() { return levels_.front().stencil.centre; }
   /// Whether rows of these blocks are added to the springs in the cycle's products, by row; the
   /// centres hold them already.
   struct ContactRows {

@@ -251,7 +251,7 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
   for (int r = mine.first; r < mine.last; ++r) clear_row(step_.row(r), cloth_.size);
   linearise(worker);
   if (!contacts_.empty()) {
-    for (int r = mine.first; r < mine.last; ++r) springs_.diagonal_row(r, multigrid_.centres());
+    for (int r = mine.first; r < mine.last; ++r) multigrid_.fill_diagonals(springs_, r);
     worker.barrier();
     multigrid_.join_centres(worker);
     contacts_.place(state_.velocity, multigrid_.finest().diagonal(), worker);
