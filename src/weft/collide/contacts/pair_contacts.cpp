@@ -17,6 +17,9 @@ constexpr double softness = 100;
 constexpr double foresight = 1.5;
 /// Edges that cross in layers lying flat on each other are left to samples and triangles.
 constexpr float flat = 0.8F;
+/// What is no farther apart than so many gaps along the cloth cannot lie on itself: it would have
+/// to turn within half a gap, which is bending's affair.
+constexpr double beside_in_gaps = 3;
 
 /// One side of a contact: up to three samples of a cloth with weights that sum to 1.
 struct Side {
@@ -56,7 +59,7 @@ class Finder {
 
   void look_at(const CellPair& cells) {
     const SeenCell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
-    if (pair_.same && adjacent(a, b)) return;
+    if (pair_.same && (adjacent(a, b) || beside(a, b))) return;
     const MovingSurface surface_a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
     const MovingSurface surface_b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
     const CellGaps gaps(surface_a, cells.a, surface_b, cells.b);
@@ -79,6 +82,25 @@ class Finder {
       return std::any_of(b.samples.begin(), b.samples.end(),
                          [&](int t) { return a.grid->point(s) == a.grid->point(t); });
     });
+  }
+
+  /// Whether the way from one to the other along a row and a column is shorter than that, at rest.
+  [[nodiscard]] bool beside(const SeenCell& a, const SeenCell& b) const {
+    if (pair_.rest == nullptr) return false;
+    const double limit = beside_in_gaps * pair_.gap;
+    const int cells = a.grid->cells();
+    const int row = std::min(a.cell / cells, b.cell / cells);
+    const int last_row = std::max(a.cell / cells, b.cell / cells);
+    const int col = std::min(a.cell % cells, b.cell % cells);
+    const int last_col = std::max(a.cell % cells, b.cell % cells);
+    double way = 0;
+    const auto step = [&](int r, int c, int to_r, int to_c) {
+      way += length(vec_cast<double>(pair_.rest->at(to_r, to_c) - pair_.rest->at(r, c)));
+    };
+    // Between the corners that face each other.
+    for (int r = row + 1; r < last_row && way <= limit; ++r) step(r, last_col, r + 1, last_col);
+    for (int c = col + 1; c < last_col && way <= limit; ++c) step(row + 1, c, row + 1, c + 1);
+    return way <= limit;
   }
 
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }
