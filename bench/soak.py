@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""Random starts: bodies, poses, sizes, speeds up to 10 m/s, materials; every frame verified. Failures name their seed.
+"""Random starts: bodies, poses, sizes, speeds up to 10 m/s, materials, pins, wind, animations; every step verified. Failures name
+their seed, and every start leaves its figures in a table.
 
-Usage: bench/soak.py [--seeds 200] [--first 0] [--jobs 2] [--keep FOLDER] [--write]
+Usage: bench/soak.py [--seeds 200] [--first 0] [--jobs 2] [--keep FOLDER] [--figures FILE.csv] [--write]
        bench/soak.py --scene SEED       prints the scene of one seed
 """
 import argparse
 import concurrent.futures
+import csv
 import json
 import math
 import pathlib
 import random
+import struct
 import subprocess
 import sys
 import tempfile
@@ -21,8 +24,15 @@ FASTEST = 10  # m/s
 # Radii about the origin of shapes that hold the whole shape [m].
 BODIES = {"sphere": 0.5, "torus": 0.5, "box": 0.44, "cone": 0.4, "rod": 0.51, "knot": 0.5, "double_torus": 0.5,
           "cylinder": 0.54}
+# Closed meshes of others, where they are.
+MESHES = program.ROOT.parent / "shared/meshes"
+SHARED = ("ode_spot.obj", "c3d_rocker-arm.obj", "igl_fertility.off", "gpt_mannequin.off")
 CLOTHS = {"sheet": 0.71, "disk": 0.5, "torus": 0.5, "cylinder": 0.54}
 MATERIALS = ("cotton", "silk", "wool", "denim", "leather", "linen", "jersey", "chiffon", "canvas")
+# What a run may come to: parts of springs, of points put back, of m g 1 m gained, and metres off free fall.
+MOST_STRAIN, MOST_FELL_BACK, MOST_GAINED, MOST_OFF = 0.2, 0.01, 0.01, 1e-3
+FIGURES = ("seed", "failure", "strain_p99", "fell_back_share", "blocked_share", "energy_gained_mgl", "off_free_fall", "contacts_max",
+           "self_contacts_max", "intersections", "passed", "swallowed", "ms_median")
 GAP = 0.03  # between the spheres around all things at the start [m]
 
 
@@ -66,19 +76,68 @@ def beside(chance, things, radius):
             return place
 
 
-def scene_of(seed):
+def vertices_of(path):
+    rows = [line.split() for line in path.read_text(errors="replace").splitlines()]
+    if path.suffix == ".obj":
+        return [[float(x) for x in row[1:4]] for row in rows if row[:1] == ["v"]]
+    rows = [row for row in rows if row and not row[0].startswith("#")][1:]
+    return [[float(x) for x in row[:3]] for row in rows[1:1 + int(rows[0][0])]]
+
+
+def put_shared(chance, body, scale):
+    """Puts a mesh of others in the body's place, `scale` long; its radius, or None where it is not there."""
+    path = MESHES / chance.choice(sorted(SHARED))
+    if not path.exists():
+        return None
+    points = vertices_of(path)
+    low, high = [min(c) for c in zip(*points)], [max(c) for c in zip(*points)]
+    factor = scale / max(b - a for a, b in zip(low, high))
+    body.update(surface=str(path), scale=factor)
+    # Its origin is anywhere: a radius about it that holds the whole mesh.
+    return factor * max(math.hypot(*p) for p in points)
+
+
+def animate(chance, body, folder):
+    """Lets a mesh of the body's shape shrink, swell and sway by a point cache beside it."""
+    mesh = folder / f"{body['name']}.obj"
+    subprocess.run([program.PROGRAM, "shapes", body["surface"].split(":")[1], "-o", mesh, "--quiet"], check=True, capture_output=True)
+    points, samples = vertices_of(mesh), 12
+    shrink, sway = chance.uniform(0, 0.2), chance.uniform(0, 0.15)
+    data = struct.pack("<12siiffi", b"POINTCACHE2", 1, len(points), 0, 2.5, samples)
+    for i in range(samples):
+        turn = 2 * math.pi * i / samples
+        size = 1 - shrink * (1 - math.cos(turn)) / 2
+        for x, y, z in points:
+            data += struct.pack("<fff", size * x + sway * math.sin(turn) * y * y, size * y, size * z)
+    (folder / f"{body['name']}.pc2").write_bytes(data)
+    body.update(surface=mesh.name, animation=f"{body['name']}.pc2")
+
+
+def pin(chance, cloth):
+    cloth["pins"] = [{"image": [chance.choice((0, 1)), chance.choice((0, 1))]}]
+    cloth["velocity"] = [0, 0, 0]  # what holds it would tear at it
+    if chance.random() < 0.5:
+        cloth["pins"][0]["path"] = [{"time": 0}, {"time": 0.5, "translate": [chance.uniform(-0.3, 0.3) for _ in range(3)]}]
+
+
+def scene_of(seed, folder):
+    """Its files go into the folder."""
     chance = random.Random(seed)
     scene = {"version": 1, "frames": FRAMES, "substeps": chance.choice((2, 4, 8)), "ground": 0, "cloths": [], "bodies": []}
     things = []
     for i in range(chance.choice((1, 1, 2))):
         shape, scale = chance.choice(list(BODIES)), chance.uniform(0.4, 1)
-        radius = BODIES[shape] * scale
-        place = beside(chance, things, radius) if things else [0, radius + GAP + chance.uniform(0, 1), 0]
-        things.append((place, radius))
         body = {"name": f"body{i}", "surface": f"builtin:{shape}", "size": chance.choice((33, 65)), "scale": scale,
-                "rotate": [chance.uniform(-180, 180) for _ in range(3)], "translate": place,
-                "friction": chance.uniform(0, 1)}
-        if chance.random() < 0.4:
+                "rotate": [chance.uniform(-180, 180) for _ in range(3)], "friction": chance.uniform(0, 1)}
+        radius = BODIES[shape] * scale
+        if chance.random() < 0.2:
+            radius = put_shared(chance, body, scale) or radius
+        elif chance.random() < 0.2:
+            animate(chance, body, folder)
+            radius *= 1.3  # it sways
+        place = body["translate"] = beside(chance, things, radius) if things else [0, radius + GAP + chance.uniform(0, 1), 0]
+        things.append((place, radius))
+        if "animation" not in body and chance.random() < 0.4:
             body["motion"] = moved(chance, place, radius)
         scene["bodies"].append(body)
     for i in range(chance.choice((1, 1, 1, 2))):
@@ -93,21 +152,65 @@ def scene_of(seed):
                                 "scale": scale, "rotate": [chance.uniform(-180, 180) for _ in range(3)], "translate": place,
                                 "velocity": [speed * a for a in aim], "material": material(chance),
                                 "friction": chance.uniform(0, 1)})
+        if chance.random() < 0.2:
+            pin(chance, scene["cloths"][-1])
+    if chance.random() < 0.2:
+        scene["wind"] = {"velocity": [chance.uniform(-5, 5) for _ in range(3)]}
     return scene
 
 
-def failure_of(seed, keep):
-    """None, or what went wrong in one line."""
+def off_free_fall(scene, report, frames):
+    """How far the centre of mass strays from free fall before anything is touched; 0 where something holds the cloth [m]."""
+    if "wind" in scene or any("pins" in cloth or "damping" in cloth["material"] for cloth in scene["cloths"]):
+        return 0
+    if len(scene["cloths"]) > 1:
+        return 0  # of unlike masses
+    h, start = 1 / (60 * scene["substeps"]), report["centre_of_mass"][0]
+    worst = 0
+    for i, (frame, place) in enumerate(zip(frames, report["centre_of_mass"][1:]), start=1):
+        if int(frame["contacts"]) > 0 or int(frame["stopped"]) > 0:
+            break
+        t = i / 60
+        fallen = [c + v * t for c, v in zip(start, scene["cloths"][0]["velocity"])]
+        fallen[1] -= 9.81 * t * (t + h) / 2
+        worst = max(worst, math.dist(fallen, place))
+    return worst
+
+
+def figures_of(seed, scene, report, frames):
+    share = [int(frame["fell_back"]) / report["particles"] for frame in frames]
+    verified = report["verification"]
+    figures = {"seed": seed, "strain_p99": max(float(frame["strain_p99"]) for frame in frames), "fell_back_share": max(share),
+               "blocked_share": report["blocked_share"], "energy_gained_mgl": report["energy_gained_mgl"],
+               "off_free_fall": off_free_fall(scene, report, frames), "contacts_max": report["contacts_max"],
+               "self_contacts_max": report["self_contacts_max"], "intersections": report["intersections"],
+               "passed": verified["passed"]["count"], "swallowed": verified["swallowed"]["count"],
+               "ms_median": report["ms_per_frame"]["median"]}
+    bounds = {"strain_p99": MOST_STRAIN, "fell_back_share": MOST_FELL_BACK, "energy_gained_mgl": MOST_GAINED,
+              "off_free_fall": MOST_OFF}
+    beyond = [f"{name} {figures[name]:.3g} above {most}" for name, most in bounds.items() if not figures[name] <= most]
+    figures["failure"] = "; ".join(beyond)
+    return figures
+
+
+def look_at(seed, keep):
+    """The figures of one start; what went wrong as `failure`."""
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(keep or temporary) / f"seed{seed}"
         folder.mkdir(parents=True, exist_ok=True)
+        scene = scene_of(seed, folder)
         path = folder / "scene.json"
-        path.write_text(json.dumps(scene_of(seed)))
-        words = [program.PROGRAM, "simulate", path, "-o", folder, "--verify", "--quiet", "--threads", "1", "--checkpoint", "0"]
+        path.write_text(json.dumps(scene))
+        words = [program.PROGRAM, "simulate", path, "-o", folder, "--verify", "--quiet", "--json", "--threads", "1", "--checkpoint", "0"]
         done = subprocess.run(words, capture_output=True, text=True)
-    if done.returncode == 0:
-        return None
-    return f"exit {done.returncode}: {done.stderr.strip().split('scene.json: ')[-1]}"
+        found = done.stderr.strip().splitlines()[-1:] if done.returncode else []
+        if not done.stdout:
+            return {"seed": seed, "failure": f"exit {done.returncode}: {''.join(found).split('scene.json: ')[-1]}"}
+        with (folder / "frames.csv").open() as table:
+            figures = figures_of(seed, scene, json.loads(done.stdout), list(csv.DictReader(table)))
+    if found:
+        figures["failure"] = f"exit {done.returncode}: {found[0].split('scene.json: ')[-1]}; {figures['failure']}".rstrip("; ")
+    return figures
 
 
 def main():
@@ -116,19 +219,26 @@ def main():
     words.add_argument("--first", type=int, default=0)
     words.add_argument("--jobs", type=int, default=2)
     words.add_argument("--keep", type=pathlib.Path, help="leave scenes and runs in this folder")
+    words.add_argument("--figures", type=pathlib.Path, default=pathlib.Path("soak.csv"), help="a line for every start")
     words.add_argument("--scene", type=int, metavar="SEED")
     words.add_argument("--write", action="store_true", help="renew the line of docs/measured.md")
     options = words.parse_args()
     if options.scene is not None:
-        print(json.dumps(scene_of(options.scene), indent=1))
+        folder = options.keep or pathlib.Path(tempfile.mkdtemp())
+        folder.mkdir(parents=True, exist_ok=True)
+        print(json.dumps(scene_of(options.scene, folder), indent=1))
         return
     seeds = range(options.first, options.first + options.seeds)
     failures = ""
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as jobs:
-        for seed, failure in zip(seeds, jobs.map(lambda seed: failure_of(seed, options.keep), seeds)):
-            if failure:
-                failures += f"- seed {seed}: {failure}\n"
-                print(f"seed {seed}: {failure}", flush=True)
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as jobs, options.figures.open("w", newline="") as file:
+        table = csv.DictWriter(file, FIGURES)
+        table.writeheader()
+        for figures in jobs.map(lambda seed: look_at(seed, options.keep), seeds):
+            table.writerow(figures)
+            file.flush()
+            if figures["failure"]:
+                failures += f"- seed {figures['seed']}: {figures['failure']}\n"
+                print(f"seed {figures['seed']}: {figures['failure']}", flush=True)
     text = f"{len(seeds)} random starts of {FRAMES} frames, {failures.count(chr(10))} failed.\n"
     print(text, end="")
     text += "\n" + failures if failures else ""

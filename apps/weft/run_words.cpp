@@ -57,6 +57,29 @@ void tell_memory(const Scene& scene, const std::string& name, const Context& con
   }
 }
 
+/// A cloth that is put back as a whole stands still while the scene goes on.
+void check_whole_cloths(const RunReport& report, const std::string& name) {
+  const auto fell = [](const FrameReport& frame) { return frame.whole_fell_back > 0; };
+  const auto first = std::find_if(report.history.begin(), report.history.end(), fell);
+  if (first == report.history.end()) return;
+  throw Error(ExitCode::check_failed, name,
+              fmt::format("a whole cloth was put back to where its step began in frame {}",
+                          first - report.history.begin() + 1),
+              "more substeps are wanted");
+}
+
+void check_verification(const Verification& found, const std::string& name) {
+  const auto check = [&](const WorstCount& worst, const char* what) {
+    if (worst.count > 0)
+      throw Error(ExitCode::check_failed, name,
+                  fmt::format("{} {} in frame {}", worst.count, what, worst.frame),
+                  "none is wanted");
+  };
+  check(found.swallowed, "points were swallowed by closed bodies");
+  check(found.passed, "pairs of vertices and faces or of edges met within steps");
+  check(found.written, "pairs of triangles cross in the meshes that are written");
+}
+
 RunOptions options_of(const RunWords& words, const Context& context, TerminalProgress& progress) {
   RunOptions options;
   options.folder = words.folder;
@@ -116,8 +139,9 @@ void add_run_options(CLI::App& command, RunWords& words) {
       ->check(CLI::Range(0, INT_MAX));
   command.add_flag("--resume", words.resume,
                    "Go on with the run in the folder, or begin it where there is none");
-  command.add_flag("--verify", words.verify,
-                   "Count intersections in every frame; exit 4 when there are any");
+  command.add_flag(
+      "--verify", words.verify,
+      "Count intersections in every frame and look at every step; exit 4 when anything passed");
 }
 
 MeshFrame frame_of(const RunWords& words, const MeshFrame& otherwise) {
@@ -166,6 +190,8 @@ void run_and_report(Scene scene, const std::string& name, const RunWords& words,
             ? fmt::format("none is wanted; what crossed at the start is apart since frame {}",
                           untangled)
             : "none is wanted");
+  if (words.verify) check_whole_cloths(report, name);
+  if (report.verification) check_verification(*report.verification, name);
 }
 
 }  // namespace weft::app

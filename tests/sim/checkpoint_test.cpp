@@ -32,10 +32,12 @@ Checkpoint sample() {
   checkpoint.identity = R"({"substeps":4})";
   checkpoint.start_centre = {1, 2, 3};
   checkpoint.intersections = {2, {.self = 7, .cloths = 1LL << 40, .bodies = 9, .ground = 10}};
+  checkpoint.verification = {{1, 5}, {2, 1LL << 40}, {3, 6}};
   for (int i = 1; i <= 3; ++i) {
     FrameReport frame;
     frame.milliseconds = 0.1 * i;
     frame.iterations = 10 * i;
+    frame.whole_fell_back = i;
     frame.strain = {0.01, 0.02, 0.03 * i};
     frame.centre_of_mass = {0, -0.1 * i, 1e-300};
     checkpoint.history.push_back(frame);
@@ -71,6 +73,9 @@ TEST(Checkpoint, ReadsBackBitByBit) {
   EXPECT_EQ(read->intersections.counts.ground, 10);
   EXPECT_EQ(read->history[1].strain.max, written.history[1].strain.max);
   EXPECT_EQ(read->history[2].smallest_gap, HUGE_VAL);
+  EXPECT_EQ(read->history[2].whole_fell_back, 3);
+  EXPECT_EQ(read->verification.swallowed.frame, 2);
+  EXPECT_EQ(read->verification.swallowed.count, 1LL << 40);
   ASSERT_EQ(read->state.cloths.size(), 2);
   EXPECT_TRUE(std::signbit(read->state.cloths[0].velocity.y(0, 0)));
   // Every bit of every field.

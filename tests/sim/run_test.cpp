@@ -172,7 +172,52 @@ TEST(Run, FastBodiesPushClothAndDoNotPassIt) {
       run_scene(hit_sheet(6), "hit.json", {.folder = place / "run", .verify = true});
   EXPECT_EQ(report.intersections.counts.total(), 0);
   EXPECT_GT(report.centre_of_mass.back().z, 0.1);
+  ASSERT_TRUE(report.verification);
+  EXPECT_TRUE(report.verification->good());
   EXPECT_TRUE(report.notes.empty()) << report.notes[0];
+}
+
+/// Two sheets that fly through each other within a frame; nothing keeps them apart.
+Scene flying_through() {
+  Scene scene;
+  scene.frames = 2;
+  scene.ground.reset();
+  scene.gravity = {};
+  scene.collider = PolarMapOptions{};
+  SceneCloth sheet;
+  sheet.name = "low";
+  sheet.size = 9;
+  scene.cloths = {sheet, sheet};
+  scene.cloths[1].name = "high";
+  scene.cloths[1].placement.translate = {0.01, 0.25, 0.02};
+  scene.cloths[1].velocity = {0, -30, 0};
+  return scene;
+}
+
+TEST(Run, VerifySeesWhatPassesBetweenFrames) {
+  const test::TemporaryFolder place;
+  const RunReport report =
+      run_scene(flying_through(), "through.json", {.folder = place / "run", .verify = true});
+  EXPECT_EQ(report.intersections.counts.total(), 0);
+  ASSERT_TRUE(report.verification);
+  EXPECT_EQ(report.verification->passed.frame, 1);
+  EXPECT_GT(report.verification->passed.count, 100);
+  const auto json = nlohmann::json::parse(to_json(report));
+  EXPECT_EQ(json["verification"]["passed"]["count"], report.verification->passed.count);
+  EXPECT_TRUE(json["verification"]["swallowed"]["frame"].is_null());
+  const RunReport unseen =
+      run_scene(flying_through(), "through.json", {.folder = place / "unseen"});
+  EXPECT_FALSE(unseen.verification);
+}
+
+TEST(Run, BlockedShareIsOfAllPoints) {
+  RunReport report;
+  report.particles = 200;
+  report.history.resize(3);
+  report.history[1].stopped = 50;
+  report.mass = 1;
+  EXPECT_EQ(nlohmann::json::parse(to_json(report))["blocked_share"], 0.25);
+  EXPECT_NE(frames_csv_line(2, report.history[1], 200).find(",50,0,0.25,"), std::string::npos);
 }
 
 TEST(Run, BodiesThatAreTooFastAreTold) {

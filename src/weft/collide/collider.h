@@ -49,6 +49,8 @@ std::string_view name_of(const ColliderOptions& options);
 std::optional<ColliderOptions> collider_named(std::string_view name);
 /// Whether it can keep a cloth from passing through itself.
 bool knows_self_collision(const ColliderOptions& options);
+/// Whether it can keep cloth inside of a body.
+bool knows_containers(const ColliderOptions& options);
 /// Whether it can keep cloth out of bodies that move.
 bool knows_moving_bodies(const ColliderOptions& options);
 
@@ -62,6 +64,18 @@ struct GuardedCloth {
   double rest_spacing = 0;     ///< mean distance of neighbouring samples at rest [m]
   bool self_collision = false;
   double self_thickness = 0.002;  ///< the gap that is kept to other cloth, below rest_spacing [m]
+  /// The cloth at rest, by which it is known what is too near along it for a contact; null: nothing
+  /// but neighbours. Kept by pointer. [n x n] [m]
+  const Planes3* rest = nullptr;
+  /// Of each closed body, whether it keeps the cloth in; empty: none does.
+  std::vector<char> kept_in{};
+  /// Of each sample, the number from 1 of a closed body on whose wrong side it begins, 0: of none;
+  /// empty: that is found out in the first step, and all is to be kept out. [n * n]
+  std::vector<int> wrong_side{};
+
+  [[nodiscard]] bool is_kept_in(std::size_t body) const {
+    return body < kept_in.size() && kept_in[body] != 0;
+  }
 };
 
 /// The state of a cloth during a step, as far as a collider touches it.
@@ -77,25 +91,30 @@ struct FilterCounts {
   int moved = 0;      ///< points that are elsewhere than proposed
   int stopped = 0;    ///< of these, points held back on their way
   int fell_back = 0;  ///< of these, points put back to where the step began
+  int whole = 0;      ///< cloths of which all points were
   FilterCounts& operator+=(const FilterCounts& other) {
     moved += other.moved;
     stopped += other.stopped;
     fell_back += other.fell_back;
+    whole += other.whole;
     return *this;
   }
 };
 
 /// Keeps the cloths of a scene out of its bodies, and out of each other and themselves where it
 /// can. Cloths come in the order in which they were given. Nothing allocates or throws once warmed
-/// up. In a step: move_bodies where bodies move; detect, guard_guess, as often as wanted; after the
-/// integrators' work correct, any number of times; guard; commit. Instead of commit, rollback
-/// forgets the step: what follows has the bits that it would have without.
+/// up. At the start of a frame: begin_frame. In a step: move_bodies where bodies move; detect,
+/// guard_guess, as often as wanted; after the integrators' work correct, any number of times;
+/// guard; commit. Instead of commit, rollback forgets the step: what follows has the bits that it
+/// would have without.
 class Collider {
  public:
   Collider() = default;
   Collider(const Collider&) = delete;
   Collider& operator=(const Collider&) = delete;
   virtual ~Collider() = default;
+  /// Forgets what a run that goes on here would not know, lest it decides anything.
+  virtual void begin_frame() noexcept {}
   /// Begins a step at whose end the bodies stand at `ends`; they start from where the last step
   /// left them. @param ends  of each body [n x n] world [m], mates equal, valid until commit or
   /// rollback; null where it stands still

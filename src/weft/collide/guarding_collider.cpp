@@ -15,6 +15,20 @@ constexpr double aside_in_spacings = 1;
 constexpr double foresight = 1.5;
 /// Finer cloth bends round its thickness over several cells.
 constexpr double least_crease_in_gaps = 3;
+/// So much farther apart than need be, in rest spacings, a cloth's own cells are looked for: where
+/// there are none nothing has to be looked for again until it has moved as far.
+constexpr double clear_in_spacings = 0.05;
+
+std::vector<Triangle> triangles_by_points(const SurfaceGrid& grid) {
+  std::vector<Triangle> triangles;
+  for (int t = 0; t < 2 * grid.cells() * grid.cells(); ++t) {
+    const std::array<int, 3> samples = grid.triangle(t / 2, t % 2);
+    if (!grid.folded(samples))
+      triangles.push_back({grid.point(samples[0]), grid.point(samples[1]), grid.point(samples[2])});
+  }
+  return triangles;
+}
+
 }  // namespace
 
 GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstacles& obstacles,
@@ -34,6 +48,8 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
     slack_ = std::min(
         {slack_, slack_in_gaps * cloth.self_thickness, slack_in_spacings * cloth.rest_spacing});
   }
+  least_gap_ = HUGE_VAL;
+  for (const GuardedCloth& cloth : cloths) least_gap_ = std::min(least_gap_, cloth.thickness);
   for (const GuardedCloth& cloth : cloths)
     most_aside_ = std::min(most_aside_, aside_in_spacings * cloth.rest_spacing);
   for (GuardedOne& one : cloths_) {
@@ -43,11 +59,12 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
   bodies_.reserve(obstacles.bodies.size());
   for (const Body& body : obstacles.bodies) {
     bodies_.push_back({SurfaceGrid(body.positions.size(), body.mates, body.diagonals), nullptr,
-                       body.positions, nullptr, body.friction, 0, true});
+                       nullptr, body.positions, nullptr, body.friction});
   }
   for (GuardedBody& body : bodies_) {
     body.query = std::make_unique<BodyQuery>(body.grid);
     body.end = &body.start;
+    body.triangles = triangles_by_points(body.grid);
   }
   learn_corners(obstacles);
   if (obstacles.ground) ground_ = {*obstacles.ground, obstacles.ground_friction};
@@ -72,11 +89,38 @@ void GuardingCollider::learn_corners(const Obstacles& obstacles) {
   }
 }
 
+void GuardingCollider::begin_frame() noexcept {
+  for (GuardedOne& one : cloths_) one.clearance.forget();
+}
+
+bool GuardingCollider::needs_boxes() const {
+  const bool lonely = bodies_.empty() && cloths_.size() == 1;
+  return !lonely || !cloths_.front().clear;
+}
+
+void GuardingCollider::find_self(std::size_t cloth, const MovingCloth& moving, ThreadTeam& team) {
+  GuardedOne& one = cloths_[cloth];
+  cells_.clear();
+  if (one.clear) return;
+  const auto away = static_cast<float>(clear_in_spacings * one.facts.rest_spacing);
+  broad_phase_->find_self(static_cast<int>(cloth),
+                          static_cast<float>(foresight * one.facts.self_thickness) + 2 * away,
+                          static_cast<float>(slack_) + away, team, cells_);
+  // A cloth that crosses itself is looked at in every step.
+  one.start_clear = cells_.empty() && !untangler_.is_open(cloth, cloth);
+  if (one.start_clear) {
+    one.clearance.keep(moving.position, {away, away});
+  } else {
+    one.clearance.forget();
+  }
+}
+
 void GuardingCollider::move_bodies(std::span<const Planes3* const> ends) noexcept {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     GuardedBody& body = bodies_[i];
     body.end = ends[i] != nullptr ? ends[i] : &body.start;
-    body.most_moved = 0;
+    body.most_moved = body.most_approach = 0;
+    body.goes_far = false;
     if (body.end == &body.start) continue;
     const int n = body.grid.size();
     double most = 0;
@@ -85,31 +129,52 @@ void GuardingCollider::move_bodies(std::span<const Planes3* const> ends) noexcep
     body.most_moved = std::sqrt(most);
     if (most == 0) {
       body.end = &body.start;
-    } else {
-      ++body.motion;
+      continue;
     }
+    ++body.motion;
+    measure_motion(body);
   }
 }
 
+/// What goes far in a step mostly slides past: its surface, not each of its points, is followed.
+void GuardingCollider::measure_motion(GuardedBody& body) const {
+  body.most_approach = body.most_moved;
+  body.goes_far = body.most_moved > least_gap_;
+  if (!body.goes_far) return;
+  body.most_approach = 0;
+  body.surface.measure(body.start, *body.end, body.triangles);
+  for (const Triangle& t : body.triangles)
+    for (const int corner : t)
+      body.most_approach = std::max(body.most_approach, body.surface.approach(corner));
+}
+
 void GuardingCollider::commit() noexcept {
-  for (GuardedOne& one : cloths_) one.body_contacts->commit();
+  for (GuardedOne& one : cloths_) {
+    one.body_contacts->commit();
+    one.start_clear = false;
+  }
   for (GuardedBody& body : bodies_) {
     if (body.end == &body.start) continue;
     body.start = *body.end;
-    body.travelled += body.most_moved;
+    body.travelled += body.most_approach;
     body.end = &body.start;
-    body.most_moved = 0;
+    body.most_moved = body.most_approach = 0;
+    body.goes_far = false;
     body.moved = true;
     ++body.motion;
   }
 }
 
 void GuardingCollider::rollback() noexcept {
-  for (GuardedOne& one : cloths_) one.body_contacts->rollback();
+  for (GuardedOne& one : cloths_) {
+    one.body_contacts->rollback();
+    one.start_clear = false;
+  }
   for (GuardedBody& body : bodies_) {
     if (body.end == &body.start) continue;
     body.end = &body.start;
-    body.most_moved = 0;
+    body.most_moved = body.most_approach = 0;
+    body.goes_far = false;
     ++body.motion;
   }
 }
@@ -127,9 +192,16 @@ void GuardingCollider::place_bodies(ThreadTeam& team) {
   for (GuardedBody& body : bodies_) {
     if (body.moved) body.query->place(body.start, team);
     body.moved = false;
+    if (body.goes_far && !body.query_at_end)
+      body.query_at_end = std::make_unique<BodyQuery>(body.grid);
+    if (body.goes_far && body.end_placed != body.motion) {
+      body.query_at_end->place(*body.end, team);
+      body.end_placed = body.motion;
+    }
     contact_bodies_.push_back({static_cast<int>(contact_bodies_.size()) + 1, body.query.get(),
-                               &body.start, body.end, body.friction, body.most_moved,
-                               body.travelled});
+                               &body.start, body.end, body.friction,
+                               body.goes_far ? body.query_at_end.get() : nullptr,
+                               body.most_approach, body.travelled});
   }
 }
 
@@ -137,7 +209,13 @@ void GuardingCollider::detect(std::span<const MovingCloth> cloths, double time_s
                               ThreadTeam& team) noexcept {
   place_bodies(team);
   gather_surfaces(cloths);
-  broad_phase_->refit(surfaces_, team);
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    GuardedOne& one = cloths_[i];
+    one.start_clear = !one.facts.self_collision || one.clearance.covers(cloths[i].start);
+    one.clear =
+        one.start_clear && (!one.facts.self_collision || one.clearance.covers(cloths[i].position));
+  }
+  if (needs_boxes()) broad_phase_->refit(surfaces_, team);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     GuardedOne& one = cloths_[i];
     one.body_contacts->find(cloths[i], contact_bodies_, ground_ ? &*ground_ : nullptr, team);
@@ -190,14 +268,13 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, d
       cells_.clear();
       const int first = static_cast<int>(i), second = static_cast<int>(j);
       if (i == j) {
-        broad_phase_->find_self(first, static_cast<float>(foresight * gap),
-                                static_cast<float>(slack_), team, cells_);
+        find_self(i, cloths[i], team);
       } else {
         broad_phase_->find(first, second, static_cast<float>(foresight * gap), team, cells_);
       }
       near_ = near_ || !cells_.empty();
       pair_contacts_.find(
-          {&a.grid, &b.grid, &cloths[i], &cloths[j], i == j, gap,
+          {&a.grid, &b.grid, &cloths[i], &cloths[j], i == j, a.facts.rest, gap,
            std::sqrt(a.facts.friction * b.facts.friction), time_step,
            i == j && a.facts.rest_spacing >= least_crease_in_gaps * gap, untangler_.marks(i, j)},
           cells_, team, a.contacts, b.contacts);
@@ -256,9 +333,10 @@ double GuardingCollider::smallest_gap(std::size_t cloth, const Planes3& position
         if (ground_) least = std::min(least, p.y - ground_->height);
         for (const ContactBody& body : contact_bodies_)
           if (const auto found = body.query->closest(p, reach)) {
-            const bool behind = body.query->closed() && body.query->behind(p, *found);
+            const bool kept_in = one.facts.is_kept_in(body.number - 1);
+            const bool astray = body.query->closed() && body.query->behind(p, *found) != kept_in;
             const double distance = std::sqrt(found->squared_distance);
-            least = std::min(least, behind ? -distance : distance);
+            least = std::min(least, astray ? -distance : distance);
           }
       }
       one.row_gaps[r] = least;

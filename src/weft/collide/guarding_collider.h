@@ -8,11 +8,13 @@
 #include "weft/collide/contacts/contact_response.h"
 #include "weft/collide/contacts/corner_contacts.h"
 #include "weft/collide/contacts/pair_contacts.h"
+#include "weft/collide/contacts/surface_motion.h"
 #include "weft/collide/guard/cell_planes.h"
 #include "weft/collide/guard/impact.h"
 #include "weft/collide/guard/plane_guard.h"
 #include "weft/collide/guard/refuges.h"
 #include "weft/collide/pairs/cell_pairs.h"
+#include "weft/collide/pairs/self_clearance.h"
 #include "weft/collide/untangle/untangler.h"
 
 namespace weft {
@@ -27,6 +29,7 @@ class GuardingCollider final : public Collider {
   GuardingCollider(MakeBroadPhase make_broad_phase, const Obstacles& obstacles,
                    std::span<const GuardedCloth> cloths);
 
+  void begin_frame() noexcept override;
   void move_bodies(std::span<const Planes3* const> ends) noexcept override;
   void detect(std::span<const MovingCloth> cloths, double time_step,
               ThreadTeam& team) noexcept override;
@@ -66,23 +69,38 @@ class GuardingCollider final : public Collider {
     Planes3 carried{};                // refuges among moving bodies
     const Planes3* refuge = nullptr;  // of this step; the start while that will do
     std::size_t obstacle_contacts = 0;
+    SelfClearance clearance{};
+    // Whether the cloth is known to be far from itself: at the step's start; all the way to where
+    // it is proposed to end.
+    bool start_clear = false, clear = false;
   };
   struct GuardedBody {
     SurfaceGrid grid;
     std::unique_ptr<BodyQuery> query;
-    Planes3 start;                 // where the last step left it
-    const Planes3* end = nullptr;  // of this step; start where it stands still
+    std::unique_ptr<BodyQuery> query_at_end;  // where it went far in some step
+    Planes3 start;                            // where the last step left it
+    const Planes3* end = nullptr;             // of this step; start where it stands still
     double friction = 0;
-    double most_moved = 0;  // this step [m]
-    bool moved = true;      // since its query was placed
-    double travelled = 0;   // see ContactBody [m]
-    int motion = 1;         // see MovingSurface::name
+    double most_moved = 0;              // by any sample in this step [m]
+    double most_approach = 0;           // see ContactBody [m]
+    std::vector<Triangle> triangles{};  // by points
+    SurfaceMotion surface{};            // of this step, where it goes far
+    bool goes_far = false;              // in this step
+    bool moved = true;                  // since its query was placed
+    double travelled = 0;               // see ContactBody [m]
+    int motion = 1;                     // see MovingSurface::name
+    int end_placed = 0;                 // the motion whose end query_at_end stands at
   };
   void learn_corners(const Obstacles& obstacles);
   void gather_surfaces(std::span<const MovingCloth> cloths);
   void place_bodies(ThreadTeam& team);
+  void measure_motion(GuardedBody& body) const;
   void find_tangles(std::span<const MovingCloth> cloths, ThreadTeam& team);
   void find_pair_contacts(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team);
+  /// Whether there is anything for the broad phase to find.
+  [[nodiscard]] bool needs_boxes() const;
+  /// The cells of one cloth that may meet each other; remembers where they are none.
+  void find_self(std::size_t cloth, const MovingCloth& moving, ThreadTeam& team);
   static void copy_to_mates(const GuardedOne& one, const MovingCloth& moving);
   void find_planes(ThreadTeam& team);
   void add_ground_planes(std::span<const MovingCloth> cloths);
@@ -112,6 +130,7 @@ class GuardingCollider final : public Collider {
   std::unique_ptr<BroadPhase> broad_phase_;
   int points_ = 0;                     // samples of all cloths
   double slack_ = 0, most_aside_ = 0;  // see PlaneGuard [m]
+  double least_gap_ = 0;               // that is kept to bodies by any cloth [m]
   int self_contacts_ = 0;
   bool carried_ = false;  // refuges go along with bodies in this step
   bool near_ = false;     // see anything_near

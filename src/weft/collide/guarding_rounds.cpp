@@ -38,7 +38,7 @@ void GuardingCollider::find_planes(ThreadTeam& team) {
   const float reach = static_cast<float>(2 * slack_), slack = static_cast<float>(slack_);
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     for (std::size_t j = i; j < surfaces_.size(); ++j) {
-      if (i == j && !cloths_[i].facts.self_collision) continue;
+      if (i == j && cloths_[i].clear) continue;
       cells_.clear();
       const int first = static_cast<int>(i), second = static_cast<int>(j);
       if (i == j) {
@@ -159,6 +159,12 @@ FilterCounts GuardingCollider::count_fates() const {
     if (fate >= stopped_point) ++counts.stopped;
     if (fate == fallen_point) ++counts.fell_back;
   }
+  for (const GuardedOne& one : cloths_) {
+    bool whole = true;
+    for (int s = 0; s < one.facts.size * one.facts.size && whole; ++s)
+      whole = one.grid.point(s) != s || fates_[one.first_point + s] == fallen_point;
+    counts.whole += whole ? 1 : 0;
+  }
   return counts;
 }
 
@@ -210,7 +216,12 @@ FilterCounts GuardingCollider::hold_all(std::span<const MovingCloth> cloths, dou
   const bool moving = fastest_body(time_step) > 0;
   double spread = least_spread;
   for (int round = 0; round < most_rounds; ++round) {
-    broad_phase_->refit(surfaces_, team);
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+      GuardedOne& one = cloths_[i];
+      one.clear = !one.facts.self_collision ||
+                  (one.start_clear && one.clearance.covers(cloths[i].position));
+    }
+    if (needs_boxes()) broad_phase_->refit(surfaces_, team);
     find_planes(team);
     add_ground_planes(cloths);
     const PlaneGuard::Result held = hold(cloths, round < rounds_aside ? most_aside_ : slack_, team);

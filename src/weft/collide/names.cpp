@@ -26,6 +26,10 @@ bool knows_self_collision(const ColliderOptions& options) {
   return !std::holds_alternative<PolarMapOptions>(options);
 }
 
+bool knows_containers(const ColliderOptions& options) {
+  return !std::holds_alternative<PolarMapOptions>(options);
+}
+
 bool knows_moving_bodies(const ColliderOptions& options) {
   return !std::holds_alternative<PolarMapOptions>(options);
 }

@@ -34,11 +34,11 @@ void each_field(Report& f, const Visit& visit) {
   visit(f.strain.mean), visit(f.strain.p99), visit(f.strain.max);
   visit(f.kinetic_energy), visit(f.potential_energy);
   visit(f.contacts), visit(f.self_contacts), visit(f.stopped), visit(f.fell_back);
-  visit(f.work), visit(f.smallest_gap);
+  visit(f.whole_fell_back), visit(f.work), visit(f.smallest_gap);
   visit(f.centre_of_mass.x), visit(f.centre_of_mass.y), visit(f.centre_of_mass.z);
 }
-static_assert(sizeof(FrameReport) == 19 * 8, "a new field goes into each_field, and this count up");
-constexpr std::size_t frame_bytes = 16 * sizeof(double) + 5 * sizeof(int);
+static_assert(sizeof(FrameReport) == 20 * 8, "a new field goes into each_field, and this count up");
+constexpr std::size_t frame_bytes = 16 * sizeof(double) + 6 * sizeof(int);
 
 std::uint64_t hash_of(std::string_view bytes) {
   Hash hash;
@@ -55,6 +55,12 @@ void each_plane(State& state, const Visit& visit) {
 template <class Counts, class Visit>
 void each_count(Counts& counts, const Visit& visit) {
   for (auto* count : {&counts.self, &counts.cloths, &counts.bodies, &counts.ground}) visit(*count);
+}
+
+template <class Counts, class Visit>
+void each_worst(Counts& counts, const Visit& visit) {
+  for (auto* worst : {&counts.passed, &counts.swallowed, &counts.written})
+    visit(worst->frame), visit(worst->count);
 }
 
 void add_cloth(const ClothState& cloth, ByteWriter& out) {
@@ -103,6 +109,7 @@ void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   out.add(static_cast<std::int32_t>(checkpoint.intersections.frame));
   each_count(checkpoint.intersections.counts, [&](std::int64_t count) { out.add(count); });
   out.add(static_cast<std::int32_t>(checkpoint.untangled_frame.value_or(-1)));
+  each_worst(checkpoint.verification, [&](auto value) { out.add(value); });
   out.add(static_cast<std::uint64_t>(checkpoint.history.size()));
   for (const FrameReport& frame : checkpoint.history)
     each_field(frame, [&](auto value) { out.add(value); });
@@ -127,6 +134,7 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
   in.read(checkpoint.intersections.frame);
   each_count(checkpoint.intersections.counts, [&](std::int64_t& count) { in.read(count); });
   if (const auto frame = in.next<std::int32_t>(); frame >= 0) checkpoint.untangled_frame = frame;
+  each_worst(checkpoint.verification, [&](auto& value) { in.read(value); });
   const auto frames = in.next<std::uint64_t>();
   if (frames > in.left() / frame_bytes) return std::nullopt;
   checkpoint.history.resize(frames);

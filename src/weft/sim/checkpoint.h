@@ -8,6 +8,7 @@
 
 #include "weft/sim/frame_intersections.h"
 #include "weft/sim/simulation.h"
+#include "weft/sim/verification.h"
 
 namespace weft {
 
@@ -17,6 +18,7 @@ struct Checkpoint {
   Vec3d start_centre;                ///< centre of mass at frame 0 [m]
   FrameIntersections intersections;  ///< of the worst frame so far, where every frame is looked at
   std::optional<int> untangled_frame;  ///< see RunReport
+  Verification verification;           ///< the same
   std::vector<FrameReport> history;    ///< one a frame, from frame 1
   SimulationState state;
 };

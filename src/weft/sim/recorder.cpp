@@ -5,6 +5,8 @@
 #include "weft/core/files.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image/io/image_file.h"
+#include "weft/mesh/crossings.h"
+#include "weft/mesh/io/mesh_faces.h"
 #include "weft/sim/export/cache_manifest.h"
 #include "weft/sim/report.h"
 #include "weft/sim/run_folder.h"
@@ -124,7 +126,7 @@ void Recorder::finish(RunReport& report) {
   write_file(table, [&](std::ostream& out) {
     out << frames_csv_header();
     for (std::size_t i = 0; i < report.history.size(); ++i)
-      out << frames_csv_line(static_cast<int>(i) + 1, report.history[i]);
+      out << frames_csv_line(static_cast<int>(i) + 1, report.history[i], report.particles);
   });
   report.outputs.push_back(table);
   write_manifests(report);
@@ -152,6 +154,25 @@ void Recorder::write_manifests(RunReport& report) {
   write_run_manifest(manifest, scene_, report, caches);
   report.outputs.push_back(shown);
   report.outputs.push_back(manifest);
+}
+
+std::int64_t Recorder::written_crossings() {
+  std::vector<CrossingSurface> surfaces;  // cloths first
+  each([&](const SurfaceRecord& record) {
+    const std::vector<Vec3f> points = record.shown().points(*record.subject().now);
+    std::vector<Corners> corners;
+    for (const auto& [a, b, c] : fans_of(record.shown().faces()).triangles)
+      corners.push_back(
+          {vec_cast<double>(points[a]), vec_cast<double>(points[b]), vec_cast<double>(points[c])});
+    surfaces.emplace_back(std::move(corners));
+  });
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    count += surfaces[i].count_self_crossings();
+    for (std::size_t j = i + 1; j < surfaces.size(); ++j)
+      count += surfaces[i].count_crossings(surfaces[j]);
+  }
+  return count;
 }
 
 IntersectionCounts Recorder::intersections() {

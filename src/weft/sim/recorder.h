@@ -40,6 +40,9 @@ class Recorder {
   /// What cloths pass through as everything stands now: each itself, the others, bodies, the
   /// ground.
   [[nodiscard]] IntersectionCounts intersections();
+  /// Pairs of triangles of what is written that cross now: cloths with all, on the meshes' own
+  /// vertices where those are written.
+  [[nodiscard]] std::int64_t written_crossings();
 
  private:
   using Records = std::vector<std::unique_ptr<SurfaceRecord>>;

@@ -75,10 +75,44 @@ Json worst_count(const RunReport& report, int FrameReport::*count) {
   return {{"count", (*worst).*count}, {"frame", worst - report.history.begin() + 1}};
 }
 
+/// The part of all points that the filter held back in a frame.
+double blocked_share(const FrameReport& frame, int particles) {
+  return particles > 0 ? static_cast<double>(frame.stopped) / particles : 0;
+}
+
+/// Of the frame where it was largest.
+double worst_blocked_share(const RunReport& report) {
+  double worst = 0;
+  for (const FrameReport& frame : report.history)
+    worst = std::max(worst, blocked_share(frame, report.particles));
+  return worst;
+}
+
 Json thickness_json(const RunReport& report) {
   Json json = Json::object();
   for (const auto& [name, thickness] : report.thickness_used) json[name] = thickness;
   return json;
+}
+
+Json start_insides_json(const RunReport& report) {
+  Json json = Json::array();
+  for (const StartInside& found : report.start_insides)
+    json.push_back({{"cloth", found.cloth},
+                    {"body", found.body},
+                    {"samples", found.samples},
+                    {"particles", found.particles},
+                    {"kept_in", found.kept_in}});
+  return json;
+}
+
+Json verification_json(const RunReport& report) {
+  if (!report.verification) return {};
+  const auto worst = [](const WorstCount& found) {
+    return Json{{"count", found.count}, {"frame", found.count > 0 ? Json(found.frame) : Json()}};
+  };
+  return {{"passed", worst(report.verification->passed)},
+          {"swallowed", worst(report.verification->swallowed)},
+          {"written", worst(report.verification->written)}};
 }
 
 /// Of energy_gained_mgl [m/s^2], [m].
@@ -115,6 +149,7 @@ std::string to_json(const RunReport& report) {
       {"self_contacts_max", report.self_contacts_max},
       {"stopped", worst_count(report, &FrameReport::stopped)},
       {"fell_back", worst_count(report, &FrameReport::fell_back)},
+      {"blocked_share", worst_blocked_share(report)},
       {"energy_gained", energy_gained(report)},
       {"energy_gained_mgl", energy_gained(report) / (report.mass * usual_gravity * usual_height)},
       {"thickness_used", thickness_json(report)},
@@ -124,6 +159,8 @@ std::string to_json(const RunReport& report) {
   json["state_hash"] = report.state_hash;
   json["intersections_found"] = found_json(report.intersections);
   json["start_intersections"] = kinds_json(report.start_intersections);
+  json["verification"] = verification_json(report);
+  json["start_insides"] = start_insides_json(report);
   json["untangled_frame"] = report.untangled_frame ? Json(*report.untangled_frame) : Json();
   json["estimated_memory_mb"] = 1e-6 * static_cast<double>(report.estimated_memory);
   json["outputs"] = Json::array();
@@ -134,20 +171,22 @@ std::string to_json(const RunReport& report) {
 std::string frames_csv_header() {
   return "frame,ms,forces_ms,solve_ms,collide_ms,limit_ms,iterations,residual,strain_mean,strain_"
          "p99,strain_max,"
-         "kinetic_energy,potential_energy,contacts,stopped,fell_back,work,smallest_gap,com_x,com_y,"
+         "kinetic_energy,potential_energy,contacts,stopped,fell_back,blocked_share,work,smallest_"
+         "gap,com_x,com_y,"
          "com_z\n";
 }
 
-std::string frames_csv_line(int frame, const FrameReport& f) {
+std::string frames_csv_line(int frame, const FrameReport& f, int particles) {
   // No gap is known when nothing is near: the field stays empty.
   const std::string gap =
       std::isfinite(f.smallest_gap) ? fmt::format("{:.6g}", f.smallest_gap) : "";
   return fmt::format(
              "{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{:.4g},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g},{}"
-             ",{},{},{:.6g},{},",
+             ",{},{},{:.4g},{:.6g},{},",
              frame, f.milliseconds, f.forces_ms, f.solve_ms, f.collide_ms, f.limit_ms, f.iterations,
              f.residual, f.strain.mean, f.strain.p99, f.strain.max, f.kinetic_energy,
-             f.potential_energy, f.contacts, f.stopped, f.fell_back, f.work, gap) +
+             f.potential_energy, f.contacts, f.stopped, f.fell_back, blocked_share(f, particles),
+             f.work, gap) +
          fmt::format("{:.9g},{:.9g},{:.9g}\n", f.centre_of_mass.x, f.centre_of_mass.y,
                      f.centre_of_mass.z);
 }

@@ -16,6 +16,7 @@ double energy_gained(const RunReport& report);
 /// The columns of frames.csv, one line with its end.
 std::string frames_csv_header();
 /// One frame as a line of frames.csv.
-std::string frames_csv_line(int frame, const FrameReport& report);
+/// @param particles  of all cloths
+std::string frames_csv_line(int frame, const FrameReport& report, int particles);
 
 }  // namespace weft

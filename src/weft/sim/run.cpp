@@ -10,6 +10,7 @@
 #include "weft/core/memory.h"
 #include "weft/core/reserved_room.h"
 #include "weft/sim/checkpoint.h"
+#include "weft/sim/insides.h"
 #include "weft/sim/memory_estimate.h"
 #include "weft/sim/recorder.h"
 #include "weft/sim/run_identity.h"
@@ -85,6 +86,7 @@ RunReport start_report(const Simulation& simulation, const Scene& scene, const s
   report.mass = simulation.mass();
   for (std::size_t i = 0; i < simulation.cloths().size(); ++i)
     report.thickness_used.emplace_back(simulation.cloths()[i].name, simulation.used_thickness(i));
+  report.start_insides = simulation.start_insides();
   report.centre_of_mass.push_back(simulation.centre_of_mass());
   return report;
 }
@@ -115,6 +117,11 @@ class Run {
         clock_(options.checkpoint_frames),
         simulation_(scene, name, {options.threads, options.instructions}, options.progress),
         report_(start_report(simulation_, scene, name, options.threads)) {
+    if (options.verify) {
+      verifier_.emplace(simulation_, scene.ground);
+      simulation_.watch(&*verifier_);
+      report_.verification.emplace();
+    }
     if (!clock_.off() || options.resume)
       point_.identity = run_identity(scene, simulation_, options);
     point_.start_centre = report_.centre_of_mass.front();
@@ -144,6 +151,10 @@ class Run {
     for (const FrameReport& frame : from.history) add_to_report(report_, frame);
     report_.intersections = from.intersections;
     report_.untangled_frame = from.untangled_frame;
+    if (verifier_) {
+      verifier_->begin();
+      report_.verification = from.verification;
+    }
     last_written_ = from.state.frame;
     report_.notes.push_back(
         from.state.frame == scene_.frames
@@ -200,6 +211,8 @@ class Run {
   }
 
   void look_at_start() {
+    for (const StartInside& found : report_.start_insides)
+      if (options_.tell) options_.tell(start_inside_text(found));
     const IntersectionCounts counts = recorder_->intersections();
     report_.start_intersections = counts;
     if (tangled_pairs(counts) == 0) {
@@ -222,7 +235,14 @@ class Run {
     } else if (!report_.untangled_frame) {
       report_.untangled_frame = simulation_.frame();
     }
-    if (options_.verify) keep_worst(counts);
+    if (options_.verify) verify(counts);
+  }
+
+  void verify(const IntersectionCounts& counts) {
+    keep_worst(counts);
+    verifier_->look(simulation_.frame(), *report_.verification);
+    if (options_.on == WrittenOn::input)
+      report_.verification->written.take(simulation_.frame(), recorder_->written_crossings());
   }
 
   void note_untangling() {
@@ -300,6 +320,7 @@ class Run {
     point_.history = report_.history;
     point_.intersections = report_.intersections;
     point_.untangled_frame = report_.untangled_frame;
+    point_.verification = report_.verification.value_or(Verification{});
     write_checkpoint(path_, point_);
     last_written_ = report_.frames;
     clock_.written();
@@ -311,6 +332,7 @@ class Run {
   CheckpointClock clock_;
   Simulation simulation_;
   RunReport report_;
+  std::optional<Verifier> verifier_;
   std::optional<Recorder> recorder_;
   Checkpoint point_;  // its state is that of the last whole frame
   int last_written_ = -1;

@@ -12,6 +12,7 @@
 #include "weft/sim/export/motion_writers.h"
 #include "weft/sim/frame_intersections.h"
 #include "weft/sim/simulation.h"
+#include "weft/sim/verification.h"
 
 namespace weft {
 
@@ -20,7 +21,8 @@ struct RunOptions {
   std::vector<std::string> exports{"obj", "pc2"};
   WrittenOn on = WrittenOn::automatic;  ///< whose vertices are written
   bool unwelded = false;  ///< write every sample instead of joining mates; none of a mesh's then
-  bool verify = false;    ///< count intersections in every frame, not in the last one only
+  /// Count intersections in every frame, not in the last one only, and look at every step.
+  bool verify = false;
   int threads = 1;
   InstructionSet instructions = best_instruction_set();
   Progress* progress = nullptr;
@@ -43,10 +45,12 @@ struct RunReport {
   std::vector<FrameReport> history;  ///< one a frame, from frame 1
   /// Of each cloth: its name, and the gap that it kept to cloth [m].
   std::vector<std::pair<std::string, double>> thickness_used;
+  std::vector<StartInside> start_insides;
   StrainSummary strain;  ///< last frame
   int contacts_max = 0, self_contacts_max = 0;
-  FrameIntersections intersections;        ///< of the last frame; with verify: of the worst one
-  IntersectionCounts start_intersections;  ///< of frame 0
+  FrameIntersections intersections;          ///< of the last frame; with verify: of the worst one
+  IntersectionCounts start_intersections;    ///< of frame 0
+  std::optional<Verification> verification;  ///< with verify
   /// The first frame from which on no cloth crosses itself or another: 0 where none did at the
   /// start; nothing where some still do.
   std::optional<int> untangled_frame;

@@ -130,6 +130,7 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
   parts_->load_bodies();
   parts_->tie_cloths();
   parts_->make_movers();
+  parts_->find_insides();
   parts_->make_guard();
   parts_->note_too_fast();
 }
@@ -142,17 +143,20 @@ FrameReport Simulation::advance() {
   const int substeps = parts_->scene.substeps;
   // A frame follows from positions and velocities alone, so that a run can be resumed at any.
   for (const auto& mover : parts_->movers) mover.integrator->forget();
+  parts_->collider->begin_frame();
   for (int substep = 0; substep < substeps; ++substep) {
     update(parts_->progress, "simulate",
            (parts_->frame + static_cast<double>(substep) / substeps) /
                std::max(parts_->frame + 1, parts_->scene.frames));
     parts_->substep(parts_->frame * substeps + substep, report);
   }
-  report.milliseconds = clock.lap();
+  report.milliseconds += clock.lap();
   parts_->measure(report);
   ++parts_->frame;
   return report;
 }
+
+void Simulation::watch(StepWatcher* watcher) { parts_->watcher = watcher; }
 
 void Simulation::save(SimulationState& state) const {
   state.frame = parts_->frame;
@@ -204,6 +208,7 @@ int Simulation::frame() const { return parts_->frame; }
 const std::vector<SimulatedCloth>& Simulation::cloths() const { return parts_->cloths; }
 const std::vector<PlacedBody>& Simulation::bodies() const { return parts_->bodies; }
 const std::vector<std::string>& Simulation::notes() const { return parts_->notes; }
+const std::vector<StartInside>& Simulation::start_insides() const { return parts_->insides; }
 
 std::string Simulation::state_hash() const {
   Hash hash;

@@ -26,9 +26,10 @@ struct FrameReport {
   double kinetic_energy = 0, potential_energy = 0;  ///< [J]
   int contacts = 0;                                 ///< with obstacles, largest of its steps
   int self_contacts = 0;                            ///< of cloth with cloth, largest of its steps
-  int stopped = 0;    ///< points that the collision filter held back, largest of its steps
-  int fell_back = 0;  ///< of these, points put back to the step's start, largest of its steps
-  double work = 0;    ///< of pins, moving bodies and wind [J]
+  int stopped = 0;          ///< points that the collision filter held back, largest of its steps
+  int fell_back = 0;        ///< of these, points put back to the step's start, largest of its steps
+  int whole_fell_back = 0;  ///< cloths of which all points were, largest of its steps
+  double work = 0;          ///< of pins, moving bodies and wind [J]
   double smallest_gap = HUGE_VAL;  ///< see Collider::smallest_gap [m]
   Vec3d centre_of_mass;            ///< all cloths together [m]
 };
@@ -50,6 +51,16 @@ struct PlacedBody {
   Planes3 positions;                       ///< world, now [m]
   bool moves = false;                      ///< by motion or animation
   std::optional<SourceMesh> source;        ///< unplaced, where the surface came from a mesh
+};
+
+/// A closed body that a cloth begins inside of, wholly or in part, by winding numbers.
+struct StartInside {
+  std::string cloth, body;
+  int samples = 0;    ///< inside, mates counted once
+  int particles = 0;  ///< of the cloth
+  /// All are: the body is a container, which keeps the cloth in. What is inside in part is pushed
+  /// out.
+  bool kept_in = false;
 };
 
 /// What pins, moving bodies and wind did.
@@ -86,6 +97,24 @@ struct SimulationHelp {
       : progress(told), surfaces(shelf) {}
 };
 
+/// A step that stands: every sample goes straight. [m]
+struct StepMotion {
+  struct Way {
+    const Planes3 *start, *end;
+  };
+  std::span<const Way> cloths, bodies;  ///< in the scene's order
+};
+
+/// Is shown every step of a run.
+class StepWatcher {
+ public:
+  StepWatcher() = default;
+  StepWatcher(const StepWatcher&) = delete;
+  StepWatcher& operator=(const StepWatcher&) = delete;
+  virtual ~StepWatcher() = default;
+  virtual void see(const StepMotion& step) = 0;
+};
+
 /// A scene brought to life.
 class Simulation {
  public:
@@ -101,6 +130,9 @@ class Simulation {
   /// runaway
   ///         energy, with the integrator's advice
   FrameReport advance();
+
+  /// Shows it every step from the next on; null: nobody. @param watcher  kept by pointer
+  void watch(StepWatcher* watcher);
 
   /// Copies the state; nothing is allocated when `state` has held it before.
   void save(SimulationState& state) const;
@@ -123,6 +155,8 @@ class Simulation {
   [[nodiscard]] const std::vector<SimulatedCloth>& cloths() const;
   [[nodiscard]] const std::vector<PlacedBody>& bodies() const;
   [[nodiscard]] const std::vector<std::string>& notes() const;  ///< repairs made while loading
+  /// In the order of cloths, then of bodies.
+  [[nodiscard]] const std::vector<StartInside>& start_insides() const;
   /// Of all positions and velocities, 16 hexadecimal digits.
   [[nodiscard]] std::string state_hash() const;
   [[nodiscard]] int particles() const;

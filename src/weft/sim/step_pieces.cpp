@@ -3,27 +3,44 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/mesh/box_tree.h"
+
 namespace weft {
 namespace {
 
-/// Whether the box of a way and another overlap.
-bool overlaps(const Box3d& a, const Box3d& b) {
-  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
-         b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+/// Samples a side of a block.
+constexpr int block_size = 16;
+
+Box3d padded(const Box3d& box, double by) {
+  const Vec3d aside{by, by, by};
+  return {box.lower - aside, box.upper + aside};
 }
 
 }  // namespace
 
-Box3d swept_box(const ClothState& cloth, double seconds, double padding) noexcept {
-  Box3d box;
+ClothReach::ClothReach(int size) {
+  const auto blocks = static_cast<std::size_t>((size - 2) / block_size + 1);
+  blocks_.reserve(blocks * blocks);
+}
+
+void ClothReach::place(const ClothState& cloth, double seconds, double padding) noexcept {
   const int n = cloth.position.size();
-  for (int s = 0; s < n * n; ++s) {
-    const Vec3d at = vec_cast<double>(cloth.position.at(s));
-    box.add(at);
-    box.add(at + seconds * vec_cast<double>(cloth.velocity.at(s)));
-  }
-  const Vec3d aside{padding, padding, padding};
-  return {box.lower - aside, box.upper + aside};
+  blocks_.clear();
+  whole_ = {};
+  for (int row = 0; row + 1 < n; row += block_size)
+    for (int col = 0; col + 1 < n; col += block_size) {
+      Box3d box;
+      // Up to the first samples of the next blocks: none lies between.
+      for (int r = row; r <= std::min(n - 1, row + block_size); ++r)
+        for (int c = col; c <= std::min(n - 1, col + block_size); ++c) {
+          const Vec3d at = vec_cast<double>(cloth.position.at(r, c));
+          box.add(at);
+          box.add(at + seconds * vec_cast<double>(cloth.velocity.at(r, c)));
+        }
+      blocks_.push_back(padded(box, padding));
+      whole_.add(blocks_.back().lower);
+      whole_.add(blocks_.back().upper);
+    }
 }
 
 double farthest_way(const Planes3& from, const Planes3& to) noexcept {
@@ -39,23 +56,32 @@ double farthest_way(const Planes3& from, const Planes3& to) noexcept {
   return std::sqrt(double{farthest});
 }
 
-double farthest_way(const Planes3& from, const Planes3& to, const Box3d& box) noexcept {
-  double farthest = 0;
-  for (int s = 0; s < from.size() * from.size(); ++s) {
-    const Vec3d a = vec_cast<double>(from.at(s)), b = vec_cast<double>(to.at(s));
-    const double squared = squared_length(b - a);
-    if (squared <= farthest) continue;
-    Box3d way;
-    way.add(a);
-    way.add(b);
-    if (overlaps(way, box)) farthest = squared;
-  }
-  return std::sqrt(farthest);
+bool ClothReach::meets(const Box3d& box) const noexcept {
+  return overlap(whole_, box) && std::any_of(blocks_.begin(), blocks_.end(),
+                                             [&](const Box3d& b) { return overlap(b, box); });
 }
 
-int pieces_for(double way, double most) noexcept {
+double wanted_pieces(const BodyStep& body, const ClothReach& cloth, double most_way,
+                     SurfaceMotion& motion) noexcept {
+  double wanted = 1;
+  if (farthest_way(body.start, body.end) <= most_way) return wanted;
+  motion.measure(body.start, body.end, body.triangles);
+  for (const Triangle& t : body.triangles) {
+    double own = 0;
+    for (const int corner : t)
+      own = std::max({own, motion.approach(corner) / most_way, motion.turn(corner) / most_turn});
+    if (own <= wanted) continue;
+    Box3d way;
+    for (const Planes3* at : {&body.start, &body.end})
+      for (const int corner : t) way.add(vec_cast<double>(at->at(corner)));
+    if (cloth.meets(way)) wanted = own;
+  }
+  return wanted;
+}
+
+int whole_pieces(double wanted) noexcept {
   int pieces = 1;
-  while (pieces < most_pieces && way > pieces * most) pieces *= 2;
+  while (pieces < most_pieces && pieces < wanted) pieces *= 2;
   return pieces;
 }
 

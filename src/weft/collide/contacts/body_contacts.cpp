@@ -16,9 +16,13 @@ constexpr double rounding = 1e-5;
 BodyContacts::BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
     : grid_(grid),
       kept_{cloth.thickness, cloth.friction},
-      marks_{InsideMarks(static_cast<std::size_t>(grid.size()) * grid.size(), 0),
-             std::vector<char>(static_cast<std::size_t>(grid.size()) * grid.size(), 0), false},
-      kept_marks_(marks_) {}
+      kept_in_(cloth.kept_in),
+      marks_{cloth.wrong_side, {}, !cloth.wrong_side.empty()} {
+  const std::size_t samples = static_cast<std::size_t>(grid.size()) * grid.size();
+  marks_.inside.resize(samples, 0);
+  marks_.doubted.resize(samples, 0);
+  commit();
+}
 
 void BodyContacts::save(std::vector<int>& marks) const {
   marks.clear();
@@ -56,18 +60,19 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
   const Vec3d start = vec_cast<double>(cloth.start.at(sample));
   const Vec3d way = vec_cast<double>(cloth.position.at(sample)) - start;
   const double reach =
-      deep ? HUGE_VAL : contact_foresight * kept_.gap + length(way) + body.most_moved;
+      deep ? HUGE_VAL : contact_foresight * kept_.gap + length(way) + body.most_approach;
   const auto found = look(body, cloth.start.at(sample), reach, known_[body.number - 1][sample]);
   if (!found) return;
   // What was outside and kept out cannot be inside now, whatever the normals of an image say that
   // folds or crosses itself somewhere.
-  const bool behind = deep && body.query->behind(start, *found);
-  if (behind) marks_.inside[sample] = body.number;
+  const bool astray = deep && body.query->behind(start, *found) != keeps_in(body);
+  if (astray) marks_.inside[sample] = body.number;
   ClothPoint at;
   at.samples[0] = sample;
   at.start = start;
   at.way = way;
-  at.behind = behind;
+  at.kept_in = keeps_in(body);
+  at.astray = astray;
   if (const auto contact = contact_before(body, *found, at, kept_)) out.push_back(*contact);
 }
 
@@ -96,6 +101,11 @@ void BodyContacts::find_for_sample(const MovingCloth& cloth, std::span<const Con
 
 void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> bodies,
                         const Ground* ground, ThreadTeam& team) {
+  if (bodies.empty() && ground == nullptr) {
+    contacts_.clear();
+    marks_.looked = true;
+    return;
+  }
   known_.resize(bodies.size());
   for (std::vector<Known>& known : known_) known.resize(marks_.inside.size());
   const int n = grid_.size();

@@ -9,13 +9,13 @@
 
 namespace weft {
 
-/// Which of a cloth's samples are behind the surface of a closed body: its number, or 0.
+/// Which of a cloth's samples are on the wrong side of a closed body: its number, or 0.
 using InsideMarks = std::vector<int>;
 
 /// Contacts of a cloth's samples with bodies and the ground: the half-space before the point of a
 /// surface that was closest at the start of the step. Outside, a sample cannot have changed sides,
 /// so the way from there to it tells the side, also of open surfaces. Samples inside closed bodies
-/// are pushed out, gently.
+/// are pushed out, gently, and back in those outside of one that keeps the cloth in.
 class BodyContacts {
  public:
   struct Ground {
@@ -44,6 +44,9 @@ class BodyContacts {
                        const Ground* ground, int sample, std::vector<Contact>& out);
   void find_body(const MovingCloth& cloth, const ContactBody& body, bool deep, int sample,
                  std::vector<Contact>& out);
+  [[nodiscard]] bool keeps_in(const ContactBody& body) const {
+    return !kept_in_.empty() && kept_in_[body.number - 1] != 0;
+  }
   void find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
                    std::vector<Contact>& out) const;
   /// What is known of a sample and a body: how far it was from where.
@@ -58,6 +61,7 @@ class BodyContacts {
 
   const SurfaceGrid& grid_;
   KeptGap kept_;
+  std::vector<char> kept_in_;              // by each body; empty: by none
   std::vector<std::vector<Known>> known_;  // of each body [n * n]
   struct Marks {
     InsideMarks inside;         // [n * n]

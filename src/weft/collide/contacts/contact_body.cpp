@@ -10,6 +10,17 @@ namespace {
 /// inside something is pushed out and not shot out.
 constexpr double most_recovery = 0.25;
 
+/// How much closer a body's surface comes to a place that it slides past: what turns in place comes
+/// no closer, though each of its points dives away. Nothing where it leaves. [m]
+std::optional<double> approach_of(const ContactBody& body, const BodyPoint& at, Vec3d place,
+                                  Vec3d normal, double reach) {
+  const auto then = body.at_end->closest(place, reach);
+  if (!then) return std::nullopt;
+  const double before = dot(normal, place - at.position);
+  const double after = std::sqrt(then->squared_distance);
+  return before - (dot(normal, place - then->position) < 0 ? -after : after);
+}
+
 }  // namespace
 
 Vec3d way_of(const ContactBody& body, const BodyPoint& at) {
@@ -34,10 +45,16 @@ std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& 
   // On the surface itself rounding would choose the direction.
   constexpr double touching = 1e-9;
   const Vec3d normal = distance > touching
-                           ? ((point.behind ? -1 : 1) / distance) * (point.start - at.position)
-                           : body.query->normal_at(at);
-  const double gap = point.behind ? -distance : distance;
-  const Vec3d slide = way_of(body, at);
+                           ? ((point.astray ? -1 : 1) / distance) * (point.start - at.position)
+                           : (point.kept_in ? -1.0 : 1.0) * body.query->normal_at(at);
+  const double gap = point.astray ? -distance : distance;
+  Vec3d slide = way_of(body, at);
+  if (body.at_end != nullptr) {
+    const auto approach = approach_of(
+        body, at, point.start, normal,
+        std::abs(gap) + body.most_approach + contact_foresight * kept.gap + length(point.way));
+    if (approach) slide += std::max(0.0, *approach - dot(normal, slide)) * normal;
+  }
   if (gap + dot(normal, point.way - slide) >= contact_foresight * kept.gap) return std::nullopt;
   Contact contact;
   contact.samples = point.samples;
@@ -45,6 +62,11 @@ std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& 
   contact.normal = vec_cast<float>(normal);
   put_offset(dot(normal, at.position + slide), gap, kept.gap, contact);
   contact.friction = static_cast<float>(pair_friction(kept.friction, body.friction));
+  if (point.astray) {
+    // Nothing is pressed there: it is on its way back, a part of the gap in every step.
+    contact.offset += contact.lift;
+    contact.lift = contact.friction = 0;
+  }
   contact.slide = vec_cast<float>(slide);
   return contact;
 }

@@ -13,10 +13,11 @@ struct ContactBody {
   int number = 0;                    ///< >= 1, what marks call it
   const BodyQuery* query = nullptr;  ///< placed at the start of the step
   const Planes3* start = nullptr;
-  const Planes3* end = nullptr;  ///< the start where it stands still
-  double friction = 0;           ///< of the body
-  double most_moved = 0;         ///< by any sample during the step [m]
-  double travelled = 0;          ///< by any sample before the step, at most [m]
+  const Planes3* end = nullptr;       ///< the start where it stands still
+  double friction = 0;                ///< of the body
+  const BodyQuery* at_end = nullptr;  ///< placed at the end, where it goes far; else null
+  double most_approach = 0;  ///< how much closer it comes to anything during the step, at most [m]
+  double travelled = 0;      ///< the same before the step, at most [m]
 };
 
 /// How a point of a body's surface goes during the step. [m]
@@ -26,8 +27,9 @@ struct ContactBody {
 struct ClothPoint {
   std::array<int, 4> samples{};
   std::array<float, 4> weights{1, 0, 0, 0};
-  Vec3d start, way;     ///< [m]
-  bool behind = false;  ///< at the start inside the body
+  Vec3d start, way;      ///< [m]
+  bool kept_in = false;  ///< the body's inside is where it belongs
+  bool astray = false;   ///< at the start on the body's other side
 };
 
 /// What a cloth keeps between itself and what it meets.

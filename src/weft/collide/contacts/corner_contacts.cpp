@@ -50,12 +50,16 @@ void for_near_cells(const Node& node, const Near& near, const Visit& visit) {
 }  // namespace
 
 CornerContacts::CornerContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
-    : grid_(grid), kept_{cloth.thickness, cloth.friction}, spacing_(cloth.rest_spacing) {}
+    : grid_(grid),
+      kept_{cloth.thickness, cloth.friction},
+      spacing_(cloth.rest_spacing),
+      kept_in_(cloth.kept_in) {}
 
 void CornerContacts::add_body(const SurfaceGrid& grid, const BodyQuery& body,
                               const Planes3& shape) {
-  sharp_.push_back(find_sharp_points(
-      grid, body, shape, {kept_.gap, aside_in_spacings * spacing_, away_in_gaps * kept_.gap}));
+  sharp_.push_back(find_sharp_points(grid, body, shape,
+                                     {kept_.gap, aside_in_spacings * spacing_,
+                                      away_in_gaps * kept_.gap, keeps_in(sharp_.size())}));
   any_sharp_ = any_sharp_ || !sharp_.back().empty();
 }
 
@@ -172,7 +176,9 @@ void CornerContacts::make_contact(const Search& search, const Touch& touch,
   if (!look() || std::max({w[0], w[1], w[2]}) > nearly_all) return;
   ClothPoint point;
   point.start = blend(start, w);
-  if (search.body.query->closed() && search.body.query->behind(point.start, *at)) return;
+  point.kept_in = keeps_in(search.body.number - 1);
+  if (search.body.query->closed() && search.body.query->behind(point.start, *at) != point.kept_in)
+    return;
   point.way = blend(corners_at(search.step.cloth.position, samples), w) - point.start;
   point.weights = {};
   for (std::size_t k = 0; k < 3; ++k) {

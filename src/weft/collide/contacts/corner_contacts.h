@@ -48,6 +48,9 @@ class CornerContacts {
     const ContactBody& body;
     const CollideKernels& kernels;
   };
+  [[nodiscard]] bool keeps_in(std::size_t body) const {
+    return !kept_in_.empty() && kept_in_[body] != 0;
+  }
   void find_touches(const Search& search, std::span<const int> points, ThreadTeam& team);
   void find_touches_of(const Search& search, int point, std::vector<Touch>& out) const;
   void try_triangle(const Search& search, Touch touch, std::vector<Touch>& out) const;
@@ -56,6 +59,7 @@ class CornerContacts {
   const SurfaceGrid& grid_;
   KeptGap kept_;
   double spacing_;                       // [m]
+  std::vector<char> kept_in_;            // by each body; empty: by none
   std::vector<std::vector<int>> sharp_;  // of each body
   bool any_sharp_ = false;
   PathBoxLevels boxes_;  // where nobody else has them

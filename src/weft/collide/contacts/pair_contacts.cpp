@@ -19,6 +19,9 @@ constexpr double foresight = 1.5;
 /// triangles hold apart as a rule; and the two sides of a crease, which bending does.
 constexpr float flat = 0.8F;
 constexpr double worn = 0.5;
+/// What is no farther apart than so many gaps along the cloth cannot lie on itself: it would have
+/// to turn within half a gap, which is bending's affair.
+constexpr double beside_in_gaps = 3;
 
 /// One side of a contact: up to three samples of a cloth with weights that sum to 1.
 struct Side {
@@ -59,7 +62,7 @@ class Finder {
   void look_at(const CellPair& cells) {
     const SeenCell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
     const bool crease = pair_.same && adjacent(a, b);
-    if (crease && !pair_.creases) return;
+    if (pair_.same && (crease ? !pair_.creases : beside(a, b))) return;
     gap_ = crease ? worn * pair_.gap : pair_.gap;
     const MovingSurface surface_a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
     const MovingSurface surface_b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
@@ -82,6 +85,25 @@ class Finder {
       return std::any_of(b.samples.begin(), b.samples.end(),
                          [&](int t) { return a.grid->point(s) == a.grid->point(t); });
     });
+  }
+
+  /// Whether the way from one to the other along a row and a column is shorter than that, at rest.
+  [[nodiscard]] bool beside(const SeenCell& a, const SeenCell& b) const {
+    if (pair_.rest == nullptr) return false;
+    const double limit = beside_in_gaps * pair_.gap;
+    const int cells = a.grid->cells();
+    const int row = std::min(a.cell / cells, b.cell / cells);
+    const int last_row = std::max(a.cell / cells, b.cell / cells);
+    const int col = std::min(a.cell % cells, b.cell % cells);
+    const int last_col = std::max(a.cell % cells, b.cell % cells);
+    double way = 0;
+    const auto step = [&](int r, int c, int to_r, int to_c) {
+      way += length(vec_cast<double>(pair_.rest->at(to_r, to_c) - pair_.rest->at(r, c)));
+    };
+    // Between the corners that face each other.
+    for (int r = row + 1; r < last_row && way <= limit; ++r) step(r, last_col, r + 1, last_col);
+    for (int c = col + 1; c < last_col && way <= limit; ++c) step(row + 1, c, row + 1, c + 1);
+    return way <= limit;
   }
 
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }

@@ -16,6 +16,7 @@ struct ClothPair {
   const SurfaceGrid *grid_a = nullptr, *grid_b = nullptr;
   const MovingCloth *a = nullptr, *b = nullptr;
   bool same = false;
+  const Planes3* rest = nullptr;        ///< of one and the same, see GuardedCloth [m]
   double gap = 0;                       ///< that is kept [m]
   double friction = 0;                  ///< of the pair
   double time_step = 0;                 ///< [s]

@@ -30,7 +30,7 @@ class Judge {
     BodyPoint at;
     at.samples = {point, point, point};
     at.weights = {1, 0, 0};
-    const Vec3d n = body_.normal_at(at);
+    const Vec3d n = (sharpness_.from_inside ? -1.0 : 1.0) * body_.normal_at(at);
     return stands_out(point, n) || (!body_.closed() && stands_out(point, -n));
   }
 

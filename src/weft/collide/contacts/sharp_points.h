@@ -11,6 +11,7 @@ struct Sharpness {
   double gap = 0;    ///< at which the inside of a triangle of cloth lies before the point [m]
   double aside = 0;  ///< how far from there its samples are [m]
   double away = 0;   ///< farther from the surface than this nothing holds them [m]
+  bool from_inside = false;  ///< the cloth is inside of the closed body
 };
 
 /// The points of a body that stand out so much that a triangle's inside may touch them while its

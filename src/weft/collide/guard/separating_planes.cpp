@@ -49,6 +49,25 @@ bool certain_along_face(const MovingFeature& face, const MovingFeature& a, const
   return n != Vec3d{} && (enough(gaps_along(n, a, b)) || enough(gaps_along(-n, a, b)));
 }
 
+Vec3d middle_of(const std::array<Vec3d, 3>& corners, int count) {
+  Vec3d sum;
+  for (int i = 0; i < count; ++i) sum += corners[i];
+  return (1.0 / count) * sum;
+}
+
+/// The same of a body's face that slides past: along the direction that it has where it comes by.
+bool certain_where_passed(const MovingFeature& a, const MovingFeature& body, double wanted) {
+  if (body.count < 3 || body.start == body.end) return false;
+  const Vec3d from = middle_of(body.start, body.count), to = middle_of(body.end, body.count);
+  const double way = squared_length(to - from);
+  if (!(way > 0)) return false;
+  const double t = std::clamp(dot(middle_of(a.start, a.count) - from, to - from) / way, 0.0, 1.0);
+  const Vec3d turned = normalized(cross(body.end[1] - body.end[0], body.end[2] - body.end[0]));
+  const Vec3d n = normalized((1 - t) * face_normal(body) + t * turned);
+  const auto enough = [&](Gaps gaps) { return gaps.start > 0 && gaps.end >= wanted; };
+  return n != Vec3d{} && (enough(gaps_along(n, a, body)) || enough(gaps_along(-n, a, body)));
+}
+
 void put_points(const MovingFeature& a, const MovingFeature& b, SeparatingPlane& plane) {
   plane.count_a = a.body ? 0 : a.count;
   plane.count_b = b.body ? 0 : b.count;
@@ -119,6 +138,7 @@ Separation separate(const MovingFeature& a, const MovingFeature& b, const PlaneO
   const double wanted = (b.body ? 1 : 2) * options.slack;
   if (certain_along_face(b, a, b, wanted) || certain_along_face(a, a, b, wanted))
     return Separation::certain;
+  if (b.body && certain_where_passed(a, b, wanted)) return Separation::certain;
   const ClosestPair closest = closest_points({a.start, a.count}, {b.start, b.count});
   out.normal = normalized(closest.a - closest.b);
   const Gaps gaps = gaps_along(out.normal, a, b);

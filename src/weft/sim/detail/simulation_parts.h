@@ -12,6 +12,7 @@
 #include "weft/sim/driven_bodies.h"
 #include "weft/sim/driven_work.h"
 #include "weft/sim/grab.h"
+#include "weft/sim/insides.h"
 #include "weft/sim/pins.h"
 #include "weft/sim/runaway.h"
 #include "weft/sim/simulation.h"
@@ -65,6 +66,8 @@ struct Simulation::Parts {
   /// Ties cloths to bodies, which stand where they begin.
   void tie_cloths();
   void make_movers();
+  /// On which side of closed bodies cloths begin, which stand where they begin, too.
+  void find_insides();
   /// With the bodies where they are.
   void make_guard();
   void note_too_fast();
@@ -107,6 +110,8 @@ struct Simulation::Parts {
   void take_excess(double excess);
   void finish_step(const Tried& tried, FrameReport& report);
   void refuse_step();
+  /// To whoever watches; that takes no time of the frame's.
+  void show_step(FrameReport& report) const;
   /// Before the filter: what that stops would look calm. @return whether motion is sane
   bool check_for_runaway(double seconds, bool may_refuse);
   /// Begins a cloth's step, up to its first proposal.
@@ -145,14 +150,19 @@ struct Simulation::Parts {
   Progress* progress;
   SurfaceShelf* shelf;  // none: everything is loaded anew
   ThreadTeam team, lone_team;
-  double substep_time;  // [s]
-  double time_step;     // of the step: a substep or a piece of one [s]
-  double most_way = 0;  // of bodies in a step [m]
-  bool soft;            // springs that leave all stretch to the limiter
+  double substep_time;        // [s]
+  double time_step;           // of the step: a substep or a piece of one [s]
+  double most_way = 0;        // that bodies may come closer in a step [m]
+  ClothReach reach;           // of one cloth in a substep
+  SurfaceMotion body_motion;  // of one body in a substep
+  bool soft;                  // springs that leave all stretch to the limiter
   std::vector<SimulatedCloth> cloths;
   std::vector<PlacedBody> bodies;
+  std::vector<std::vector<Triangle>> body_triangles;  // of those that move
   DrivenBodies driven;
   std::vector<std::string> notes;
+  std::vector<StartInside> insides;
+  std::vector<StartSides> start_sides;              // of each cloth
   std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
   std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
   std::vector<Mover> movers;                        // one a cloth
@@ -160,6 +170,7 @@ struct Simulation::Parts {
   std::vector<MovingCloth> moving;  // of this step
   Grab grab;
   int frame = 0;
+  StepWatcher* watcher = nullptr;
   int frames_beyond = 0;  // in a row, with more energy than is explained
   StepLevels levels;
   WorkDone work;

@@ -96,6 +96,7 @@ void Simulation::Parts::load_bodies() {
     body.image_normals = std::move(loaded.normals);
     body.positions = placed_positions(loaded.image, map);
     body.image = std::move(loaded.image);
+    body_triangles.push_back(body.moves ? joined_triangles(body.image) : std::vector<Triangle>());
     body.source = std::move(loaded.source);
     driven.add(std::move(motion));
     bodies.push_back(std::move(body));
@@ -111,6 +112,14 @@ void Simulation::Parts::tie_cloths() {
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tied_pins.push_back(
         tie_places(cloths[i].cloth, scene.cloths[i].attach, surfaces, pin_motions[i]));
+}
+
+void Simulation::Parts::find_insides() {
+  for (const SimulatedCloth& cloth : cloths) {
+    start_sides.push_back(find_start_sides(cloth, bodies, knows_containers(scene.collider), team));
+    const std::vector<StartInside>& found = start_sides.back().inside;
+    insides.insert(insides.end(), found.begin(), found.end());
+  }
 }
 
 void Simulation::Parts::make_guard() {
@@ -133,7 +142,8 @@ void Simulation::Parts::make_guard() {
         {cloth.cloth.mates, cloth.cloth.size, choose_diagonals(cloth.image), gap_of(cloth.cloth),
          scene.cloths[i].friction, cloth.cloth.rest_spacing,
          knows_self_collision(scene.collider) && scene.cloths[i].self_collision.value_or(true),
-         self_gap_of(cloth.cloth)});
+         self_gap_of(cloth.cloth), &cloth.cloth.rest, start_sides[i].kept_in,
+         start_sides[i].wrong_side});
   }
   collider = make_collider(scene.collider, obstacles, guarded);
 }
@@ -162,6 +172,9 @@ void Simulation::Parts::make_movers() {
       notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }
   moving.reserve(cloths.size());
+  int largest = least_image_size;
+  for (const SimulatedCloth& cloth : cloths) largest = std::max(largest, cloth.cloth.size);
+  reach = ClothReach(largest);
   for (std::size_t i = 0; i < cloths.size(); ++i)
     start_energy += movers[i].meter.measure(cloths[i].state);
 }

@@ -206,14 +206,16 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
 int Simulation::Parts::pieces_until(double seconds) {
   if (!driven.any_moves()) return 1;
   driven.go(seconds, team);
-  double way = 0;
-  for (std::size_t c = 0; c < cloths.size(); ++c) {
-    const Box3d near = swept_box(cloths[c].state, substep_time, gap_of(cloths[c].cloth));
+  double wanted = 1;
+  for (const SimulatedCloth& cloth : cloths) {
+    reach.place(cloth.state, substep_time, gap_of(cloth.cloth));
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if (bodies[i].moves)
-        way = std::max(way, farthest_way(bodies[i].positions, *driven.ends()[i], near));
+        wanted = std::max(wanted,
+                          wanted_pieces({bodies[i].positions, *driven.ends()[i], body_triangles[i]},
+                                        reach, most_way, body_motion));
   }
-  return pieces_for(way, most_way);
+  return whole_pieces(wanted);
 }
 
 bool Simulation::Parts::check_for_runaway(double seconds, bool may_refuse) {
@@ -364,6 +366,7 @@ void Simulation::Parts::refuse_step() {
 }
 
 void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
+  if (watcher != nullptr) show_step(report);
   collider->commit();
   double done = tried.work;
   work.pulled += tried.pushed;
@@ -382,7 +385,19 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
   report.self_contacts = std::max(report.self_contacts, collider->self_contacts());
   report.stopped = std::max(report.stopped, tried.filtered.stopped);
   report.fell_back = std::max(report.fell_back, tried.filtered.fell_back);
+  report.whole_fell_back = std::max(report.whole_fell_back, tried.filtered.whole);
   bodies_arrive();
+}
+
+void Simulation::Parts::show_step(FrameReport& report) const {
+  StageClock clock;
+  std::vector<StepMotion::Way> cloth_ways, body_ways;
+  for (const MovingCloth& cloth : moving) cloth_ways.push_back({&cloth.start, &cloth.position});
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    body_ways.push_back(
+        {&bodies[i].positions, bodies[i].moves ? driven.ends()[i] : &bodies[i].positions});
+  watcher->see({cloth_ways, body_ways});
+  report.milliseconds -= clock.lap();
 }
 
 void Simulation::Parts::finish(std::size_t index, FrameReport& report) {

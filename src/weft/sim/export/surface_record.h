@@ -62,6 +62,8 @@ class SurfaceRecord {
   [[nodiscard]] std::vector<WrittenFile> written() const;
   [[nodiscard]] const SurfacePoints& grid() const { return grid_; }
   [[nodiscard]] const Subject& subject() const { return subject_; }
+  /// The mesh's own vertices where any format shows them, else the samples.
+  [[nodiscard]] const ExportedSurface& shown() const { return surface(on_input_.has_value()); }
   /// The file name of the point cache of the samples; empty: there is none.
   [[nodiscard]] std::string image_cache() const { return image_cache_; }
 

@@ -1,0 +1,138 @@
+#include "weft/sim/insides.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/cloth/sheets.h"
+#include "weft/sim/verification.h"
+
+namespace weft {
+namespace {
+
+SceneCloth sheet(Vec3d translate, double scale) {
+  SceneCloth cloth;
+  cloth.name = "sheet";
+  cloth.surface = "builtin:sheet";
+  cloth.size = 33;
+  cloth.placement.scale = {scale, scale, scale};
+  cloth.placement.translate = translate;
+  return cloth;
+}
+
+Scene around(const char* shape, const SceneCloth& cloth) {
+  Scene scene;
+  scene.ground.reset();
+  scene.cloths = {cloth};
+  SceneBody body;
+  body.name = "room";
+  body.surface = std::string("builtin:") + shape;
+  body.size = 33;
+  body.placement.translate = {0, 0.5, 0};
+  scene.bodies = {body};
+  return scene;
+}
+
+int points_outside(const Simulation& simulation) {
+  const ClosedBody body(simulation.bodies()[0].image, simulation.bodies()[0].positions);
+  ThreadTeam alone(1);
+  std::vector<char> inside;
+  body.mark_inside(simulation.cloths()[0].state.position, alone, inside);
+  return static_cast<int>(std::count(inside.begin(), inside.end(), 0));
+}
+
+/// @param highest  that its centre may lie [m]
+void expect_rest_on_floor(const Scene& scene, double highest) {
+  Simulation simulation(scene, "s.json", 1);
+  ASSERT_EQ(simulation.start_insides().size(), 1U);
+  EXPECT_TRUE(simulation.start_insides()[0].kept_in);
+  Verifier verifier(simulation, std::nullopt);
+  simulation.watch(&verifier);
+  Verification found;
+  FrameReport last;
+  int contacts = 0;
+  for (int frame = 1; frame <= 90; ++frame) {
+    last = simulation.advance();
+    verifier.look(frame, found);
+    contacts = std::max(contacts, last.contacts);
+    ASSERT_EQ(points_outside(simulation), 0) << "frame " << frame;
+    ASSERT_LT(last.strain.p99, 0.05) << "frame " << frame;
+    ASSERT_GT(last.smallest_gap, 0) << "frame " << frame;
+  }
+  EXPECT_TRUE(found.good()) << found.passed.count << " passed, " << found.swallowed.count
+                            << " swallowed";
+  EXPECT_GT(contacts, 20);
+  EXPECT_LT(last.centre_of_mass.y, highest);
+  EXPECT_LT(last.kinetic_energy, 0.02);
+}
+
+TEST(Insides, AClothInAHollowBallComesToLieOnItsFloor) {
+  expect_rest_on_floor(around("sphere", sheet({0, 0.5, 0}, 0.6)), 0.1);
+}
+
+TEST(Insides, AClothInABoxComesToLieOnItsFloor) {
+  expect_rest_on_floor(around("box", sheet({0, 0.5, 0}, 0.4)), 0.31);  // the floor is at 0.3
+}
+
+TEST(Insides, AClothHalfInsideABallIsNamedAndPushedOut) {
+  Scene scene = around("sphere", sheet({0.35, 0.62, 0}, 0.5));
+  scene.bodies[0].placement.scale = {0.6, 0.6, 0.6};
+  Simulation simulation(scene, "s.json", 1);
+  ASSERT_EQ(simulation.start_insides().size(), 1U);
+  const StartInside& found = simulation.start_insides()[0];
+  EXPECT_FALSE(found.kept_in);
+  EXPECT_GT(found.samples, 50);
+  EXPECT_LT(found.samples, found.particles - 50);
+  EXPECT_NE(start_inside_text(found).find("points inside of body 'room'"), std::string::npos);
+  for (int frame = 1; frame <= 60; ++frame) simulation.advance();
+  const int n = simulation.cloths()[0].cloth.size;
+  EXPECT_EQ(points_outside(simulation), n * n);
+}
+
+TEST(Insides, NothingIsInsideOfASurfaceWithABorder) {
+  const Simulation simulation(around("cylinder", sheet({0, 0.5, 0}, 0.2)), "s.json", 1);
+  EXPECT_TRUE(simulation.start_insides().empty());
+}
+
+TEST(Insides, ThePolarMapKeepsNothingIn) {
+  Scene scene = around("sphere", sheet({0, 0.5, 0}, 0.3));
+  scene.collider = PolarMapOptions{};
+  const Simulation simulation(scene, "s.json", 1);
+  ASSERT_EQ(simulation.start_insides().size(), 1U);
+  EXPECT_FALSE(simulation.start_insides()[0].kept_in);
+}
+
+TEST(Insides, AContainerMayMove) {
+  Scene scene = around("sphere", sheet({0, 0.4, 0}, 0.5));
+  scene.bodies[0].motion = {{0.0, {}, {}}, {0.5, {0, 0, 60}, {0.3, 0.2, 0}}};
+  Simulation simulation(scene, "s.json", 1);
+  Verifier verifier(simulation, std::nullopt);
+  simulation.watch(&verifier);
+  Verification found;
+  for (int frame = 1; frame <= 45; ++frame) {
+    simulation.advance();
+    verifier.look(frame, found);
+  }
+  EXPECT_EQ(points_outside(simulation), 0);
+  EXPECT_TRUE(found.good());
+}
+
+TEST(Insides, WhatAClosedBodySwallowsIsSeen) {
+  // A sheet that is put into a ball between two frames, without crossing it before or after.
+  Scene scene = around("sphere", sheet({0, 2.5, 0}, 0.3));
+  scene.gravity = {};
+  Simulation simulation(scene, "s.json", 1);
+  Verifier verifier(simulation, std::nullopt);
+  Verification found;
+  verifier.look(1, found);
+  EXPECT_TRUE(found.good());
+  SimulationState state;
+  simulation.save(state);
+  for (int s = 0; s < 33 * 33; ++s)
+    state.cloths[0].position.set(s, state.cloths[0].position.at(s) - Vec3f{0, 2, 0});
+  simulation.restore(state);
+  verifier.look(2, found);
+  EXPECT_EQ(found.swallowed.count, 33 * 33);
+  EXPECT_EQ(found.swallowed.frame, 2);
+}
+
+}  // namespace
+}  // namespace weft
