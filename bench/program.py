@@ -1,9 +1,10 @@
 """Runs the release build for the benchmarks; writes tables into documents."""
 import json
-import pathlib
 import subprocess
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import stamp
+from stamp import ROOT
+
 PROGRAM = ROOT / "build/release/bin/weft"
 
 
@@ -22,8 +23,8 @@ def table(columns, rows):
 
 
 def write_between_marks(document, name, text):
-    """Replaces what stands between <!-- NAME --> and <!-- /NAME --> of a document."""
+    """Replaces what stands between <!-- NAME --> and <!-- /NAME --> of a document; a stamp comes before it."""
     path = ROOT / document
     before, rest = path.read_text().split(f"<!-- {name} -->\n", 1)
     after = rest.split(f"<!-- /{name} -->", 1)[1]
-    path.write_text(f"{before}<!-- {name} -->\n{text}<!-- /{name} -->{after}")
+    path.write_text(f"{before}<!-- {name} -->\n{stamp.stamp(name)}\n{text}<!-- /{name} -->{after}")
