@@ -1,4 +1,5 @@
 """Runs the release build for the benchmarks; writes tables into documents."""
+import csv
 import json
 import subprocess
 
@@ -14,6 +15,12 @@ def run(*words):
     if done.returncode != 0:
         return None, f"exit {done.returncode}: {done.stderr.strip().removeprefix('weft: error: ')}"
     return json.loads(done.stdout), None
+
+
+def largest(folder, column):
+    """Of a column of the table of frames that a run left."""
+    with open(f"{folder}/frames.csv", encoding="utf-8", newline="") as file:
+        return max(float(frame[column]) for frame in csv.DictReader(file))
 
 
 def table(columns, rows):
