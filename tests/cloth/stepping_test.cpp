@@ -206,9 +206,10 @@ TEST(Stepping, ContactsHoldAParticleAtTheirSurface) {
 
 TEST(Stepping, ContactForcesCarryTheWeight) {
   const int n = 17;
-  for (const IntegratorOptions& options : {IntegratorOptions(NewtonOptions{}),
-                                           IntegratorOptions(MultigridOptions{.max_iterations = 4}),
-                                           IntegratorOptions(ImplicitOptions{})})
+  for (const IntegratorOptions& options :
+       {IntegratorOptions(NewtonOptions{}),
+        IntegratorOptions(MultigridOptions{.max_iterations = 64, .tolerance = 1e-5}),
+        IntegratorOptions(ImplicitOptions{})})
     for (const Cloth& cloth : {sheet_cloth(n), make_cloth(flat_sheet(n), torus_mates(n), {})}) {
       ThreadTeam team(1);
       const StepInput input;
