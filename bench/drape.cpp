@@ -32,9 +32,19 @@ Material material_of(const Words& words) {
   return material;
 }
 
+std::string discs_of(const DrapeResult& result) {
+  std::string text;
+  for (const DrapedDisc& disc : result.discs)
+    text += fmt::format(R"({}{{"coefficient":{},"folds":{},"kinetic_energy":{}}})",
+                        text.empty() ? "" : ",", disc.coefficient, disc.folds, disc.kinetic_energy);
+  return text;
+}
+
 int run(const Words& words) {
   DrapeTestOptions options = words.test;
   if (words.integrator == "implicit") options.integrator = ImplicitOptions{};
+  if (words.integrator == "tight")
+    options.integrator = NewtonOptions{.max_iterations = 100, .tolerance = 1e-3};
   Material material = material_of(words);
   const auto start = std::chrono::steady_clock::now();
   DrapeResult result;
@@ -46,11 +56,12 @@ int run(const Words& words) {
     result = measure_drape(material, options);
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  fmt::print(R"({{"bending":[{},{}],"coefficient":{},"spread":{},"folds":{},"kinetic_energy":{},)"
-             R"("integrator":"{}","seconds":{}}})"
+  fmt::print(R"({{"density":{},"bending":[{},{}],"coefficient":{},"spread":{},"folds":{},)"
+             R"("kinetic_energy":{},"discs":[{}],"seconds":{}}})"
              "\n",
-             material.bending.warp, material.bending.weft, result.coefficient, result.spread,
-             result.folds(), result.kinetic_energy, name_of(options.integrator), seconds.count());
+             material.density, material.bending.warp, material.bending.weft, result.coefficient,
+             result.spread, result.folds(), result.kinetic_energy, discs_of(result),
+             seconds.count());
   return 0;
 }
 
@@ -63,9 +74,12 @@ int parse_and_run(int argc, char** argv) {
   program.add_option("--fit", words.fit, "Find B of this drape coefficient [%]");
   program.add_option("--size", words.test.size, "Samples a side")->capture_default_str();
   program.add_option("--starts", words.test.starts, "Discs")->capture_default_str();
-  program.add_option("--seconds", words.test.seconds, "Of a run")->capture_default_str();
-  program.add_option("--integrator", words.integrator, "The library's default, or implicit")
-      ->check(CLI::IsMember({"", "implicit"}));
+  program.add_option("--seconds", words.test.seconds, "Of a run, at most")->capture_default_str();
+  program
+      .add_option("--integrator", words.integrator,
+                  "The library's default; the same with a hundredth of its tolerance (tight); or "
+                  "implicit")
+      ->check(CLI::IsMember({"", "tight", "implicit"}));
   CLI11_PARSE(program, argc, argv);
   return run(words);
 }

@@ -11,10 +11,10 @@ import tempfile
 
 import program
 
-COLUMNS = ("integrator", "samples", "threads", "ms a frame", "strain mean %", "p99 %", "largest %",
+COLUMNS = ("integrator", "samples", "threads", "ms a frame", "strain p99 %, worst frame", "last", "largest %, worst frame", "last",
            "fall of the centre at frame 30, m", "residual, median", "state hash")
 # Beyond, the others take minutes.
-SIZES = {"implicit": [41, 81, 129, 257], "two_level": [41, 81, 129, 257], "multigrid": [41, 81, 129, 257, 513, 1025]}
+SIZES = {"newton": [41, 81, 129, 257, 513], "implicit": [41, 81, 129, 257], "two_level": [41, 81, 129, 257], "multigrid": [41, 81, 129, 257, 513, 1025]}
 MATERIAL = {"density": 0.2, "stretch": 2000, "shear": 2000}
 
 
@@ -29,11 +29,13 @@ def row_of(size, integrator, threads):
         scene = pathlib.Path(folder) / "scene.json"
         scene.write_text(json.dumps(scene_of(size, integrator)))
         report, error = program.run("simulate", scene, "-o", f"{folder}/run", "--threads", threads)
+        worst = 0 if error else program.largest(f"{folder}/run", "strain_p99")
     if error:
         return [integrator, f"{size} x {size}", threads, error.split(": ", 2)[-1]] + [""] * (len(COLUMNS) - 4)
     strain, centre = report["strain"], report["centre_of_mass"]
     return [integrator, f"{size} x {size}", threads, f"{report['ms_per_frame']['median']:.2f}",
-            f"{100 * strain['mean']:.2f}", f"{100 * strain['p99']:.1f}", f"{100 * strain['max']:.1f}",
+            f"{100 * worst:.1f}", f"{100 * strain['p99']:.1f}", f"{100 * report['strain_worst']['max']:.1f}",
+            f"{100 * strain['max']:.1f}",
             f"{centre[0][1] - centre[30][1]:.3f}", f"{report['residual']['median']:.1e}", report["state_hash"]]
 
 

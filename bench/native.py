@@ -1,22 +1,31 @@
 #!/usr/bin/env python3
-"""Runs a benchmark program of the release build and puts what it prints between marks of docs/measured.md.
+"""Runs a benchmark program of the release build and puts what it prints into docs/measured.md.
 
-Usage: bench/native.py MARK PROGRAM [WORD ...]
+Usage: bench/native.py kernels | error_129 | error_65 [--write]
 """
+import argparse
 import subprocess
 import sys
 
 import program
 
+COMMANDS = {"kernels": ("weft_bench_kernels",),
+            "error_129": ("weft_bench_error", "--size", "129", "-o", "docs/figures/error_over_time.png"),
+            "error_65": ("weft_bench_error", "--size", "65")}
+
 
 def main():
-    mark, name, *words = sys.argv[1:]
-    done = subprocess.run([program.PROGRAM.parent / name, *words], stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        return done.returncode
-    print(done.stdout)
-    program.write_between_marks("docs/measured.md", mark, done.stdout)
-    return 0
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("name", choices=COMMANDS)
+    words.add_argument("--write", action="store_true", help="renew the table of docs/measured.md")
+    options = words.parse_args()
+    name, *rest = COMMANDS[options.name]
+    done = subprocess.run([program.PROGRAM.parent / name, *rest], cwd=program.ROOT, stdout=subprocess.PIPE, text=True)
+    if done.returncode == 0:
+        print(done.stdout)
+        if options.write:
+            program.write_between_marks("docs/measured.md", options.name, done.stdout)
+    return done.returncode
 
 
 if __name__ == "__main__":

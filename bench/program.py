@@ -1,9 +1,11 @@
 """Runs the release build for the benchmarks; writes tables into documents."""
+import csv
 import json
-import pathlib
 import subprocess
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import stamp
+from stamp import ROOT
+
 PROGRAM = ROOT / "build/release/bin/weft"
 
 
@@ -15,6 +17,12 @@ def run(*words):
     return json.loads(done.stdout), None
 
 
+def largest(folder, column):
+    """Of a column of the table of frames that a run left."""
+    with open(f"{folder}/frames.csv", encoding="utf-8", newline="") as file:
+        return max(float(frame[column]) for frame in csv.DictReader(file))
+
+
 def table(columns, rows):
     """A Markdown table."""
     lines = ["| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"]
@@ -22,8 +30,8 @@ def table(columns, rows):
 
 
 def write_between_marks(document, name, text):
-    """Replaces what stands between <!-- NAME --> and <!-- /NAME --> of a document."""
+    """Replaces what stands between <!-- NAME --> and <!-- /NAME --> of a document; a stamp comes before it."""
     path = ROOT / document
     before, rest = path.read_text().split(f"<!-- {name} -->\n", 1)
     after = rest.split(f"<!-- /{name} -->", 1)[1]
-    path.write_text(f"{before}<!-- {name} -->\n{text}<!-- /{name} -->{after}")
+    path.write_text(f"{before}<!-- {name} -->\n{stamp.stamp(name)}\n{text}<!-- /{name} -->{after}")

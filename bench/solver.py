@@ -5,30 +5,17 @@ chance (bench/solver_sweep.cpp).
 Usage: bench/solver.py [--sizes 65] [--random 40] [--jobs 1] [--write]
 """
 import argparse
-import datetime
 import subprocess
 import sys
 
 import program
 
 
-def commit():
-    """The last that changed the library, with a plus where its sources differ from it."""
-    def git(*words):
-        done = subprocess.run(["git", *words], cwd=program.ROOT, capture_output=True, text=True, check=True)
-        return done.stdout.strip()
-
-    return git("log", "-1", "--format=%h", "--", "src") + ("+" if git("status", "--porcelain", "--", "src") else "")
-
-
 def run(*words):
-    """What it prints, under a line that says which program printed it; None where it fails."""
+    """What it prints; None where it fails."""
     done = subprocess.run([program.PROGRAM.parent / "weft_bench_solver", *map(str, words)], stdout=subprocess.PIPE,
                           text=True)
-    if done.returncode != 0:
-        return None
-    command = " ".join(["weft_bench_solver", *map(str, words)])
-    return f"`{command}`, library at commit {commit()}, {datetime.date.today()}:\n\n{done.stdout}"
+    return done.stdout if done.returncode == 0 else None
 
 
 def main():

@@ -114,13 +114,8 @@ class Simulate(SceneTest):
         for field in ("start_intersections", "untangled_frame", "state_hash"):
             self.assertEqual(again[field], report[field], field)
 
-    def test_every_instruction_set_gives_the_same_hash_and_unknown_ones_are_usage_errors(self):
-        scene = self.write_scene(sheet_scene(integrator={"type": "multigrid"}, ground=0.95))
-        flags = pathlib.Path("/proc/cpuinfo").read_text()
-        there = ["baseline"] + ["avx2"] * (" avx2 " in flags) + ["avx512"] * (" avx512bw " in flags)
-        hashes = {self.run_json("simulate", scene, "-o", f"run-{name}", "--instructions", name)["state_hash"]
-                  for name in there}
-        self.assertEqual(len(hashes), 1, there)
+    def test_unknown_instruction_sets_are_usage_errors(self):
+        scene = self.write_scene(sheet_scene())
         self.assertIn("sse9", self.error_of("simulate", scene, "-o", "none", "--instructions", "sse9", code=2))
 
     def test_every_integrator_gives_the_same_hash_on_one_and_two_threads(self):
@@ -128,7 +123,7 @@ class Simulate(SceneTest):
         hanging["cloths"][0]["pins"] = [{"image": [0, 0]}, {"image": [1, 0]}]
         hanging["cloths"][0]["material"] = {"stretch": 50, "shear": 10, "bend_springs": 0.1}
         hanging["bodies"] = [{"name": "ball", "surface": "builtin:sphere", "size": 65, "translate": [0, 0.4, 0]}]
-        for integrator in ("implicit", "explicit", "desbrun", "two_level", "multigrid"):
+        for integrator in ("newton", "implicit", "explicit", "desbrun", "two_level", "multigrid"):
             scene = self.write_scene(dict(hanging, integrator={"type": integrator}, substeps=8))
             hashes = {self.run_json("simulate", scene, "-o", f"run{threads}", "--threads", threads)["state_hash"]
                       for threads in (1, 2, 3)}
@@ -377,6 +372,39 @@ class Examples(ProgramTest):
                 found = report["intersections_found"]
                 self.assertEqual((found["bodies"], found["ground"]), (0, 0))
         self.assertGreaterEqual(len(names), 20)
+
+
+class Bits(SceneTest):
+    """The same bits on every instruction set and any number of threads, where layers touch and where cloth meets a body."""
+    SIZE = 97  # from here on steps are shared among threads
+
+    def hashes_of(self, scene):
+        flags = pathlib.Path("/proc/cpuinfo").read_text()
+        sets = ["baseline"] + ["avx2"] * (" avx2 " in flags) + ["avx512"] * (" avx512bw " in flags)
+        reports = [self.run_json("simulate", self.write_scene(scene), "-o", "run", "--instructions", name, "--threads", threads,
+                                 "--checkpoint", "0")
+                   for name in sets for threads in ("1", "2", "3", "7")]
+        return {report["state_hash"] for report in reports}, reports[0]
+
+    def test_layers_that_fall_on_the_ground(self):
+        scene = {"version": 1, "frames": 1, "ground": 0, "cloths": [
+            {"name": "low", "surface": "builtin:sheet", "size": self.SIZE, "scale": 0.4, "translate": [0, 0.004, 0],
+             "velocity": [0, -0.3, 0], "material": "silk"},
+            {"name": "high", "surface": "builtin:sheet", "size": self.SIZE, "scale": 0.4, "translate": [0.01, 0.007, 0.02],
+             "rotate": [0.3, 20, 0], "velocity": [0, -0.5, 0], "material": "cotton"}]}
+        hashes, report = self.hashes_of(scene)
+        self.assertEqual(len(hashes), 1)
+        self.assertGreater(report["contacts_max"], 100)
+        self.assertGreater(report["self_contacts_max"], 100)
+
+    def test_a_sheet_that_falls_on_a_body(self):
+        scene = {"version": 1, "frames": 2, "ground": None,
+                 "cloths": [{"name": "sheet", "surface": "builtin:sheet", "size": self.SIZE, "translate": [0, 0.504, 0],
+                             "velocity": [0, -1, 0], "material": "cotton"}],
+                 "bodies": [{"name": "ball", "surface": "builtin:sphere", "size": 33}]}
+        hashes, report = self.hashes_of(scene)
+        self.assertEqual(len(hashes), 1)
+        self.assertGreater(report["contacts_max"], 100)
 
 
 if __name__ == "__main__":

@@ -131,14 +131,26 @@ TEST(SurfaceDistance, LooksBothWays) {
   TriangleMesh half = whole;
   half.triangles.pop_back();
   const SurfaceDistance there = surface_distance(whole, half), back = surface_distance(half, whole);
-  EXPECT_NEAR(there.hausdorff, std::sqrt(0.5), 0.02);
-  EXPECT_NEAR(back.hausdorff, std::sqrt(0.5), 0.02);
+  EXPECT_NEAR(there.hausdorff, std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(back.hausdorff, std::sqrt(0.5), 1e-15);
   // Half of the area is missing and lies uniformly over heights up to h = sqrt(1/2) of its
   // triangle: mean square = 1/2 * h^2 / 6.
   EXPECT_NEAR(there.rms, std::sqrt(1.0 / 24), 0.002);
   EXPECT_EQ(there.from_first.rms, there.rms);
   EXPECT_NEAR(there.from_second.largest, 0, 1e-9);
   EXPECT_EQ(back.from_second.largest, back.hausdorff);
+}
+
+TEST(SurfaceDistance, SeesTipsThatHoldNextToNoArea) {
+  TriangleMesh spiked = square_at(0);
+  spiked.positions.push_back({0.5, 3, 0});
+  spiked.positions.push_back({0.5 + 1e-6, 0, 0});
+  spiked.positions.push_back({0.5, 0, 1e-6});
+  spiked.positions.push_back({7, 7, 7});  // no triangle's corner
+  spiked.triangles.push_back({4, 5, 6});
+  const SurfaceDistance found = surface_distance(spiked, square_at(0), {.samples = 100});
+  EXPECT_NEAR(found.hausdorff, 3, 1e-15);
+  EXPECT_LT(found.rms, 1e-15);
 }
 
 TEST(SurfaceDistance, CanBeStoppedOnTheWay) {

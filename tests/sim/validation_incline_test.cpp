@@ -1,3 +1,5 @@
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/cloth/validation.h"
@@ -9,9 +11,8 @@ namespace {
 
 using namespace testing;
 
-/// How far a sheet slides down a slope in a time, lying on it from the start. The slope is level
-/// ground under turned gravity.
-double slide(double tangent, double friction, double seconds, const IntegratorOptions& integrator) {
+/// A sheet that lies on a slope from the start. The slope is level ground under turned gravity.
+Scene slope(double tangent, double friction, const IntegratorOptions& integrator) {
   const double cosine = 1 / std::sqrt(1 + tangent * tangent), sine = tangent * cosine;
   constexpr double ground_friction = 0.5;
   Scene scene;
@@ -24,25 +25,47 @@ double slide(double tangent, double friction, double seconds, const IntegratorOp
   cloth.placement.translate = {0, 0.0061, 0};
   cloth.friction = friction * friction / ground_friction;  // coefficients meet in their mean
   scene.cloths = {cloth};
+  return scene;
+}
+
+/// How far the sheet slides in a time after another [m].
+double slide(const Scene& scene, double before, double seconds) {
   Simulation simulation(scene, "slope", 1);
+  const auto frames_of = [&](double time) {
+    return static_cast<int>(std::lround(time * scene.frame_rate));
+  };
+  for (int frame = 0; frame < frames_of(before); ++frame) simulation.advance();
   const double start = simulation.centre_of_mass().x;
-  const int frames = static_cast<int>(std::lround(seconds * scene.frame_rate));
-  for (int frame = 0; frame < frames; ++frame) simulation.advance();
+  for (int frame = 0; frame < frames_of(seconds); ++frame) simulation.advance();
   return simulation.centre_of_mass().x - start;
 }
 
-TEST(ValidationIncline, ClothSticksOrSlidesByCoulombsLaw) {
-  const double friction = 0.6, seconds = 0.5;
-  for (const IntegratorOptions& integrator :
-       {IntegratorOptions(ImplicitOptions{}), IntegratorOptions(MultigridOptions{})}) {
-    const std::string name(name_of(integrator));
-    check("slope of 0.5 at friction 0.6, " + name + ": way in 0.5 s [m]", 0,
-          slide(0.5, friction, seconds, integrator), 0.002);
-    const double tangent = 0.9, cosine = 1 / std::sqrt(1 + tangent * tangent);
-    const double wanted = 9.81 * cosine * (tangent - friction) * seconds * seconds / 2;
-    check("slope of 0.9 at friction 0.6, " + name + ": way in 0.5 s [m]", wanted,
-          slide(tangent, friction, seconds, integrator), 0.05 * wanted);
-  }
+constexpr double friction = 0.6, touchdown = 0.5;
+const std::vector<IntegratorOptions> methods{NewtonOptions{}, ImplicitOptions{},
+                                             MultigridOptions{}};
+
+void check_creep(const IntegratorOptions& integrator, double seconds) {
+  check(fmt::format("slope of 0.5 at friction 0.6, {}: way in {} s after touchdown [m]",
+                    name_of(integrator), seconds),
+        0, slide(slope(0.5, friction, integrator), touchdown, seconds), 2e-6);
+}
+
+TEST(ValidationIncline, ClothSlidesByCoulombsLaw) {
+  const double seconds = 0.5, tangent = 0.9, cosine = 1 / std::sqrt(1 + tangent * tangent);
+  const double wanted = 9.81 * cosine * (tangent - friction) * seconds * seconds / 2;
+  for (const IntegratorOptions& integrator : methods)
+    check(fmt::format("slope of 0.9 at friction 0.6, {}: way in 0.5 s [m]", name_of(integrator)),
+          wanted, slide(slope(tangent, friction, integrator), 0, seconds), 0.05 * wanted);
+}
+
+TEST(ValidationIncline, ClothSticksByCoulombsLaw) {
+  check_creep(ImplicitOptions{}, 2);
+  check_creep(MultigridOptions{}, 2);
+}
+
+// The default creeps by what its springs give way.
+TEST(ValidationIncline, DISABLED_ClothSticksForAMinute) {
+  for (const IntegratorOptions& integrator : methods) check_creep(integrator, 60);
 }
 
 }  // namespace

@@ -42,16 +42,25 @@ std::vector<double> squared_distances(const std::vector<Vec3d>& samples,
   return squared;
 }
 
+void append_corners(const TriangleMesh& mesh, std::vector<Vec3d>& points) {
+  std::vector<char> is_corner(mesh.positions.size());
+  for (const auto& triangle : mesh.triangles)
+    for (const int corner : triangle) is_corner[corner] = 1;
+  for (std::size_t v = 0; v < is_corner.size(); ++v)
+    if (is_corner[v]) points.push_back(mesh.positions[v]);
+}
+
+/// The mean is over the area's samples; the largest distance looks at every vertex too, since tips
+/// have little area and lie far off.
 OneSidedDistance one_sided(const TriangleMesh& from, const TriangleMesh& to,
                            const DistanceOptions& options) {
-  const std::vector<double> squared = squared_distances(
-      sample_surface(from, options.samples, options.seed), ClosestPointQuery(to), options);
-  double sum = 0, largest = 0;
-  for (const double d : squared) {
-    sum += d;
-    largest = std::max(largest, d);
-  }
-  return {std::sqrt(sum / static_cast<double>(squared.size())), std::sqrt(largest)};
+  std::vector<Vec3d> points = sample_surface(from, options.samples, options.seed);
+  append_corners(from, points);
+  const std::vector<double> squared = squared_distances(points, ClosestPointQuery(to), options);
+  double sum = 0;
+  for (int i = 0; i < options.samples; ++i) sum += squared[i];
+  return {std::sqrt(sum / options.samples),
+          std::sqrt(*std::max_element(squared.begin(), squared.end()))};
 }
 
 }  // namespace

@@ -41,9 +41,10 @@ Vec3d closest_on_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c);
 /// order of the triangles. @pre at least one triangle
 std::vector<Vec3d> sample_surface(const TriangleMesh& mesh, int count, std::uint64_t seed);
 
-/// From samples of one surface to the other.
+/// From one surface to the other: the root mean square over samples of its area, the largest over
+/// these and all its vertices [m].
 struct OneSidedDistance {
-  double rms = 0, largest = 0;  ///< [m]
+  double rms = 0, largest = 0;
 };
 struct SurfaceDistance {
   double rms = 0;        ///< the larger of the two one-sided root mean squares [m]
@@ -56,7 +57,7 @@ struct DistanceOptions {
   int threads = 1;
   Progress* progress = nullptr;  ///< told every few thousand samples
 };
-/// How far two surfaces are apart, by area-uniform sampling each way.
+/// How far two surfaces are apart, by area-uniform samples and all vertices each way.
 SurfaceDistance surface_distance(const TriangleMesh& a, const TriangleMesh& b,
                                  const DistanceOptions& options = {});
 

@@ -22,10 +22,16 @@ constexpr double gravity = 9.81;
 /// Waves around the disc that a push is made of, and its largest speed [m/s].
 constexpr std::array waves{2, 3, 4, 5, 6, 7, 8};
 constexpr double push_speed = 0.05;
-/// A disc rests when its mean speed stays below the first from one look to the next [m/s], [s].
-constexpr double still_speed = 5e-4, time_between_looks = 0.25, least_seconds = 2;
+/// A disc rests when its kinetic energy is below this times m g and its diameter.
+constexpr double still_energy = 1e-9;
+/// Between two looks at it [s].
+constexpr double time_between_looks = 0.25;
 /// In which a disc's weight comes on [s].
-constexpr double lowering_seconds = 1;
+constexpr double seconds_of_lowering = 1;
+/// How fast the air slows a disc down [1/s]. It decides how soon a disc rests, not where.
+constexpr double air_drag = 4;
+/// Samples a side from which on discs are let down with half as many.
+constexpr int least_start_size = 33;
 /// Bending lengths between which fits look; cloth measures 1 to 5 cm [m].
 constexpr double softest_length = 0.005, stiffest_length = 0.1;
 /// A fit ends where it is this near, or knows B within this part.
@@ -33,29 +39,53 @@ constexpr double near = 0.003, bending_tolerance = 0.01;
 
 double radius_of(Vec3d p) { return std::sqrt(p.x * p.x + p.z * p.z); }
 
+/// Where a disc's rings lie: evenly without and within, so that bending, which begins half a ring
+/// before the last pinned one, begins at the support's edge, whatever the number of samples.
+struct Rings {
+  int pinned = 0;               ///< the last that is
+  double inner = 0, outer = 0;  ///< between two [m]
+
+  explicit Rings(int n) {
+    const int all = (n - 1) / 2;
+    const double overhang = disc_radius - support_radius, even = disc_radius / all;
+    const int free = std::max(1, static_cast<int>(overhang / even));
+    pinned = all - free;
+    outer = overhang / (free + 0.5);
+    inner = (disc_radius - free * outer) / pinned;
+  }
+  [[nodiscard]] double radius(int ring) const {
+    return ring <= pinned ? ring * inner : pinned * inner + (ring - pinned) * outer;
+  }
+};
+
+int ring_of(int n, int row, int col) {
+  const int middle = (n - 1) / 2;
+  return std::max(std::abs(row - middle), std::abs(col - middle));
+}
+
 Planes3 flat_disc(int n) {
   if (n < 9 || n % 2 == 0)
     throw SceneError("drape test", fmt::format("a size of {}", n),
                      "an odd one of at least 9 is wanted");
+  const Rings rings(n);
   Planes3 rest = world_positions(make_image_shape("disk", n));
-  for (int s = 0; s < n * n; ++s) rest.set(s, static_cast<float>(2 * disc_radius) * rest.at(s));
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const int ring = ring_of(n, r, c);
+      // The shape is 1 across.
+      const double scale = ring > 0 ? rings.radius(ring) * (n - 1) / ring : 0;
+      rest.set(r, c, static_cast<float>(scale) * rest.at(r, c));
+    }
   return rest;
-}
-
-/// The radius of the outermost pinned ring: bending begins half a spacing before it.
-double pinned_radius(int n) {
-  const double spacing = 2 * disc_radius / (n - 1);
-  return spacing * std::floor(support_radius / spacing + 1);
 }
 
 Cloth pinned_disc(const Material& material, int n) {
   const Planes3 rest = flat_disc(n);
   Cloth cloth = make_cloth(rest, BorderMates(n, {}), material);
-  const double pinned = pinned_radius(n) + 1e-3 * disc_radius / n;
-  for (int s = 0; s < n * n; ++s) {
-    const Vec3d p = vec_cast<double>(rest.at(s));
-    if (radius_of(p) <= pinned) pin(cloth, s, p);
-  }
+  const int pinned = Rings(n).pinned;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c)
+      if (ring_of(n, r, c) <= pinned) pin(cloth, r * n + c, vec_cast<double>(rest.at(r, c)));
   return cloth;
 }
 
@@ -79,33 +109,79 @@ ClothState pushed_disc(const Cloth& cloth, Random& random) {
   return state;
 }
 
+/// A disc of half as many rings, at rest as a coarser one came to it.
+ClothState refined(const Cloth& cloth, const Cloth& coarse_cloth, const ClothState& coarse) {
+  ClothState state = rest_state(cloth);
+  const auto moved = [&](int r, int c) {
+    return coarse.position.at(r, c) - coarse_cloth.rest.at(r, c);
+  };
+  for (int r = 0; r < cloth.size; ++r)
+    for (int c = 0; c < cloth.size; ++c) {
+      if (cloth.inverse_mass(r, c) == 0) continue;
+      const int up = r / 2, down = (r + 1) / 2, left = c / 2, right = (c + 1) / 2;
+      state.position.set(r, c,
+                         cloth.rest.at(r, c) + 0.25F * (moved(up, left) + moved(up, right) +
+                                                        moved(down, left) + moved(down, right)));
+    }
+  return state;
+}
+
 /// The disc is let down, not dropped: its weight comes on bit by bit. Dropped discs fall into more
 /// folds than those of real tests.
-StepInput lowered(StepInput input, double seconds) {
-  input.gravity = static_cast<float>(std::min(1.0, seconds / lowering_seconds)) * input.gravity;
+StepInput lowered(StepInput input, double seconds, double whole_seconds) {
+  if (seconds < whole_seconds)
+    input.gravity = static_cast<float>(seconds / whole_seconds) * input.gravity;
   return input;
 }
 
-void fall(const Cloth& cloth, const DrapeTestOptions& options, Progress& progress,
-          ClothState& state) {
+void slow_down(float factor, ClothState& state) {
+  for (Grid<float>* plane : {&state.velocity.x, &state.velocity.y, &state.velocity.z})
+    for (int r = 0; r < plane->rows(); ++r)
+      for (int c = 0; c < plane->cols(); ++c) (*plane)(r, c) *= factor;
+}
+
+/// Until it rests, slowed by air, and for one look more without air.
+void fall(const Cloth& cloth, const DrapeTestOptions& options, double lowering_seconds,
+          Progress& progress, ClothState& state) {
   ThreadTeam team(options.team);
   const StepInput input{options.time_step, {0, -static_cast<float>(gravity), 0}};
   const auto integrator = make_integrator(options.integrator, cloth, input, team);
   const int steps = static_cast<int>(options.seconds / options.time_step + 0.5);
   const int look = std::max(1, static_cast<int>(time_between_looks / options.time_step));
+  const auto kept = static_cast<float>(1 - air_drag * options.time_step);
   const double disc_mass = pi * disc_radius * disc_radius * cloth.material.density;
-  const double still = 0.5 * disc_mass * still_speed * still_speed;
+  const double still = still_energy * disc_mass * gravity * 2 * disc_radius;
   bool rested = false;
   for (int i = 1; i <= steps; ++i) {
-    integrator->begin(lowered(input, i * options.time_step), state);
+    const double seconds = i * options.time_step;
+    integrator->begin(lowered(input, seconds, lowering_seconds), state);
     integrator->iterate({});
     integrator->end(state);
+    if (!rested) slow_down(kept, state);
     if (i % look != 0) continue;
     progress.update("", static_cast<double>(i) / steps);
-    const bool rests = kinetic_energy(cloth, state) < still;
-    if (rests && rested && i * options.time_step >= least_seconds) return;
+    const bool rests = seconds > lowering_seconds && kinetic_energy(cloth, state) < still;
+    if (rests && rested) return;
     rested = rests;
   }
+}
+
+/// Lets a disc down at about 33 samples a side, where that is quick, and goes on from where it
+/// rests with twice as many: folds slide and merge for long, and that they do on any grid.
+void settle(const Material& material, const Cloth& cloth, const DrapeTestOptions& options,
+            Random& random, Progress& progress, ClothState& state) {
+  const int coarse_size = (cloth.size + 1) / 2;
+  if (coarse_size < least_start_size || coarse_size % 2 == 0) {
+    state = pushed_disc(cloth, random);
+    fall(cloth, options, seconds_of_lowering, progress, state);
+    return;
+  }
+  const Cloth coarse_cloth = pinned_disc(material, coarse_size);
+  PartOfProgress first(&progress, "", 0, 0.5), second(&progress, "", 0.5, 1);
+  ClothState coarse;
+  settle(material, coarse_cloth, options, random, first, coarse);
+  state = refined(cloth, coarse_cloth, coarse);
+  fall(cloth, options, 0, second, state);
 }
 
 /// How often a closed line rises by a fifth of its height.
@@ -237,8 +313,8 @@ DrapeResult measure_drape(const Material& material, const DrapeTestOptions& opti
   for (int i = 0; i < options.starts; ++i) {
     PartOfProgress part(options.progress, "draping discs", double(i) / options.starts,
                         double(i + 1) / options.starts);
-    ClothState state = pushed_disc(cloth, random);
-    fall(cloth, options, part, state);
+    ClothState state;
+    settle(material, cloth, options, random, part, state);
     result.discs.push_back(measure_disc(cloth, state));
   }
   summarise(result);

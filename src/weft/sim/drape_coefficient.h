@@ -17,7 +17,7 @@ struct DrapeTestOptions {
   std::uint64_t seed = 1;
   IntegratorOptions integrator;
   double time_step = 1.0 / 240;  ///< [s]
-  double seconds = 5;            ///< of a run, at most: one ends where the disc is at rest
+  double seconds = 20;           ///< of a run, at most: one ends where the disc is at rest
   TeamOptions team = 1;
   Progress* progress = nullptr;
 };
@@ -41,7 +41,8 @@ struct DrapeResult {
 
 /// The disc's innermost rings are pinned, up to the one from which on bending starts nearest to the
 /// support's edge; the rest is let down from level within a second, pushed by up to 5 cm/s in a few
-/// random waves around it. Nothing else touches it.
+/// random waves around it. Air slows it until it rests, which it has to do without air as well.
+/// Nothing else touches it.
 /// @throws SceneError for a material or a size that no cloth can have
 DrapeResult measure_drape(const Material& material, const DrapeTestOptions& options);
 

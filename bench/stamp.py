@@ -1,0 +1,92 @@
+"""What a measured block says of its making, and how far its sources have gone on since.
+
+A block stands between <!-- NAME --> and <!-- /NAME --> of a document. Its first line is its stamp: the command, the commit, the
+date, the machine, and the sources that it depends on."""
+import dataclasses
+import datetime
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+# So many commits may change a block's sources before it has to be measured anew.
+MOST_COMMITS = 40
+
+CLOTH = ("src/weft/cloth",)
+SIMULATION = ("src/weft/cloth", "src/weft/collide", "src/weft/sim")
+CONVERSION = ("src/weft/mesh", "src/weft/cut", "src/weft/param", "src/weft/image")
+SOURCES = {
+    "meshes": CONVERSION, "targets": CONVERSION, "growth": CONVERSION,
+    "hanging": SIMULATION, "table5": CLOTH, "error_129": CLOTH, "error_65": CLOTH, "kernels": CLOTH,
+    "solver_fabrics": CLOTH, "solver_random": CLOTH,
+    "ccd": ("src/weft/collide/ccd.cpp", "src/weft/collide/ccd.h"), "polar_map": ("src/weft/collide",),
+    "validate": (*SIMULATION, "tests/cloth", "tests/sim"), "self_cost": SIMULATION, "scenes": SIMULATION, "soak": SIMULATION,
+    "drape": (*CLOTH, "src/weft/sim/drape_coefficient.cpp", "src/weft/sim/materials.cpp"),
+}
+LINE = re.compile(r"`(?P<command>[^`]+)` at commit `(?P<commit>[0-9a-f]+)(?P<dirty>\+?)`, (?P<date>\d{4}-\d\d-\d\d), on "
+                  r"(?P<machine>[^;\n]+); of (?P<sources>`[^\n]+`)\.\n")
+BLOCK = re.compile(r"<!-- (?P<name>\w+) -->\n(?P<text>.*?)<!-- /(?P=name) -->", re.S)
+
+
+def git(*words, root=ROOT):
+    """What it prints, or None."""
+    done = subprocess.run(["git", *words], cwd=root, capture_output=True, text=True)
+    return done.stdout.strip() if done.returncode == 0 else None
+
+
+def machine():
+    """The processor's name, and how many of them there are."""
+    lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return f"{names[0] if names else os.uname().machine} ({len(os.sched_getaffinity(0))} processors)"
+
+
+def command():
+    """The words of ./dev that run this script."""
+    words = [word for word in sys.argv[1:] if word != "--write"]
+    name = pathlib.Path(sys.argv[0]).stem
+    return " ".join(["./dev bench", *([] if name == "native" else [name]), *words])
+
+
+def stamp(name):
+    """The line of a block that is measured now."""
+    sources = SOURCES[name]
+    dirty = "+" if git("status", "--porcelain", "--", *sources) else ""
+    named = ", ".join(f"`{source}`" for source in sources)
+    return (f"`{command()}` at commit `{git('rev-parse', '--short', 'HEAD')}{dirty}`, {datetime.date.today()}, on {machine()}; "
+            f"of {named}.\n")
+
+
+@dataclasses.dataclass
+class Finding:
+    """A block of a document and why it has to be measured anew; None: it need not."""
+    document: pathlib.Path
+    name: str
+    reason: str | None
+
+
+def reason_for(text, root, most_commits):
+    found = LINE.match(text)
+    if not found:
+        return "says neither commit, date, machine, command nor sources"
+    commit, sources = found["commit"], re.findall(r"`([^`]+)`", found["sources"])
+    if found["dirty"]:
+        return f"measured sources that differ from commit {commit}"
+    gone = [source for source in sources if not (root / source).exists()]
+    if gone:
+        return f"depends on {', '.join(gone)}, which is no more"
+    newer = git("rev-list", "--count", "--no-merges", f"{commit}..HEAD", "--", *sources, root=root)
+    if newer is None:
+        return f"names commit {commit}, which is not in this history"
+    if int(newer) > most_commits:
+        return f"{newer} commits changed its sources since {commit} ({found['date']}); {most_commits} may; {found['command']}"
+    return None
+
+
+def findings(root=ROOT, most_commits=MOST_COMMITS):
+    """One for each block of the documents, in their order."""
+    for document in sorted((root / "docs").rglob("*.md")):
+        for block in BLOCK.finditer(document.read_text()):
+            yield Finding(document.relative_to(root), block["name"], reason_for(block["text"], root, most_commits))
