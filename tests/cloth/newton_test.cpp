@@ -204,6 +204,22 @@ TEST(Newton, TheCycleIsPositive) {
   }
 }
 
+TEST(Newton, FreeCornersOfStiffClothLeaveTheCyclePositive) {
+  // What the smoother does not know of borders grows there from cycle to cycle.
+  const Cloth cloth =
+      sheet_cloth(25, {.density = 0.2, .stretch = 20000, .shear = 5000, .bending = 1});
+  System system(cloth, 0);
+  PaddedVectors residual = system.random_field(1), product(25, 25);
+  for (int i = 0; i < 30; ++i) {
+    const PaddedVectors& value = system.cycle(residual);
+    EXPECT_GT(system.dot(residual, value), 0) << i;
+    system.times(value, product);
+    system.blend(-1, product, 1, residual);
+    const double size = std::sqrt(system.dot(residual, residual));
+    system.blend(0, product, static_cast<float>(1 / size), residual);
+  }
+}
+
 TEST(Newton, TheOperatorIsTheDerivativeOfTheGradient) {
   for (const Cloth& cloth : {sheet_cloth(17, Material{.density = 0.2,
                                              .stretch = 300,
@@ -383,13 +399,17 @@ TEST(Newton, AStrainLimitHoldsWhatStretchesFar) {
     ThreadTeam team(1);
     const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
     ClothState state = rest_state(cloth);
-    run(*integrator, {.time_step = step}, 240, state);
-    return measure_strain(cloth, state).p99;
+    double worst = 0;  // of a swing: what one moment tells is chance
+    for (int i = 0; i < 24; ++i) {
+      run(*integrator, {.time_step = step}, 10, state);
+      worst = std::max(worst, measure_strain(cloth, state).p99);
+    }
+    return worst;
   };
   const double free = stretch_of(0), limited = stretch_of(0.03);
-  EXPECT_GT(free, 0.08);
+  EXPECT_GT(free, 0.3);
   // Beside the pins, where weight gathers, springs go beyond the limit, but not far.
-  EXPECT_LT(limited, 0.6 * free);
+  EXPECT_LT(limited, 0.4 * free);
 }
 
 TEST(Newton, PinsGoWhereTheyAreTaken) {

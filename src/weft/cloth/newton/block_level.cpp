@@ -1,15 +1,6 @@
 #include "weft/cloth/newton/block_level.h"
 
 namespace weft {
-namespace {
-
-/// Bending's part of the diagonal that makes line relaxation, which leaves out the rest of its
-/// stencil, contract at the same damping as for springs: the largest eigenvalue of a biharmonic
-/// stencil is 3.2 times its diagonal, that of springs twice.
-constexpr float bending_share = 1.6F;
-
-}  // namespace
-
 BlockLevel::BlockLevel(const Shape& shape, Seams seam_classes, BendingStencil stiffness)
     : size(shape.size),
       seams(std::move(seam_classes)),

@@ -10,6 +10,11 @@ namespace weft {
 /// What holds a sample in a line's matrix. [N/m]
 inline constexpr float holding_stiffness = 1e20F;
 
+/// Bending's part of the diagonal that makes line relaxation, which leaves out the rest of its
+/// stencil, contract at the same damping as for springs: the largest eigenvalue of a biharmonic
+/// stencil is 3.2 times its diagonal, that of springs twice.
+inline constexpr float bending_share = 1.6F;
+
 /// Nine-point stencils of 3 x 3 blocks: own parts, each sample's centre and the blocks to the four
 /// neighbours after it.
 struct BlockStencil {

@@ -63,8 +63,13 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
   // Second-neighbour springs are not in the stencil: the smoother knows what bounds them.
   const auto far_stiffness = static_cast<float>(8 * cloth.material.bend_springs);
   for (int r = 0; r < cloth.size; ++r)
-    for (int c = 0; c < cloth.size; ++c)
-      free_extra_(r, c) = levels_.front().extra(r, c) + far_stiffness;
+    for (int c = 0; c < cloth.size; ++c) {
+      // Nor are the edges along free borders, which at corners more than double the diagonal.
+      const float bordered =
+          cloth.bending.active ? bending_share * cloth.bending.diagonal(r, c) : 0.0F;
+      const float bending = std::max(levels_.front().extra(r, c), bordered);
+      free_extra_(r, c) = bending + far_stiffness;
+    }
   for (int i = 0; i < workers; ++i) sweeps_.emplace_back(SpringHessian::sweep_rows, cloth.size);
   for (int i = 0; i < workers; ++i)
     scratch_.emplace_back(
