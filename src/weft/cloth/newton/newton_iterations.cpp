@@ -96,7 +96,8 @@ void NewtonSolver::descend_direction(Progress& progress, Worker& worker) {
 void NewtonSolver::iterate(Progress& progress, Worker& worker) {
   multigrid_.cycle(worker);
   turn(progress, worker);
-  if (!(progress.slope > 0)) progress.slope = 0;
+  // A cycle is no symmetric operator: where it points up, the way down is backwards.
+  if (!std::isfinite(progress.slope)) progress.slope = 0;
   descend_direction(progress, worker);
   ++progress.iterations;
 }
