@@ -4,6 +4,7 @@
 
 #include "tests/support/errors.h"
 #include "weft/core/error.h"
+#include "weft/core/math.h"
 
 namespace weft {
 namespace {
@@ -42,8 +43,9 @@ TEST(DrapeCoefficient, DiscsComeToRest) {
   options.size = 17;
   options.starts = 2;
   const DrapeResult result = measure_drape({.density = 0.2, .bending = 2e-5}, options);
-  // A billionth of what the disc, 14 g, would gain by falling as far as it is wide.
-  EXPECT_LT(result.kinetic_energy, 1e-9 * 0.0141 * 9.81 * 0.3);
+  // A billionth of what the disc would gain by falling as far as it is wide.
+  const double mass = 0.2 * pi * 0.15 * 0.15;
+  EXPECT_LT(result.kinetic_energy, 1e-9 * mass * 9.81 * 0.3);
 }
 
 TEST(DrapeCoefficient, IsTheSameOnFinerImages) {

@@ -49,20 +49,22 @@ void NewtonSolver::add_drift(Vec3d way, Worker& worker) {
   worker.barrier();
 }
 
-/// The direction becomes the preconditioned residual, less what the last direction has of it.
+/// The direction becomes the preconditioned residual, less what the last direction has of it. The
+/// slope is taken along what is left, which may be rounding alone.
 void NewtonSolver::turn(Progress& progress, Worker& worker) {
   const int n = whole_vectors(cloth_.size);
-  const Range mine = worker.share(cloth_.size);
   const PaddedVectors& value = multigrid_.value();
+  const auto share = [&](int r) { return multigrid_.seams().empty() ? nullptr : share_.row(r); };
+  double overlap = 0;
+  if (progress.curvature > 0)
+    overlap = sums_.sum(worker, [&](int r) {
+      return kernels_.dot(n, share(r), std::as_const(product_).row(r), value.row(r));
+    }) / progress.curvature;
   progress.slope = sums_.sum(worker, [&](int r) {
-    const float* share = multigrid_.seams().empty() ? nullptr : share_.row(r);
-    row_parts_[r] = kernels_.dot(n, share, std::as_const(product_).row(r), value.row(r));
-    return kernels_.dot(n, share, std::as_const(residual_).row(r), value.row(r));
-  });
-  const double overlap = progress.curvature > 0 ? total_of_rows() / progress.curvature : 0;
-  for (int r = mine.first; r < mine.last; ++r)
     kernels_.scale_add(n, value.row(r), static_cast<float>(-overlap), direction_.row(r));
-  worker.barrier();
+    return kernels_.dot(n, share(r), std::as_const(residual_).row(r),
+                        std::as_const(direction_).row(r));
+  });
 }
 
 /// Goes along the direction to where the energy of the linearisation is least.

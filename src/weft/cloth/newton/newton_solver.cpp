@@ -309,16 +309,7 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
   worker.barrier();
   if (worker.rank() == 0 && driven_) potential_ = HUGE_VAL;
   if (worker.rank() == 0 && !driven_) start_potential_ = known;
-  if (driven_ || !contacts_.empty()) {
-    if (worker.rank() == 0) highest_ = -HUGE_VAL;
-    if (!driven_ && error > lent) calm(error - lent, worker);
-    return;
-  }
-  // What one step lost another may gain: else the errors of both would slow what swings.
-  const double before = known + kinetic_before, highest = std::max(highest_, before);
-  worker.barrier();
-  if (worker.rank() == 0) highest_ = highest;
-  if (before + error > highest) calm(before + error - highest, worker);
+  if (!driven_ && error > lent) calm(error - lent, worker);
 }
 
 void NewtonSolver::run(std::span<const Contact> contacts, const NewtonOptions& options) {

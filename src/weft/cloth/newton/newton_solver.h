@@ -33,10 +33,7 @@ class NewtonSolver {
   /// Says that the step's end was taken: the next solve starts along what it changed.
   void accept() { has_last_ = true; }
   /// The next solve starts from nothing.
-  void forget() {
-    has_last_ = false;
-    highest_ = -HUGE_VAL;
-  }
+  void forget() { has_last_ = false; }
   /// Linearises at next(), as the caller left it, and makes it the solution.
   void run(std::span<const Contact> contacts, const NewtonOptions& options);
   [[nodiscard]] ClothState& next() { return next_; }
@@ -125,7 +122,6 @@ class NewtonSolver {
   double start_potential_ = HUGE_VAL;  // of the start's; infinite: not known yet [J]
   Vec3f known_gravity_;                // that it was for
   std::vector<float> largest_;         // [n] squared direction of each row [m^2]
-  double highest_ = -HUGE_VAL;         // energy before any step since forget, if free [J]
   double lent_ = 0;                    // see lend [J]
   double mass_ = 0;                    // of all that moves [kg]
   double last_length_ = 0;             // of the last step along direction_
