@@ -33,7 +33,9 @@ TEST(DrapeCoefficient, StifferFabricsDrapeLess) {
     const DrapeResult result = measure_drape({.density = 0.2, .bending = bending}, quick());
     EXPECT_GT(result.coefficient, last + 0.1) << bending;
     EXPECT_LT(result.coefficient, 1) << bending;
-    if (bending < 1e-4) EXPECT_GE(result.folds(), 2) << bending;
+    if (bending < 1e-4) {
+      EXPECT_GE(result.folds(), 2) << bending;
+    }
     last = result.coefficient;
   }
 }
