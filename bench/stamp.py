@@ -12,7 +12,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # So many commits may change a block's sources before it has to be measured anew.
-MOST_COMMITS = 40
+MOST_COMMITS = 60
 
 CLOTH = ("src/weft/cloth",)
 SIMULATION = ("src/weft/cloth", "src/weft/collide", "src/weft/sim")
