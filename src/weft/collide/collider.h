@@ -103,18 +103,15 @@ struct FilterCounts {
 
 /// Keeps the cloths of a scene out of its bodies, and out of each other and themselves where it
 /// can. Cloths come in the order in which they were given. Nothing allocates or throws once warmed
-/// up. At the start of a frame: begin_frame. In a step: move_bodies where bodies move; detect,
-/// guard_guess, as often as wanted; after the integrators' work correct, any number of times;
-/// guard; commit. Instead of commit, rollback forgets the step: what follows has the bits that it
-/// would have without.
+/// up. In a step: move_bodies where bodies move; detect, guard_guess, as often as wanted; after the
+/// integrators' work correct, any number of times; guard; commit. Instead of commit, rollback
+/// forgets the step: what follows has the bits that it would have without.
 class Collider {
  public:
   Collider() = default;
   Collider(const Collider&) = delete;
   Collider& operator=(const Collider&) = delete;
   virtual ~Collider() = default;
-  /// Forgets what a run that goes on here would not know, lest it decides anything.
-  virtual void begin_frame() noexcept {}
   /// Begins a step at whose end the bodies stand at `ends`; they start from where the last step
   /// left them. @param ends  of each body [n x n] world [m], mates equal, valid until commit or
   /// rollback; null where it stands still

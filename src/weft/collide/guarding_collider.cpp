@@ -15,9 +15,6 @@ constexpr double aside_in_spacings = 1;
 constexpr double foresight = 1.5;
 /// Finer cloth bends round its thickness over several cells.
 constexpr double least_crease_in_gaps = 3;
-/// So much farther apart than need be, in rest spacings, a cloth's own cells are looked for: where
-/// there are none nothing has to be looked for again until it has moved as far.
-constexpr double clear_in_spacings = 0.05;
 
 std::vector<Triangle> triangles_by_points(const SurfaceGrid& grid) {
   std::vector<Triangle> triangles;
@@ -89,30 +86,9 @@ void GuardingCollider::learn_corners(const Obstacles& obstacles) {
   }
 }
 
-void GuardingCollider::begin_frame() noexcept {
-  for (GuardedOne& one : cloths_) one.clearance.forget();
-}
-
 bool GuardingCollider::needs_boxes() const {
   const bool lonely = bodies_.empty() && cloths_.size() == 1;
-  return !lonely || !cloths_.front().clear;
-}
-
-void GuardingCollider::find_self(std::size_t cloth, const MovingCloth& moving, ThreadTeam& team) {
-  GuardedOne& one = cloths_[cloth];
-  cells_.clear();
-  if (one.clear) return;
-  const auto away = static_cast<float>(clear_in_spacings * one.facts.rest_spacing);
-  broad_phase_->find_self(static_cast<int>(cloth),
-                          static_cast<float>(foresight * one.facts.self_thickness) + 2 * away,
-                          static_cast<float>(slack_) + away, team, cells_);
-  // A cloth that crosses itself is looked at in every step.
-  one.start_clear = cells_.empty() && !untangler_.is_open(cloth, cloth);
-  if (one.start_clear) {
-    one.clearance.keep(moving.position, {away, away});
-  } else {
-    one.clearance.forget();
-  }
+  return !lonely || cloths_.front().facts.self_collision;
 }
 
 void GuardingCollider::move_bodies(std::span<const Planes3* const> ends) noexcept {
@@ -149,10 +125,7 @@ void GuardingCollider::measure_motion(GuardedBody& body) const {
 }
 
 void GuardingCollider::commit() noexcept {
-  for (GuardedOne& one : cloths_) {
-    one.body_contacts->commit();
-    one.start_clear = false;
-  }
+  for (GuardedOne& one : cloths_) one.body_contacts->commit();
   for (GuardedBody& body : bodies_) {
     if (body.end == &body.start) continue;
     body.start = *body.end;
@@ -166,10 +139,7 @@ void GuardingCollider::commit() noexcept {
 }
 
 void GuardingCollider::rollback() noexcept {
-  for (GuardedOne& one : cloths_) {
-    one.body_contacts->rollback();
-    one.start_clear = false;
-  }
+  for (GuardedOne& one : cloths_) one.body_contacts->rollback();
   for (GuardedBody& body : bodies_) {
     if (body.end == &body.start) continue;
     body.end = &body.start;
@@ -209,12 +179,6 @@ void GuardingCollider::detect(std::span<const MovingCloth> cloths, double time_s
                               ThreadTeam& team) noexcept {
   place_bodies(team);
   gather_surfaces(cloths);
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    GuardedOne& one = cloths_[i];
-    one.start_clear = !one.facts.self_collision || one.clearance.covers(cloths[i].start);
-    one.clear =
-        one.start_clear && (!one.facts.self_collision || one.clearance.covers(cloths[i].position));
-  }
   if (needs_boxes()) broad_phase_->refit(surfaces_, team);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     GuardedOne& one = cloths_[i];
@@ -268,7 +232,8 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, d
       cells_.clear();
       const int first = static_cast<int>(i), second = static_cast<int>(j);
       if (i == j) {
-        find_self(i, cloths[i], team);
+        broad_phase_->find_self(first, static_cast<float>(foresight * gap),
+                                static_cast<float>(slack_), team, cells_);
       } else {
         broad_phase_->find(first, second, static_cast<float>(foresight * gap), team, cells_);
       }

@@ -14,7 +14,6 @@
 #include "weft/collide/guard/plane_guard.h"
 #include "weft/collide/guard/refuges.h"
 #include "weft/collide/pairs/cell_pairs.h"
-#include "weft/collide/pairs/self_clearance.h"
 #include "weft/collide/untangle/untangler.h"
 
 namespace weft {
@@ -29,7 +28,6 @@ class GuardingCollider final : public Collider {
   GuardingCollider(MakeBroadPhase make_broad_phase, const Obstacles& obstacles,
                    std::span<const GuardedCloth> cloths);
 
-  void begin_frame() noexcept override;
   void move_bodies(std::span<const Planes3* const> ends) noexcept override;
   void detect(std::span<const MovingCloth> cloths, double time_step,
               ThreadTeam& team) noexcept override;
@@ -69,10 +67,6 @@ class GuardingCollider final : public Collider {
     Planes3 carried{};                // refuges among moving bodies
     const Planes3* refuge = nullptr;  // of this step; the start while that will do
     std::size_t obstacle_contacts = 0;
-    SelfClearance clearance{};
-    // Whether the cloth is known to be far from itself: at the step's start; all the way to where
-    // it is proposed to end.
-    bool start_clear = false, clear = false;
   };
   struct GuardedBody {
     SurfaceGrid grid;
@@ -99,8 +93,6 @@ class GuardingCollider final : public Collider {
   void find_pair_contacts(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team);
   /// Whether there is anything for the broad phase to find.
   [[nodiscard]] bool needs_boxes() const;
-  /// The cells of one cloth that may meet each other; remembers where they are none.
-  void find_self(std::size_t cloth, const MovingCloth& moving, ThreadTeam& team);
   static void copy_to_mates(const GuardedOne& one, const MovingCloth& moving);
   void find_planes(ThreadTeam& team);
   void add_ground_planes(std::span<const MovingCloth> cloths);

@@ -38,7 +38,7 @@ void GuardingCollider::find_planes(ThreadTeam& team) {
   const float reach = static_cast<float>(2 * slack_), slack = static_cast<float>(slack_);
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     for (std::size_t j = i; j < surfaces_.size(); ++j) {
-      if (i == j && cloths_[i].clear) continue;
+      if (i == j && !cloths_[i].facts.self_collision) continue;
       cells_.clear();
       const int first = static_cast<int>(i), second = static_cast<int>(j);
       if (i == j) {
@@ -216,11 +216,6 @@ FilterCounts GuardingCollider::hold_all(std::span<const MovingCloth> cloths, dou
   const bool moving = fastest_body(time_step) > 0;
   double spread = least_spread;
   for (int round = 0; round < most_rounds; ++round) {
-    for (std::size_t i = 0; i < cloths_.size(); ++i) {
-      GuardedOne& one = cloths_[i];
-      one.clear = !one.facts.self_collision ||
-                  (one.start_clear && one.clearance.covers(cloths[i].position));
-    }
     if (needs_boxes()) broad_phase_->refit(surfaces_, team);
     find_planes(team);
     add_ground_planes(cloths);

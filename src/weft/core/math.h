@@ -5,6 +5,8 @@
 namespace weft {
 
 inline constexpr double pi = std::numbers::pi;
+/// What a mass weighs where nothing else is said. [m/s^2]
+inline constexpr double standard_gravity = 9.81;
 
 // The C library picks other variants of these by processor; results must not depend on the machine,
 // so these are our own: plain arithmetic, no tables. Largest error seen over the stated range is

@@ -18,7 +18,6 @@ namespace weft {
 namespace {
 
 constexpr double disc_radius = 0.15, support_radius = 0.09;  // [m]
-constexpr double gravity = 9.81;
 /// Waves around the disc that a push is made of, and its largest speed [m/s].
 constexpr std::array waves{2, 3, 4, 5, 6, 7, 8};
 constexpr double push_speed = 0.05;
@@ -144,13 +143,13 @@ void slow_down(float factor, ClothState& state) {
 void fall(const Cloth& cloth, const DrapeTestOptions& options, double lowering_seconds,
           Progress& progress, ClothState& state) {
   ThreadTeam team(options.team);
-  const StepInput input{options.time_step, {0, -static_cast<float>(gravity), 0}};
+  const StepInput input{options.time_step, {0, -static_cast<float>(standard_gravity), 0}};
   const auto integrator = make_integrator(options.integrator, cloth, input, team);
   const int steps = static_cast<int>(options.seconds / options.time_step + 0.5);
   const int look = std::max(1, static_cast<int>(time_between_looks / options.time_step));
   const auto kept = static_cast<float>(1 - air_drag * options.time_step);
   const double disc_mass = pi * disc_radius * disc_radius * cloth.material.density;
-  const double still = still_energy * disc_mass * gravity * 2 * disc_radius;
+  const double still = still_energy * disc_mass * standard_gravity * 2 * disc_radius;
   bool rested = false;
   for (int i = 1; i <= steps; ++i) {
     const double seconds = i * options.time_step;
@@ -326,11 +325,11 @@ FittedBending fit_bending(Material material, double coefficient, const DrapeTest
 }
 
 double bending_of_length(double density, double length) {
-  return density * gravity * length * length * length;
+  return density * standard_gravity * length * length * length;
 }
 
 double length_of_bending(double density, double bending) {
-  return std::cbrt(bending / (density * gravity));
+  return std::cbrt(bending / (density * standard_gravity));
 }
 
 }  // namespace weft

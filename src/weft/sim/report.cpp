@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/json_text.h"
+#include "weft/core/math.h"
 
 namespace weft {
 namespace {
@@ -115,8 +116,8 @@ Json verification_json(const RunReport& report) {
           {"written", worst(report.verification->written)}};
 }
 
-/// Of energy_gained_mgl [m/s^2], [m].
-constexpr double usual_gravity = 9.81, usual_height = 1;
+/// Of energy_gained_mgl [m].
+constexpr double usual_height = 1;
 
 }  // namespace
 
@@ -151,7 +152,8 @@ std::string to_json(const RunReport& report) {
       {"fell_back", worst_count(report, &FrameReport::fell_back)},
       {"blocked_share", worst_blocked_share(report)},
       {"energy_gained", energy_gained(report)},
-      {"energy_gained_mgl", energy_gained(report) / (report.mass * usual_gravity * usual_height)},
+      {"energy_gained_mgl",
+       energy_gained(report) / (report.mass * standard_gravity * usual_height)},
       {"thickness_used", thickness_json(report)},
       {"intersections", report.intersections.counts.total()}};
   json["centre_of_mass"] = Json::array();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "weft/cloth/newton/newton_solver.h"
+#include "weft/core/math.h"
 
 // Conjugate gradients for one linearisation of a step.
 namespace weft {
@@ -92,7 +93,8 @@ void NewtonSolver::descend_direction(Progress& progress, Worker& worker) {
   if (worker.rank() == 0) last_length_ = length;
   progress.promised += 0.5 * length * progress.slope;
   // What this took off the energy, as a force on every particle over its weight.
-  progress.force = std::sqrt(length * progress.slope / mass_) / (input_.time_step * 9.81);
+  progress.force =
+      std::sqrt(length * progress.slope / mass_) / (input_.time_step * standard_gravity);
 }
 
 void NewtonSolver::iterate(Progress& progress, Worker& worker) {

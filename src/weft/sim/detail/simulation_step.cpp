@@ -61,25 +61,10 @@ constexpr int coarse_passes = 2;
 /// where an impact went on beyond its last look, is pushed out.
 constexpr double harmless_depth = 0.75;
 
-/// A step is refused in which points fall back to its start, or whose filter or response adds more
-/// than this part of the energy within cloths, and so much of their mass besides [J/kg].
-constexpr double most_added_part = 0.3, most_added = 0.01;
-/// One that adds less than this part of that is calm.
-constexpr double calm_part = 0.2;
-
-/// What contacts and the springs that the filter stretched may lend a cloth, over what its weight
-/// does over its own length: the next solves let it go. Taken out of the motion at once, it would
-/// stop whatever moves in a pile.
-constexpr double lent_part = 0.003;
-
 /// In parts of the least gap: a solve that led less far from where its contacts were found has met
 /// what there is to meet, as those begin half a gap before they press; a guess that goes less far
 /// passes through nothing that is not closer.
 constexpr double same_place = 0.25, next_to_start = 0.05;
-
-double lent_energy(double mass, double density) {
-  return lent_part * mass * 9.81 * std::sqrt(mass / density);
-}
 
 int level_of(int pieces) {
   int level = 0;
@@ -298,64 +283,6 @@ void Simulation::Parts::solve_all(FrameReport& report) {
   collider->detect(moving, time_step, team);
   report.collide_ms += clock.lap();
   iterate_all();
-}
-
-void Simulation::Parts::lend() {
-  double start = 0, mass = 0, most = 0, explained = work.net;
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    Mover& mover = movers[i];
-    if (!known_energy) mover.start = mover.meter.measure(cloths[i].state);
-    start += mover.start.total();
-    mass += mover.meter.mass();
-    explained += mover.wind_work;
-    most += lent_energy(mover.meter.mass(), cloths[i].cloth.material.density);
-  }
-  known_energy = true;
-  work.least = std::min(work.least, start - explained);
-  most_energy = work.least + explained + most;
-  const double left = std::max(0.0, most_energy - start);
-  for (Mover& mover : movers) mover.integrator->lend(left * mover.meter.mass() / mass);
-}
-
-void Simulation::Parts::judge(bool may_refuse, Tried& tried) {
-  Energy start, solved, end;
-  double mass = 0;
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    Mover& mover = movers[i];
-    start += mover.start;
-    solved += mover.solved;
-    mass += mover.meter.mass();
-    mover.end = mover.meter.measure(mover.integrator->proposal());
-    end += mover.end;
-  }
-  const double added = end.total() - solved.total();
-  const double gained = std::min(added, end.total() - start.total() - tried.work);
-  const double limit = most_added_part * solved.inner() + most_added * mass;
-  const double fault = std::max(end.elastic - solved.elastic, gained);
-  const bool bad = !(fault <= limit) || tried.filtered.fell_back > 0;
-  tried.refused = bad && may_refuse;
-  tried.verdict = bad                         ? StepVerdict::forced
-                  : fault < calm_part * limit ? StepVerdict::calm
-                                              : StepVerdict::near;
-  // Bodies push by the filter, too.
-  if (driven.any_moves()) tried.pushed = std::max(0.0, added);
-  if (tried.refused) return;
-  const double excess = std::min(gained, end.total() - tried.work - most_energy);
-  if (excess > 0) take_excess(excess);
-}
-
-/// Of each cloth by its share in what all gained.
-void Simulation::Parts::take_excess(double excess) {
-  double gained = 0;
-  const auto own = [](const Mover& mover) {
-    return std::max(0.0, mover.end.total() - mover.start.total());
-  };
-  for (const Mover& mover : movers) gained += own(mover);
-  for (Mover& mover : movers)
-    if (own(mover) > 0)
-      mover.meter.take_out(excess * (own(mover) / gained), mover.integrator->proposal().velocity);
-  // What is left is measured, not reckoned: a run that goes on from here does so too.
-  known_energy = false;
 }
 
 void Simulation::Parts::refuse_step() {

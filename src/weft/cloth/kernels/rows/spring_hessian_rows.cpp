@@ -16,6 +16,20 @@ struct Sum6 {
   float xx, xy, xz, yy, yz, zz;
 };
 
+inline Sum6 operator+(const Sum6& a, const Sum6& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
+}
+
+/// Writes sum + t 1 as a block.
+inline void put(const Sum6& sum, float t, float* const* entry, int c) {
+  entry[0][c] = sum.xx + t;
+  entry[1][c] = sum.xy;
+  entry[2][c] = sum.xz;
+  entry[3][c] = sum.yy + t;
+  entry[4][c] = sum.yz;
+  entry[5][c] = sum.zz + t;
+}
+
 /// g -= f (x_j - x_i)
 inline void pull(const ConstSpringHessianRow& spring, int c, float dx, float dy, float dz,
                  float& gx, float& gy, float& gz) {
@@ -107,8 +121,6 @@ void gradient(int n, const SpringRing& ring, const RowTriple& x, const float* ma
 
 void diagonal(int n, const SpringRing& ring, const float* mass, MutableBlockRow6 out) {
   const auto* s = ring.spring;
-  float *xx = out.entry[0], *xy = out.entry[1], *xz = out.entry[2], *yy = out.entry[3],
-        *yz = out.entry[4], *zz = out.entry[5];
 #pragma omp simd
   for (int c = 0; c < n; ++c) {
     float t = mass[c];
@@ -121,12 +133,7 @@ void diagonal(int n, const SpringRing& ring, const float* mass, MutableBlockRow6
     stiffen(s[5], c, t, sum);
     stiffen(s[6], c, t, sum);
     stiffen(s[7], c, t, sum);
-    xx[c] = sum.xx + t;
-    xy[c] = sum.xy;
-    xz[c] = sum.xz;
-    yy[c] = sum.yy + t;
-    yz[c] = sum.yz;
-    zz[c] = sum.zz + t;
+    put(sum, t, out.entry, c);
   }
 }
 
@@ -151,24 +158,9 @@ void line_diagonals(int n, const SpringRing& ring, const float* mass, const floa
     stiffen(s[3], c, across, col);
     const float in_row = t + extra[c] + across, in_col = t + extra[c] + along,
                 all = t + along + across;
-    rows[0][c] = shared.xx + col.xx + in_row;
-    rows[1][c] = shared.xy + col.xy;
-    rows[2][c] = shared.xz + col.xz;
-    rows[3][c] = shared.yy + col.yy + in_row;
-    rows[4][c] = shared.yz + col.yz;
-    rows[5][c] = shared.zz + col.zz + in_row;
-    cols[0][c] = shared.xx + row.xx + in_col;
-    cols[1][c] = shared.xy + row.xy;
-    cols[2][c] = shared.xz + row.xz;
-    cols[3][c] = shared.yy + row.yy + in_col;
-    cols[4][c] = shared.yz + row.yz;
-    cols[5][c] = shared.zz + row.zz + in_col;
-    whole[0][c] = shared.xx + row.xx + col.xx + all;
-    whole[1][c] = shared.xy + row.xy + col.xy;
-    whole[2][c] = shared.xz + row.xz + col.xz;
-    whole[3][c] = shared.yy + row.yy + col.yy + all;
-    whole[4][c] = shared.yz + row.yz + col.yz;
-    whole[5][c] = shared.zz + row.zz + col.zz + all;
+    put(shared + col, in_row, rows, c);
+    put(shared + row, in_col, cols, c);
+    put(shared + row + col, all, whole, c);
   }
 }
 
