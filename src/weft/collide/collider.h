@@ -121,7 +121,14 @@ class Collider {
                       ThreadTeam& team) noexcept = 0;
   /// What detect found for one cloth, for its integrator; empty for methods that only push.
   [[nodiscard]] virtual std::span<const Contact> contacts(std::size_t cloth) const noexcept = 0;
-  /// Those of them with bodies and the ground, which come first.
+  /// Whether contacts between two cloths are to be found as shared ones, which contacts() lacks
+  /// then, for who solves cloths together; else each cloth gets planes that move as both do on the
+  /// mean.
+  virtual void share_contacts(bool /*shared*/) noexcept {}
+  [[nodiscard]] virtual std::span<const SharedContact> shared_contacts() const noexcept {
+    return {};
+  }
+  /// Those of contacts(cloth) with bodies and the ground, which come first.
   [[nodiscard]] virtual std::span<const Contact> obstacle_contacts(
       std::size_t cloth) const noexcept {
     return contacts(cloth);

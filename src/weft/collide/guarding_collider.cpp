@@ -217,9 +217,9 @@ void GuardingCollider::find_tangles(std::span<const MovingCloth> cloths, ThreadT
 
 void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, double time_step,
                                           ThreadTeam& team) {
-  self_contacts_ = 0;
+  shared_.clear();
   const auto before = [&] {
-    int count = 0;
+    int count = static_cast<int>(shared_.size());
     for (const GuardedOne& one : cloths_) count += static_cast<int>(one.contacts.size());
     return count;
   };
@@ -239,10 +239,10 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, d
       }
       near_ = near_ || !cells_.empty();
       pair_contacts_.find(
-          {&a.grid, &b.grid, &cloths[i], &cloths[j], i == j, a.facts.rest, gap,
+          {&a.grid, &b.grid, &cloths[i], &cloths[j], first, second, a.facts.rest, gap,
            std::sqrt(a.facts.friction * b.facts.friction), time_step,
            i == j && a.facts.rest_spacing >= least_crease_in_gaps * gap, untangler_.marks(i, j)},
-          cells_, team, a.contacts, b.contacts);
+          cells_, team, {a.contacts, b.contacts, shares_ ? &shared_ : nullptr});
     }
   self_contacts_ = before() - with_bodies;
 }

@@ -38,6 +38,10 @@ class GuardingCollider final : public Collider {
       std::size_t cloth) const noexcept override {
     return std::span(cloths_[cloth].contacts).first(cloths_[cloth].obstacle_contacts);
   }
+  void share_contacts(bool shared) noexcept override { shares_ = shared; }
+  [[nodiscard]] std::span<const SharedContact> shared_contacts() const noexcept override {
+    return shared_;
+  }
   [[nodiscard]] bool anything_near() const noexcept override { return near_; }
   int guard_guess(std::span<const MovingCloth> cloths, double time_step,
                   ThreadTeam& team) noexcept override;
@@ -126,10 +130,12 @@ class GuardingCollider final : public Collider {
   int self_contacts_ = 0;
   bool carried_ = false;  // refuges go along with bodies in this step
   bool near_ = false;     // see anything_near
+  bool shares_ = false;   // see share_contacts
   // Of one step:
   std::vector<MovingSurface> surfaces_;  // cloths, then bodies
   std::vector<ContactBody> contact_bodies_;
   std::vector<CellPair> cells_;
+  std::vector<SharedContact> shared_;
   std::vector<SeparatingPlane> planes_;
   std::vector<std::size_t> cloth_of_;  // [points]
   std::vector<char> fates_;            // [points] of one pass: free, moved, stopped, fell back

@@ -26,4 +26,12 @@ struct Contact {
   float stiffness = 0;
 };
 
+/// One between two cloths: the samples of those with positive weights are the first one's.
+struct SharedContact {
+  Contact contact;
+  int first = 0, second = 0;  ///< the cloths
+  /// Whose samples[k] is one.
+  [[nodiscard]] int cloth_of(std::size_t k) const { return contact.weights[k] < 0 ? second : first; }
+};
+
 }  // namespace weft

@@ -34,6 +34,8 @@ struct TeamOptions {
 /// One member of a team inside a parallel region.
 class Worker {
  public:
+  /// Who works on something that is no other's, also inside a team's region.
+  static Worker lone() { return {}; }
   /// The part of 0 .. count - 1 that is this worker's: contiguous, fixed by rank and team size.
   /// What is computed must not depend on it, so that any team gives the same bits.
   [[nodiscard]] Range share(int count) const {
@@ -50,9 +52,10 @@ class Worker {
 
  private:
   friend class ThreadTeam;
+  Worker() = default;
   Worker(ThreadTeam& team, int rank, int size) : team_(&team), rank_(rank), size_(size) {}
-  ThreadTeam* team_;
-  int rank_, size_;
+  ThreadTeam* team_ = nullptr;
+  int rank_ = 0, size_ = 1;
 };
 
 /// A fixed team of threads that runs parallel regions; whole algorithms with many barriers stay

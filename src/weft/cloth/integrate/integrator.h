@@ -80,6 +80,19 @@ bool has_limiter(const IntegratorOptions& options);
 /// two_level.
 std::string_view name_of(const IntegratorOptions& options);
 
+/// What solves several cloths as one system, where they press on each other.
+class JointIntegrator {
+ public:
+  JointIntegrator() = default;
+  JointIntegrator(const JointIntegrator&) = delete;
+  JointIntegrator& operator=(const JointIntegrator&) = delete;
+  virtual ~JointIntegrator() = default;
+  /// Does what iterate of each cloth's integrator does, in their stead.
+  /// @param own  contacts of each cloth @param shared  between cloths, whose planes do not move
+  virtual void iterate(std::span<const std::span<const Contact>> own,
+                       std::span<const SharedContact> shared) noexcept = 0;
+};
+
 /// Advances one cloth by one step, in parts, so that a collider can work between them:
 ///   begin(input, state); next = iterate(contacts) (once or more, with contacts found anew);
 ///   ... next may be changed ...; end(state).
@@ -110,6 +123,12 @@ class Integrator {
   /// Proposes the state at the end of the step; the caller may change it in place (limit strain,
   /// truncate, push out of bodies) before the next iterate or end.
   virtual ClothState& iterate(std::span<const Contact> contacts) noexcept = 0;
+  /// What solves the cloths of integrators of this kind together; null where the method does not.
+  /// @param all  this one among them, kept by pointer, as is the team
+  [[nodiscard]] virtual std::unique_ptr<JointIntegrator> join(std::span<Integrator* const> /*all*/,
+                                                              ThreadTeam& /*team*/) {
+    return nullptr;
+  }
   /// Normal forces of the contacts of the last iterate, in their order; empty where the method
   /// does not solve for contacts. [N]
   [[nodiscard]] virtual std::span<const float> contact_forces() const noexcept { return {}; }

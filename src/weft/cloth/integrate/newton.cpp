@@ -1,4 +1,7 @@
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,56 +16,103 @@ namespace {
 class Newton final : public Integrator {
  public:
   Newton(const NewtonOptions& options, const Cloth& cloth, ThreadTeam& team)
-      : options_(options), cloth_(cloth), team_(team), solver_(cloth, team) {}
+      : options_(options),
+        cloth_(cloth),
+        team_(team),
+        part_(cloth, team.size(), team.instructions()),
+        solver_(std::array{&part_}) {}
 
   void begin(const StepInput& input, const ClothState& state) noexcept override {
     const Stopwatch watch;
     report_ = {};
-    solver_.begin(input, state);
+    part_.begin(input, state, team_);
     report_.forces_seconds = watch.seconds();
   }
 
-  ClothState& proposal() noexcept override { return solver_.next(); }
+  ClothState& proposal() noexcept override { return part_.next(); }
   [[nodiscard]] bool starts_at_proposal() const noexcept override { return true; }
   [[nodiscard]] bool solves_contacts() const noexcept override { return true; }
 
-  void lend(double energy) noexcept override { solver_.lend(energy); }
+  void lend(double energy) noexcept override { part_.lent = energy; }
 
   ClothState& iterate(std::span<const Contact> contacts) noexcept override {
     const Stopwatch watch;
-    solver_.run(contacts, options_);
-    report_.iterations = solver_.iterations();
-    report_.residual = solver_.correction();
+    solver_.run(std::array{contacts}, {}, options_, team_);
     report_.solve_seconds += watch.seconds();
-    return solver_.next();
+    return part_.next();
   }
 
+  [[nodiscard]] std::unique_ptr<JointIntegrator> join(std::span<Integrator* const> all,
+                                                      ThreadTeam& team) override;
+
   [[nodiscard]] std::span<const float> contact_forces() const noexcept override {
-    return solver_.contact_forces();
+    return part_.contact_forces;
   }
 
   bool last_corrections(Grid<float>& sizes) const override {
-    solver_.last_corrections(sizes);
+    part_.last_corrections(sizes);
     return true;
   }
 
-  void forget() noexcept override { solver_.forget(); }
+  void forget() noexcept override { part_.forget(); }
 
   StepReport end(ClothState& state) noexcept override {
-    accept(cloth_, solver_.next(), state, team_);
-    solver_.accept();
+    accept(cloth_, part_.next(), state, team_);
+    part_.accept();
+    report_.iterations = part_.iterations;
+    report_.residual = part_.correction;
     return report_;
   }
 
   [[nodiscard]] std::string stability_advice(double /*time_step*/) const override { return {}; }
 
+  [[nodiscard]] NewtonPart& part() { return part_; }
+  void spend(double seconds) { report_.solve_seconds += seconds; }
+
  private:
   NewtonOptions options_;
   const Cloth& cloth_;
   ThreadTeam& team_;
+  NewtonPart part_;
   NewtonSolver solver_;
   StepReport report_;
 };
+
+/// Several cloths in one system.
+class JointNewton final : public JointIntegrator {
+ public:
+  JointNewton(std::vector<Newton*> members, const NewtonOptions& options, ThreadTeam& team)
+      : members_(std::move(members)), options_(options), team_(team), solver_(parts_of(members_)) {}
+
+  void iterate(std::span<const std::span<const Contact>> own,
+               std::span<const SharedContact> shared) noexcept override {
+    const Stopwatch watch;
+    solver_.run(own, shared, options_, team_);
+    members_.front()->spend(watch.seconds());
+  }
+
+ private:
+  static std::vector<NewtonPart*> parts_of(std::span<Newton* const> members) {
+    std::vector<NewtonPart*> parts;
+    for (Newton* member : members) parts.push_back(&member->part());
+    return parts;
+  }
+
+  std::vector<Newton*> members_;
+  NewtonOptions options_;
+  ThreadTeam& team_;
+  NewtonSolver solver_;
+};
+
+std::unique_ptr<JointIntegrator> Newton::join(std::span<Integrator* const> all, ThreadTeam& team) {
+  std::vector<Newton*> members;
+  for (Integrator* one : all) {
+    auto* member = dynamic_cast<Newton*>(one);
+    if (member == nullptr) return nullptr;
+    members.push_back(member);
+  }
+  return std::make_unique<JointNewton>(std::move(members), options_, team);
+}
 
 }  // namespace
 

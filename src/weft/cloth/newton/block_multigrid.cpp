@@ -197,7 +197,7 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
   BlockLevel& level = levels_.front();
   SpringHessian::Sweep sweep{x, sweeps_[worker.rank()]};
   const auto finish = [&](int r) {
-    if (parts.contacts != nullptr && parts.contacts->row(r)) parts.contacts->add_row(r, out.row(r));
+    if (parts.contacts != nullptr && parts.contacts->row(r)) parts.contacts->add_row(r, parts.loads, out.row(r));
     // Copies share what all of them have: each adds its own part.
     if (parts.row_products != nullptr)
       parts.row_products[r] =
@@ -223,15 +223,15 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
   complete(0, out, all);
 }
 
-void BlockMultigrid::add_loads(const ContactLoads& contacts, float factor, PaddedVectors& field,
-                               Worker& worker) {
+void BlockMultigrid::add_loads(const ContactGather& contacts, std::span<const Vec3f> loads,
+                               float factor, PaddedVectors& field, Worker& worker) {
   const Workers all(worker, false);
   BlockLevel& level = levels_.front();
   PaddedVectors& sum = level.curved;
   const Range mine = all.share(level.size);
   for (int r = mine.first; r < mine.last; ++r) {
     kernels_->scale_rows(whole_vectors(level.size), 0, sum.row(r));
-    contacts.add_row(r, sum.row(r));
+    contacts.add_row(r, loads, sum.row(r));
   }
   complete(0, sum, all);
   for (int r = mine.first; r < mine.last; ++r)

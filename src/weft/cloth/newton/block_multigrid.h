@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "weft/cloth/integrate/contact_loads.h"
+#include "weft/cloth/integrate/contact_gather.h"
 #include "weft/cloth/newton/block_level.h"
 #include "weft/cloth/newton/coarsest_solver.h"
 #include "weft/cloth/newton/curved_bending.h"
@@ -35,16 +35,18 @@ class BlockMultigrid {
   void set_up(SpringHessian& springs, Worker& worker);
   /// value() = about A^-1 rhs().
   void cycle(Worker& worker);
-  /// out = A x on the finest level, seam copies equal, 0 where pinned.
   /// What only the exact operator has, not the cycle; null: none.
   struct ExactParts {
-    const ContactLoads* contacts = nullptr;  ///< whose loads are their part of the product
+    const ContactGather* contacts = nullptr;
+    std::span<const Vec3f> loads{};          ///< of contacts: their part of the product
     CurvedBending* curved = nullptr;         ///< instead of flat bending
     double* row_products = nullptr;          ///< [n] where x . A x goes, what each row has of it
   };
+  /// out = A x on the finest level, seam copies equal, 0 where pinned.
   void apply(const PaddedVectors& x, const ExactParts& parts, PaddedVectors& out, Worker& worker);
   /// Adds loads of contacts, summed over seam copies, to a field, 0 where pinned.
-  void add_loads(const ContactLoads& contacts, float factor, PaddedVectors& field, Worker& worker);
+  void add_loads(const ContactGather& contacts, std::span<const Vec3f> loads, float factor,
+                 PaddedVectors& field, Worker& worker);
   /// Sums the centres over seam copies: what diagonal() of the finest level gives.
   void join_centres(Worker& worker) { join_centres(levels_.front(), Workers(worker, false)); }
 

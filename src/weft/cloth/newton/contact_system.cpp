@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "weft/core/contact_point.h"
-
 namespace weft {
 namespace {
 
@@ -20,60 +18,142 @@ constexpr double lifting_speed = 0.02;
 
 }  // namespace
 
-ContactSystem::ContactSystem(const Cloth& cloth)
-    : cloth_(cloth), loads_(cloth), inverse_diagonal_(cloth.size, cloth.size) {}
-
-void ContactSystem::take(std::span<const Contact> contacts, const Planes3& start,
-                         const StepInput& input) {
-  loads_.take(contacts);
-  start_ = &start;
-  input_ = input;
-  first_ = true;
-  depth_.resize(contacts.size());
-  lift_.resize(contacts.size());
-  slid_.resize(contacts.size());
-  changed_.assign(contacts.size(), 0);
-  stiffness_.assign(contacts.size(), 0.0F);
-  force_.assign(contacts.size(), 0.0F);
-  energy_.resize(contacts.size());
+ContactSystem::ContactSystem(std::span<const Cloth* const> cloths)
+    : cloths_(cloths.begin(), cloths.end()) {
+  inverse_diagonals_.reserve(cloths.size());
+  for (const Cloth* cloth : cloths) {
+    gathers_.emplace_back(*cloth);
+    inverse_diagonals_.emplace_back(cloth->size, cloth->size);
+    held_.push_back(&inverse_diagonals_.back());
+    loose_.push_back(&cloth->inverse_mass);
+  }
 }
 
-Vec3d ContactSystem::sum(const Contact& contact, const PaddedVectors& field) const {
+void ContactSystem::clear() {
+  contacts_.clear();
+  places_.clear();
+  starts_.clear();
+  firsts_.clear();
+  for (ContactGather& gather : gathers_) gather.clear();
+  active_ = 0;
+  first_ = true;
+}
+
+void ContactSystem::add(const Contact& contact, const std::array<int, 4>& cloths) {
+  std::array<Place, 4> places{};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (contact.weights[k] == 0) continue;
+    const int n = cloths_[cloths[k]]->size, sample = contact.samples[k];
+    places[k] = {cloths[k], sample / n, sample % n};
+    gathers_[cloths[k]].add(sample, static_cast<int>(contacts_.size()), contact.weights[k]);
+  }
+  contacts_.push_back(contact);
+  places_.push_back(places);
+}
+
+void ContactSystem::take(std::span<const Own> own, std::span<const SharedContact> shared,
+                         const StepInput& input) {
+  clear();
+  input_ = input;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const int cloth = static_cast<int>(i);
+    starts_.push_back(own[i].start);
+    firsts_.push_back(contacts_.size());
+    for (const Contact& contact : own[i].contacts) add(contact, {cloth, cloth, cloth, cloth});
+  }
+  firsts_.push_back(contacts_.size());
+  for (const SharedContact& one : shared)
+    add(one.contact, {one.cloth_of(0), one.cloth_of(1), one.cloth_of(2), one.cloth_of(3)});
+  for (ContactGather& gather : gathers_) gather.finish();
+  const std::size_t count = contacts_.size();
+  depth_.resize(count);
+  lift_.resize(count);
+  slid_.resize(count);
+  energy_.resize(count);
+  changed_.assign(count, 0);
+  work_stiffness_.assign(count, 0.0F);
+  stiffness_.assign(count, 0.0F);
+  grip_.assign(count, 0.0F);
+  force_.assign(count, 0.0F);
+  load_.assign(count, Vec3f{});
+}
+
+std::span<const float> ContactSystem::forces(std::size_t cloth) const {
+  return std::span(force_).subspan(firsts_[cloth], firsts_[cloth + 1] - firsts_[cloth]);
+}
+
+Vec3d ContactSystem::sum(int index, Fields fields) const {
   Vec3d total;
-  for (std::size_t i = 0; i < contact.samples.size(); ++i) {
-    const double w = contact.weights[i];
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double w = contacts_[index].weights[k];
     if (w == 0) continue;
-    const int r = contact.samples[i] / cloth_.size, c = contact.samples[i] % cloth_.size;
-    total += w * Vec3d{field.x(r, c), field.y(r, c), field.z(r, c)};
+    const Place& at = places_[index][k];
+    const PaddedVectors& field = *fields[at.cloth];
+    total += w * Vec3d{field.x(at.row, at.col), field.y(at.row, at.col), field.z(at.row, at.col)};
   }
   return total;
 }
 
-void ContactSystem::place(const PaddedVectors& velocity, const PaddedBlocks& diagonal,
-                          Worker& worker) {
-  const Range rows = worker.share(cloth_.size);
+Vec3d ContactSystem::start_of(int index) const {
+  Vec3d point;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double w = contacts_[index].weights[k];
+    if (w == 0) continue;
+    const Place& at = places_[index][k];
+    point += w * vec_cast<double>(starts_[at.cloth]->at(at.row, at.col));
+  }
+  return point;
+}
+
+/// How far the point gives way to a force, where samples do by the softness of each.
+double ContactSystem::compliance(int index, std::span<const Grid<float>* const> softness) const {
+  double total = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double w = contacts_[index].weights[k];
+    if (w == 0) continue;
+    const Place& at = places_[index][k];
+    total += w * w * double{(*softness[at.cloth])(at.row, at.col)};
+  }
+  return total;
+}
+
+/// The offset that the step may bring about.
+double ContactSystem::attainable_offset(int index) const {
+  const Contact& contact = contacts_[index];
+  const double farthest = fastest_way_out * input_.time_step;
+  const double before = double{contact.offset} -
+                        dot(vec_cast<double>(contact.normal), start_of(index)) -
+                        double{dot(contact.normal, contact.slide)};
+  return contact.offset - (before > farthest ? before - farthest : 0);
+}
+
+void ContactSystem::hold(std::size_t cloth, const PaddedBlocks& diagonal, const Worker& worker) {
+  const Cloth& one = *cloths_[cloth];
+  Grid<float>& inverse = inverse_diagonals_[cloth];
+  const Range rows = worker.share(one.size);
   for (int r = rows.first; r < rows.last; ++r)
-    for (int c = 0; c < cloth_.size; ++c) {
+    for (int c = 0; c < one.size; ++c) {
       const float trace =
           diagonal.entry[0](r, c) + diagonal.entry[3](r, c) + diagonal.entry[5](r, c);
-      inverse_diagonal_(r, c) = cloth_.inverse_mass(r, c) > 0 ? 3 / trace : 0;
+      inverse(r, c) = one.inverse_mass(r, c) > 0 ? 3 / trace : 0;
     }
+}
+
+void ContactSystem::place(Fields velocity, Worker& worker) {
   worker.barrier();
-  const std::span<const Contact> contacts = loads_.contacts();
-  const Range mine = worker.share(static_cast<int>(contacts.size()));
+  const Range mine = share(worker);
   for (int i = mine.first; i < mine.last; ++i) {
-    const Contact& contact = contacts[i];
+    const Contact& contact = contacts_[i];
     const Vec3d normal = vec_cast<double>(contact.normal);
     const bool soft = contact.stiffness > 0;
-    const double own = ContactLoads::own_stiffness(contact, inverse_diagonal_);
-    stiffness_[i] = soft ? contact.stiffness : static_cast<float>(relative_stiffness * own);
-    const double h = input_.time_step;
+    const double yields = compliance(i, held_), h = input_.time_step;
+    work_stiffness_[i] = soft         ? contact.stiffness
+                         : yields > 0 ? static_cast<float>(relative_stiffness * (1 / yields))
+                                      : 0.0F;
     lift_[i] = soft ? 0 : std::min(double{contact.lift}, lifting_speed * h);
-    const double offset = soft
-                              ? double{contact.offset}
-                              : attainable_offset(contact, *start_, fastest_way_out * h) + lift_[i];
-    const Vec3d way = h * sum(contact, velocity);
-    depth_[i] = offset - dot(normal, point_of(contact, *start_)) - dot(normal, way);
+    const double offset = soft ? double{contact.offset} : attainable_offset(i) + lift_[i];
+    const Vec3d way = h * sum(i, velocity);
+    depth_[i] = offset - dot(normal, start_of(i)) - dot(normal, way);
     const Vec3d relative = way - vec_cast<double>(contact.slide);
     slid_[i] = relative - dot(normal, relative) * normal;
   }
@@ -81,45 +161,38 @@ void ContactSystem::place(const PaddedVectors& velocity, const PaddedBlocks& dia
 }
 
 double ContactSystem::depth_after(int index, Vec3d step) const {
-  return depth_[index] - dot(vec_cast<double>(loads_.contacts()[index].normal), step);
+  return depth_[index] - dot(vec_cast<double>(contacts_[index].normal), step);
 }
 
 Vec3d ContactSystem::slid_after(int index, Vec3d step) const {
-  const Vec3d normal = vec_cast<double>(loads_.contacts()[index].normal);
+  const Vec3d normal = vec_cast<double>(contacts_[index].normal);
   return slid_[index] + step - dot(normal, step) * normal;
 }
 
-double ContactSystem::lone_compliance(const Contact& contact) const {
-  double compliance = 0;
-  for (std::size_t i = 0; i < contact.samples.size(); ++i) {
-    const double w = contact.weights[i];
-    const int s = contact.samples[i], n = cloth_.size;
-    compliance += w * w * double{cloth_.inverse_mass(s / n, s % n)};
-  }
-  return compliance * input_.time_step * input_.time_step;
+double ContactSystem::lone_compliance(int index) const {
+  return compliance(index, loose_) * input_.time_step * input_.time_step;
 }
 
 /// What friction can stop sticks. Else it drags with its whole force where that lets the point come
 /// to: the point's way without friction, less what the force takes off it.
 double ContactSystem::grip_for(int index, const Sliding& sliding) const {
-  const Contact& contact = loads_.contacts()[index];
-  const double compliance = lone_compliance(contact);
-  if (!(compliance > 0)) return 0;
+  const double yields = lone_compliance(index), stiffness = work_stiffness_[index];
+  if (!(yields > 0)) return 0;
   // Before any solve a contact is taken to stop its own point alone.
-  const double force = sliding.pressed ? double{stiffness_[index]} * sliding.depth
-                       : first_        ? std::max(0.0, sliding.depth - lift_[index]) / compliance
+  const double force = sliding.pressed ? stiffness * sliding.depth
+                       : first_        ? std::max(0.0, sliding.depth - lift_[index]) / yields
                                        : 0;
-  const double most = contact.friction * force * compliance;
-  const double free = sliding.way * (1 + sliding.grip * compliance);
-  if (free <= most) return stiffness_[index];
-  return most / (compliance * (free - most));
+  const double most = contacts_[index].friction * force * yields;
+  const double free = sliding.way * (1 + sliding.grip * yields);
+  if (free <= most) return stiffness;
+  return most / (yields * (free - most));
 }
 
-bool ContactSystem::choose(int index, const PaddedVectors& step) {
-  const Contact& contact = loads_.contacts()[index];
-  float &k = loads_.stiffness()[index], &grip = loads_.grip()[index];
+bool ContactSystem::choose(int index, Fields step) {
+  const Contact& contact = contacts_[index];
+  float &k = stiffness_[index], &grip = grip_[index];
   const float k_before = k, grip_before = grip;
-  Vec3d moved = sum(contact, step);
+  Vec3d moved = sum(index, step);
   if (first_) {
     double weight = 0;
     for (const float w : contact.weights) weight += w;
@@ -127,7 +200,7 @@ bool ContactSystem::choose(int index, const PaddedVectors& step) {
     moved += weight * fall;
   }
   const double depth = depth_after(index, moved);
-  k = depth > 0 ? stiffness_[index] : 0.0F;
+  k = depth > 0 ? work_stiffness_[index] : 0.0F;
   grip = k > 0 && contact.friction > 0
              ? static_cast<float>(grip_for(
                    index, {depth, length(slid_after(index, moved)), k_before > 0, grip_before}))
@@ -136,58 +209,61 @@ bool ContactSystem::choose(int index, const PaddedVectors& step) {
          std::abs(grip - grip_before) > same_grip * std::max(grip, grip_before);
 }
 
-bool ContactSystem::choose(const PaddedVectors& step, Worker& worker) {
-  const Range mine = worker.share(static_cast<int>(loads_.contacts().size()));
-  for (int i = mine.first; i < mine.last; ++i) changed_[i] = choose(i, step) ? 1 : 0;
-  loads_.count(worker);
+void ContactSystem::count(Worker& worker) {
+  worker.barrier();
+  for (ContactGather& gather : gathers_) gather.mark_rows(stiffness_, worker);
   if (worker.rank() == 0) {
+    active_ = static_cast<int>(
+        std::count_if(stiffness_.begin(), stiffness_.end(), [](float k) { return k > 0; }));
     any_changed_ = std::find(changed_.begin(), changed_.end(), 1) != changed_.end();
     first_ = false;
   }
   worker.barrier();
+}
+
+bool ContactSystem::choose(Fields step, Worker& worker) {
+  const Range mine = share(worker);
+  for (int i = mine.first; i < mine.last; ++i) changed_[i] = choose(i, step) ? 1 : 0;
+  count(worker);
   return any_changed_;
 }
 
-void ContactSystem::load_forces(const PaddedVectors& step, Worker& worker) {
-  const std::span<const Contact> contacts = loads_.contacts();
-  const Range mine = worker.share(static_cast<int>(contacts.size()));
+void ContactSystem::load_forces(Fields step, Worker& worker) {
+  const Range mine = share(worker);
   for (int i = mine.first; i < mine.last; ++i) {
-    const float k = loads_.stiffness()[i], grip = loads_.grip()[i];
+    const float k = stiffness_[i], grip = grip_[i];
     Vec3d load;
     if (k > 0) {
-      const Vec3d moved = sum(contacts[i], step);
-      load = double{k} * depth_after(i, moved) * vec_cast<double>(contacts[i].normal) -
+      const Vec3d moved = sum(i, step);
+      load = double{k} * depth_after(i, moved) * vec_cast<double>(contacts_[i].normal) -
              double{grip} * slid_after(i, moved);
     }
-    loads_.loads()[i] = vec_cast<float>(load);
+    load_[i] = vec_cast<float>(load);
   }
   worker.barrier();
 }
 
-void ContactSystem::load_product(const PaddedVectors& direction, Worker& worker) {
-  const std::span<const Contact> contacts = loads_.contacts();
-  const Range mine = worker.share(static_cast<int>(contacts.size()));
+void ContactSystem::load_product(Fields direction, Worker& worker) {
+  const Range mine = share(worker);
   for (int i = mine.first; i < mine.last; ++i) {
-    const double k = loads_.stiffness()[i], grip = loads_.grip()[i];
+    const double k = stiffness_[i], grip = grip_[i];
     Vec3d load;
     if (k > 0) {
-      const Vec3d normal = vec_cast<double>(contacts[i].normal),
-                  moved = sum(contacts[i], direction);
+      const Vec3d normal = vec_cast<double>(contacts_[i].normal), moved = sum(i, direction);
       load = (k - grip) * dot(normal, moved) * normal + grip * moved;
     }
-    loads_.loads()[i] = vec_cast<float>(load);
+    load_[i] = vec_cast<float>(load);
   }
   worker.barrier();
 }
 
-double ContactSystem::energy(const PaddedVectors& step, float part, Worker& worker) {
-  const std::span<const Contact> contacts = loads_.contacts();
-  const Range mine = worker.share(static_cast<int>(contacts.size()));
+double ContactSystem::energy(Fields step, float part, Worker& worker) {
+  const Range mine = share(worker);
   for (int i = mine.first; i < mine.last; ++i) {
-    const Vec3d moved = double{part} * sum(contacts[i], step);
-    const double depth = std::max(0.0, depth_after(i, moved)), grip = loads_.grip()[i];
-    energy_[i] =
-        0.5 * (double{stiffness_[i]} * depth * depth + grip * squared_length(slid_after(i, moved)));
+    const Vec3d moved = double{part} * sum(i, step);
+    const double depth = std::max(0.0, depth_after(i, moved)), grip = grip_[i];
+    energy_[i] = 0.5 * (double{work_stiffness_[i]} * depth * depth +
+                        grip * squared_length(slid_after(i, moved)));
   }
   worker.barrier();
   double total = 0;
@@ -196,12 +272,11 @@ double ContactSystem::energy(const PaddedVectors& step, float part, Worker& work
   return total;
 }
 
-void ContactSystem::measure(const PaddedVectors& step, Worker& worker) {
-  const std::span<const Contact> contacts = loads_.contacts();
-  const Range mine = worker.share(static_cast<int>(contacts.size()));
+void ContactSystem::measure(Fields step, Worker& worker) {
+  const Range mine = share(worker);
   for (int i = mine.first; i < mine.last; ++i)
     force_[i] = static_cast<float>(
-        std::max(0.0, double{loads_.stiffness()[i]} * depth_after(i, sum(contacts[i], step))));
+        std::max(0.0, double{stiffness_[i]} * depth_after(i, sum(i, step))));
   worker.barrier();
 }
 

@@ -1,58 +1,82 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
-#include "weft/cloth/integrate/contact_loads.h"
+#include "weft/cloth/integrate/contact_gather.h"
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/newton/padded_planes.h"
 
 namespace weft {
 
-/// Contacts and Coulomb friction as part of a linearised step: a contact that presses holds its
-/// point at its half-space by a stiff spring along the normal; one that sticks holds it there too,
-/// one that slips drags on it with its coefficient times the normal force. All are linear in the
-/// step's unknown until choose() looks again, as in the lagged friction of [li20].
+/// Contacts and Coulomb friction of one or several cloths as part of a linearised step: a contact
+/// that presses holds its point at its half-space by a stiff spring along the normal; one that
+/// sticks holds it there too, one that slips drags on it with its coefficient times the normal
+/// force. All are linear in the step's unknown until choose() looks again, as in the lagged friction
+/// of [li20].
 ///
 /// What was beyond the half-space when the step began is not pushed out of it at any speed.
 class ContactSystem {
  public:
-  /// @param cloth  kept by reference
-  explicit ContactSystem(const Cloth& cloth);
+  /// @param cloths  kept by pointer
+  explicit ContactSystem(std::span<const Cloth* const> cloths);
 
-  /// Takes the place of the contacts before. @param contacts  must stay until the last use
-  /// @param start  positions when the step began [m]
-  void take(std::span<const Contact> contacts, const Planes3& start, const StepInput& input);
-  [[nodiscard]] bool empty() const { return loads_.contacts().empty(); }
+  /// Of each cloth in their order: those that are its own, and where it was at the step's start.
+  struct Own {
+    std::span<const Contact> contacts;
+    const Planes3* start = nullptr;  ///< valid until the last use [m]
+  };
+  /// Takes the place of the contacts before.
+  void take(std::span<const Own> own, std::span<const SharedContact> shared,
+            const StepInput& input);
+  [[nodiscard]] bool empty() const { return contacts_.empty(); }
 
-  // To be called by every worker of the team; each ends with a barrier.
+  /// A vector at each sample of every cloth.
+  using Fields = std::span<const PaddedVectors* const>;
 
-  /// Where points are at the linearisation. @param velocity  that leads there from the start [m/s]
+  // To be called by every worker of the team; each but the first ends with a barrier.
+
+  /// What holds the samples of a cloth.
   /// @param diagonal  the springs' diagonal blocks, summed over seam copies [N/m]
-  void place(const PaddedVectors& velocity, const PaddedBlocks& diagonal, Worker& worker);
+  void hold(std::size_t cloth, const PaddedBlocks& diagonal, const Worker& worker);
+  /// Where points are at the linearisation. @param velocity  that leads there from the start [m/s]
+  void place(Fields velocity, Worker& worker);
   /// Decides which contacts press, and which stick, where a step from the linearisation leads;
   /// the first time where it would lead without forces of the cloth.
   /// @return whether any is taken otherwise than before
-  bool choose(const PaddedVectors& step, Worker& worker);
+  bool choose(Fields step, Worker& worker);
   /// The loads become the forces after a step [N].
-  void load_forces(const PaddedVectors& step, Worker& worker);
+  void load_forces(Fields step, Worker& worker);
   /// The loads become the contacts' part of the Hessian times a direction [N].
-  void load_product(const PaddedVectors& direction, Worker& worker);
+  void load_product(Fields direction, Worker& worker);
   /// The energy of all contacts, whose points are beyond their half-spaces after a part of a step,
   /// and of friction as it is taken; all workers get it [J].
-  double energy(const PaddedVectors& step, float part, Worker& worker);
+  double energy(Fields step, float part, Worker& worker);
   /// Computes the normal forces after a step.
-  void measure(const PaddedVectors& step, Worker& worker);
+  void measure(Fields step, Worker& worker);
 
-  /// Of each contact, in the order in which they were taken [N].
-  [[nodiscard]] std::span<const float> forces() const { return force_; }
-  [[nodiscard]] const ContactLoads& loads() const { return loads_; }
+  /// Of a cloth's own contacts, in the order in which they were taken [N].
+  [[nodiscard]] std::span<const float> forces(std::size_t cloth) const;
   /// How many press.
-  [[nodiscard]] int active() const { return loads_.stiff(); }
+  [[nodiscard]] int active() const { return active_; }
+  /// What gathers them to the samples of a cloth.
+  [[nodiscard]] const ContactGather& gather(std::size_t cloth) const { return gathers_[cloth]; }
+  [[nodiscard]] std::span<const Vec3f> loads() const { return load_; }
+  [[nodiscard]] ContactGather::Springs springs() const { return {contacts_, stiffness_, grip_}; }
 
  private:
-  [[nodiscard]] Vec3d sum(const Contact& contact, const PaddedVectors& field) const;
-  [[nodiscard]] double lone_compliance(const Contact& contact) const;
+  /// Where a sample is.
+  struct Place {
+    int cloth = 0, row = 0, col = 0;
+  };
+  void add(const Contact& contact, const std::array<int, 4>& cloths);
+  void clear();
+  [[nodiscard]] Vec3d sum(int index, Fields fields) const;
+  [[nodiscard]] Vec3d start_of(int index) const;
+  [[nodiscard]] double compliance(int index, std::span<const Grid<float>* const> softness) const;
+  [[nodiscard]] double attainable_offset(int index) const;
+  [[nodiscard]] double lone_compliance(int index) const;
   /// How a contact's point moved along its obstacle.
   struct Sliding {
     double depth, way;  ///< [m]
@@ -60,24 +84,35 @@ class ContactSystem {
     double grip;        ///< by which it was held along the surface [N/m]
   };
   [[nodiscard]] double grip_for(int index, const Sliding& sliding) const;
-  bool choose(int index, const PaddedVectors& step);
+  bool choose(int index, Fields step);
+  void count(Worker& worker);
   [[nodiscard]] double depth_after(int index, Vec3d step) const;
   [[nodiscard]] Vec3d slid_after(int index, Vec3d step) const;
+  [[nodiscard]] Range share(const Worker& worker) const {
+    return worker.share(static_cast<int>(contacts_.size()));
+  }
 
-  const Cloth& cloth_;
-  ContactLoads loads_;
-  const Planes3* start_ = nullptr;
+  std::vector<const Cloth*> cloths_;
+  std::vector<ContactGather> gathers_;           // of each cloth
+  std::vector<Grid<float>> inverse_diagonals_;   // the same [m/N]
+  std::vector<const Grid<float>*> held_, loose_;  // those, and inverse masses [1/kg]
+  std::vector<const Planes3*> starts_;           // of each cloth [m]
+  std::vector<std::size_t> firsts_;              // of each cloth's own, and of shared ones
   StepInput input_;
-  bool first_ = true;
-  std::vector<double> depth_;     // at the linearisation [m]
-  std::vector<double> lift_;      // of that, what only raises the point [m]
-  std::vector<Vec3d> slid_;       // along the obstacle, relative to it [m]
-  std::vector<float> stiffness_;  // of each when it presses [N/m]
+  // Of each contact:
+  std::vector<Contact> contacts_;
+  std::vector<std::array<Place, 4>> places_;
+  std::vector<float> work_stiffness_;  // when it presses [N/m]
+  std::vector<float> stiffness_, grip_;
+  std::vector<Vec3f> load_;
+  std::vector<double> depth_;  // at the linearisation [m]
+  std::vector<double> lift_;   // of that, what only raises the point [m]
+  std::vector<Vec3d> slid_;    // along the obstacle, relative to it [m]
   std::vector<float> force_;
   std::vector<double> energy_;
   std::vector<char> changed_;
-  Grid<float> inverse_diagonal_;  // [m/N]
-  bool any_changed_ = false;
+  int active_ = 0;
+  bool first_ = true, any_changed_ = false;
 };
 
 }  // namespace weft

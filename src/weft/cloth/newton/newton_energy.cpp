@@ -2,19 +2,19 @@
 #include <utility>
 
 #include "weft/cloth/neighbours.h"
-#include "weft/cloth/newton/newton_solver.h"
+#include "weft/cloth/newton/newton_part.h"
 
-// Energies of a step, and what they take from velocities.
+// Energies of a cloth in a step, and what they take from velocities.
 namespace weft {
 
-double NewtonSolver::bending_energy(const PaddedVectors& position, Worker& worker) {
+double NewtonPart::bending_energy(const PaddedVectors& position, Worker& worker) {
   if (!curved_.active()) return multigrid_.bending_energy(position, sums_, share_, worker);
   take_plain(position, worker);
   curved_.set_position(plain_, worker);
   return sums_.sum(worker, [&](int r) { return r == 0 ? curved_.energy() : 0.0; });
 }
 
-double NewtonSolver::energy(float length, Worker& worker) {
+double NewtonPart::step_energy(Worker& worker) {
   const double inner = sums_.sum(worker, [&](int r) {
     const float* mass = own_mass_.row(r);
     const ConstRow3 v = std::as_const(state_.velocity).row(r), w = std::as_const(wanted_).row(r);
@@ -23,11 +23,10 @@ double NewtonSolver::energy(float length, Worker& worker) {
              return 0.5 * mass[c] * (x * x + y * y + z * z);
            });
   });
-  const double contacts = contacts_.empty() ? 0 : contacts_.energy(step_, length, worker);
-  return inner + bending_energy(state_.position, worker) + contacts;
+  return inner + bending_energy(state_.position, worker);
 }
 
-double NewtonSolver::potential(const PaddedVectors& position, Worker& worker) {
+double NewtonPart::potential_at(const PaddedVectors& position, Worker& worker) {
   const Vec3f g = input_.gravity;
   const double springs_and_gravity = sums_.sum(worker, [&](int r) {
     const float* mass = own_mass_.row(r);
@@ -40,24 +39,45 @@ double NewtonSolver::potential(const PaddedVectors& position, Worker& worker) {
   return springs_and_gravity + bending_energy(position, worker);
 }
 
-double NewtonSolver::kinetic(const Planes3& velocity, Worker& worker) {
+double NewtonPart::potential(Worker& worker) {
+  const double now = potential_at(state_.position, worker);
+  worker.barrier();
+  if (worker.rank() == 0) potential_ = now;
+  return now;
+}
+
+double NewtonPart::start_potential(Worker& worker) {
+  worker.barrier();
+  const double known = start_potential_;
+  if (known < HUGE_VAL) return known;
+  const double found = potential_at(state_.start, worker);
+  worker.barrier();
+  if (worker.rank() == 0) start_potential_ = found;
+  return found;
+}
+
+void NewtonPart::forget_potential(Worker& worker) {
+  worker.barrier();
+  if (worker.rank() == 0) potential_ = HUGE_VAL;
+}
+
+double NewtonPart::start_kinetic(Worker& worker) {
   return sums_.sum(worker, [&](int r) {
-    const ConstRow3 v = row_of(velocity, r);
+    const ConstRow3 v = row_of(std::as_const(start_.velocity), r);
     return 0.5 * kernels_.dot(cloth_.size, own_mass_.row(r), v, v);
   });
 }
 
-double NewtonSolver::kinetic(const PaddedVectors& velocity, Worker& worker) {
+double NewtonPart::kinetic(Worker& worker) {
   return sums_.sum(worker, [&](int r) {
-    const ConstRow3 v = velocity.row(r);
+    const ConstRow3 v = std::as_const(state_.velocity).row(r);
     return 0.5 * kernels_.dot(cloth_.size, own_mass_.row(r), v, v);
   });
 }
 
-/// Takes an excess of energy out of what velocities differ from their mean by.
-void NewtonSolver::calm(double excess, Worker& worker) {
-  PaddedVectors& v = state_.velocity;
-  PaddedPlane* const planes[3] = {&v.x, &v.y, &v.z};
+double NewtonPart::inner_kinetic(Worker& worker) {
+  const PaddedVectors& v = state_.velocity;
+  const PaddedPlane* const planes[3] = {&v.x, &v.y, &v.z};
   double mean[3], mean_energy = 0;
   for (int k = 0; k < 3; ++k) {
     mean[k] = sums_.sum(worker, [&](int r) {
@@ -69,8 +89,14 @@ void NewtonSolver::calm(double excess, Worker& worker) {
     mean[k] /= mass_;
     mean_energy += 0.5 * mass_ * mean[k] * mean[k];
   }
-  const double inner = kinetic(std::as_const(v), worker) - mean_energy;
-  const double left = inner > excess ? std::sqrt((inner - excess) / inner) : 0;
+  if (worker.rank() == 0) mean_velocity_ = {mean[0], mean[1], mean[2]};
+  return kinetic(worker) - mean_energy;
+}
+
+void NewtonPart::calm(double left, Worker& worker) {
+  PaddedVectors& v = state_.velocity;
+  PaddedPlane* const planes[3] = {&v.x, &v.y, &v.z};
+  const double mean[3] = {mean_velocity_.x, mean_velocity_.y, mean_velocity_.z};
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r)
     for (int k = 0; k < 3; ++k)

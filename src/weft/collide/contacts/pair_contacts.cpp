@@ -56,13 +56,12 @@ struct Plane {
 /// Looks at one pair of cells after the other and collects contacts.
 class Finder {
  public:
-  Finder(const ClothPair& pair, std::vector<Contact>& of_a, std::vector<Contact>& of_b)
-      : pair_(pair), of_a_(of_a), of_b_(of_b) {}
+  Finder(const ClothPair& pair, const PairLists& lists) : pair_(pair), lists_(lists) {}
 
   void look_at(const CellPair& cells) {
     const SeenCell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
-    const bool crease = pair_.same && adjacent(a, b);
-    if (pair_.same && (crease ? !pair_.creases : beside(a, b))) return;
+    const bool crease = pair_.same() && adjacent(a, b);
+    if (pair_.same() && (crease ? !pair_.creases : beside(a, b))) return;
     gap_ = crease ? worn * pair_.gap : pair_.gap;
     const MovingSurface surface_a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
     const MovingSurface surface_b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
@@ -129,7 +128,7 @@ class Finder {
   }
 
   void sample_with_triangle(int sample, const std::array<int, 3>& triangle, bool swapped) {
-    if (pair_.same && shares_point(sample, triangle)) return;
+    if (pair_.same() && shares_point(sample, triangle)) return;
     const Planes3& at = cloth(!swapped).start;
     const std::array<double, 3> weights =
         closest_weights(vec_cast<double>(cloth(swapped).start.at(sample)),
@@ -166,7 +165,7 @@ class Finder {
   }
 
   void add_edges(const std::array<int, 2>& p, const std::array<int, 2>& q) {
-    if (pair_.same &&
+    if (pair_.same() &&
         (shares_point(p[0], {q[0], q[1], q[1]}) || shares_point(p[1], {q[0], q[1], q[1]})))
       return;
     Feature a, b;
@@ -198,17 +197,21 @@ class Finder {
     const Vec3d normal = (1 / distance) * apart;
     const Vec3d own_way = own.way(), other_way = other.way();
     if (distance + dot(normal, own_way - other_way) >= foresight * gap_) return;
-    if (pair_.same) {
-      add_joint(own, other, normal);
+    if (pair_.same()) {
+      lists_.of_a.push_back(joint(own, other, normal));
+    } else if (lists_.shared != nullptr) {
+      const int a = pair_.number_a, b = pair_.number_b;
+      lists_.shared->push_back({joint(own, other, normal), swapped ? b : a, swapped ? a : b});
     } else {
       const Vec3d middle = 0.5 * (own.start() + other.start() + own_way + other_way);
       const double half = 0.5 * gap_, along = dot(normal, middle);
-      add_half(own, normal, {along + half, other_way}, swapped ? of_b_ : of_a_);
-      add_half(other, -normal, {-along + half, own_way}, swapped ? of_a_ : of_b_);
+      add_half(own, normal, {along + half, other_way}, swapped ? lists_.of_b : lists_.of_a);
+      add_half(other, -normal, {-along + half, own_way}, swapped ? lists_.of_a : lists_.of_b);
     }
   }
 
-  void add_joint(const Side& own, const Side& other, Vec3d normal) {
+  /// With both sides in it.
+  [[nodiscard]] Contact joint(const Side& own, const Side& other, Vec3d normal) const {
     Contact contact;
     contact.weights = {};
     std::size_t count = 0;
@@ -223,7 +226,7 @@ class Finder {
     put(other, -1);
     contact.offset = static_cast<float>(gap_);
     finish(normal, own.compliance() + other.compliance(), contact);
-    of_a_.push_back(contact);
+    return contact;
   }
 
   void add_half(const Side& side, Vec3d normal, const Plane& plane,
@@ -249,21 +252,25 @@ class Finder {
   }
 
   const ClothPair& pair_;
-  std::vector<Contact>&of_a_, &of_b_;
+  const PairLists& lists_;
   double gap_ = 0;  // that contacts of the cells keep [m]
 };
 
 }  // namespace
 
 void PairContacts::find(const ClothPair& pair, std::span<const CellPair> cells, ThreadTeam& team,
-                        std::vector<Contact>& of_a, std::vector<Contact>& of_b) {
+                        const PairLists& lists) {
   team.run([&](Worker& worker) {
-    found_.fill(static_cast<int>(cells.size()), worker,
-                [&](int i, Found& mine) { Finder(pair, mine.of_a, mine.of_b).look_at(cells[i]); });
+    found_.fill(static_cast<int>(cells.size()), worker, [&](int i, Found& mine) {
+      const PairLists out{mine.of_a, mine.of_b, lists.shared != nullptr ? &mine.shared : nullptr};
+      Finder(pair, out).look_at(cells[i]);
+    });
   });
   for (const Found& mine : found_.lists()) {
-    of_a.insert(of_a.end(), mine.of_a.begin(), mine.of_a.end());
-    of_b.insert(of_b.end(), mine.of_b.begin(), mine.of_b.end());
+    lists.of_a.insert(lists.of_a.end(), mine.of_a.begin(), mine.of_a.end());
+    lists.of_b.insert(lists.of_b.end(), mine.of_b.begin(), mine.of_b.end());
+    if (lists.shared != nullptr)
+      lists.shared->insert(lists.shared->end(), mine.shared.begin(), mine.shared.end());
   }
 }
 

@@ -99,6 +99,8 @@ struct Simulation::Parts {
   /// Takes back what guesses passed through. @return whether there is anything to collide with
   bool free_guesses();
   void iterate_all();
+  /// All cloths as one system, where they press on each other.
+  void iterate_together();
   /// Whether guesses may pass through what stands next to cloth.
   [[nodiscard]] bool guesses_go_far() const;
   /// Whether solves led where other contacts may be.
@@ -140,9 +142,11 @@ struct Simulation::Parts {
            std::holds_alternative<MultigridOptions>(scene.integrator) ||
            std::holds_alternative<ImplicitOptions>(scene.integrator);
   }
-  /// Who steps a cloth.
-  [[nodiscard]] ThreadTeam& solvers(std::size_t index) {
-    return cloths[index].cloth.size < least_shared_size ? lone_team : team;
+  /// Who steps the cloths: all of them alike, as they may be solved together.
+  [[nodiscard]] ThreadTeam& solvers() {
+    for (const SimulatedCloth& cloth : cloths)
+      if (cloth.cloth.size >= least_shared_size) return team;
+    return lone_team;
   }
 
   Scene scene;
@@ -166,6 +170,8 @@ struct Simulation::Parts {
   std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
   std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
   std::vector<Mover> movers;                        // one a cloth
+  std::unique_ptr<JointIntegrator> joint;           // of all; null: each is solved by itself
+  std::vector<std::span<const Contact>> own_contacts;
   std::unique_ptr<Collider> collider;
   std::vector<MovingCloth> moving;  // of this step
   Grab grab;

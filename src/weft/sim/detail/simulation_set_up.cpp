@@ -146,6 +146,7 @@ void Simulation::Parts::make_guard() {
          start_sides[i].wrong_side});
   }
   collider = make_collider(scene.collider, obstacles, guarded);
+  collider->share_contacts(joint != nullptr);
 }
 
 void Simulation::Parts::note_too_fast() {
@@ -161,16 +162,20 @@ void Simulation::Parts::make_movers() {
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
     movers.push_back(
-        {make_integrator(scene.integrator, cloth.cloth, typical, solvers(i)),
+        {make_integrator(scene.integrator, cloth.cloth, typical, solvers()),
          scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
          RunawayCheck(cloth.cloth, cloth.state, scene.gravity, drive_of(i)),
-         StrainLimit(cloth.cloth, solvers(i)), CoarseLimit(cloth.cloth, solvers(i)),
-         EnergyMeter(cloth.cloth, scene.gravity, solvers(i)),
-         DrivenWork(cloth.cloth, scene.gravity, solvers(i)), Energy{}, Energy{}, Energy{},
+         StrainLimit(cloth.cloth, solvers()), CoarseLimit(cloth.cloth, solvers()),
+         EnergyMeter(cloth.cloth, scene.gravity, solvers()),
+         DrivenWork(cloth.cloth, scene.gravity, solvers()), Energy{}, Energy{}, Energy{},
          Planes3(scene.wind ? cloth.cloth.size : 0), Planes3(cloth.cloth.size)});
     if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
       notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }
+  std::vector<Integrator*> all;
+  for (const Mover& mover : movers) all.push_back(mover.integrator.get());
+  if (all.size() > 1) joint = all.front()->join(all, team);
+  own_contacts.reserve(cloths.size());
   moving.reserve(cloths.size());
   int largest = least_image_size;
   for (const SimulatedCloth& cloth : cloths) largest = std::max(largest, cloth.cloth.size);

@@ -96,7 +96,7 @@ void Simulation::Parts::propose(std::size_t index) {
   if (mover.wind) {
     known_energy = false;
     mover.calm_velocity = cloth.state.velocity;
-    mover.wind->blow(time_step, cloth.state, solvers(index));
+    mover.wind->blow(time_step, cloth.state, solvers());
     mover.wind_work =
         mover.meter.kinetic(cloth.state.velocity) - mover.meter.kinetic(mover.calm_velocity);
   }
@@ -138,14 +138,14 @@ int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport&
   coarse_limiter.passes = std::min(coarse_passes, limiter.passes);
   int contacts = 0;
   for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
-    if (soft) mover.coarse_limit.limit(coarse_limiter, time_step, next, solvers(index));
+    if (soft) mover.coarse_limit.limit(coarse_limiter, time_step, next, solvers());
     report.limit_ms += clock.lap();
     const bool pulled = is_pulled(index);
     const double before = pulled ? mover.meter.measure(next).total() : 0;
     clock.lap();
     // What it moves changes velocities as in a whole substep: the same way in a short step would be
     // a shot.
-    mover.limit.limit(limiter, substep_time, next, solvers(index));
+    mover.limit.limit(limiter, substep_time, next, solvers());
     report.limit_ms += clock.lap();
     if (watched || pulled) mover.solved = mover.meter.measure(next);
     mover.pulled_work += pulled ? std::max(0.0, mover.solved.total() - before) : 0;
@@ -206,7 +206,7 @@ int Simulation::Parts::pieces_until(double seconds) {
 bool Simulation::Parts::check_for_runaway(double seconds, bool may_refuse) {
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const auto bad = movers[i].runaway.find(cloths[i].cloth, movers[i].integrator->proposal(),
-                                            seconds, solvers(i));
+                                            seconds, solvers());
     if (bad && may_refuse) return false;
     if (bad) stop_unstable(i, *bad);
   }
@@ -233,7 +233,14 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, bool may_re
   return tried;
 }
 
+void Simulation::Parts::iterate_together() {
+  own_contacts.clear();
+  for (std::size_t i = 0; i < cloths.size(); ++i) own_contacts.push_back(collider->contacts(i));
+  joint->iterate(own_contacts, collider->shared_contacts());
+}
+
 void Simulation::Parts::iterate_all() {
+  if (joint && !collider->shared_contacts().empty()) return iterate_together();
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const std::span<const Contact> found = collider->contacts(i);
     if (movers[i].integrator->starts_at_proposal() || (heeds_contacts() && !found.empty()))

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "weft/cloth/newton/newton_part.h"
+
+// What conjugate gradients ask of a cloth.
+namespace weft {
+
+/// From the residual's sum, as inner forces sum to nothing; what it balances leaves the residual.
+void NewtonPart::drift(Worker& worker) {
+  const double h = input_.time_step;
+  const float per_square = 1 / (static_cast<float>(h) * static_cast<float>(h));
+  PaddedPlane* const step[3] = {&step_.x, &step_.y, &step_.z};
+  PaddedPlane* const left[3] = {&residual_.x, &residual_.y, &residual_.z};
+  const Range mine = worker.share(cloth_.size);
+  double sum[3];
+  for (int k = 0; k < 3; ++k)
+    sum[k] = sums_.sum(worker, [&](int r) {
+      const float *f = left[k]->row(r), *share = share_.row(r);
+      return lane_sum(cloth_.size, [&](int c) { return double{share[c]} * double{f[c]}; });
+    });
+  for (int k = 0; k < 3; ++k) {
+    const auto way = static_cast<float>(h * h / mass_ * sum[k]);
+    for (int r = mine.first; r < mine.last; ++r)
+      for (int c = 0; c < cloth_.size; ++c) {
+        (*step[k])(r, c) += way;
+        (*left[k])(r, c) -= per_square * cloth_.mass(r, c) * way;
+      }
+  }
+  worker.barrier();
+}
+
+double NewtonPart::start_direction(bool along_last, Worker& worker) {
+  if (!along_last) {
+    const Range mine = worker.share(cloth_.size);
+    for (int r = mine.first; r < mine.last; ++r) clear_row(direction_.row(r), cloth_.size);
+    worker.barrier();
+    return 0;
+  }
+  multigrid_.clear_pins(direction_, worker);
+  return sums_.sum(worker, [&](int r) {
+    return kernels_.dot(whole_vectors(cloth_.size), shares_of(r), std::as_const(residual_).row(r),
+                        std::as_const(direction_).row(r));
+  });
+}
+
+double NewtonPart::precondition(bool has_product, Worker& worker) {
+  multigrid_.cycle(worker);
+  if (!has_product) return 0;
+  return sums_.sum(worker, [&](int r) {
+    return kernels_.dot(whole_vectors(cloth_.size), shares_of(r), std::as_const(product_).row(r),
+                        std::as_const(multigrid_).value().row(r));
+  });
+}
+
+double NewtonPart::turn(double overlap, Worker& worker) {
+  const int n = whole_vectors(cloth_.size);
+  return sums_.sum(worker, [&](int r) {
+    kernels_.scale_add(n, std::as_const(multigrid_).value().row(r), static_cast<float>(-overlap),
+                       direction_.row(r));
+    return kernels_.dot(n, shares_of(r), std::as_const(residual_).row(r),
+                        std::as_const(direction_).row(r));
+  });
+}
+
+double NewtonPart::multiply(const Contacts& contacts, Worker& worker) {
+  multigrid_.apply(direction_,
+                   {contacts.press ? &contacts.gather : nullptr, contacts.loads,
+                    curved_.active() ? &curved_ : nullptr, row_parts_.data()},
+                   product_, worker);
+  return std::accumulate(row_parts_.begin(), row_parts_.end(), 0.0);
+}
+
+double NewtonPart::advance(double length, Worker& worker) {
+  const int n = whole_vectors(cloth_.size);
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    const ConstRow3 direction = std::as_const(direction_).row(r);
+    largest_[r] = kernels_.largest(n, direction);
+    kernels_.add_scaled(n, static_cast<float>(length), direction, step_.row(r));
+    kernels_.add_scaled(n, static_cast<float>(-length), std::as_const(product_).row(r),
+                        residual_.row(r));
+  }
+  worker.barrier();
+  if (worker.rank() == 0) last_length_ = length;
+  return std::abs(length) *
+         std::sqrt(double{*std::max_element(largest_.begin(), largest_.end())});
+}
+
+}  // namespace weft

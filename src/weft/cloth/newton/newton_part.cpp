@@ -1,0 +1,229 @@
+#include "weft/cloth/newton/newton_part.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "weft/cloth/integrate/proposal.h"
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+namespace {
+
+bool same_row(ConstRow3 a, ConstRow3 b, int n) {
+  const auto same = [n](const float* p, const float* q) {
+    return std::memcmp(p, q, static_cast<std::size_t>(n) * sizeof(float)) == 0;
+  };
+  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
+}
+
+/// a + factor b
+void add_row(int n, ConstRow3 a, float factor, ConstRow3 b, Row3 out) {
+  for (int c = 0; c < n; ++c) {
+    out.x[c] = a.x[c] + factor * b.x[c];
+    out.y[c] = a.y[c] + factor * b.y[c];
+    out.z[c] = a.z[c] + factor * b.z[c];
+  }
+}
+
+}  // namespace
+
+NewtonPart::NewtonPart(const Cloth& cloth, int workers, InstructionSet instructions)
+    : cloth_(cloth),
+      kernels_(newton_kernels_for(instructions)),
+      springs_(cloth, kernels_),
+      multigrid_(cloth, workers, kernels_),
+      curved_(cloth, instructions),
+      start_(rest_state(cloth)),
+      next_(rest_state(cloth)),
+      state_(cloth.size),
+      plain_(curved_.active() ? Planes3(cloth.size) : Planes3()),
+      wanted_(cloth.size, cloth.size),
+      step_(cloth.size, cloth.size),
+      direction_(cloth.size, cloth.size),
+      product_(cloth.size, cloth.size),
+      residual_(multigrid_.rhs()),
+      share_(cloth.size, cloth.size),
+      own_mass_(cloth.size, cloth.size),
+      contact_blocks_(cloth.size, cloth.size),
+      contact_rows_(static_cast<std::size_t>(cloth.size)),
+      sums_(cloth.size),
+      row_parts_(static_cast<std::size_t>(cloth.size)),
+      known_rows_(static_cast<std::size_t>(cloth.size)),
+      largest_(static_cast<std::size_t>(cloth.size)) {
+  for (int r = 0; r < cloth.size; ++r) std::fill_n(share_.row(r), cloth.size, 1.0F);
+  Worker alone = Worker::lone();
+  multigrid_.seams().share(Workers(alone, true), {&share_});
+  multigrid_.set_contacts({&contact_blocks_, contact_rows_.data()});
+  for (int r = 0; r < cloth.size; ++r)
+    for (int c = 0; c < cloth.size; ++c) own_mass_(r, c) = share_(r, c) * cloth.mass(r, c);
+  find_mass();
+}
+
+/// Takes a row of the state at the start, and flies on from it.
+void NewtonPart::begin_row(const ClothState& state, bool go_on, int row) {
+  const int n = cloth_.size;
+  const auto h = static_cast<float>(input_.time_step);
+  const ConstRow3 x = row_of(state.position, row), v = row_of(state.velocity, row);
+  // What the last step changed is where the next begins to look.
+  if (go_on)
+    add_row(n, v, -1, row_of(std::as_const(start_).velocity, row), direction_.row(row));
+  else
+    clear_row(direction_.row(row), n);
+  copy_row(x, row_of(start_.position, row), n);
+  copy_row(v, row_of(start_.velocity, row), n);
+  known_rows_[row] = same_row(x, std::as_const(state_.position).row(row), n) ? 1 : 0;
+  add_row(n, x, h, v, row_of(next_.position, row));
+  copy_row(v, row_of(next_.velocity, row), n);
+  const Vec3f gained = h * input_.gravity;
+  const Row3 wanted = wanted_.row(row);
+  for (int c = 0; c < n; ++c) {
+    wanted.x[c] = v.x[c] + gained.x;
+    wanted.y[c] = v.y[c] + gained.y;
+    wanted.z[c] = v.z[c] + gained.z;
+  }
+}
+
+void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTeam& team) {
+  input_ = input;
+  iterations = 0;
+  correction = lent = 0;
+  const bool same_gravity = input.gravity == known_gravity_;
+  known_gravity_ = input.gravity;
+  springs_.set_time_step(input.time_step);
+  if (multigrid_.renew_pins()) find_mass();
+  const bool go_on = std::exchange(has_last_, false);
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(cloth_.size);
+    for (int r = mine.first; r < mine.last; ++r) begin_row(state, go_on, r);
+  });
+  // What a run left is often where the next begins: its energy is known.
+  const bool known =
+      same_gravity && std::find(known_rows_.begin(), known_rows_.end(), 0) == known_rows_.end();
+  start_potential_ = known ? potential_ : HUGE_VAL;
+  set_pins(cloth_, start_, input.time_step, next_);
+  pulled_ = std::any_of(cloth_.pins.begin(), cloth_.pins.end(), [&](const Pin& held) {
+    return vec_cast<float>(held.target) != start_.position.at(held.sample);
+  });
+}
+
+void NewtonPart::find_mass() {
+  mass_ = 0;
+  for (int r = 0; r < cloth_.size; ++r)
+    for (int c = 0; c < cloth_.size; ++c)
+      if (cloth_.inverse_mass(r, c) > 0) mass_ += double{own_mass_(r, c)};
+  if (!(mass_ > 0)) mass_ = 1;  // all is pinned
+}
+
+void NewtonPart::read_state(Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    copy_row(row_of(std::as_const(next_.position), r), state_.position.row(r), cloth_.size);
+    copy_row(row_of(std::as_const(next_.velocity), r), state_.velocity.row(r), cloth_.size);
+    copy_row(row_of(std::as_const(start_.position), r), state_.start.row(r), cloth_.size);
+  }
+  worker.barrier();
+}
+
+void NewtonPart::write_state(Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    copy_row(std::as_const(state_.position).row(r), row_of(next_.position, r), cloth_.size);
+    copy_row(std::as_const(state_.velocity).row(r), row_of(next_.velocity, r), cloth_.size);
+  }
+  worker.barrier();
+}
+
+void NewtonPart::clear_step(Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) clear_row(step_.row(r), cloth_.size);
+  worker.barrier();
+}
+
+void NewtonPart::linearise(float guessed_share, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) springs_.linearise_row(state_, guessed_share, r);
+  worker.barrier();
+  for (int r = mine.first; r < mine.last; ++r) springs_.gradient_row(state_, wanted_, r, residual_);
+  if (curved_.active()) {
+    take_plain(state_.position, worker);
+    curved_.set_position(plain_, worker);
+    for (int r = mine.first; r < mine.last; ++r) curved_.add_row(r, residual_);
+  } else {
+    multigrid_.add_bending_gradient(state_.position, residual_, worker);
+  }
+  for (int r = mine.first; r < mine.last; ++r)
+    kernels_.scale_rows(whole_vectors(cloth_.size), -1, residual_.row(r));
+  multigrid_.complete(residual_, worker);
+}
+
+const PaddedBlocks& NewtonPart::diagonal(Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) multigrid_.fill_diagonals(springs_, r);
+  worker.barrier();
+  multigrid_.join_centres(worker);
+  return multigrid_.finest().diagonal();
+}
+
+/// With the contacts that press.
+void NewtonPart::set_up(const Contacts& contacts, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    multigrid_.fill_diagonals(springs_, r);
+    const bool touched = contacts.press && contacts.gather.row(r);
+    contact_rows_[r] = touched ? 1 : 0;
+    if (!touched) continue;
+    std::array<float*, 6> blocks{};
+    for (int k = 0; k < 6; ++k) {
+      blocks[k] = contact_blocks_.entry[k].row(r);
+      std::fill_n(blocks[k], cloth_.size, 0.0F);
+    }
+    contacts.gather.add_blocks(r, contacts.springs, blocks);
+    BlockRow6 added{};
+    std::copy(blocks.begin(), blocks.end(), added.entry);
+    multigrid_.add_to_diagonals(added, r);
+  }
+  worker.barrier();
+  multigrid_.set_up(springs_, worker);
+}
+
+void NewtonPart::add_contact_forces(const Contacts& contacts, float sign, Worker& worker) {
+  multigrid_.add_loads(contacts.gather, contacts.loads, sign, residual_, worker);
+}
+
+void NewtonPart::move_state(float length, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  const auto per_step = static_cast<float>(1 / input_.time_step);
+  for (int r = mine.first; r < mine.last; ++r) {
+    kernels_.add_scaled(whole_vectors(cloth_.size), length, std::as_const(step_).row(r),
+                        state_.position.row(r));
+    kernels_.add_scaled(whole_vectors(cloth_.size), length * per_step, std::as_const(step_).row(r),
+                        state_.velocity.row(r));
+  }
+  worker.barrier();
+}
+
+void NewtonPart::scale_step(float factor, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    kernels_.scale_rows(whole_vectors(cloth_.size), factor, step_.row(r));
+  worker.barrier();
+}
+
+void NewtonPart::take_plain(const PaddedVectors& position, Worker& worker) {
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    copy_row(position.row(r), row_of(plain_, r), cloth_.size);
+  worker.barrier();
+}
+
+void NewtonPart::last_corrections(Grid<float>& sizes) const {
+  const auto scale = static_cast<float>(last_length_ / cloth_.rest_spacing);
+  for (int r = 0; r < cloth_.size; ++r)
+    for (int c = 0; c < cloth_.size; ++c)
+      sizes(r, c) =
+          scale * length(Vec3f{direction_.x(r, c), direction_.y(r, c), direction_.z(r, c)});
+}
+
+}  // namespace weft
