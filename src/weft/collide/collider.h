@@ -159,6 +159,9 @@ class Collider {
   /// The step is as if it had not been: bodies, and what is known of samples, as at the last
   /// commit.
   virtual void rollback() noexcept {}
+  /// What makes searches shorter and depends on steps before is forgotten: what follows depends on
+  /// states and marks alone.
+  virtual void forget() noexcept {}
   /// What the collider knows of a cloth's samples beyond their positions, for a run that goes on
   /// later: which are inside bodies, [n * n], and with which cloths, itself first and then those
   /// after it, it may be tangled. Empty where there is nothing to know.

@@ -13,6 +13,8 @@ constexpr double slack_in_gaps = 0.2, slack_in_spacings = 0.03;
 constexpr double aside_in_spacings = 1;
 /// Pairs are looked at that come within this many gaps, see PairContacts.
 constexpr double foresight = 1.5;
+/// Twice what cloth may move before pairs that came near are looked for anew.
+constexpr double skin_in_gaps = 0.5;
 /// Finer cloth bends round its thickness over several cells.
 constexpr double least_crease_in_gaps = 3;
 
@@ -68,7 +70,8 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
   std::vector<const SurfaceGrid*> grids;
   for (const GuardedOne& one : cloths_) grids.push_back(&one.grid);
   for (const GuardedBody& body : bodies_) grids.push_back(&body.grid);
-  broad_phase_ = make_broad_phase(grids, cloths_.size());
+  const auto skin = static_cast<float>(skin_in_gaps * least_gap_);
+  pairs_.emplace(make_broad_phase(grids, cloths_.size()), grids.size(), cloths_.size(), skin);
   untangler_.set_up(std::span(grids).first(cloths_.size()), cloths);
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     cloth_of_.insert(cloth_of_.end(),
@@ -179,12 +182,12 @@ void GuardingCollider::detect(std::span<const MovingCloth> cloths, double time_s
                               ThreadTeam& team) noexcept {
   place_bodies(team);
   gather_surfaces(cloths);
-  if (needs_boxes()) broad_phase_->refit(surfaces_, team);
+  if (needs_boxes()) pairs_->refit(surfaces_, team);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     GuardedOne& one = cloths_[i];
     one.body_contacts->find(cloths[i], contact_bodies_, ground_ ? &*ground_ : nullptr, team);
     one.corner_contacts->find(
-        {cloths[i], one.body_contacts->inside(), broad_phase_->boxes(static_cast<int>(i))},
+        {cloths[i], one.body_contacts->inside(), pairs_->boxes(static_cast<int>(i)), pairs_->skin()},
         contact_bodies_, team);
     one.contacts.clear();
     for (const std::span<const Contact> found :
@@ -198,20 +201,23 @@ void GuardingCollider::detect(std::span<const MovingCloth> cloths, double time_s
   find_pair_contacts(cloths, time_step, team);
 }
 
+double GuardingCollider::gap_between(std::size_t i, std::size_t j) const {
+  return 0.5 * (cloths_[i].facts.self_thickness + cloths_[j].facts.self_thickness);
+}
+
+std::span<const CellPair> GuardingCollider::near_cells(std::size_t i, std::size_t j,
+                                                       ThreadTeam& team) {
+  const int first = static_cast<int>(i), second = static_cast<int>(j);
+  const auto reach = static_cast<float>(foresight * gap_between(i, j));
+  if (i == j) return pairs_->find_self(first, reach, static_cast<float>(slack_), team);
+  return pairs_->find(first, second, reach, team);
+}
+
 void GuardingCollider::find_tangles(std::span<const MovingCloth> cloths, ThreadTeam& team) {
   for (std::size_t i = 0; i < cloths.size(); ++i)
     for (std::size_t j = i; j < cloths.size(); ++j) {
       if (!untangler_.is_open(i, j) || (i == j && !cloths_[i].facts.self_collision)) continue;
-      cells_.clear();
-      const int first = static_cast<int>(i), second = static_cast<int>(j);
-      if (i == j) {
-        broad_phase_->find_self(first, 0, static_cast<float>(slack_), team, cells_);
-      } else {
-        const float gap = static_cast<float>(
-            0.5 * (cloths_[i].facts.self_thickness + cloths_[j].facts.self_thickness));
-        broad_phase_->find(first, second, gap, team, cells_);
-      }
-      untangler_.look(i, j, cloths, cells_, team);
+      untangler_.look(i, j, cloths, near_cells(i, j, team), team);
     }
 }
 
@@ -228,21 +234,14 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, d
     for (std::size_t j = i; j < cloths.size(); ++j) {
       GuardedOne &a = cloths_[i], &b = cloths_[j];
       if (i == j && !a.facts.self_collision) continue;
-      const double gap = 0.5 * (a.facts.self_thickness + b.facts.self_thickness);
-      cells_.clear();
       const int first = static_cast<int>(i), second = static_cast<int>(j);
-      if (i == j) {
-        broad_phase_->find_self(first, static_cast<float>(foresight * gap),
-                                static_cast<float>(slack_), team, cells_);
-      } else {
-        broad_phase_->find(first, second, static_cast<float>(foresight * gap), team, cells_);
-      }
-      near_ = near_ || !cells_.empty();
+      const std::span<const CellPair> cells = near_cells(i, j, team);
+      near_ = near_ || !cells.empty();
       pair_contacts_.find(
-          {&a.grid, &b.grid, &cloths[i], &cloths[j], first, second, a.facts.rest, gap,
+          {&a.grid, &b.grid, &cloths[i], &cloths[j], first, second, a.facts.rest, gap_between(i, j),
            std::sqrt(a.facts.friction * b.facts.friction), time_step,
-           i == j && a.facts.rest_spacing >= least_crease_in_gaps * gap, untangler_.marks(i, j)},
-          cells_, team, {a.contacts, b.contacts, shares_ ? &shared_ : nullptr});
+           i == j && a.facts.rest_spacing >= least_crease_in_gaps * gap_between(i, j), untangler_.marks(i, j)},
+          cells, team, {a.contacts, b.contacts, shares_ ? &shared_ : nullptr});
     }
   self_contacts_ = before() - with_bodies;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "weft/collide/collider.h"
@@ -13,7 +14,7 @@
 #include "weft/collide/guard/impact.h"
 #include "weft/collide/guard/plane_guard.h"
 #include "weft/collide/guard/refuges.h"
-#include "weft/collide/pairs/cell_pairs.h"
+#include "weft/collide/pairs/coherent_pairs.h"
 #include "weft/collide/untangle/untangler.h"
 
 namespace weft {
@@ -50,6 +51,7 @@ class GuardingCollider final : public Collider {
   FilterCounts guard(std::span<const MovingCloth> cloths, double time_step,
                      ThreadTeam& team) noexcept override;
   void commit() noexcept override;
+  void forget() noexcept override { pairs_->forget(); }
   void rollback() noexcept override;
   void save_marks(std::size_t cloth, std::vector<int>& marks) const override;
   void restore_marks(std::size_t cloth, std::span<const int> marks) override;
@@ -93,6 +95,10 @@ class GuardingCollider final : public Collider {
   void gather_surfaces(std::span<const MovingCloth> cloths);
   void place_bodies(ThreadTeam& team);
   void measure_motion(GuardedBody& body) const;
+  /// That is kept between two cloths, or one and itself. [m]
+  [[nodiscard]] double gap_between(std::size_t i, std::size_t j) const;
+  /// Cells of theirs that may press on each other, valid until the next search.
+  std::span<const CellPair> near_cells(std::size_t i, std::size_t j, ThreadTeam& team);
   void find_tangles(std::span<const MovingCloth> cloths, ThreadTeam& team);
   void find_pair_contacts(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team);
   /// Whether there is anything for the broad phase to find.
@@ -123,7 +129,7 @@ class GuardingCollider final : public Collider {
   std::vector<GuardedOne> cloths_;
   std::vector<GuardedBody> bodies_;
   std::optional<BodyContacts::Ground> ground_;
-  std::unique_ptr<BroadPhase> broad_phase_;
+  std::optional<CoherentPairs> pairs_;
   int points_ = 0;                     // samples of all cloths
   double slack_ = 0, most_aside_ = 0;  // see PlaneGuard [m]
   double least_gap_ = 0;               // that is kept to bodies by any cloth [m]
@@ -134,7 +140,6 @@ class GuardingCollider final : public Collider {
   // Of one step:
   std::vector<MovingSurface> surfaces_;  // cloths, then bodies
   std::vector<ContactBody> contact_bodies_;
-  std::vector<CellPair> cells_;
   std::vector<SharedContact> shared_;
   std::vector<SeparatingPlane> planes_;
   std::vector<std::size_t> cloth_of_;  // [points]

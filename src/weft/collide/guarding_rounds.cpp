@@ -39,20 +39,16 @@ void GuardingCollider::find_planes(ThreadTeam& team) {
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     for (std::size_t j = i; j < surfaces_.size(); ++j) {
       if (i == j && !cloths_[i].facts.self_collision) continue;
-      cells_.clear();
       const int first = static_cast<int>(i), second = static_cast<int>(j);
-      if (i == j) {
-        broad_phase_->find_self(first, reach, slack, team, cells_);
-      } else {
-        broad_phase_->find(first, second, reach, team, cells_);
-      }
+      const std::span<const CellPair> cells = i == j ? pairs_->find_self(first, reach, slack, team)
+                                                     : pairs_->find(first, second, reach, team);
       PlaneSearch search{side_of(i), side_of(j), i == j, {slack_, carried_}, nullptr, 0, nullptr};
       if (!search.b.body) search.tangle = untangler_.marks(i, j);
       if (search.b.body) {
         search.inside = &cloths_[i].body_contacts->inside();
         search.body_number = static_cast<int>(j - cloths_.size()) + 1;
       }
-      cell_planes_.find(search, cells_, team, planes_);
+      cell_planes_.find(search, cells, team, planes_);
     }
 }
 
@@ -216,7 +212,7 @@ FilterCounts GuardingCollider::hold_all(std::span<const MovingCloth> cloths, dou
   const bool moving = fastest_body(time_step) > 0;
   double spread = least_spread;
   for (int round = 0; round < most_rounds; ++round) {
-    if (needs_boxes()) broad_phase_->refit(surfaces_, team);
+    if (needs_boxes()) pairs_->refit(surfaces_, team);
     find_planes(team);
     add_ground_planes(cloths);
     const PlaneGuard::Result held = hold(cloths, round < rounds_aside ? most_aside_ : slack_, team);

@@ -143,6 +143,7 @@ FrameReport Simulation::advance() {
   const int substeps = parts_->scene.substeps;
   // A frame follows from positions and velocities alone, so that a run can be resumed at any.
   for (const auto& mover : parts_->movers) mover.integrator->forget();
+  parts_->collider->forget();
   for (int substep = 0; substep < substeps; ++substep) {
     update(parts_->progress, "simulate",
            (parts_->frame + static_cast<double>(substep) / substeps) /

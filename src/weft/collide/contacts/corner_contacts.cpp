@@ -108,7 +108,7 @@ void CornerContacts::find_touches(const Search& search, std::span<const int> poi
 void CornerContacts::find_touches_of(const Search& search, int point,
                                      std::vector<Touch>& out) const {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
-  const auto reach = static_cast<float>(contact_foresight * kept_.gap);
+  const auto reach = static_cast<float>(contact_foresight * kept_.gap) + search.step.aside;
   const PathBox at = path_of(search.body.start->at(point), search.body.end->at(point));
   const PathBoxLevels& boxes = *search.step.boxes;
   const auto near = [&](const Node& node) {

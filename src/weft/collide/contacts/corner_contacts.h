@@ -28,6 +28,7 @@ class CornerContacts {
     const MovingCloth& cloth;
     const InsideMarks& inside;             ///< triangles with samples inside a body are left alone
     const PathBoxLevels* boxes = nullptr;  ///< of the cloth; null: not known yet
+    float aside = 0;                       ///< how far the cloth may be beyond them [m]
   };
   /// @param bodies  in the order in which they were added
   void find(const Step& step, std::span<const ContactBody> bodies, ThreadTeam& team);

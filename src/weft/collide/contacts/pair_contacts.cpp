@@ -157,11 +157,8 @@ class Finder {
     };
     const std::array<SeenEdge, 3> of_b = seen(b);
     for (const SeenEdge& p : seen(a))
-      for (const SeenEdge& q : of_b) {
-        const float farthest = reach + p.half_length + q.half_length;
-        if (squared_length(p.middle - q.middle) <= farthest * farthest)
-          add_edges(p.samples, q.samples);
-      }
+      for (const SeenEdge& q : of_b)
+        if (p.may_cross(q, reach)) add_edges(p.samples, q.samples);
   }
 
   void add_edges(const std::array<int, 2>& p, const std::array<int, 2>& q) {

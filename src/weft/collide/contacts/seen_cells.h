@@ -67,15 +67,28 @@ struct SeenTriangle {
 /// An edge of a cell in the same way.
 struct SeenEdge {
   std::array<int, 2> samples{};
-  Vec3f middle;
-  float half_length = 0;
+  Vec3f origin, along;
 
   static SeenEdge of(const CellGaps& gaps, const SeenCell& cell,
                      const std::array<int, 2>& corners) {
     const Vec3f p = gaps.start(cell.second, corners[0]), q = gaps.start(cell.second, corners[1]);
-    return {{cell.samples[corners[0]], cell.samples[corners[1]]},
-            0.5F * (p + q),
-            0.5F * std::sqrt(squared_length(p - q))};
+    return {{cell.samples[corners[0]], cell.samples[corners[1]]}, p, q - p};
+  }
+  /// Whether two edges can be closest to each other inside of both and as near as that, rounding
+  /// aside.
+  [[nodiscard]] bool may_cross(const SeenEdge& other, float near) const {
+    constexpr float hair = 1e-3F;
+    const Vec3f from = origin - other.origin;
+    const float a = dot(along, along), b = dot(along, other.along),
+                c = dot(other.along, other.along), d = dot(along, from),
+                e = dot(other.along, from);
+    const float whole = a * c - b * b;  // the square of their cross product
+    if (!(whole > hair * a * c)) return true;  // nearly parallel
+    const float s = b * e - c * d, t = a * e - b * d;
+    const float least = -hair * a * c, most = whole - least;
+    if (s < least || s > most || t < least || t > most) return false;
+    const float volume = dot(cross(along, other.along), from);
+    return volume * volume <= near * near * whole;
   }
 };
 

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "weft/collide/pairs/cell_pairs.h"
+#include "weft/collide/pairs/shared_pairs.h"
+
+namespace weft {
+
+/// Pairs of cells that stay valid while surfaces move little, as neighbour lists of particle codes
+/// do [verlet67]: they are looked for with a skin around what is asked for, and looked for anew
+/// when a sample is farther from where it was then, at the start or at the end of the step, than
+/// half of it. A step asks three to five times for nearly the same; cloth at rest many more.
+class CoherentPairs {
+ public:
+  /// @param cloths  how many of the surfaces, which come first @param skin  [m]
+  CoherentPairs(std::unique_ptr<BroadPhase> broad_phase, std::size_t surfaces, std::size_t cloths,
+                float skin);
+
+  /// Takes the surfaces' motion during a step, as BroadPhase::refit.
+  void refit(std::span<const MovingSurface> surfaces, ThreadTeam& team);
+  /// As of BroadPhase, and perhaps some that come closer by the skin only; valid until the next
+  /// call.
+  std::span<const CellPair> find(int surface_a, int surface_b, float reach, ThreadTeam& team);
+  std::span<const CellPair> find_self(int surface, float reach, float slack, ThreadTeam& team);
+  /// Where nodes of a surface's mip pyramid are, within skin(); null where there is no pyramid.
+  [[nodiscard]] const PathBoxLevels* boxes(int surface) const {
+    return broad_phase_->boxes(surface);
+  }
+  [[nodiscard]] float skin() const { return skin_; }
+  /// What follows depends on what it is given alone.
+  void forget();
+
+ private:
+  /// Where a surface was when pairs were looked for.
+  struct Snapshot {
+    Planes3 start, end;
+    int name = 0;
+    bool still = false;  // end is the start
+  };
+  struct List {
+    bool known = false;
+    float reach = 0, slack = 0;  // the most that was asked for
+    std::vector<CellPair> cells;
+  };
+  [[nodiscard]] bool holds(const Snapshot& snapshot, const MovingSurface& now) const;
+  void take(std::span<const MovingSurface> surfaces, ThreadTeam& team);
+  List& list_of(int a, int b) { return lists_[static_cast<std::size_t>(a) * snapshots_.size() + b]; }
+  void keep_near(int a, int b, List& list, ThreadTeam& team);
+
+  std::unique_ptr<BroadPhase> broad_phase_;
+  float skin_;
+  std::vector<Snapshot> snapshots_;
+  std::vector<MovingSurface> placed_;  // as they were
+  std::vector<List> lists_;            // [surfaces x surfaces]
+  std::vector<CellPair> found_;
+  SharedPairs near_;
+  bool known_ = false;
+};
+
+}  // namespace weft
