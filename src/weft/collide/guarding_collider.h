@@ -70,6 +70,7 @@ class GuardingCollider final : public Collider {
     std::vector<Contact> contacts;  // those with obstacles first
     int first_point = 0;
     std::vector<double> row_gaps;
+    std::vector<char> new_cells{};  // of a round, see PlaneSide
     Planes3 carried{};                // refuges among moving bodies
     const Planes3* refuge = nullptr;  // of this step; the start while that will do
     std::size_t obstacle_contacts = 0;
@@ -104,7 +105,11 @@ class GuardingCollider final : public Collider {
   /// Whether there is anything for the broad phase to find.
   [[nodiscard]] bool needs_boxes() const;
   static void copy_to_mates(const GuardedOne& one, const MovingCloth& moving);
-  void find_planes(ThreadTeam& team);
+  /// Those of the last round stay where the ends of all their points did; unless all are wanted.
+  void find_planes(bool all, ThreadTeam& team);
+  void drop_old_planes();
+  void mark_new_cells();
+  void put_end(const MovingCloth& cloth, int point, Vec3f end);
   void add_ground_planes(std::span<const MovingCloth> cloths);
   /// What a pass of the filter over a step's proposals is for.
   enum class Pass { guess, end };
@@ -144,6 +149,8 @@ class GuardingCollider final : public Collider {
   std::vector<SeparatingPlane> planes_;
   std::vector<std::size_t> cloth_of_;  // [points]
   std::vector<char> fates_;            // [points] of one pass: free, moved, stopped, fell back
+  std::vector<char> new_points_;       // [points] of a round, see PlaneSearch
+  std::size_t ground_planes_ = 0;      // where those begin in planes_
   PairContacts pair_contacts_;
   CellPlanes cell_planes_;
   PlaneGuard plane_guard_;

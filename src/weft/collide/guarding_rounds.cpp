@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "weft/collide/guarding_collider.h"
 
@@ -30,11 +31,46 @@ enum Fate : char { free_point, moved_point, stopped_point, fallen_point };
 PlaneSide GuardingCollider::side_of(std::size_t surface) const {
   const bool body = surface >= cloths_.size();
   return {surfaces_[surface], body ? 0 : cloths_[surface].first_point, body,
-          body ? surfaces_[surface].end : cloths_[surface].refuge};
+          body ? surfaces_[surface].end : cloths_[surface].refuge,
+          body ? nullptr : cloths_[surface].new_cells.data()};
 }
 
-void GuardingCollider::find_planes(ThreadTeam& team) {
-  planes_.clear();
+void GuardingCollider::put_end(const MovingCloth& cloth, int point, Vec3f end) {
+  const int sample = point - cloths_[cloth_of_[point]].first_point;
+  if (cloth.position.at(sample) == end) return;
+  cloth.position.set(sample, end);
+  new_points_[point] = 1;
+}
+
+void GuardingCollider::drop_old_planes() {
+  planes_.resize(ground_planes_);
+  std::erase_if(planes_, [&](const SeparatingPlane& plane) {
+    const auto first = plane.points.begin();
+    return std::any_of(first, first + plane.count_a + plane.count_b,
+                       [&](int point) { return new_points_[point] != 0; });
+  });
+}
+
+void GuardingCollider::mark_new_cells() {
+  for (GuardedOne& one : cloths_) {
+    const int n = one.facts.size, cells = n - 1;
+    one.new_cells.assign(static_cast<std::size_t>(cells) * cells, 0);
+    for (int s = 0; s < n * n; ++s) {
+      if (new_points_[one.first_point + one.grid.point(s)] == 0) continue;
+      for (int r = std::max(0, s / n - 1); r <= std::min(cells - 1, s / n); ++r)
+        for (int c = std::max(0, s % n - 1); c <= std::min(cells - 1, s % n); ++c)
+          one.new_cells[static_cast<std::size_t>(r) * cells + c] = 1;
+    }
+  }
+}
+
+void GuardingCollider::find_planes(bool all, ThreadTeam& team) {
+  if (all) {
+    planes_.clear();
+  } else {
+    drop_old_planes();
+    mark_new_cells();
+  }
   const float reach = static_cast<float>(2 * slack_), slack = static_cast<float>(slack_);
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     for (std::size_t j = i; j < surfaces_.size(); ++j) {
@@ -42,7 +78,8 @@ void GuardingCollider::find_planes(ThreadTeam& team) {
       const int first = static_cast<int>(i), second = static_cast<int>(j);
       const std::span<const CellPair> cells = i == j ? pairs_->find_self(first, reach, slack, team)
                                                      : pairs_->find(first, second, reach, team);
-      PlaneSearch search{side_of(i), side_of(j), i == j, {slack_, carried_}, nullptr, 0, nullptr};
+      PlaneSearch search{side_of(i), side_of(j), i == j, {slack_, carried_}};
+      if (!all) search.new_points = new_points_.data();
       if (!search.b.body) search.tangle = untangler_.marks(i, j);
       if (search.b.body) {
         search.inside = &cloths_[i].body_contacts->inside();
@@ -53,6 +90,7 @@ void GuardingCollider::find_planes(ThreadTeam& team) {
 }
 
 void GuardingCollider::add_ground_planes(std::span<const MovingCloth> cloths) {
+  ground_planes_ = planes_.size();
   if (!ground_) return;
   const double least = ground_->height + ground_margin;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
@@ -81,7 +119,7 @@ PlaneGuard::Result GuardingCollider::hold(std::span<const MovingCloth> cloths, d
   };
   const auto put = [&](int point, Vec3f end) {
     const std::size_t cloth = cloth_of_[point];
-    cloths[cloth].position.set(point - cloths_[cloth].first_point, end);
+    put_end(cloths[cloth], point, end);
     fates_[point] = std::max<char>(fates_[point], moved_point);
   };
   const PlaneGuard::Result held =
@@ -95,7 +133,7 @@ void GuardingCollider::take_refuge(std::span<const MovingCloth> cloths, int arou
   const auto take = [&](std::size_t cloth, int row, int col) {
     const GuardedOne& one = cloths_[cloth];
     const int sample = one.grid.point(row * one.facts.size + col);
-    cloths[cloth].position.set(sample, one.refuge->at(sample));
+    put_end(cloths[cloth], one.first_point + sample, one.refuge->at(sample));
     fates_[one.first_point + sample] = fallen_point;
   };
   for (std::size_t i = 0; all && i < cloths.size(); ++i)
@@ -209,12 +247,14 @@ FilterCounts GuardingCollider::hold_all(std::span<const MovingCloth> cloths, dou
   for (std::size_t i = 0; i < cloths.size(); ++i) cloths_[i].refuge = &cloths[i].start;
   carried_ = false;
   fates_.assign(static_cast<std::size_t>(points_), free_point);
+  bool refuges_are_new = true;
   const bool moving = fastest_body(time_step) > 0;
   double spread = least_spread;
   for (int round = 0; round < most_rounds; ++round) {
     if (needs_boxes()) pairs_->refit(surfaces_, team);
-    find_planes(team);
+    find_planes(std::exchange(refuges_are_new, false), team);
     add_ground_planes(cloths);
+    new_points_.assign(static_cast<std::size_t>(points_), 0);
     const PlaneGuard::Result held = hold(cloths, round < rounds_aside ? most_aside_ : slack_, team);
     if (pass == Pass::end) {
       strike_all(cloths, time_step);
@@ -223,8 +263,8 @@ FilterCounts GuardingCollider::hold_all(std::span<const MovingCloth> cloths, dou
         one.body_contacts->doubt(point - one.first_point);
       }
     }
-    if (held.lost > 0 && moving)
-      carry_refuges(cloths, spread = std::min(2 * spread, most_spread), team);
+    refuges_are_new = held.lost > 0 && moving;
+    if (refuges_are_new) carry_refuges(cloths, spread = std::min(2 * spread, most_spread), team);
     const bool settled = held.stopped + held.far == 0 && (held.lost == 0 || !moving);
     if (!settled && round >= rounds_on_the_way)
       take_refuge(cloths, 1 << (round - rounds_on_the_way), round + 1 == most_rounds);

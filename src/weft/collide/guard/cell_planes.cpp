@@ -32,6 +32,8 @@ class Finder {
       : search_(search), out_(out) {}
 
   void look_at(const CellPair& cells) {
+    if (search_.new_points != nullptr && !is_new(search_.a, cells.a) && !is_new(search_.b, cells.b))
+      return;
     const CellGaps gaps(search_.a.surface, cells.a, search_.b.surface, cells.b);
     // Whatever their points do within the slack: spares looking at their triangles.
     if (gaps.apart(0, (search_.b.body ? 1 : 2) * search_.options.slack)) return;
@@ -52,6 +54,16 @@ class Finder {
     return {samples[corners[0]], samples[corners[1]], samples[corners[2]]};
   }
 
+  static bool is_new(const PlaneSide& side, int cell) {
+    return side.new_cells != nullptr && side.new_cells[cell] != 0;
+  }
+  [[nodiscard]] bool has_new(const PlaneSide& side, const std::array<int, 4>& points,
+                             const CellCorners& corners) const {
+    return !side.body && std::any_of(corners.begin(), corners.end(), [&](int k) {
+      return search_.new_points[side.first_point + points[k]] != 0;
+    });
+  }
+
   /// A triangle of a cell, or the edge of it that is left without its first corner.
   struct Part {
     const PlaneSide* side;
@@ -61,6 +73,9 @@ class Finder {
   };
 
   void triangles(const CellGaps& gaps, CellCorners a, CellCorners b) {
+    if (search_.new_points != nullptr && !has_new(search_.a, points_a_, a) &&
+        !has_new(search_.b, points_b_, b))
+      return;
     const Samples of_a = pick(samples_a_, a), of_b = pick(samples_b_, b);
     if (search_.a.surface.grid->folded(of_a) || search_.b.surface.grid->folded(of_b)) return;
     if ((!search_.same && is_inside(of_a)) || entangled(of_a, of_b)) return;

@@ -18,6 +18,8 @@ struct PlaneSide {
   int first_point = 0;  ///< number of its sample 0 among all cloths' samples
   bool body = false;
   const Planes3* refuge = nullptr;  ///< of its samples, see MovingFeature [n x n] [m]
+  /// Of its cells, whether a corner's end is new; null: none is. [(n - 1)^2]
+  const char* new_cells = nullptr;
 };
 
 /// What is looked at together.
@@ -28,6 +30,9 @@ struct PlaneSearch {
   const InsideMarks* inside = nullptr;  ///< of a, where b is a body
   int body_number = 0;                  ///< samples of a marked with it are not kept out
   const TangleMarks* tangle = nullptr;  ///< of two cloths that cross; else null
+  /// Of all cloths' points, whether their ends are new: only triangles with such a corner are looked
+  /// at; null: all are.
+  const char* new_points = nullptr;
 };
 
 /// Planes between the triangles of pairs of cells: whole triangles that share no point; of those

@@ -85,6 +85,20 @@ bool CellGaps::apart_along(Vec3f n, float at_start, float at_end) const {
   return (above ? c.lower - d.upper : d.lower - c.upper) > size * at_end;
 }
 
+float CellGaps::gap_along(Vec3f n) const {
+  const auto along = [n](const Corners& of) { return bounds(n, of.x, of.y, of.z); };
+  const Bounds a = along(start_a_), b = along(start_b_), c = along(end_a_), d = along(end_b_);
+  const float above = least(a.lower - b.upper, c.lower - d.upper);
+  const float below = least(b.lower - a.upper, d.lower - c.upper);
+  const float size = std::sqrt(squared_length(n));
+  return size > 0 ? largest(above, below) / size : 0;
+}
+
+float CellGaps::certain_gap() const {
+  const float layers = largest(gap_along(normal_of(start_a_)), gap_along(normal_of(start_b_)));
+  return largest(gap_along(way()), layers) - margin_;
+}
+
 bool CellGaps::parallel(float cosine) const {
   const Vec3f a = normal_of(start_a_), b = normal_of(start_b_);
   return std::abs(dot(a, b)) > cosine * std::sqrt(squared_length(a) * squared_length(b));

@@ -14,6 +14,9 @@ class CellGaps {
   /// Whether the way between them or the normal direction of either certainly keeps them apart, in
   /// the same order, by more than so much at the start and at the end. [m]
   [[nodiscard]] bool apart(double at_start, double at_end) const;
+  /// How far the same ways certainly keep them apart, at the start and at the end; negative or 0
+  /// where none does. [m]
+  [[nodiscard]] float certain_gap() const;
   /// A corner of the first or second cell as it is seen. [m]
   [[nodiscard]] Vec3f start(bool second, int corner) const {
     return at(second ? start_b_ : start_a_, corner);
@@ -40,6 +43,7 @@ class CellGaps {
   static Vec3f normal_of(const Corners& of);
   [[nodiscard]] Vec3f way() const;
   [[nodiscard]] bool apart_along(Vec3f n, float at_start, float at_end) const;
+  [[nodiscard]] float gap_along(Vec3f n) const;
 
   Corners start_a_, end_a_, start_b_, end_b_;
   float margin_ = 0;

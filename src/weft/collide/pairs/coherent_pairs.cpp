@@ -1,26 +1,36 @@
 #include "weft/collide/pairs/coherent_pairs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "weft/collide/pairs/cell_gaps.h"
 
 namespace weft {
 namespace {
 
-bool same_within(const Planes3& a, const Planes3& b, float way) {
+float farthest_way(const Planes3& a, const Planes3& b) {
   const int n = a.size();
   float most = 0;
   for (int r = 0; r < n; ++r) {
     const float *ax = a.x.row(r), *ay = a.y.row(r), *az = a.z.row(r);
     const float *bx = b.x.row(r), *by = b.y.row(r), *bz = b.z.row(r);
-    for (int c = 0; c < n; ++c) {
+    float lanes[16] = {};
+    int c = 0;
+    for (; c + 16 <= n; c += 16)
+#pragma omp simd
+      for (int k = 0; k < 16; ++k) {
+        const float x = ax[c + k] - bx[c + k], y = ay[c + k] - by[c + k], z = az[c + k] - bz[c + k];
+        const float square = x * x + y * y + z * z;
+        lanes[k] = square > lanes[k] ? square : lanes[k];
+      }
+    for (; c < n; ++c) {
       const float x = ax[c] - bx[c], y = ay[c] - by[c], z = az[c] - bz[c];
-      const float square = x * x + y * y + z * z;
-      most = square > most ? square : most;
+      lanes[0] = std::max(lanes[0], x * x + y * y + z * z);
     }
-    if (!(most <= way * way)) return false;
+    most = std::max(most, *std::max_element(lanes, lanes + 16));
   }
-  return true;
+  return std::sqrt(most);
 }
 
 }  // namespace
@@ -37,12 +47,12 @@ void CoherentPairs::forget() {
   for (List& list : lists_) list.reach = list.slack = 0;
 }
 
-bool CoherentPairs::holds(const Snapshot& snapshot, const MovingSurface& now) const {
-  if (now.name != 0 && now.name == snapshot.name) return true;
-  const float way = 0.499F * skin_;  // less rounding
-  if (!same_within(snapshot.start, *now.start, way)) return false;
-  if (snapshot.still && now.end == now.start) return true;
-  return same_within(snapshot.still ? snapshot.start : snapshot.end, *now.end, way);
+float CoherentPairs::way_from(const Snapshot& snapshot, const MovingSurface& now) const {
+  if (now.name != 0 && now.name == snapshot.name) return 0;
+  const Planes3& end = snapshot.still ? snapshot.start : snapshot.end;
+  float way = farthest_way(snapshot.start, *now.start);
+  if (!snapshot.still || now.end != now.start) way = std::max(way, farthest_way(end, *now.end));
+  return way < 0.499F * skin_ ? way : HUGE_VALF;  // less rounding
 }
 
 void CoherentPairs::take(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
@@ -59,6 +69,7 @@ void CoherentPairs::take(std::span<const MovingSurface> surfaces, ThreadTeam& te
     placed.start = &snapshot.start;
     placed.end = snapshot.still ? &snapshot.start : &snapshot.end;
     placed_.push_back(placed);
+    snapshot.way = 0;
   }
   for (List& list : lists_) list.known = false;
   broad_phase_->refit(placed_, team);
@@ -66,45 +77,73 @@ void CoherentPairs::take(std::span<const MovingSurface> surfaces, ThreadTeam& te
 }
 
 void CoherentPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
-  for (std::size_t i = 0; known_ && i < surfaces.size(); ++i)
-    known_ = holds(snapshots_[i], surfaces[i]);
+  for (std::size_t i = 0; known_ && i < surfaces.size(); ++i) {
+    snapshots_[i].way = way_from(snapshots_[i], surfaces[i]);
+    known_ = snapshots_[i].way < HUGE_VALF;
+  }
   if (!known_) take(surfaces, team);
 }
 
 /// Of what was found, boxes of which came near, those whose cells did.
 void CoherentPairs::keep_near(int a, int b, List& list, ThreadTeam& team) {
-  const double reach = double{list.reach} + double{skin_};
-  near_.collect(static_cast<int>(found_.size()), team, list.cells,
-                [&](int i, std::vector<CellPair>& mine) {
-                  const CellGaps gaps(placed_[a], found_[i].a, placed_[b], found_[i].b);
-                  if (!gaps.apart(reach, reach)) mine.push_back(found_[i]);
-                });
+  const float reach = list.reach + skin_, per_bucket = buckets / reach;
+  team.run([&](Worker& worker) {
+    near_.fill(static_cast<int>(found_.size()), worker, [&](int i, std::vector<Found>& mine) {
+      const float gap =
+          CellGaps(placed_[a], found_[i].a, placed_[b], found_[i].b).certain_gap();
+      if (gap < reach)
+        mine.push_back({found_[i], gap > 0 ? static_cast<int>(gap * per_bucket) : 0});
+    });
+  });
+  sort(near_, list);
   list.known = true;
+}
+
+void CoherentPairs::sort(const ChunkedLists<std::vector<Found>>& found, List& list) {
+  list.ends.fill(0);
+  const auto bucket_of = [](const Found& one) {
+    return std::min(static_cast<std::size_t>(one.bucket), buckets - 1);
+  };
+  for (const std::vector<Found>& part : found.lists())
+    for (const Found& one : part) ++list.ends[bucket_of(one)];
+  std::size_t count = 0;
+  for (std::size_t& end : list.ends) count += std::exchange(end, count);
+  list.cells.resize(count);
+  // Each begin serves as the place of the next, and ends up as the end.
+  for (const std::vector<Found>& part : found.lists())
+    for (const Found& one : part) list.cells[list.ends[bucket_of(one)]++] = one.cells;
+}
+
+std::span<const CellPair> CoherentPairs::nearest(int a, int b, const List& list,
+                                                 float reach) const {
+  const float far = reach + snapshots_[a].way + snapshots_[b].way;
+  const auto last = static_cast<std::size_t>(far * buckets / (list.reach + skin_));
+  return std::span(list.cells).first(list.ends[std::min(last, buckets - 1)]);
 }
 
 std::span<const CellPair> CoherentPairs::find(int surface_a, int surface_b, float reach,
                                               ThreadTeam& team) {
   List& list = list_of(surface_a, surface_b);
-  if (list.known && reach <= list.reach) return list.cells;
-  list.reach = std::max(list.reach, reach);
-  list.cells.clear();
-  found_.clear();
-  broad_phase_->find(surface_a, surface_b, list.reach + skin_, team, found_);
-  keep_near(surface_a, surface_b, list, team);
-  return list.cells;
+  if (!list.known || reach > list.reach) {
+    list.reach = std::max(list.reach, reach);
+    found_.clear();
+    broad_phase_->find(surface_a, surface_b, list.reach + skin_, team, found_);
+    keep_near(surface_a, surface_b, list, team);
+  }
+  return nearest(surface_a, surface_b, list, reach);
 }
 
 std::span<const CellPair> CoherentPairs::find_self(int surface, float reach, float slack,
                                                    ThreadTeam& team) {
   List& list = list_of(surface, surface);
-  if (list.known && reach <= list.reach && slack <= list.slack) return list.cells;
-  list.reach = std::max(list.reach, reach);
-  list.slack = std::max(list.slack, slack);
-  list.cells.clear();
-  found_.clear();
-  broad_phase_->find_self(surface, list.reach + skin_, list.slack + 0.5F * skin_, team, found_);
-  keep_near(surface, surface, list, team);
-  return list.cells;
+  if (!list.known || reach > list.reach || slack > list.slack) {
+    list.reach = std::max(list.reach, reach);
+    list.slack = std::max(list.slack, slack);
+    found_.clear();
+    broad_phase_->find_self(surface, list.reach + skin_, list.slack + 0.5F * skin_, team, found_);
+    keep_near(surface, surface, list, team);
+  }
+  return nearest(surface, surface, list, reach);
 }
 
 }  // namespace weft

@@ -1,18 +1,20 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "weft/collide/pairs/cell_pairs.h"
-#include "weft/collide/pairs/shared_pairs.h"
+#include "weft/collide/pairs/chunks.h"
 
 namespace weft {
 
 /// Pairs of cells that stay valid while surfaces move little, as neighbour lists of particle codes
 /// do [verlet67]: they are looked for with a skin around what is asked for, and looked for anew
 /// when a sample is farther from where it was then, at the start or at the end of the step, than
-/// half of it. A step asks three to five times for nearly the same; cloth at rest many more.
+/// half of it. Each is known with how far apart it was, so that those are told that may have come
+/// near since. A step asks three to five times for nearly the same; cloth at rest many more.
 class CoherentPairs {
  public:
   /// @param cloths  how many of the surfaces, which come first @param skin  [m]
@@ -39,16 +41,29 @@ class CoherentPairs {
     Planes3 start, end;
     int name = 0;
     bool still = false;  // end is the start
+    float way = 0;       // of the surface from there [m]
   };
+  static constexpr std::size_t buckets = 16;
+  struct Found {
+    CellPair cells;
+    int bucket = 0;
+  };
+  /// Pairs of two surfaces, ordered by how far apart they are, in so many steps.
   struct List {
     bool known = false;
     float reach = 0, slack = 0;  // the most that was asked for
     std::vector<CellPair> cells;
+    std::array<std::size_t, buckets> ends{};
   };
-  [[nodiscard]] bool holds(const Snapshot& snapshot, const MovingSurface& now) const;
+  /// How far a surface is from its snapshot at most; infinite: farther than lists hold for.
+  [[nodiscard]] float way_from(const Snapshot& snapshot, const MovingSurface& now) const;
   void take(std::span<const MovingSurface> surfaces, ThreadTeam& team);
   List& list_of(int a, int b) { return lists_[static_cast<std::size_t>(a) * snapshots_.size() + b]; }
   void keep_near(int a, int b, List& list, ThreadTeam& team);
+  static void sort(const ChunkedLists<std::vector<Found>>& found, List& list);
+  /// Those that may come so near now.
+  [[nodiscard]] std::span<const CellPair> nearest(int a, int b, const List& list,
+                                                  float reach) const;
 
   std::unique_ptr<BroadPhase> broad_phase_;
   float skin_;
@@ -56,7 +71,7 @@ class CoherentPairs {
   std::vector<MovingSurface> placed_;  // as they were
   std::vector<List> lists_;            // [surfaces x surfaces]
   std::vector<CellPair> found_;
-  SharedPairs near_;
+  ChunkedLists<std::vector<Found>> near_;
   bool known_ = false;
 };
 

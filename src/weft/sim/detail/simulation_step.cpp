@@ -269,9 +269,9 @@ bool Simulation::Parts::free_guesses() {
   if (!heeds_contacts() && !guards) return false;
   collider->detect(moving, time_step, team);
   if (!guards || !heeds_contacts() || !collider->anything_near()) return false;
-  if (movers.front().integrator->starts_at_proposal() && guesses_go_far() &&
-      collider->guard_guess(moving, time_step, team) > 0)
-    collider->detect(moving, time_step, team);
+  // Contacts stay: they are those of the step's start, and of a longer way.
+  if (movers.front().integrator->starts_at_proposal() && guesses_go_far())
+    collider->guard_guess(moving, time_step, team);
   for (std::size_t i = 0; i < cloths.size(); ++i) movers[i].guess = moving[i].position;
   return true;
 }
