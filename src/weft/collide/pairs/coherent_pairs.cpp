@@ -84,22 +84,20 @@ void CoherentPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& t
   if (!known_) take(surfaces, team);
 }
 
-/// Of what was found, boxes of which came near, those whose cells did.
-void CoherentPairs::keep_near(int a, int b, List& list, ThreadTeam& team) {
+void CoherentPairs::sort(int a, int b, List& list, ThreadTeam& team) {
   const float reach = list.reach + skin_, per_bucket = buckets / reach;
   team.run([&](Worker& worker) {
-    near_.fill(static_cast<int>(found_.size()), worker, [&](int i, std::vector<Found>& mine) {
-      const float gap =
-          CellGaps(placed_[a], found_[i].a, placed_[b], found_[i].b).certain_gap();
-      if (gap < reach)
-        mine.push_back({found_[i], gap > 0 ? static_cast<int>(gap * per_bucket) : 0});
+    near_.fill(static_cast<int>(list.cells.size()), worker, [&](int i, std::vector<Found>& mine) {
+      const CellPair cells = list.cells[i];
+      const float gap = CellGaps(placed_[a], cells.a, placed_[b], cells.b).certain_gap();
+      if (gap < reach) mine.push_back({cells, gap > 0 ? static_cast<int>(gap * per_bucket) : 0});
     });
   });
-  sort(near_, list);
-  list.known = true;
+  order(near_, list);
+  list.sorted = true;
 }
 
-void CoherentPairs::sort(const ChunkedLists<std::vector<Found>>& found, List& list) {
+void CoherentPairs::order(const ChunkedLists<std::vector<Found>>& found, List& list) {
   list.ends.fill(0);
   const auto bucket_of = [](const Found& one) {
     return std::min(static_cast<std::size_t>(one.bucket), buckets - 1);
@@ -114,8 +112,9 @@ void CoherentPairs::sort(const ChunkedLists<std::vector<Found>>& found, List& li
     for (const Found& one : part) list.cells[list.ends[bucket_of(one)]++] = one.cells;
 }
 
-std::span<const CellPair> CoherentPairs::nearest(int a, int b, const List& list,
-                                                 float reach) const {
+std::span<const CellPair> CoherentPairs::nearest(int a, int b, float reach, ThreadTeam& team) {
+  List& list = list_of(a, b);
+  if (!list.sorted) sort(a, b, list, team);
   const float far = reach + snapshots_[a].way + snapshots_[b].way;
   const auto last = static_cast<std::size_t>(far * buckets / (list.reach + skin_));
   return std::span(list.cells).first(list.ends[std::min(last, buckets - 1)]);
@@ -124,26 +123,27 @@ std::span<const CellPair> CoherentPairs::nearest(int a, int b, const List& list,
 std::span<const CellPair> CoherentPairs::find(int surface_a, int surface_b, float reach,
                                               ThreadTeam& team) {
   List& list = list_of(surface_a, surface_b);
-  if (!list.known || reach > list.reach) {
-    list.reach = std::max(list.reach, reach);
-    found_.clear();
-    broad_phase_->find(surface_a, surface_b, list.reach + skin_, team, found_);
-    keep_near(surface_a, surface_b, list, team);
-  }
-  return nearest(surface_a, surface_b, list, reach);
+  if (list.known && reach <= list.reach) return nearest(surface_a, surface_b, reach, team);
+  list.reach = std::max(list.reach, reach);
+  list.known = true;
+  list.sorted = false;
+  list.cells.clear();
+  broad_phase_->find(surface_a, surface_b, list.reach + skin_, team, list.cells);
+  return list.cells;
 }
 
 std::span<const CellPair> CoherentPairs::find_self(int surface, float reach, float slack,
                                                    ThreadTeam& team) {
   List& list = list_of(surface, surface);
-  if (!list.known || reach > list.reach || slack > list.slack) {
-    list.reach = std::max(list.reach, reach);
-    list.slack = std::max(list.slack, slack);
-    found_.clear();
-    broad_phase_->find_self(surface, list.reach + skin_, list.slack + 0.5F * skin_, team, found_);
-    keep_near(surface, surface, list, team);
-  }
-  return nearest(surface, surface, list, reach);
+  if (list.known && reach <= list.reach && slack <= list.slack)
+    return nearest(surface, surface, reach, team);
+  list.reach = std::max(list.reach, reach);
+  list.slack = std::max(list.slack, slack);
+  list.known = true;
+  list.sorted = false;
+  list.cells.clear();
+  broad_phase_->find_self(surface, list.reach + skin_, list.slack + 0.5F * skin_, team, list.cells);
+  return list.cells;
 }
 
 }  // namespace weft

@@ -13,8 +13,9 @@ namespace weft {
 /// Pairs of cells that stay valid while surfaces move little, as neighbour lists of particle codes
 /// do [verlet67]: they are looked for with a skin around what is asked for, and looked for anew
 /// when a sample is farther from where it was then, at the start or at the end of the step, than
-/// half of it. Each is known with how far apart it was, so that those are told that may have come
-/// near since. A step asks three to five times for nearly the same; cloth at rest many more.
+/// half of it. When they are asked for again, each is known with how far apart it was, so that
+/// those are told that may have come near since. A step asks three to five times for nearly the
+/// same; cloth at rest many more.
 class CoherentPairs {
  public:
   /// @param cloths  how many of the surfaces, which come first @param skin  [m]
@@ -48,9 +49,9 @@ class CoherentPairs {
     CellPair cells;
     int bucket = 0;
   };
-  /// Pairs of two surfaces, ordered by how far apart they are, in so many steps.
+  /// Pairs of two surfaces; once sorted, ordered by how far apart they are, in so many steps.
   struct List {
-    bool known = false;
+    bool known = false, sorted = false;
     float reach = 0, slack = 0;  // the most that was asked for
     std::vector<CellPair> cells;
     std::array<std::size_t, buckets> ends{};
@@ -59,18 +60,17 @@ class CoherentPairs {
   [[nodiscard]] float way_from(const Snapshot& snapshot, const MovingSurface& now) const;
   void take(std::span<const MovingSurface> surfaces, ThreadTeam& team);
   List& list_of(int a, int b) { return lists_[static_cast<std::size_t>(a) * snapshots_.size() + b]; }
-  void keep_near(int a, int b, List& list, ThreadTeam& team);
-  static void sort(const ChunkedLists<std::vector<Found>>& found, List& list);
+  /// Of the pairs that were found, whose boxes came near, keeps those whose cells did.
+  void sort(int a, int b, List& list, ThreadTeam& team);
+  static void order(const ChunkedLists<std::vector<Found>>& found, List& list);
   /// Those that may come so near now.
-  [[nodiscard]] std::span<const CellPair> nearest(int a, int b, const List& list,
-                                                  float reach) const;
+  std::span<const CellPair> nearest(int a, int b, float reach, ThreadTeam& team);
 
   std::unique_ptr<BroadPhase> broad_phase_;
   float skin_;
   std::vector<Snapshot> snapshots_;
   std::vector<MovingSurface> placed_;  // as they were
   std::vector<List> lists_;            // [surfaces x surfaces]
-  std::vector<CellPair> found_;
   ChunkedLists<std::vector<Found>> near_;
   bool known_ = false;
 };
