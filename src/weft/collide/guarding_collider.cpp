@@ -71,7 +71,7 @@ GuardingCollider::GuardingCollider(MakeBroadPhase make_broad_phase, const Obstac
   for (const GuardedOne& one : cloths_) grids.push_back(&one.grid);
   for (const GuardedBody& body : bodies_) grids.push_back(&body.grid);
   const auto skin = static_cast<float>(skin_in_gaps * least_gap_);
-  pairs_.emplace(make_broad_phase(grids, cloths_.size()), grids.size(), cloths_.size(), skin);
+  pairs_.emplace(make_broad_phase(grids, cloths_.size()), grids, cloths_.size(), skin);
   untangler_.set_up(std::span(grids).first(cloths_.size()), cloths);
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     cloth_of_.insert(cloth_of_.end(),
@@ -186,9 +186,9 @@ void GuardingCollider::detect(std::span<const MovingCloth> cloths, double time_s
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     GuardedOne& one = cloths_[i];
     one.body_contacts->find(cloths[i], contact_bodies_, ground_ ? &*ground_ : nullptr, team);
-    one.corner_contacts->find(
-        {cloths[i], one.body_contacts->inside(), pairs_->boxes(static_cast<int>(i)), pairs_->skin()},
-        contact_bodies_, team);
+    one.corner_contacts->find({cloths[i], one.body_contacts->inside(),
+                               pairs_->boxes(static_cast<int>(i)), pairs_->skin()},
+                              contact_bodies_, team);
     one.contacts.clear();
     for (const std::span<const Contact> found :
          {one.body_contacts->contacts(), one.corner_contacts->contacts()})
@@ -240,7 +240,8 @@ void GuardingCollider::find_pair_contacts(std::span<const MovingCloth> cloths, d
       pair_contacts_.find(
           {&a.grid, &b.grid, &cloths[i], &cloths[j], first, second, a.facts.rest, gap_between(i, j),
            std::sqrt(a.facts.friction * b.facts.friction), time_step,
-           i == j && a.facts.rest_spacing >= least_crease_in_gaps * gap_between(i, j), untangler_.marks(i, j)},
+           i == j && a.facts.rest_spacing >= least_crease_in_gaps * gap_between(i, j),
+           untangler_.marks(i, j)},
           cells, team, {a.contacts, b.contacts, shares_ ? &shared_ : nullptr});
     }
   self_contacts_ = before() - with_bodies;

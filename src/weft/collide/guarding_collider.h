@@ -70,7 +70,7 @@ class GuardingCollider final : public Collider {
     std::vector<Contact> contacts;  // those with obstacles first
     int first_point = 0;
     std::vector<double> row_gaps;
-    std::vector<char> new_cells{};  // of a round, see PlaneSide
+    std::vector<char> new_cells{};    // of a round, see PlaneSide
     Planes3 carried{};                // refuges among moving bodies
     const Planes3* refuge = nullptr;  // of this step; the start while that will do
     std::size_t obstacle_contacts = 0;

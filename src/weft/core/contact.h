@@ -31,7 +31,9 @@ struct SharedContact {
   Contact contact;
   int first = 0, second = 0;  ///< the cloths
   /// Whose samples[k] is one.
-  [[nodiscard]] int cloth_of(std::size_t k) const { return contact.weights[k] < 0 ? second : first; }
+  [[nodiscard]] int cloth_of(std::size_t k) const {
+    return contact.weights[k] < 0 ? second : first;
+  }
 };
 
 }  // namespace weft

@@ -35,8 +35,7 @@ void ContactGather::add(int sample, int contact, float weight) {
   const int index = position < 0 ? -1 : class_at_[position];
   if (index < 0) return uses_.add(sample, {contact, weight});
   const std::span<const int> samples = cloth_.mates.mates(index);
-  for (const int s : samples)
-    uses_.add(s, {contact, weight / static_cast<float>(samples.size())});
+  for (const int s : samples) uses_.add(s, {contact, weight / static_cast<float>(samples.size())});
 }
 
 void ContactGather::finish() {

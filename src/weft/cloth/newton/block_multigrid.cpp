@@ -197,7 +197,8 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
   BlockLevel& level = levels_.front();
   SpringHessian::Sweep sweep{x, sweeps_[worker.rank()]};
   const auto finish = [&](int r) {
-    if (parts.contacts != nullptr && parts.contacts->row(r)) parts.contacts->add_row(r, parts.loads, out.row(r));
+    if (parts.contacts != nullptr && parts.contacts->row(r))
+      parts.contacts->add_row(r, parts.loads, out.row(r));
     // Copies share what all of them have: each adds its own part.
     if (parts.row_products != nullptr)
       parts.row_products[r] =

@@ -38,9 +38,9 @@ class BlockMultigrid {
   /// What only the exact operator has, not the cycle; null: none.
   struct ExactParts {
     const ContactGather* contacts = nullptr;
-    std::span<const Vec3f> loads{};          ///< of contacts: their part of the product
-    CurvedBending* curved = nullptr;         ///< instead of flat bending
-    double* row_products = nullptr;          ///< [n] where x . A x goes, what each row has of it
+    std::span<const Vec3f> loads{};   ///< of contacts: their part of the product
+    CurvedBending* curved = nullptr;  ///< instead of flat bending
+    double* row_products = nullptr;   ///< [n] where x . A x goes, what each row has of it
   };
   /// out = A x on the finest level, seam copies equal, 0 where pinned.
   void apply(const PaddedVectors& x, const ExactParts& parts, PaddedVectors& out, Worker& worker);

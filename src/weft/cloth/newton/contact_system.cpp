@@ -275,8 +275,8 @@ double ContactSystem::energy(Fields step, float part, Worker& worker) {
 void ContactSystem::measure(Fields step, Worker& worker) {
   const Range mine = share(worker);
   for (int i = mine.first; i < mine.last; ++i)
-    force_[i] = static_cast<float>(
-        std::max(0.0, double{stiffness_[i]} * depth_after(i, sum(i, step))));
+    force_[i] =
+        static_cast<float>(std::max(0.0, double{stiffness_[i]} * depth_after(i, sum(i, step))));
   worker.barrier();
 }
 

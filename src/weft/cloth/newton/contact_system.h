@@ -13,8 +13,8 @@ namespace weft {
 /// Contacts and Coulomb friction of one or several cloths as part of a linearised step: a contact
 /// that presses holds its point at its half-space by a stiff spring along the normal; one that
 /// sticks holds it there too, one that slips drags on it with its coefficient times the normal
-/// force. All are linear in the step's unknown until choose() looks again, as in the lagged friction
-/// of [li20].
+/// force. All are linear in the step's unknown until choose() looks again, as in the lagged
+/// friction of [li20].
 ///
 /// What was beyond the half-space when the step began is not pushed out of it at any speed.
 class ContactSystem {
@@ -93,11 +93,11 @@ class ContactSystem {
   }
 
   std::vector<const Cloth*> cloths_;
-  std::vector<ContactGather> gathers_;           // of each cloth
-  std::vector<Grid<float>> inverse_diagonals_;   // the same [m/N]
+  std::vector<ContactGather> gathers_;            // of each cloth
+  std::vector<Grid<float>> inverse_diagonals_;    // the same [m/N]
   std::vector<const Grid<float>*> held_, loose_;  // those, and inverse masses [1/kg]
-  std::vector<const Planes3*> starts_;           // of each cloth [m]
-  std::vector<std::size_t> firsts_;              // of each cloth's own, and of shared ones
+  std::vector<const Planes3*> starts_;            // of each cloth [m]
+  std::vector<std::size_t> firsts_;               // of each cloth's own, and of shared ones
   StepInput input_;
   // Of each contact:
   std::vector<Contact> contacts_;

@@ -85,8 +85,7 @@ double NewtonPart::advance(double length, Worker& worker) {
   }
   worker.barrier();
   if (worker.rank() == 0) last_length_ = length;
-  return std::abs(length) *
-         std::sqrt(double{*std::max_element(largest_.begin(), largest_.end())});
+  return std::abs(length) * std::sqrt(double{*std::max_element(largest_.begin(), largest_.end())});
 }
 
 }  // namespace weft

@@ -116,9 +116,24 @@ void NewtonPart::find_mass() {
   if (!(mass_ > 0)) mass_ = 1;  // all is pinned
 }
 
+/// Where a filter took the guess back, its velocity is that of the way that was left.
+void NewtonPart::follow_guess(int row) {
+  const auto h = static_cast<float>(input_.time_step), per_step = 1 / h;
+  const Planes3 &x0 = start_.position, &x = next_.position;
+  Planes3& v = next_.velocity;
+  const auto follow = [&](const float* from, const float* to, float* speed) {
+    for (int c = 0; c < cloth_.size; ++c)
+      if (to[c] != from[c] + h * speed[c]) speed[c] = per_step * (to[c] - from[c]);
+  };
+  follow(x0.x.row(row), x.x.row(row), v.x.row(row));
+  follow(x0.y.row(row), x.y.row(row), v.y.row(row));
+  follow(x0.z.row(row), x.z.row(row), v.z.row(row));
+}
+
 void NewtonPart::read_state(Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {
+    if (iterations == 0) follow_guess(r);
     copy_row(row_of(std::as_const(next_.position), r), state_.position.row(r), cloth_.size);
     copy_row(row_of(std::as_const(next_.velocity), r), state_.velocity.row(r), cloth_.size);
     copy_row(row_of(std::as_const(start_.position), r), state_.start.row(r), cloth_.size);

@@ -107,6 +107,7 @@ class NewtonPart {
 
  private:
   void begin_row(const ClothState& state, bool go_on, int row);
+  void follow_guess(int row);
   void find_mass();
   void take_plain(const PaddedVectors& position, Worker& worker);
   [[nodiscard]] const float* shares_of(int row) const {
@@ -132,10 +133,10 @@ class NewtonPart {
   PaddedBlocks contact_blocks_;               // where contacts press [N/m]
   std::vector<char> contact_rows_;            // [n] whether any
   RowSums sums_;
-  std::vector<double> row_parts_;      // [n] of a second sum
-  std::vector<char> known_rows_;       // [n] whether the last potential was of the start's positions
-  std::vector<float> largest_;         // [n] squared direction of each row [m^2]
-  double potential_ = HUGE_VAL;        // of the state's positions, as it was last asked for [J]
+  std::vector<double> row_parts_;  // [n] of a second sum
+  std::vector<char> known_rows_;   // [n] whether the last potential was of the start's positions
+  std::vector<float> largest_;     // [n] squared direction of each row [m^2]
+  double potential_ = HUGE_VAL;    // of the state's positions, as it was last asked for [J]
   double start_potential_ = HUGE_VAL;  // infinite: not known yet [J]
   Vec3f known_gravity_;                // that it was for
   Vec3d mean_velocity_;

@@ -14,7 +14,7 @@ constexpr double harmless_gain = 0.02;
 /// And the part of what contacts lend that asks for one.
 constexpr double harmless_part = 0.25;
 /// How often a run linearises, and how often it halves a step that leads up.
-constexpr int most_linearisations = 4, most_among_moving = 2, most_halvings = 5;
+constexpr int most_linearisations = 4, most_halvings = 5;
 /// Of the tension at the guess that is stiffness across springs.
 constexpr float share_in_flight = 0.1F, share_in_contact = 1;
 /// How often a run finds out which contacts press.
@@ -108,9 +108,8 @@ bool NewtonSolver::choose_contacts(Worker& worker) {
 /// Goes along the direction to where the energy of the linearisation is least.
 void NewtonSolver::descend_direction(Progress& progress, Worker& worker) {
   if (contacts_.active() > 0) contacts_.load_product(directions_, worker);
-  progress.curvature = total(worker, [&](std::size_t i, Worker& own) {
-    return parts_[i]->multiply(contacts_of(i), own);
-  });
+  progress.curvature = total(
+      worker, [&](std::size_t i, Worker& own) { return parts_[i]->multiply(contacts_of(i), own); });
   const double length = progress.curvature > 0 ? progress.slope / progress.curvature : 0;
   each(worker, [&](std::size_t i, Worker& own) {
     const double farthest = parts_[i]->advance(length, own);
@@ -130,8 +129,8 @@ void NewtonSolver::iterate(Progress& progress, Worker& worker) {
     return parts_[i]->precondition(has_product, own);
   });
   if (has_product) overlap /= progress.curvature;
-  progress.slope = total(
-      worker, [&](std::size_t i, Worker& own) { return parts_[i]->turn(overlap, own); });
+  progress.slope =
+      total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->turn(overlap, own); });
   // A cycle is no symmetric operator: where it points up, the way down is backwards.
   if (!std::isfinite(progress.slope)) progress.slope = 0;
   descend_direction(progress, worker);
@@ -200,9 +199,11 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
 /// falls short of what was promised.
 double NewtonSolver::error_of(const Progress& progress, double known, Worker& worker) {
   if (driven_) return energy(1, worker) - progress.before + progress.promised;
-  return total(worker, [&](std::size_t i, Worker& own) {
-           return parts_[i]->potential(own) + parts_[i]->kinetic(own);
-         }) - known;
+  return total(worker,
+               [&](std::size_t i, Worker& own) {
+                 return parts_[i]->potential(own) + parts_[i]->kinetic(own);
+               }) -
+         known;
 }
 
 /// One linearisation does where cloth moves on as it did; where it missed by much it does not, as
@@ -223,11 +224,6 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
   double error = HUGE_VAL;
   for (int i = 0; i < most_linearisations && error > allowed; ++i) {
     advance(options, progress, worker);
-    if (driven_ && !contacts_.empty()) {
-      // Its contacts move as it does: what was promised says nothing.
-      if (!shorten_step(worker) || i + 1 == most_among_moving) break;
-      continue;
-    }
     error = error_of(progress, known, worker);
     if (error > allowed && shorten_step(worker)) error = error_of(progress, known, worker);
   }

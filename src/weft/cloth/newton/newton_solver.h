@@ -16,9 +16,10 @@ namespace weft {
 /// is linearised at x0 + h v0, and again wherever run() is called, with the positive part of its
 /// Hessian; conjugate gradients preconditioned by each cloth's BlockMultigrid find the step
 /// [nocedal06]. A state at rest stays at rest, whatever the number of iterations. They begin along
-/// the change of velocity of the step before, which is in no ClothState: forget() makes steps depend
-/// on their state alone. Where nothing drives the cloths, a run adds no energy: it linearises again
-/// where it would add much, and takes what is left from the velocities, less their mean.
+/// the change of velocity of the step before, which is in no ClothState: forget() makes steps
+/// depend on their state alone. Where nothing drives the cloths, a run adds no energy: it
+/// linearises again where it would add much, and takes what is left from the velocities, less their
+/// mean.
 class NewtonSolver {
  public:
   /// @param parts  that began the same step when run is called; kept by pointer

@@ -80,9 +80,8 @@ struct SeenEdge {
     constexpr float hair = 1e-3F;
     const Vec3f from = origin - other.origin;
     const float a = dot(along, along), b = dot(along, other.along),
-                c = dot(other.along, other.along), d = dot(along, from),
-                e = dot(other.along, from);
-    const float whole = a * c - b * b;  // the square of their cross product
+                c = dot(other.along, other.along), d = dot(along, from), e = dot(other.along, from);
+    const float whole = a * c - b * b;         // the square of their cross product
     if (!(whole > hair * a * c)) return true;  // nearly parallel
     const float s = b * e - c * d, t = a * e - b * d;
     const float least = -hair * a * c, most = whole - least;

@@ -30,8 +30,8 @@ struct PlaneSearch {
   const InsideMarks* inside = nullptr;  ///< of a, where b is a body
   int body_number = 0;                  ///< samples of a marked with it are not kept out
   const TangleMarks* tangle = nullptr;  ///< of two cloths that cross; else null
-  /// Of all cloths' points, whether their ends are new: only triangles with such a corner are looked
-  /// at; null: all are.
+  /// Of all cloths' points, whether their ends are new: only triangles with such a corner are
+  /// looked at; null: all are.
   const char* new_points = nullptr;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "weft/collide/pairs/cell_gaps.h"
@@ -35,12 +36,16 @@ float farthest_way(const Planes3& a, const Planes3& b) {
 
 }  // namespace
 
-CoherentPairs::CoherentPairs(std::unique_ptr<BroadPhase> broad_phase, std::size_t surfaces,
-                             std::size_t cloths, float skin)
+CoherentPairs::CoherentPairs(std::unique_ptr<BroadPhase> broad_phase,
+                             std::span<const SurfaceGrid* const> surfaces, std::size_t cloths,
+                             float skin)
     : broad_phase_(std::move(broad_phase)),
       skin_(skin),
-      snapshots_(surfaces),
-      lists_(cloths * surfaces) {}
+      snapshots_(surfaces.size()),
+      judged_(cloths),
+      lists_(cloths * surfaces.size()) {
+  for (const SurfaceGrid* cloth : surfaces.first(cloths)) windows_.emplace_back(cloth->cells());
+}
 
 void CoherentPairs::forget() {
   known_ = false;
@@ -77,6 +82,8 @@ void CoherentPairs::take(std::span<const MovingSurface> surfaces, ThreadTeam& te
 }
 
 void CoherentPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
+  now_.assign(surfaces.begin(), surfaces.end());
+  std::fill(judged_.begin(), judged_.end(), -1.0F);
   for (std::size_t i = 0; known_ && i < surfaces.size(); ++i) {
     snapshots_[i].way = way_from(snapshots_[i], surfaces[i]);
     known_ = snapshots_[i].way < HUGE_VALF;
@@ -136,14 +143,27 @@ std::span<const CellPair> CoherentPairs::find_self(int surface, float reach, flo
                                                    ThreadTeam& team) {
   List& list = list_of(surface, surface);
   if (list.known && reach <= list.reach && slack <= list.slack)
-    return nearest(surface, surface, reach, team);
+    return drop_unfolded(surface, nearest(surface, surface, reach, team), slack, team);
   list.reach = std::max(list.reach, reach);
   list.slack = std::max(list.slack, slack);
   list.known = true;
   list.sorted = false;
   list.cells.clear();
   broad_phase_->find_self(surface, list.reach + skin_, list.slack + 0.5F * skin_, team, list.cells);
-  return list.cells;
+  return drop_unfolded(surface, list.cells, slack, team);
+}
+
+/// Planes between them would hold back what turns.
+std::span<const CellPair> CoherentPairs::drop_unfolded(int surface, std::span<const CellPair> cells,
+                                                       float slack, ThreadTeam& team) {
+  UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
+  float& judged = judged_[static_cast<std::size_t>(surface)];
+  if (judged != slack && !cells.empty()) windows.judge(now_[surface], slack, team);
+  judged = slack;
+  folded_.clear();
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(folded_),
+               [&](const CellPair& pair) { return !windows.unfolded(pair); });
+  return folded_;
 }
 
 }  // namespace weft

@@ -7,6 +7,7 @@
 
 #include "weft/collide/pairs/cell_pairs.h"
 #include "weft/collide/pairs/chunks.h"
+#include "weft/collide/pairs/unfolded_windows.h"
 
 namespace weft {
 
@@ -19,14 +20,15 @@ namespace weft {
 class CoherentPairs {
  public:
   /// @param cloths  how many of the surfaces, which come first @param skin  [m]
-  CoherentPairs(std::unique_ptr<BroadPhase> broad_phase, std::size_t surfaces, std::size_t cloths,
-                float skin);
+  CoherentPairs(std::unique_ptr<BroadPhase> broad_phase,
+                std::span<const SurfaceGrid* const> surfaces, std::size_t cloths, float skin);
 
   /// Takes the surfaces' motion during a step, as BroadPhase::refit.
   void refit(std::span<const MovingSurface> surfaces, ThreadTeam& team);
   /// As of BroadPhase, and perhaps some that come closer by the skin only; valid until the next
   /// call.
   std::span<const CellPair> find(int surface_a, int surface_b, float reach, ThreadTeam& team);
+  /// The same; neighbours whose rectangle is certainly unfolded now are left out.
   std::span<const CellPair> find_self(int surface, float reach, float slack, ThreadTeam& team);
   /// Where nodes of a surface's mip pyramid are, within skin(); null where there is no pyramid.
   [[nodiscard]] const PathBoxLevels* boxes(int surface) const {
@@ -59,18 +61,25 @@ class CoherentPairs {
   /// How far a surface is from its snapshot at most; infinite: farther than lists hold for.
   [[nodiscard]] float way_from(const Snapshot& snapshot, const MovingSurface& now) const;
   void take(std::span<const MovingSurface> surfaces, ThreadTeam& team);
-  List& list_of(int a, int b) { return lists_[static_cast<std::size_t>(a) * snapshots_.size() + b]; }
+  List& list_of(int a, int b) {
+    return lists_[static_cast<std::size_t>(a) * snapshots_.size() + b];
+  }
   /// Of the pairs that were found, whose boxes came near, keeps those whose cells did.
   void sort(int a, int b, List& list, ThreadTeam& team);
   static void order(const ChunkedLists<std::vector<Found>>& found, List& list);
+  std::span<const CellPair> drop_unfolded(int surface, std::span<const CellPair> cells, float slack,
+                                          ThreadTeam& team);
   /// Those that may come so near now.
   std::span<const CellPair> nearest(int a, int b, float reach, ThreadTeam& team);
 
   std::unique_ptr<BroadPhase> broad_phase_;
   float skin_;
   std::vector<Snapshot> snapshots_;
-  std::vector<MovingSurface> placed_;  // as they were
-  std::vector<List> lists_;            // [surfaces x surfaces]
+  std::vector<MovingSurface> placed_, now_;  // as they were, and are
+  std::vector<UnfoldedWindows> windows_;     // of each cloth, now
+  std::vector<float> judged_;  // of each cloth, the slack they were judged with; -1: not
+  std::vector<CellPair> folded_;
+  std::vector<List> lists_;  // [surfaces x surfaces]
   ChunkedLists<std::vector<Found>> near_;
   bool known_ = false;
 };
