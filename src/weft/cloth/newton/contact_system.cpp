@@ -37,6 +37,8 @@ void ContactSystem::clear() {
   for (ContactGather& gather : gathers_) gather.clear();
   active_ = 0;
   first_ = true;
+  shared_ = false;
+  obstructed_.assign(cloths_.size(), 0);
 }
 
 void ContactSystem::add(const Contact& contact, const std::array<int, 4>& cloths) {
@@ -209,6 +211,20 @@ bool ContactSystem::choose(int index, Fields step) {
          std::abs(grip - grip_before) > same_grip * std::max(grip, grip_before);
 }
 
+void ContactSystem::count_holds() {
+  std::fill(obstructed_.begin(), obstructed_.end(), char{0});
+  shared_ = false;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (!(stiffness_[i] > 0)) continue;
+    const auto& weights = contacts_[i].weights;
+    const float sum = (weights[0] + weights[1]) + (weights[2] + weights[3]);
+    if (i >= firsts_.back())
+      shared_ = true;
+    else if (sum > 0.5F)
+      obstructed_[places_[i][0].cloth] = 1;
+  }
+}
+
 void ContactSystem::count(Worker& worker) {
   worker.barrier();
   for (ContactGather& gather : gathers_) gather.mark_rows(stiffness_, worker);
@@ -217,6 +233,7 @@ void ContactSystem::count(Worker& worker) {
         std::count_if(stiffness_.begin(), stiffness_.end(), [](float k) { return k > 0; }));
     any_changed_ = std::find(changed_.begin(), changed_.end(), 1) != changed_.end();
     first_ = false;
+    count_holds();
   }
   worker.barrier();
 }

@@ -60,6 +60,10 @@ class ContactSystem {
   [[nodiscard]] std::span<const float> forces(std::size_t cloth) const;
   /// How many press.
   [[nodiscard]] int active() const { return active_; }
+  /// Whether an obstacle presses on a cloth: what parts of cloths do to each other sums to nothing.
+  [[nodiscard]] bool is_held(std::size_t cloth) const { return obstructed_[cloth] != 0; }
+  /// Whether cloths press on each other.
+  [[nodiscard]] bool is_shared() const { return shared_; }
   /// What gathers them to the samples of a cloth.
   [[nodiscard]] const ContactGather& gather(std::size_t cloth) const { return gathers_[cloth]; }
   [[nodiscard]] std::span<const Vec3f> loads() const { return load_; }
@@ -86,6 +90,7 @@ class ContactSystem {
   [[nodiscard]] double grip_for(int index, const Sliding& sliding) const;
   bool choose(int index, Fields step);
   void count(Worker& worker);
+  void count_holds();
   [[nodiscard]] double depth_after(int index, Vec3d step) const;
   [[nodiscard]] Vec3d slid_after(int index, Vec3d step) const;
   [[nodiscard]] Range share(const Worker& worker) const {
@@ -112,7 +117,8 @@ class ContactSystem {
   std::vector<double> energy_;
   std::vector<char> changed_;
   int active_ = 0;
-  bool first_ = true, any_changed_ = false;
+  std::vector<char> obstructed_;  // of each cloth
+  bool first_ = true, any_changed_ = false, shared_ = false;
 };
 
 }  // namespace weft

@@ -8,27 +8,30 @@
 // What conjugate gradients ask of a cloth.
 namespace weft {
 
-/// From the residual's sum, as inner forces sum to nothing; what it balances leaves the residual.
-void NewtonPart::drift(Worker& worker) {
-  const double h = input_.time_step;
-  const float per_square = 1 / (static_cast<float>(h) * static_cast<float>(h));
-  PaddedPlane* const step[3] = {&step_.x, &step_.y, &step_.z};
-  PaddedPlane* const left[3] = {&residual_.x, &residual_.y, &residual_.z};
-  const Range mine = worker.share(cloth_.size);
+Vec3d NewtonPart::force(Worker& worker) {
+  const PaddedPlane* const left[3] = {&residual_.x, &residual_.y, &residual_.z};
   double sum[3];
   for (int k = 0; k < 3; ++k)
     sum[k] = sums_.sum(worker, [&](int r) {
       const float *f = left[k]->row(r), *share = share_.row(r);
       return lane_sum(cloth_.size, [&](int c) { return double{share[c]} * double{f[c]}; });
     });
-  for (int k = 0; k < 3; ++k) {
-    const auto way = static_cast<float>(h * h / mass_ * sum[k]);
-    for (int r = mine.first; r < mine.last; ++r)
+  return {sum[0], sum[1], sum[2]};
+}
+
+void NewtonPart::drift(Vec3d way, Worker& worker) {
+  const auto h = static_cast<float>(input_.time_step);
+  const Vec3f moved = vec_cast<float>(way);
+  const float parts[3] = {moved.x, moved.y, moved.z}, per_square = 1 / (h * h);
+  PaddedPlane* const step[3] = {&step_.x, &step_.y, &step_.z};
+  PaddedPlane* const left[3] = {&residual_.x, &residual_.y, &residual_.z};
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    for (int k = 0; k < 3; ++k)
       for (int c = 0; c < cloth_.size; ++c) {
-        (*step[k])(r, c) += way;
-        (*left[k])(r, c) -= per_square * cloth_.mass(r, c) * way;
+        (*step[k])(r, c) += parts[k];
+        (*left[k])(r, c) -= per_square * cloth_.mass(r, c) * parts[k];
       }
-  }
   worker.barrier();
 }
 

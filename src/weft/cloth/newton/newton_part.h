@@ -63,8 +63,10 @@ class NewtonPart {
   };
   void set_up(const Contacts& contacts, Worker& worker);
   void add_contact_forces(const Contacts& contacts, float sign, Worker& worker);
-  /// Moves what nothing holds as a whole, as if it were one particle, so that free fall is exact.
-  void drift(Worker& worker);
+  /// What is left of all forces on it: inner ones sum to nothing [N].
+  Vec3d force(Worker& worker);
+  /// Moves it as a whole, and takes what that balances off the residual. [m]
+  void drift(Vec3d way, Worker& worker);
   void clear_pins(Worker& worker) { multigrid_.clear_pins(step_, worker); }
   /// state += length * step.
   void move_state(float length, Worker& worker);

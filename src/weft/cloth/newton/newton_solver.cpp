@@ -34,6 +34,7 @@ NewtonSolver::NewtonSolver(std::span<NewtonPart* const> parts)
     : parts_(parts.begin(), parts.end()),
       contacts_(cloths_of(parts)),
       sums_(static_cast<int>(parts.size())),
+      forces_(parts.size()),
       apart_(parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [](NewtonPart* part) {
                return part->cloth().size < least_shared_size;
              })) {
@@ -71,10 +72,26 @@ NewtonPart::Contacts NewtonSolver::contacts_of(std::size_t part) const {
   return {contacts_.gather(part), contacts_.springs(), contacts_.loads(), contacts_.active() > 0};
 }
 
-/// What nothing holds moves as a whole first.
 void NewtonSolver::drift(Worker& worker) {
+  const auto flies = [&](std::size_t i) {
+    return parts_[i]->cloth().pins.empty() && !contacts_.is_held(i);
+  };
+  bool all_fly = contacts_.is_shared();
+  for (std::size_t i = 0; i < parts_.size(); ++i) all_fly = all_fly && flies(i);
+  if (contacts_.is_shared() && !all_fly) return;
   each(worker, [&](std::size_t i, Worker& own) {
-    if (parts_[i]->cloth().pins.empty() && !contacts_.gather(i).any()) parts_[i]->drift(own);
+    const Vec3d force = parts_[i]->force(own);
+    if (own.rank() == 0) forces_[i] = force;
+    own.barrier();
+  });
+  Vec3d sum;
+  for (const Vec3d& force : forces_) sum += force;
+  const double h = parts_.front()->input().time_step;
+  each(worker, [&](std::size_t i, Worker& own) {
+    if (all_fly)
+      parts_[i]->drift(h * h / mass_ * sum, own);
+    else if (flies(i))
+      parts_[i]->drift(h * h / parts_[i]->mass() * forces_[i], own);
   });
 }
 

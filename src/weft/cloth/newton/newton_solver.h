@@ -50,6 +50,8 @@ class NewtonSolver {
   double total(Worker& worker, const Term& term);
   [[nodiscard]] NewtonPart::Contacts contacts_of(std::size_t part) const;
   void read_driven(std::span<const std::span<const Contact>> own);
+  /// What nothing holds moves as a whole, as if it were one particle, so that free fall is exact: a
+  /// cloth, or all of them where some press on each other.
   void drift(Worker& worker);
   void linearise(Worker& worker);
   void add_contact_forces(float sign, Worker& worker);
@@ -75,6 +77,7 @@ class NewtonSolver {
   std::vector<const PaddedVectors*> velocities_, steps_, directions_;
   std::vector<ContactSystem::Own> own_;  // while contacts are taken
   RowSums sums_;                         // over parts
+  std::vector<Vec3d> forces_;            // left on each part [N]
   double mass_ = 0;                      // of all that moves [kg]
   double lent_ = 0;                      // what all may gain where they meet contacts [J]
   bool apart_ = false;                   // whether each part is one worker's
