@@ -120,6 +120,9 @@ class Integrator {
   /// Between begin and iterate: what a cloth that meets contacts may gain in this step, as contacts
   /// that were not there before push it off. Methods that keep no account of energy do not ask. [J]
   virtual void lend(double /*energy*/) noexcept {}
+  /// By how much the energy of the last proposal exceeds what its linearisation promised, where
+  /// that was too far for it; 0 where it will do, and for methods that do not look. [J]
+  [[nodiscard]] virtual double missed() const noexcept { return 0; }
   /// Proposes the state at the end of the step; the caller may change it in place (limit strain,
   /// truncate, push out of bodies) before the next iterate or end.
   virtual ClothState& iterate(std::span<const Contact> contacts) noexcept = 0;

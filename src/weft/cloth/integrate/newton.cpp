@@ -34,6 +34,7 @@ class Newton final : public Integrator {
   [[nodiscard]] bool solves_contacts() const noexcept override { return true; }
 
   void lend(double energy) noexcept override { part_.lent = energy; }
+  [[nodiscard]] double missed() const noexcept override { return part_.missed; }
 
   ClothState& iterate(std::span<const Contact> contacts) noexcept override {
     const Stopwatch watch;

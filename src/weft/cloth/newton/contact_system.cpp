@@ -8,6 +8,9 @@ namespace {
 
 /// Times what the cloth's own springs hold the contact's point by.
 constexpr double relative_stiffness = 0.125;
+/// And along the surface where it sticks, times that: what holds a slope's cloth gives way by its
+/// load over it in every step.
+constexpr double sticking_stiffness = 4;
 /// Limits of friction that differ by this part of them are alike.
 constexpr double same_grip = 0.1;
 /// What is inside something when a step begins, having been put or pressed there, leaves at this
@@ -186,7 +189,7 @@ double ContactSystem::grip_for(int index, const Sliding& sliding) const {
                                        : 0;
   const double most = contacts_[index].friction * force * yields;
   const double free = sliding.way * (1 + sliding.grip * yields);
-  if (free <= most) return stiffness;
+  if (free <= most) return sticking_stiffness * stiffness;
   return most / (yields * (free - most));
 }
 

@@ -88,7 +88,7 @@ void NewtonPart::begin_row(const ClothState& state, bool go_on, int row) {
 void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTeam& team) {
   input_ = input;
   iterations = 0;
-  correction = lent = 0;
+  correction = lent = missed = 0;
   const bool same_gravity = input.gravity == known_gravity_;
   known_gravity_ = input.gravity;
   springs_.set_time_step(input.time_step);

@@ -36,6 +36,8 @@ class NewtonPart {
   [[nodiscard]] bool is_pulled() const { return pulled_; }
   /// What may be gained in this step where contacts are met [J].
   double lent = 0;
+  /// See Integrator; of all cloths that were solved with it [J].
+  double missed = 0;
   /// Normal forces of its own contacts [N].
   std::vector<float> contact_forces;
   /// What solves of this step came to: iterations of conjugate gradients, and the largest

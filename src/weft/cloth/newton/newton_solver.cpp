@@ -244,6 +244,7 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
     error = error_of(progress, known, worker);
     if (error > allowed && shorten_step(worker)) error = error_of(progress, known, worker);
   }
+  if (worker.rank() == 0) missed_ = error > allowed ? error : 0;
   if (driven_)
     each(worker, [&](std::size_t i, Worker& own) { parts_[i]->forget_potential(own); });
   else if (error > lent)
@@ -290,6 +291,7 @@ void NewtonSolver::run(std::span<const std::span<const Contact>> own,
       if (one.rank() == 0) parts_[i]->iterations += progress.iterations;
     });
   });
+  parts_.front()->missed = missed_;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const std::span<const float> forces = contacts_.forces(i);
     parts_[i]->contact_forces.assign(forces.begin(), forces.end());

@@ -80,6 +80,7 @@ class NewtonSolver {
   std::vector<Vec3d> forces_;            // left on each part [N]
   double mass_ = 0;                      // of all that moves [kg]
   double lent_ = 0;                      // what all may gain where they meet contacts [J]
+  double missed_ = 0;                    // see NewtonPart [J]
   bool apart_ = false;                   // whether each part is one worker's
   bool driven_ = false;                  // by pins or obstacles that move
 };

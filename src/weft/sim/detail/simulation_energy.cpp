@@ -9,7 +9,8 @@ namespace weft {
 namespace {
 
 /// A step is refused in which points fall back to its start, or whose filter or response adds more
-/// than this part of the energy within cloths, and so much of their mass besides [J/kg].
+/// than this part of the energy within cloths, and so much of their mass besides [J/kg]; or whose
+/// solve missed by as much, by the energy that they started with.
 constexpr double most_added_part = 0.3, most_added = 0.01;
 /// One that adds less than this part of that is calm.
 constexpr double calm_part = 0.2;
@@ -24,7 +25,24 @@ double lent_energy(double mass, double density) {
   return lent_part * mass * standard_gravity * std::sqrt(mass / density);
 }
 
+/// [J]
+double limit_for(const Energy& within, double mass) {
+  return most_added_part * within.inner() + most_added * mass;
+}
+
 }  // namespace
+
+bool Simulation::Parts::solve_is_lost() {
+  double missed = 0, mass = 0;
+  for (const Mover& mover : movers) missed += mover.integrator->missed();
+  if (!(missed > 0)) return false;
+  Energy start;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    start += movers[i].meter.measure(cloths[i].state);
+    mass += movers[i].meter.mass();
+  }
+  return missed > limit_for(start, mass);
+}
 
 void Simulation::Parts::lend() {
   double start = 0, mass = 0, most = 0, explained = work.net;
@@ -56,9 +74,9 @@ void Simulation::Parts::judge(bool may_refuse, Tried& tried) {
   }
   const double added = end.total() - solved.total();
   const double gained = std::min(added, end.total() - start.total() - tried.work);
-  const double limit = most_added_part * solved.inner() + most_added * mass;
+  const double limit = limit_for(solved, mass);
   const double fault = std::max(end.elastic - solved.elastic, gained);
-  const bool bad = !(fault <= limit) || tried.filtered.fell_back > 0;
+  const bool bad = !(fault <= limit) || solve_is_lost() || tried.filtered.fell_back > 0;
   tried.refused = bad && may_refuse;
   tried.verdict = bad                         ? StepVerdict::forced
                   : fault < calm_part * limit ? StepVerdict::calm

@@ -110,6 +110,9 @@ struct Simulation::Parts {
   /// What the step did after it was solved, by energy. @pre the filter is done
   void judge(bool may_refuse, Tried& tried);
   void take_excess(double excess);
+  /// Whether solves missed the energy that they were to end with by so much that the step is too
+  /// long for them.
+  [[nodiscard]] bool solve_is_lost();
   void finish_step(const Tried& tried, FrameReport& report);
   void refuse_step();
   /// To whoever watches; that takes no time of the frame's.

@@ -229,7 +229,12 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, bool may_re
     tried.work += movers[i].driven_work.measure(
         {cloths[i].state, movers[i].integrator->proposal(), time_step},
         collider->obstacle_contacts(i));
-  if (watched) judge(may_refuse, tried);
+  if (watched) {
+    judge(may_refuse, tried);
+  } else if (solve_is_lost()) {
+    tried.refused = may_refuse;
+    tried.verdict = StepVerdict::forced;
+  }
   return tried;
 }
 
