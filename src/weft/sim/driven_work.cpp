@@ -28,12 +28,17 @@ void DrivenWork::add_pins(const DoneStep& step) {
   for (const Pin& pin : cloth_.pins) {
     const Vec3d way = vec_cast<double>(step.end.position.at(pin.sample)) -
                       vec_cast<double>(step.start.position.at(pin.sample));
-    if (way != Vec3d{}) driven(pin.sample) = {way, 1, true};
+    if (way == Vec3d{}) continue;
+    Driven& found = driven(pin.sample);
+    found.way = way;
+    found.weight = 1;
+    found.pinned = true;
   }
 }
 
-void DrivenWork::add_contacts(std::span<const Contact> obstacles) {
-  for (const Contact& contact : obstacles) {
+void DrivenWork::add_contacts(const PressingObstacles& obstacles) {
+  for (std::size_t i = 0; i < obstacles.contacts.size(); ++i) {
+    const Contact& contact = obstacles.contacts[i];
     if (contact.slide == Vec3f{}) continue;
     for (std::size_t k = 0; k < contact.samples.size(); ++k) {
       const double weight = contact.weights[k];
@@ -42,6 +47,9 @@ void DrivenWork::add_contacts(std::span<const Contact> obstacles) {
       Driven& found = driven(sample);
       if (found.pinned) continue;
       found.way += weight * vec_cast<double>(contact.slide);
+      found.normal += weight * vec_cast<double>(contact.normal);
+      if (i < obstacles.forces.size()) found.pressing += weight * double{obstacles.forces[i]};
+      found.friction = std::max(found.friction, double{contact.friction});
       found.weight += weight;
     }
   }
@@ -65,7 +73,19 @@ void DrivenWork::find_forces(const DoneStep& step) {
   });
 }
 
-double DrivenWork::measure(const DoneStep& step, std::span<const Contact> obstacles) noexcept {
+Vec3d DrivenWork::force_on(const Driven& driven, Vec3d reaction) {
+  if (driven.pinned) return reaction;
+  const double size = length(driven.normal);
+  if (!(size > 0)) return {};
+  const Vec3d normal = (1 / size) * driven.normal;
+  const double along = dot(reaction, normal);
+  const double pressing = std::max({0.0, along, driven.pressing});
+  const Vec3d drag = reaction - along * normal;
+  const double most = driven.friction * pressing, has = length(drag);
+  return pressing * normal + (has > most ? most / has : 1.0) * drag;
+}
+
+double DrivenWork::measure(const DoneStep& step, const PressingObstacles& obstacles) noexcept {
   add_pins(step);
   add_contacts(obstacles);
   if (samples_.empty()) return 0;
@@ -77,7 +97,7 @@ double DrivenWork::measure(const DoneStep& step, std::span<const Contact> obstac
         vec_cast<double>(step.end.velocity.at(s)) - vec_cast<double>(step.start.velocity.at(s));
     const Vec3d reaction =
         mass * ((1 / step.time_step) * gained - gravity_) - vec_cast<double>(force_.at(s));
-    work += dot(reaction, (1 / driven_[s].weight) * driven_[s].way);
+    work += dot(force_on(driven_[s], reaction), (1 / driven_[s].weight) * driven_[s].way);
     driven_[s] = {};
   }
   samples_.clear();

@@ -228,7 +228,7 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, bool may_re
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tried.work += movers[i].driven_work.measure(
         {cloths[i].state, movers[i].integrator->proposal(), time_step},
-        collider->obstacle_contacts(i));
+        {collider->obstacle_contacts(i), movers[i].integrator->contact_forces()});
   if (watched) {
     judge(may_refuse, tried);
   } else if (solve_is_lost()) {
