@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Runs every scene of examples/scenes and drapes a sheet over shared meshes, each frame verified; draws each last frame.
+"""Runs every scene of examples/scenes and of a shared folder, and drapes a sheet over shared meshes, each step verified; draws
+each last frame.
 
-Usage: bench/scenes.py [--frames N] [--threads N] [--meshes FOLDER] [--pictures FOLDER] [--write] [NAME ...]
+Usage: bench/scenes.py [--frames N] [--threads N] [--minutes N] [--shared FOLDER] [--pictures FOLDER] [--write] [NAME ...]
 """
 import argparse
 import json
@@ -19,9 +20,11 @@ COLUMNS = ("scene", "samples", "frames", "intersections, worst frame", "strain p
            "contacts", "self contacts", "fall of the centre, m", "its way in the last second, mm", "wall time, s")
 
 
-def scenes(folder):
+def scenes(folder, shared):
     """Name and the words that run it; what is generated goes into the folder."""
     made = pathlib.Path(folder)
+    for path in sorted((shared / "scenes").glob("*.json")):
+        yield path.stem, ("simulate", path)
     for path in sorted((program.ROOT / "examples/scenes").glob("*.json")):
         if "walk.pc2" in path.read_text():
             subprocess.run([sys.executable, program.ROOT / "examples/walk.py", made / "walk.pc2", "--weft", program.PROGRAM],
@@ -35,10 +38,13 @@ def drapes(meshes):
         yield f"sheet on {name}", ("drape", "builtin:sheet", meshes / name)
 
 
-def verified(words):
+def verified(words, minutes):
     """(report, None), also where intersections were found; or (None, the error in one line)."""
-    done = subprocess.run([program.PROGRAM, *map(str, words), "--verify", "--json", "--quiet"],
-                          capture_output=True, text=True)
+    try:
+        done = subprocess.run([program.PROGRAM, *map(str, words), "--verify", "--json", "--quiet"],
+                              capture_output=True, text=True, timeout=60 * minutes)
+    except subprocess.TimeoutExpired:
+        return None, f"not done in {minutes:g} min"
     if done.returncode in (0, 4):
         return json.loads(done.stdout), None
     return None, f"exit {done.returncode}: {done.stderr.strip().removeprefix('weft: error: ')}"
@@ -53,7 +59,7 @@ def way_in_last_second(centres, time_step, substeps):
 def row_of(name, words, options, run):
     began = time.monotonic()
     limits = ["--threads", options.threads] + (["--frames", options.frames] if options.frames else [])
-    report, error = verified([*words, "-o", run, *limits, "--checkpoint", 0])
+    report, error = verified([*words, "-o", run, *limits, "--checkpoint", 0], options.minutes)
     seconds = time.monotonic() - began
     options.pictures.mkdir(parents=True, exist_ok=True)
     subprocess.run([program.PROGRAM, "render", run, "-o", options.pictures / f"{name.replace(' ', '_')}.png"],
@@ -84,21 +90,31 @@ def options_of():
     words.add_argument("names", nargs="*", metavar="NAME", help="only scenes whose name holds one of these")
     words.add_argument("--frames", type=int, help="instead of each scene's own")
     words.add_argument("--threads", type=int, default=2)
-    words.add_argument("--meshes", type=pathlib.Path, default=program.ROOT.parent / "shared/meshes")
+    words.add_argument("--minutes", type=float, default=20, help="give up a scene after these")
+    words.add_argument("--shared", type=pathlib.Path, default=program.ROOT.parent / "shared", help="with folders meshes and scenes")
     words.add_argument("--pictures", type=pathlib.Path, default=program.ROOT / "out/scenes")
     words.add_argument("--write", action="store_true", help="renew the table of docs/measured.md")
     return words.parse_args()
 
 
+def rows_of(options, folder):
+    """A row a scene; those that were done when it is interrupted."""
+    rows = []
+    for name, words in (*scenes(folder, options.shared), *drapes(options.shared / "meshes")):
+        if options.names and not any(part in name for part in options.names):
+            continue
+        try:
+            rows.append(row_of(name, words, options, pathlib.Path(folder) / "run"))
+        except KeyboardInterrupt:
+            return [*rows, ["interrupted here"] + [""] * (len(COLUMNS) - 1)]
+        print(*rows[-1], sep="\t", flush=True)
+    return rows
+
+
 def main():
     options = options_of()
-    rows = []
     with tempfile.TemporaryDirectory() as folder:
-        for name, words in (*scenes(folder), *drapes(options.meshes)):
-            if options.names and not any(part in name for part in options.names):
-                continue
-            rows.append(row_of(name, words, options, pathlib.Path(folder) / "run"))
-            print(*rows[-1], sep="\t", flush=True)
+        rows = rows_of(options, folder)
     if options.write:
         program.write_between_marks("docs/measured.md", "scenes", program.table(COLUMNS, rows))
     if any("**" in str(cell) for row in rows for cell in row):

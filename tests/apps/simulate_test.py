@@ -215,7 +215,8 @@ class Memory(SceneTest):
             self.skipTest("sanitizers take memory of their own")
         body = {"name": "ring", "surface": "builtin:torus", "size": 257, "translate": [0, 0.5, 0]}
         for size, integrator, bodies in ((257, "multigrid", [body]), (513, "multigrid", []), (257, "explicit", []),
-                                         (257, "two_level", []), (257, "implicit", []), (513, "implicit", [body])):
+                                         (257, "two_level", []), (257, "implicit", []), (513, "implicit", [body]),
+                                         (257, "newton", [body])):
             with self.subTest(f"{integrator} {size}"):
                 collider = "polar_map" if integrator == "implicit" else "pyramid"
                 scene = sheet_scene(frames=1, substeps=1, integrator={"type": integrator}, bodies=bodies,
