@@ -83,7 +83,57 @@ TEST(StepEnergy, WorkOfPinsAccountsForWhatTheyPutIn) {
   EXPECT_LT(gained(simulation, reports), 0.05 * work);
 }
 
-/// The same onto a ball that rises.
+/// A sheet that lies on a box and is pulled off it at 12 m/s.
+Scene tablecloth() {
+  Scene scene;
+  scene.cloths = {sheet(33, {0, 0.61, 0})};
+  scene.cloths[0].friction = 0.3;
+  scene.cloths[0].pins = {
+      ScenePin{RegionPin{{1, 0}, {1, 1}}, {{0.1, {}, {}}, {0.25, {}, {1.8, 0, 0}}}}};
+  SceneBody table;
+  table.surface = "builtin:box";
+  table.size = 33;
+  table.placement.scale = {1.2, 0.1, 1.4};
+  table.placement.translate = {0, 0.58, 0};
+  table.friction = 0.3;
+  scene.bodies = {table};
+  return scene;
+}
+
+TEST(StepEnergy, ASheetPulledOffATableStrainsLittleAndGainsNone) {
+  Simulation simulation(tablecloth(), "tablecloth", 1);
+  const std::vector<FrameReport> reports = run(simulation, 20);
+  for (const FrameReport& report : reports) EXPECT_LT(report.strain.p99, 0.05);
+  EXPECT_LT(gained(simulation, reports), 0.02 * simulation.mass() * 9.81);
+}
+
+/// Two sheets on each other that a ball lifts: the upper one is touched by the lower alone.
+Scene lifted_layers() {
+  Scene scene;
+  scene.ground.reset();
+  scene.gravity = {};
+  scene.cloths = {sheet(17, {0, 0.3, 0}), sheet(17, {0, 0.303, 0})};
+  for (std::size_t i = 0; i < 2; ++i) scene.cloths[i].name = i == 0 ? "lower" : "upper";
+  SceneBody ball;
+  ball.surface = "builtin:sphere";
+  ball.size = 33;
+  ball.placement.scale = {0.4, 0.4, 0.4};
+  ball.placement.translate = {0, 0.09, 0};
+  ball.motion = {{0, {}, {}}, {0.5, {}, {0, 1, 0}}};
+  scene.bodies = {ball};
+  return scene;
+}
+
+TEST(StepEnergy, WorkOfABodyReachesTheLayerAbove) {
+  Simulation simulation(lifted_layers(), "lifted", 1);
+  const std::vector<FrameReport> reports = run(simulation, 20);
+  double work = 0;
+  for (const FrameReport& report : reports) work += report.work;
+  EXPECT_GT(reports.back().kinetic_energy, 0.2 * work);
+  EXPECT_LT(gained(simulation, reports), 0.05 * work);
+}
+
+/// A sheet that is set down onto a ball that rises.
 Scene set_down_on_ball() {
   Scene scene = set_down();
   SceneBody ball;
