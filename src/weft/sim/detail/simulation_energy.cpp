@@ -12,8 +12,8 @@ namespace {
 /// than this part of the energy within cloths, and so much of their mass besides [J/kg]; or whose
 /// solve missed by as much, by the energy that they started with.
 constexpr double most_added_part = 0.3, most_added = 0.01;
-/// Missed solves have a substep done in so many pieces at most: in crushed cloth, whose contacts want
-/// to part at once, shorter steps are more violent ones.
+/// Missed solves have a substep done in so many pieces at most: in crushed cloth, whose contacts
+/// want to part at once, shorter steps are more violent ones.
 constexpr double most_pieces_for_solves = 8;
 /// One that adds less than this part of that is calm.
 constexpr double calm_part = 0.2;
