@@ -23,4 +23,7 @@ struct Planes3 {
   void set(int sample, Vec3f p) { set(sample / size(), sample % size(), p); }
 };
 
+/// The farthest that any sample goes between two of the same size. [m]
+double farthest_way(const Planes3& from, const Planes3& to) noexcept;
+
 }  // namespace weft

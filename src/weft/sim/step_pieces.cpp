@@ -43,19 +43,6 @@ void ClothReach::place(const ClothState& cloth, double seconds, double padding) 
     }
 }
 
-double farthest_way(const Planes3& from, const Planes3& to) noexcept {
-  float farthest = 0;
-  for (int r = 0; r < from.size(); ++r) {
-    const float *ax = from.x.row(r), *ay = from.y.row(r), *az = from.z.row(r);
-    const float *bx = to.x.row(r), *by = to.y.row(r), *bz = to.z.row(r);
-    for (int c = 0; c < from.size(); ++c) {
-      const float x = bx[c] - ax[c], y = by[c] - ay[c], z = bz[c] - az[c];
-      farthest = std::max(farthest, x * x + y * y + z * z);
-    }
-  }
-  return std::sqrt(double{farthest});
-}
-
 bool ClothReach::meets(const Box3d& box) const noexcept {
   return overlap(whole_, box) && std::any_of(blocks_.begin(), blocks_.end(),
                                              [&](const Box3d& b) { return overlap(b, box); });

@@ -36,9 +36,6 @@ class ClothReach {
   std::vector<Box3d> blocks_;
 };
 
-/// The farthest that any sample goes. [m]
-double farthest_way(const Planes3& from, const Planes3& to) noexcept;
-
 /// A body's surface in a substep.
 struct BodyStep {
   const Planes3 &start, &end;           ///< [n x n] [m]

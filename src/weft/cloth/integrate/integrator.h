@@ -12,6 +12,9 @@
 
 namespace weft {
 
+/// Smaller cloths are stepped by one thread each: what others would save they would spend waiting.
+inline constexpr int least_shared_size = 97;
+
 /// What acts during one step.
 struct StepInput {
   double time_step = 1.0 / 240;  ///< [s]
@@ -127,7 +130,9 @@ class Integrator {
   /// truncate, push out of bodies) before the next iterate or end.
   virtual ClothState& iterate(std::span<const Contact> contacts) noexcept = 0;
   /// What solves the cloths of integrators of this kind together; null where the method does not.
-  /// @param all  this one among them, kept by pointer, as is the team
+  /// @param all   this one among them, kept by pointer
+  /// @param team  kept by reference; that of the integrators, or, where all cloths are smaller than
+  /// least_shared_size, any
   [[nodiscard]] virtual std::unique_ptr<JointIntegrator> join(std::span<Integrator* const> /*all*/,
                                                               ThreadTeam& /*team*/) {
     return nullptr;

@@ -61,18 +61,20 @@ void NewtonPart::forget_potential(Worker& worker) {
   if (worker.rank() == 0) potential_ = HUGE_VAL;
 }
 
-double NewtonPart::start_kinetic(Worker& worker) {
+template <class Velocity>
+double NewtonPart::kinetic_of(const Velocity& row_of_velocity, Worker& worker) {
   return sums_.sum(worker, [&](int r) {
-    const ConstRow3 v = row_of(std::as_const(start_.velocity), r);
+    const ConstRow3 v = row_of_velocity(r);
     return 0.5 * kernels_.dot(cloth_.size, own_mass_.row(r), v, v);
   });
 }
 
+double NewtonPart::start_kinetic(Worker& worker) {
+  return kinetic_of([&](int r) { return row_of(std::as_const(start_.velocity), r); }, worker);
+}
+
 double NewtonPart::kinetic(Worker& worker) {
-  return sums_.sum(worker, [&](int r) {
-    const ConstRow3 v = std::as_const(state_.velocity).row(r);
-    return 0.5 * kernels_.dot(cloth_.size, own_mass_.row(r), v, v);
-  });
+  return kinetic_of([&](int r) { return std::as_const(state_.velocity).row(r); }, worker);
 }
 
 double NewtonPart::inner_kinetic(Worker& worker) {

@@ -117,6 +117,8 @@ class NewtonPart {
   [[nodiscard]] const float* shares_of(int row) const {
     return multigrid_.seams().empty() ? nullptr : share_.row(row);
   }
+  template <class Velocity>
+  double kinetic_of(const Velocity& row_of_velocity, Worker& worker);
   double potential_at(const PaddedVectors& position, Worker& worker);
   double bending_energy(const PaddedVectors& position, Worker& worker);
 

@@ -19,8 +19,6 @@ constexpr int most_linearisations = 4, most_halvings = 5;
 constexpr float share_in_flight = 0.1F, share_in_contact = 1;
 /// How often a run finds out which contacts press.
 constexpr int most_contact_rounds = 2;
-/// Smaller cloths are solved by one worker each.
-constexpr int least_shared_size = 97;
 
 std::vector<const Cloth*> cloths_of(std::span<NewtonPart* const> parts) {
   std::vector<const Cloth*> cloths;

@@ -8,34 +8,6 @@
 #include "weft/collide/pairs/cell_gaps.h"
 
 namespace weft {
-namespace {
-
-float farthest_way(const Planes3& a, const Planes3& b) {
-  const int n = a.size();
-  float most = 0;
-  for (int r = 0; r < n; ++r) {
-    const float *ax = a.x.row(r), *ay = a.y.row(r), *az = a.z.row(r);
-    const float *bx = b.x.row(r), *by = b.y.row(r), *bz = b.z.row(r);
-    float lanes[16] = {};
-    int c = 0;
-    for (; c + 16 <= n; c += 16)
-#pragma omp simd
-      for (int k = 0; k < 16; ++k) {
-        const float x = ax[c + k] - bx[c + k], y = ay[c + k] - by[c + k], z = az[c + k] - bz[c + k];
-        const float square = x * x + y * y + z * z;
-        lanes[k] = square > lanes[k] ? square : lanes[k];
-      }
-    for (; c < n; ++c) {
-      const float x = ax[c] - bx[c], y = ay[c] - by[c], z = az[c] - bz[c];
-      lanes[0] = std::max(lanes[0], x * x + y * y + z * z);
-    }
-    most = std::max(most, *std::max_element(lanes, lanes + 16));
-  }
-  return std::sqrt(most);
-}
-
-}  // namespace
-
 CoherentPairs::CoherentPairs(std::unique_ptr<BroadPhase> broad_phase,
                              std::span<const SurfaceGrid* const> surfaces, std::size_t cloths,
                              float skin)
@@ -55,9 +27,10 @@ void CoherentPairs::forget() {
 float CoherentPairs::way_from(const Snapshot& snapshot, const MovingSurface& now) const {
   if (now.name != 0 && now.name == snapshot.name) return 0;
   const Planes3& end = snapshot.still ? snapshot.start : snapshot.end;
-  float way = farthest_way(snapshot.start, *now.start);
+  double way = farthest_way(snapshot.start, *now.start);
   if (!snapshot.still || now.end != now.start) way = std::max(way, farthest_way(end, *now.end));
-  return way < 0.499F * skin_ ? way : HUGE_VALF;  // less rounding
+  // Less rounding.
+  return way < 0.499 * double{skin_} ? static_cast<float>(way) : HUGE_VALF;
 }
 
 void CoherentPairs::take(std::span<const MovingSurface> surfaces, ThreadTeam& team) {

@@ -20,8 +20,6 @@
 
 namespace weft {
 
-/// Smaller cloths are stepped by one thread: what others would save they would spend waiting.
-inline constexpr int least_shared_size = 97;
 /// The gap that a cloth keeps to obstacles. [m]
 double gap_of(const Cloth& cloth);
 
