@@ -43,6 +43,7 @@ Checkpoint sample() {
     checkpoint.history.push_back(frame);
   }
   checkpoint.state = {3, {numbered(5, 1), numbered(6, 100)}};
+  checkpoint.state.contacts = {{}, {{{1, 2, -1, -1}, 1, {0, 1, 0}, {3, -4, 5}, 6, 7}}};
   return checkpoint;
 }
 
@@ -78,6 +79,9 @@ TEST(Checkpoint, ReadsBackBitByBit) {
   EXPECT_EQ(read->verification.swallowed.count, 1LL << 40);
   ASSERT_EQ(read->state.cloths.size(), 2);
   EXPECT_TRUE(std::signbit(read->state.cloths[0].velocity.y(0, 0)));
+  ASSERT_EQ(read->state.contacts[1].size(), 1);
+  EXPECT_EQ(read->state.contacts[1][0].friction, Vec3f(3, -4, 5));
+  EXPECT_EQ(read->state.contacts[1][0].acceleration, 7);
   // Every bit of every field.
   EXPECT_EQ(encode_checkpoint(*read), encode_checkpoint(written));
 }
@@ -110,7 +114,7 @@ TEST(Checkpoint, RefusalsSayWhatIsWrong) {
   EXPECT_NE(refusal("").find("is no checkpoint"), std::string::npos);
   std::string other_format = whole;
   other_format[8] = 9;
-  EXPECT_NE(refusal(other_format).find("format 9 instead of 7"), std::string::npos);
+  EXPECT_NE(refusal(other_format).find("format 9 instead of 8"), std::string::npos);
   std::string other_version = whole;
   other_version[header_bytes + 8] = '7';
   EXPECT_NE(refusal(hashed_again(other_version)).find("written by weft 7"), std::string::npos);

@@ -26,6 +26,16 @@ struct Contact {
   float stiffness = 0;
 };
 
+/// What a contact did at the end of a step.
+struct PastContact {
+  std::array<int, 4> samples{};  ///< as the contact's; -1 where its weight is 0
+  int second = -1;               ///< the other cloth of a shared one, else -1
+  Vec3f normal;                  ///< the contact's
+  Vec3f friction;                ///< on its point [N]
+  float force = 0;               ///< along the normal, averaged over some steps [N]
+  float acceleration = 0;        ///< of a point that slips, along its way [m/s^2]
+};
+
 /// One between two cloths: the samples of those with positive weights are the first one's.
 struct SharedContact {
   Contact contact;

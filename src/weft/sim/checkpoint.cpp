@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "WEFTCKPT";
-constexpr std::uint32_t format_version = 7;
+constexpr std::uint32_t format_version = 8;
 constexpr std::size_t size_at = magic.size() + sizeof(format_version);
 constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
 constexpr std::size_t header_bytes = hash_at + sizeof(std::uint64_t);
@@ -101,6 +101,31 @@ std::optional<std::vector<int>> next_marks(std::size_t wanted, ByteReader& in) {
   return marks;
 }
 
+/// Every field of a past contact in the order of the file.
+template <class Past, class Visit>
+void each_field_of_past(Past& past, const Visit& visit) {
+  for (auto& sample : past.samples) visit(sample);
+  visit(past.second);
+  for (auto* v : {&past.normal, &past.friction}) visit(v->x), visit(v->y), visit(v->z);
+  visit(past.force), visit(past.acceleration);
+}
+static_assert(sizeof(PastContact) == 13 * 4, "a new field goes into each_field_of_past");
+
+void add_contacts(const std::vector<PastContact>& contacts, ByteWriter& out) {
+  out.add(static_cast<std::uint64_t>(contacts.size()));
+  for (const PastContact& past : contacts)
+    each_field_of_past(past, [&](auto value) { out.add(value); });
+}
+
+/// Nothing for a count that the bytes do not hold.
+std::optional<std::vector<PastContact>> next_contacts(ByteReader& in) {
+  const auto count = in.next<std::uint64_t>();
+  if (count > in.left() / sizeof(PastContact)) return std::nullopt;
+  std::vector<PastContact> contacts(static_cast<std::size_t>(count));
+  for (PastContact& past : contacts) each_field_of_past(past, [&](auto& value) { in.read(value); });
+  return contacts;
+}
+
 void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   out.add_text(weft_version);
   out.add_text(checkpoint.identity);
@@ -123,6 +148,8 @@ void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   for (std::size_t i = 0; i < checkpoint.state.cloths.size(); ++i)
     add_marks(i < checkpoint.state.marks.size() ? checkpoint.state.marks[i] : std::vector<int>(),
               out);
+  for (std::size_t i = 0; i < checkpoint.state.cloths.size(); ++i)
+    add_contacts(i < state.contacts.size() ? state.contacts[i] : std::vector<PastContact>(), out);
 }
 
 /// Nothing when the fields do not fit together, as in no file that Weft wrote.
@@ -158,6 +185,11 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
     std::optional<std::vector<int>> marks = next_marks(side * side + pairs, in);
     if (!marks) return std::nullopt;
     checkpoint.state.marks.push_back(std::move(*marks));
+  }
+  for (std::size_t i = 0; i < checkpoint.state.cloths.size(); ++i) {
+    std::optional<std::vector<PastContact>> contacts = next_contacts(in);
+    if (!contacts) return std::nullopt;
+    checkpoint.state.contacts.push_back(std::move(*contacts));
   }
   if (!in.whole() || in.left() != 0) return std::nullopt;
   return checkpoint;

@@ -141,7 +141,7 @@ FrameReport Simulation::advance() {
   FrameReport report;
   StageClock clock;
   const int substeps = parts_->scene.substeps;
-  // A frame follows from positions and velocities alone, so that a run can be resumed at any.
+  // A frame follows from what save keeps alone, so that a run can be resumed at any.
   for (const auto& mover : parts_->movers) mover.integrator->forget();
   parts_->collider->forget();
   for (int substep = 0; substep < substeps; ++substep) {
@@ -164,9 +164,12 @@ void Simulation::save(SimulationState& state) const {
   state.work = parts_->work;
   state.cloths.resize(parts_->cloths.size());
   state.marks.resize(parts_->cloths.size());
+  state.contacts.resize(parts_->cloths.size());
   for (std::size_t i = 0; i < state.cloths.size(); ++i) {
     state.cloths[i] = parts_->cloths[i].state;
     parts_->collider->save_marks(i, state.marks[i]);
+    const std::span<const PastContact> past = parts_->movers[i].integrator->past_contacts();
+    state.contacts[i].assign(past.begin(), past.end());
   }
 }
 
@@ -187,6 +190,9 @@ void Simulation::restore(const SimulationState& state) {
   }
   for (std::size_t i = 0; i < state.marks.size(); ++i)
     parts_->collider->restore_marks(i, state.marks[i]);
+  for (std::size_t i = 0; i < state.cloths.size(); ++i)
+    parts_->movers[i].integrator->restore_past(
+        i < state.contacts.size() ? state.contacts[i] : std::vector<PastContact>());
 }
 
 void Simulation::grab(std::size_t cloth, int sample) {

@@ -75,14 +75,16 @@ struct WorkDone {
   double least = HUGE_VAL;
 };
 
-/// All that the next frame depends on besides the scene: integrators carry nothing over from one
-/// step to the next, colliders only which samples are inside of bodies, and which cloths may
-/// be tangled; and the length of steps that collisions asked for.
+/// All that the next frame depends on besides the scene: integrators carry over from one frame to
+/// the next only what contacts did, colliders which samples are inside of bodies, and which cloths
+/// may be tangled; and the length of steps that collisions asked for.
 struct SimulationState {
   int frame = 0;                   ///< frames done
   std::vector<ClothState> cloths;  ///< in the scene's order
   /// Of each cloth, what the collider knows of it, see Collider::save_marks.
   std::vector<std::vector<int>> marks{};
+  /// Of each cloth, see Integrator::past_contacts.
+  std::vector<std::vector<PastContact>> contacts{};
   StepLevels levels{};  ///< of the next substep
   WorkDone work{};      ///< up to this frame
 };

@@ -140,12 +140,17 @@ class Integrator {
   /// Normal forces of the contacts of the last iterate, in their order; empty where the method
   /// does not solve for contacts. [N]
   [[nodiscard]] virtual std::span<const float> contact_forces() const noexcept { return {}; }
+  /// What contacts did at the end of the last step, with which the next goes on; of those that
+  /// several cloths share, at the first of both. Empty where the method goes on with nothing.
+  [[nodiscard]] virtual std::span<const PastContact> past_contacts() const noexcept { return {}; }
+  /// Goes on with others.
+  virtual void restore_past(std::span<const PastContact> /*past*/) {}
   /// The last correction that the last iterate made to each sample, over the rest spacing, the
   /// largest of which is its residual. @param sizes [n x n]
   /// @return false where the method does not iterate; sizes are as they were
   virtual bool last_corrections(Grid<float>& /*sizes*/) const { return false; }
   /// Where a method starts its search along what it found before: it starts anew. What follows
-  /// depends on the state alone then, as if there had been no step before.
+  /// depends on the state and past contacts alone then.
   virtual void forget() noexcept {}
   /// Makes the proposal the state; mates equal, pins where the proposal has them.
   virtual StepReport end(ClothState& state) noexcept = 0;

@@ -55,6 +55,11 @@ class Newton final : public Integrator {
     return true;
   }
 
+  [[nodiscard]] std::span<const PastContact> past_contacts() const noexcept override {
+    return part_.history.past();
+  }
+  void restore_past(std::span<const PastContact> past) override { part_.history.restore(past); }
+
   void forget() noexcept override { part_.forget(); }
 
   StepReport end(ClothState& state) noexcept override {

@@ -6,6 +6,7 @@
 
 #include "weft/cloth/integrate/contact_gather.h"
 #include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/newton/contact_history.h"
 #include "weft/cloth/newton/padded_planes.h"
 
 namespace weft {
@@ -14,7 +15,7 @@ namespace weft {
 /// that presses holds its point at its half-space by a stiff spring along the normal; one that
 /// sticks holds it there too, one that slips drags on it with its coefficient times the normal
 /// force. All are linear in the step's unknown until choose() looks again, as in the lagged
-/// friction of [li20].
+/// friction of [li20]. A contact that held in the last step begins with the friction that it had.
 ///
 /// What was beyond the half-space when the step began is not pushed out of it at any speed.
 class ContactSystem {
@@ -25,7 +26,8 @@ class ContactSystem {
   /// Of each cloth in their order: those that are its own, and where it was at the step's start.
   struct Own {
     std::span<const Contact> contacts;
-    const Planes3* start = nullptr;  ///< valid until the last use [m]
+    const Planes3* start = nullptr;           ///< valid until the last use [m]
+    const ContactHistory* history = nullptr;  ///< the same; of shared ones whose first it is, too
   };
   /// Takes the place of the contacts before.
   void take(std::span<const Own> own, std::span<const SharedContact> shared,
@@ -40,8 +42,8 @@ class ContactSystem {
   /// What holds the samples of a cloth.
   /// @param diagonal  the springs' diagonal blocks, summed over seam copies [N/m]
   void hold(std::size_t cloth, const PaddedBlocks& diagonal, const Worker& worker);
-  /// Where points are at the linearisation. @param velocity  that leads there from the start [m/s]
-  void place(Fields velocity, Worker& worker);
+  /// Where points are at the linearisation. @param position  of the cloths [m]
+  void place(Fields position, Worker& worker);
   /// Decides which contacts press, and which stick, where a step from the linearisation leads;
   /// the first time where it would lead without forces of the cloth.
   /// @return whether any is taken otherwise than before
@@ -53,8 +55,13 @@ class ContactSystem {
   /// The energy of all contacts, whose points are beyond their half-spaces after a part of a step,
   /// and of friction as it is taken; all workers get it [J].
   double energy(Fields step, float part, Worker& worker);
-  /// Computes the normal forces after a step.
-  void measure(Fields step, Worker& worker);
+  /// What obstacles do by their motion, pressing and dragging as they do after a step; all workers
+  /// get it [J].
+  double work(Fields step, Worker& worker);
+  /// Computes the forces where the last step led.
+  void measure(Fields position, Worker& worker);
+  /// Adds what was measured to the history of a cloth.
+  void remember(std::size_t cloth, ContactHistory& history) const;
 
   /// Of a cloth's own contacts, in the order in which they were taken [N].
   [[nodiscard]] std::span<const float> forces(std::size_t cloth) const;
@@ -81,18 +88,26 @@ class ContactSystem {
   [[nodiscard]] double compliance(int index, std::span<const Grid<float>* const> softness) const;
   [[nodiscard]] double attainable_offset(int index) const;
   [[nodiscard]] double lone_compliance(int index) const;
+  void recall(int index);
+  [[nodiscard]] Vec3d way_to(int index, Fields position) const;
+  void locate(int index, Fields position);
+  [[nodiscard]] int second_of(std::size_t index) const;
   /// How a contact's point moved along its obstacle.
   struct Sliding {
-    double depth, way;  ///< [m]
-    bool pressed;       ///< whether it was held along the normal as the point moved so
-    double grip;        ///< by which it was held along the surface [N/m]
+    double way;    ///< that stretches what holds it [m]
+    double force;  ///< along the normal [N]
+    bool is_new;   ///< whether nothing held it as it moved so
   };
   [[nodiscard]] double grip_for(int index, const Sliding& sliding) const;
+  [[nodiscard]] double foreseen_way(int index, double way) const;
+  [[nodiscard]] double limiting_force(int index, double depth, double pressed) const;
   bool choose(int index, Fields step);
   void count(Worker& worker);
   void count_holds();
   [[nodiscard]] double depth_after(int index, Vec3d step) const;
   [[nodiscard]] Vec3d slid_after(int index, Vec3d step) const;
+  [[nodiscard]] Vec3d force_after(int index, Fields step) const;
+  double sum_of_energies(Worker& worker);
   [[nodiscard]] Range share(const Worker& worker) const {
     return worker.share(static_cast<int>(contacts_.size()));
   }
@@ -102,6 +117,7 @@ class ContactSystem {
   std::vector<Grid<float>> inverse_diagonals_;    // the same [m/N]
   std::vector<const Grid<float>*> held_, loose_;  // those, and inverse masses [1/kg]
   std::vector<const Planes3*> starts_;            // of each cloth [m]
+  std::vector<const ContactHistory*> histories_;  // the same
   std::vector<std::size_t> firsts_;               // of each cloth's own, and of shared ones
   StepInput input_;
   // Of each contact:
@@ -112,9 +128,13 @@ class ContactSystem {
   std::vector<Vec3f> load_;
   std::vector<double> depth_;  // at the linearisation [m]
   std::vector<double> lift_;   // of that, what only raises the point [m]
-  std::vector<Vec3d> slid_;    // along the obstacle, relative to it [m]
-  std::vector<float> force_;
-  std::vector<double> energy_;
+  std::vector<Vec3d> slid_;    // along the obstacle, relative to it, with what friction left [m]
+  std::vector<const PastContact*> past_;  // null where it is new
+  std::vector<float> force_, limiting_;   // along the normal now, and as friction knows it [N]
+  std::vector<Vec3f> friction_;           // [N]
+  std::vector<float> acceleration_;       // see PastContact [m/s^2]
+  std::vector<double> first_way_;         // of the point before the solve [m]
+  std::vector<double> energy_;            // or work [J]
   std::vector<char> changed_;
   int active_ = 0;
   std::vector<char> obstructed_;  // of each cloth

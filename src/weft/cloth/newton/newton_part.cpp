@@ -89,6 +89,7 @@ void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTe
   input_ = input;
   iterations = 0;
   correction = lent = missed = 0;
+  history.start_step();
   const bool same_gravity = input.gravity == known_gravity_;
   known_gravity_ = input.gravity;
   springs_.set_time_step(input.time_step);

@@ -6,6 +6,7 @@
 
 #include "weft/cloth/integrate/integrator.h"
 #include "weft/cloth/newton/block_multigrid.h"
+#include "weft/cloth/newton/contact_history.h"
 #include "weft/cloth/newton/curved_bending.h"
 #include "weft/cloth/newton/spring_hessian.h"
 #include "weft/core/ordered_sum.h"
@@ -24,7 +25,10 @@ class NewtonPart {
   /// Starts a step: next() flies on at its velocity, pins are where they shall go.
   void begin(const StepInput& input, const ClothState& state, ThreadTeam& team);
   /// Says that the step's end was taken: the next solve starts along what it changed.
-  void accept() { has_last_ = true; }
+  void accept() {
+    has_last_ = true;
+    history.accept();
+  }
   /// The next solve starts from nothing.
   void forget() { has_last_ = false; }
   [[nodiscard]] ClothState& next() { return next_; }
@@ -38,6 +42,8 @@ class NewtonPart {
   double lent = 0;
   /// See Integrator; of all cloths that were solved with it [J].
   double missed = 0;
+  /// Of its contacts, and of shared ones whose first cloth it is.
+  ContactHistory history;
   /// Normal forces of its own contacts [N].
   std::vector<float> contact_forces;
   /// What solves of this step came to: iterations of conjugate gradients, and the largest
@@ -105,7 +111,7 @@ class NewtonPart {
   /// Scales the velocities less their mean, after inner_kinetic.
   void calm(double left, Worker& worker);
 
-  [[nodiscard]] const PaddedVectors& velocity() const { return state_.velocity; }
+  [[nodiscard]] const PaddedVectors& position() const { return state_.position; }
   [[nodiscard]] const PaddedVectors& step() const { return step_; }
   [[nodiscard]] const PaddedVectors& direction() const { return direction_; }
 

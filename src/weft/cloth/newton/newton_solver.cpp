@@ -37,7 +37,7 @@ NewtonSolver::NewtonSolver(std::span<NewtonPart* const> parts)
                return part->cloth().size < least_shared_size;
              })) {
   for (const NewtonPart* part : parts_) {
-    velocities_.push_back(&part->velocity());
+    positions_.push_back(&part->position());
     steps_.push_back(&part->step());
     directions_.push_back(&part->direction());
   }
@@ -100,7 +100,7 @@ void NewtonSolver::linearise(Worker& worker) {
     parts_[i]->linearise(guessed, own);
     if (!contacts_.empty()) contacts_.hold(i, parts_[i]->diagonal(own), own);
   });
-  if (!contacts_.empty()) contacts_.place(velocities_, worker);
+  if (!contacts_.empty()) contacts_.place(positions_, worker);
 }
 
 void NewtonSolver::add_contact_forces(float sign, Worker& worker) {
@@ -196,7 +196,7 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
   linearise(worker);
   choose_contacts(worker);
   progress.promised = 0;
-  if (driven_) progress.before = energy(0, worker);
+  if (pulled_) progress.before = energy(0, worker);
   drift(worker);
   for (int round = 0; round < most_contact_rounds; ++round) {
     each(worker, [&](std::size_t i, Worker& own) { parts_[i]->set_up(contacts_of(i), own); });
@@ -210,15 +210,14 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
   move_state(1, worker);
 }
 
-/// Where nothing drives the cloths, the energy that they gained; else what the energy of the step
-/// falls short of what was promised.
+/// The energy that the cloths gained, less the work of what presses on them; of pins that move it
+/// is not known: there, what the energy of the step falls short of what was promised.
 double NewtonSolver::error_of(const Progress& progress, double known, Worker& worker) {
-  if (driven_) return energy(1, worker) - progress.before + progress.promised;
-  return total(worker,
-               [&](std::size_t i, Worker& own) {
-                 return parts_[i]->potential(own) + parts_[i]->kinetic(own);
-               }) -
-         known;
+  if (pulled_) return energy(1, worker) - progress.before + progress.promised;
+  const double now = total(worker, [&](std::size_t i, Worker& own) {
+    return parts_[i]->potential(own) + parts_[i]->kinetic(own);
+  });
+  return now - known - (contacts_.active() > 0 ? contacts_.work(steps_, worker) : 0);
 }
 
 /// One linearisation does where cloth moves on as it did; where it missed by much it does not, as
@@ -227,7 +226,7 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
   const double kinetic =
       total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->start_kinetic(own); });
   double known = 0;
-  if (!driven_)
+  if (!pulled_)
     known = kinetic + total(worker, [&](std::size_t i, Worker& own) {
               return parts_[i]->start_potential(own);
             });
@@ -243,7 +242,7 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
     if (error > allowed && shorten_step(worker)) error = error_of(progress, known, worker);
   }
   if (worker.rank() == 0) missed_ = error > allowed ? error : 0;
-  if (driven_)
+  if (pulled_)
     each(worker, [&](std::size_t i, Worker& own) { parts_[i]->forget_potential(own); });
   else if (error > lent)
     calm(error - lent, worker);
@@ -256,34 +255,27 @@ void NewtonSolver::calm(double excess, Worker& worker) {
   each(worker, [&](std::size_t i, Worker& own) { parts_[i]->calm(left, own); });
 }
 
-void NewtonSolver::read_driven(std::span<const std::span<const Contact>> own) {
-  driven_ = false;
-  for (std::size_t i = 0; i < parts_.size(); ++i)
-    driven_ = driven_ || parts_[i]->is_pulled() ||
-              std::any_of(own[i].begin(), own[i].end(),
-                          [](const Contact& contact) { return contact.slide != Vec3f{}; });
-}
-
 void NewtonSolver::run(std::span<const std::span<const Contact>> own,
                        std::span<const SharedContact> shared, const NewtonOptions& options,
                        ThreadTeam& team) {
   own_.clear();
   mass_ = lent_ = 0;
   bool first = true;
+  pulled_ = false;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    own_.push_back({own[i], &parts_[i]->start()});
+    own_.push_back({own[i], &parts_[i]->start(), &parts_[i]->history});
     mass_ += parts_[i]->mass();
     lent_ += parts_[i]->lent;
     first = first && parts_[i]->iterations == 0;
+    pulled_ = pulled_ || parts_[i]->is_pulled();
   }
   contacts_.take(own_, shared, parts_.front()->input());
-  read_driven(own);
   team.run([&](Worker& worker) {
     each(worker, [&](std::size_t i, Worker& one) { parts_[i]->read_state(one); });
     Progress progress;
     progress.first = first;
     descend(options, progress, worker);
-    if (!contacts_.empty()) contacts_.measure(steps_, worker);
+    if (!contacts_.empty()) contacts_.measure(positions_, worker);
     each(worker, [&](std::size_t i, Worker& one) {
       parts_[i]->write_state(one);
       if (one.rank() == 0) parts_[i]->iterations += progress.iterations;
@@ -293,6 +285,8 @@ void NewtonSolver::run(std::span<const std::span<const Contact>> own,
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const std::span<const float> forces = contacts_.forces(i);
     parts_[i]->contact_forces.assign(forces.begin(), forces.end());
+    parts_[i]->history.start_step();
+    contacts_.remember(i, parts_[i]->history);
   }
 }
 

@@ -37,7 +37,7 @@ class NewtonSolver {
     double slope = 0;      ///< residual . direction [N m]
     double curvature = 0;  ///< direction . A direction; 0: there is none yet [N m]
     double force = 0;      ///< of the last correction, over particles' weight
-    double before = 0;     ///< the energy where it was linearised, where something drives [J]
+    double before = 0;     ///< the energy where it was linearised, where pins pull [J]
     double promised = 0;   ///< how far that falls if it is what the linearisation says [J]
     int iterations = 0;
   };
@@ -49,7 +49,6 @@ class NewtonSolver {
   template <class Term>
   double total(Worker& worker, const Term& term);
   [[nodiscard]] NewtonPart::Contacts contacts_of(std::size_t part) const;
-  void read_driven(std::span<const std::span<const Contact>> own);
   /// What nothing holds moves as a whole, as if it were one particle, so that free fall is exact: a
   /// cloth, or all of them where some press on each other.
   void drift(Worker& worker);
@@ -74,7 +73,7 @@ class NewtonSolver {
 
   std::vector<NewtonPart*> parts_;
   ContactSystem contacts_;
-  std::vector<const PaddedVectors*> velocities_, steps_, directions_;
+  std::vector<const PaddedVectors*> positions_, steps_, directions_;
   std::vector<ContactSystem::Own> own_;  // while contacts are taken
   RowSums sums_;                         // over parts
   std::vector<Vec3d> forces_;            // left on each part [N]
@@ -82,7 +81,7 @@ class NewtonSolver {
   double lent_ = 0;                      // what all may gain where they meet contacts [J]
   double missed_ = 0;                    // see NewtonPart [J]
   bool apart_ = false;                   // whether each part is one worker's
-  bool driven_ = false;                  // by pins or obstacles that move
+  bool pulled_ = false;                  // by pins that move
 };
 
 }  // namespace weft
