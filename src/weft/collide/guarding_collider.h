@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -51,7 +52,10 @@ class GuardingCollider final : public Collider {
   FilterCounts guard(std::span<const MovingCloth> cloths, double time_step,
                      ThreadTeam& team) noexcept override;
   void commit() noexcept override;
-  void forget() noexcept override { pairs_->forget(); }
+  void forget() noexcept override {
+    pairs_->forget();
+    may_pass_.fill(true);
+  }
   void rollback() noexcept override;
   void save_marks(std::size_t cloth, std::vector<int>& marks) const override;
   void restore_marks(std::size_t cloth, std::span<const int> marks) override;
@@ -107,14 +111,20 @@ class GuardingCollider final : public Collider {
   static void copy_to_mates(const GuardedOne& one, const MovingCloth& moving);
   /// Those of the last round stay where the ends of all their points did; unless all are wanted.
   void find_planes(bool all, ThreadTeam& team);
+  /// Between what comes closer than that. [m]
+  void add_planes(bool all, double farthest, ThreadTeam& team);
   void drop_old_planes();
   void mark_new_cells();
   void put_end(const MovingCloth& cloth, int point, Vec3f end);
   void add_ground_planes(std::span<const MovingCloth> cloths);
   /// What a pass of the filter over a step's proposals is for.
   enum class Pass { guess, end };
+  /// Of each, whether all might pass yet in this frame.
+  std::array<bool, 2> may_pass_{true, true};
   FilterCounts hold_all(std::span<const MovingCloth> cloths, double time_step, Pass pass,
                         ThreadTeam& team);
+  [[nodiscard]] GuardedPoint point_at(std::span<const MovingCloth> cloths, int point) const;
+  bool all_pass(std::span<const MovingCloth> cloths, ThreadTeam& team);
   PlaneGuard::Result hold(std::span<const MovingCloth> cloths, double farthest, ThreadTeam& team);
   /// Puts the points that were stopped, and those around them, at their refuges; or all.
   void take_refuge(std::span<const MovingCloth> cloths, int around, bool all);

@@ -21,6 +21,8 @@ constexpr double least_spread = 4, most_spread = 64, carried_in_spreads = 0.25;
 constexpr double most_sliding_spread = 16;
 /// What stands still holds them back, so near.
 constexpr double held_in_spacings = 4;
+/// Paths that stay farther apart than this part of the slack do not cross, nor do they by rounding.
+constexpr double touching = 0.01;
 /// Before the ground, against rounding [m].
 constexpr double ground_margin = 2e-6;
 
@@ -71,7 +73,11 @@ void GuardingCollider::find_planes(bool all, ThreadTeam& team) {
     drop_old_planes();
     mark_new_cells();
   }
-  const float reach = static_cast<float>(2 * slack_), slack = static_cast<float>(slack_);
+  add_planes(all, 2 * slack_, team);
+}
+
+void GuardingCollider::add_planes(bool all, double farthest, ThreadTeam& team) {
+  const float reach = static_cast<float>(farthest), slack = static_cast<float>(slack_);
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     for (std::size_t j = i; j < surfaces_.size(); ++j) {
       if (i == j && !cloths_[i].facts.self_collision) continue;
@@ -109,14 +115,27 @@ void GuardingCollider::add_ground_planes(std::span<const MovingCloth> cloths) {
   }
 }
 
+GuardedPoint GuardingCollider::point_at(std::span<const MovingCloth> cloths, int point) const {
+  const std::size_t cloth = cloth_of_[point];
+  const int sample = point - cloths_[cloth].first_point;
+  return {cloths[cloth].start.at(sample), cloths_[cloth].refuge->at(sample),
+          cloths[cloth].position.at(sample)};
+}
+
+/// Whether all points may go where they go: planes are needed only between what touches on its way,
+/// as long as none of them moves a point.
+bool GuardingCollider::all_pass(std::span<const MovingCloth> cloths, ThreadTeam& team) {
+  if (needs_boxes()) pairs_->refit(surfaces_, team);
+  planes_.clear();
+  add_planes(true, touching * slack_, team);
+  add_ground_planes(cloths);
+  return plane_guard_.heeded(
+      planes_, points_, [&](int point) { return point_at(cloths, point); }, team);
+}
+
 PlaneGuard::Result GuardingCollider::hold(std::span<const MovingCloth> cloths, double farthest,
                                           ThreadTeam& team) {
-  const auto at = [&](int point) {
-    const std::size_t cloth = cloth_of_[point];
-    const int sample = point - cloths_[cloth].first_point;
-    return GuardedPoint{cloths[cloth].start.at(sample), cloths_[cloth].refuge->at(sample),
-                        cloths[cloth].position.at(sample)};
-  };
+  const auto at = [&](int point) { return point_at(cloths, point); };
   const auto put = [&](int point, Vec3f end) {
     const std::size_t cloth = cloth_of_[point];
     put_end(cloths[cloth], point, end);
@@ -247,6 +266,13 @@ FilterCounts GuardingCollider::hold_all(std::span<const MovingCloth> cloths, dou
   for (std::size_t i = 0; i < cloths.size(); ++i) cloths_[i].refuge = &cloths[i].start;
   carried_ = false;
   fates_.assign(static_cast<std::size_t>(points_), free_point);
+  // What was held back in a frame will be again.
+  bool& may_pass = may_pass_[static_cast<std::size_t>(pass)];
+  may_pass = may_pass && all_pass(cloths, team);
+  if (may_pass) {
+    for (std::size_t i = 0; i < cloths_.size(); ++i) copy_to_mates(cloths_[i], cloths[i]);
+    return {};
+  }
   bool refuges_are_new = true;
   const bool moving = fastest_body(time_step) > 0;
   double spread = least_spread;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,9 @@ class PlaneGuard {
     double slack = 0;     ///< what planes reckon with [m]
     double farthest = 0;  ///< at least the slack; what moves farther has to be looked at again [m]
   };
+  /// Whether all ends are on their sides already: hold would change nothing.
+  template <class At>
+  bool heeded(std::span<const SeparatingPlane> planes, int count, const At& at, ThreadTeam& team);
   /// @param planes  changed: those that had to stay still get their still offsets
   /// @param count   points in all; planes name them by number
   /// @param at      the GuardedPoint of a number; put(point, end) changes the end
@@ -93,6 +97,26 @@ class PlaneGuard {
   std::vector<char> is_struck_;  // of planes
   std::vector<char> anew_;       // of involved points: to be placed anew
 };
+
+template <class At>
+bool PlaneGuard::heeded(std::span<const SeparatingPlane> planes, int count, const At& at,
+                        ThreadTeam& team) {
+  stopped_.clear();
+  lost_.clear();
+  struck_.clear();
+  if (planes.empty()) return true;
+  gather(planes, count);
+  const int points = static_cast<int>(involved_.size());
+  fates_.assign(involved_.size(), Fate::free);
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(points);
+    for (int i = mine.first; i < mine.last; ++i) {
+      const GuardedPoint point = at(involved_[i]);
+      if (!heeds_all(i, planes, point, point.end)) fates_[i] = Fate::aside;
+    }
+  });
+  return std::all_of(fates_.begin(), fates_.end(), [](Fate fate) { return fate == Fate::free; });
+}
 
 template <class At, class Put>
 PlaneGuard::Result PlaneGuard::hold(std::span<SeparatingPlane> planes, int count,

@@ -112,30 +112,45 @@ std::span<const CellPair> CoherentPairs::find(int surface_a, int surface_b, floa
   return list.cells;
 }
 
+void CoherentPairs::judge(int surface, float slack, ThreadTeam& team) {
+  float& judged = judged_[static_cast<std::size_t>(surface)];
+  if (judged != slack)
+    windows_[static_cast<std::size_t>(surface)].judge(now_[surface], slack, team);
+  judged = slack;
+}
+
+/// Nearly all neighbours lie flat: how far apart they are is of no use.
+void CoherentPairs::set_smooth_aside(int surface, List& list) {
+  const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
+  const auto smooth = [&](const CellPair& pair) { return windows.unfolded(pair); };
+  list.smooth.clear();
+  std::copy_if(list.cells.begin(), list.cells.end(), std::back_inserter(list.smooth), smooth);
+  std::erase_if(list.cells, smooth);
+}
+
+/// Planes between neighbours that are unfolded would hold back what turns.
 std::span<const CellPair> CoherentPairs::find_self(int surface, float reach, float slack,
                                                    ThreadTeam& team) {
   List& list = list_of(surface, surface);
-  if (list.known && reach <= list.reach && slack <= list.slack)
-    return drop_unfolded(surface, nearest(surface, surface, reach, team), slack, team);
-  list.reach = std::max(list.reach, reach);
-  list.slack = std::max(list.slack, slack);
-  list.known = true;
-  list.sorted = false;
-  list.cells.clear();
-  broad_phase_->find_self(surface, list.reach + skin_, list.slack + 0.5F * skin_, team, list.cells);
-  return drop_unfolded(surface, list.cells, slack, team);
-}
-
-/// Planes between them would hold back what turns.
-std::span<const CellPair> CoherentPairs::drop_unfolded(int surface, std::span<const CellPair> cells,
-                                                       float slack, ThreadTeam& team) {
-  UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
-  float& judged = judged_[static_cast<std::size_t>(surface)];
-  if (judged != slack && !cells.empty()) windows.judge(now_[surface], slack, team);
-  judged = slack;
+  judge(surface, slack, team);
+  const bool known = list.known && reach <= list.reach && slack <= list.slack;
+  if (!known) {
+    list.reach = std::max(list.reach, reach);
+    list.slack = std::max(list.slack, slack);
+    list.known = true;
+    list.sorted = false;
+    list.cells.clear();
+    broad_phase_->find_self(surface, list.reach + skin_, list.slack + 0.5F * skin_, team,
+                            list.cells);
+    set_smooth_aside(surface, list);
+    return list.cells;
+  }
+  const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
+  const auto folded = [&](const CellPair& pair) { return !windows.unfolded(pair); };
+  const std::span<const CellPair> near = nearest(surface, surface, reach, team);
   folded_.clear();
-  std::copy_if(cells.begin(), cells.end(), std::back_inserter(folded_),
-               [&](const CellPair& pair) { return !windows.unfolded(pair); });
+  std::copy_if(near.begin(), near.end(), std::back_inserter(folded_), folded);
+  std::copy_if(list.smooth.begin(), list.smooth.end(), std::back_inserter(folded_), folded);
   return folded_;
 }
 

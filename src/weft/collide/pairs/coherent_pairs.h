@@ -57,6 +57,7 @@ class CoherentPairs {
     float reach = 0, slack = 0;  // the most that was asked for
     std::vector<CellPair> cells;
     std::array<std::size_t, buckets> ends{};
+    std::vector<CellPair> smooth;  // neighbours whose rectangle was unfolded, in any order
   };
   /// How far a surface is from its snapshot at most; infinite: farther than lists hold for.
   [[nodiscard]] float way_from(const Snapshot& snapshot, const MovingSurface& now) const;
@@ -67,8 +68,8 @@ class CoherentPairs {
   /// Of the pairs that were found, whose boxes came near, keeps those whose cells did.
   void sort(int a, int b, List& list, ThreadTeam& team);
   static void order(const ChunkedLists<std::vector<Found>>& found, List& list);
-  std::span<const CellPair> drop_unfolded(int surface, std::span<const CellPair> cells, float slack,
-                                          ThreadTeam& team);
+  void judge(int surface, float slack, ThreadTeam& team);
+  void set_smooth_aside(int surface, List& list);
   /// Those that may come so near now.
   std::span<const CellPair> nearest(int a, int b, float reach, ThreadTeam& team);
 
