@@ -128,6 +128,7 @@ void GuardingCollider::measure_motion(GuardedBody& body) const {
 }
 
 void GuardingCollider::commit() noexcept {
+  may_pass_then_ = may_pass_;
   for (GuardedOne& one : cloths_) one.body_contacts->commit();
   for (GuardedBody& body : bodies_) {
     if (body.end == &body.start) continue;
@@ -142,6 +143,7 @@ void GuardingCollider::commit() noexcept {
 }
 
 void GuardingCollider::rollback() noexcept {
+  may_pass_ = may_pass_then_;
   for (GuardedOne& one : cloths_) one.body_contacts->rollback();
   for (GuardedBody& body : bodies_) {
     if (body.end == &body.start) continue;

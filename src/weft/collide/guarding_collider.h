@@ -54,7 +54,7 @@ class GuardingCollider final : public Collider {
   void commit() noexcept override;
   void forget() noexcept override {
     pairs_->forget();
-    may_pass_.fill(true);
+    may_pass_ = may_pass_then_ = {true, true};
   }
   void rollback() noexcept override;
   void save_marks(std::size_t cloth, std::vector<int>& marks) const override;
@@ -119,8 +119,8 @@ class GuardingCollider final : public Collider {
   void add_ground_planes(std::span<const MovingCloth> cloths);
   /// What a pass of the filter over a step's proposals is for.
   enum class Pass { guess, end };
-  /// Of each, whether all might pass yet in this frame.
-  std::array<bool, 2> may_pass_{true, true};
+  /// Of each, whether all might pass yet in this frame; and at the step's start.
+  std::array<bool, 2> may_pass_{true, true}, may_pass_then_{true, true};
   FilterCounts hold_all(std::span<const MovingCloth> cloths, double time_step, Pass pass,
                         ThreadTeam& team);
   [[nodiscard]] GuardedPoint point_at(std::span<const MovingCloth> cloths, int point) const;
