@@ -28,7 +28,7 @@ struct Words {
   std::string integrator = "newton";
   int random = 0, jobs = 1, iterations = 0;
   std::uint64_t seed = 1;
-  double tolerance = 1e-7;
+  double stop = 0, tolerance = 1e-7;
   bool fast = false;
 };
 
@@ -51,20 +51,21 @@ struct Outcome {
 };
 
 template <class Options>
-IntegratorOptions with_iterations(int most) {
+IntegratorOptions with(const Words& words) {
   Options options;
-  if (most > 0) {
-    options.max_iterations = most;
+  if (words.iterations > 0) {
+    options.max_iterations = words.iterations;
     options.tolerance = 0;
   }
+  if (words.stop > 0) options.tolerance = words.stop;
   return options;
 }
 
 IntegratorOptions method(const Words& words) {
   const std::string& name = words.integrator;
-  if (name == "newton") return with_iterations<NewtonOptions>(words.iterations);
-  if (name == "multigrid") return with_iterations<MultigridOptions>(words.iterations);
-  if (name == "implicit") return with_iterations<ImplicitOptions>(words.iterations);
+  if (name == "newton") return with<NewtonOptions>(words);
+  if (name == "multigrid") return with<MultigridOptions>(words);
+  if (name == "implicit") return with<ImplicitOptions>(words);
   throw SceneError("--integrator", name, "newton, multigrid or implicit");
 }
 
@@ -354,6 +355,7 @@ int main(int argc, char** argv) try {
   program.add_option("--random", words.random, "So many materials by chance instead of fabrics");
   program.add_option("--seed", words.seed, "Of the first of them")->capture_default_str();
   program.add_option("--iterations", words.iterations, "So many, instead of the defaults");
+  program.add_option("--stop", words.stop, "The integrator's tolerance, instead of the default");
   program.add_option("--tolerance", words.tolerance, "Of the tight solve's last move [m]")
       ->capture_default_str();
   program.add_option("--jobs", words.jobs, "Trials at a time")->capture_default_str();
