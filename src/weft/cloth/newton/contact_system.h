@@ -44,8 +44,8 @@ class ContactSystem {
   void hold(std::size_t cloth, const PaddedBlocks& diagonal, const Worker& worker);
   /// Where points are at the linearisation. @param position  of the cloths [m]
   void place(Fields position, Worker& worker);
-  /// Decides which contacts press, and which stick, where a step from the linearisation leads;
-  /// the first time where it would lead without forces of the cloth.
+  /// Decides which contacts press, and which stick, where a step from the linearisation leads; the
+  /// first time those that the guess meets press, with the forces and friction that they had.
   /// @return whether any is taken otherwise than before
   bool choose(Fields step, Worker& worker);
   /// The loads become the forces after a step [N].
@@ -58,7 +58,7 @@ class ContactSystem {
   /// What obstacles do by their motion, pressing and dragging as they do after a step; all workers
   /// get it [J].
   double work(Fields step, Worker& worker);
-  /// Computes the forces where the last step led.
+  /// Computes the forces where the last step led. @param position  of the cloths then [m]
   void measure(Fields position, Worker& worker);
   /// Adds what was measured to the history of a cloth.
   void remember(std::size_t cloth, ContactHistory& history) const;

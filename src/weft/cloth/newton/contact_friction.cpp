@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+
+#include "weft/cloth/newton/contact_system.h"
+
+// What contacts are along their surfaces, and what they hand on to the next step.
+namespace weft {
+namespace {
+
+/// What sticks is held along the surface by this part of what holds it along the normal: soft
+/// enough for what rounding does to positions, at a spring of 1 m and more a tenth of a micrometre,
+/// to be small beside friction.
+constexpr double sticking_stiffness = 0.1;
+/// Of a contact's force in the limit of its friction; the rest is what the limit was before, as
+/// forces tremble with rounding, too.
+constexpr double new_force_part = 0.5;
+/// Limits of friction that differ by this part of them are alike.
+constexpr double same_grip = 0.03;
+
+}  // namespace
+
+int ContactSystem::second_of(std::size_t index) const {
+  if (index < firsts_.back()) return -1;
+  int first = -1, second = -1;
+  for (std::size_t k = 0; k < 4; ++k)
+    if (contacts_[index].weights[k] != 0)
+      (contacts_[index].weights[k] < 0 ? second : first) = places_[index][k].cloth;
+  return second;
+}
+
+/// Looks for it among those of the last step.
+void ContactSystem::recall(int index) {
+  const auto positive = [&](std::size_t k) { return contacts_[index].weights[k] > 0; };
+  std::size_t k = 0;
+  while (k < 3 && !positive(k)) ++k;
+  const ContactHistory* history = histories_[places_[index][k].cloth];
+  if (history != nullptr)
+    past_[index] = history->find(contacts_[index], second_of(static_cast<std::size_t>(index)));
+}
+
+/// Where positions have led the point since the step's start. Of positions, not of velocities: what
+/// rounding does to them each step would add up to creep.
+Vec3d ContactSystem::way_to(int index, Fields position) const {
+  Vec3d way;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double w = contacts_[index].weights[k];
+    if (w == 0) continue;
+    const Place& at = places_[index][k];
+    const PaddedVectors& x = *position[at.cloth];
+    const Vec3f now{x.x(at.row, at.col), x.y(at.row, at.col), x.z(at.row, at.col)};
+    way += w * (vec_cast<double>(now) - vec_cast<double>(starts_[at.cloth]->at(at.row, at.col)));
+  }
+  return way;
+}
+
+void ContactSystem::locate(int index, Fields position) {
+  const Contact& contact = contacts_[index];
+  const Vec3d normal = vec_cast<double>(contact.normal), way = way_to(index, position);
+  const double offset =
+      contact.stiffness > 0 ? double{contact.offset} : attainable_offset(index) + lift_[index];
+  depth_[index] = offset - dot(normal, start_of(index)) - dot(normal, way);
+  Vec3d relative = way - vec_cast<double>(contact.slide);
+  // Friction that was there has stretched what sticks.
+  if (past_[index] != nullptr && work_stiffness_[index] > 0)
+    relative -= 1 / (sticking_stiffness * double{work_stiffness_[index]}) *
+                vec_cast<double>(past_[index]->friction);
+  slid_[index] = relative - dot(normal, relative) * normal;
+}
+
+/// What friction can hold sticks. Else it drags with its whole force where the point is, or, of a
+/// new contact, where that lets it come to: its way less what the force takes off it.
+double ContactSystem::grip_for(int index, const Sliding& sliding) const {
+  const double stiffness = sticking_stiffness * work_stiffness_[index];
+  const double most = contacts_[index].friction * sliding.force;
+  const double held = sliding.is_new ? most * lone_compliance(index) : 0;
+  if (stiffness * (sliding.way - held) <= most) return stiffness;
+  return most / (sliding.way - held);
+}
+
+/// What limits friction. @param pressed  by what it was held as the point came to that depth
+double ContactSystem::limiting_force(int index, double depth, double pressed) const {
+  const double now = pressed * std::max(0.0, depth), yields = lone_compliance(index);
+  if (past_[index] != nullptr)
+    return first_ ? double{past_[index]->force}
+                  : now + (1 - new_force_part) * (double{past_[index]->force} - now);
+  if (pressed > 0) return now;
+  // A new one is taken to stop its own point alone.
+  return yields > 0 ? std::max(0.0, depth - lift_[index]) / yields : 0;
+}
+
+/// How much farther than it flies on a slipping point will go, if it gains speed as it did: its
+/// drag shall be right at the end of the step.
+double ContactSystem::foreseen_way(int index, double way) const {
+  if (past_[index] == nullptr) return 0;
+  const double gained = past_[index]->acceleration * input_.time_step * input_.time_step;
+  return std::clamp(gained, -0.5 * way, way);
+}
+
+bool ContactSystem::choose(int index, Fields step) {
+  const Contact& contact = contacts_[index];
+  float &k = stiffness_[index], &grip = grip_[index];
+  const float k_before = k, grip_before = grip;
+  const Vec3d moved = sum(index, step);
+  const double depth = depth_after(index, moved);
+  k = depth > 0 ? work_stiffness_[index] : 0.0F;
+  const double force = limiting_force(index, depth, k_before);
+  const bool is_new = past_[index] == nullptr && !(k_before > 0);
+  double way = length(slid_after(index, moved));
+  if (first_) {
+    first_way_[index] = way;
+    way += foreseen_way(index, way);
+  }
+  grip = k > 0 && contact.friction > 0 ? static_cast<float>(grip_for(index, {way, force, is_new}))
+                                       : 0.0F;
+  return (k > 0) != (k_before > 0) ||
+         std::abs(grip - grip_before) > same_grip * std::max(grip, grip_before);
+}
+
+void ContactSystem::measure(Fields position, Worker& worker) {
+  const Range mine = share(worker);
+  for (int i = mine.first; i < mine.last; ++i) {
+    locate(i, position);
+    force_[i] = static_cast<float>(std::max(0.0, double{stiffness_[i]} * depth_[i]));
+    limiting_[i] = static_cast<float>(limiting_force(i, depth_[i], stiffness_[i]));
+    const Vec3d drag = -double{grip_[i]} * slid_[i];
+    const double most = double{contacts_[i].friction} * limiting_[i], has = length(drag);
+    friction_[i] = vec_cast<float>((has > most ? most / has : 1.0) * drag);
+    const bool slips = grip_[i] < 0.99 * sticking_stiffness * work_stiffness_[i];
+    const double h = input_.time_step;
+    acceleration_[i] =
+        slips ? static_cast<float>((length(slid_[i]) - first_way_[i]) / (h * h)) : 0.0F;
+  }
+  worker.barrier();
+}
+
+void ContactSystem::remember(std::size_t cloth, ContactHistory& history) const {
+  const auto add = [&](std::size_t i, int second) {
+    if (!(force_[i] > 0)) return;
+    PastContact done;
+    done.friction = friction_[i];
+    done.force = limiting_[i];
+    done.acceleration = acceleration_[i];
+    history.add(contacts_[i], second, done);
+  };
+  for (std::size_t i = firsts_[cloth]; i < firsts_[cloth + 1]; ++i) add(i, -1);
+  for (std::size_t i = firsts_.back(); i < contacts_.size(); ++i) {
+    const int second = second_of(i);
+    bool is_first = false;
+    for (std::size_t k = 0; k < 4; ++k)
+      is_first = is_first ||
+                 (contacts_[i].weights[k] > 0 && places_[i][k].cloth == static_cast<int>(cloth));
+    if (is_first) add(i, second);
+  }
+}
+
+}  // namespace weft
