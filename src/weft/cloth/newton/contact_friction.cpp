@@ -48,7 +48,7 @@ Vec3d ContactSystem::way_to(int index, Fields position) const {
     const Place& at = places_[index][k];
     const PaddedVectors& x = *position[at.cloth];
     const Vec3f now{x.x(at.row, at.col), x.y(at.row, at.col), x.z(at.row, at.col)};
-    way += w * (vec_cast<double>(now) - vec_cast<double>(starts_[at.cloth]->at(at.row, at.col)));
+    way += w * (vec_cast<double>(now) - vec_cast<double>(starts_[at.cloth]->position.at(at.row, at.col)));
   }
   return way;
 }
@@ -56,9 +56,7 @@ Vec3d ContactSystem::way_to(int index, Fields position) const {
 void ContactSystem::locate(int index, Fields position) {
   const Contact& contact = contacts_[index];
   const Vec3d normal = vec_cast<double>(contact.normal), way = way_to(index, position);
-  const double offset =
-      contact.stiffness > 0 ? double{contact.offset} : attainable_offset(index) + lift_[index];
-  depth_[index] = offset - dot(normal, start_of(index)) - dot(normal, way);
+  depth_[index] = attainable_offset(index) - dot(normal, start_of(index)) - dot(normal, way);
   Vec3d relative = way - vec_cast<double>(contact.slide);
   // Friction that was there has stretched what sticks.
   if (past_[index] != nullptr && work_stiffness_[index] > 0)
@@ -101,7 +99,8 @@ bool ContactSystem::choose(int index, Fields step) {
   float &k = stiffness_[index], &grip = grip_[index];
   const float k_before = k, grip_before = grip;
   const Vec3d moved = sum(index, step);
-  const double depth = depth_after(index, moved);
+  double depth = depth_after(index, moved);
+  if (first_ && past_[index] == nullptr) depth = std::max(depth, flown_depth(index));
   k = depth > 0 ? work_stiffness_[index] : 0.0F;
   const double force = limiting_force(index, depth, k_before);
   const bool is_new = past_[index] == nullptr && !(k_before > 0);
