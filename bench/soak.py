@@ -29,7 +29,8 @@ MESHES = program.ROOT.parent / "shared/meshes"
 SHARED = ("ode_spot.obj", "c3d_rocker-arm.obj", "igl_fertility.off", "gpt_mannequin.off")
 CLOTHS = {"sheet": 0.71, "disk": 0.5, "torus": 0.5, "cylinder": 0.54}
 MATERIALS = ("cotton", "silk", "wool", "denim", "leather", "linen", "jersey", "chiffon", "canvas")
-# What a run may come to: parts of springs, of points put back, of m g 1 m gained, and metres off free fall.
+# What a run may come to: parts of springs (more where impact_strain is), of points put back, of m g 1 m gained, and metres off free
+# fall.
 MOST_STRAIN, MOST_FELL_BACK, MOST_GAINED, MOST_OFF = 0.2, 0.01, 0.01, 1e-3
 FIGURES = ("seed", "failure", "strain_p99", "fell_back_share", "blocked_share", "energy_gained_mgl", "off_free_fall", "contacts_max",
            "self_contacts_max", "intersections", "passed", "swallowed", "ms_median")
@@ -177,6 +178,15 @@ def off_free_fall(scene, report, frames):
     return worst
 
 
+def impact_strain(scene):
+    """What a blow at the scene's speeds strains the softest threads by: the speed over that of sound in them, as at the end of a
+    rod that hits a wall. Little in true fabrics; some of the random ones are as soft as rubber."""
+    speed = sum(math.hypot(*cloth["velocity"]) for cloth in scene["cloths"])
+    speed += FASTEST if any("motion" in body or "animation" in body for body in scene["bodies"]) else 0
+    own = [cloth["material"] for cloth in scene["cloths"] if isinstance(cloth["material"], dict)]
+    return min(1, max((speed * math.sqrt(one["density"] / one["stretch"]) for one in own), default=0))
+
+
 def figures_of(seed, scene, report, frames):
     share = [int(frame["fell_back"]) / report["particles"] for frame in frames]
     verified = report["verification"]
@@ -186,9 +196,9 @@ def figures_of(seed, scene, report, frames):
                "self_contacts_max": report["self_contacts_max"], "intersections": report["intersections"],
                "passed": verified["passed"]["count"], "swallowed": verified["swallowed"]["count"],
                "ms_median": report["ms_per_frame"]["median"]}
-    bounds = {"strain_p99": MOST_STRAIN, "fell_back_share": MOST_FELL_BACK, "energy_gained_mgl": MOST_GAINED,
+    bounds = {"strain_p99": max(MOST_STRAIN, impact_strain(scene)), "fell_back_share": MOST_FELL_BACK, "energy_gained_mgl": MOST_GAINED,
               "off_free_fall": MOST_OFF}
-    beyond = [f"{name} {figures[name]:.3g} above {most}" for name, most in bounds.items() if not figures[name] <= most]
+    beyond = [f"{name} {figures[name]:.3g} above {most:.3g}" for name, most in bounds.items() if not figures[name] <= most]
     figures["failure"] = "; ".join(beyond)
     return figures
 
