@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::array<std::string_view, 6> integrators{"newton",   "multigrid", "implicit",
                                                       "explicit", "desbrun",   "two_level"};
-constexpr std::array<std::string_view, 4> colliders{"pyramid", "polar_map", "sphere_tree",
-                                                    "spatial_hash"};
+constexpr std::array<std::string_view, 5> colliders{"pyramid", "polar_map", "sphere_tree",
+                                                    "spatial_hash", "image_space"};
 constexpr std::array<std::string_view, 8> bodies{"mannequin", "sphere", "torus", "cone",
                                                  "box",       "knot",   "rod",   "double_torus"};
 

@@ -113,7 +113,8 @@ void add_run_options(CLI::App& command, RunWords& words) {
       ->check(
           CLI::IsMember({"newton", "implicit", "explicit", "desbrun", "two_level", "multigrid"}));
   command.add_option("--collider", words.collider, "Instead of the scene's")
-      ->check(CLI::IsMember({"pyramid", "polar_map", "sphere_tree", "spatial_hash"}));
+      ->check(
+          CLI::IsMember({"pyramid", "polar_map", "sphere_tree", "spatial_hash", "image_space"}));
   command.add_option("--export", words.exports, "What to write, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember({"obj", "pc2", "mdd", "glb", "ply", "vtp", "exr", "usda"}))

@@ -8,6 +8,7 @@
 
 #include "tests/collide/test_bodies.h"
 #include "weft/collide/pairs/cell_pairs.h"
+#include "weft/collide/pairs/image_space_pairs.h"
 #include "weft/collide/pairs/pyramid_pairs.h"
 #include "weft/collide/pairs/spatial_hash.h"
 #include "weft/collide/pairs/sphere_tree.h"
@@ -23,7 +24,8 @@ using Grids = std::span<const SurfaceGrid* const>;
 std::unique_ptr<BroadPhase> make(const std::string& name, Grids grids, std::size_t cloths) {
   if (name == "pyramid") return std::make_unique<PyramidPairs>(grids, cloths);
   if (name == "sphere_tree") return std::make_unique<SphereTreePairs>(grids, cloths);
-  return std::make_unique<SpatialHashPairs>(grids, cloths);
+  if (name == "spatial_hash") return std::make_unique<SpatialHashPairs>(grids, cloths);
+  return std::make_unique<ImageSpacePairs>(grids, cloths);
 }
 
 /// A surface without seams that moves.
@@ -227,7 +229,7 @@ TEST_P(BroadPhases, AreNotUpsetByFarAndUnfiniteMotion) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, BroadPhases,
-                         testing::Values("pyramid", "sphere_tree", "spatial_hash"),
+                         testing::Values("pyramid", "sphere_tree", "spatial_hash", "image_space"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

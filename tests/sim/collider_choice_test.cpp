@@ -50,7 +50,7 @@ TEST_P(Guarding, DrapesWithoutIntersectionsAndWithTheSameBitsOnEveryTeam) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Guarding,
-                         ::testing::Values("pyramid", "sphere_tree", "spatial_hash"),
+                         ::testing::Values("pyramid", "sphere_tree", "spatial_hash", "image_space"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

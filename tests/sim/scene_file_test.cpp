@@ -162,7 +162,7 @@ TEST(SceneFile, UnknownNamesListWhatIsKnown) {
             "explicit, desbrun, two_level, multigrid");
   EXPECT_EQ(error_of(R"({"cloths":[{}],"collider":{"type":"octree"}})"),
             "s.json:collider.type: unknown collider 'octree'; known are: pyramid, polar_map, "
-            "sphere_tree, spatial_hash");
+            "sphere_tree, spatial_hash, image_space");
   EXPECT_EQ(error_of(with_cloth(R"("material":"coton")")),
             "s.json:cloths[0].material: unknown material 'coton'; the nearest known is 'cotton'");
   EXPECT_EQ(error_of(R"({"cloths":[{}],"version":2})"),
@@ -377,7 +377,7 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
   EXPECT_EQ(properties_of(parts["desbrun"]), as_set(scene_keys::desbrun_integrator));
   EXPECT_EQ(properties_of(parts["multigrid"]), as_set(scene_keys::multigrid_integrator));
   EXPECT_EQ(properties_of(parts["two_level"]), as_set(scene_keys::two_level_integrator));
-  for (const char* type : {"pyramid", "sphere_tree", "spatial_hash"})
+  for (const char* type : {"pyramid", "sphere_tree", "spatial_hash", "image_space"})
     EXPECT_EQ(properties_of(parts[type]), as_set(scene_keys::guarding_collider));
   EXPECT_EQ(properties_of(parts["polar_map"]), as_set(scene_keys::polar_map_collider));
   EXPECT_EQ(properties_of(parts["cloth"]), as_set(scene_keys::cloth));

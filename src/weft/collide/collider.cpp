@@ -5,6 +5,7 @@
 
 #include "weft/collide/contacts/response.h"
 #include "weft/collide/guarding_collider.h"
+#include "weft/collide/pairs/image_space_pairs.h"
 #include "weft/collide/pairs/pyramid_pairs.h"
 #include "weft/collide/pairs/spatial_hash.h"
 #include "weft/collide/pairs/sphere_tree.h"
@@ -252,6 +253,7 @@ std::unique_ptr<Collider> make_collider(const ColliderOptions& options, const Ob
   if (std::holds_alternative<SphereTreeOptions>(options)) make = make_broad_phase<SphereTreePairs>;
   if (std::holds_alternative<SpatialHashOptions>(options))
     make = make_broad_phase<SpatialHashPairs>;
+  if (std::holds_alternative<ImageSpaceOptions>(options)) make = make_broad_phase<ImageSpacePairs>;
   return std::make_unique<GuardingCollider>(make, obstacles, cloths);
 }
 

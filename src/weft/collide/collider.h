@@ -29,10 +29,11 @@ struct Body {
 /// The default: mip pyramids as bounding hierarchies, planes that nothing passes.
 struct PyramidOptions {};
 
-/// The same with other broad phases, to compare with: spheres in a tree over the image [benes05],
-/// and a hashed grid of space [teschner03].
+/// The same with other broad phases, to compare with: spheres in a tree over the image [benes05], a
+/// hashed grid of space [teschner03], and depth images [govindaraju03].
 struct SphereTreeOptions {};
 struct SpatialHashOptions {};
+struct ImageSpaceOptions {};
 
 /// The paper's angular table [zink07, section 5].
 struct PolarMapOptions {
@@ -42,8 +43,8 @@ struct PolarMapOptions {
   /// radial point may lie far from the closest one, so that single pushes are far too deep.
   bool walk = true;
 };
-using ColliderOptions =
-    std::variant<PyramidOptions, PolarMapOptions, SphereTreeOptions, SpatialHashOptions>;
+using ColliderOptions = std::variant<PyramidOptions, PolarMapOptions, SphereTreeOptions,
+                                     SpatialHashOptions, ImageSpaceOptions>;
 std::string_view name_of(const ColliderOptions& options);
 /// The collider of that name, with default options; nothing where there is none.
 std::optional<ColliderOptions> collider_named(std::string_view name);

@@ -8,7 +8,7 @@ namespace {
 
 /// In the order of the variant.
 constexpr std::array<std::string_view, std::variant_size_v<ColliderOptions>> names{
-    "pyramid", "polar_map", "sphere_tree", "spatial_hash"};
+    "pyramid", "polar_map", "sphere_tree", "spatial_hash", "image_space"};
 
 }  // namespace
 
@@ -16,7 +16,8 @@ std::string_view name_of(const ColliderOptions& options) { return names[options.
 
 std::optional<ColliderOptions> collider_named(std::string_view name) {
   const std::array<ColliderOptions, names.size()> all{PyramidOptions{}, PolarMapOptions{},
-                                                      SphereTreeOptions{}, SpatialHashOptions{}};
+                                                      SphereTreeOptions{}, SpatialHashOptions{},
+                                                      ImageSpaceOptions{}};
   for (const ColliderOptions& options : all)
     if (name == name_of(options)) return options;
   return std::nullopt;

@@ -83,7 +83,7 @@ ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& plac
   const std::optional<ColliderOptions> named = collider_named(type);
   if (!named)
     place.key("type").fail(fmt::format("unknown collider '{}'", type),
-                           "known are: pyramid, polar_map, sphere_tree, spatial_hash");
+                           "known are: pyramid, polar_map, sphere_tree, spatial_hash, image_space");
   if (!std::holds_alternative<PolarMapOptions>(*named)) {
     const JsonObject object(value, place, scene_keys::guarding_collider);
     return *named;
