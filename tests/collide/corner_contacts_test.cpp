@@ -143,7 +143,8 @@ TEST(CornerContacts, ATipThatRisesTakesItsHalfSpaceAlong) {
   Planes3 end = scene.obstacles.bodies[0].positions;
   for (int s = 0; s < 17 * 17; ++s) end.set(s, end.at(s) + Vec3f{0.002F, 0.008F, 0});
   const Planes3* const ends[] = {&end};
-  scene.collider->move_bodies(ends);
+  ThreadTeam team(1);
+  scene.collider->move_bodies(ends, team);
   const std::span<const Contact> found = scene.detect();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].offset, -0.01 + 0.008 + gap, 1e-6);

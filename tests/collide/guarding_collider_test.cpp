@@ -162,7 +162,7 @@ TEST(GuardingCollider, ABodyThatTurnsIntoAPileTakesItAlong) {
     const MovingCloth moving = cloth.moving();
     const Planes3 end = turned_up(body, 0.01 * round, 0.002 * round);
     const Planes3* const ends[] = {&end};
-    collider->move_bodies(ends);
+    collider->move_bodies(ends, team);
     collider->detect(std::span(&moving, 1), step, team);
     collider->guard(std::span(&moving, 1), step, team);
     const Primitives pile(grid, cloth.start, cloth.position), sphere(body_grid, body, end);

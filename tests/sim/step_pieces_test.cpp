@@ -65,7 +65,8 @@ ClothReach sheet_at(Vec3d middle, double half = 0.5) {
 double pieces_of(const Planes3& start, const Planes3& end, const ClothReach& cloth) {
   const std::vector<Triangle> triangles = triangles_of(start.size());
   SurfaceMotion motion;
-  return wanted_pieces({start, end, triangles}, cloth, most_way, motion);
+  ThreadTeam team(2);
+  return wanted_pieces({start, end, triangles}, cloth, most_way, motion, team);
 }
 
 TEST(StepPieces, ArePowersOfTwo) {

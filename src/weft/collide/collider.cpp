@@ -207,7 +207,8 @@ class PushCollider final : public Collider {
     for (const GuardedCloth& cloth : cloths) pushers_.emplace_back(bodies_, obstacles, cloth);
   }
 
-  void move_bodies(std::span<const Planes3* const> /*ends*/) noexcept override {}
+  void move_bodies(std::span<const Planes3* const> /*ends*/,
+                   ThreadTeam& /*team*/) noexcept override {}
   void detect(std::span<const MovingCloth> cloths, double /*time_step*/,
               ThreadTeam& team) noexcept override {
     for (std::size_t i = 0; i < cloths.size(); ++i) pushers_[i].detect(cloths[i], team);

@@ -116,7 +116,7 @@ class Collider {
   /// Begins a step at whose end the bodies stand at `ends`; they start from where the last step
   /// left them. @param ends  of each body [n x n] world [m], mates equal, valid until commit or
   /// rollback; null where it stands still
-  virtual void move_bodies(std::span<const Planes3* const> ends) noexcept = 0;
+  virtual void move_bodies(std::span<const Planes3* const> ends, ThreadTeam& team) noexcept = 0;
   /// Finds the contacts of a step from the proposals.
   virtual void detect(std::span<const MovingCloth> cloths, double time_step,
                       ThreadTeam& team) noexcept = 0;

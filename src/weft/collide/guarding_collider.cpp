@@ -94,34 +94,33 @@ bool GuardingCollider::needs_boxes() const {
   return !lonely || cloths_.front().facts.self_collision;
 }
 
-void GuardingCollider::move_bodies(std::span<const Planes3* const> ends) noexcept {
+void GuardingCollider::move_bodies(std::span<const Planes3* const> ends,
+                                   ThreadTeam& team) noexcept {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     GuardedBody& body = bodies_[i];
     body.end = ends[i] != nullptr ? ends[i] : &body.start;
     body.most_moved = body.most_approach = 0;
     body.goes_far = false;
     if (body.end == &body.start) continue;
-    const int n = body.grid.size();
-    double most = 0;
-    for (int s = 0; s < n * n; ++s)
-      most = std::max(most, double{squared_length(body.end->at(s) - body.start.at(s))});
-    body.most_moved = std::sqrt(most);
-    if (most == 0) {
+    body.most_moved = farthest_way(body.start, *body.end);
+    if (body.most_moved == 0) {
       body.end = &body.start;
       continue;
     }
     ++body.motion;
-    measure_motion(body);
+    measure_motion(body, team);
   }
 }
 
 /// What goes far in a step mostly slides past: its surface, not each of its points, is followed.
-void GuardingCollider::measure_motion(GuardedBody& body) const {
+void GuardingCollider::measure_motion(GuardedBody& body, ThreadTeam& team) const {
   body.most_approach = body.most_moved;
   body.goes_far = body.most_moved > least_gap_;
+  if (body.goes_far) body.surface.measure(body.start, *body.end, body.triangles, team);
+  body.blocks.measure(body.grid, body.start, *body.end, body.goes_far ? &body.surface : nullptr,
+                      team);
   if (!body.goes_far) return;
   body.most_approach = 0;
-  body.surface.measure(body.start, *body.end, body.triangles);
   for (const Triangle& t : body.triangles)
     for (const int corner : t)
       body.most_approach = std::max(body.most_approach, body.surface.approach(corner));
@@ -130,10 +129,11 @@ void GuardingCollider::measure_motion(GuardedBody& body) const {
 void GuardingCollider::commit() noexcept {
   may_pass_then_ = may_pass_;
   for (GuardedOne& one : cloths_) one.body_contacts->commit();
-  for (GuardedBody& body : bodies_) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    GuardedBody& body = bodies_[i];
     if (body.end == &body.start) continue;
+    for (GuardedOne& one : cloths_) one.body_contacts->arrive(i, body.motion);
     body.start = *body.end;
-    body.travelled += body.most_approach;
     body.end = &body.start;
     body.most_moved = body.most_approach = 0;
     body.goes_far = false;
@@ -173,10 +173,10 @@ void GuardingCollider::place_bodies(ThreadTeam& team) {
       body.query_at_end->place(*body.end, team);
       body.end_placed = body.motion;
     }
-    contact_bodies_.push_back({static_cast<int>(contact_bodies_.size()) + 1, body.query.get(),
-                               &body.start, body.end, body.friction,
-                               body.goes_far ? body.query_at_end.get() : nullptr,
-                               body.most_approach, body.travelled});
+    contact_bodies_.push_back(
+        {static_cast<int>(contact_bodies_.size()) + 1, body.query.get(), &body.start, body.end,
+         body.friction, body.goes_far ? body.query_at_end.get() : nullptr, body.most_approach,
+         body.end == &body.start ? nullptr : &body.blocks, body.motion});
   }
 }
 

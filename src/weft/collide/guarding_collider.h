@@ -30,7 +30,7 @@ class GuardingCollider final : public Collider {
   GuardingCollider(MakeBroadPhase make_broad_phase, const Obstacles& obstacles,
                    std::span<const GuardedCloth> cloths);
 
-  void move_bodies(std::span<const Planes3* const> ends) noexcept override;
+  void move_bodies(std::span<const Planes3* const> ends, ThreadTeam& team) noexcept override;
   void detect(std::span<const MovingCloth> cloths, double time_step,
               ThreadTeam& team) noexcept override;
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const noexcept override {
@@ -90,16 +90,16 @@ class GuardingCollider final : public Collider {
     double most_approach = 0;           // see ContactBody [m]
     std::vector<Triangle> triangles{};  // by points
     SurfaceMotion surface{};            // of this step, where it goes far
+    BlockMotion blocks{};               // of this step, where it moves
     bool goes_far = false;              // in this step
     bool moved = true;                  // since its query was placed
-    double travelled = 0;               // see ContactBody [m]
     int motion = 1;                     // see MovingSurface::name
     int end_placed = 0;                 // the motion whose end query_at_end stands at
   };
   void learn_corners(const Obstacles& obstacles);
   void gather_surfaces(std::span<const MovingCloth> cloths);
   void place_bodies(ThreadTeam& team);
-  void measure_motion(GuardedBody& body) const;
+  void measure_motion(GuardedBody& body, ThreadTeam& team) const;
   /// That is kept between two cloths, or one and itself. [m]
   [[nodiscard]] double gap_between(std::size_t i, std::size_t j) const;
   /// Cells of theirs that may press on each other, valid until the next search.

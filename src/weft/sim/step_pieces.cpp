@@ -49,10 +49,10 @@ bool ClothReach::meets(const Box3d& box) const noexcept {
 }
 
 double wanted_pieces(const BodyStep& body, const ClothReach& cloth, double most_way,
-                     SurfaceMotion& motion) noexcept {
+                     SurfaceMotion& motion, ThreadTeam& team) noexcept {
   double wanted = 1;
   if (farthest_way(body.start, body.end) <= most_way) return wanted;
-  motion.measure(body.start, body.end, body.triangles);
+  motion.measure(body.start, body.end, body.triangles, team);
   for (const Triangle& t : body.triangles) {
     double own = 0;
     for (const int corner : t)

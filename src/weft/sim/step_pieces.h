@@ -47,7 +47,7 @@ struct BodyStep {
 /// normals. What slides past cloth asks for nothing but not to turn too far at once.
 /// @param motion  a place to work in
 double wanted_pieces(const BodyStep& body, const ClothReach& cloth, double most_way,
-                     SurfaceMotion& motion) noexcept;
+                     SurfaceMotion& motion, ThreadTeam& team) noexcept;
 
 /// The least power of 2 that is no less, up to most_pieces.
 int whole_pieces(double wanted) noexcept;

@@ -8,6 +8,10 @@ namespace {
 
 /// Times what the cloth's own springs hold the contact's point by.
 constexpr double relative_stiffness = 0.125;
+/// Of what its softest sample and its largest weight would yield together, that a point does at
+/// least: one that lies nearly on what is pinned would press on the rest of its triangle without
+/// end.
+constexpr double least_yield = 0.05;
 /// What is inside something when a step begins, having been put or pressed there, leaves at this
 /// speed at most, lest it be shot out. [m/s]
 constexpr double fastest_way_out = 0.5;
@@ -114,14 +118,17 @@ Vec3d ContactSystem::start_of(int index) const {
 
 /// How far the point gives way to a force, where samples do by the softness of each.
 double ContactSystem::compliance(int index, std::span<const Grid<float>* const> softness) const {
-  double total = 0;
+  double total = 0, softest = 0, largest = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     const double w = contacts_[index].weights[k];
     if (w == 0) continue;
     const Place& at = places_[index][k];
-    total += w * w * double{(*softness[at.cloth])(at.row, at.col)};
+    const double yields = (*softness[at.cloth])(at.row, at.col);
+    total += w * w * yields;
+    softest = std::max(softest, yields);
+    largest = std::max(largest, w * w);
   }
-  return total;
+  return std::max(total, least_yield * softest * largest);
 }
 
 /// The offset that the step may bring about.

@@ -10,6 +10,10 @@ namespace {
 constexpr double ahead = 1;
 /// Of distances in single precision, generously.
 constexpr double rounding = 1e-5;
+/// Farther than so many gaps nothing is remembered of how far a body was.
+constexpr double known_gaps = 6;
+/// Nor matters so small a part of one.
+constexpr double known_well = 0.05;
 
 }  // namespace
 
@@ -39,18 +43,83 @@ void BodyContacts::restore(std::span<const int> marks) {
   commit();
 }
 
-std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, Vec3f start, double reach,
-                                            Known& known) {
-  const Vec3d point = vec_cast<double>(start);
-  const double since =
-      length(point - vec_cast<double>(known.place)) + (body.travelled - known.travelled);
+double BodyContacts::farthest_known() const { return known_gaps * kept_.gap; }
+
+int BodyContacts::blocks_a_side() const { return (grid_.size() - 1) / BlockMotion::block_size + 1; }
+
+const BodyContacts::NearBlock& BodyContacts::block_of(const Past& past, int sample) const {
+  const int n = grid_.size();
+  return past.blocks[sample / n / BlockMotion::block_size * blocks_a_side() +
+                     sample % n / BlockMotion::block_size];
+}
+
+Box3f BodyContacts::box_of_block(const Planes3& at, int block) const {
+  constexpr float far = HUGE_VALF;
+  constexpr int wide = BlockMotion::block_size;
+  Box3f box{{far, far, far}, {-far, -far, -far}};
+  const int n = grid_.size(), row = block / blocks_a_side() * wide,
+            col = block % blocks_a_side() * wide;
+  for (int r = row; r < std::min(n, row + wide); ++r)
+    for (int c = col; c < std::min(n, col + wide); ++c) {
+      box.lower = min(box.lower, at.at(r, c));
+      box.upper = max(box.upper, at.at(r, c));
+    }
+  return box;
+}
+
+/// What never comes so near a block in a step is more than twice as far away as anything is known
+/// when it does, if no sample has gone farther than that in the step; and it cannot have come
+/// within what is known since, as both went by less.
+void BodyContacts::look_near(const MovingCloth& cloth, const ContactBody& body, ThreadTeam& team) {
+  Past& past = past_[body.number - 1];
+  if (past.motion == body.motion) return;
+  past.motion = body.motion;
+  const auto reach = static_cast<float>(3 * farthest_known());
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(static_cast<int>(past.blocks.size()));
+    for (int b = mine.first; b < mine.last; ++b)
+      past.blocks[b].now = body.blocks != nullptr ? body.blocks->near(box_of_block(cloth.start, b),
+                                                                      reach, known_well * kept_.gap)
+                                                  : BlockMotion::Near{};
+  });
+}
+
+void BodyContacts::arrive(std::size_t body, int motion) {
+  if (body >= past_.size()) return;
+  Past& past = past_[body];
+  if (past.motion != motion)  // nobody looked at it
+    return past.samples.assign(past.samples.size(), {});
+  for (NearBlock& block : past.blocks) {
+    block.carried += block.now.way;
+    block.travelled += block.now.approach;
+  }
+}
+
+/// How near a sample must be to a body for a contact. Seen from what goes along with the parts of
+/// the body that are near, the more so the farther both go.
+double BodyContacts::reach_of(const ContactBody& body, const NearBlock& near, Vec3d way) const {
+  const double least = contact_foresight * kept_.gap;
+  if (length(way) > farthest_known()) return least + length(way) + body.most_approach;
+  return least + length(way - near.now.way) + near.now.approach;
+}
+
+std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, const NearBlock& near,
+                                            Vec3d start, double reach, Known& known) const {
+  const Vec3d place = start - near.carried;
+  if (length(start - vec_cast<double>(known.seen)) > farthest_known()) known.distance = 0;
+  known.seen = vec_cast<float>(start);
+  const double since = length(place - known.place) + (near.travelled - known.travelled);
   if (known.distance - since > reach * (1 + rounding)) return std::nullopt;
   // Farther than need be, so that the next steps need not look again.
+  const double least = contact_foresight * kept_.gap;
   const double wider =
-      reach + ahead * (reach - contact_foresight * kept_.gap) + contact_foresight * kept_.gap;
-  const auto found = body.query->closest(point, wider, known.triangle);
-  known = {start, static_cast<float>(found ? std::sqrt(found->squared_distance) : wider),
-           body.travelled, found ? found->triangle : known.triangle};
+      std::max(reach, std::min(reach + ahead * (reach - least) + least, farthest_known()));
+  const auto found = body.query->closest(start, wider, known.triangle);
+  const double distance = found ? std::sqrt(found->squared_distance) : wider;
+  known.place = place;
+  known.travelled = near.travelled;
+  known.distance = static_cast<float>(std::min(distance, farthest_known()));
+  if (found) known.triangle = found->triangle;
   if (!found || !(found->squared_distance < reach * reach)) return std::nullopt;
   return found;
 }
@@ -59,9 +128,10 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
                              int sample, std::vector<Contact>& out) {
   const Vec3d start = vec_cast<double>(cloth.start.at(sample));
   const Vec3d way = vec_cast<double>(cloth.position.at(sample)) - start;
-  const double reach =
-      deep ? HUGE_VAL : contact_foresight * kept_.gap + length(way) + body.most_approach;
-  const auto found = look(body, cloth.start.at(sample), reach, known_[body.number - 1][sample]);
+  Past& past = past_[body.number - 1];
+  const NearBlock& near = block_of(past, sample);
+  const double reach = deep ? HUGE_VAL : reach_of(body, near, way);
+  const auto found = look(body, near, start, reach, past.samples[sample]);
   if (!found) return;
   // What was outside and kept out cannot be inside now, whatever the normals of an image say that
   // folds or crosses itself somewhere.
@@ -106,8 +176,12 @@ void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> b
     marks_.looked = true;
     return;
   }
-  known_.resize(bodies.size());
-  for (std::vector<Known>& known : known_) known.resize(marks_.inside.size());
+  past_.resize(bodies.size());
+  for (Past& past : past_) {
+    past.samples.resize(marks_.inside.size());
+    past.blocks.resize(static_cast<std::size_t>(blocks_a_side()) * blocks_a_side());
+  }
+  for (const ContactBody& body : bodies) look_near(cloth, body, team);
   const int n = grid_.size();
   team.run([&](Worker& worker) {
     found_.fill(n * n, worker, [&](int s, std::vector<Contact>& out) {

@@ -37,6 +37,8 @@ class BodyContacts {
   void restore(std::span<const int> marks);
   /// What is known of samples is kept for rollback, which returns to it.
   void commit() { kept_marks_ = marks_; }
+  /// A body stays where a motion led it. @param body  from 0
+  void arrive(std::size_t body, int motion);
   void rollback() { marks_ = kept_marks_; }
 
  private:
@@ -49,20 +51,41 @@ class BodyContacts {
   }
   void find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
                    std::vector<Contact>& out) const;
-  /// What is known of a sample and a body: how far it was from where.
+  /// How a body moves near a block of the cloth: so far, and in the present step. [m]
+  struct NearBlock {
+    Vec3d carried;
+    double travelled = 0;
+    BlockMotion::Near now;
+  };
+  /// What is known of a sample and a body: how far it was, and from where, less what the body's
+  /// motion had carried what is near along.
   struct Known {
-    Vec3f place;
-    float distance = 0;    // at least; 0: nothing is known [m]
+    Vec3d place;
+    Vec3f seen;            // where it was when it was last asked for [m]
     double travelled = 0;  // by the body when it was [m]
+    float distance = 0;    // at least; 0: nothing is known [m]
     int triangle = -1;     // that was closest
   };
+  struct Past {
+    std::vector<Known> samples;     // [n * n]
+    std::vector<NearBlock> blocks;  // of the cloth
+    int motion = 0;                 // of the body, that `now` is of
+  };
+  void look_near(const MovingCloth& cloth, const ContactBody& body, ThreadTeam& team);
+  [[nodiscard]] Box3f box_of_block(const Planes3& at, int block) const;
+  [[nodiscard]] int blocks_a_side() const;
+  [[nodiscard]] const NearBlock& block_of(const Past& past, int sample) const;
+  [[nodiscard]] double reach_of(const ContactBody& body, const NearBlock& near, Vec3d way) const;
+  /// How far records reach [m].
+  [[nodiscard]] double farthest_known() const;
   /// The closest point, if it matters; remembers what there was to be known.
-  std::optional<BodyPoint> look(const ContactBody& body, Vec3f start, double reach, Known& known);
+  std::optional<BodyPoint> look(const ContactBody& body, const NearBlock& near, Vec3d start,
+                                double reach, Known& known) const;
 
   const SurfaceGrid& grid_;
   KeptGap kept_;
-  std::vector<char> kept_in_;              // by each body; empty: by none
-  std::vector<std::vector<Known>> known_;  // of each body [n * n]
+  std::vector<char> kept_in_;  // by each body; empty: by none
+  std::vector<Past> past_;     // of each body
   struct Marks {
     InsideMarks inside;         // [n * n]
     std::vector<char> doubted;  // [n * n]

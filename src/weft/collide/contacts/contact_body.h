@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "weft/collide/contacts/block_motion.h"
 #include "weft/collide/contacts/body_query.h"
 #include "weft/core/contact.h"
 
@@ -17,7 +18,8 @@ struct ContactBody {
   double friction = 0;                ///< of the body
   const BodyQuery* at_end = nullptr;  ///< placed at the end, where it goes far; else null
   double most_approach = 0;  ///< how much closer it comes to anything during the step, at most [m]
-  double travelled = 0;      ///< the same before the step, at most [m]
+  const BlockMotion* blocks = nullptr;  ///< its parts in the step; null where it stands still
+  int motion = 0;                       ///< which no other motion of it is called
 };
 
 /// How a point of a body's surface goes during the step. [m]

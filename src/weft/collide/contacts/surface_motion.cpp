@@ -1,5 +1,6 @@
 #include "weft/collide/contacts/surface_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace weft {
@@ -14,30 +15,36 @@ Vec3d across(const Planes3& at, const Triangle& t) {
 }  // namespace
 
 void SurfaceMotion::measure(const Planes3& start, const Planes3& end,
-                            std::span<const Triangle> triangles) {
-  points_.assign(static_cast<std::size_t>(start.size()) * start.size(), {});
-  for (const Triangle& t : triangles) {
-    const Vec3d from = across(start, t), to = across(end, t);
-    for (const int corner : t) {
-      points_[corner].from += from;
-      points_[corner].to += to;
+                            std::span<const Triangle> triangles, ThreadTeam& team) {
+  const int samples = start.size() * start.size();
+  triangles_.resize(triangles.size());
+  points_.resize(static_cast<std::size_t>(samples));
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(static_cast<int>(triangles.size()));
+    for (int t = mine.first; t < mine.last; ++t)
+      triangles_[t] = {across(start, triangles[t]), across(end, triangles[t])};
+  });
+  sums_.assign(static_cast<std::size_t>(samples), {});
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const int corner : triangles[t]) {
+      sums_[corner].from += triangles_[t].from;
+      sums_[corner].to += triangles_[t].to;
     }
-  }
-  for (std::size_t s = 0; s < points_.size(); ++s) {
-    Point& point = points_[s];
-    const int sample = static_cast<int>(s);
-    point = {vec_cast<double>(end.at(sample)) - vec_cast<double>(start.at(sample)),
-             normalized(point.from), normalized(point.to)};
-  }
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(samples);
+    for (int s = mine.first; s < mine.last; ++s) {
+      const Vec3d from = normalized(sums_[s].from), to = normalized(sums_[s].to);
+      Point& point = points_[s];
+      point.way = vec_cast<double>(end.at(s)) - vec_cast<double>(start.at(s));
+      point.normal = 0.5 * (from + to);
+      point.approach = std::abs(dot(point.normal, point.way));
+      point.turn = length(to - from);
+    }
+  });
 }
 
-double SurfaceMotion::approach(int sample) const {
-  const Point& point = points_[sample];
-  return std::abs(dot(0.5 * (point.from + point.to), point.way));
-}
-
-double SurfaceMotion::turn(int sample) const {
-  return length(points_[sample].to - points_[sample].from);
+double SurfaceMotion::approach(int sample, Vec3d way) const {
+  return std::abs(dot(points_[sample].normal, points_[sample].way - way));
 }
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "weft/core/planes.h"
+#include "weft/core/thread_team.h"
 #include "weft/mesh/triangle_mesh.h"
 
 namespace weft {
@@ -14,18 +15,29 @@ namespace weft {
 class SurfaceMotion {
  public:
   /// @param triangles  by samples that stand for their classes
-  void measure(const Planes3& start, const Planes3& end, std::span<const Triangle> triangles);
+  void measure(const Planes3& start, const Planes3& end, std::span<const Triangle> triangles,
+               ThreadTeam& team);
   /// How far a point comes closer to what is before it, or leaves: its way along the mean of its
   /// normals at both ends. What slides along itself, as a ball that turns in place, does not. [m]
-  [[nodiscard]] double approach(int sample) const;
+  [[nodiscard]] double approach(int sample) const { return points_[sample].approach; }
+  /// The same to what goes along by `way`.
+  [[nodiscard]] double approach(int sample, Vec3d way) const;
   /// How much its normal turns: nearly the angle, as long as it is small. [rad]
-  [[nodiscard]] double turn(int sample) const;
+  [[nodiscard]] double turn(int sample) const { return points_[sample].turn; }
+  /// The mean of its normals at both ends, and not unit.
+  [[nodiscard]] Vec3d normal(int sample) const { return points_[sample].normal; }
 
  private:
-  struct Point {
-    Vec3d way, from, to;
+  struct Areas {
+    Vec3d from, to;
   };
-  std::vector<Point> points_;  // [n * n]
+  struct Point {
+    Vec3d way, normal;  // the mean of both ends'
+    double approach = 0, turn = 0;
+  };
+  std::vector<Areas> triangles_;  // twice the area along the normal
+  std::vector<Areas> sums_;       // [n * n]
+  std::vector<Point> points_;     // [n * n]
 };
 
 }  // namespace weft

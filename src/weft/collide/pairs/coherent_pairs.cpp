@@ -146,11 +146,13 @@ std::span<const CellPair> CoherentPairs::find_self(int surface, float reach, flo
     return list.cells;
   }
   const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
-  const auto folded = [&](const CellPair& pair) { return !windows.unfolded(pair); };
   const std::span<const CellPair> near = nearest(surface, surface, reach, team);
   folded_.clear();
-  std::copy_if(near.begin(), near.end(), std::back_inserter(folded_), folded);
-  std::copy_if(list.smooth.begin(), list.smooth.end(), std::back_inserter(folded_), folded);
+  for (const std::span<const CellPair> cells : {near, std::span<const CellPair>(list.smooth)})
+    shared_.collect(static_cast<int>(cells.size()), team, folded_,
+                    [&](int i, std::vector<CellPair>& mine) {
+                      if (!windows.unfolded(cells[i])) mine.push_back(cells[i]);
+                    });
   return folded_;
 }
 

@@ -7,6 +7,7 @@
 
 #include "weft/collide/pairs/cell_pairs.h"
 #include "weft/collide/pairs/chunks.h"
+#include "weft/collide/pairs/shared_pairs.h"
 #include "weft/collide/pairs/unfolded_windows.h"
 
 namespace weft {
@@ -79,6 +80,7 @@ class CoherentPairs {
   std::vector<MovingSurface> placed_, now_;  // as they were, and are
   std::vector<UnfoldedWindows> windows_;     // of each cloth, now
   std::vector<float> judged_;  // of each cloth, the slack they were judged with; -1: not
+  SharedPairs shared_;
   std::vector<CellPair> folded_;
   std::vector<List> lists_;  // [surfaces x surfaces]
   ChunkedLists<std::vector<Found>> near_;

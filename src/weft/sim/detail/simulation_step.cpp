@@ -81,7 +81,7 @@ void Simulation::Parts::bodies_arrive() {
 
 void Simulation::Parts::move_driven(double seconds) {
   driven.go(seconds, team);
-  if (driven.any_moves()) collider->move_bodies(driven.ends());
+  if (driven.any_moves()) collider->move_bodies(driven.ends(), team);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     move_pins(pin_motions[i], seconds, cloths[i].cloth);
     move_tied(tied_pins[i], driven.ends(), cloths[i].cloth);
@@ -198,7 +198,7 @@ int Simulation::Parts::pieces_until(double seconds) {
       if (bodies[i].moves)
         wanted = std::max(wanted,
                           wanted_pieces({bodies[i].positions, *driven.ends()[i], body_triangles[i]},
-                                        reach, most_way, body_motion));
+                                        reach, most_way, body_motion, team));
   }
   return whole_pieces(wanted);
 }

@@ -1,0 +1,99 @@
+#include "weft/collide/contacts/block_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+
+void BlockMotion::measure(const SurfaceGrid& grid, const Planes3& start, const Planes3& end,
+                          const SurfaceMotion* slides, ThreadTeam& team) {
+  grid_ = &grid;
+  start_ = &start;
+  end_ = &end;
+  slides_ = slides;
+  blocks_.clear();
+  // Up to the first samples of the next blocks: nothing lies between.
+  const int last = grid.size() - 1;
+  for (int r = 0; r < last; r += block_size)
+    for (int c = 0; c < last; c += block_size) {
+      Block block;
+      block.first_row = r;
+      block.last_row = std::min(last, r + block_size);
+      block.first_col = c;
+      block.last_col = std::min(last, c + block_size);
+      blocks_.push_back(block);
+    }
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(static_cast<int>(blocks_.size()));
+    for (int b = mine.first; b < mine.last; ++b) measure(blocks_[b]);
+  });
+}
+
+template <class Visit>
+void BlockMotion::for_points(const Block& block, const Visit& visit) const {
+  for (int r = block.first_row; r <= block.last_row; ++r)
+    for (int c = block.first_col; c <= block.last_col; ++c)
+      visit(grid_->point(r * grid_->size() + c));
+}
+
+double BlockMotion::approach_of_point(int point, Vec3d way) const {
+  return slides_ != nullptr ? slides_->approach(point, way) : length(way_of(point) - way);
+}
+
+void BlockMotion::measure(Block& block) const {
+  constexpr float far = HUGE_VALF;
+  block.swept = {{far, far, far}, {-far, -far, -far}};
+  for_points(block, [&](int point) {
+    for (const Planes3* at : {start_, end_}) {
+      block.swept.lower = min(block.swept.lower, at->at(point));
+      block.swept.upper = max(block.swept.upper, at->at(point));
+    }
+    block.way += way_of(point);
+    if (slides_ != nullptr) block.normal += slides_->normal(point);
+    ++block.samples;
+  });
+  block.way = (1 / block.samples) * block.way;
+  block.normal = (1 / block.samples) * block.normal;
+  for_points(block, [&](int point) {
+    block.apart = std::max(block.apart, approach_of_point(point, block.way));
+    if (slides_ != nullptr)
+      block.normal_apart =
+          std::max(block.normal_apart, length(slides_->normal(point) - block.normal));
+  });
+}
+
+double BlockMotion::bound_of(const Block& block, Vec3d way) const {
+  const Vec3d other = block.way - way;
+  const double along = slides_ != nullptr
+                           ? std::abs(dot(block.normal, other)) + block.normal_apart * length(other)
+                           : length(other);
+  return block.apart + along;
+}
+
+double BlockMotion::approach_of(const Block& block, Vec3d way) const {
+  double most = 0;
+  for_points(block, [&](int point) { most = std::max(most, approach_of_point(point, way)); });
+  return most;
+}
+
+BlockMotion::Near BlockMotion::near(const Box3f& box, float reach, double enough) const {
+  Near found;
+  double samples = 0;
+  for (const Block& block : blocks_) {
+    if (!overlap(block.swept, box, reach)) continue;
+    found.way += block.samples * block.way;
+    samples += block.samples;
+  }
+  if (samples == 0) return found;
+  found.way = (1 / samples) * found.way;
+  for (const Block& block : blocks_) {
+    if (!overlap(block.swept, box, reach)) continue;
+    const double bound = bound_of(block, found.way);
+    const double wanted = std::max(found.approach, enough);
+    found.approach =
+        std::max(found.approach, bound <= wanted ? bound : approach_of(block, found.way));
+  }
+  return found;
+}
+
+}  // namespace weft
