@@ -237,6 +237,29 @@ TEST(Stepping, ContactForcesCarryTheWeight) {
     }
 }
 
+TEST(Stepping, AContactThatLiesOnAPinThrowsNothing) {
+  Cloth cloth = sheet_cloth(9);
+  pin(cloth, 0, vec_cast<double>(cloth.rest.at(0)));
+  ThreadTeam team(1);
+  const StepInput input;
+  const auto integrator = make_integrator(NewtonOptions{}, cloth, input, team);
+  // A point of a triangle, all but a little of it the pinned corner, that can't be lifted.
+  Contact contact;
+  contact.samples = {0, 1, 9};
+  contact.weights = {1 - 2e-6F, 1e-6F, 1e-6F};
+  contact.normal = {0, 1, 0};
+  contact.offset = cloth.rest.at(0).y + 0.002F;
+  contact.friction = 0.5F;
+  ClothState state = rest_state(cloth);
+  for (int i = 0; i < 10; ++i) {
+    integrator->begin(input, state);
+    integrator->iterate(std::span(&contact, 1));
+    integrator->end(state);
+    EXPECT_LT(length(vec_cast<double>(state.velocity.at(0, 1))), 1) << i;
+    EXPECT_LT(integrator->contact_forces()[0], 100) << i;
+  }
+}
+
 TEST(Stepping, VeryUnevenCellsStayFinite) {
   const int n = 33;
   Planes3 rest = flat_sheet(n);

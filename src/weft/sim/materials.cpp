@@ -39,7 +39,7 @@ constexpr std::array<NamedMaterial, 9> materials{{
      {.density = 0.6,
       .stretch = 10000,
       .shear = 2000,
-      .bending = 1.1e-05,
+      .bending = 2.1e-05,
       .damping = 4,
       .thickness = 0.003}},
     {"linen",

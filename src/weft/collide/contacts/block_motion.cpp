@@ -56,17 +56,18 @@ void BlockMotion::measure(Block& block) const {
   block.normal = (1 / block.samples) * block.normal;
   for_points(block, [&](int point) {
     block.apart = std::max(block.apart, approach_of_point(point, block.way));
-    if (slides_ != nullptr)
-      block.normal_apart =
-          std::max(block.normal_apart, length(slides_->normal(point) - block.normal));
+    if (slides_ == nullptr) return;
+    block.normal_apart =
+        std::max(block.normal_apart, length(slides_->normal(point) - block.normal));
+    block.slant = std::max(block.slant, slides_->slant(point));
   });
 }
 
 double BlockMotion::bound_of(const Block& block, Vec3d way) const {
   const Vec3d other = block.way - way;
-  const double along = slides_ != nullptr
-                           ? std::abs(dot(block.normal, other)) + block.normal_apart * length(other)
-                           : length(other);
+  if (slides_ == nullptr) return block.apart + length(other);
+  const double along =
+      std::abs(dot(block.normal, other)) + (block.normal_apart + block.slant) * length(other);
   return block.apart + along;
 }
 

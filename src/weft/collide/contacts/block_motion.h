@@ -37,6 +37,7 @@ class BlockMotion {
     double apart = 0;         // approach of any point to what goes that way, at most [m]
     Vec3d normal;             // mean
     double normal_apart = 0;  // of any point, at most
+    double slant = 0;         // see SurfaceMotion::approach, the largest
     int first_row = 0, last_row = 0, first_col = 0, last_col = 0;
   };
   [[nodiscard]] Vec3d way_of(int sample) const {

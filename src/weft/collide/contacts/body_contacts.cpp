@@ -95,12 +95,11 @@ void BodyContacts::arrive(std::size_t body, int motion) {
   }
 }
 
-/// How near a sample must be to a body for a contact. Seen from what goes along with the parts of
-/// the body that are near, the more so the farther both go.
-double BodyContacts::reach_of(const ContactBody& body, const NearBlock& near, Vec3d way) const {
-  const double least = contact_foresight * kept_.gap;
-  if (length(way) > farthest_known()) return least + length(way) + body.most_approach;
-  return least + length(way - near.now.way) + near.now.approach;
+/// How the body goes where a sample may come: near its block, unless the sample goes too far.
+BlockMotion::Near BodyContacts::near_of(const ContactBody& body, const NearBlock& block,
+                                        Vec3d way) const {
+  if (length(way) <= farthest_known()) return block.now;
+  return {{}, body.most_approach};
 }
 
 std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, const NearBlock& near,
@@ -129,9 +128,11 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
   const Vec3d start = vec_cast<double>(cloth.start.at(sample));
   const Vec3d way = vec_cast<double>(cloth.position.at(sample)) - start;
   Past& past = past_[body.number - 1];
-  const NearBlock& near = block_of(past, sample);
-  const double reach = deep ? HUGE_VAL : reach_of(body, near, way);
-  const auto found = look(body, near, start, reach, past.samples[sample]);
+  const NearBlock& block = block_of(past, sample);
+  const BlockMotion::Near near = near_of(body, block, way);
+  const double reach =
+      deep ? HUGE_VAL : contact_foresight * kept_.gap + length(way - near.way) + near.approach;
+  const auto found = look(body, block, start, reach, past.samples[sample]);
   if (!found) return;
   // What was outside and kept out cannot be inside now, whatever the normals of an image say that
   // folds or crosses itself somewhere.

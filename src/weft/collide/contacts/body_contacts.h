@@ -75,7 +75,8 @@ class BodyContacts {
   [[nodiscard]] Box3f box_of_block(const Planes3& at, int block) const;
   [[nodiscard]] int blocks_a_side() const;
   [[nodiscard]] const NearBlock& block_of(const Past& past, int sample) const;
-  [[nodiscard]] double reach_of(const ContactBody& body, const NearBlock& near, Vec3d way) const;
+  [[nodiscard]] BlockMotion::Near near_of(const ContactBody& body, const NearBlock& block,
+                                          Vec3d way) const;
   /// How far records reach [m].
   [[nodiscard]] double farthest_known() const;
   /// The closest point, if it matters; remembers what there was to be known.

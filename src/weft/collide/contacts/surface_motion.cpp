@@ -21,14 +21,17 @@ void SurfaceMotion::measure(const Planes3& start, const Planes3& end,
   points_.resize(static_cast<std::size_t>(samples));
   team.run([&](Worker& worker) {
     const Range mine = worker.share(static_cast<int>(triangles.size()));
-    for (int t = mine.first; t < mine.last; ++t)
-      triangles_[t] = {across(start, triangles[t]), across(end, triangles[t])};
+    for (int t = mine.first; t < mine.last; ++t) {
+      const Vec3d from = across(start, triangles[t]);
+      triangles_[t] = {from, across(end, triangles[t]), length(from)};
+    }
   });
   sums_.assign(static_cast<std::size_t>(samples), {});
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const int corner : triangles[t]) {
       sums_[corner].from += triangles_[t].from;
       sums_[corner].to += triangles_[t].to;
+      sums_[corner].size += triangles_[t].size;
     }
   team.run([&](Worker& worker) {
     const Range mine = worker.share(samples);
@@ -39,12 +42,17 @@ void SurfaceMotion::measure(const Planes3& start, const Planes3& end,
       point.normal = 0.5 * (from + to);
       point.approach = std::abs(dot(point.normal, point.way));
       point.turn = length(to - from);
+      // The more they lean, the shorter the sum of their areas.
+      const double lost = sums_[s].size > 0 ? 1 - length(sums_[s].from) / sums_[s].size : 0;
+      point.slant = 2 * std::sqrt(2 * std::max(0.0, lost));
     }
   });
 }
 
 double SurfaceMotion::approach(int sample, Vec3d way) const {
-  return std::abs(dot(points_[sample].normal, points_[sample].way - way));
+  const Point& point = points_[sample];
+  const Vec3d left = point.way - way;
+  return std::abs(dot(point.normal, left)) + point.slant * length(left);
 }
 
 }  // namespace weft

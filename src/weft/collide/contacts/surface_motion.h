@@ -20,20 +20,24 @@ class SurfaceMotion {
   /// How far a point comes closer to what is before it, or leaves: its way along the mean of its
   /// normals at both ends. What slides along itself, as a ball that turns in place, does not. [m]
   [[nodiscard]] double approach(int sample) const { return points_[sample].approach; }
-  /// The same to what goes along by `way`.
+  /// The same to what goes along by `way`, and what the slant of the triangles around may add as
+  /// they slide past it.
   [[nodiscard]] double approach(int sample, Vec3d way) const;
   /// How much its normal turns: nearly the angle, as long as it is small. [rad]
   [[nodiscard]] double turn(int sample) const { return points_[sample].turn; }
   /// The mean of its normals at both ends, and not unit.
   [[nodiscard]] Vec3d normal(int sample) const { return points_[sample].normal; }
+  [[nodiscard]] double slant(int sample) const { return points_[sample].slant; }
 
  private:
   struct Areas {
     Vec3d from, to;
+    double size = 0;  // of `from`, or of those that were summed
   };
   struct Point {
     Vec3d way, normal;  // the mean of both ends'
     double approach = 0, turn = 0;
+    double slant = 0;  // sine of what triangles lean to it, twice their root mean square
   };
   std::vector<Areas> triangles_;  // twice the area along the normal
   std::vector<Areas> sums_;       // [n * n]
