@@ -32,8 +32,8 @@ struct Sphere {
 };
 
 /// Directions of k-DOPs: the axes, then the diagonals of two axes, then (13) those of all three.
-template <int directions>
-std::array<Vec3d, directions> dop_directions() {
+template <int Directions>
+std::array<Vec3d, Directions> dop_directions() {
   constexpr std::array<Vec3d, 13> all{{{1, 0, 0},
                                        {0, 1, 0},
                                        {0, 0, 1},
@@ -47,21 +47,21 @@ std::array<Vec3d, directions> dop_directions() {
                                        {1, 1, -1},
                                        {1, -1, 1},
                                        {-1, 1, 1}}};
-  std::array<Vec3d, directions> chosen;
-  for (std::size_t k = 0; k < directions; ++k) chosen[k] = normalized(all[k]);
+  std::array<Vec3d, Directions> chosen;
+  for (std::size_t k = 0; k < Directions; ++k) chosen[k] = normalized(all[k]);
   return chosen;
 }
 
 /// Between pairs of planes across fixed directions: an axis-aligned box has three, the 18-DOP nine,
 /// the 26-DOP thirteen [klosowski98].
-template <int directions>
+template <int Directions>
 struct DiscreteOriented {
   explicit DiscreteOriented(std::span<const Vec3d> points) {
-    static const std::array along = dop_directions<directions>();
+    static const std::array along = dop_directions<Directions>();
     lower.fill(HUGE_VAL);
     upper.fill(-HUGE_VAL);
     for (const Vec3d& p : points)
-      for (std::size_t k = 0; k < directions; ++k) {
+      for (std::size_t k = 0; k < Directions; ++k) {
         const double at = dot(along[k], p);
         lower[k] = std::min(lower[k], at);
         upper[k] = std::max(upper[k], at);
@@ -69,11 +69,11 @@ struct DiscreteOriented {
   }
   [[nodiscard]] double gap_to(const DiscreteOriented& other) const {
     double gap = -HUGE_VAL;
-    for (std::size_t k = 0; k < directions; ++k)
+    for (std::size_t k = 0; k < Directions; ++k)
       gap = std::max({gap, lower[k] - other.upper[k], other.lower[k] - upper[k]});
     return gap;
   }
-  std::array<double, directions> lower, upper;
+  std::array<double, Directions> lower, upper;
 };
 
 /// A box along the principal axes of the points, told apart along the fifteen axes of two boxes

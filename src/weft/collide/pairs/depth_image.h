@@ -20,7 +20,7 @@ inline ViewDirection view_direction(int index) { return {index / 2, index % 2 !=
 /// A depth image of boxes that belong to blocks, seen along an axis: at each pixel the nearest
 /// blocks, each with where it begins. Boxes are drawn a pixel larger than they are, so that none is
 /// missed between pixels or by rounding [govindaraju04].
-template <int layers>
+template <int Layers>
 class DepthImage {
  public:
   static constexpr int side = 128;  ///< pixels
@@ -30,7 +30,7 @@ class DepthImage {
   /// Boxes that do not meet the window, or are not numbers, leave nothing.
   void draw(const Box3f& box, int block);
   /// Whether a box lies before all that is drawn over its place by more than `reach`.
-  /// @param ignored  (block) whether a block does not count; of layers - 1 blocks at most
+  /// @param ignored  (block) whether a block does not count; of Layers - 1 blocks at most
   template <class Ignored>
   [[nodiscard]] bool is_before_all(const Box3f& box, float reach, const Ignored& ignored) const;
 
@@ -39,7 +39,7 @@ class DepthImage {
     float depth = HUGE_VALF;
     int block = -1;
   };
-  using Pixel = std::array<Entry, layers>;  // by depth
+  using Pixel = std::array<Entry, Layers>;  // by depth
   struct Rectangle {
     int first_row, last_row, first_col, last_col;
   };
@@ -63,8 +63,8 @@ class DepthImage {
   std::vector<Pixel> pixels_ = std::vector<Pixel>(static_cast<std::size_t>(side) * side);
 };
 
-template <int layers>
-void DepthImage<layers>::clear(const Box3f& window, ViewDirection view) {
+template <int Layers>
+void DepthImage<Layers>::clear(const Box3f& window, ViewDirection view) {
   std::fill(pixels_.begin(), pixels_.end(), Pixel{});
   view_ = view;
   window_ = window;
@@ -77,8 +77,8 @@ void DepthImage<layers>::clear(const Box3f& window, ViewDirection view) {
   pixels_a_col_ = density((view.axis + 2) % 3);
 }
 
-template <int layers>
-int DepthImage<layers>::pixel_of(float coordinate, float first, float per_length) {
+template <int Layers>
+int DepthImage<Layers>::pixel_of(float coordinate, float first, float per_length) {
   if (per_length == 0) return 0;  // the window has no size, or no end
   // As doubles, so that what is far does not overflow; what is no number is nowhere.
   const double at = (double{coordinate} - first) * per_length;
@@ -86,8 +86,8 @@ int DepthImage<layers>::pixel_of(float coordinate, float first, float per_length
   return at < side ? static_cast<int>(at) : side + 1;
 }
 
-template <int layers>
-typename DepthImage<layers>::Rectangle DepthImage<layers>::rectangle_of(const Box3f& box,
+template <int Layers>
+typename DepthImage<Layers>::Rectangle DepthImage<Layers>::rectangle_of(const Box3f& box,
                                                                         float reach) const {
   const int row_axis = (view_.axis + 1) % 3, col_axis = (view_.axis + 2) % 3;
   const auto first = [&](int axis, float per_length) {
@@ -104,17 +104,17 @@ typename DepthImage<layers>::Rectangle DepthImage<layers>::rectangle_of(const Bo
 }
 
 /// Keeps the nearest blocks in their order, each once.
-template <int layers>
-void DepthImage<layers>::insert(Pixel& pixel, const Entry& entry) {
+template <int Layers>
+void DepthImage<Layers>::insert(Pixel& pixel, const Entry& entry) {
   int from = 0;
-  while (from + 1 < layers && pixel[from].block != entry.block) ++from;
+  while (from + 1 < Layers && pixel[from].block != entry.block) ++from;
   if (!(entry.depth < pixel[from].depth)) return;
   for (; from > 0 && entry.depth < pixel[from - 1].depth; --from) pixel[from] = pixel[from - 1];
   pixel[from] = entry;
 }
 
-template <int layers>
-void DepthImage<layers>::draw(const Box3f& box, int block) {
+template <int Layers>
+void DepthImage<Layers>::draw(const Box3f& box, int block) {
   const float depth = near_depth(box);
   const Rectangle at = rectangle_of(box, 0);
   for (int r = at.first_row; r <= at.last_row; ++r)
@@ -122,9 +122,9 @@ void DepthImage<layers>::draw(const Box3f& box, int block) {
       insert(pixels_[static_cast<std::size_t>(r) * side + c], {depth, block});
 }
 
-template <int layers>
+template <int Layers>
 template <class Ignored>
-bool DepthImage<layers>::is_before_all(const Box3f& box, float reach,
+bool DepthImage<Layers>::is_before_all(const Box3f& box, float reach,
                                        const Ignored& ignored) const {
   const float end = far_depth(box);
   const Rectangle at = rectangle_of(box, reach);

@@ -56,15 +56,15 @@ void ImageSpacePairs::for_cells(const Blocks& of, int block, const Visit& visit)
       visit(of.boxes.at({0, r, c}), r * cells + c);
 }
 
-template <int layers>
-void ImageSpacePairs::draw(const Blocks& of, DepthImage<layers>& image) {
+template <int Layers>
+void ImageSpacePairs::draw(const Blocks& of, DepthImage<Layers>& image) {
   for (int block = 0; block < of.count(); ++block)
     if (of.left[block] != 0)
       for_cells(of, block, [&](const Box3f& box, int /*cell*/) { image.draw(box, block); });
 }
 
-template <int layers, class Ignored>
-void ImageSpacePairs::mark_seen(const Blocks& of, const DepthImage<layers>& image, float reach,
+template <int Layers, class Ignored>
+void ImageSpacePairs::mark_seen(const Blocks& of, const DepthImage<Layers>& image, float reach,
                                 const Ignored& ignored, Marks& seen) {
   seen.assign(of.left.size(), 0);
   for (int block = 0; block < of.count(); ++block) {

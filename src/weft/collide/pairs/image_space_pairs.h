@@ -47,11 +47,11 @@ class ImageSpacePairs final : public BroadPhase {
   /// Calls visit(box, cell) for the cells of a block.
   template <class Visit>
   static void for_cells(const Blocks& of, int block, const Visit& visit);
-  template <int layers>
-  static void draw(const Blocks& of, DepthImage<layers>& image);
+  template <int Layers>
+  static void draw(const Blocks& of, DepthImage<Layers>& image);
   /// Marks those before all others in a view.
-  template <int layers, class Ignored>
-  static void mark_seen(const Blocks& of, const DepthImage<layers>& image, float reach,
+  template <int Layers, class Ignored>
+  static void mark_seen(const Blocks& of, const DepthImage<Layers>& image, float reach,
                         const Ignored& ignored, Marks& seen);
   static bool drop(const std::array<Marks, view_count>& seen, Blocks& from);
   void cull(Blocks& a, Blocks& b, float reach, ThreadTeam& team);
