@@ -48,7 +48,7 @@ Vec3d ContactSystem::way_to(int index, Fields position) const {
     const Place& at = places_[index][k];
     const PaddedVectors& x = *position[at.cloth];
     const Vec3f now{x.x(at.row, at.col), x.y(at.row, at.col), x.z(at.row, at.col)};
-    way += w * (vec_cast<double>(now) - vec_cast<double>(starts_[at.cloth]->position.at(at.row, at.col)));
+    way += w * (vec_cast<double>(now) - vec_cast<double>(starts_[at.cloth]->at(at.row, at.col)));
   }
   return way;
 }
@@ -99,8 +99,7 @@ bool ContactSystem::choose(int index, Fields step) {
   float &k = stiffness_[index], &grip = grip_[index];
   const float k_before = k, grip_before = grip;
   const Vec3d moved = sum(index, step);
-  double depth = depth_after(index, moved);
-  if (first_ && past_[index] == nullptr) depth = std::max(depth, flown_depth(index));
+  const double depth = depth_after(index, moved);
   k = depth > 0 ? work_stiffness_[index] : 0.0F;
   const double force = limiting_force(index, depth, k_before);
   const bool is_new = past_[index] == nullptr && !(k_before > 0);

@@ -111,7 +111,7 @@ Vec3d ContactSystem::start_of(int index) const {
     const double w = contacts_[index].weights[k];
     if (w == 0) continue;
     const Place& at = places_[index][k];
-    point += w * vec_cast<double>(starts_[at.cloth]->position.at(at.row, at.col));
+    point += w * vec_cast<double>(starts_[at.cloth]->at(at.row, at.col));
   }
   return point;
 }
@@ -140,21 +140,6 @@ double ContactSystem::attainable_offset(int index) const {
                         dot(vec_cast<double>(contact.normal), start_of(index)) -
                         double{dot(contact.normal, contact.slide)};
   return contact.offset - (before > farthest ? before - farthest : 0) + lift_[index];
-}
-
-/// Beyond the offset, where nothing holds the point back: a guess that was held back does not show
-/// what it meets.
-double ContactSystem::flown_depth(int index) const {
-  const Contact& contact = contacts_[index];
-  Vec3d velocity;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double w = contact.weights[k];
-    if (w == 0) continue;
-    const Place& at = places_[index][k];
-    velocity += w * vec_cast<double>(starts_[at.cloth]->velocity.at(at.row, at.col));
-  }
-  const Vec3d flown = start_of(index) + input_.time_step * velocity;
-  return attainable_offset(index) - dot(vec_cast<double>(contact.normal), flown);
 }
 
 void ContactSystem::hold(std::size_t cloth, const PaddedBlocks& diagonal, const Worker& worker) {

@@ -23,10 +23,10 @@ class ContactSystem {
   /// @param cloths  kept by pointer
   explicit ContactSystem(std::span<const Cloth* const> cloths);
 
-  /// Of each cloth in their order: those that are its own, and how it was at the step's start.
+  /// Of each cloth in their order: those that are its own, and where it was at the step's start.
   struct Own {
     std::span<const Contact> contacts;
-    const ClothState* start = nullptr;        ///< valid until the last use
+    const Planes3* start = nullptr;           ///< valid until the last use [m]
     const ContactHistory* history = nullptr;  ///< the same; of shared ones whose first it is, too
   };
   /// Takes the place of the contacts before.
@@ -87,7 +87,6 @@ class ContactSystem {
   [[nodiscard]] Vec3d start_of(int index) const;
   [[nodiscard]] double compliance(int index, std::span<const Grid<float>* const> softness) const;
   [[nodiscard]] double attainable_offset(int index) const;
-  [[nodiscard]] double flown_depth(int index) const;
   [[nodiscard]] double lone_compliance(int index) const;
   void recall(int index);
   [[nodiscard]] Vec3d way_to(int index, Fields position) const;
@@ -117,7 +116,7 @@ class ContactSystem {
   std::vector<ContactGather> gathers_;            // of each cloth
   std::vector<Grid<float>> inverse_diagonals_;    // the same [m/N]
   std::vector<const Grid<float>*> held_, loose_;  // those, and inverse masses [1/kg]
-  std::vector<const ClothState*> starts_;         // of each cloth
+  std::vector<const Planes3*> starts_;            // of each cloth [m]
   std::vector<const ContactHistory*> histories_;  // the same
   std::vector<std::size_t> firsts_;               // of each cloth's own, and of shared ones
   StepInput input_;

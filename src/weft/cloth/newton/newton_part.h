@@ -32,7 +32,7 @@ class NewtonPart {
   /// The next solve starts from nothing.
   void forget() { has_last_ = false; }
   [[nodiscard]] ClothState& next() { return next_; }
-  [[nodiscard]] const ClothState& start() const { return start_; }
+  [[nodiscard]] const Planes3& start() const { return start_.position; }
   [[nodiscard]] const StepInput& input() const { return input_; }
   /// Of all that moves [kg].
   [[nodiscard]] double mass() const { return mass_; }
