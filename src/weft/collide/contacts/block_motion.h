@@ -22,10 +22,11 @@ class BlockMotion {
     double approach = 0;
   };
 
+  /// All are kept by reference. @param start, end  [n x n] [m]
   /// @param slides  its surface, where that is followed; null: each point counts by its whole way
   void measure(const SurfaceGrid& grid, const Planes3& start, const Planes3& end,
                const SurfaceMotion* slides, ThreadTeam& team);
-  /// Of all that comes within `reach` of a box on its way.
+  /// Of all that comes within `reach` [m] of a box on its way.
   /// @param enough  an approach that need not be known better [m]
   [[nodiscard]] Near near(const Box3f& box, float reach, double enough) const;
 

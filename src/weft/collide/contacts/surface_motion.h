@@ -14,7 +14,7 @@ namespace weft {
 /// little.
 class SurfaceMotion {
  public:
-  /// @param triangles  by samples that stand for their classes
+  /// @param start, end  [n x n] [m]  @param triangles  by samples that stand for their classes
   void measure(const Planes3& start, const Planes3& end, std::span<const Triangle> triangles,
                ThreadTeam& team);
   /// How far a point comes closer to what is before it, or leaves: its way along the mean of its
@@ -27,6 +27,7 @@ class SurfaceMotion {
   [[nodiscard]] double turn(int sample) const { return points_[sample].turn; }
   /// The mean of its normals at both ends, and not unit.
   [[nodiscard]] Vec3d normal(int sample) const { return points_[sample].normal; }
+  /// How much the triangles around lean to its normal: the part of a slide that they may approach.
   [[nodiscard]] double slant(int sample) const { return points_[sample].slant; }
 
  private:

@@ -11,10 +11,11 @@ namespace weft {
 
 /// One of the six directions along the axes of space in which one looks.
 struct ViewDirection {
-  int axis = 0;
+  int axis = 0;  ///< 0: x, 1: y, 2: z
   bool backwards = false;
 };
 inline constexpr int view_count = 6;
+/// @param index  0 to view_count - 1
 inline ViewDirection view_direction(int index) { return {index / 2, index % 2 != 0}; }
 
 /// A depth image of boxes that belong to blocks, seen along an axis: at each pixel the nearest
@@ -28,8 +29,9 @@ class DepthImage {
   /// Starts anew. @param window  what is seen; not empty
   void clear(const Box3f& window, ViewDirection view);
   /// Boxes that do not meet the window, or are not numbers, leave nothing.
+  /// @param block  >= 0, whose box it is
   void draw(const Box3f& box, int block);
-  /// Whether a box lies before all that is drawn over its place by more than `reach`.
+  /// Whether a box lies before all that is drawn over its place by more than `reach` [m].
   /// @param ignored  (block) whether a block does not count; of Layers - 1 blocks at most
   template <class Ignored>
   [[nodiscard]] bool is_before_all(const Box3f& box, float reach, const Ignored& ignored) const;
