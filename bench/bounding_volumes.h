@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "weft/collide/pairs/node_levels.h"
-#include "weft/collide/surface.h"
+#include "weft/collide/broad_phase/node_levels.h"
+#include "weft/collide/moving_surface.h"
 
 namespace weft::bench {
 

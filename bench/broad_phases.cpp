@@ -14,13 +14,13 @@
 #include <fmt/format.h>
 
 #include "bench/bounding_volumes.h"
-#include "weft/collide/pairs/cell_gaps.h"
-#include "weft/collide/pairs/image_space_pairs.h"
-#include "weft/collide/pairs/pyramid_pairs.h"
-#include "weft/collide/pairs/spatial_hash.h"
-#include "weft/collide/pairs/sphere_tree.h"
+#include "weft/collide/baselines/image_space_pairs.h"
+#include "weft/collide/baselines/spatial_hash.h"
+#include "weft/collide/baselines/sphere_tree.h"
+#include "weft/collide/broad_phase/cell_gaps.h"
+#include "weft/collide/broad_phase/pyramid_pairs.h"
 #include "weft/core/error.h"
-#include "weft/sim/scene_file.h"
+#include "weft/sim/scene_file/scene_file.h"
 #include "weft/sim/simulation.h"
 
 namespace weft::bench {
@@ -79,11 +79,13 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 /// Those whose cells come as near as was asked, by the narrow phase's first test.
-std::size_t count_near(const Moment& moment, int a, int b, const std::vector<CellPair>& pairs) {
-  return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [&](CellPair pair) {
-    return CellGaps(moment.surfaces[a], pair.a, moment.surfaces[b], pair.b).certain_gap() <
-           moment.reach();
-  }));
+std::size_t count_near(const Moment& moment, int a, int b,
+                       const std::vector<CandidatePair>& pairs) {
+  return static_cast<std::size_t>(
+      std::count_if(pairs.begin(), pairs.end(), [&](CandidatePair pair) {
+        return CellGaps(moment.surfaces[a], pair.a, moment.surfaces[b], pair.b).certain_gap() <
+               moment.reach();
+      }));
 }
 
 template <class Pairs>
@@ -92,7 +94,7 @@ Result measure_phase(const Moment& moment) {
   for (const SurfaceGrid& grid : moment.grids) grids.push_back(&grid);
   Pairs phase(grids, moment.cloths);
   ThreadTeam alone(1);
-  std::vector<CellPair> found;
+  std::vector<CandidatePair> found;
   Result result;
   for (int round = 0; round < rounds; ++round) {
     auto start = std::chrono::steady_clock::now();
@@ -118,7 +120,7 @@ Result measure_phase(const Moment& moment) {
 
 /// Goes down both hierarchies in turn, the larger first, as those of the survey do.
 template <class Volume>
-struct Descent {
+struct NonlinearPcg {
   const VolumeLevels<Volume>&a, &b;
   float reach;
   bool same;
@@ -161,12 +163,13 @@ Result measure_volumes(const Moment& moment) {
     result.pairs = result.tests = 0;
     moment.for_pairs([&](int a, int b) {
       UnfoldedWindows folds(moment.grids[a].cells());
-      if (a == b) folds.judge(moment.surfaces[a], moment.slack(), alone);
+      if (a == b) folds.find_unfolded(moment.surfaces[a], moment.slack(), alone);
       const int cells = moment.grids[a].cells();
-      const Descent<Volume> descent{levels[a], levels[b], moment.reach(), a == b, result.tests};
+      const NonlinearPcg<Volume> descent{levels[a], levels[b], moment.reach(), a == b,
+                                         result.tests};
       descent.go(levels[a].root(), levels[b].root(), [&](const Node& p, const Node& q) {
         const auto [first, second] = std::minmax({p.row * cells + p.col, q.row * cells + q.col});
-        if (a != b || !folds.unfolded(CellPair{first, second})) ++result.pairs;
+        if (a != b || !folds.unfolded(CandidatePair{first, second})) ++result.pairs;
       });
     });
     result.find_ms = std::min(result.find_ms, milliseconds_since(start));

@@ -14,21 +14,21 @@
 namespace weft::bench {
 namespace {
 
-struct Words {
+struct Args {
   std::string name, integrator;
   double mass = 0, bending = 0, fit = 0;  ///< [g/m^2], [uN m], [%]
   DrapeTestOptions test;
 };
 
-Material material_of(const Words& words) {
-  if (!words.name.empty()) {
-    const auto named = find_material(words.name);
-    if (!named) throw UsageError("--material", words.name, "the name of a material is wanted");
+Material material_of(const Args& args) {
+  if (!args.name.empty()) {
+    const auto named = find_material(args.name);
+    if (!named) throw UsageError("--material", args.name, "the name of a material is wanted");
     return *named;
   }
   Material material;
-  material.density = words.mass / 1000;
-  material.bending = words.bending * 1e-6;
+  material.density = args.mass / 1000;
+  material.bending = args.bending * 1e-6;
   return material;
 }
 
@@ -40,16 +40,16 @@ std::string discs_of(const DrapeResult& result) {
   return text;
 }
 
-int run(const Words& words) {
-  DrapeTestOptions options = words.test;
-  if (words.integrator == "implicit") options.integrator = ImplicitOptions{};
-  if (words.integrator == "tight")
+int run(const Args& args) {
+  DrapeTestOptions options = args.test;
+  if (args.integrator == "implicit") options.integrator = ImplicitOptions{};
+  if (args.integrator == "tight")
     options.integrator = NewtonOptions{.max_iterations = 100, .tolerance = 1e-3};
-  Material material = material_of(words);
+  Material material = material_of(args);
   const auto start = std::chrono::steady_clock::now();
   DrapeResult result;
-  if (words.fit > 0) {
-    FittedBending fitted = fit_bending(material, words.fit / 100, options);
+  if (args.fit > 0) {
+    FittedBending fitted = fit_bending(material, args.fit / 100, options);
     material.bending = fitted.bending;
     result = std::move(fitted.drape);
   } else {
@@ -66,22 +66,22 @@ int run(const Words& words) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  Words words;
+  Args args;
   CLI::App program{"Drapes discs of a fabric over Cusick's support and prints one JSON object."};
-  program.add_option("--material", words.name, "A name of docs/materials.md; else:");
-  program.add_option("--mass", words.mass, "Of a square metre [g]");
-  program.add_option("--bending", words.bending, "B [uN m]");
-  program.add_option("--fit", words.fit, "Find B of this drape coefficient [%]");
-  program.add_option("--size", words.test.size, "Samples a side")->capture_default_str();
-  program.add_option("--starts", words.test.starts, "Discs")->capture_default_str();
-  program.add_option("--seconds", words.test.seconds, "Of a run, at most")->capture_default_str();
+  program.add_option("--material", args.name, "A name of docs/materials.md; else:");
+  program.add_option("--mass", args.mass, "Of a square metre [g]");
+  program.add_option("--bending", args.bending, "B [uN m]");
+  program.add_option("--fit", args.fit, "Find B of this drape coefficient [%]");
+  program.add_option("--size", args.test.size, "Samples a side")->capture_default_str();
+  program.add_option("--starts", args.test.starts, "Discs")->capture_default_str();
+  program.add_option("--seconds", args.test.seconds, "Of a run, at most")->capture_default_str();
   program
-      .add_option("--integrator", words.integrator,
+      .add_option("--integrator", args.integrator,
                   "The library's default; the same with a hundredth of its tolerance (tight); or "
                   "implicit")
       ->check(CLI::IsMember({"", "tight", "implicit"}));
   CLI11_PARSE(program, argc, argv);
-  return run(words);
+  return run(args);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace weft::bench {
 namespace {
 
-struct Words {
+struct Args {
   int size = 65, threads = 1, repeats = 3;
   std::string picture;
 };
@@ -29,7 +29,7 @@ struct Trial {
 
 class Trials {
  public:
-  explicit Trials(const Words& words) : words_(words) {}
+  explicit Trials(const Args& args) : words_(args) {}
 
   void add(const std::string& series, const IntegratorOptions& method, int substeps,
            int iterations = 0) {
@@ -48,7 +48,7 @@ class Trials {
   [[nodiscard]] const std::vector<Trial>& list() const { return list_; }
 
  private:
-  const Words& words_;
+  const Args& words_;
   std::vector<Trial> list_;
 };
 
@@ -59,8 +59,8 @@ int reference_substeps(int size) { return 4 * stable_substeps(size); }
 /// Beyond this the dense filter of desbrun takes minutes to make.
 constexpr int largest_desbrun_size = 71;
 
-Trials trials_for(const Words& words) {
-  Trials trials(words);
+Trials trials_for(const Args& args) {
+  Trials trials(args);
   for (const int substeps : {1, 2, 4, 8, 16}) trials.add("newton", NewtonOptions{}, substeps);
   for (const int iterations : {1, 2, 3, 5, 10})
     for (const int substeps : {1, 2, 4, 8, 16})
@@ -68,10 +68,10 @@ Trials trials_for(const Words& words) {
                  MultigridOptions{.max_iterations = iterations, .tolerance = 0}, substeps,
                  iterations);
   for (const int substeps : {1, 2, 4, 8, 16}) trials.add("implicit", ImplicitOptions{}, substeps);
-  for (const int substeps : {stable_substeps(words.size), 2 * stable_substeps(words.size)})
+  for (const int substeps : {stable_substeps(args.size), 2 * stable_substeps(args.size)})
     trials.add("explicit", ExplicitOptions{}, substeps);
   for (const int substeps : {1, 2, 4, 8}) trials.add("two level", TwoLevelOptions{}, substeps);
-  if (words.size <= largest_desbrun_size)
+  if (args.size <= largest_desbrun_size)
     for (const int substeps : {1, 2, 4, 8}) trials.add("desbrun", DesbrunOptions{}, substeps);
   for (const int substeps : {10, 20, 50, 100, 200, 400}) trials.add_position_based(substeps);
   return trials;
@@ -90,12 +90,12 @@ std::optional<HangingRun> median_of(int repeats, const Trial& trial) {
   return run;
 }
 
-HangingRun converged(const Words& words, int substeps) {
-  Scene scene = hanging_sheet(words.size);
+HangingRun converged(const Args& args, int substeps) {
+  Scene scene = hanging_sheet(args.size);
   scene.integrator = ExplicitOptions{};
   scene.limiter_passes = 0;
   scene.substeps = substeps;
-  return run_hanging(scene, words.threads).value();
+  return run_hanging(scene, args.threads).value();
 }
 
 void print_row(const Trial& trial, const std::optional<HangingRun>& run, double error) {
@@ -118,44 +118,44 @@ void add_point(Plot& plot, const std::string& series, PlotPoint point) {
   known->points.push_back(point);
 }
 
-void measure(const Words& words) {
-  const int steps = reference_substeps(words.size);
-  const HangingRun reference = converged(words, steps);
-  const double own = distance_between(converged(words, steps / 2), reference);
+void measure(const Args& args) {
+  const int steps = reference_substeps(args.size);
+  const HangingRun reference = converged(args, steps);
+  const double own = distance_between(converged(args, steps / 2), reference);
   fmt::print(
       "{0} x {0} samples, {1} thread(s). The converged run takes {2} explicit steps a frame; with "
       "half as many "
       "it is {3:.1f} mm off itself, and it falls {4:.3f} m.\n\n",
-      words.size, words.threads, steps, 1000 * own, reference.fall);
+      args.size, args.threads, steps, 1000 * own, reference.fall);
   fmt::print(
       "| method | substeps | iterations | ms a frame | off by, mm | fall, m | strain p99 % | "
       "largest % |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   Plot plot{"ms a frame", "off by mm (rms of 30 frames)", {}};
-  const Trials trials = trials_for(words);
+  const Trials trials = trials_for(args);
   for (const Trial& trial : trials.list()) {
-    const std::optional<HangingRun> run = median_of(words.repeats, trial);
+    const std::optional<HangingRun> run = median_of(args.repeats, trial);
     const double error = run ? distance_between(*run, reference) : 0;
     print_row(trial, run, error);
     (void)std::fflush(stdout);
     if (run) add_point(plot, trial.series, {run->milliseconds, 1000 * error});
   }
-  if (!words.picture.empty()) write_png(words.picture, draw_plot(plot));
+  if (!args.picture.empty()) write_png(args.picture, draw_plot(plot));
 }
 
 }  // namespace
 }  // namespace weft::bench
 
 int main(int argc, char** argv) try {
-  weft::bench::Words words;
+  weft::bench::Args args;
   CLI::App program{"Error of every method against a converged run, over its time."};
-  program.add_option("--size", words.size, "Samples a side")->capture_default_str();
-  program.add_option("--threads", words.threads)->capture_default_str();
-  program.add_option("--repeats", words.repeats, "Runs whose median time counts")
+  program.add_option("--size", args.size, "Samples a side")->capture_default_str();
+  program.add_option("--threads", args.threads)->capture_default_str();
+  program.add_option("--repeats", args.repeats, "Runs whose median time counts")
       ->capture_default_str();
-  program.add_option("-o,--picture", words.picture, "PNG of the plot");
+  program.add_option("-o,--picture", args.picture, "PNG of the plot");
   CLI11_PARSE(program, argc, argv);
-  weft::bench::measure(words);
+  weft::bench::measure(args);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "bench: error: %s\n", error.what());
   return 1;

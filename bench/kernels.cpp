@@ -12,13 +12,13 @@
 #include <fmt/format.h>
 
 #include "bench/hanging_sheet.h"
-#include "weft/cloth/coarse_limit.h"
-#include "weft/cloth/integrate/integrator.h"
-#include "weft/cloth/integrate/spring_rows.h"
-#include "weft/cloth/multigrid/filter.h"
-#include "weft/cloth/multigrid/filter_level.h"
+#include "weft/cloth/baselines/coarse_limit.h"
+#include "weft/cloth/baselines/multigrid/multigrid_preconditioner.h"
+#include "weft/cloth/baselines/multigrid/preconditioner_level.h"
+#include "weft/cloth/baselines/strain_limit.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/cloth/strain_limit.h"
+#include "weft/cloth/spring_rows.h"
 
 namespace weft::bench {
 namespace {
@@ -28,7 +28,7 @@ constexpr double step_seconds = 1.0 / 240;
 constexpr int frames_before = 5;
 
 /// Seconds of the fastest of many calls; what prepares each is not counted.
-double least_seconds(const std::function<void()>& prepare, const std::function<void()>& call) {
+double min_seconds(const std::function<void()>& prepare, const std::function<void()>& call) {
   using Clock = std::chrono::steady_clock;
   constexpr double at_least = 0.15;
   constexpr int calls_at_least = 5;
@@ -63,7 +63,7 @@ double triad_bandwidth(double bytes, ThreadTeam& team) {
       }
     });
   };
-  const double seconds = least_seconds([] {}, rounds_of_triad);
+  const double seconds = min_seconds([] {}, rounds_of_triad);
   return rounds * 3.0 * sizeof(float) * count / seconds;
 }
 
@@ -98,8 +98,8 @@ class Sheet {
     step();
     proposal_ = state_;
     gather_forces();
-    filter_.right() = force_;
-    level_.right = force_;
+    filter_.rhs() = force_;
+    level_.rhs = force_;
   }
 
   /// What each reads and writes, four bytes a plane: position and start, rest length, stiffness and
@@ -154,7 +154,7 @@ class Sheet {
         (void)table.sweep(
             n,
             {0.85F, level_.inverse_diagonal.row(r), level_.share_row(r), level_.count_row(r),
-             row_of(std::as_const(level_.right), r), row_of(std::as_const(level_.value), r)},
+             row_of(std::as_const(level_.rhs), r), row_of(std::as_const(level_.value), r)},
             out);
       }
     });
@@ -189,14 +189,14 @@ class Sheet {
   ThreadTeam team_;
   SpringRows springs_;
   FilterLevel level_;
-  MultigridFilter filter_;
+  MultigridPreconditioner filter_;
   StrainLimit limit_;
   CoarseLimit coarse_limit_;
   std::unique_ptr<Integrator> integrator_;
 };
 
 void print_row(const Kernel& kernel, int size, Sheet& sheet) {
-  const double seconds = least_seconds([&] { sheet.prepare(); }, kernel.call);
+  const double seconds = min_seconds([&] { sheet.prepare(); }, kernel.call);
   const double ns = 1e9 * seconds / sheet.particles();
   if (kernel.bytes_a_particle <= 0) {
     fmt::print("| {} | {} x {} | | {:.1f} | | | |\n", kernel.name, size, size, ns);

@@ -9,7 +9,7 @@ namespace {
 
 /// Coordinates, where they began and the inverse mass: what a stream holds of each particle.
 constexpr int fields = 7;
-constexpr float least_length = 1e-12F;
+constexpr float min_length = 1e-12F;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void project(int count, const Springs& springs, const Line& a, const Line& b) {
     const float alpha = springs.compliance[i * springs.stride];
     const float lag = springs.lag[i * springs.stride];
     const float dx = b.x[i] - a.x[i], dy = b.y[i] - a.y[i], dz = b.z[i] - a.z[i];
-    const float length = std::sqrt(dx * dx + dy * dy + dz * dz) + least_length;
+    const float length = std::sqrt(dx * dx + dy * dy + dz * dz) + min_length;
     // How far the step has drawn the ends apart along the spring: damping takes from it.
     const float drawn = (dx * (dx - (b.x0[i] - a.x0[i])) + dy * (dy - (b.y0[i] - a.y0[i])) +
                          dz * (dz - (b.z0[i] - a.z0[i]))) /

@@ -14,10 +14,11 @@
 #include <fmt/format.h>
 
 #include "bench/exact_inside.h"
+#include "weft/collide/baselines/polar_map.h"
 #include "weft/collide/contacts/body_query.h"
-#include "weft/collide/polar_map.h"
+#include "weft/convert/convert.h"
+#include "weft/convert/load_surface.h"
 #include "weft/core/random.h"
-#include "weft/image/convert.h"
 #include "weft/image/rebuild.h"
 #include "weft/mesh/io/read_mesh.h"
 #include "weft/mesh/shapes.h"

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double frame_rate = 60, gravity = 9.81, side = 1;
 
-struct Words {
+struct Args {
   std::vector<int> sizes{65};
   std::string integrator = "newton";
   int random = 0, jobs = 1, iterations = 0;
@@ -51,21 +51,21 @@ struct Outcome {
 };
 
 template <class Options>
-IntegratorOptions with(const Words& words) {
+IntegratorOptions with(const Args& args) {
   Options options;
-  if (words.iterations > 0) {
-    options.max_iterations = words.iterations;
+  if (args.iterations > 0) {
+    options.max_iterations = args.iterations;
     options.tolerance = 0;
   }
-  if (words.stop > 0) options.tolerance = words.stop;
+  if (args.stop > 0) options.tolerance = args.stop;
   return options;
 }
 
-IntegratorOptions method(const Words& words) {
-  const std::string& name = words.integrator;
-  if (name == "newton") return with<NewtonOptions>(words);
-  if (name == "multigrid") return with<MultigridOptions>(words);
-  if (name == "implicit") return with<ImplicitOptions>(words);
+IntegratorOptions method(const Args& args) {
+  const std::string& name = args.integrator;
+  if (name == "newton") return with<NewtonOptions>(args);
+  if (name == "multigrid") return with<MultigridOptions>(args);
+  if (name == "implicit") return with<ImplicitOptions>(args);
   throw SceneError("--integrator", name, "newton, multigrid or implicit");
 }
 
@@ -107,11 +107,11 @@ class Rise {
 /// A sheet moved by an integrator and, beside it, by tight solves.
 class Comparison {
  public:
-  Comparison(const Trial& trial, const Words& words)
+  Comparison(const Trial& trial, const Args& args)
       : trial_(trial),
         cloth_(hung_sheet(trial)),
-        integrator_(make_integrator(method(words), cloth_, input(), team_)),
-        tight_(cloth_, {.tolerance = words.tolerance}),
+        integrator_(make_integrator(method(args), cloth_, input(), team_)),
+        tight_(cloth_, {.tolerance = args.tolerance}),
         state_(rest_state(cloth_)),
         tight_state_(tight_state(state_)) {
     energy_.add(total_energy());
@@ -188,9 +188,9 @@ class Comparison {
   Outcome outcome_;
 };
 
-std::vector<Trial> fabrics(const Words& words) {
+std::vector<Trial> fabrics(const Args& args) {
   std::vector<Trial> trials;
-  for (const int size : words.sizes)
+  for (const int size : args.sizes)
     for (const double stretch : {2e3, 2e4, 1e5})
       for (const double shear : {20., 200., 2000.})
         for (const double density : {0.02, 0.2, 1.}) {
@@ -198,7 +198,7 @@ std::vector<Trial> fabrics(const Words& words) {
           const bool few = (stretch == 2e3 && shear == 20 && density == 1) ||
                            (stretch == 1e5 && shear == 20 && density == 0.02) ||
                            (stretch == 2e4 && shear == 200 && density == 0.2);
-          if (words.fast && !few) continue;
+          if (args.fast && !few) continue;
           Trial trial;
           trial.size = size;
           trial.material = {.density = density,
@@ -239,21 +239,21 @@ Trial random_trial(std::uint64_t seed) {
   return trial;
 }
 
-std::vector<Trial> random_trials(const Words& words) {
+std::vector<Trial> random_trials(const Args& args) {
   std::vector<Trial> trials;
-  for (int i = 0; i < words.random; ++i)
-    trials.push_back(random_trial(words.seed + static_cast<std::uint64_t>(i)));
+  for (int i = 0; i < args.random; ++i)
+    trials.push_back(random_trial(args.seed + static_cast<std::uint64_t>(i)));
   return trials;
 }
 
 /// On so many threads, each trial on one.
-std::vector<Outcome> run_all(const std::vector<Trial>& trials, const Words& words) {
+std::vector<Outcome> run_all(const std::vector<Trial>& trials, const Args& args) {
   std::vector<Outcome> outcomes(trials.size());
   std::atomic<std::size_t> next{0}, done{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < trials.size(); i = next++) {
       const double start = cpu_seconds();
-      Outcome& o = outcomes[i] = Comparison(trials[i], words).run();
+      Outcome& o = outcomes[i] = Comparison(trials[i], args).run();
       fmt::print(stderr,
                  "{}/{}: trial {}, n {}: centre {:.2f} mm, rms {:.1f} mm, energy {:.1e}, {} steps "
                  "unsolved, {:.0f} s\n",
@@ -262,7 +262,7 @@ std::vector<Outcome> run_all(const std::vector<Trial>& trials, const Words& word
     }
   };
   std::vector<std::thread> others;
-  for (int i = 1; i < words.jobs; ++i) others.emplace_back(work);
+  for (int i = 1; i < args.jobs; ++i) others.emplace_back(work);
   work();
   for (std::thread& other : others) other.join();
   return outcomes;
@@ -325,18 +325,18 @@ void print_random(const std::vector<Trial>& trials, const std::vector<Outcome>& 
   fmt::print("| worst | | | | | | | | | | {} |\n", measured_strain(worst_of(outcomes)));
 }
 
-void measure(const Words& words) {
-  (void)method(words);
+void measure(const Args& args) {
+  (void)method(args);
   const DerivativeErrors errors = check_derivatives();
   fmt::print(stderr, "derivatives against differences: gradient {:.1e}, product {:.1e}\n",
              errors.gradient, errors.product);
   if (!(errors.gradient < 1e-6 && errors.product < 1e-5))
     throw std::runtime_error("the tight solve's derivatives are wrong");
-  const bool by_chance = words.random > 0;
-  const std::vector<Trial> trials = by_chance ? random_trials(words) : fabrics(words);
-  const std::vector<Outcome> outcomes = run_all(trials, words);
+  const bool by_chance = args.random > 0;
+  const std::vector<Trial> trials = by_chance ? random_trials(args) : fabrics(args);
+  const std::vector<Outcome> outcomes = run_all(trials, args);
   if (by_chance)
-    print_random(trials, outcomes, words.seed);
+    print_random(trials, outcomes, args.seed);
   else
     print_fabrics(trials, outcomes);
 }
@@ -345,23 +345,23 @@ void measure(const Words& words) {
 }  // namespace weft::bench
 
 int main(int argc, char** argv) try {
-  weft::bench::Words words;
+  weft::bench::Args args;
   CLI::App program{"A hanging sheet by an integrator, against steps solved to the end in double."};
-  program.add_option("--sizes", words.sizes, "Samples a side")
+  program.add_option("--sizes", args.sizes, "Samples a side")
       ->delimiter(',')
       ->capture_default_str();
-  program.add_option("--integrator", words.integrator, "newton, multigrid or implicit")
+  program.add_option("--integrator", args.integrator, "newton, multigrid or implicit")
       ->capture_default_str();
-  program.add_option("--random", words.random, "So many materials by chance instead of fabrics");
-  program.add_option("--seed", words.seed, "Of the first of them")->capture_default_str();
-  program.add_option("--iterations", words.iterations, "So many, instead of the defaults");
-  program.add_option("--stop", words.stop, "The integrator's tolerance, instead of the default");
-  program.add_option("--tolerance", words.tolerance, "Of the tight solve's last move [m]")
+  program.add_option("--random", args.random, "So many materials by chance instead of fabrics");
+  program.add_option("--seed", args.seed, "Of the first of them")->capture_default_str();
+  program.add_option("--iterations", args.iterations, "So many, instead of the defaults");
+  program.add_option("--stop", args.stop, "The integrator's tolerance, instead of the default");
+  program.add_option("--tolerance", args.tolerance, "Of the tight solve's last move [m]")
       ->capture_default_str();
-  program.add_option("--jobs", words.jobs, "Trials at a time")->capture_default_str();
-  program.add_flag("--fast", words.fast, "Three fabrics");
+  program.add_option("--jobs", args.jobs, "Trials at a time")->capture_default_str();
+  program.add_flag("--fast", args.fast, "Three fabrics");
   CLI11_PARSE(program, argc, argv);
-  weft::bench::measure(words);
+  weft::bench::measure(args);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "bench: error: %s\n", error.what());
   return 1;

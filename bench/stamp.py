@@ -16,13 +16,13 @@ MOST_COMMITS = 60
 
 CLOTH = ("src/weft/cloth",)
 SIMULATION = ("src/weft/cloth", "src/weft/collide", "src/weft/sim")
-CONVERSION = ("src/weft/mesh", "src/weft/cut", "src/weft/param", "src/weft/image")
+CONVERSION = ("src/weft/mesh", "src/weft/cut", "src/weft/param", "src/weft/image", "src/weft/convert")
 SOURCES = {
     "meshes": CONVERSION, "targets": CONVERSION, "growth": CONVERSION,
     "hanging": SIMULATION, "table5": CLOTH, "error_129": CLOTH, "error_65": CLOTH, "kernels": CLOTH,
     "solver_fabrics": CLOTH, "solver_random": CLOTH,
     "ccd": ("src/weft/collide/ccd.cpp", "src/weft/collide/ccd.h"), "polar_map": ("src/weft/collide",),
-    "broad_phases": ("src/weft/collide/pairs",),
+    "broad_phases": ("src/weft/collide/broad_phase",),
     "validate": (*SIMULATION, "tests/cloth", "tests/sim"), "self_cost": SIMULATION, "scenes": SIMULATION, "soak": SIMULATION,
     "drape": (*CLOTH, "src/weft/sim/drape_coefficient.cpp", "src/weft/sim/materials.cpp"),
 }

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/newton/block_multigrid.h"
 #include "weft/cloth/newton/spring_hessian.h"
 

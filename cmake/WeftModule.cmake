@@ -5,7 +5,7 @@
 function(weft_module name)
   cmake_parse_arguments(MODULE "" "" "PUBLIC;PRIVATE;HEADERS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/weft/${name}/*.cpp")
-  list(FILTER sources EXCLUDE REGEX "/kernels/rows/")
+  list(FILTER sources EXCLUDE REGEX "/kernels/isa/")
   add_library(weft_${name} STATIC ${sources})
   add_library(weft::${name} ALIAS weft_${name})
   set_target_properties(weft_${name} PROPERTIES EXPORT_NAME ${name})
@@ -18,10 +18,10 @@ function(weft_module name)
   set_property(GLOBAL APPEND PROPERTY WEFT_MODULES weft_${name})
 endfunction()
 
-# Compiles src/weft/NAME/kernels/rows once for every instruction set into the module. Functions get
+# Compiles src/weft/NAME/kernels/isa once for every instruction set into the module. Functions get
 # the set's name as namespace, so that the linker cannot mistake one for another.
 function(weft_kernels name)
-  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/weft/${name}/kernels/rows/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/weft/${name}/kernels/isa/*.cpp")
   set(flags_baseline "")
   set(flags_avx2 -mavx2)
   set(flags_avx512 -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512)

@@ -1,4 +1,4 @@
-#include "weft/sim/checkpoint.h"
+#include "weft/run/checkpoint.h"
 
 #include <cstring>
 #include <span>

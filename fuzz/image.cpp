@@ -55,7 +55,7 @@ void require_same(const GeometryImage& a, const GeometryImage& b) {
 }
 
 void require_sound(const GeometryImage& image) {
-  require(image.size() >= least_image_size && image.size() <= largest_image_size,
+  require(image.size() >= min_image_size && image.size() <= largest_image_size,
           "the size is in range");
   for (int sample = 0; sample < image.size() * image.size(); ++sample) {
     const Vec3f p = image.cube.at(sample);

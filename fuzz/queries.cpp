@@ -11,7 +11,7 @@ using namespace weft::fuzz;
 
 void check_answer(const ccd::Query& query, ccd::QueryKind kind) {
   // More steps are the same again and would only make the fuzzer slow.
-  const auto impact = ccd::answer(query, kind, {.most_steps = 200});
+  const auto impact = ccd::answer(query, kind, {.max_steps = 200});
   if (!impact) return;
   require(impact->time >= 0 && impact->time <= 1, "the time lies in the motion");
   const double rounding = 1e-12;

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "fuzz/properties.h"
-#include "weft/sim/scene_file.h"
+#include "weft/sim/scene_file/scene_file.h"
 
 namespace weft::fuzz {
 namespace {
@@ -12,8 +12,7 @@ void require_sound(const Scene& scene) {
   require(scene.substeps >= 1 && scene.frames >= 0, "steps and frames are counted");
   for (const SceneCloth& cloth : scene.cloths) {
     require(!cloth.name.empty() && cloth.name.find('/') == cloth.name.npos, "names are file names");
-    require(cloth.size >= least_image_size && cloth.size <= largest_image_size,
-            "sizes are in range");
+    require(cloth.size >= min_image_size && cloth.size <= largest_image_size, "sizes are in range");
     require(std::isfinite(cloth.friction) && std::isfinite(cloth.material.stretch.warp),
             "numbers are finite");
   }

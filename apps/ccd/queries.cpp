@@ -18,7 +18,7 @@ using boost::multiprecision::cpp_rational;
 
 constexpr int points_a_query = 8, fields_a_line = 7;
 /// Longer numbers are no coordinates; parsing takes the square of their length.
-constexpr std::size_t most_digits = 1000;
+constexpr std::size_t max_digits = 1000;
 
 class Reader {
  public:
@@ -77,7 +77,7 @@ class Reader {
   [[nodiscard]] cpp_int whole(std::string_view text) const {
     const std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
     const bool right =
-        !digits.empty() && digits.size() <= most_digits &&
+        !digits.empty() && digits.size() <= max_digits &&
         std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
     if (!right) fail(fmt::format("'{}'", text.substr(0, 40)), "a whole number is wanted");
     // A leading zero would mean an octal number.

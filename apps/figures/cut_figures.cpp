@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "apps/figures/figures.h"
+#include "weft/convert/convert.h"
 #include "weft/cut/seed_cut.h"
 #include "weft/cut/shortest_paths.h"
 #include "weft/cut/straighten.h"
-#include "weft/image/convert.h"
 #include "weft/mesh/shapes.h"
 #include "weft/view/border_pictures.h"
 #include "weft/view/palette.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "apps/figures/figures.h"
-#include "weft/cloth/integrate/filter_matrix.h"
+#include "weft/cloth/baselines/filter_matrix.h"
 #include "weft/cloth/neighbours.h"
 #include "weft/view/palette.h"
 #include "weft/view/panels.h"

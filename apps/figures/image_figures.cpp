@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/figures/figures.h"
-#include "weft/image/convert.h"
+#include "weft/convert/convert.h"
 #include "weft/image/rebuild.h"
 #include "weft/mesh/shapes.h"
 #include "weft/view/border_pictures.h"

@@ -19,7 +19,7 @@ constexpr double usual_limit = 0.05;
 /// Powers of ten of the residual that the scale covers.
 constexpr double residual_decades = 6;
 /// Samples from the border that show its mates.
-constexpr int band_part = 32, least_band = 2;
+constexpr int band_part = 32, min_band = 2;
 
 void fit(Planes3& colours, int n) {
   if (colours.size() != n) colours = Planes3(n);
@@ -115,7 +115,7 @@ void colour_mates(const BorderMates& mates, Planes3& colours) {
       pair[(run.mate - k + steps) % steps] = static_cast<int>(i);
     }
   }
-  const int band = std::max(least_band, (n - 1) / band_part);
+  const int band = std::max(min_band, (n - 1) / band_part);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
       // The border position that lies straight outwards on the nearest side.

@@ -62,10 +62,10 @@ void Controls::release() {
 }
 
 void Controls::move(Vec2d at, OrbitCamera& camera) {
-  const Vec2d way = at - at_;
+  const Vec2d displacement = at - at_;
   at_ = at;
-  if (drag_ == Drag::orbit) camera.orbit(way);
-  if (drag_ == Drag::pan) camera.pan(way);
+  if (drag_ == Drag::orbit) camera.orbit(displacement);
+  if (drag_ == Drag::pan) camera.pan(displacement);
   if (drag_ == Drag::cloth) ask(Pull{camera.on_facing_plane(at, held_->point)});
 }
 

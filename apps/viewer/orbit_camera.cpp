@@ -10,7 +10,7 @@ namespace {
 constexpr double turn_per_pixel = 0.007;  // [rad]
 constexpr double highest = 1.5;           // short of straight down, where up has no direction
 constexpr double nearer_per_step = 0.88;
-constexpr double least_distance = 1e-3, largest_distance = 1e4;  // [m]
+constexpr double min_distance = 1e-3, largest_distance = 1e4;  // [m]
 
 double half_slope() {
   return sine(Camera{}.vertical_angle / 2) / cosine(Camera{}.vertical_angle / 2);
@@ -40,14 +40,14 @@ OrbitCamera::Axes OrbitCamera::axes() const {
 
 double OrbitCamera::pixel_size() const { return 2 * half_slope() * distance_ / height_; }
 
-void OrbitCamera::orbit(Vec2d way) {
-  azimuth_ -= turn_per_pixel * way.x;
-  elevation_ = std::clamp(elevation_ + turn_per_pixel * way.y, -highest, highest);
+void OrbitCamera::orbit(Vec2d displacement) {
+  azimuth_ -= turn_per_pixel * displacement.x;
+  elevation_ = std::clamp(elevation_ + turn_per_pixel * displacement.y, -highest, highest);
 }
 
-void OrbitCamera::pan(Vec2d way) {
+void OrbitCamera::pan(Vec2d displacement) {
   const Axes a = axes();
-  target_ += (-way.x * pixel_size()) * a.right + (way.y * pixel_size()) * a.up;
+  target_ += (-displacement.x * pixel_size()) * a.right + (displacement.y * pixel_size()) * a.up;
 }
 
 void OrbitCamera::zoom(double steps, Vec2d at) {
@@ -55,7 +55,7 @@ void OrbitCamera::zoom(double steps, Vec2d at) {
   for (; steps >= 1; --steps) factor *= nearer_per_step;
   for (; steps <= -1; ++steps) factor /= nearer_per_step;
   factor *= 1 - (1 - nearer_per_step) * steps;
-  const double next = std::clamp(factor * distance_, least_distance, largest_distance);
+  const double next = std::clamp(factor * distance_, min_distance, largest_distance);
   const Vec3d kept = on_facing_plane(at, target_);
   target_ += (1 - next / distance_) * (kept - target_);
   distance_ = next;

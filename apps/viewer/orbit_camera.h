@@ -20,8 +20,8 @@ class OrbitCamera {
   void frame(const Box3d& box);
 
   /// By a way of the mouse [pixels].
-  void orbit(Vec2d way);
-  void pan(Vec2d way);
+  void orbit(Vec2d displacement);
+  void pan(Vec2d displacement);
   /// Nearer by steps of the wheel, towards the place under the mouse.
   void zoom(double steps, Vec2d at);
 

@@ -19,7 +19,7 @@ constexpr float panel_width = 290, plot_height = 64,
                 image_side = 140;  // [pixels] on a usual screen
 const ImVec4 warning(0.98F, 0.55F, 0.45F, 1);
 constexpr float strongest_wind = 12;  // [m/s]
-constexpr int most_substeps = 16, most_level = 6;
+constexpr int max_substeps = 16, max_level = 6;
 constexpr const char* keys =
     "left drag: cloth, orbit   right drag: pan   wheel: zoom   Space pause   . step   R reset   "
     "F frame   C colours   H panel   S picture";
@@ -136,7 +136,7 @@ void Panel::show_methods(Wishes& wishes) {
     set_collider(*edited_, collider);
     change(wishes, "collider " + collider);
   }
-  ImGui::SliderInt("substeps", &edited_->substeps, 1, most_substeps);
+  ImGui::SliderInt("substeps", &edited_->substeps, 1, max_substeps);
   if (ImGui::IsItemDeactivatedAfterEdit())
     change(wishes, fmt::format("{} substeps", edited_->substeps));
 }
@@ -176,7 +176,7 @@ void Panel::show_colours(const PanelInput& input, Controls& controls) {
   if (choose("show", strings(colour_names), by))
     colouring.by = static_cast<ColourBy>(std::find(colour_names.begin(), colour_names.end(), by) -
                                          colour_names.begin());
-  if (colouring.by == ColourBy::mip) ImGui::SliderInt("level", &colouring.level, 0, most_level);
+  if (colouring.by == ColourBy::mip) ImGui::SliderInt("level", &colouring.level, 0, max_level);
   controls.set_colouring(colouring);
   const auto& subject = input.snapshot.subject;
   const double limit =

@@ -3,7 +3,7 @@
 
 #include "apps/viewer/colouring.h"
 #include "apps/viewer/sources.h"
-#include "weft/sim/scene_file.h"
+#include "weft/sim/scene_file/scene_file.h"
 #include "weft/view/camera.h"
 
 namespace weft::viewer {

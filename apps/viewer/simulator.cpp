@@ -7,7 +7,7 @@
 
 #include "weft/core/error.h"
 #include "weft/core/overloaded.h"
-#include "weft/sim/drape.h"
+#include "weft/run/drape_scene.h"
 
 namespace weft::viewer {
 namespace {
@@ -99,11 +99,11 @@ void Simulator::obey(const Command& command) {
 
 SourceMaker Simulator::maker() {
   loading_ = true;
-  return {options_.threads, options_.instructions, this, &shelf_, ++subject_number_};
+  return {options_.threads, options_.instructions, this, &surface_cache_, ++subject_number_};
 }
 
 void Simulator::open(const std::string& subject) {
-  shelf_.clear();
+  surface_cache_.clear();
   update("open", 0);
   std::unique_ptr<Source> opened = open_source(subject, maker());
   original_ = opened->subject()->scene;

@@ -67,7 +67,7 @@ class Simulator : private Progress {
   Status status_;
 
   // Of the simulating thread alone.
-  SurfaceShelf shelf_;
+  SurfaceCache surface_cache_;
   std::unique_ptr<Source> source_;
   std::optional<Scene> original_;  // as it was opened
   std::vector<Command> commands_;

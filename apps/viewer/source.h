@@ -7,7 +7,7 @@
 #include "apps/viewer/snapshot.h"
 #include "weft/core/instruction_set.h"
 #include "weft/core/progress.h"
-#include "weft/sim/surface_shelf.h"
+#include "weft/sim/surface_cache.h"
 
 namespace weft::viewer {
 
@@ -44,7 +44,7 @@ struct SourceMaker {
   int threads = 1;
   InstructionSet instructions = best_instruction_set();
   Progress* progress = nullptr;
-  SurfaceShelf* surfaces = nullptr;
+  SurfaceCache* surfaces = nullptr;
   std::uint64_t number = 0;  ///< of the next subject
 };
 

@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 /// Nothing happens for so long at most, so that asking to stop is heard [s].
 constexpr double longest_wait = 0.1;
 /// Between two looks at the clock where pictures follow each other [s].
-constexpr double least_frame = 1.0 / 60;
+constexpr double min_frame = 1.0 / 60;
 /// Pictures after the last event: what the panel does about it takes some.
 constexpr int settling_pictures = 3;
 
@@ -111,7 +111,7 @@ class Viewer {
 
   [[nodiscard]] double waiting() const {
     if (unsettled_ == 0 && options_.frames == 0) return longest_wait;
-    return std::max(0.0, least_frame - milliseconds_since(last_picture_) / 1000);
+    return std::max(0.0, min_frame - milliseconds_since(last_picture_) / 1000);
   }
 
   void follow_size() {

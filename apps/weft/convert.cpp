@@ -1,4 +1,4 @@
-#include "weft/image/convert.h"
+#include "weft/convert/convert.h"
 
 #include <chrono>
 #include <climits>
@@ -20,44 +20,43 @@ namespace weft::app {
 namespace {
 namespace fs = std::filesystem;
 
-struct ConvertWords {
+struct ConvertArgs {
   std::string mesh, output, parameterizer = "stretch", component, size = "257";
-  MeshWords frame;
+  MeshArgs frame;
   int normal_map = 0, seed_triangle = -1;
   bool keep_uv = false, fit = false;
   std::string seam;
 };
 
-ComponentChoice component_of(const std::string& word) {
-  if (word.empty()) return {};
-  if (word == "largest") return {ComponentChoice::Kind::largest, 0};
+ComponentChoice component_of(const std::string& arg) {
+  if (arg.empty()) return {};
+  if (arg == "largest") return {ComponentChoice::Kind::largest, 0};
   int index = 0;
-  if (!CLI::detail::lexical_cast(word, index) || index < 0)
-    throw UsageError("--component", fmt::format("'{}'", word),
+  if (!CLI::detail::lexical_cast(arg, index) || index < 0)
+    throw UsageError("--component", fmt::format("'{}'", arg),
                      "a number from 0, largest or all is wanted");
   return {ComponentChoice::Kind::index, index};
 }
 
-int size_of(const std::string& word) {
-  if (word == "auto") return automatic_size;
+int size_of(const std::string& arg) {
+  if (arg == "auto") return automatic_size;
   int size = 0;
-  if (!CLI::detail::lexical_cast(word, size) || size < least_image_size ||
-      size > largest_image_size)
-    throw UsageError("--size", fmt::format("'{}'", word),
-                     fmt::format("a number from {} to {}, or auto, is wanted", least_image_size,
+  if (!CLI::detail::lexical_cast(arg, size) || size < min_image_size || size > largest_image_size)
+    throw UsageError("--size", fmt::format("'{}'", arg),
+                     fmt::format("a number from {} to {}, or auto, is wanted", min_image_size,
                                  largest_image_size));
   return size;
 }
 
-ConvertOptions options_of(const ConvertWords& words, const Context& context, Progress& progress) {
+ConvertOptions options_of(const ConvertArgs& args, const Context& context, Progress& progress) {
   ConvertOptions options;
-  options.size = size_of(words.size);
-  if (words.parameterizer == "floater") options.parameterizer = FloaterOptions{};
-  options.seed_triangle = words.seed_triangle;
-  options.normal_map_size = words.normal_map;
-  options.keep_uv = words.keep_uv;
-  if (!words.seam.empty()) options.seam = read_seam(words.seam);
-  options.fit_samples = words.fit;
+  options.size = size_of(args.size);
+  if (args.parameterizer == "floater") options.parameterizer = FloaterOptions{};
+  options.seed_triangle = args.seed_triangle;
+  options.normal_map_size = args.normal_map;
+  options.keep_uv = args.keep_uv;
+  if (!args.seam.empty()) options.seam = read_seam(args.seam);
+  options.fit_samples = args.fit;
   options.threads = context.threads;
   options.seed = context.seed;
   options.progress = &progress;
@@ -86,11 +85,11 @@ void print_summary(const Context& context, const Conversion& c) {
     say(context, fmt::format("memory  {:.0f} MB at most", *memory));
 }
 
-Json convert_one(const ConvertWords& words, const Context& context, const NamedMesh& named,
+Json convert_one(const ConvertArgs& args, const Context& context, const NamedMesh& named,
                  const ConvertOptions& options, const fs::path& output) {
   Conversion conversion = [&] {
     const PromptStop stop;  // nothing of it is written yet
-    return convert_mesh(named.mesh, words.mesh, options);
+    return convert_mesh(named.mesh, args.mesh, options);
   }();
   std::vector<fs::path> outputs{output};
   write_image(output, conversion.image);
@@ -107,20 +106,20 @@ Json convert_one(const ConvertWords& words, const Context& context, const NamedM
                              named.warnings.end());
   print_summary(context, conversion);
   for (const fs::path& path : outputs) say(context, "wrote   " + path.string());
-  return conversion_json(words.mesh, conversion, outputs);
+  return conversion_json(args.mesh, conversion, outputs);
 }
 
 // One image a component, numbered from 0, the largest first. One that does not convert keeps none
 // of the others from being written.
-Json convert_all(const ConvertWords& words, const Context& context, const NamedMesh& named,
+Json convert_all(const ConvertArgs& args, const Context& context, const NamedMesh& named,
                  ConvertOptions options) {
   Json conversions = Json::array(), failed = Json::array();
-  const int count = count_components(named.mesh, words.mesh);
+  const int count = count_components(named.mesh, args.mesh);
   for (int k = 0; k < count; ++k) {
     options.component = {ComponentChoice::Kind::index, k};
-    const fs::path output = beside(words.output, fmt::format("-{}", k));
+    const fs::path output = beside(args.output, fmt::format("-{}", k));
     try {
-      conversions.push_back(convert_one(words, context, named, options, output));
+      conversions.push_back(convert_one(args, context, named, options, output));
     } catch (const InputError& error) {
       failed.push_back({{"component", k}, {"error", error.what()}});
     } catch (const TopologyError& error) {
@@ -131,7 +130,7 @@ Json convert_all(const ConvertWords& words, const Context& context, const NamedM
 }
 
 // After the report, which tells what was written.
-void require_all(const ConvertWords& words, const Context& context, const Json& report) {
+void require_all(const ConvertArgs& args, const Context& context, const Json& report) {
   if (report["failed"].empty()) return;
   std::string numbers;
   for (const Json& failure : report["failed"]) {
@@ -141,40 +140,40 @@ void require_all(const ConvertWords& words, const Context& context, const Json& 
   }
   const std::size_t written = report["conversions"].size();
   throw TopologyError(
-      words.mesh,
+      args.mesh,
       fmt::format("{} of {} components did not convert: {}", report["failed"].size(),
                   report["failed"].size() + written, numbers),
       written > 0 ? "the others were written" : "none was written");
 }
 
-void check_words(const ConvertWords& words) {
-  check_output(words.output, {".exr", ".png"});
-  if (words.component != "all") return;
+void check_args(const ConvertArgs& args) {
+  check_output(args.output, {".exr", ".png"});
+  if (args.component != "all") return;
   for (const auto& [option, given] :
-       {std::pair{"--cut", !words.seam.empty()}, {"--seed-triangle", words.seed_triangle >= 0}})
+       {std::pair{"--cut", !args.seam.empty()}, {"--seed-triangle", args.seed_triangle >= 0}})
     if (given)
       throw UsageError(option, "together with --component all",
                        "the component that it lies on is wanted");
 }
 
-void convert(const ConvertWords& words, const Context& context) {
-  check_words(words);
+void convert(const ConvertArgs& args, const Context& context) {
+  check_args(args);
   TerminalProgress progress(context.quiet || context.json);
-  ConvertOptions options = options_of(words, context, progress);
+  ConvertOptions options = options_of(args, context, progress);
   const auto start = std::chrono::steady_clock::now();
   const NamedMesh named = [&] {
     const PromptStop stop;
-    return load_named_mesh(words.mesh, words.frame);
+    return load_named_mesh(args.mesh, args.frame);
   }();
   const std::chrono::duration<double> load = std::chrono::steady_clock::now() - start;
   for (const std::string& warning : named.warnings) warn(context, warning);
-  if (words.component == "all") {
-    const Json report = convert_all(words, context, named, options);
+  if (args.component == "all") {
+    const Json report = convert_all(args, context, named, options);
     print_report(context, report);
-    return require_all(words, context, report);
+    return require_all(args, context, report);
   }
-  options.component = component_of(words.component);
-  Json report = convert_one(words, context, named, options, words.output);
+  options.component = component_of(args.component);
+  Json report = convert_one(args, context, named, options, args.output);
   report["seconds"]["load"] = report["seconds"]["load"].get<double>() + load.count();
   report["seconds"]["total"] = report["seconds"]["total"].get<double>() + load.count();
   print_report(context, report);
@@ -183,40 +182,39 @@ void convert(const ConvertWords& words, const Context& context) {
 }  // namespace
 
 void add_convert(CLI::App& program, const Context& context) {
-  auto words = std::make_shared<ConvertWords>();
+  auto args = std::make_shared<ConvertArgs>();
   CLI::App* command = program.add_subcommand("convert", "Turn a mesh into a geometry image");
-  command->add_option("MESH", words->mesh, "OBJ, OFF, PLY, STL or GLB file, or builtin:NAME")
+  command->add_option("MESH", args->mesh, "OBJ, OFF, PLY, STL or GLB file, or builtin:NAME")
       ->required();
   command
-      ->add_option("-o,--output", words->output,
-                   "IMAGE.exr (float32, exact) or IMAGE.png (16 bits)")
+      ->add_option("-o,--output", args->output, "IMAGE.exr (float32, exact) or IMAGE.png (16 bits)")
       ->required();
   command
-      ->add_option("--size", words->size,
+      ->add_option("--size", args->size,
                    "Samples a side, 2^k + 1 suits the solvers; auto: by the mesh")
       ->capture_default_str();
-  add_mesh_options(*command, words->frame);
-  command->add_option("--parameterizer", words->parameterizer, "How the inside is mapped")
+  add_mesh_options(*command, args->frame);
+  command->add_option("--parameterizer", args->parameterizer, "How the inside is mapped")
       ->check(CLI::IsMember({"floater", "stretch"}))
       ->capture_default_str();
   command
-      ->add_option("--normal-map", words->normal_map,
+      ->add_option("--normal-map", args->normal_map,
                    "Write a normal map of this size beside the image")
-      ->check(CLI::Range(least_image_size, largest_image_size));
-  command->add_option("--cut", words->seam,
+      ->check(CLI::Range(min_image_size, largest_image_size));
+  command->add_option("--cut", args->seam,
                       "Cut along the vertex paths in this text file, one a line, counted from 0");
-  command->add_flag("--fit", words->fit,
+  command->add_flag("--fit", args->fit,
                     "Move the samples so that the surface between them is nearer to the mesh");
-  command->add_flag("--keep-uv", words->keep_uv,
+  command->add_flag("--keep-uv", args->keep_uv,
                     "Write the mesh's texture coordinates beside the image, as NAME-uv.exr");
-  command->add_option("--component", words->component,
+  command->add_option("--component", args->component,
                       "Of several: a number (largest is 0), largest, or all");
   command
-      ->add_option("--seed-triangle", words->seed_triangle,
+      ->add_option("--seed-triangle", args->seed_triangle,
                    "Where the cut begins; chosen when not given")
       ->check(CLI::Range(0, INT_MAX));
   command->footer("Example: weft convert bunny.obj -o bunny.exr --size 257 --normal-map 512");
-  command->callback([words, &context] { convert(*words, context); });
+  command->callback([args, &context] { convert(*args, context); });
 }
 
 }  // namespace weft::app

@@ -12,9 +12,9 @@
 #include "apps/weft/terminal_progress.h"
 #include "weft/core/files.h"
 #include "weft/image/io/image_file.h"
-#include "weft/sim/drape.h"
-#include "weft/sim/report.h"
-#include "weft/sim/scene_file.h"
+#include "weft/run/drape_scene.h"
+#include "weft/run/report.h"
+#include "weft/sim/scene_file/scene_file.h"
 #include "weft/view/image_pictures.h"
 
 namespace weft::app {

@@ -82,8 +82,8 @@ Picture draw_run(const RunFolder& run, const ViewFrom& view) {
 }
 
 Outline outline_of(const Subject& subject) {
-  constexpr int most_frames = 48;
-  const int last = subject.frames() - 1, looked_at = std::min(last, most_frames - 1);
+  constexpr int max_frames = 48;
+  const int last = subject.frames() - 1, looked_at = std::min(last, max_frames - 1);
   Outline outline;
   for (int i = 0; i <= looked_at; ++i)
     subject.add_to(outline, looked_at == 0

@@ -5,7 +5,7 @@
 
 #include "apps/weft/subject.h"
 #include "weft/core/progress.h"
-#include "weft/sim/run_folder.h"
+#include "weft/run/run_folder.h"
 #include "weft/view/renderer.h"
 #include "weft/view/surface_drawing.h"
 

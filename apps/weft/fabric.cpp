@@ -12,14 +12,14 @@
 #include "apps/weft/terminal_progress.h"
 #include "weft/core/error.h"
 #include "weft/sim/drape_coefficient.h"
-#include "weft/sim/scene_file.h"
+#include "weft/sim/scene_file/scene_file.h"
 
 namespace weft::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct FabricWords {
+struct FabricArgs {
   double mass = 0;              ///< [g/m^2]
   std::string bending, length;  ///< one number or warp,weft: [uN m], [mm]
   double drape = 0;             ///< [%]
@@ -52,46 +52,46 @@ WarpWeft read_pair(const std::string& option, std::string_view text) {
   return {*warp, *weft};
 }
 
-void check_words(const FabricWords& words) {
-  if (words.mass_given->count() == 0)
+void check_args(const FabricArgs& args) {
+  if (args.mass_given->count() == 0)
     throw UsageError("fabric", "no --mass", "the mass of a square metre in grams is wanted");
-  if (!(words.mass > 0) || !std::isfinite(words.mass))
-    throw UsageError("fabric", fmt::format("--mass {:g}", words.mass), "a mass > 0 is wanted");
+  if (!(args.mass > 0) || !std::isfinite(args.mass))
+    throw UsageError("fabric", fmt::format("--mass {:g}", args.mass), "a mass > 0 is wanted");
   std::string given;
-  for (const CLI::Option* one : {words.bending_given, words.length_given, words.drape_given})
+  for (const CLI::Option* one : {args.bending_given, args.length_given, args.drape_given})
     if (one->count() > 0) given += (given.empty() ? "" : " and ") + one->get_name();
   const bool one = !given.empty() && given.find(' ') == given.npos;
   if (!one)
     throw UsageError("fabric", given.empty() ? "nothing measured of how it bends" : given,
                      "one of --bending, --length, --drape is wanted");
-  if (words.drape_given->count() > 0 && !(words.drape > 0 && words.drape < 100))
-    throw UsageError("fabric", fmt::format("--drape {:g}", words.drape),
+  if (args.drape_given->count() > 0 && !(args.drape > 0 && args.drape < 100))
+    throw UsageError("fabric", fmt::format("--drape {:g}", args.drape),
                      "a percentage between 0 and 100 is wanted");
 }
 
-FittedBending fit(const FabricWords& words, const Material& material, const Context& context) {
+FittedBending fit(const FabricArgs& args, const Material& material, const Context& context) {
   const PromptStop nothing_half_written;
   TerminalProgress progress(context.quiet || context.json);
-  DrapeTestOptions options = words.test;
+  DrapeTestOptions options = args.test;
   options.seed = context.seed;
   options.team = {context.threads, context.instructions};
   options.progress = &progress;
-  return fit_bending(material, words.drape / 100, options);
+  return fit_bending(material, args.drape / 100, options);
 }
 
-Fabric make_fabric(const FabricWords& words, const Context& context) {
+Fabric make_fabric(const FabricArgs& args, const Context& context) {
   Fabric fabric;
   Material& material = fabric.material;
-  material.density = words.mass / 1000;
-  if (words.bending_given->count() > 0) {
-    const WarpWeft micro = read_pair("--bending", words.bending);
+  material.density = args.mass / 1000;
+  if (args.bending_given->count() > 0) {
+    const WarpWeft micro = read_pair("--bending", args.bending);
     material.bending = {micro.warp * 1e-6, micro.weft * 1e-6};
-  } else if (words.length_given->count() > 0) {
-    const WarpWeft length = read_pair("--length", words.length);
+  } else if (args.length_given->count() > 0) {
+    const WarpWeft length = read_pair("--length", args.length);
     material.bending = {bending_of_length(material.density, length.warp / 1000),
                         bending_of_length(material.density, length.weft / 1000)};
   } else {
-    FittedBending fitted = fit(words, material, context);
+    FittedBending fitted = fit(args, material, context);
     material.bending = fitted.bending;
     fabric.drape = std::move(fitted.drape);
   }
@@ -121,9 +121,9 @@ Json drape_json(const DrapeResult& drape) {
           {"kinetic_energy", drape.kinetic_energy}};
 }
 
-void fabric(const FabricWords& words, const Context& context) {
-  check_words(words);
-  Fabric made = make_fabric(words, context);
+void fabric(const FabricArgs& args, const Context& context) {
+  check_args(args);
+  Fabric made = make_fabric(args, context);
   made.material = rounded(made.material);
   const Json material = Json::parse(material_text(made.material));
   const Json lengths = lengths_json(made.material);
@@ -142,22 +142,22 @@ void fabric(const FabricWords& words, const Context& context) {
   print_report(context, report);
 }
 
-void add_measured(CLI::App& command, FabricWords& words) {
-  words.mass_given = command.add_option("--mass", words.mass, "Of a square metre [g]");
-  words.bending_given =
-      command.add_option("--bending", words.bending, "Bending rigidity [uN m]: B or WARP,WEFT");
-  words.length_given = command.add_option("--length", words.length,
-                                          "Bending length of ASTM D1388 [mm]: C or WARP,WEFT");
-  words.drape_given = command.add_option(
-      "--drape", words.drape,
+void add_measured(CLI::App& command, FabricArgs& args) {
+  args.mass_given = command.add_option("--mass", args.mass, "Of a square metre [g]");
+  args.bending_given =
+      command.add_option("--bending", args.bending, "Bending rigidity [uN m]: B or WARP,WEFT");
+  args.length_given = command.add_option("--length", args.length,
+                                         "Bending length of ASTM D1388 [mm]: C or WARP,WEFT");
+  args.drape_given = command.add_option(
+      "--drape", args.drape,
       "Cusick's drape coefficient [%], of a 30 cm disc on an 18 cm support: B is found by draping");
 }
 
-void add_test(CLI::App& command, FabricWords& words) {
-  command.add_option("--size", words.test.size, "Samples a side of the disc that is draped, odd")
+void add_test(CLI::App& command, FabricArgs& args) {
+  command.add_option("--size", args.test.size, "Samples a side of the disc that is draped, odd")
       ->check(CLI::Range(9, 1025))
       ->capture_default_str();
-  command.add_option("--starts", words.test.starts, "Discs draped for each mean")
+  command.add_option("--starts", args.test.starts, "Discs draped for each mean")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
 }
@@ -165,15 +165,15 @@ void add_test(CLI::App& command, FabricWords& words) {
 }  // namespace
 
 void add_fabric(CLI::App& program, const Context& context) {
-  auto words = std::make_shared<FabricWords>();
+  auto args = std::make_shared<FabricArgs>();
   CLI::App* command =
       program.add_subcommand("fabric", "Make a material from what was measured of a fabric");
-  add_measured(*command, *words);
-  add_test(*command, *words);
+  add_measured(*command, *args);
+  add_test(*command, *args);
   command->footer(
       "Prints an object for \"material\" of a scene file.\n"
       "Example: weft fabric --mass 192 --drape 64.4");
-  command->callback([words, &context] { fabric(*words, context); });
+  command->callback([args, &context] { fabric(*args, context); });
 }
 
 }  // namespace weft::app

@@ -5,31 +5,31 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/weft/commands.h"
+#include "weft/convert/load_surface.h"
 #include "weft/core/error.h"
-#include "weft/image/convert.h"
 
 namespace weft::app {
 namespace {
 
-void inspect(const InspectWords& words, const Context& context) {
-  if (is_image_name(words.subject)) return inspect_image(words, context);
-  if (!words.against.empty())
+void inspect(const InspectArgs& args, const Context& context) {
+  if (is_image_name(args.subject)) return inspect_image(args, context);
+  if (!args.against.empty())
     throw UsageError("--against", "the subject is a mesh",
                      "a geometry image is compared against a mesh");
-  inspect_mesh(words, context);
+  inspect_mesh(args, context);
 }
 
 }  // namespace
 
 void add_inspect(CLI::App& program, const Context& context) {
-  auto words = std::make_shared<InspectWords>();
+  auto args = std::make_shared<InspectArgs>();
   CLI::App* command = program.add_subcommand("inspect", "Say what a mesh or a geometry image is");
-  command->add_option("MESH|IMAGE", words->subject, "Mesh, builtin:NAME, or geometry image")
+  command->add_option("MESH|IMAGE", args->subject, "Mesh, builtin:NAME, or geometry image")
       ->required();
-  command->add_option("--against", words->against, "Mesh to measure the image's distance to");
-  add_mesh_options(*command, words->frame);
+  command->add_option("--against", args->against, "Mesh to measure the image's distance to");
+  add_mesh_options(*command, args->frame);
   command->footer("Example: weft inspect bunny.exr --against bunny.obj");
-  command->callback([words, &context] { inspect(*words, context); });
+  command->callback([args, &context] { inspect(*args, context); });
 }
 
 }  // namespace weft::app

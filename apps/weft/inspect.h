@@ -7,16 +7,16 @@
 
 namespace weft::app {
 
-struct InspectWords {
-  MeshWords frame;
+struct InspectArgs {
+  MeshArgs frame;
   std::string subject, against;
 };
 
 /// Prints what decides a mesh's fate, and that fate. @throws as load_mesh
-void inspect_mesh(const InspectWords& words, const Context& context);
+void inspect_mesh(const InspectArgs& args, const Context& context);
 
 /// Prints what a geometry image is, and how far it is from the mesh `against`, if there is one.
 /// @throws as read_image, load_mesh
-void inspect_image(const InspectWords& words, const Context& context);
+void inspect_image(const InspectArgs& args, const Context& context);
 
 }  // namespace weft::app

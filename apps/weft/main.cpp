@@ -42,8 +42,8 @@ void add_globals(CLI::App& program, Context& context) {
   program
       .add_option("--seed", context.seed,
                   "Of anything random: the samples that distances are measured by")
-      ->check([](const std::string& word) {
-        return word.starts_with('-') ? "a number from 0 is wanted" : std::string();
+      ->check([](const std::string& arg) {
+        return arg.starts_with('-') ? "a number from 0 is wanted" : std::string();
       })
       ->capture_default_str();
   program.set_version_flag("--version", "weft " WEFT_VERSION);
@@ -68,9 +68,9 @@ std::string command_names(const CLI::App& program) {
 // What a user did wrong. Without a command, the word that stands in its place is told.
 std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   if (!program.get_subcommands().empty()) return one_line(program, error.what());
-  for (const std::string& word : program.remaining())
-    if (!word.starts_with('-'))
-      return fmt::format("'{}' is no command; one of {} is wanted", word, command_names(program));
+  for (const std::string& arg : program.remaining())
+    if (!arg.starts_with('-'))
+      return fmt::format("'{}' is no command; one of {} is wanted", arg, command_names(program));
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
     return fmt::format("no command; one of {} is wanted", command_names(program));
   return one_line(program, error.what());

@@ -2,25 +2,25 @@
 
 #include <CLI/CLI.hpp>
 
-#include "weft/image/convert.h"
+#include "weft/convert/load_surface.h"
 #include "weft/mesh/units.h"
 
 namespace weft::app {
 
-void add_mesh_options(CLI::App& command, MeshWords& words) {
-  command.add_option("--unit", words.unit, "What the numbers of the mesh's file are")
+void add_mesh_options(CLI::App& command, MeshArgs& args) {
+  command.add_option("--unit", args.unit, "What the numbers of the mesh's file are")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}))
       ->capture_default_str();
-  command.add_option("--up", words.up, "Which axis of the mesh's file points up")
+  command.add_option("--up", args.up, "Which axis of the mesh's file points up")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
 }
 
-NamedMesh load_named_mesh(const std::string& name, const MeshWords& words) {
+NamedMesh load_named_mesh(const std::string& name, const MeshArgs& args) {
   MeshFrame frame;
-  frame.z_up = words.up == "z";
+  frame.z_up = args.up == "z";
   for (const LengthUnit& unit : length_units)
-    if (unit.name == words.unit) frame.unit = unit;
+    if (unit.name == args.unit) frame.unit = unit;
   NamedMesh named{in_metres_y_up(load_mesh(name), frame), {}};
   if (const auto warning = implausible_size(named.mesh, frame.unit))
     named.warnings.push_back(name + ": " + *warning);

@@ -12,10 +12,10 @@ class App;
 namespace weft::app {
 
 /// How the numbers of a mesh's file are meant.
-struct MeshWords {
+struct MeshArgs {
   std::string unit = "m", up = "y";
 };
-void add_mesh_options(CLI::App& command, MeshWords& words);
+void add_mesh_options(CLI::App& command, MeshArgs& args);
 
 /// A mesh in metres with y up, and what is worth a warning about it.
 struct NamedMesh {
@@ -23,6 +23,6 @@ struct NamedMesh {
   std::vector<std::string> warnings;
 };
 /// @throws as load_mesh
-NamedMesh load_named_mesh(const std::string& name, const MeshWords& words);
+NamedMesh load_named_mesh(const std::string& name, const MeshArgs& args);
 
 }  // namespace weft::app

@@ -8,10 +8,10 @@ namespace weft::app {
 std::optional<double> peak_memory_mb() {
   constexpr double mb_of_kib = 1024e-6;
   std::ifstream status("/proc/self/status");
-  std::string word;
-  while (status >> word) {
+  std::string arg;
+  while (status >> arg) {
     double kib = 0;
-    if (word == "VmHWM:" && status >> kib) return kib * mb_of_kib;
+    if (arg == "VmHWM:" && status >> kib) return kib * mb_of_kib;
   }
   return std::nullopt;
 }

@@ -14,34 +14,34 @@
 namespace weft::app {
 namespace {
 
-struct RebuildWords {
+struct RebuildArgs {
   std::string image, output;
 };
 
-void rebuild(const RebuildWords& words, const Context& context) {
-  check_output(words.output, {".obj", ".ply"});
-  const GeometryImage image = read_image(words.image);
+void rebuild(const RebuildArgs& args, const Context& context) {
+  check_output(args.output, {".obj", ".ply"});
+  const GeometryImage image = read_image(args.image);
   const RebuiltMesh rebuilt = rebuild_mesh(image);
-  write_mesh(words.output, rebuilt.mesh);
+  write_mesh(args.output, rebuilt.mesh);
   const Json found = image_json(image);
   say(context, fmt::format("mesh    {} vertices, {} triangles, genus {}, {} borders",
                            found["vertices"].get<int>(), found["triangles"].get<int>(),
                            found["genus"].get<int>(), found["boundaries"].get<int>()));
-  say(context, "wrote   " + words.output);
+  say(context, "wrote   " + args.output);
   print_report(context,
-               {{"input", {{"path", words.image}}}, {"image", found}, {"outputs", {words.output}}});
+               {{"input", {{"path", args.image}}}, {"image", found}, {"outputs", {args.output}}});
 }
 
 }  // namespace
 
 void add_rebuild(CLI::App& program, const Context& context) {
-  auto words = std::make_shared<RebuildWords>();
+  auto args = std::make_shared<RebuildArgs>();
   CLI::App* command =
       program.add_subcommand("rebuild", "Turn a geometry image back into a mesh, seams closed");
-  command->add_option("IMAGE", words->image, "Geometry image, .exr or .png")->required();
-  command->add_option("-o,--output", words->output, "MESH.obj or MESH.ply")->required();
+  command->add_option("IMAGE", args->image, "Geometry image, .exr or .png")->required();
+  command->add_option("-o,--output", args->output, "MESH.obj or MESH.ply")->required();
   command->footer("Example: weft rebuild bunny.exr -o bunny-again.obj");
-  command->callback([words, &context] { rebuild(*words, context); });
+  command->callback([args, &context] { rebuild(*args, context); });
 }
 
 }  // namespace weft::app

@@ -20,17 +20,17 @@
 namespace weft::app {
 namespace {
 
-struct RenderWords {
+struct RenderArgs {
   std::vector<std::string> subjects, labels;
-  ShownWords shown;  // of each mesh and image
+  ShownArgs shown;  // of each mesh and image
   std::string output;
   int frame = -1;
   bool turntable = false;
   double azimuth = 26, elevation = 14;  // degrees
 };
 
-bool is_movie(const RenderWords& words) {
-  const std::string ending = ending_of(words.output);
+bool is_movie(const RenderArgs& args) {
+  const std::string ending = ending_of(args.output);
   return ending == ".mp4" || ending == ".gif";
 }
 
@@ -39,24 +39,24 @@ bool is_run(const std::string& subject) {
   return std::filesystem::is_directory(subject, ignored);
 }
 
-void check(const RenderWords& words) {
-  const auto runs = std::count_if(words.subjects.begin(), words.subjects.end(), is_run);
-  const bool any_run = runs > 0, only_runs = runs == std::ssize(words.subjects);
-  if (only_runs && !words.shown.show.empty() && words.shown.show != "run")
-    throw UsageError("--show", "'" + words.shown.show + "' of a run",
+void check(const RenderArgs& args) {
+  const auto runs = std::count_if(args.subjects.begin(), args.subjects.end(), is_run);
+  const bool any_run = runs > 0, only_runs = runs == std::ssize(args.subjects);
+  if (only_runs && !args.shown.show.empty() && args.shown.show != "run")
+    throw UsageError("--show", "'" + args.shown.show + "' of a run",
                      "a run shows itself; leave it out");
-  if (!any_run && is_movie(words) && !words.turntable)
-    throw UsageError(words.output, "a movie of something that does not move",
+  if (!any_run && is_movie(args) && !args.turntable)
+    throw UsageError(args.output, "a movie of something that does not move",
                      "--turntable or a PNG is wanted for images and meshes");
-  if (words.turntable && !is_movie(words))
+  if (args.turntable && !is_movie(args))
     throw UsageError("--turntable", "the output is a picture", "a .mp4 or .gif is wanted");
-  if (!any_run && words.frame >= 0)
+  if (!any_run && args.frame >= 0)
     throw UsageError("--frame", "the subject is no run", "a run's folder is wanted");
-  if (words.frame >= 0 && is_movie(words) && !words.turntable)
+  if (args.frame >= 0 && is_movie(args) && !args.turntable)
     throw UsageError("--frame", "a movie of one frame", "--turntable or a PNG is wanted");
-  if (!words.labels.empty() && words.labels.size() != words.subjects.size())
-    throw UsageError("--labels", std::to_string(words.labels.size()) + " names",
-                     std::to_string(words.subjects.size()) + " are wanted, with commas between");
+  if (!args.labels.empty() && args.labels.size() != args.subjects.size())
+    throw UsageError("--labels", std::to_string(args.labels.size()) + " names",
+                     std::to_string(args.subjects.size()) + " are wanted, with commas between");
 }
 
 /// The last part of a path without its ending, or the built-in shape's name.
@@ -67,90 +67,90 @@ std::string name_of(const std::string& subject) {
   return is_run(subject) ? path.filename().string() : path.stem().string();
 }
 
-Shots open_subjects(const RenderWords& words, const Context& context) {
-  const ViewFrom view = part_of_row(words.shown.view, static_cast<int>(words.subjects.size()));
+Shots open_subjects(const RenderArgs& args, const Context& context) {
+  const ViewFrom view = part_of_row(args.shown.view, static_cast<int>(args.subjects.size()));
   std::vector<std::unique_ptr<Subject>> subjects;
-  std::vector<std::string> labels = words.labels;
-  for (const std::string& name : words.subjects) {
-    if (words.labels.empty() && words.subjects.size() > 1) labels.push_back(name_of(name));
+  std::vector<std::string> labels = args.labels;
+  for (const std::string& name : args.subjects) {
+    if (args.labels.empty() && args.subjects.size() > 1) labels.push_back(name_of(name));
     if (is_run(name)) {
       subjects.push_back(std::make_unique<RunSubject>(open_run_folder(name), view));
     } else {
-      ShownWords shown = words.shown;
+      ShownArgs shown = args.shown;
       shown.subject = name;
       shown.view = view;
       subjects.push_back(std::make_unique<Shown>(shown, context));
     }
   }
-  return {std::move(subjects), std::move(labels), words.shown.view};
+  return {std::move(subjects), std::move(labels), args.shown.view};
 }
 
-void film(const RenderWords& words, Shots& shots, const Context& context) {
-  if (words.turntable && shots.any_flat())
+void film(const RenderArgs& args, Shots& shots, const Context& context) {
+  if (args.turntable && shots.any_flat())
     throw UsageError("--turntable", "a flat picture does not turn",
                      "--show cut, stretch, surface or error is wanted");
-  const auto frame = words.frame >= 0 ? std::optional<int>(words.frame) : std::nullopt;
-  const Shots::Take take = words.turntable ? shots.turning(frame) : shots.playing();
+  const auto frame = args.frame >= 0 ? std::optional<int>(args.frame) : std::nullopt;
+  const Shots::Take take = args.turntable ? shots.turning(frame) : shots.playing();
   TerminalProgress progress(context.quiet || context.json);
   std::optional<MovieWriter> movie;
   for (int i = 0; i < take.count; ++i) {
     update(&progress, "drawing", static_cast<double>(i) / take.count);
     const Picture picture = shots.draw(take, i);
-    if (!movie) movie.emplace(words.output, picture.width, picture.height, take.rate);
+    if (!movie) movie.emplace(args.output, picture.width, picture.height, take.rate);
     movie->add(picture);
   }
   movie->finish();
 }
 
-void render(RenderWords& words, const Context& context) {
-  check_output(words.output, {".png", ".mp4", ".gif"});
-  words.shown.view.azimuth = words.azimuth * pi / 180;
-  words.shown.view.elevation = words.elevation * pi / 180;
-  check(words);
-  Shots shots = open_subjects(words, context);
-  if (is_movie(words))
-    film(words, shots, context);
+void render(RenderArgs& args, const Context& context) {
+  check_output(args.output, {".png", ".mp4", ".gif"});
+  args.shown.view.azimuth = args.azimuth * pi / 180;
+  args.shown.view.elevation = args.elevation * pi / 180;
+  check(args);
+  Shots shots = open_subjects(args, context);
+  if (is_movie(args))
+    film(args, shots, context);
   else
-    write_png(words.output, shots.still(words.frame));
-  say(context, "wrote   " + words.output);
+    write_png(args.output, shots.still(args.frame));
+  say(context, "wrote   " + args.output);
   Json inputs = Json::array();
-  for (const std::string& subject : words.subjects) inputs.push_back({{"path", subject}});
+  for (const std::string& subject : args.subjects) inputs.push_back({{"path", subject}});
   print_report(context,
-               {{"input", inputs.front()}, {"inputs", inputs}, {"outputs", {words.output}}});
+               {{"input", inputs.front()}, {"inputs", inputs}, {"outputs", {args.output}}});
 }
 
-void add_view_options(CLI::App& command, RenderWords& words) {
-  command.add_option("--width", words.shown.view.width, "Pixels")
+void add_view_options(CLI::App& command, RenderArgs& args) {
+  command.add_option("--width", args.shown.view.width, "Pixels")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();
-  command.add_option("--height", words.shown.view.height, "Pixels")
+  command.add_option("--height", args.shown.view.height, "Pixels")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();
-  command.add_option("--azimuth", words.azimuth, "Of the eye, degrees; 0 looks from +z")
+  command.add_option("--azimuth", args.azimuth, "Of the eye, degrees; 0 looks from +z")
       ->capture_default_str();
-  command.add_option("--elevation", words.elevation, "Of the eye, degrees")
+  command.add_option("--elevation", args.elevation, "Of the eye, degrees")
       ->check(CLI::Range(-89.0, 89.0))
       ->capture_default_str();
 }
 
-void add_show_options(CLI::App& command, RenderWords& words) {
+void add_show_options(CLI::App& command, RenderArgs& args) {
   command
-      .add_option("--show", words.shown.show,
+      .add_option("--show", args.shown.show,
                   "Of a mesh: cut (default), map, stretch, colours, surface, mates, error; of an "
                   "image: colours (default), surface, cut, stretch, mates, error")
       ->check(
           CLI::IsMember({"run", "cut", "map", "stretch", "colours", "surface", "mates", "error"}));
-  command.add_option("--against", words.shown.against, "Mesh to measure an image's error to");
+  command.add_option("--against", args.shown.against, "Mesh to measure an image's error to");
   command
-      .add_option("--size", words.shown.size,
+      .add_option("--size", args.shown.size,
                   "Samples a side, where a mesh is converted to be shown; 257 when not given")
-      ->check(CLI::Range(least_image_size, largest_image_size));
-  command.add_option("--parameterizer", words.shown.parameterizer, "How a mesh is mapped then")
+      ->check(CLI::Range(min_image_size, largest_image_size));
+  command.add_option("--parameterizer", args.shown.parameterizer, "How a mesh is mapped then")
       ->check(CLI::IsMember({"floater", "stretch"}));
-  command.add_flag("--turntable", words.turntable,
+  command.add_flag("--turntable", args.turntable,
                    "A movie of one turn around a mesh or an image, or a run as it plays");
   command
-      .add_option("--labels", words.labels,
+      .add_option("--labels", args.labels,
                   "Names below the pictures; those of the files if not given")
       ->delimiter(',');
 }
@@ -158,21 +158,20 @@ void add_show_options(CLI::App& command, RenderWords& words) {
 }  // namespace
 
 void add_render(CLI::App& program, const Context& context) {
-  auto words = std::make_shared<RenderWords>();
+  auto args = std::make_shared<RenderArgs>();
   CLI::App* command = program.add_subcommand("render", "Draw runs, geometry images or meshes");
   command
-      ->add_option("DIR|IMAGE|MESH", words->subjects,
+      ->add_option("DIR|IMAGE|MESH", args->subjects,
                    "Folder of a run, geometry image, mesh or builtin:NAME; several are drawn side "
                    "by side from one camera")
       ->required();
-  command->add_option("-o,--output", words->output, "PICTURE.png, or MOVIE.mp4 or .gif")
-      ->required();
-  command->add_option("--frame", words->frame, "Of a run; the last when not given")
+  command->add_option("-o,--output", args->output, "PICTURE.png, or MOVIE.mp4 or .gif")->required();
+  command->add_option("--frame", args->frame, "Of a run; the last when not given")
       ->check(CLI::Range(0, INT_MAX));
-  add_show_options(*command, *words);
-  add_view_options(*command, *words);
+  add_show_options(*command, *args);
+  add_view_options(*command, *args);
   command->footer("Example: weft render draped -o draped.mp4");
-  command->callback([words, &context] { render(*words, context); });
+  command->callback([args, &context] { render(*args, context); });
 }
 
 }  // namespace weft::app

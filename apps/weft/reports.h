@@ -6,7 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "weft/image/convert.h"
+#include "weft/convert/convert.h"
 
 namespace weft::app {
 

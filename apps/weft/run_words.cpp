@@ -11,8 +11,8 @@
 #include "apps/weft/terminal_progress.h"
 #include "weft/core/error.h"
 #include "weft/core/memory.h"
-#include "weft/sim/memory_estimate.h"
-#include "weft/sim/report.h"
+#include "weft/run/memory_estimate.h"
+#include "weft/run/report.h"
 
 namespace weft::app {
 namespace {
@@ -80,14 +80,14 @@ void check_verification(const Verification& found, const std::string& name) {
   check(found.written, "pairs of triangles cross in the meshes that are written");
 }
 
-RunOptions options_of(const RunWords& words, const Context& context, TerminalProgress& progress) {
+RunOptions options_of(const RunArgs& args, const Context& context, TerminalProgress& progress) {
   RunOptions options;
-  options.folder = words.folder;
-  options.exports = words.exports;
-  options.unwelded = words.unwelded;
+  options.folder = args.folder;
+  options.exports = args.exports;
+  options.unwelded = args.unwelded;
   for (const WrittenOn on : {WrittenOn::image, WrittenOn::input})
-    if (words.on == name_of(on)) options.on = on;
-  options.verify = words.verify;
+    if (args.on == name_of(on)) options.on = on;
+  options.verify = args.verify;
   options.threads = context.threads;
   options.instructions = context.instructions;
   options.progress = &progress;
@@ -95,83 +95,82 @@ RunOptions options_of(const RunWords& words, const Context& context, TerminalPro
     progress.clear();
     note(context, line);
   };
-  options.checkpoint_frames = words.checkpoint;
-  options.resume = words.resume;
-  options.scene_file = words.scene_file;
+  options.checkpoint_frames = args.checkpoint;
+  options.resume = args.resume;
+  options.scene_file = args.scene_file;
   return options;
 }
 
 }  // namespace
 
-void add_run_options(CLI::App& command, RunWords& words) {
-  command.add_option("-o,--output", words.folder, "Folder for everything that is written")
+void add_run_options(CLI::App& command, RunArgs& args) {
+  command.add_option("-o,--output", args.folder, "Folder for everything that is written")
       ->required();
-  command.add_option("--frames", words.frames, "Frames to run instead of the scene's")
+  command.add_option("--frames", args.frames, "Frames to run instead of the scene's")
       ->check(CLI::Range(1, INT_MAX));
   command
-      .add_option("--integrator", words.integrator, "Instead of the scene's, with default options")
+      .add_option("--integrator", args.integrator, "Instead of the scene's, with default options")
       ->check(
           CLI::IsMember({"newton", "implicit", "explicit", "desbrun", "two_level", "multigrid"}));
-  command.add_option("--collider", words.collider, "Instead of the scene's")
+  command.add_option("--collider", args.collider, "Instead of the scene's")
       ->check(
           CLI::IsMember({"pyramid", "polar_map", "sphere_tree", "spatial_hash", "image_space"}));
-  command.add_option("--export", words.exports, "What to write, separated by commas")
+  command.add_option("--export", args.exports, "What to write, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember({"obj", "pc2", "mdd", "glb", "ply", "vtp", "exr", "usda"}))
       ->capture_default_str();
   command
-      .add_option("--on", words.on,
+      .add_option("--on", args.on,
                   "Whose vertices are written: the image's samples, the input mesh's own, or what "
                   "suits the format")
       ->check(CLI::IsMember({"auto", "image", "input"}))
       ->capture_default_str();
-  command.add_flag("--unwelded", words.unwelded,
-                   "Keep every sample apart instead of joining mates");
+  command.add_flag("--unwelded", args.unwelded, "Keep every sample apart instead of joining mates");
   command
-      .add_option("--unit", words.unit,
+      .add_option("--unit", args.unit,
                   "What the numbers of meshes and caches mean, read and written, instead of what "
                   "the scene says")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
-  command.add_option("--up", words.up, "Which of their axes points up")
+  command.add_option("--up", args.up, "Which of their axes points up")
       ->check(CLI::IsMember({"y", "z"}));
   command
-      .add_option("--checkpoint", words.checkpoint,
+      .add_option("--checkpoint", args.checkpoint,
                   "Frames between two checkpoints; 0: none; by default one every 5 s")
       ->check(CLI::Range(0, INT_MAX));
-  command.add_flag("--resume", words.resume,
+  command.add_flag("--resume", args.resume,
                    "Go on with the run in the folder, or begin it where there is none");
   command.add_flag(
-      "--verify", words.verify,
+      "--verify", args.verify,
       "Count intersections in every frame and look at every step; exit 4 when anything passed");
 }
 
-MeshFrame frame_of(const RunWords& words, const MeshFrame& otherwise) {
+MeshFrame frame_of(const RunArgs& args, const MeshFrame& otherwise) {
   MeshFrame frame = otherwise;
-  if (const auto unit = find_length_unit(words.unit)) frame.unit = *unit;
-  if (!words.up.empty()) frame.z_up = words.up == "z";
+  if (const auto unit = find_length_unit(args.unit)) frame.unit = *unit;
+  if (!args.up.empty()) frame.z_up = args.up == "z";
   return frame;
 }
 
-void apply_run_words(const RunWords& words, Scene& scene) {
-  if (words.frames > 0) scene.frames = words.frames;
-  if (words.integrator == "newton") scene.integrator = NewtonOptions{};
-  if (words.integrator == "multigrid") scene.integrator = MultigridOptions{};
-  if (words.integrator == "implicit") scene.integrator = ImplicitOptions{};
-  if (words.integrator == "explicit") scene.integrator = ExplicitOptions{};
-  if (words.integrator == "desbrun") scene.integrator = DesbrunOptions{};
-  if (words.integrator == "two_level") scene.integrator = TwoLevelOptions{};
-  scene.files = frame_of(words, scene.files);
-  if (const auto collider = collider_named(words.collider)) scene.collider = *collider;
+void apply_run_args(const RunArgs& args, Scene& scene) {
+  if (args.frames > 0) scene.frames = args.frames;
+  if (args.integrator == "newton") scene.integrator = NewtonOptions{};
+  if (args.integrator == "multigrid") scene.integrator = MultigridOptions{};
+  if (args.integrator == "implicit") scene.integrator = ImplicitOptions{};
+  if (args.integrator == "explicit") scene.integrator = ExplicitOptions{};
+  if (args.integrator == "desbrun") scene.integrator = DesbrunOptions{};
+  if (args.integrator == "two_level") scene.integrator = TwoLevelOptions{};
+  scene.files = frame_of(args, scene.files);
+  if (const auto collider = collider_named(args.collider)) scene.collider = *collider;
 }
 
-void run_and_report(Scene scene, const std::string& name, const RunWords& words,
+void run_and_report(Scene scene, const std::string& name, const RunArgs& args,
                     const Context& context) {
-  apply_run_words(words, scene);
+  apply_run_args(args, scene);
   tell_memory(scene, name, context);
   RunReport report;
   {
     TerminalProgress progress(context.quiet || context.json);
-    report = run_scene(scene, name, options_of(words, context, progress));
+    report = run_scene(scene, name, options_of(args, context, progress));
   }
   print_summary(context, report);
   auto json = nlohmann::ordered_json::parse(to_json(report));
@@ -180,7 +179,7 @@ void run_and_report(Scene scene, const std::string& name, const RunWords& words,
   print_report(context, json);
   const auto& [frame, counts] = report.intersections;
   const int untangled = report.untangled_frame.value_or(0);
-  if (words.verify && counts.total() > 0)
+  if (args.verify && counts.total() > 0)
     throw Error(
         ExitCode::check_failed, name,
         fmt::format("{} intersections in frame {}: {} pairs of triangles within a cloth, {} "
@@ -191,7 +190,7 @@ void run_and_report(Scene scene, const std::string& name, const RunWords& words,
             ? fmt::format("none is wanted; what crossed at the start is apart since frame {}",
                           untangled)
             : "none is wanted");
-  if (words.verify) check_whole_cloths(report, name);
+  if (args.verify) check_whole_cloths(report, name);
   if (report.verification) check_verification(*report.verification, name);
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/weft/context.h"
-#include "weft/sim/run.h"
+#include "weft/run/run.h"
 
 namespace CLI {
 class App;
@@ -15,7 +15,7 @@ class App;
 namespace weft::app {
 
 /// The options that simulate and drape share.
-struct RunWords {
+struct RunArgs {
   std::string folder, integrator, collider;
   int frames = 0;  ///< 0: as the scene says
   std::vector<std::string> exports{"obj", "pc2"};
@@ -25,18 +25,18 @@ struct RunWords {
   std::optional<int> checkpoint;
   std::filesystem::path scene_file;  ///< where the scene is written, if anywhere
 };
-void add_run_options(CLI::App& command, RunWords& words);
+void add_run_options(CLI::App& command, RunArgs& args);
 
 /// What the words say of files. @param otherwise  what is not said
-MeshFrame frame_of(const RunWords& words, const MeshFrame& otherwise);
+MeshFrame frame_of(const RunArgs& args, const MeshFrame& otherwise);
 
 /// Changes the scene as the options ask.
-void apply_run_words(const RunWords& words, Scene& scene);
+void apply_run_args(const RunArgs& args, Scene& scene);
 
 /// Runs the scene with the options applied and prints what it came to.
 /// @throws whatever the run throws; Error with ExitCode::check_failed when --verify finds
 /// intersections
-void run_and_report(Scene scene, const std::string& name, const RunWords& words,
+void run_and_report(Scene scene, const std::string& name, const RunArgs& args,
                     const Context& context);
 
 }  // namespace weft::app

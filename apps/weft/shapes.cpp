@@ -15,7 +15,7 @@
 namespace weft::app {
 namespace {
 
-struct ShapesWords {
+struct ShapesArgs {
   std::string name, output;
 };
 
@@ -28,37 +28,37 @@ void list_shapes(const Context& context) {
   print_report(context, {{"shapes", list}});
 }
 
-void write_shape(const ShapesWords& words, const Context& context) {
-  check_output(words.output, {".obj", ".ply"});
-  const TriangleMesh mesh = make_shape(words.name);
-  write_mesh(words.output, mesh);
-  const std::string name = "builtin:" + words.name;
+void write_shape(const ShapesArgs& args, const Context& context) {
+  check_output(args.output, {".obj", ".ply"});
+  const TriangleMesh mesh = make_shape(args.name);
+  write_mesh(args.output, mesh);
+  const std::string name = "builtin:" + args.name;
   say(context, fmt::format("{}: {} vertices, {} triangles", name, mesh.positions.size(),
                            mesh.triangles.size()));
-  say(context, "wrote   " + words.output);
+  say(context, "wrote   " + args.output);
   const RepairedMesh checked = repair_mesh(mesh, {name, {}});
-  print_report(context, {{"input", input_json(name, checked)}, {"outputs", {words.output}}});
+  print_report(context, {{"input", input_json(name, checked)}, {"outputs", {args.output}}});
 }
 
-void shapes(const ShapesWords& words, const Context& context) {
-  if (words.name.empty() && words.output.empty()) return list_shapes(context);
-  if (words.name.empty())
+void shapes(const ShapesArgs& args, const Context& context) {
+  if (args.name.empty() && args.output.empty()) return list_shapes(context);
+  if (args.name.empty())
     throw UsageError("shapes", "-o without a name", "the name of a shape is wanted");
-  if (words.output.empty())
+  if (args.output.empty())
     throw UsageError("shapes", "a name without -o", "-o MESH.obj or .ply is wanted");
-  write_shape(words, context);
+  write_shape(args, context);
 }
 
 }  // namespace
 
 void add_shapes(CLI::App& program, const Context& context) {
-  auto words = std::make_shared<ShapesWords>();
+  auto args = std::make_shared<ShapesArgs>();
   CLI::App* command =
       program.add_subcommand("shapes", "List the built-in shapes, or write one as a mesh");
-  command->add_option("NAME", words->name, "Which shape");
-  command->add_option("-o,--output", words->output, "MESH.obj or MESH.ply");
+  command->add_option("NAME", args->name, "Which shape");
+  command->add_option("-o,--output", args->output, "MESH.obj or MESH.ply");
   command->footer("Example: weft shapes mannequin -o mannequin.obj");
-  command->callback([words, &context] { shapes(*words, context); });
+  command->callback([args, &context] { shapes(*args, context); });
 }
 
 }  // namespace weft::app

@@ -11,9 +11,9 @@
 namespace weft::app {
 namespace {
 
-constexpr double least_turn = 4;       // [s]
-constexpr double most_turn_rate = 30;  // [1/s]
-constexpr int least_part = 32;         // [pixels]
+constexpr double min_turn = 4;        // [s]
+constexpr double max_turn_rate = 30;  // [1/s]
+constexpr int min_part = 32;          // [pixels]
 
 int text_scale_of(int height) { return std::max(1, (height + 100) / 240); }
 
@@ -36,7 +36,7 @@ ViewFrom part_of_row(const ViewFrom& view, int count) {
   if (count == 1) return part;
   part.width = (view.width - panel_gap * (count - 1)) / count;
   part.height = view.height - label_height(text_scale_of(view.height));
-  if (std::min(part.width, part.height) < least_part)
+  if (std::min(part.width, part.height) < min_part)
     throw UsageError("--width", "too little room for all", "a larger picture is wanted");
   return part;
 }
@@ -85,10 +85,10 @@ Picture Shots::still(int frame) {
   return draw(frames, view_.azimuth, outline_at(frame).points());
 }
 
-Shots::Take Shots::playing(double most_rate) const {
+Shots::Take Shots::playing(double max_rate) const {
   Take take;
   take.plays = true;
-  take.rate = std::min(frame_rate(), most_rate);
+  take.rate = std::min(frame_rate(), max_rate);
   for (const auto& subject : subjects_) {
     const double seconds = (subject->frames() - 1) / subject->frame_rate();
     take.count = std::max(take.count, 1 + static_cast<int>(std::floor(seconds * take.rate + 0.5)));
@@ -100,14 +100,14 @@ Shots::Take Shots::playing(double most_rate) const {
 Shots::Take Shots::turning(std::optional<int> frame) const {
   Take take;
   if (!frame && any_moves()) {
-    take = playing(most_turn_rate);
+    take = playing(max_turn_rate);
     take.points = outline().points_turning();
   } else {
     take.frame = frame.value_or(-1);
     take.points = outline_at(take.frame).points_turning();
   }
   take.turns = true;
-  take.count = std::max(take.count, static_cast<int>(std::ceil(least_turn * take.rate)));
+  take.count = std::max(take.count, static_cast<int>(std::ceil(min_turn * take.rate)));
   return take;
 }
 

@@ -36,8 +36,8 @@ class Shots {
     std::vector<Vec3d> points;  ///< that stay in sight
   };
   /// Runs played at their own speeds, those that have ended standing still.
-  /// @param most_rate  of the movie's pictures [1/s]
-  [[nodiscard]] Take playing(double most_rate = 1000) const;
+  /// @param max_rate  of the movie's pictures [1/s]
+  [[nodiscard]] Take playing(double max_rate = 1000) const;
   /// One turn of at least four seconds, 30 pictures a second. @param frame  to stand still at;
   /// none: what moves is played
   [[nodiscard]] Take turning(std::optional<int> frame) const;

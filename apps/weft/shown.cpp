@@ -16,32 +16,32 @@ namespace weft::app {
 namespace {
 
 /// Meshes with more triangles are drawn without their edges.
-constexpr int most_edges_shown = 3000;
+constexpr int max_edges_shown = 3000;
 constexpr int default_size = 257;
 
-int size_of(const ShownWords& words) { return words.size > 0 ? words.size : default_size; }
+int size_of(const ShownArgs& args) { return args.size > 0 ? args.size : default_size; }
 
-std::string list_of(const std::vector<std::string>& words) {
+std::string list_of(const std::vector<std::string>& args) {
   std::string list;
-  for (const std::string& word : words) list.append(list.empty() ? "" : ", ").append(word);
+  for (const std::string& arg : args) list.append(list.empty() ? "" : ", ").append(arg);
   return list;
 }
 
-void check(const ShownWords& words, bool is_image) {
+void check(const ShownArgs& args, bool is_image) {
   const auto& known = is_image ? shown_of_images() : shown_of_meshes();
-  if (std::find(known.begin(), known.end(), words.show) == known.end())
-    throw UsageError("--show", "'" + words.show + "' of " + (is_image ? "an image" : "a mesh"),
+  if (std::find(known.begin(), known.end(), args.show) == known.end())
+    throw UsageError("--show", "'" + args.show + "' of " + (is_image ? "an image" : "a mesh"),
                      list_of(known) + " is wanted");
-  const bool converts = !is_image && words.show != "surface";
-  if (!converts && words.size > 0)
+  const bool converts = !is_image && args.show != "surface";
+  if (!converts && args.size > 0)
     throw UsageError("--size", "nothing is converted to show this", "leave it out");
-  if ((!converts || words.show == "cut") && !words.parameterizer.empty())
+  if ((!converts || args.show == "cut") && !args.parameterizer.empty())
     throw UsageError("--parameterizer", "nothing is mapped to show this", "leave it out");
-  const bool compares = is_image && words.show == "error";
-  if (compares && words.against.empty())
+  const bool compares = is_image && args.show == "error";
+  if (compares && args.against.empty())
     throw UsageError("--show error", "no mesh to compare the image with",
                      "--against MESH is wanted");
-  if (!compares && !words.against.empty())
+  if (!compares && !args.against.empty())
     throw UsageError("--against", "nothing is compared to show this",
                      "an image and --show error are wanted");
 }
@@ -51,29 +51,29 @@ int flat_side(const ViewFrom& view) { return std::min(view.width, view.height); 
 }  // namespace
 
 const std::vector<std::string>& shown_of_meshes() {
-  static const std::vector<std::string> words{"cut",     "map",   "stretch", "colours",
-                                              "surface", "mates", "error"};
-  return words;
+  static const std::vector<std::string> args{"cut",     "map",   "stretch", "colours",
+                                             "surface", "mates", "error"};
+  return args;
 }
 
 const std::vector<std::string>& shown_of_images() {
-  static const std::vector<std::string> words{"colours", "surface", "cut",
-                                              "stretch", "mates",   "error"};
-  return words;
+  static const std::vector<std::string> args{"colours", "surface", "cut",
+                                             "stretch", "mates",   "error"};
+  return args;
 }
 
-Shown::Shown(const ShownWords& asked, const Context& context) : view_(asked.view) {
+Shown::Shown(const ShownArgs& asked, const Context& context) : view_(asked.view) {
   const bool is_image = is_image_name(asked.subject);
-  ShownWords words = asked;
-  if (words.show.empty())
-    words.show = is_image ? shown_of_images().front() : shown_of_meshes().front();
-  check(words, is_image);
+  ShownArgs args = asked;
+  if (args.show.empty())
+    args.show = is_image ? shown_of_images().front() : shown_of_meshes().front();
+  check(args, is_image);
   if (!is_image) {
-    show_mesh(words, context);
-  } else if (words.show == "error") {
-    show_error(read_image(words.subject), load_mesh(words.against));
+    show_mesh(args, context);
+  } else if (args.show == "error") {
+    show_error(read_image(args.subject), load_mesh(args.against));
   } else {
-    show_image(words, read_image(words.subject));
+    show_image(args, read_image(args.subject));
   }
 }
 
@@ -82,22 +82,22 @@ void Shown::show(SurfaceDrawing drawing, const ViewFrom& view) {
   painter_ = std::make_unique<SurfacePainter>(drawing, view);
 }
 
-void Shown::show_mesh(const ShownWords& words, const Context& context) {
-  TriangleMesh mesh = load_mesh(words.subject);
-  if (words.show == "cut") return show_cut(words, context, mesh);
-  if (words.show != "surface") return show_conversion(words, context, mesh);
+void Shown::show_mesh(const ShownArgs& args, const Context& context) {
+  TriangleMesh mesh = load_mesh(args.subject);
+  if (args.show == "cut") return show_cut(args, context, mesh);
+  if (args.show != "surface") return show_conversion(args, context, mesh);
   surface_.mesh = std::move(mesh);
-  show({}, words.view);
+  show({}, args.view);
 }
 
 // A mesh that cannot be opened is still drawn, without a cut.
-void Shown::show_cut(const ShownWords& words, const Context& context, const TriangleMesh& mesh) {
+void Shown::show_cut(const ShownArgs& args, const Context& context, const TriangleMesh& mesh) {
   SurfaceDrawing drawing;
   try {
-    surface_.mesh = repair_mesh(mesh, {words.subject, {}}).mesh;
+    surface_.mesh = repair_mesh(mesh, {args.subject, {}}).mesh;
     TerminalProgress progress(context.quiet || context.json);
     AugmentOptions options;
-    options.size = size_of(words);
+    options.size = size_of(args);
     options.progress = &progress;
     const Cut cut = augment_cut(surface_.mesh, open_to_disk(surface_.mesh), options).cut;
     add_cut(drawing, cut_open(surface_.mesh, cut));
@@ -105,53 +105,53 @@ void Shown::show_cut(const ShownWords& words, const Context& context, const Tria
     note(context, std::string("drawn without a cut: ") + error.what());
     surface_.mesh = mesh;
   }
-  drawing.show_edges = static_cast<int>(surface_.mesh.triangles.size()) <= most_edges_shown;
-  show(drawing, words.view);
+  drawing.show_edges = static_cast<int>(surface_.mesh.triangles.size()) <= max_edges_shown;
+  show(drawing, args.view);
 }
 
-void Shown::show_conversion(const ShownWords& words, const Context& context,
+void Shown::show_conversion(const ShownArgs& args, const Context& context,
                             const TriangleMesh& mesh) {
   TerminalProgress progress(context.quiet || context.json);
   ConvertOptions options;
-  options.size = size_of(words);
-  if (words.parameterizer == "floater") options.parameterizer = FloaterOptions{};
+  options.size = size_of(args);
+  if (args.parameterizer == "floater") options.parameterizer = FloaterOptions{};
   options.measure = false;
   options.threads = context.threads;
   options.progress = &progress;
-  const Conversion made = convert_mesh(mesh, words.subject, options);
-  if (words.show == "error") return show_error(made.image, made.input.mesh);
-  if (words.show == "stretch") {
+  const Conversion made = convert_mesh(mesh, args.subject, options);
+  if (args.show == "error") return show_error(made.image, made.input.mesh);
+  if (args.show == "stretch") {
     surface_ = stretch_on_surface(made.mapped);
     SurfaceDrawing drawing = draw_stretch(surface_);
     add_cut(drawing, made.mapped.cut);
-    return show(drawing, words.view);
+    return show(drawing, args.view);
   }
-  if (words.show != "map") return show_image(words, made.image);
+  if (args.show != "map") return show_image(args, made.image);
   const DiskMesh& disk = made.mapped.cut.disk;
   MapDrawing drawing;
-  drawing.side = flat_side(words.view);
-  drawing.edges = static_cast<int>(disk.triangles.size()) <= most_edges_shown;
+  drawing.side = flat_side(args.view);
+  drawing.edges = static_cast<int>(disk.triangles.size()) <= max_edges_shown;
   flat_ = framed_by_mates(draw_map(disk, made.mapped.map, drawing), border_bands(made.mapped),
                           made.image.size());
   add_legend(flat_, stretch_legend("stretch"));
 }
 
-void Shown::show_image(const ShownWords& words, const GeometryImage& image) {
-  if (words.show == "colours") {
+void Shown::show_image(const ShownArgs& args, const GeometryImage& image) {
+  if (args.show == "colours") {
     flat_ = colours_of(image);
-  } else if (words.show == "mates") {
-    flat_ = framed_by_mates(colours_of(image, flat_side(words.view)), border_bands(image.mates),
+  } else if (args.show == "mates") {
+    flat_ = framed_by_mates(colours_of(image, flat_side(args.view)), border_bands(image.mates),
                             image.size());
   } else {
     SurfaceDrawing drawing;
-    if (words.show == "stretch") {
+    if (args.show == "stretch") {
       surface_ = stretch_on_surface(image);
       drawing = draw_stretch(surface_);
     } else {
       surface_.mesh = rebuild_mesh(image).mesh;
     }
-    if (words.show != "surface") add_cut(drawing, image);
-    show(drawing, words.view);
+    if (args.show != "surface") add_cut(drawing, image);
+    show(drawing, args.view);
   }
 }
 

@@ -6,13 +6,13 @@
 
 #include "apps/weft/context.h"
 #include "apps/weft/subject.h"
-#include "weft/image/convert.h"
+#include "weft/convert/convert.h"
 #include "weft/view/surface_values.h"
 
 namespace weft::app {
 
 /// What to draw of a mesh or an image.
-struct ShownWords {
+struct ShownArgs {
   std::string subject, show, against;  ///< against: the mesh that an image's error is measured to
   int size = 0;                        ///< of the conversion, where one is needed; 0: 257
   std::string parameterizer;           ///< empty: stretch
@@ -28,17 +28,17 @@ class Shown : public Subject {
  public:
   /// Converts where that is needed. @throws UsageError for words that make no sense together;
   /// whatever loading and converting throw
-  Shown(const ShownWords& words, const Context& context);
+  Shown(const ShownArgs& args, const Context& context);
   [[nodiscard]] bool is_flat() const override { return flat_.width > 0; }
   [[nodiscard]] double aspect() const override { return painter_ ? painter_->aspect() : 1; }
   void add_to(Outline& outline, int frame) const override;
   Picture draw(int frame, const Camera& camera) override;
 
  private:
-  void show_mesh(const ShownWords& words, const Context& context);
-  void show_cut(const ShownWords& words, const Context& context, const TriangleMesh& mesh);
-  void show_conversion(const ShownWords& words, const Context& context, const TriangleMesh& mesh);
-  void show_image(const ShownWords& words, const GeometryImage& image);
+  void show_mesh(const ShownArgs& args, const Context& context);
+  void show_cut(const ShownArgs& args, const Context& context, const TriangleMesh& mesh);
+  void show_conversion(const ShownArgs& args, const Context& context, const TriangleMesh& mesh);
+  void show_image(const ShownArgs& args, const GeometryImage& image);
   void show_error(const GeometryImage& image, const TriangleMesh& mesh);
   void show(SurfaceDrawing drawing, const ViewFrom& view);
 

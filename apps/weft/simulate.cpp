@@ -5,29 +5,29 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/run_words.h"
-#include "weft/sim/scene_file.h"
+#include "weft/sim/scene_file/scene_file.h"
 
 namespace weft::app {
 namespace {
 
-struct SimulateWords {
+struct SimulateArgs {
   std::string scene;
-  RunWords run;
+  RunArgs run;
 };
 
-void simulate(const SimulateWords& words, const Context& context) {
-  run_and_report(read_scene(words.scene), words.scene, words.run, context);
+void simulate(const SimulateArgs& args, const Context& context) {
+  run_and_report(read_scene(args.scene), args.scene, args.run, context);
 }
 
 }  // namespace
 
 void add_simulate(CLI::App& program, const Context& context) {
-  auto words = std::make_shared<SimulateWords>();
+  auto args = std::make_shared<SimulateArgs>();
   CLI::App* command = program.add_subcommand("simulate", "Run a scene and write its caches");
-  command->add_option("SCENE", words->scene, "Scene file, see docs/scene.md")->required();
-  add_run_options(*command, words->run);
+  command->add_option("SCENE", args->scene, "Scene file, see docs/scene.md")->required();
+  add_run_options(*command, args->run);
   command->footer("Example: weft simulate scene.json -o run --frames 60");
-  command->callback([words, &context] { simulate(*words, context); });
+  command->callback([args, &context] { simulate(*args, context); });
 }
 
 }  // namespace weft::app

@@ -1,4 +1,4 @@
-#include "weft/sim/table5.h"
+#include "weft/cloth/baselines/table5.h"
 
 #include <array>
 #include <memory>
@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 /// Where the image halves down to the coarsest level, which the paper's sizes do not.
 constexpr std::array<int, 4> multigrid_sizes{17, 33, 65, 129};
 
-struct Table5Words {
+struct Table5Args {
   bool full = false;
   int frames = Table5Options{}.frames;
   CLI::Option* threads = nullptr;
@@ -126,12 +126,12 @@ void say_table(const Context& context, const std::vector<Table5Row>& rows,
   say_rows(context, rows, say_matrices);
 }
 
-void table5(const Table5Words& words, const Context& context) {
+void table5(const Table5Args& args, const Context& context) {
   Table5Options options;
-  options.errors = words.full;
-  options.frames = words.frames;
+  options.errors = args.full;
+  options.frames = args.frames;
   // The paper's machine had one core.
-  options.team = {words.threads->count() > 0 ? context.threads : 1, context.instructions};
+  options.team = {args.threads->count() > 0 ? context.threads : 1, context.instructions};
   std::vector<Table5Row> rows;
   std::vector<SizeTime> sizes;
   {
@@ -148,16 +148,16 @@ void table5(const Table5Words& words, const Context& context) {
 }  // namespace
 
 void add_table5(CLI::App& program, const Context& context) {
-  auto words = std::make_shared<Table5Words>();
-  words->threads = program.get_option("--threads");
+  auto args = std::make_shared<Table5Args>();
+  args->threads = program.get_option("--threads");
   CLI::App* command =
       program.add_subcommand("table5", "Measure the paper's Figure 5: its methods and multigrid");
-  command->add_flag("--full", words->full, "Measure the error against a converged solution too");
-  command->add_option("--frames", words->frames, "Frames that each method runs")
+  command->add_flag("--full", args->full, "Measure the error against a converged solution too");
+  command->add_option("--frames", args->frames, "Frames that each method runs")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command->footer("On one thread unless --threads is given.\nExample: weft table5 --full --json");
-  command->callback([words, &context] { table5(*words, context); });
+  command->callback([args, &context] { table5(*args, context); });
 }
 
 }  // namespace weft::app

@@ -4,7 +4,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "weft/image/convert.h"
+#include "weft/convert/convert.h"
+#include "weft/convert/load_surface.h"
 #include "weft/image/io/image_file.h"
 #include "weft/sim/simulation.h"
 

@@ -85,7 +85,7 @@ double largest(const Planes3& planes) {
 double dot_product(const Cloth& cloth, const Planes3& a, const Planes3& b) {
   double sum = 0;
   for (int s = 0; s < cloth.size * cloth.size; ++s)
-    sum += double{cloth.counted(s / cloth.size, s % cloth.size)} *
+    sum += double{cloth.owner(s / cloth.size, s % cloth.size)} *
            dot(vec_cast<double>(a.at(s)), vec_cast<double>(b.at(s)));
   return sum;
 }
@@ -236,8 +236,8 @@ TEST(Bending, NoShapeHasNegativeEnergy) {
        {flat_sheet(9), uneven_sheet(9), disk(9), uneven_sheet(17), mapped(flat_sheet(9), narrow)})
     cloths.push_back(flat_cloth(rest));
   for (const Cloth& cloth : cloths) {
-    Planes3 way(cloth.size);
-    shake(cloth, 1, way);
+    Planes3 displacement(cloth.size);
+    shake(cloth, 1, displacement);
     const auto normalize = [&](Planes3& planes) {
       const auto scale = static_cast<float>(1 / std::sqrt(dot_product(cloth, planes, planes)));
       for (int s = 0; s < cloth.size * cloth.size; ++s) planes.set(s, scale * planes.at(s));
@@ -245,16 +245,16 @@ TEST(Bending, NoShapeHasNegativeEnergy) {
     const auto power = [&](double shift, int count) {
       double value = 0;
       for (int i = 0; i < count; ++i) {
-        normalize(way);
-        const Planes3 image = forces(cloth, way, true);
-        value = -dot_product(cloth, way, image);
+        normalize(displacement);
+        const Planes3 image = forces(cloth, displacement, true);
+        value = -dot_product(cloth, displacement, image);
         for (int s = 0; s < cloth.size * cloth.size; ++s)
-          way.set(s, static_cast<float>(shift) * way.at(s) + image.at(s));
+          displacement.set(s, static_cast<float>(shift) * displacement.at(s) + image.at(s));
       }
       return value;
     };
     const double highest = power(0, 50);
-    shake(cloth, 1, way, 2);
+    shake(cloth, 1, displacement, 2);
     EXPECT_GT(power(0.6 * highest, 2000), -1e-5 * highest);
   }
 }
@@ -273,13 +273,14 @@ TEST(Bending, ForcesAreMinusTheGradient) {
     const Planes3 force = forces(cloth, p);
     const float step = 0x1p-10F;
     for (const int sample : {0, 4, 9, 10, 40, 44, 71, 79})
-      for (const Vec3f way : {Vec3f{step, 0, 0}, Vec3f{0, step, 0}, Vec3f{0, 0, step}}) {
+      for (const Vec3f displacement : {Vec3f{step, 0, 0}, Vec3f{0, step, 0}, Vec3f{0, 0, step}}) {
         Planes3 ahead = p, behind = p;
-        move(cloth, sample, way, ahead);
-        move(cloth, sample, -way, behind);
+        move(cloth, sample, displacement, ahead);
+        move(cloth, sample, -displacement, behind);
         const double slope =
             (bending_energy(cloth, ahead) - bending_energy(cloth, behind)) / (2.0 * step);
-        const double along = dot(vec_cast<double>(force.at(sample)), vec_cast<double>(way)) / step;
+        const double along =
+            dot(vec_cast<double>(force.at(sample)), vec_cast<double>(displacement)) / step;
         EXPECT_NEAR(along, -slope, 1e-3 * largest(force)) << "sample " << sample;
       }
   }
@@ -310,7 +311,7 @@ TEST(Bending, ForcesOfOneClothAddUpToNone) {
     const Planes3 force = forces(cloth, p);
     Vec3d sum;
     for (int s = 0; s < cloth.size * cloth.size; ++s)
-      sum += double{cloth.counted(s / cloth.size, s % cloth.size)} * vec_cast<double>(force.at(s));
+      sum += double{cloth.owner(s / cloth.size, s % cloth.size)} * vec_cast<double>(force.at(s));
     EXPECT_LT(length(sum), 1e-4 * largest(force));
   }
 }
@@ -323,7 +324,7 @@ TEST(Bending, ForcesTurnNothing) {
     const Planes3 force = forces(cloth, p);
     Vec3d torque;
     for (int s = 0; s < 17 * 17; ++s)
-      torque += double{cloth.counted(s / 17, s % 17)} *
+      torque += double{cloth.owner(s / 17, s % 17)} *
                 cross(vec_cast<double>(p.at(s)), vec_cast<double>(force.at(s)));
     EXPECT_LT(length(torque), 1e-4 * largest(force));
   }
@@ -332,15 +333,15 @@ TEST(Bending, ForcesTurnNothing) {
 TEST(Bending, ChangeIsTheDerivativeAtRest) {
   for (const Cloth& cloth :
        {flat_cloth(uneven_sheet(17)), torus_cloth(17, stiff), torus_cloth(17, woven)}) {
-    Planes3 way(17), ahead = cloth.rest, behind = cloth.rest;
-    shake(cloth, 1, way, 2);
+    Planes3 displacement(17), ahead = cloth.rest, behind = cloth.rest;
+    shake(cloth, 1, displacement, 2);
     const float step = 0x1p-12F;
     for (int s = 0; s < 17 * 17; ++s) {
-      ahead.set(s, cloth.rest.at(s) + step * way.at(s));
-      behind.set(s, cloth.rest.at(s) - step * way.at(s));
+      ahead.set(s, cloth.rest.at(s) + step * displacement.at(s));
+      behind.set(s, cloth.rest.at(s) - step * displacement.at(s));
     }
     const Planes3 f1 = forces(cloth, ahead), f0 = forces(cloth, behind);
-    const Planes3 image = forces(cloth, way, true);
+    const Planes3 image = forces(cloth, displacement, true);
     for (int s = 0; s < 17 * 17; ++s) {
       const Vec3f slope = (1 / (2 * step)) * (f1.at(s) - f0.at(s));
       EXPECT_LT(length(slope - image.at(s)), 5e-3 * largest(image)) << "sample " << s;
@@ -363,8 +364,8 @@ TEST(Bending, BoundIsNotExceeded) {
        {flat_cloth(flat_sheet(9)), flat_cloth(uneven_sheet(9)), torus_cloth(9, stiff),
         flat_cloth(uneven_sheet(9), woven), torus_cloth(9, woven)}) {
     for (int seed = 1; seed <= 20; ++seed) {
-      Planes3 way(9);
-      shake(cloth, 1, way, seed);
+      Planes3 displacement(9);
+      shake(cloth, 1, displacement, seed);
       double bound = 0;
       for (int d = 0; d < spring_directions; ++d) {
         const Grid<float> edges = bending_bound(cloth, static_cast<SpringDirection>(d));
@@ -372,10 +373,11 @@ TEST(Bending, BoundIsNotExceeded) {
         for (int r = 0; r < 9; ++r)
           for (int c = 0; c < 9; ++c)
             if (edges(r, c) > 0)
-              bound += edges(r, c) *
-                       squared_length(vec_cast<double>(way.at(r + down, c + right) - way.at(r, c)));
+              bound +=
+                  edges(r, c) * squared_length(vec_cast<double>(
+                                    displacement.at(r + down, c + right) - displacement.at(r, c)));
       }
-      EXPECT_LT(-dot_product(cloth, way, forces(cloth, way, true)), bound);
+      EXPECT_LT(-dot_product(cloth, displacement, forces(cloth, displacement, true)), bound);
     }
   }
 }

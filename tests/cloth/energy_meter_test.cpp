@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "weft/cloth/measure.h"
+#include "weft/convert/convert.h"
+#include "weft/convert/load_surface.h"
 #include "weft/core/random.h"
-#include "weft/image/convert.h"
 
 namespace weft {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
-#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/measure.h"
 
 namespace weft {

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
-#include "weft/cloth/integrate/integrator.h"
-#include "weft/cloth/integrate/spring_matrix.h"
+#include "weft/cloth/baselines/spring_matrix.h"
+#include "weft/cloth/baselines/strain_limit.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/kernels/kernel_table.h"
 #include "weft/cloth/measure.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/cloth/strain_limit.h"
 
 namespace weft {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
-#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/measure.h"
 #include "weft/cloth/newton/block_multigrid.h"
 #include "weft/cloth/newton/line_factor.h"
@@ -83,7 +83,7 @@ struct System {
     double sum = 0;
     for (int r = 0; r < cloth.size; ++r)
       for (int c = 0; c < cloth.size; ++c)
-        if (cloth.counted(r, c) > 0)
+        if (cloth.owner(r, c) > 0)
           sum += double{a.x(r, c)} * b.x(r, c) + double{a.y(r, c)} * b.y(r, c) +
                  double{a.z(r, c)} * b.z(r, c);
     return sum;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "weft/cloth/cloth.h"
-#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrator.h"
 #include "weft/core/hash.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
@@ -51,7 +51,7 @@ inline void shake(const Cloth& cloth, double amount, Planes3& planes, int seed =
   Random random(static_cast<std::uint64_t>(seed));
   const auto some = [&] { return static_cast<float>(random.uniform(-amount, amount)); };
   for (int s = 0; s < cloth.size * cloth.size; ++s)
-    if (cloth.counted(s / cloth.size, s % cloth.size) > 0)
+    if (cloth.owner(s / cloth.size, s % cloth.size) > 0)
       planes.set(s, planes.at(s) + Vec3f{some(), some(), some()});
   for (int i = 0; i < cloth.mates.class_count(); ++i)
     for (const int s : cloth.mates.mates(i)) planes.set(s, planes.at(cloth.mates.mates(i)[0]));
@@ -62,7 +62,7 @@ inline Vec3d momentum(const Cloth& cloth, const ClothState& state) {
   Vec3d sum;
   for (int s = 0; s < cloth.size * cloth.size; ++s) {
     const double m = double{cloth.mass(s / cloth.size, s % cloth.size)} *
-                     cloth.counted(s / cloth.size, s % cloth.size);
+                     cloth.owner(s / cloth.size, s % cloth.size);
     sum += m * vec_cast<double>(state.velocity.at(s));
   }
   return sum;
@@ -72,7 +72,7 @@ inline Vec3d angular_momentum(const Cloth& cloth, const ClothState& state) {
   Vec3d sum;
   for (int s = 0; s < cloth.size * cloth.size; ++s) {
     const double m = double{cloth.mass(s / cloth.size, s % cloth.size)} *
-                     cloth.counted(s / cloth.size, s % cloth.size);
+                     cloth.owner(s / cloth.size, s % cloth.size);
     sum +=
         m * cross(vec_cast<double>(state.position.at(s)), vec_cast<double>(state.velocity.at(s)));
   }
@@ -82,7 +82,7 @@ inline Vec3d angular_momentum(const Cloth& cloth, const ClothState& state) {
 inline double total_mass(const Cloth& cloth) {
   double sum = 0;
   for (int r = 0; r < cloth.size; ++r)
-    for (int c = 0; c < cloth.size; ++c) sum += double{cloth.mass(r, c)} * cloth.counted(r, c);
+    for (int c = 0; c < cloth.size; ++c) sum += double{cloth.mass(r, c)} * cloth.owner(r, c);
   return sum;
 }
 

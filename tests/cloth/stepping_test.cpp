@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
-#include "weft/cloth/integrate/integrator.h"
-#include "weft/cloth/integrate/stable_step.h"
+#include "weft/cloth/baselines/stable_step.h"
+#include "weft/cloth/baselines/strain_limit.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/measure.h"
-#include "weft/cloth/strain_limit.h"
 #include "weft/core/error.h"
 
 namespace weft {
@@ -217,7 +217,7 @@ TEST(Stepping, ContactForcesCarryTheWeight) {
       // Every particle lies on the floor, by itself or by points of triangles.
       std::vector<Contact> contacts;
       for (int s = 0; s < n * n; ++s)
-        if (cloth.counted(s / n, s % n) > 0) contacts.push_back({{s}, {1}, {0, 1, 0}, 0, 0, {}});
+        if (cloth.owner(s / n, s % n) > 0) contacts.push_back({{s}, {1}, {0, 1, 0}, 0, 0, {}});
       for (int r = 1; r + 2 < n; r += 3)
         for (int s = r * n + 1; s + 1 < (r + 1) * n; s += 2)
           contacts.push_back({{s, s + 1, s + n}, {0.5F, 0.2F, 0.3F}, {0, 1, 0}, 0, 0, {}});

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/validation.h"
-#include "weft/cloth/integrate/stable_step.h"
+#include "weft/cloth/baselines/stable_step.h"
 
 namespace weft {
 namespace {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/validation.h"
+#include "weft/cloth/baselines/forces.h"
 #include "weft/cloth/bending.h"
-#include "weft/cloth/forces.h"
 #include "weft/cloth/mates.h"
 
 namespace weft {
@@ -42,12 +42,13 @@ TEST(ValidationSolver, ForcesAreMinusTheGradientOfTheEnergy) {
   const float step = 0x1p-9F;
   double worst = 0;
   for (int sample = 0; sample < 81; ++sample)
-    for (const Vec3f way : {Vec3f{step, 0, 0}, Vec3f{0, step, 0}, Vec3f{0, 0, step}}) {
+    for (const Vec3f displacement : {Vec3f{step, 0, 0}, Vec3f{0, step, 0}, Vec3f{0, 0, step}}) {
       ClothState ahead = state, behind = state;
-      ahead.position.set(sample, state.position.at(sample) + way);
-      behind.position.set(sample, state.position.at(sample) - way);
+      ahead.position.set(sample, state.position.at(sample) + displacement);
+      behind.position.set(sample, state.position.at(sample) - displacement);
       const double rise = potential_energy(cloth, ahead, {}) - potential_energy(cloth, behind, {});
-      const double along = dot(vec_cast<double>(force.at(sample)), vec_cast<double>(way)) / step;
+      const double along =
+          dot(vec_cast<double>(force.at(sample)), vec_cast<double>(displacement)) / step;
       worst = std::max(worst, std::abs(along + rise / (2.0 * step)));
     }
   check("springs and bending against finite differences: largest error over the largest force", 0,

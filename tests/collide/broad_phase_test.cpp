@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/collide/test_bodies.h"
-#include "weft/collide/pairs/cell_pairs.h"
-#include "weft/collide/pairs/image_space_pairs.h"
-#include "weft/collide/pairs/pyramid_pairs.h"
-#include "weft/collide/pairs/spatial_hash.h"
-#include "weft/collide/pairs/sphere_tree.h"
+#include "weft/collide/baselines/image_space_pairs.h"
+#include "weft/collide/baselines/spatial_hash.h"
+#include "weft/collide/baselines/sphere_tree.h"
+#include "weft/collide/broad_phase/candidate_pairs.h"
+#include "weft/collide/broad_phase/pyramid_pairs.h"
 #include "weft/core/random.h"
 #include "weft/mesh/crossings.h"
 #include "weft/mesh/distance.h"
@@ -87,9 +87,9 @@ bool cells_come_near(const Moving& a, int cell_a, const Moving& b, int cell_b, d
   return false;
 }
 
-std::set<std::pair<int, int>> as_set(const std::vector<CellPair>& pairs) {
+std::set<std::pair<int, int>> as_set(const std::vector<CandidatePair>& pairs) {
   std::set<std::pair<int, int>> set;
-  for (const CellPair& pair : pairs) set.insert({pair.a, pair.b});
+  for (const CandidatePair& pair : pairs) set.insert({pair.a, pair.b});
   EXPECT_EQ(set.size(), pairs.size()) << "each pair once";
   return set;
 }
@@ -98,18 +98,18 @@ class BroadPhases : public testing::TestWithParam<const char*> {
  protected:
   /// What is found by teams of every size and instruction set, which must be the same.
   template <class Find>
-  std::vector<CellPair> found_by_any_team(const std::vector<MovingSurface>& surfaces,
-                                          std::size_t cloths, const Find& find) {
+  std::vector<CandidatePair> found_by_any_team(const std::vector<MovingSurface>& surfaces,
+                                               std::size_t cloths, const Find& find) {
     std::vector<const SurfaceGrid*> grids;
     for (const MovingSurface& surface : surfaces) grids.push_back(surface.grid);
-    std::vector<CellPair> first;
+    std::vector<CandidatePair> first;
     std::vector<TeamOptions> teams{1, 2, 3, 7};
     for (const InstructionSet set : instruction_sets())
       if (has_instruction_set(set)) teams.emplace_back(2, set);
     for (const TeamOptions& options : teams) {
       ThreadTeam team(options);
       const std::unique_ptr<BroadPhase> phase = make(GetParam(), grids, cloths);
-      std::vector<CellPair> pairs;
+      std::vector<CandidatePair> pairs;
       for (int again = 0; again < 2; ++again) {
         pairs.clear();
         phase->refit(surfaces, team);

@@ -206,7 +206,7 @@ TEST(Ccd, ReportsWhatRoundedInputMayHide) {
 TEST(Ccd, CountsAsCollidingWhereTheStepsRunOut) {
   Random random(4);
   const Motion<EdgeEdge> motion = touching_edges(random);
-  const auto impact = time_of_impact(motion.start, motion.end, {.most_steps = 1});
+  const auto impact = time_of_impact(motion.start, motion.end, {.max_steps = 1});
   ASSERT_TRUE(impact);
   EXPECT_EQ(impact->time, 0);
   EXPECT_GT(impact->distance, 1e-3);

@@ -1,4 +1,4 @@
-#include "weft/collide/pairs/cell_gaps.h"
+#include "weft/collide/broad_phase/cell_gaps.h"
 
 #include <gtest/gtest.h>
 
@@ -17,11 +17,11 @@ struct OneCell {
     const auto any = [&](double size) {
       return size * Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     };
-    const Vec3d way = any(0.01);
+    const Vec3d displacement = any(0.01);
     for (int s = 0; s < 4; ++s) {
       const Vec3d p = at + Vec3d{0.01 * (s % 2), 0, 0.01 * (s / 2)} + any(0.003);
       start.set(s, vec_cast<float>(p));
-      end.set(s, vec_cast<float>(p + way + any(0.002)));
+      end.set(s, vec_cast<float>(p + displacement + any(0.002)));
     }
   }
   [[nodiscard]] MovingSurface surface() const { return {&grid, &start, &end}; }
@@ -69,12 +69,12 @@ TEST(CellGaps, NoTwoPointsComeNearerThanTheMostApproach) {
   Random random(8);
   for (int round = 0; round < 5000; ++round) {
     const OneCell a(random, {}), b(random, {0.01, 0.005, 0});
-    const double most = CellGaps(a.surface(), 0, b.surface(), 0).most_approach();
+    const double most = CellGaps(a.surface(), 0, b.surface(), 0).max_approach();
     EXPECT_GE(distance(a, b, 1), distance(a, b, 0) - most);
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
-        const Vec3f way = (a.end.at(i) - a.start.at(i)) - (b.end.at(j) - b.start.at(j));
-        EXPECT_LE(std::sqrt(squared_length(way)), 1.0001 * most);
+        const Vec3f displacement = (a.end.at(i) - a.start.at(i)) - (b.end.at(j) - b.start.at(j));
+        EXPECT_LE(std::sqrt(squared_length(displacement)), 1.0001 * most);
       }
   }
 }

@@ -1,4 +1,4 @@
-#include "weft/collide/pairs/coherent_pairs.h"
+#include "weft/collide/broad_phase/coherent_pairs.h"
 
 #include <array>
 #include <memory>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "weft/collide/pairs/cell_gaps.h"
-#include "weft/collide/pairs/pyramid_pairs.h"
+#include "weft/collide/broad_phase/cell_gaps.h"
+#include "weft/collide/broad_phase/pyramid_pairs.h"
 #include "weft/core/random.h"
 
 namespace weft {
@@ -16,9 +16,9 @@ namespace {
 
 using Pairs = std::set<std::pair<int, int>>;
 
-Pairs set_of(std::span<const CellPair> cells) {
+Pairs set_of(std::span<const CandidatePair> cells) {
   Pairs pairs;
-  for (const CellPair& pair : cells) pairs.insert({pair.a, pair.b});
+  for (const CandidatePair& pair : cells) pairs.insert({pair.a, pair.b});
   return pairs;
 }
 
@@ -30,12 +30,12 @@ class Counted final : public BroadPhase {
   void refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) override {
     pyramid_.refit(surfaces, team);
   }
-  void find(int a, int b, float reach, ThreadTeam& team, std::vector<CellPair>& out) override {
+  void find(int a, int b, float reach, ThreadTeam& team, std::vector<CandidatePair>& out) override {
     ++searches_;
     pyramid_.find(a, b, reach, team, out);
   }
   void find_self(int a, float reach, float slack, ThreadTeam& team,
-                 std::vector<CellPair>& out) override {
+                 std::vector<CandidatePair>& out) override {
     ++searches_;
     pyramid_.find_self(a, reach, slack, team, out);
   }
@@ -80,7 +80,7 @@ class Sheets {
   void check(float reach) {
     const std::array placed = surfaces();
     for (int b = 0; b < 2; ++b) {
-      std::vector<CellPair> now;
+      std::vector<CandidatePair> now;
       if (b == 0) {
         fresh_.find_self(0, reach, slack, team_, now);
       } else {
@@ -89,7 +89,7 @@ class Sheets {
       const Pairs known = set_of(b == 0 ? pairs_.find_self(0, reach, slack, team_)
                                         : pairs_.find(0, b, reach, team_));
       int near = 0;
-      for (const CellPair& pair : now) {
+      for (const CandidatePair& pair : now) {
         if (CellGaps(placed[0], pair.a, placed[b], pair.b).apart(reach, reach)) continue;
         ++near;
         EXPECT_TRUE(known.count({pair.a, pair.b})) << b << ": " << pair.a << " " << pair.b;

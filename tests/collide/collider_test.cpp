@@ -29,7 +29,7 @@ std::unique_ptr<Collider> on_ground(double ground_friction, double cloth_frictio
 }
 
 /// A sheet without springs lying on the ground, sliding along x; semi-implicit Euler under gravity.
-double slide(Collider& collider, double speed, int steps) {
+double surface_displacement(Collider& collider, double speed, int steps) {
   TestCloth cloth(n);
   cloth.place([](int r, int c) { return Vec3d{0.1 * c, 0.002, 0.1 * r}; });
   for (int s = 0; s < n * n; ++s) cloth.velocity.set(s, {static_cast<float>(speed), 0, 0});
@@ -61,15 +61,15 @@ TEST(Collider, GroundHoldsTheThickness) {
 
 TEST(Collider, SlidingSlowsByFrictionTimesGravity) {
   // Coulomb: the speed falls by mu g t; mu of the pair is the geometric mean of 0.1 and 0.4.
-  EXPECT_NEAR(slide(*on_ground(0.1, 0.4), 1.0, 48), 1.0 - 0.2 * g * 48 * step, 2e-3);
+  EXPECT_NEAR(surface_displacement(*on_ground(0.1, 0.4), 1.0, 48), 1.0 - 0.2 * g * 48 * step, 2e-3);
 }
 
 TEST(Collider, SlidingStopsAndStaysStopped) {
-  EXPECT_NEAR(slide(*on_ground(0.5, 0.5), 0.3, 48), 0, 1e-7);
+  EXPECT_NEAR(surface_displacement(*on_ground(0.5, 0.5), 0.3, 48), 0, 1e-7);
 }
 
 TEST(Collider, WithoutFrictionSlidingGoesOn) {
-  EXPECT_NEAR(slide(*on_ground(0, 0.5), 1.0, 48), 1.0, 1e-6);
+  EXPECT_NEAR(surface_displacement(*on_ground(0, 0.5), 1.0, 48), 1.0, 1e-6);
 }
 
 TEST(Collider, PinnedParticlesAreNeverMoved) {

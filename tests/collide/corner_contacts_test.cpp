@@ -58,7 +58,7 @@ TEST(SharpPoints, AreTheRimOfAnOpenSheet) {
   for (const int s : rim) EXPECT_TRUE(s / 9 == 0 || s / 9 == 8 || s % 9 == 0 || s % 9 == 8) << s;
 }
 
-GuardedCloth facts(const BorderMates& mates, int n) {
+CollidingCloth statistics(const BorderMates& mates, int n) {
   return {.mates = mates, .size = n, .thickness = gap, .friction = 0.4, .rest_spacing = spacing};
 }
 
@@ -66,15 +66,15 @@ GuardedCloth facts(const BorderMates& mates, int n) {
 /// (0.02, -depth, 0.03), far from all samples.
 struct SheetOnTip {
   static constexpr int n = 6;
-  explicit SheetOnTip(double below) : cloth(n), cloth_facts(facts(none, n)) {
+  explicit SheetOnTip(double below) : cloth(n), cloth_properties(statistics(none, n)) {
     obstacles.bodies.push_back(octahedron(17, {0.3, 0.6, 0.3}, {0.02, -0.6 - below, 0.03}));
-    collider = make_collider(PyramidOptions{}, obstacles, std::span(&cloth_facts, 1));
+    collider = make_collider(PyramidOptions{}, obstacles, std::span(&cloth_properties, 1));
     cloth.place([](int r, int c) { return Vec3d{spacing * (c - 2.5), 0, spacing * (r - 2.5)}; });
   }
-  void fall(double way) {
+  void fall(double distance) {
     for (int s = 0; s < n * n; ++s) {
-      cloth.position.set(s, cloth.start.at(s) - Vec3f{0, static_cast<float>(way), 0});
-      cloth.velocity.set(s, {0, static_cast<float>(-way / step), 0});
+      cloth.position.set(s, cloth.start.at(s) - Vec3f{0, static_cast<float>(distance), 0});
+      cloth.velocity.set(s, {0, static_cast<float>(-distance / step), 0});
     }
   }
   std::span<const Contact> detect(int threads = 2) {
@@ -87,7 +87,7 @@ struct SheetOnTip {
   const BorderMates none;
   Obstacles obstacles;
   TestCloth cloth;
-  GuardedCloth cloth_facts;
+  CollidingCloth cloth_properties;
   std::unique_ptr<Collider> collider;
 };
 
@@ -101,7 +101,7 @@ TEST(CornerContacts, ATipBetweenSamplesIsFoundUnderTheInsideOfATriangle) {
   EXPECT_NEAR(length(at - Vec3d{0.02, 0, 0.03}), 0, 1e-6);
   EXPECT_NEAR(contact.normal.y, 1, 1e-6);
   EXPECT_NEAR(contact.offset, -0.01 + gap, 1e-6);
-  EXPECT_EQ(contact.slide, Vec3f{});
+  EXPECT_EQ(contact.surface_displacement, Vec3f{});
   EXPECT_NEAR(contact.friction, 0.4, 1e-6);
 }
 
@@ -148,14 +148,15 @@ TEST(CornerContacts, ATipThatRisesTakesItsHalfSpaceAlong) {
   const std::span<const Contact> found = scene.detect();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].offset, -0.01 + 0.008 + gap, 1e-6);
-  EXPECT_NEAR(length(vec_cast<double>(found[0].slide) - Vec3d{0.002, 0.008, 0}), 0, 1e-6);
+  EXPECT_NEAR(length(vec_cast<double>(found[0].surface_displacement) - Vec3d{0.002, 0.008, 0}), 0,
+              1e-6);
 }
 
 TEST(CornerContacts, WhatIsSharpIsToldByTheShapeAndNotByTheMoment) {
   SheetOnTip scene(0.01);
   scene.obstacles.bodies[0].shape = octahedron(17, {0.3, 0.001, 0.3}, {}).positions;
   scene.collider =
-      make_collider(PyramidOptions{}, scene.obstacles, std::span(&scene.cloth_facts, 1));
+      make_collider(PyramidOptions{}, scene.obstacles, std::span(&scene.cloth_properties, 1));
   scene.fall(0.02);
   EXPECT_TRUE(scene.detect().empty());
 }
@@ -184,9 +185,9 @@ TEST(CornerContacts, AreOnTheSideWhereTheClothLies) {
       sheet.positions.set(
           s, {0.05F * static_cast<float>(s % 9), 0, 0.05F * static_cast<float>(s / 9)});
     sheet.mates = BorderMates(9, {});
-    const GuardedCloth cloth_facts = facts(none, 4);
+    const CollidingCloth cloth_properties = statistics(none, 4);
     const auto collider =
-        make_collider(PyramidOptions{}, Obstacles{{sheet}, {}, 0}, std::span(&cloth_facts, 1));
+        make_collider(PyramidOptions{}, Obstacles{{sheet}, {}, 0}, std::span(&cloth_properties, 1));
     TestCloth cloth(4);
     // One corner of the rim is below the middle of a triangle.
     cloth.place([&](int r, int c) {
@@ -210,12 +211,13 @@ TEST(CornerContacts, TeamsOfAnySizeFindTheSame) {
   const auto found = [](int threads) {
     constexpr int n = 33;
     const BorderMates none;
-    GuardedCloth cloth_facts = facts(none, n);
-    cloth_facts.rest_spacing = 0.02;
+    CollidingCloth cloth_properties = statistics(none, n);
+    cloth_properties.rest_spacing = 0.02;
     Obstacles obstacles;
     for (const double x : {-0.1, 0.1})
       obstacles.bodies.push_back(octahedron(33, {0.2, 0.05, 0.2}, {x, -0.05, 0}));
-    const auto collider = make_collider(PyramidOptions{}, obstacles, std::span(&cloth_facts, 1));
+    const auto collider =
+        make_collider(PyramidOptions{}, obstacles, std::span(&cloth_properties, 1));
     TestCloth cloth(n);
     cloth.place([](int r, int c) { return Vec3d{0.02 * (c - 16), 0.005, 0.02 * (r - 16)}; });
     for (int s = 0; s < n * n; ++s) cloth.position.set(s, cloth.start.at(s) - Vec3f{0, 0.03F, 0});

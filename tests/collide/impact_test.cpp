@@ -1,4 +1,4 @@
-#include "weft/collide/guard/impact.h"
+#include "weft/collide/filter/impact.h"
 
 #include <gtest/gtest.h>
 

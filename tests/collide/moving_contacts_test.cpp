@@ -43,7 +43,7 @@ Planes3 cloth_at(double time, Random& random) {
   return at;
 }
 
-GuardedCloth facts(const BorderMates& mates) {
+CollidingCloth statistics(const BorderMates& mates) {
   return {.mates = mates,
           .size = cloth_size,
           .thickness = gap,
@@ -55,8 +55,8 @@ GuardedCloth facts(const BorderMates& mates) {
 /// A collider and what it looks at, from one step to the next.
 struct Watch {
   Watch(const Obstacles& obstacles, const BorderMates& mates)
-      : cloth_facts(facts(mates)),
-        collider(make_collider(PyramidOptions{}, obstacles, std::span(&cloth_facts, 1))) {}
+      : cloth_properties(statistics(mates)),
+        collider(make_collider(PyramidOptions{}, obstacles, std::span(&cloth_properties, 1))) {}
   std::vector<Contact> contacts(const Planes3& start, const Planes3& end, const Planes3& body_end) {
     Planes3 position = end, velocity(cloth_size);
     const Grid<float> inverse_mass(cloth_size, cloth_size, 1);
@@ -67,14 +67,14 @@ struct Watch {
     const std::span<const Contact> found = collider->contacts(0);
     return {found.begin(), found.end()};
   }
-  GuardedCloth cloth_facts;
+  CollidingCloth cloth_properties;
   std::unique_ptr<Collider> collider;
   ThreadTeam team{2};
 };
 
 bool same(const Contact& a, const Contact& b) {
   return a.samples == b.samples && a.normal == b.normal && a.offset == b.offset &&
-         a.slide == b.slide;
+         a.surface_displacement == b.surface_displacement;
 }
 
 TEST(MovingContacts, WhatIsRememberedHidesNone) {
@@ -124,11 +124,11 @@ TEST(MovingContacts, BlocksNearAPlaceTellHowTheyMove) {
   motion.measure(grid, ball.positions, end, nullptr, team);
   const auto near = [&](Vec3f at) { return motion.near({at, at}, 0.01F, 0); };
   EXPECT_EQ(near({-0.25F, 0, 0}).approach, 0) << "the side that stands still";
-  EXPECT_EQ(length(near({-0.25F, 0, 0}).way), 0);
+  EXPECT_EQ(length(near({-0.25F, 0, 0}).displacement), 0);
   const BlockMotion::Near edge = near({0.1F, 0.22F, 0});
-  EXPECT_GT(edge.way.y, 0);
-  EXPECT_LT(edge.way.y, 0.01);
-  EXPECT_NEAR(edge.approach, std::max(edge.way.y, 0.01 - edge.way.y), 1e-6)
+  EXPECT_GT(edge.displacement.y, 0);
+  EXPECT_LT(edge.displacement.y, 0.01);
+  EXPECT_NEAR(edge.approach, std::max(edge.displacement.y, 0.01 - edge.displacement.y), 1e-6)
       << "either side, seen from their mean";
   EXPECT_EQ(near({2, 0, 0}).approach, 0) << "nothing is there";
 }

@@ -1,4 +1,4 @@
-#include "weft/collide/guard/rigid_motion.h"
+#include "weft/collide/filter/rigid_motion.h"
 
 #include <gtest/gtest.h>
 

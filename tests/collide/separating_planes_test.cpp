@@ -1,4 +1,4 @@
-#include "weft/collide/guard/separating_planes.h"
+#include "weft/collide/filter/separating_planes.h"
 
 #include <gtest/gtest.h>
 
@@ -21,9 +21,9 @@ MovingFeature riding(double height, double angle) {
   MovingFeature feature;
   feature.start = {Vec3d{0, height, 0}, Vec3d{0.1, height, 0}, Vec3d{0, height, 0.1}};
   for (std::size_t k = 0; k < 3; ++k) {
-    feature.refuge[k] = turned(feature.start[k], angle);
+    feature.safe_position[k] = turned(feature.start[k], angle);
     // Each ends somewhere else, deep in the other.
-    feature.end[k] = feature.refuge[k] - Vec3d{0, height > 0 ? 0.01 : -0.01, 0};
+    feature.end[k] = feature.safe_position[k] - Vec3d{0, height > 0 ? 0.01 : -0.01, 0};
   }
   return feature;
 }
@@ -36,10 +36,12 @@ TEST(SeparatingPlanes, HoldTwoThatTurnTogetherApartHoweverCloseTheyAre) {
   ASSERT_EQ(separate(a, b, {1e-4, true}, plane), Separation::plane);
   ASSERT_TRUE(plane.turns);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_GE(along(plane.turned, a.refuge[k]), plane.still.a);
-    EXPECT_LE(along(plane.turned, b.refuge[k]), plane.still.b);
-    EXPECT_GE(along(plane.normal, a.refuge[k]) + along(plane.turned, a.start[k]), plane.halfway.a);
-    EXPECT_LE(along(plane.normal, b.refuge[k]) + along(plane.turned, b.start[k]), plane.halfway.b);
+    EXPECT_GE(along(plane.turned, a.safe_position[k]), plane.still.a);
+    EXPECT_LE(along(plane.turned, b.safe_position[k]), plane.still.b);
+    EXPECT_GE(along(plane.normal, a.safe_position[k]) + along(plane.turned, a.start[k]),
+              plane.halfway.a);
+    EXPECT_LE(along(plane.normal, b.safe_position[k]) + along(plane.turned, b.start[k]),
+              plane.halfway.b);
   }
 }
 
@@ -49,7 +51,7 @@ TEST(SeparatingPlanes, ThatDoNotTurnLeaveNoRoomForThat) {
   ASSERT_EQ(separate(a, b, {1e-4, false}, plane), Separation::plane);
   double least = HUGE_VAL;
   for (std::size_t k = 0; k < 3; ++k)
-    least = std::min(least, along(plane.turned, a.refuge[k]) - plane.still.a);
+    least = std::min(least, along(plane.turned, a.safe_position[k]) - plane.still.a);
   EXPECT_LT(least, -10 * gap);
 }
 
@@ -57,13 +59,14 @@ TEST(SeparatingPlanes, WhatHeedsATurningPlaneKeepsApartAtEveryTime) {
   Random random(7);
   for (int round = 0; round < 200; ++round) {
     MovingFeature a = riding(gap, random.uniform(0, 0.3)), b = riding(0, 0.1);
-    b.refuge = {};
-    for (std::size_t k = 0; k < 3; ++k) b.refuge[k] = turned(b.start[k], random.uniform(0, 0.3));
+    b.safe_position = {};
+    for (std::size_t k = 0; k < 3; ++k)
+      b.safe_position[k] = turned(b.start[k], random.uniform(0, 0.3));
     SeparatingPlane plane;
     if (separate(a, b, {1e-4, true}, plane) != Separation::plane || !plane.turns) continue;
     // Ends that just heed it.
     const auto end_of = [&](const MovingFeature& of, std::size_t k, bool side_a) {
-      Vec3d end = of.refuge[k];
+      Vec3d end = of.safe_position[k];
       for (int turn = 0; turn < 100; ++turn) {
         const double level = side_a ? plane.at_end.a : plane.at_end.b;
         const double half =
@@ -76,14 +79,13 @@ TEST(SeparatingPlanes, WhatHeedsATurningPlaneKeepsApartAtEveryTime) {
     };
     for (double time = 0; time <= 1; time += 0.125) {
       const Vec3d normal = (1 - time) * plane.normal + time * plane.turned;
-      double least_a = HUGE_VAL, most_b = -HUGE_VAL;
+      double min_a = HUGE_VAL, max_b = -HUGE_VAL;
       for (std::size_t k = 0; k < 3; ++k) {
-        least_a =
-            std::min(least_a, along(normal, (1 - time) * a.start[k] + time * end_of(a, k, true)));
-        most_b =
-            std::max(most_b, along(normal, (1 - time) * b.start[k] + time * end_of(b, k, false)));
+        min_a = std::min(min_a, along(normal, (1 - time) * a.start[k] + time * end_of(a, k, true)));
+        max_b =
+            std::max(max_b, along(normal, (1 - time) * b.start[k] + time * end_of(b, k, false)));
       }
-      EXPECT_GT(least_a, most_b - 1e-12) << round << " at " << time;
+      EXPECT_GT(min_a, max_b - 1e-12) << round << " at " << time;
     }
   }
 }

@@ -66,7 +66,7 @@ inline Body torus(int n, double ring, double tube) {
 inline std::unique_ptr<Collider> guarding(const Obstacles& obstacles, double thickness,
                                           double friction) {
   static const BorderMates no_mates;
-  const GuardedCloth cloth{.mates = no_mates, .thickness = thickness, .friction = friction};
+  const CollidingCloth cloth{.mates = no_mates, .thickness = thickness, .friction = friction};
   return make_collider(PolarMapOptions{}, obstacles, std::span(&cloth, 1));
 }
 

@@ -1,8 +1,8 @@
-#include "weft/collide/pairs/unfolded_windows.h"
+#include "weft/collide/broad_phase/unfolded_windows.h"
 
 #include <gtest/gtest.h>
 
-#include "weft/collide/surface.h"
+#include "weft/collide/moving_surface.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
 #include "weft/mesh/crossings.h"
@@ -21,7 +21,7 @@ struct Patch {
     const SurfaceGrid grid(n, BorderMates(), {});
     UnfoldedWindows windows(n - 1);
     ThreadTeam team(1);
-    windows.judge({&grid, &at, &at}, slack / 2, team);
+    windows.find_unfolded({&grid, &at, &at}, slack / 2, team);
     // Of the first level three nodes a side are the whole.
     return windows.unfolded(Node{1, 0, 0}, Node{1, 2, 2});
   }

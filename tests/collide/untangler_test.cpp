@@ -6,8 +6,8 @@
 
 #include "tests/collide/test_bodies.h"
 #include "weft/collide/intersections.h"
-#include "weft/collide/surface.h"
-#include "weft/collide/untangle/contours.h"
+#include "weft/collide/moving_surface.h"
+#include "weft/collide/untangle/intersection_contours.h"
 #include "weft/collide/untangle/regions.h"
 #include "weft/collide/untangle/smooth_move.h"
 #include "weft/core/random.h"
@@ -60,12 +60,12 @@ class Tangle {
     std::vector<MovingCloth> moving;
     for (const auto& cloth : cloths_) moving.push_back(cloth->moving());
     collider_->detect(moving, step, team);
-    collider_->guard(moving, step, team);
+    collider_->filter(moving, step, team);
     farthest_ = 0;
     for (const auto& cloth : cloths_)
       for (int s = 0; s < cloth->start.size() * cloth->start.size(); ++s) {
-        const Vec3f way = cloth->position.at(s) - cloth->start.at(s);
-        farthest_ = std::max(farthest_, std::sqrt(double{squared_length(way)}));
+        const Vec3f displacement = cloth->position.at(s) - cloth->start.at(s);
+        farthest_ = std::max(farthest_, std::sqrt(double{squared_length(displacement)}));
       }
     for (const auto& cloth : cloths_) cloth->start = cloth->position;
   }
@@ -77,18 +77,18 @@ class Tangle {
   void make_collider() {
     if (collider_) return;
     for (std::size_t i = 0; i < cloths_.size(); ++i)
-      facts_.push_back({.mates = *mates_[i],
-                        .size = cloths_[i]->start.size(),
-                        .thickness = 0.004,
-                        .rest_spacing = spacing,
-                        .self_collision = true,
-                        .self_thickness = 0.004});
-    collider_ = weft::make_collider(PyramidOptions{}, {}, facts_);
+      statistics_.push_back({.mates = *mates_[i],
+                             .size = cloths_[i]->start.size(),
+                             .thickness = 0.004,
+                             .rest_spacing = spacing,
+                             .self_collision = true,
+                             .self_thickness = 0.004});
+    collider_ = weft::make_collider(PyramidOptions{}, {}, statistics_);
   }
   std::vector<std::unique_ptr<BorderMates>> mates_;
   std::vector<std::unique_ptr<TestCloth>> cloths_;
   std::vector<std::vector<Triangle>> triangles_;
-  std::vector<GuardedCloth> facts_;
+  std::vector<CollidingCloth> statistics_;
   std::unique_ptr<Collider> collider_;
   double farthest_ = 0;
 };
@@ -116,9 +116,9 @@ Planes3 upright(int n, Vec3d centre) {
 }
 
 /// A strip rolled by so many half turns, its end pushed on straight from there.
-Vec3d rolled(double way, double radius, double half_turns) {
-  const double most = half_turns * pi, turned = std::min(way / radius, most);
-  const double rest = std::max(0.0, way - radius * most);
+Vec3d rolled(double displacement, double radius, double half_turns) {
+  const double most = half_turns * pi, turned = std::min(displacement / radius, most);
+  const double rest = std::max(0.0, displacement - radius * most);
   return {-radius * sine(turned) - rest * cosine(turned),
           radius * (1 - cosine(turned)) + rest * sine(turned), 0};
 }
@@ -164,10 +164,10 @@ TEST(Untangler, SheetsThatHardlySlopeThroughEachOtherComeApart) {
 TEST(Untangler, ACornerThatIsRolledThroughItsSheetComesBack) {
   Tangle tangle;
   tangle.add(placed(25, [](int r, int c) {
-    const double x = spacing * c, z = spacing * r, way = (0.5 - (x + z)) / std::sqrt(2.0);
-    if (way <= 0) return Vec3d{x, 0, z};
-    const Vec3d at = rolled(way, 0.05, 1.3);
-    const double aside = std::sqrt(0.5) * (way + at.x);
+    const double x = spacing * c, z = spacing * r, displacement = (0.5 - (x + z)) / std::sqrt(2.0);
+    if (displacement <= 0) return Vec3d{x, 0, z};
+    const Vec3d at = rolled(displacement, 0.05, 1.3);
+    const double aside = std::sqrt(0.5) * (displacement + at.x);
     return Vec3d{x + aside, at.y, z + aside};
   }));
   ASSERT_GT(tangle.intersections(), 3);
@@ -177,9 +177,9 @@ TEST(Untangler, ACornerThatIsRolledThroughItsSheetComesBack) {
 TEST(Untangler, ARibbonThatCrossesItselfOpens) {
   Tangle tangle;
   tangle.add(placed(25, [](int r, int c) {
-    const double way = spacing * (c - 12);
-    const Vec3d at = rolled(std::abs(way), 0.12, 0.8);
-    return Vec3d{way < 0 ? at.x : -at.x, at.y + 0.002 * r, spacing * r};
+    const double displacement = spacing * (c - 12);
+    const Vec3d at = rolled(std::abs(displacement), 0.12, 0.8);
+    return Vec3d{displacement < 0 ? at.x : -at.x, at.y + 0.002 * r, spacing * r};
   }));
   ASSERT_GT(tangle.intersections(), 10);
   EXPECT_LT(tangle.untangle(240), 240);
@@ -273,19 +273,19 @@ TEST(Untangler, TeamsOfAnySizeGiveTheSameBits) {
 }
 
 /// All pairs of cells of two surfaces.
-std::vector<CellPair> all_cells(int a, int b) {
-  std::vector<CellPair> cells;
+std::vector<CandidatePair> all_cells(int a, int b) {
+  std::vector<CandidatePair> cells;
   for (int i = 0; i < a * a; ++i)
     for (int j = 0; j < b * b; ++j) cells.push_back({i, j});
   return cells;
 }
 
-TEST(Contours, SheetsThatCrossAtTheirBordersHaveOneCurveWithTwoEnds) {
+TEST(IntersectionContours, SheetsThatCrossAtTheirBordersHaveOneCurveWithTwoEnds) {
   const Planes3 low = lying(9), high = upright(9, {0.11, 0.01, 0.02});
   const BorderMates none;
   const SurfaceGrid grid(9, none, {});
   ThreadTeam team(1);
-  Contours contours;
+  IntersectionContours contours;
   contours.find({{&grid, &grid}, {&low, &high}, false}, all_cells(8, 8), team);
   ASSERT_EQ(contours.count(), 1);
   int ends = 0;
@@ -298,7 +298,7 @@ TEST(Contours, SheetsThatCrossAtTheirBordersHaveOneCurveWithTwoEnds) {
   EXPECT_EQ(ends, 2);
 }
 
-TEST(Contours, ACurveThroughSamplesAndEdgesIsOneCurveToo) {
+TEST(IntersectionContours, ACurveThroughSamplesAndEdgesIsOneCurveToo) {
   // Every crossing is where a sample or an edge of one meets one of the other.
   const Planes3 low = lying(9), high = placed(9, [](int r, int c) {
                                   return Vec3d{spacing * (c - 4), spacing * (r - 4), 0};
@@ -306,7 +306,7 @@ TEST(Contours, ACurveThroughSamplesAndEdgesIsOneCurveToo) {
   const BorderMates none;
   const SurfaceGrid grid(9, none, {});
   ThreadTeam team(1);
-  Contours contours;
+  IntersectionContours contours;
   contours.find({{&grid, &grid}, {&low, &high}, false}, all_cells(8, 8), team);
   EXPECT_EQ(contours.count(), 1);
   EXPECT_GE(contours.nodes().size(), 9U);

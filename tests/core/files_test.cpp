@@ -9,8 +9,8 @@
 #include <sys/resource.h>
 
 #include "tests/support/temporary_folder.h"
+#include "weft/core/disk_reservation.h"
 #include "weft/core/error.h"
-#include "weft/core/reserved_room.h"
 
 namespace weft {
 namespace {
@@ -98,23 +98,24 @@ TEST(WantedFolder, OnesThatHoldSomethingStay) {
   EXPECT_FALSE(std::filesystem::exists(place / "a/b"));
 }
 
-TEST(ReservedRoom, IsTakenAndGivenBack) {
+TEST(DiskReservation, IsTakenAndGivenBack) {
   const test::TemporaryFolder place;
   {
-    const ReservedRoom room(place / "room", 100'000);
+    const DiskReservation room(place / "room", 100'000);
     EXPECT_EQ(std::filesystem::file_size(place / ".room.part"), 100'000);
   }
   EXPECT_EQ(place.entries(), 0);
 }
 
-TEST(ReservedRoom, MoreThanThereIsIsAnErrorThatLeavesNothing) {
+TEST(DiskReservation, MoreThanThereIsIsAnErrorThatLeavesNothing) {
   const test::TemporaryFolder place;
   rlimit old{};
   getrlimit(RLIMIT_FSIZE, &old);
   const rlimit small{1000, old.rlim_max};
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &small);
-  const std::string message = message_of([&] { const ReservedRoom room(place / "room", 100'000); });
+  const std::string message =
+      message_of([&] { const DiskReservation room(place / "room", 100'000); });
   setrlimit(RLIMIT_FSIZE, &old);
   (void)std::signal(SIGXFSZ, old_handler);
   EXPECT_NE(message.find("no room to report in: "), std::string::npos) << message;

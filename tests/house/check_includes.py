@@ -12,13 +12,15 @@ import sys
 ALLOWED = {
     "core": set(),
     "mesh": {"core"},
+    "image": {"core", "mesh"},
     "cut": {"core", "mesh"},
     "param": {"core", "mesh", "cut"},
-    "image": {"core", "mesh", "cut", "param"},
+    "convert": {"core", "mesh", "image", "cut", "param"},
     "cloth": {"core", "image"},
     "collide": {"core", "mesh", "image"},
-    "sim": {"core", "mesh", "cut", "param", "image", "cloth", "collide"},
-    "view": {"core", "mesh", "cut", "param", "image"},
+    "sim": {"core", "mesh", "image", "convert", "cloth", "collide"},
+    "run": {"core", "mesh", "image", "convert", "cloth", "collide", "sim"},
+    "view": {"core", "mesh", "cut", "param", "image", "convert"},
 }
 EIGEN_MODULES = {"cut", "param", "cloth"}  # and only in .cpp files
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "weft/core/error.h"
-#include "weft/image/convert.h"
+#include "weft/image/image_quality.h"
 #include "weft/mesh/shapes/parametric.h"
 
 namespace weft {

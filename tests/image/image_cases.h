@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/image/maps.h"
+#include "tests/convert/maps.h"
+#include "weft/convert/sample.h"
 #include "weft/core/error.h"
 #include "weft/image/io/image_file.h"
-#include "weft/image/sample.h"
 
 namespace weft::test {
 

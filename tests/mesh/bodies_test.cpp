@@ -6,7 +6,7 @@
 
 #include "tests/support/meshes.h"
 #include "weft/core/math.h"
-#include "weft/mesh/facts.h"
+#include "weft/mesh/mesh_statistics.h"
 #include "weft/mesh/repair.h"
 #include "weft/mesh/shapes.h"
 #include "weft/mesh/shapes/box.h"
@@ -25,7 +25,7 @@ using test::volume_of;
 struct Expected {
   std::string name;
   int genus, boundaries;
-  double least_quality;
+  double min_quality;
   Vec3d size;  ///< of its box [m]
 };
 void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.name; }
@@ -44,10 +44,10 @@ TEST_P(SoundShape, HasItsTopologyAndFacesOutwardWithoutRepair) {
 
 TEST_P(SoundShape, HasFatTrianglesAndItsSize) {
   const TriangleMesh mesh = make_shape(GetParam().name);
-  const MeshFacts facts = examine_mesh(mesh);
-  EXPECT_GT(facts.least_quality, GetParam().least_quality);
-  EXPECT_GT(facts.triangles, 3000);
-  EXPECT_LT(facts.triangles, 12000);
+  const MeshStatistics statistics = examine_mesh(mesh);
+  EXPECT_GT(statistics.min_quality, GetParam().min_quality);
+  EXPECT_GT(statistics.triangles, 3000);
+  EXPECT_LT(statistics.triangles, 12000);
   Box3d box;
   for (const Vec3d p : mesh.positions) box.add(p);
   const Vec3d off = box.extent() - GetParam().size;

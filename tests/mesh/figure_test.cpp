@@ -5,7 +5,7 @@
 
 #include "tests/support/meshes.h"
 #include "weft/mesh/distance.h"
-#include "weft/mesh/facts.h"
+#include "weft/mesh/mesh_statistics.h"
 #include "weft/mesh/shapes.h"
 #include "weft/mesh/shapes/mannequin.h"
 #include "weft/mesh/topology.h"

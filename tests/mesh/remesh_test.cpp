@@ -9,7 +9,7 @@
 #include "tests/support/meshes.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
-#include "weft/mesh/facts.h"
+#include "weft/mesh/mesh_statistics.h"
 #include "weft/mesh/shapes/clip.h"
 #include "weft/mesh/shapes/editable_mesh.h"
 #include "weft/mesh/shapes/polygonise.h"

@@ -34,7 +34,7 @@ TEST(BorderPoint, RunsCounterClockwiseFromTheOriginThroughTheCorners) {
 TEST(LayOutBorder, CountsFillTheSquareMatesMatchAndPathsFollowOn) {
   for (const Case& c : layout_cases()) {
     SCOPED_TRACE(c.name);
-    for (const int n : {least_size(c.cut), least_size(c.cut) + 1, 33, 257}) {
+    for (const int n : {min_size(c.cut), min_size(c.cut) + 1, 33, 257}) {
       const BorderLayout layout = lay_out_border(c.cut, {n, 3});
       const int around = 4 * (n - 1);
       EXPECT_EQ(std::accumulate(layout.intervals.begin(), layout.intervals.end(), 0), around);
@@ -89,7 +89,7 @@ TEST(LayOutBorder, EqualLoopsOfATorusMeetOnTheHighestLevel) {
 TEST(LayOutBorder, LeastCountsKeepLoopsAndParallelPathsApart) {
   for (const Case& c : layout_cases()) {
     SCOPED_TRACE(c.name);
-    const BorderLayout layout = lay_out_border(c.cut, {least_size(c.cut), 0});
+    const BorderLayout layout = lay_out_border(c.cut, {min_size(c.cut), 0});
     std::map<int, int> loops;
     std::map<std::pair<int, int>, int> single;
     for (std::size_t p = 0; p < c.cut.paths.size(); ++p) {
@@ -111,7 +111,7 @@ TEST(LayOutBorder, LeastCountsKeepLoopsAndParallelPathsApart) {
 TEST(LayOutBorder, TooSmallASizeIsRefusedNamingTheLeast) {
   const TriangleMesh mesh = slab_surface({"#####", "#.#.#", "#####", "#.#.#", "#####"}, 1.7);
   const CutDisk cut = cut_open(mesh, open_to_disk(mesh));
-  const int least = least_size(cut);
+  const int least = min_size(cut);
   EXPECT_GT(least, 5);
   EXPECT_NO_THROW(lay_out_border(cut, {least, 0}));
   try {

@@ -32,7 +32,7 @@ bool map_plainly(const DiskMesh& disk, std::span<Vec2d> uv, int newton_steps) {
   InteriorSolver solver(disk, geometry.edges);
   std::vector<double> weights = symmetric_weights(disk, geometry.edges, geometry.sides);
   if (!map_by_reweighting(geometry, solver, weights, uv, {})) return false;
-  minimise_by_newton(geometry, uv, {.steps = newton_steps, .least_gain = 1e-4});
+  minimise_by_newton(geometry, uv, {.steps = newton_steps, .min_gain = 1e-4});
   return true;
 }
 
@@ -43,7 +43,8 @@ TEST(CoarseToFine, MapsAsWellAsNewtonStepsOnAllVertices) {
   std::vector<Vec2d> refined = plain;
   ASSERT_TRUE(map_plainly(disk, plain, 40));
   int coarse = 0;
-  const MapDisk map = [&](const DiskMesh& part, std::span<Vec2d> uv, std::span<const BorderSlide>) {
+  const MapDisk map = [&](const DiskMesh& part, std::span<Vec2d> uv,
+                          std::span<const BorderFreedom>) {
     coarse = static_cast<int>(part.triangles.size());
     return map_plainly(part, uv, 40);
   };
@@ -59,7 +60,7 @@ TEST(CoarseToFine, GoesCoarserWhereTheCoarseMapFails) {
   std::vector<Vec2d> uv = test::square_border(disk, 64);
   std::vector<int> tried;
   const MapDisk map = [&](const DiskMesh& part, std::span<Vec2d> part_uv,
-                          std::span<const BorderSlide>) {
+                          std::span<const BorderFreedom>) {
     tried.push_back(static_cast<int>(part.triangles.size()));
     return part.triangles.size() < 1000 && map_plainly(part, part_uv, 0);
   };
@@ -73,7 +74,7 @@ TEST(CoarseToFine, GoesCoarserWhereTheCoarseMapFails) {
 TEST(CoarseToFine, SaysSoWhereNoCoarseMapIsValid) {
   const DiskMesh disk = hills();
   std::vector<Vec2d> uv = test::square_border(disk, 64);
-  const MapDisk never = [](const DiskMesh&, std::span<Vec2d>, std::span<const BorderSlide>) {
+  const MapDisk never = [](const DiskMesh&, std::span<Vec2d>, std::span<const BorderFreedom>) {
     return false;
   };
   EXPECT_FALSE(map_coarse_to_fine(disk, uv, never, {}));
@@ -84,7 +85,7 @@ TEST(CoarseToFine, TakesTrianglesWithoutAreaAndCoincidentVertices) {
   std::vector<Vec2d> uv = test::square_border(disk, 64);
   for (int k = 0; k < 40; ++k) disk.positions[700 + 3 * k] = disk.positions[701 + 3 * k];
   const MapDisk map = [&](const DiskMesh& part, std::span<Vec2d> part_uv,
-                          std::span<const BorderSlide>) { return map_plainly(part, part_uv, 5); };
+                          std::span<const BorderFreedom>) { return map_plainly(part, part_uv, 5); };
   ASSERT_TRUE(map_coarse_to_fine(disk, uv, map, {.triangles = 2000}));
   EXPECT_TRUE(is_valid_map(disk.triangles, uv));
 }

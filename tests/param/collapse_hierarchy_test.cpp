@@ -54,9 +54,9 @@ TEST(CollapseHierarchy, StaysADiskWithItsBorderDownToAWheel) {
        {hilly_sheet(), test::long_neck(5, 40, 0.1), test::sliver_fan(60, 10)}) {
     CollapseHierarchy mesh(disk);
     const PassOptions down{.triangles = mesh.triangle_count() / 3, .first_cost = 6, .growth = 1.25};
-    collapse_in_passes(mesh, least_valence_first(), down);
+    collapse_in_passes(mesh, min_valence_first(), down);
     expect_disk(mesh, disk);
-    collapse_in_passes(mesh, least_valence_first(),
+    collapse_in_passes(mesh, min_valence_first(),
                        {.triangles = 0, .first_cost = 6, .growth = 1.25});
     expect_disk(mesh, disk);
     EXPECT_EQ(inner_vertices(mesh), 1);
@@ -67,12 +67,11 @@ TEST(CollapseHierarchy, StaysADiskWithItsBorderDownToAWheel) {
 TEST(CollapseHierarchy, ComesBackTriangleForTriangle) {
   const DiskMesh disk = hilly_sheet();
   CollapseHierarchy mesh(disk);
-  collapse_in_passes(mesh, least_valence_first(),
+  collapse_in_passes(mesh, min_valence_first(),
                      {.triangles = 300, .first_cost = 6, .growth = 1.25});
   const CoarseDisk half_way = coarse_disk(mesh, disk);
   const int depth = mesh.depth();
-  collapse_in_passes(mesh, least_valence_first(),
-                     {.triangles = 0, .first_cost = 6, .growth = 1.25});
+  collapse_in_passes(mesh, min_valence_first(), {.triangles = 0, .first_cost = 6, .growth = 1.25});
   while (mesh.depth() > depth) mesh.undo();
   EXPECT_EQ(coarse_disk(mesh, disk).disk.triangles, half_way.disk.triangles);
   EXPECT_EQ(coarse_disk(mesh, disk).vertex, half_way.vertex);

@@ -124,7 +124,7 @@ TEST(StretchNewton, EveryStepLowersTheEnergyAndKeepsTheMapValid) {
   ASSERT_TRUE(map_interior(disk, uv, StretchOptions{.iterations = 3, .newton_steps = 0}));
   double before = geometry.energy(uv);
   for (int step = 0; step < 10; ++step) {
-    minimise_by_newton(geometry, uv, {.steps = 1, .least_gain = 0});
+    minimise_by_newton(geometry, uv, {.steps = 1, .min_gain = 0});
     const double after = geometry.energy(uv);
     EXPECT_LT(after, before);
     EXPECT_EQ(count_bad(disk, uv), 0);
@@ -143,7 +143,7 @@ TEST(StretchNewton, FindsTheIsometryOfAFlatSheetFromAFarMap) {
   }
   ASSERT_TRUE(is_valid_map(disk.triangles, uv));
   ASSERT_GT(geometry.stretch_l2(uv), 1.02);
-  minimise_by_newton(geometry, uv, {.steps = 60, .least_gain = 0});
+  minimise_by_newton(geometry, uv, {.steps = 60, .min_gain = 0});
   EXPECT_NEAR(geometry.stretch_l2(uv), 1.0, 1e-9);
   for (std::size_t v = 0; v < uv.size(); ++v)
     EXPECT_LT(length(uv[v] - 64.0 * Vec2d{disk.positions[v].x, disk.positions[v].y}), 1e-3);

@@ -39,7 +39,7 @@ TEST(InverseStretch, KeepsAShearedSheetFromCreasing) {
   for (std::size_t v = 0; v < uv.size(); ++v)
     if (!border[v]) uv[v] = uv[v] + Vec2d{random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05)};
   ASSERT_TRUE(is_valid_map(disk.triangles, uv));
-  minimise_by_newton(geometry, uv, {.steps = 60, .least_gain = 1e-9});
+  minimise_by_newton(geometry, uv, {.steps = 60, .min_gain = 1e-9});
   double farthest = 0;
   for (std::size_t v = 0; v < uv.size(); ++v)
     farthest = std::max(farthest, length(uv[v] - even[v]));

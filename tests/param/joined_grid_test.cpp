@@ -104,7 +104,7 @@ class JoinedGrid {
 TEST(LayOutBorder, JoinedGridHasTheTopologyOfTheSurfaceAtEverySizeAndRotation) {
   Random random(11);
   for (const Case& c : layout_cases()) {
-    const int least = least_size(c.cut);
+    const int least = min_size(c.cut);
     for (const int n : {least, least + 1, least + 4})
       for (int rotation = 0; rotation < 4 * (n - 1); ++rotation) {
         SCOPED_TRACE(c.name + ", n " + std::to_string(n) + ", rotation " +

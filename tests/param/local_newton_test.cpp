@@ -63,19 +63,19 @@ TEST(VertexMover, SlidesBorderVerticesAndTheirMatesToLowerStretch) {
   std::vector<Vec2d> uv;
   for (const Vec3d& p : disk.positions) uv.push_back({4 * p.x, 4 * p.y});
   // On the lower side towards the right, on the upper one, its mate, towards the left.
-  BorderSlide slide;
-  slide.vertex = 2;
-  slide.axis = 0;
-  slide.mate = 22;
-  slide.mate_axis = 0;
-  slide.sign = -1;
-  slide.offset = 4;
+  BorderFreedom freedom;
+  freedom.vertex = 2;
+  freedom.axis = 0;
+  freedom.mate = 22;
+  freedom.mate_axis = 0;
+  freedom.sign = -1;
+  freedom.offset = 4;
   uv[2].x = 2.5;
   uv[22].x = 1.5;
   ASSERT_TRUE(is_valid_map(disk.triangles, uv));
   VertexMover mover(mesh, triangles, uv);
   const double before = geometry.stretch_l2(uv);
-  for (int k = 0; k < 40; ++k) mover.sweep(std::span(&slide, 1));
+  for (int k = 0; k < 40; ++k) mover.sweep(std::span(&freedom, 1));
   EXPECT_LT(geometry.stretch_l2(uv), before);
   EXPECT_NEAR(uv[2].x, 2, 1e-3);
   EXPECT_EQ(uv[22].x, 4 - uv[2].x);

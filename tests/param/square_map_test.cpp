@@ -47,7 +47,7 @@ TEST(SquareMap, StretchIsBelowFloaters) {
 
 TEST(SquareMap, TooSmallASizeIsAnErrorThatNamesTheLeast) {
   const CutDisk disk = opened(test::torus(40, 16));
-  const int least = least_size(disk);
+  const int least = min_size(disk);
   ASSERT_GT(least, 2);
   try {
     map_to_square(disk, {.size = least - 1});

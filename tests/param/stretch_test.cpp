@@ -1,4 +1,4 @@
-#include "weft/param/stretch.h"
+#include "weft/mesh/stretch.h"
 
 #include <cmath>
 

@@ -96,20 +96,20 @@ TEST(TriangleEnergy, EmphasisedGradientAndCurvatureMatchFiniteDifferences) {
   const double quartic = 0.7;
   for (int k = 0; k < 20; ++k) {
     const Case c = random_case(random);
-    const auto emphasised = [&](const std::array<double, 6>& x) {
+    const auto weighed_by_curvature = [&](const std::array<double, 6>& x) {
       TriangleEnergy energy = energy_at(c.surface, x);
-      emphasise(energy, c.surface.area, quartic);
+      weigh_by_curvature(energy, c.surface.area, quartic);
       return energy;
     };
-    const TriangleEnergy energy = emphasised(c.corners);
+    const TriangleEnergy energy = weighed_by_curvature(c.corners);
     const double m = energy_at(c.surface, c.corners).value / c.surface.area;
     EXPECT_NEAR(energy.value, c.surface.area * (m + quartic * m * m / 2), 1e-12 * energy.value);
     for (int i = 0; i < 6; ++i) {
       std::array<double, 6> axis{};
       axis[i] = 1;
       const double h = 1e-5;
-      const double above = emphasised(moved(c.corners, axis, h)).value;
-      const double below = emphasised(moved(c.corners, axis, -h)).value;
+      const double above = weighed_by_curvature(moved(c.corners, axis, h)).value;
+      const double below = weighed_by_curvature(moved(c.corners, axis, -h)).value;
       EXPECT_NEAR(energy.gradient[i], (above - below) / (2 * h), 1e-5 * (1 + energy.value));
       double projected = 0;
       for (const auto& square : energy.squares) projected += square[i] * square[i];

@@ -83,10 +83,10 @@ TEST(VertexStar, SquaresAreNeverNegative) {
 TEST(VertexStar, WayEndsWhereTheFirstTriangleCloses) {
   const Case c(inner, 0);
   for (const Vec2d step : {Vec2d{1, 0}, Vec2d{-0.3, 0.2}, Vec2d{0, -2}}) {
-    const double way = c.star.free_way(c.uv[inner], step);
-    ASSERT_TRUE(std::isfinite(way));
-    EXPECT_TRUE(c.star.is_valid(c.uv[inner] + 0.999 * way * step));
-    EXPECT_FALSE(c.star.is_valid(c.uv[inner] + 1.001 * way * step));
+    const double step_length = c.star.free_step_length(c.uv[inner], step);
+    ASSERT_TRUE(std::isfinite(step_length));
+    EXPECT_TRUE(c.star.is_valid(c.uv[inner] + 0.999 * step_length * step));
+    EXPECT_FALSE(c.star.is_valid(c.uv[inner] + 1.001 * step_length * step));
   }
 }
 

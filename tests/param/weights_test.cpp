@@ -24,7 +24,7 @@ DiskMesh bad_sheet() {
 }
 
 /// The smallest weight at an interior vertex; 0 if any is not finite.
-double least_interior_weight(const DiskMesh& disk, const std::vector<double>& weights) {
+double min_interior_weight(const DiskMesh& disk, const std::vector<double>& weights) {
   std::vector<bool> border(disk.positions.size(), false);
   for (const int v : disk.border) border[v] = true;
   double least = HUGE_VAL;
@@ -60,9 +60,9 @@ DiskMesh irregular_flat_sheet() {
 TEST(Weights, ArePositiveAndFiniteOnDegenerateTriangles) {
   const DiskMesh disk = bad_sheet();
   const DiskGeometry g(disk);
-  EXPECT_GT(least_interior_weight(disk, mean_value_weights(disk, g.edges, g.sides)), 0.0);
-  EXPECT_GT(least_interior_weight(disk, symmetric_weights(disk, g.edges, g.sides)), 0.0);
-  EXPECT_GT(least_interior_weight(disk, shape_preserving_weights(disk, g.edges, g.sides)), 0.0);
+  EXPECT_GT(min_interior_weight(disk, mean_value_weights(disk, g.edges, g.sides)), 0.0);
+  EXPECT_GT(min_interior_weight(disk, symmetric_weights(disk, g.edges, g.sides)), 0.0);
+  EXPECT_GT(min_interior_weight(disk, shape_preserving_weights(disk, g.edges, g.sides)), 0.0);
 }
 
 TEST(Weights, ShapePreservingOnesSumToOne) {

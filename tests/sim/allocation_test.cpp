@@ -8,9 +8,9 @@
 
 #include "tests/cloth/sheets.h"
 #include "tests/collide/test_bodies.h"
-#include "weft/cloth/coarse_limit.h"
-#include "weft/cloth/integrate/integrator.h"
-#include "weft/cloth/strain_limit.h"
+#include "weft/cloth/baselines/coarse_limit.h"
+#include "weft/cloth/baselines/strain_limit.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/wind.h"
 #include "weft/collide/collider.h"
 #include "weft/collide/contacts/contact_response.h"
@@ -67,7 +67,7 @@ struct Step {
     coarse.limit({.passes = 2, .strain = 0.05}, input.time_step, *next, team);
     limit.limit({.strain = 0.05}, input.time_step, *next, team);
     collider.correct(0, moving, integrator.contact_forces(), input.time_step, team);
-    collider.guard(std::span(&moving, 1), input.time_step, team);
+    collider.filter(std::span(&moving, 1), input.time_step, team);
     integrator.end(state);
   }
 };
@@ -115,15 +115,15 @@ TEST(Allocation, UntanglingAllocatesNothingOnceWarm) {
       start.set(r, c, vec_cast<float>(Vec3d{sine(t), 0.5 * sine(2 * t), 0.1 * r + 0.02 * c}));
       cloth.inverse_mass(r, c) = 0;
     }
-  const GuardedCloth facts{
+  const CollidingCloth statistics{
       .mates = cloth.mates, .size = n, .rest_spacing = 0.1, .self_collision = true};
-  const auto collider = make_collider(PyramidOptions{}, {}, std::span(&facts, 1));
+  const auto collider = make_collider(PyramidOptions{}, {}, std::span(&statistics, 1));
   ThreadTeam team(2);
   Planes3 position = start;
   const MovingCloth moving{start, position, velocity, cloth.inverse_mass};
   const auto step = [&] {
     collider->detect(std::span(&moving, 1), 1e-3, team);
-    collider->guard(std::span(&moving, 1), 1e-3, team);
+    collider->filter(std::span(&moving, 1), 1e-3, team);
   };
   step();
   step();  // which asks for pairs of the first again, in another order
@@ -179,9 +179,9 @@ TEST(Allocation, GuardingAllocatesNothingOnceWarm) {
                           test::octahedron(17, {0.2, 0.3, 0.2}, {0.2, -0.35, 0.2})},
                          -0.5,
                          0.5};
-  const GuardedCloth facts{
+  const CollidingCloth statistics{
       .mates = cloth.mates, .size = n, .rest_spacing = cloth.rest_spacing, .self_collision = true};
-  const auto collider = make_collider(PyramidOptions{}, bodies, std::span(&facts, 1));
+  const auto collider = make_collider(PyramidOptions{}, bodies, std::span(&statistics, 1));
   ThreadTeam team(2);
   ClothState start = rest_state(cloth), next = rest_state(cloth);
   shake(cloth, 0.02, start.position);
@@ -192,7 +192,7 @@ TEST(Allocation, GuardingAllocatesNothingOnceWarm) {
     const MovingCloth moving{start.position, next.position, next.velocity, cloth.inverse_mass};
     collider->detect(std::span(&moving, 1), 1.0 / 240, team);
     collider->correct(0, moving, {}, 1.0 / 240, team);
-    collider->guard(std::span(&moving, 1), 1.0 / 240, team);
+    collider->filter(std::span(&moving, 1), 1.0 / 240, team);
     return collider->contacts(0).size();
   };
   EXPECT_GT(step(), 10U);

@@ -1,4 +1,4 @@
-#include "weft/sim/attachments.h"
+#include "weft/sim/motion/attachments.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "weft/sim/body_motion.h"
+#include "weft/sim/motion/body_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "weft/image/builtin.h"
 #include "weft/mesh/io/write_mesh.h"
 #include "weft/mesh/shapes.h"
-#include "weft/sim/export/pc2_writer.h"
+#include "weft/run/export/pc2_writer.h"
 
 namespace weft {
 namespace {

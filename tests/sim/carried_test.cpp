@@ -30,9 +30,9 @@ TEST(Carried, AMovingBodyTakesItsClothAlongInFewIterations) {
   int iterations = 0;
   for (int frame = 0; frame < carried_frames; ++frame)
     iterations += simulation.advance().iterations;
-  const double way = simulation.centre_of_mass().x - cloth_before.x;
+  const double distance = simulation.centre_of_mass().x - cloth_before.x;
   const double wanted = simulation.bodies()[0].positions.at(0).x - ball_before.x;
-  EXPECT_NEAR(way, wanted, 0.01 * wanted);
+  EXPECT_NEAR(distance, wanted, 0.01 * wanted);
   // Friction and the ball's work are known from the step before: nothing has to be found again.
   EXPECT_LT(iterations, 25 * carried_frames);
 }

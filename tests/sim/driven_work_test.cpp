@@ -1,4 +1,4 @@
-#include "weft/sim/driven_work.h"
+#include "weft/sim/stepping/driven_work.h"
 
 #include <array>
 
@@ -18,7 +18,7 @@ class Touched {
   Touched() {
     contact_.samples[0] = sample;
     contact_.normal = {0, 1, 0};
-    contact_.slide = {0.01F, 0.01F, 0};
+    contact_.surface_displacement = {0.01F, 0.01F, 0};
     contact_.friction = 0.5F;
   }
   static constexpr int sample = 12;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "weft/core/math.h"
-#include "weft/sim/report.h"
+#include "weft/run/report.h"
 #include "weft/sim/simulation.h"
 
 namespace weft {

@@ -166,12 +166,12 @@ TEST(Grab, CorrectionsOfEverySampleHaveTheResidualAsTheLargest) {
   }
 }
 
-TEST(SurfaceShelf, WhatItKeptMakesTheSameSimulation) {
+TEST(SurfaceCache, WhatItKeptMakesTheSameSimulation) {
   Scene scene = floating_sheet(1);
   scene.bodies = {SceneBody{"ball", "builtin:sphere", 33, {}, 0.4, {}, {}, 0}};
-  SurfaceShelf shelf;
-  Simulation first(scene, "sheet", 1, {nullptr, &shelf}),
-      again(scene, "sheet", 1, {nullptr, &shelf});
+  SurfaceCache surface_cache;
+  Simulation first(scene, "sheet", 1, {nullptr, &surface_cache}),
+      again(scene, "sheet", 1, {nullptr, &surface_cache});
   Simulation alone(scene, "sheet", 1);
   for (Simulation* simulation : {&first, &again, &alone}) run(*simulation, 20);
   EXPECT_EQ(first.state_hash(), alone.state_hash());

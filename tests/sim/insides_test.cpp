@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
-#include "weft/sim/verification.h"
+#include "weft/run/verification.h"
 
 namespace weft {
 namespace {
@@ -51,7 +51,7 @@ void expect_rest_on_floor(const Scene& scene, double highest) {
   int contacts = 0;
   for (int frame = 1; frame <= 90; ++frame) {
     last = simulation.advance();
-    verifier.look(frame, found);
+    verifier.count_frame(frame, found);
     contacts = std::max(contacts, last.contacts);
     ASSERT_EQ(points_outside(simulation), 0) << "frame " << frame;
     ASSERT_LT(last.strain.p99, 0.05) << "frame " << frame;
@@ -109,7 +109,7 @@ TEST(Insides, AContainerMayMove) {
   Verification found;
   for (int frame = 1; frame <= 45; ++frame) {
     simulation.advance();
-    verifier.look(frame, found);
+    verifier.count_frame(frame, found);
   }
   EXPECT_EQ(points_outside(simulation), 0);
   EXPECT_TRUE(found.good());
@@ -122,14 +122,14 @@ TEST(Insides, WhatAClosedBodySwallowsIsSeen) {
   Simulation simulation(scene, "s.json", 1);
   Verifier verifier(simulation, std::nullopt);
   Verification found;
-  verifier.look(1, found);
+  verifier.count_frame(1, found);
   EXPECT_TRUE(found.good());
   SimulationState state;
   simulation.save(state);
   for (int s = 0; s < 33 * 33; ++s)
     state.cloths[0].position.set(s, state.cloths[0].position.at(s) - Vec3f{0, 2, 0});
   simulation.restore(state);
-  verifier.look(2, found);
+  verifier.count_frame(2, found);
   EXPECT_EQ(found.swallowed.count, 33 * 33);
   EXPECT_EQ(found.swallowed.frame, 2);
 }

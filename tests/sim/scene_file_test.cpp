@@ -1,4 +1,4 @@
-#include "weft/sim/scene_file.h"
+#include "weft/sim/scene_file/scene_file.h"
 
 #include <filesystem>
 #include <set>
@@ -13,7 +13,7 @@
 #include "weft/core/files.h"
 #include "weft/core/parse_json.h"
 #include "weft/sim/materials.h"
-#include "weft/sim/scene_keys.h"
+#include "weft/sim/scene_file/scene_keys.h"
 
 namespace weft {
 namespace {
@@ -378,7 +378,7 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
   EXPECT_EQ(properties_of(parts["multigrid"]), as_set(scene_keys::multigrid_integrator));
   EXPECT_EQ(properties_of(parts["two_level"]), as_set(scene_keys::two_level_integrator));
   for (const char* type : {"pyramid", "sphere_tree", "spatial_hash", "image_space"})
-    EXPECT_EQ(properties_of(parts[type]), as_set(scene_keys::guarding_collider));
+    EXPECT_EQ(properties_of(parts[type]), as_set(scene_keys::pipeline_collider));
   EXPECT_EQ(properties_of(parts["polar_map"]), as_set(scene_keys::polar_map_collider));
   EXPECT_EQ(properties_of(parts["cloth"]), as_set(scene_keys::cloth));
   EXPECT_EQ(properties_of(parts["body"]), as_set(scene_keys::body));

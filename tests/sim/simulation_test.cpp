@@ -130,8 +130,8 @@ double slide_down(double degrees) {
 TEST(Simulation, SheetSticksToAGentleInclineAndSlidesDownASteepOne) {
   EXPECT_NEAR(slide_down(25), 0, 2e-4);
   const double angle = 32 * pi / 180, acceleration = 9.81 * (sine(angle) - 0.5 * cosine(angle));
-  const double way = 0.5 * acceleration * 0.5 * (0.5 + 1.0 / 240);
-  EXPECT_NEAR(slide_down(32), way, 0.02 * way);
+  const double distance = 0.5 * acceleration * 0.5 * (0.5 + 1.0 / 240);
+  EXPECT_NEAR(slide_down(32), distance, 0.02 * distance);
 }
 
 TEST(Simulation, NoParticleEndsUnderTheGround) {
@@ -244,8 +244,8 @@ TEST(Simulation, WindCarriesCloth) {
     for (int frame = 0; frame < 30; ++frame) centre = simulation.advance().centre_of_mass;
     // A plate face on: dv/dt = k (w - v)^2, so v = w - w / (1 + k w t).
     const double k = 0.5 * air_density / 0.2, t = 0.5;
-    const double way = 3 * t - std::log(1 + k * 3 * t) / k;
-    EXPECT_NEAR(centre.y - 2, way, 0.02 * way);
+    const double distance = 3 * t - std::log(1 + k * 3 * t) / k;
+    EXPECT_NEAR(centre.y - 2, distance, 0.02 * distance);
   }
 }
 

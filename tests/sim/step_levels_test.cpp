@@ -1,4 +1,4 @@
-#include "weft/sim/step_levels.h"
+#include "weft/sim/stepping/step_levels.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@ namespace {
 
 TEST(StepLevels, CalmSubstepsAreOneStep) {
   StepWalk walk(0, {});
-  EXPECT_EQ(walk.pieces(), 1);
+  EXPECT_EQ(walk.subdivisions(), 1);
   walk.accept(StepVerdict::calm);
   EXPECT_TRUE(walk.done());
   EXPECT_EQ(walk.next({}), StepLevels{});
@@ -17,12 +17,12 @@ TEST(StepLevels, ARefusedStepBecomesTwoHalves) {
   StepWalk walk(0, {});
   walk.halve();
   walk.halve();
-  EXPECT_EQ(walk.pieces(), 4);
+  EXPECT_EQ(walk.subdivisions(), 4);
   walk.accept(StepVerdict::near);
   EXPECT_EQ(walk.index(), 1);
   walk.accept(StepVerdict::calm);
   // Half is done, in calm: the other half is tried at once.
-  EXPECT_EQ(walk.pieces(), 2);
+  EXPECT_EQ(walk.subdivisions(), 2);
   EXPECT_EQ(walk.index(), 1);
   walk.accept(StepVerdict::calm);
   EXPECT_TRUE(walk.done());
@@ -38,7 +38,7 @@ TEST(StepLevels, TheNextSubstepBeginsAsShortAndGrowsLonger) {
   EXPECT_EQ(levels.first, 2);
   for (const int first : {1, 0, 0}) {
     StepWalk calm(0, levels);
-    EXPECT_EQ(calm.pieces(), 1 << levels.first);
+    EXPECT_EQ(calm.subdivisions(), 1 << levels.first);
     while (!calm.done()) calm.accept(StepVerdict::calm);
     levels = calm.next(levels);
     EXPECT_EQ(levels.first, first);
@@ -73,7 +73,7 @@ TEST(StepLevels, WhereHalvingIsNoHelpItIsTriedLessAndLess) {
 
 TEST(StepLevels, BodiesThatAskForShortStepsGetThem) {
   StepWalk walk(3, {1, 2});
-  EXPECT_EQ(walk.pieces(), 8);
+  EXPECT_EQ(walk.subdivisions(), 8);
   EXPECT_FALSE(walk.may_halve());
   for (int i = 0; i < 8; ++i) walk.accept(StepVerdict::calm);
   EXPECT_TRUE(walk.done());

@@ -29,7 +29,7 @@ Scene slope(double tangent, double friction, const IntegratorOptions& integrator
 }
 
 /// How far the sheet slides in a time after another [m].
-double slide(const Scene& scene, double before, double seconds) {
+double surface_displacement(const Scene& scene, double before, double seconds) {
   Simulation simulation(scene, "slope", 1);
   const auto frames_of = [&](double time) {
     return static_cast<int>(std::lround(time * scene.frame_rate));
@@ -47,7 +47,7 @@ const std::vector<IntegratorOptions> methods{NewtonOptions{}, ImplicitOptions{},
 void check_creep(const IntegratorOptions& integrator, double seconds) {
   check(fmt::format("slope of 0.5 at friction 0.6, {}: way in {} s after touchdown [m]",
                     name_of(integrator), seconds),
-        0, slide(slope(0.5, friction, integrator), touchdown, seconds), 2e-6);
+        0, surface_displacement(slope(0.5, friction, integrator), touchdown, seconds), 2e-6);
 }
 
 TEST(ValidationIncline, ClothSlidesByCoulombsLaw) {
@@ -55,7 +55,8 @@ TEST(ValidationIncline, ClothSlidesByCoulombsLaw) {
   const double wanted = 9.81 * cosine * (tangent - friction) * seconds * seconds / 2;
   for (const IntegratorOptions& integrator : methods)
     check(fmt::format("slope of 0.9 at friction 0.6, {}: way in 0.5 s [m]", name_of(integrator)),
-          wanted, slide(slope(tangent, friction, integrator), 0, seconds), 0.05 * wanted);
+          wanted, surface_displacement(slope(tangent, friction, integrator), 0, seconds),
+          0.05 * wanted);
 }
 
 TEST(ValidationIncline, ClothSticksByCoulombsLaw) {

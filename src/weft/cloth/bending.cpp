@@ -126,13 +126,14 @@ double BendingPass::energy() const {
 double BendingPass::row_energy(int row) const {
   if (!active()) return 0;
   const ConstRow3 u = row_of(curved_, row);
-  double energy = 0.5 * kernels_->dot(cloth_.size, cloth_.counted.row(row), u, u);
+  double energy = 0.5 * kernels_->dot(cloth_.size, cloth_.owner.row(row), u, u);
   const BorderBending& border = cloth_.bending.border;
   if (border.starts.empty()) return energy;
   for (int i = border.starts[row]; i < border.starts[row + 1]; ++i) {
     const BorderBending::Edge& edge = border.edges[i];
-    const Vec3f way = field_->at(edge.other_row, edge.other_col) - field_->at(row, edge.col);
-    energy += 0.25 * edge.stiffness * squared_length(vec_cast<double>(way));
+    const Vec3f displacement =
+        field_->at(edge.other_row, edge.other_col) - field_->at(row, edge.col);
+    energy += 0.25 * edge.stiffness * squared_length(vec_cast<double>(displacement));
   }
   return energy;
 }

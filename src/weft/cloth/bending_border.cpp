@@ -13,10 +13,10 @@ namespace {
 /// Of fabrics bent two ways at once; also the margin by which uneven grids stay stable.
 constexpr double poisson_ratio = 0.25;
 /// Twice its area over its longest squared edge, below which a triangle is a sliver.
-constexpr double least_fatness = 0.05;
+constexpr double min_fatness = 0.05;
 /// Where a border turns less at a corner of the image, that is a corner of the image alone: the
 /// cosine of 60 degrees.
-constexpr double most_turn = 0.5;
+constexpr double max_turn = 0.5;
 
 /// The gradient of a linear function on a triangle: sum of factor times value.
 struct Gradient {
@@ -71,7 +71,7 @@ class BorderWalk {
     const Vec3d here = place(sample);
     const Vec3d a = normalized(place(border_sample(n_, before)) - here);
     const Vec3d b = normalized(place(border_sample(n_, after)) - here);
-    return -dot(a, b) < most_turn ? round : inward;
+    return -dot(a, b) < max_turn ? round : inward;
   }
 
   [[nodiscard]] std::optional<Gradient> gradient(int a, int b, int c) const {
@@ -83,7 +83,7 @@ class BorderWalk {
       const Vec2d edge = at[(i + 1) % 3] - at[i];
       longest = std::max(longest, dot(edge, edge));
     }
-    if (!(std::abs(twice_area) > least_fatness * longest)) return std::nullopt;
+    if (!(std::abs(twice_area) > min_fatness * longest)) return std::nullopt;
     Gradient result{sample, {}};
     for (int i = 0; i < 3; ++i) {
       const Vec2d edge = at[(i + 2) % 3] - at[(i + 1) % 3];

@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-constexpr float least_squared = 1e-36F;
+constexpr float min_squared = 1e-36F;
 
 /// A corner between two straight edges that leave a sample, in the turn from rows to columns.
 struct Corner {
@@ -34,16 +34,16 @@ Range columns_with(BendingOffset a, BendingOffset b, int row, int size) {
 }
 
 /// A row of a field as it is seen from a sample: column c is c + shift there.
-struct SeenRow {
+struct CandidateRow {
   ConstRow3 at;
   int shift = 0;
 };
-SeenRow seen(const Planes3& planes, int row, BendingOffset by = {}) {
+CandidateRow seen(const Planes3& planes, int row, BendingOffset by = {}) {
   return {row_of(planes, row + by.down), by.right};
 }
 
 struct Edge {
-  SeenRow from, to;
+  CandidateRow from, to;
 };
 
 /// out += factor p x q, p and q the differences along two edges.
@@ -62,7 +62,7 @@ void add_cross(Range columns, float factor, const Edge& p, const Edge& q, Row3 o
 }
 
 /// out += factor p x q, p the difference along an edge.
-void add_cross(Range columns, float factor, const Edge& p, const SeenRow& q, Row3 out) {
+void add_cross(Range columns, float factor, const Edge& p, const CandidateRow& q, Row3 out) {
   const ConstRow3 p0 = p.from.at, p1 = p.to.at, v = q.at;
   const int i0 = p.from.shift, i1 = p.to.shift, j = q.shift;
 #pragma omp simd
@@ -142,7 +142,7 @@ void BendingNormals::subtract_row(int row, Planes3& u) {
 #pragma omp simd
   for (int c = 0; c < cloth_.size; ++c) {
     const float squared = n.x[c] * n.x[c] + n.y[c] * n.y[c] + n.z[c] * n.z[c];
-    const float scale = rest[c] / std::sqrt(squared > least_squared ? squared : least_squared);
+    const float scale = rest[c] / std::sqrt(squared > min_squared ? squared : min_squared);
     out.x[c] -= scale * n.x[c];
     out.y[c] -= scale * n.y[c];
     out.z[c] -= scale * n.z[c];
@@ -156,7 +156,7 @@ void BendingNormals::subtract_change_row(int row, Planes3& u) {
 #pragma omp simd
   for (int c = 0; c < cloth_.size; ++c) {
     const float found = n.x[c] * n.x[c] + n.y[c] * n.y[c] + n.z[c] * n.z[c];
-    const float squared = found > least_squared ? found : least_squared;
+    const float squared = found > min_squared ? found : min_squared;
     const float scale = rest[c] / std::sqrt(squared);
     const float along = (n.x[c] * d.x[c] + n.y[c] * d.y[c] + n.z[c] * d.z[c]) / squared;
     out.x[c] -= scale * (d.x[c] - along * n.x[c]);
@@ -172,7 +172,7 @@ void BendingNormals::project_row(int row, const Planes3& u) {
 #pragma omp simd
   for (int c = 0; c < cloth_.size; ++c) {
     const float found = n.x[c] * n.x[c] + n.y[c] * n.y[c] + n.z[c] * n.z[c];
-    const float squared = found > least_squared ? found : least_squared;
+    const float squared = found > min_squared ? found : min_squared;
     const float scale = rest[c] / std::sqrt(squared);
     const float along = (n.x[c] * v.x[c] + n.y[c] * v.y[c] + n.z[c] * v.z[c]) / squared;
     out.x[c] = scale * (v.x[c] - along * n.x[c]);

@@ -41,10 +41,10 @@ constexpr double diagonal_cost = 4, across_border_cost = 100;
 /// Of the second moments: below, the straight neighbours alone make the stencil.
 constexpr double straight_enough = 1e-4;
 /// No weights beyond those of a regular grid of this part of the mean spacing.
-constexpr double least_spacing = 0.05;
+constexpr double min_spacing = 0.05;
 /// A border that turns by more has a corner, where the second derivative along it means nothing:
 /// the cosine of 60 degrees.
-constexpr double most_turn = 0.5;
+constexpr double max_turn = 0.5;
 
 /// Second differences along a line want 2 / (l (l + l')), which opposite neighbours of one sample
 /// know of each other.
@@ -78,7 +78,7 @@ Vec3d border_direction(const Surroundings& around) {
     if (at.border) ends.push_back(&at);
   if (ends.size() != 2) return {};
   const Vec3d a = normalized(ends[0]->edge), b = normalized(ends[1]->edge);
-  return -dot(a, b) < most_turn ? Vec3d{} : normalized(b - a);
+  return -dot(a, b) < max_turn ? Vec3d{} : normalized(b - a);
 }
 
 /// The axes of a tangent plane; none where the neighbours span no plane.
@@ -183,7 +183,7 @@ void finish(Surroundings& around, double mean_spacing) {
   const bool good = std::isfinite(sum) && around.spacing > 0 &&
                     largest_miss(around, {}, 2, [](const Neighbour& at) { return at.weight; }) <=
                         affine * std::max(1.0, sum);
-  const double least = least_spacing * mean_spacing;
+  const double least = min_spacing * mean_spacing;
   const double most = 8 / (least * least), spacing = around.spacing * around.spacing;
   const double scale = good && sum > 0 ? std::min(1 / spacing, most / sum) : 0;
   for (Neighbour& at : around.ring) at.weight *= scale;

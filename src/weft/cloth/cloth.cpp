@@ -54,11 +54,11 @@ void check_rest(const Planes3& rest, const BorderMates& mates) {
 /// Marks the representatives and counts them.
 void count_particles(Cloth& cloth) {
   const int n = cloth.size;
-  cloth.counted = Grid<float>(n, n, 1);
+  cloth.owner = Grid<float>(n, n, 1);
   cloth.particles = n * n;
   for (int index = 0; index < cloth.mates.class_count(); ++index)
     for (const int sample : cloth.mates.mates(index).subspan(1)) {
-      cloth.counted(sample / n, sample % n) = 0;
+      cloth.owner(sample / n, sample % n) = 0;
       --cloth.particles;
     }
 }
@@ -70,11 +70,11 @@ void set_masses(Cloth& cloth, const RestShape& shape) {
   cloth.mass = make_masses(shape, cloth.material.density);
   double total = 0;
   for (int r = 0; r < n; ++r)
-    for (int c = 0; c < n; ++c) total += cloth.mass(r, c) * cloth.counted(r, c);
+    for (int c = 0; c < n; ++c) total += cloth.mass(r, c) * cloth.owner(r, c);
   if (!(total > 0))
     throw SceneError("cloth", "a rest shape without area: its samples carry no mass",
                      "a surface, not a point or a curve, is wanted");
-  const auto least = static_cast<float>(least_relative_mass * total / cloth.particles);
+  const auto least = static_cast<float>(min_relative_mass * total / cloth.particles);
   cloth.inverse_mass = Grid<float>(n, n);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {

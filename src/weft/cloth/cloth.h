@@ -77,7 +77,7 @@ struct Cloth {
   Planes3 rest;              ///< [n x n] rest positions [m]
   Grid<float> mass;          ///< [n x n] of the particle: summed over its class [kg], > 0
   Grid<float> inverse_mass;  ///< [n x n] 0 where pinned
-  Grid<float> counted;       ///< [n x n] 1 on representatives, 0 on their mates
+  Grid<float> owner;         ///< [n x n] 1 on representatives, 0 on their mates
   std::array<SpringPlane, spring_directions> springs;
   BendingPlanes bending;
   std::vector<BorderSpring>
@@ -96,7 +96,7 @@ struct ClothState {
 /// No spring is shorter than this part of the mean stretch spring, no particle lighter than the
 /// next part of the mean particle: maps of real meshes have cells that round to nothing, which must
 /// not divide by it.
-inline constexpr double least_relative_length = 1e-3, least_relative_mass = 1e-4;
+inline constexpr double min_relative_length = 1e-3, min_relative_mass = 1e-4;
 
 /// Builds the cloth whose rest shape is the given positions. A stretch or shear spring of rest
 /// length l stands for a strip of rest width w = (its share of the area beside it) / l: half of

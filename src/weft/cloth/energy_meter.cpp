@@ -18,7 +18,7 @@ EnergyMeter::EnergyMeter(const Cloth& cloth, Vec3d gravity, ThreadTeam& team)
       sums_(cloth.size) {
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c) {
-      mass_(r, c) = cloth.counted(r, c) * cloth.mass(r, c);
+      mass_(r, c) = cloth.owner(r, c) * cloth.mass(r, c);
       total_mass_ += mass_(r, c);
     }
   std::fill(axes_.row(1), axes_.row(1) + cloth.size, 1.0F);

@@ -36,7 +36,7 @@ auto sum_particles(const Cloth& cloth, const Value& value) {
   decltype(value(0, 0)) sum{};
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c)
-      if (cloth.counted(r, c) > 0) sum += value(r, c);
+      if (cloth.owner(r, c) > 0) sum += value(r, c);
   return sum;
 }
 

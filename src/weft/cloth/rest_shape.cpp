@@ -100,7 +100,7 @@ SpringPlane make_springs(const RestShape& shape, const Material& material,
   const int n = shape.size();
   const auto [down, right] = spring_offsets[direction];
   SpringPlane plane{down, right, Grid<float>(n, n, 1), Grid<float>(n, n), Grid<float>(n, n)};
-  const auto least = static_cast<float>(least_relative_length * shape.mean_spacing);
+  const auto least = static_cast<float>(min_relative_length * shape.mean_spacing);
   for (int r = 0; r + down < n; ++r)
     for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c) {
       const int from = r * n + c, to = (r + down) * n + c + right;

@@ -24,7 +24,7 @@ struct Air {
 /// A third of the force on the triangles a, b, c of a row of cells.
 void push_row(const Air& air, const Corner& a, const Corner& b, const Corner& c, int cells,
               Row3 third) {
-  constexpr float least_squared = 1e-30F, per_corner = 1.0F / 3;
+  constexpr float min_squared = 1e-30F, per_corner = 1.0F / 3;
   const float strength = std::abs(air.drag) + std::abs(air.lift);
 #pragma omp simd
   for (int i = 0; i < cells; ++i) {
@@ -42,8 +42,8 @@ void push_row(const Air& air, const Corner& a, const Corner& b, const Corner& c,
         air.velocity.z - per_corner * (a.velocity.z[ia] + b.velocity.z[ib] + c.velocity.z[ic]);
     const float squared_area = nx * nx + ny * ny + nz * nz,
                 squared_speed = wx * wx + wy * wy + wz * wz;
-    const float area = std::sqrt(squared_area > least_squared ? squared_area : least_squared);
-    const float speed = std::sqrt(squared_speed > least_squared ? squared_speed : least_squared);
+    const float area = std::sqrt(squared_area > min_squared ? squared_area : min_squared);
+    const float speed = std::sqrt(squared_speed > min_squared ? squared_speed : min_squared);
     const float facing = wx * nx + wy * ny + wz * nz;
     const float flow =
         0.5F * per_corner * std::abs(facing) / (1 + air.held_back * strength * speed);

@@ -12,7 +12,7 @@ constexpr double epsilon = 0x1p-53;
 /// over a plane at some time (a difference, a product of vectors and an interpolation: 5 + 5 + 6),
 /// and of the distance of a point that is given by its weights.
 constexpr double height_error = 16, point_error = 64;
-constexpr double least_tolerance = 2 * point_error;
+constexpr double min_tolerance = 2 * point_error;
 
 using Weights = std::array<double, 4>;
 
@@ -87,9 +87,9 @@ class NearestSearch {
 };
 
 /// The flat piece of differences as it moves.
-class MovingPiece {
+class MovingFeature {
  public:
-  MovingPiece(const Corners4& start, const Corners4& end) : start_(start), end_(end) {
+  MovingFeature(const Corners4& start, const Corners4& end) : start_(start), end_(end) {
     for (const Corners4* corners : {&start_, &end_})
       for (int k = 0; k < corners->count; ++k)
         for (const double x : {corners->at[k].x, corners->at[k].y, corners->at[k].z})
@@ -136,7 +136,7 @@ class MovingPiece {
 /// The way to the nearest point is a difference of long ways where that point is near, and may tilt
 /// the plane into the piece. Then planes that are worked out to lie along its edges and its inside
 /// serve. @return the latest time, see apart_until
-double apart_by_any_plane(const MovingPiece& piece, const Impact& impact, Vec3d way,
+double apart_by_any_plane(const MovingFeature& piece, const Impact& impact, Vec3d displacement,
                           double separation) {
   const Corners4 now = piece.at(impact.time);
   double until = impact.time;
@@ -146,7 +146,7 @@ double apart_by_any_plane(const MovingPiece& piece, const Impact& impact, Vec3d 
   for (int i = 0; i < now.count; ++i)
     for (int j = 0; j < i; ++j) {
       const Vec3d edge = normalized(now.at[j] - now.at[i]);
-      const Vec3d across = normalized(way - dot(way, edge) * edge);
+      const Vec3d across = normalized(displacement - dot(displacement, edge) * edge);
       try_normal(across - dot(across, edge) * edge);
       for (int k = 0; k < j; ++k) {
         const Vec3d normal = normalized(cross(now.at[i] - now.at[k], now.at[j] - now.at[k]));
@@ -159,11 +159,11 @@ double apart_by_any_plane(const MovingPiece& piece, const Impact& impact, Vec3d 
 
 template <class Pair>
 std::optional<Impact> first_impact(const Pair& start, const Pair& end, const CcdOptions& options) {
-  const MovingPiece piece(differences(start), differences(end));
+  const MovingFeature piece(differences(start), differences(end));
   // Of two points three coordinates each: 2 sqrt(3) < 3.5.
   const double separation = options.separation + 3.5 * options.input_error;
   const double rounding = epsilon * piece.extent();
-  const double enough = separation + std::max(options.tolerance, least_tolerance * rounding);
+  const double enough = separation + std::max(options.tolerance, min_tolerance * rounding);
   Impact impact;
   for (impact.steps = 1;; ++impact.steps) {
     const NearestPoint nearest = NearestSearch(piece.at(impact.time)).best();
@@ -172,7 +172,7 @@ std::optional<Impact> first_impact(const Pair& start, const Pair& end, const Ccd
     impact.u = edges ? w[1] + w[2] : w[1];
     impact.v = edges ? w[2] + w[3] : w[2];
     impact.distance = std::sqrt(nearest.squared) + point_error * rounding;
-    if (impact.distance <= enough || impact.steps >= options.most_steps) return impact;
+    if (impact.distance <= enough || impact.steps >= options.max_steps) return impact;
     double until = piece.apart_until(impact.time, nearest.point, separation);
     if (until <= impact.time) until = apart_by_any_plane(piece, impact, nearest.point, separation);
     if (until >= 1) return std::nullopt;

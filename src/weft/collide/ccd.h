@@ -25,7 +25,7 @@ struct CcdOptions {
   double tolerance = 1e-12;
   /// How far each coordinate may be from the one that is meant, when it was rounded. [m]
   double input_error = 0;
-  int most_steps = 100000;  ///< after so many the pair counts as colliding where it stands
+  int max_steps = 100000;  ///< after so many the pair counts as colliding where it stands
 };
 
 /// Where a moving pair has come as near as it may.

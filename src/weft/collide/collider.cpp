@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/collide/baselines/image_space_pairs.h"
+#include "weft/collide/baselines/polar_map.h"
+#include "weft/collide/baselines/spatial_hash.h"
+#include "weft/collide/baselines/sphere_tree.h"
+#include "weft/collide/broad_phase/pyramid_pairs.h"
+#include "weft/collide/contact_pipeline.h"
 #include "weft/collide/contacts/response.h"
-#include "weft/collide/guarding_collider.h"
-#include "weft/collide/pairs/image_space_pairs.h"
-#include "weft/collide/pairs/pyramid_pairs.h"
-#include "weft/collide/pairs/spatial_hash.h"
-#include "weft/collide/pairs/sphere_tree.h"
-#include "weft/collide/polar_map.h"
 
 namespace weft {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 constexpr int no_sample = -1;
 /// Pushing out of one obstacle may push into the next (a crotch, a body on the ground): a few
 /// turns.
-constexpr int most_turns = 4;
+constexpr int max_turns = 4;
 /// What is left of a push, in thicknesses, that counts as rounding.
 constexpr double settled = 1e-6;
 /// Farther from a contact's plane, in thicknesses, a particle is no longer pressed against it.
@@ -35,7 +35,7 @@ struct MappedBody {
 class Pusher {
  public:
   Pusher(const std::vector<MappedBody>& bodies, const Obstacles& obstacles,
-         const GuardedCloth& cloth)
+         const CollidingCloth& cloth)
       : bodies_(bodies),
         mates_(cloth.mates),
         thickness_(cloth.thickness),
@@ -171,7 +171,7 @@ class Pusher {
                             vec_cast<double>(cloth.position.at(sample)),
                             vec_cast<double>(cloth.velocity.at(sample))};
     int turns = hold_pressed(sample, time_step, particle) ? 1 : 0;
-    for (int turn = 0; turn < most_turns; ++turn) {
+    for (int turn = 0; turn < max_turns; ++turn) {
       const auto found = deepest(particle.position, particle.start, thickness_);
       const double depth = found ? thickness_ - found->point.gap : 0;
       if (depth <= settled * thickness_) break;
@@ -201,10 +201,10 @@ class Pusher {
 class PushCollider final : public Collider {
  public:
   PushCollider(const PolarMapOptions& options, const Obstacles& obstacles,
-               std::span<const GuardedCloth> cloths) {
+               std::span<const CollidingCloth> cloths) {
     for (const Body& body : obstacles.bodies)
       bodies_.push_back({PolarMap(body, options), body.friction});
-    for (const GuardedCloth& cloth : cloths) pushers_.emplace_back(bodies_, obstacles, cloth);
+    for (const CollidingCloth& cloth : cloths) pushers_.emplace_back(bodies_, obstacles, cloth);
   }
 
   void move_bodies(std::span<const Planes3* const> /*ends*/,
@@ -220,8 +220,8 @@ class PushCollider final : public Collider {
               double time_step, ThreadTeam& team) noexcept override {
     return pushers_[cloth].correct(moving, forces, time_step, team);
   }
-  FilterCounts guard(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
-                     ThreadTeam& /*team*/) noexcept override {
+  FilterCounts filter(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
+                      ThreadTeam& /*team*/) noexcept override {
     return {};
   }
   void save_marks(std::size_t /*cloth*/, std::vector<int>& marks) const override { marks.clear(); }
@@ -247,15 +247,15 @@ std::unique_ptr<BroadPhase> make_broad_phase(std::span<const SurfaceGrid* const>
 }  // namespace
 
 std::unique_ptr<Collider> make_collider(const ColliderOptions& options, const Obstacles& obstacles,
-                                        std::span<const GuardedCloth> cloths) {
+                                        std::span<const CollidingCloth> cloths) {
   if (const auto* polar_map = std::get_if<PolarMapOptions>(&options))
     return std::make_unique<PushCollider>(*polar_map, obstacles, cloths);
-  GuardingCollider::MakeBroadPhase make = make_broad_phase<PyramidPairs>;
+  ContactPipeline::MakeBroadPhase make = make_broad_phase<PyramidPairs>;
   if (std::holds_alternative<SphereTreeOptions>(options)) make = make_broad_phase<SphereTreePairs>;
   if (std::holds_alternative<SpatialHashOptions>(options))
     make = make_broad_phase<SpatialHashPairs>;
   if (std::holds_alternative<ImageSpaceOptions>(options)) make = make_broad_phase<ImageSpacePairs>;
-  return std::make_unique<GuardingCollider>(make, obstacles, cloths);
+  return std::make_unique<ContactPipeline>(make, obstacles, cloths);
 }
 
 }  // namespace weft

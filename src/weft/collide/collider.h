@@ -55,8 +55,8 @@ bool knows_containers(const ColliderOptions& options);
 /// Whether it can keep cloth out of bodies that move.
 bool knows_moving_bodies(const ColliderOptions& options);
 
-/// What a collider needs to know of a cloth it guards.
-struct GuardedCloth {
+/// What a collider needs to know of a cloth it serves.
+struct CollidingCloth {
   const BorderMates& mates;
   int size = 0;                ///< n: samples a side
   Grid<Diagonal> diagonals{};  ///< as of a body
@@ -104,8 +104,8 @@ struct FilterCounts {
 
 /// Keeps the cloths of a scene out of its bodies, and out of each other and themselves where it
 /// can. Cloths come in the order in which they were given. Nothing allocates or throws once warmed
-/// up. In a step: move_bodies where bodies move; detect, guard_guess, as often as wanted; after the
-/// integrators' work correct, any number of times; guard; commit. Instead of commit, rollback
+/// up. In a step: move_bodies where bodies move; detect, filter_guess, as often as wanted; after
+/// the integrators' work correct, any number of times; filter; commit. Instead of commit, rollback
 /// forgets the step: what follows has the bits that it would have without.
 class Collider {
  public:
@@ -140,8 +140,8 @@ class Collider {
   /// Takes back what proposals passed through, so that a solve starts where nothing crosses.
   /// Nothing is remembered of it, and velocities stay. @return how many points it moved; 0 for
   /// methods that promise nothing
-  virtual int guard_guess(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
-                          ThreadTeam& /*team*/) noexcept {
+  virtual int filter_guess(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
+                           ThreadTeam& /*team*/) noexcept {
     return 0;
   }
   /// Pushes out what is inside, stops its inward velocity, and holds it by friction. Mates are
@@ -153,8 +153,8 @@ class Collider {
                       double time_step, ThreadTeam& team) noexcept = 0;
   /// The last change of positions in a step: what would pass through something stays before it, and
   /// strikes it without bouncing. @return nothing for methods that promise nothing
-  virtual FilterCounts guard(std::span<const MovingCloth> cloths, double time_step,
-                             ThreadTeam& team) noexcept = 0;
+  virtual FilterCounts filter(std::span<const MovingCloth> cloths, double time_step,
+                              ThreadTeam& team) noexcept = 0;
   /// The step stands: bodies are where it took them.
   virtual void commit() noexcept {}
   /// The step is as if it had not been: bodies, and what is known of samples, as at the last
@@ -188,6 +188,6 @@ struct Obstacles {
 };
 /// @param cloths  their mates are kept by reference
 std::unique_ptr<Collider> make_collider(const ColliderOptions& options, const Obstacles& obstacles,
-                                        std::span<const GuardedCloth> cloths);
+                                        std::span<const CollidingCloth> cloths);
 
 }  // namespace weft

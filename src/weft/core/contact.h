@@ -15,10 +15,10 @@ namespace weft {
 struct Contact {
   std::array<int, 4> samples{};  ///< row * n + col each; where the weight is 0, any
   std::array<float, 4> weights{1, 0, 0, 0};
-  Vec3f normal;        ///< unit, away from the obstacle or the negative side
-  float offset = 0;    ///< at the end of the step [m]
-  float friction = 0;  ///< Coulomb coefficient of the pair
-  Vec3f slide;         ///< how far the obstacle's surface moves there during the step [m]
+  Vec3f normal;                ///< unit, away from the obstacle or the negative side
+  float offset = 0;            ///< at the end of the step [m]
+  float friction = 0;          ///< Coulomb coefficient of the pair
+  Vec3f surface_displacement;  ///< how far the obstacle's surface moves there during the step [m]
   /// Beyond the offset, what a response may move the point without speeding it up or pressing [m].
   float lift = 0;
   /// Of a soft contact: the solve gives way by force over stiffness, and what is left of its depth

@@ -22,7 +22,8 @@ inline double depth_of(const Contact& contact, const Planes3& planes) {
 /// The offset that a step may bring about, in which nothing that was beyond the half-space when the
 /// step began is pushed out of it by more than `farthest`.
 inline double attainable_offset(const Contact& contact, const Planes3& start, double farthest) {
-  const double before = depth_of(contact, start) - double{dot(contact.normal, contact.slide)};
+  const double before =
+      depth_of(contact, start) - double{dot(contact.normal, contact.surface_displacement)};
   return contact.offset - (before > farthest ? before - farthest : 0);
 }
 

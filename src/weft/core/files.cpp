@@ -16,7 +16,7 @@ namespace weft {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* room_wanted = "more room, or another place, is wanted";
+constexpr const char* reservation_size = "more room, or another place, is wanted";
 
 std::string system_reason() { return std::strerror(errno); }
 
@@ -63,7 +63,7 @@ void flush_to_disk(const fs::path& path) {
   const bool flushed = handle >= 0 && ::fsync(handle) == 0;
   const std::string reason = flushed ? "" : system_reason();
   if (handle >= 0) ::close(handle);
-  if (!flushed) throw OutputError(path.string(), "cannot be written: " + reason, room_wanted);
+  if (!flushed) throw OutputError(path.string(), "cannot be written: " + reason, reservation_size);
 }
 
 fs::path temporary_path(const fs::path& path, TemporaryName name) {
@@ -122,7 +122,8 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
   write(out);
   out.close();
   if (!out)
-    throw OutputError(path.string(), "cannot be written whole: " + system_reason(), room_wanted);
+    throw OutputError(path.string(), "cannot be written whole: " + system_reason(),
+                      reservation_size);
   file.commit();
 }
 

@@ -51,14 +51,14 @@ class RowSums {
     for (int r = 0; r < static_cast<int>(slots_[0].size()); ++r) total += row_sum(r);
     return total;
   }
-  static constexpr int most_workers = 256;
+  static constexpr int max_workers = 256;
   struct alignas(64) Turn {
     unsigned value = 0;
   };
   unsigned turn_of(const Worker& worker) { return turns_[worker.rank()].value++ & 1U; }
 
   std::array<std::vector<double>, 2> slots_;
-  std::vector<Turn> turns_ = std::vector<Turn>(most_workers);
+  std::vector<Turn> turns_ = std::vector<Turn>(max_workers);
 };
 
 }  // namespace weft

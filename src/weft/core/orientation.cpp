@@ -18,7 +18,7 @@ using FixedInt = boost::multiprecision::number<boost::multiprecision::cpp_int_ba
 
 constexpr double epsilon = 0x1p-53;
 /// Below it products may have lost digits by underflow, of which the error bounds know nothing.
-constexpr double least_trusted = 1e-200;
+constexpr double min_trusted = 1e-200;
 
 int sign_of(double value) { return (value > 0) - (value < 0); }
 
@@ -68,8 +68,8 @@ int exact_sign(const std::array<std::array<Scaled, Dimension>, Dimension + 1>& p
       }
   if (largest == INT_MIN) return 0;  // all coordinates are zero
   // Three factors of 53 + 64 + 1 bits, and a sum of six such products, fit 512.
-  constexpr int most_shift = 64;
-  if (largest - least <= most_shift) return sign_in<FixedInt, Dimension>(points, least);
+  constexpr int max_shift = 64;
+  if (largest - least <= max_shift) return sign_in<FixedInt, Dimension>(points, least);
   return sign_in<cpp_int, Dimension>(points, least);
 }
 
@@ -93,7 +93,7 @@ int orientation(Vec2d a, Vec2d b, Vec2d c) {
   const double right = (a.y - c.y) * (b.x - c.x);
   const double permanent = std::fabs(left) + std::fabs(right);
   const double determinant = left - right;
-  if (permanent > least_trusted && std::fabs(determinant) > error_factor * permanent)
+  if (permanent > min_trusted && std::fabs(determinant) > error_factor * permanent)
     return sign_of(determinant);
   return exact_sign<2>({scaled(a), scaled(b), scaled(c)});
 }
@@ -109,7 +109,7 @@ int orientation(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
                            std::fabs(p.y) * (std::fabs(zx) + std::fabs(xz)) +
                            std::fabs(p.z) * (std::fabs(xy) + std::fabs(yx));
   // The determinant of a - d, b - d, c - d is positive when d lies below the plane.
-  if (permanent > least_trusted && std::fabs(determinant) > error_factor * permanent)
+  if (permanent > min_trusted && std::fabs(determinant) > error_factor * permanent)
     return -sign_of(determinant);
   if (plainly_flat(a, b, c, d)) return 0;
   return -exact_sign<3>({scaled(a), scaled(b), scaled(c), scaled(d)});

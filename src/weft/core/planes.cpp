@@ -6,7 +6,7 @@
 
 namespace weft {
 
-double farthest_way(const Planes3& from, const Planes3& to) noexcept {
+double largest_displacement(const Planes3& from, const Planes3& to) noexcept {
   constexpr int lanes = 16;
   const int n = from.size();
   std::array<float, lanes> most{};

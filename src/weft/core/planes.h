@@ -24,6 +24,6 @@ struct Planes3 {
 };
 
 /// The farthest that any sample goes between two of the same size. [m]
-double farthest_way(const Planes3& from, const Planes3& to) noexcept;
+double largest_displacement(const Planes3& from, const Planes3& to) noexcept;
 
 }  // namespace weft

@@ -10,9 +10,9 @@ namespace {
 
 constexpr int spins_before_yield = 2000;
 /// In one region, below which nothing is said about the machine. [s]
-constexpr double least_loss = 2e-4;
+constexpr double min_loss = 2e-4;
 /// Regions that the caller runs alone after a crowded one: more each time, fewer after others.
-constexpr int least_alone = 32, most_alone = 1024;
+constexpr int min_alone = 32, max_alone = 1024;
 
 using Clock = std::chrono::steady_clock;
 
@@ -56,12 +56,12 @@ void ThreadTeam::run_task(Task task) {
   Worker self(*this, 0, size_);
   task.call(task.context, self);
   wait_for_all(true);
-  judge(seconds_since(start));
+  adapt_size(seconds_since(start));
 }
 
-void ThreadTeam::judge(double seconds) {
-  const bool crowded = lost_seconds_ > least_loss && lost_seconds_ > 0.5 * seconds;
-  next_alone_ = crowded ? std::clamp(2 * next_alone_, least_alone, most_alone) : next_alone_ / 2;
+void ThreadTeam::adapt_size(double seconds) {
+  const bool crowded = lost_seconds_ > min_loss && lost_seconds_ > 0.5 * seconds;
+  next_alone_ = crowded ? std::clamp(2 * next_alone_, min_alone, max_alone) : next_alone_ / 2;
   if (crowded) alone_ = next_alone_;
 }
 

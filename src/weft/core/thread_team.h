@@ -92,7 +92,7 @@ class ThreadTeam {
   void run_task(Task task);
   void serve(int rank);
   void wait_for_all(bool caller);
-  void judge(double seconds);
+  void adapt_size(double seconds);
 
   int size_;
   InstructionSet set_;

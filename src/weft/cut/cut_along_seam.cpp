@@ -75,7 +75,7 @@ void open_path(CutGraph& graph, const HalfEdgePath& path) {
 }
 
 /// Names the first path after which the surface is in pieces.
-void refuse_pieces(const CutSurface& surface, const SeamFinder& finder, const Seam& seam) {
+void refuse_subdivisions(const CutSurface& surface, const SeamFinder& finder, const Seam& seam) {
   CutGraph graph(surface);
   for (const SeamPath& path : seam.paths) {
     open_path(graph, finder.edges_of(path));
@@ -93,7 +93,7 @@ SeamCut cut_along_seam(const TriangleMesh& mesh, std::span<const int> source_ver
   const SeamFinder finder(surface, source_vertex, seam);
   CutGraph graph(surface);
   for (const SeamPath& path : seam.paths) open_path(graph, finder.edges_of(path));
-  if (graph.piece_count() > 1) refuse_pieces(surface, finder, seam);
+  if (graph.piece_count() > 1) refuse_subdivisions(surface, finder, seam);
   SeamCut made{complete_cut(graph, options), 0};
   made.added_edges = static_cast<int>(made.cut.edges.size() - graph.cut().edges.size());
   return made;

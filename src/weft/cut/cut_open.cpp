@@ -11,7 +11,7 @@ namespace weft {
 namespace {
 
 /// Fewer border vertices than this would give two edges of the disk the same ends.
-constexpr int least_border = 3;
+constexpr int min_border = 3;
 
 /// The open half-edges in the order of the border, beginning at a node where there is one.
 std::vector<int> walk_border(const CutGraph& graph) {
@@ -152,7 +152,7 @@ CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut) {
   CutDisk opened;
   opened.disk = opened_mesh(graph, border);
   opened.paths = divide(graph, border);
-  while (static_cast<int>(opened.disk.border.size()) < least_border)
+  while (static_cast<int>(opened.disk.border.size()) < min_border)
     split_border_edge(opened, 0, 0.5);
   return opened;
 }

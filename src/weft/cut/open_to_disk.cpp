@@ -14,11 +14,11 @@ namespace weft {
 namespace {
 
 /// Another seed gains a few percent at best, so large meshes, on which it takes long, get fewer.
-constexpr int most_seeds = 4;
+constexpr int max_seeds = 4;
 constexpr int triangles_for_all_seeds = 80000;
 
 int seed_count(int triangles) {
-  return std::clamp(triangles_for_all_seeds / triangles, 1, most_seeds);
+  return std::clamp(triangles_for_all_seeds / triangles, 1, max_seeds);
 }
 
 Cut open_sphere(const CutSurface& surface, int seed_triangle) {

@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-constexpr int most_rounds = 16;
+constexpr int max_rounds = 16;
 
 double path_length(const CutSurface& surface, std::span<const int> path) {
   double total = 0;
@@ -171,13 +171,13 @@ std::vector<int> representatives(const CutGraph& graph) {
 
 }  // namespace
 
-void straighten(CutGraph& graph, double least_gain) {
+void straighten(CutGraph& graph, double min_gain) {
   Straightener straightener(graph);
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     double gain = 0;
     for (const int h : representatives(graph))
       if (graph.contains(h)) gain += straightener.shorten(h);
-    if (gain <= least_gain * graph.length()) return;
+    if (gain <= min_gain * graph.length()) return;
   }
 }
 

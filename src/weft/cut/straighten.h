@@ -11,7 +11,7 @@ namespace weft {
 /// again, so the path gives way to the shortest of them: its ends may slide along the rest of the
 /// cut, by which nodes move too, further than with ends that are held [gu02, section 3.1]. Paths
 /// that dangle (an end of valence 1) or are held stay. Paths are taken longest first, until a round
-/// gains less than `least_gain` of the whole length.
-void straighten(CutGraph& graph, double least_gain = 1e-4);
+/// gains less than `min_gain` of the whole length.
+void straighten(CutGraph& graph, double min_gain = 1e-4);
 
 }  // namespace weft

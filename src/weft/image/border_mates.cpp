@@ -12,7 +12,7 @@ namespace weft {
 namespace {
 
 // Sample indices row * n + col fit an int up to here.
-constexpr int most_side = 46340;
+constexpr int max_side = 46340;
 
 // Disjoint sets of border positions whose root is the member with the least sample.
 class Classes {
@@ -95,9 +95,9 @@ int border_position(int size, int sample) {
 
 BorderMates::BorderMates(int size, std::vector<MateInterval> intervals)
     : size_(size), intervals_(std::move(intervals)) {
-  if (size < 2 || size > most_side)
+  if (size < 2 || size > max_side)
     throw InputError("", fmt::format("an image side of {}", size),
-                     fmt::format("2 .. {}", most_side));
+                     fmt::format("2 .. {}", max_side));
   const int around = 4 * (size - 1);
   Classes classes(size);
   std::vector<bool> taken(static_cast<std::size_t>(around), false);

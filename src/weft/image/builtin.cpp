@@ -54,7 +54,7 @@ float into_cube(double value) { return static_cast<float>(value < 0 ? 0 : value 
 }  // namespace
 
 GeometryImage make_image_shape(std::string_view name, int size) {
-  WEFT_ASSERT(size >= least_image_size);
+  WEFT_ASSERT(size >= min_image_size);
   const ImageShape& shape = find_shape(name);
   GeometryImage image;
   image.cube = Planes3(size);

@@ -84,7 +84,7 @@ class BorderDiagonals {
 
 Grid<Diagonal> choose_diagonals(const GeometryImage& image) {
   const int n = image.size();
-  WEFT_ASSERT(n >= least_image_size);
+  WEFT_ASSERT(n >= min_image_size);
   Grid<Diagonal> diagonals(n - 1, n - 1);
   for (int row = 0; row < n - 1; ++row)
     for (int col = 0; col < n - 1; ++col) diagonals(row, col) = shorter(image, row, col);

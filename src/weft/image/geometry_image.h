@@ -31,7 +31,7 @@ struct GeometryImage {
 };
 
 /// Smallest n of a geometry image.
-inline constexpr int least_image_size = 5;
+inline constexpr int min_image_size = 5;
 /// Largest n that files are believed.
 inline constexpr int largest_image_size = 8193;
 

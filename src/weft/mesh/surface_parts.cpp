@@ -35,7 +35,7 @@ int label_parts(const EdgeUses& edges, std::vector<int>& part_of) {
 
 struct PartSize {
   double area = 0;
-  int least_vertex = 0;
+  int min_vertex = 0;
   int label = 0;
 };
 
@@ -48,7 +48,7 @@ std::vector<PartSize> measure_parts(const TriangleMesh& mesh, const SurfaceParts
     PartSize& size = sizes[parts.part_of[t]];
     size.area +=
         0.5 * length(cross(mesh.positions[corners[1]] - a, mesh.positions[corners[2]] - a));
-    size.least_vertex = std::min({size.least_vertex, corners[0], corners[1], corners[2]});
+    size.min_vertex = std::min({size.min_vertex, corners[0], corners[1], corners[2]});
   }
   return sizes;
 }
@@ -76,8 +76,7 @@ SurfaceParts surface_parts(const TriangleMesh& mesh, const EdgeUses& edges) {
   parts.count = label_parts(edges, parts.part_of);
   std::vector<PartSize> sizes = measure_parts(mesh, parts);
   std::sort(sizes.begin(), sizes.end(), [](const PartSize& a, const PartSize& b) {
-    return std::tuple(-a.area, a.least_vertex, a.label) <
-           std::tuple(-b.area, b.least_vertex, b.label);
+    return std::tuple(-a.area, a.min_vertex, a.label) < std::tuple(-b.area, b.min_vertex, b.label);
   });
   std::vector<int> rank(parts.count);
   for (int i = 0; i < parts.count; ++i) rank[sizes[i].label] = i;

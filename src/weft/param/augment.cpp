@@ -19,7 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// What a cut comes to at the best of a few rotations; nothing where the size cannot hold it.
 TrialMap judge(const TriangleMesh& mesh, const Cut& cut, int size, Progress* progress) {
   const CutDisk opened = cut_open(mesh, cut);
-  if (least_size(opened) > size) return {};
+  if (min_size(opened) > size) return {};
   const int step = std::max(1, (size - 1) / 4);
   return try_rotations(opened, std::array{0, step, 2 * step, 3 * step}, {size, progress});
 }
@@ -83,20 +83,20 @@ Plan lengthen(const TriangleMesh& mesh, const Plan& plan, const AugmentOptions& 
 
 /// The best plan found on a mesh of moderate size.
 Plan plan_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& options) {
-  constexpr double least_gain = 0.01;
+  constexpr double min_gain = 0.01;
   PartOfProgress start(options.progress, "cut", 0, 0);
   Plan plan{cut, {}, judge(mesh, cut, options.size, &start)};
   Plan best = plan;
-  for (int round = 0; round < options.most_rounds; ++round) {
-    PartOfProgress part(options.progress, "cut", static_cast<double>(round) / options.most_rounds,
-                        (round + 1.0) / options.most_rounds);
+  for (int round = 0; round < options.max_rounds; ++round) {
+    PartOfProgress part(options.progress, "cut", static_cast<double>(round) / options.max_rounds,
+                        (round + 1.0) / options.max_rounds);
     AugmentOptions inner = options;
     inner.progress = &part;
     plan = lengthen(mesh, plan, inner);
     if (plan.targets.empty()) break;
     // As long as no map is valid at all, every cut is a gain.
     const bool gained =
-        best.trial.energy == infinity || plan.trial.energy < best.trial.energy * (1 - least_gain);
+        best.trial.energy == infinity || plan.trial.energy < best.trial.energy * (1 - min_gain);
     if (plan.trial.energy < best.trial.energy) best = plan;
     if (!gained) break;
   }
@@ -118,7 +118,7 @@ AugmentedCut augment_cut(const TriangleMesh& mesh, const Cut& cut, const Augment
   AugmentedCut result{.cut = cut};
   for (const int target : targets) {
     Cut longer = extend_cut(mesh, result.cut, target);
-    if (least_size(cut_open(mesh, longer)) > options.size) break;
+    if (min_size(cut_open(mesh, longer)) > options.size) break;
     result.cut = std::move(longer);
     ++result.rounds;
   }

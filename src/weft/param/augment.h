@@ -6,7 +6,7 @@
 namespace weft {
 
 struct AugmentOptions {
-  int most_rounds = 12;
+  int max_rounds = 12;
   int proxy_triangles = 1500;  ///< larger meshes are judged by one coarsened to this many
   int size = 257;              ///< of the image that is wanted
   Progress* progress = nullptr;

@@ -10,7 +10,7 @@ namespace {
 
 /// The share of its path that an edge counts for at least: an edge of no length would give its
 /// triangle no area. Below what a corner is snapped by, so that no such edge is ever split.
-constexpr double least_share = 1e-8;
+constexpr double min_share = 1e-8;
 /// Places are multiples of this, so that sums and differences with whole numbers are exact.
 constexpr double place_unit = 0x1p-32;
 
@@ -91,7 +91,7 @@ std::vector<BorderCurve> border_curves(const CutDisk& cut) {
 std::vector<double> path_places(const CutDisk& cut, int path, int intervals) {
   std::vector<double> lengths = edge_lengths(cut, cut.paths[path]);
   const double whole = sum(lengths);
-  for (double& l : lengths) l = whole > 0 ? std::max(l, least_share * whole) : 1;
+  for (double& l : lengths) l = whole > 0 ? std::max(l, min_share * whole) : 1;
   const double scale = intervals / sum(lengths);
   std::vector<double> places{0};
   double along = 0;

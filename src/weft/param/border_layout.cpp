@@ -13,9 +13,9 @@ namespace weft {
 namespace {
 
 /// Smallest side of a geometry image.
-constexpr int least_side = 5;
+constexpr int min_side = 5;
 
-int least_total(const std::vector<BorderCurve>& curves) {
+int min_total(const std::vector<BorderCurve>& curves) {
   int total = 0;
   for (const BorderCurve& curve : curves) total += curve.weight * curve.least;
   return total;
@@ -90,7 +90,7 @@ std::vector<int> aligned_counts(const std::vector<BorderCurve>& curves, int size
   int step = 1;
   while ((size - 1) % (2 * step) == 0) step *= 2;
   for (; step > 1; step /= 2) {
-    if (least_total(curves) > total / step) continue;
+    if (min_total(curves) > total / step) continue;
     std::vector<int> counts = apportion(curves, total / step);
     if (!near_enough(curves, share, counts, step)) continue;
     for (int& count : counts) count *= step;
@@ -117,13 +117,13 @@ double border_position_of(int size, Vec2d point) {
   return 4 * side - point.y;
 }
 
-int least_size(const CutDisk& cut) {
-  const int total = least_total(border_curves(cut));
-  return std::max(least_side, (total + 3) / 4 + 1);
+int min_size(const CutDisk& cut) {
+  const int total = min_total(border_curves(cut));
+  return std::max(min_side, (total + 3) / 4 + 1);
 }
 
 BorderLayout lay_out_border(const CutDisk& cut, const LayoutOptions& options) {
-  const int least = least_size(cut);
+  const int least = min_size(cut);
   if (options.size < least)
     throw TopologyError("",
                         fmt::format("size {} is too small for the cut's {} border paths",

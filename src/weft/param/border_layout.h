@@ -38,7 +38,7 @@ struct LayoutOptions {
 BorderLayout lay_out_border(const CutDisk& cut, const LayoutOptions& options);
 
 /// The least n for which lay_out_border succeeds.
-int least_size(const CutDisk& cut);
+int min_size(const CutDisk& cut);
 
 /// Splits the edges (and their mates) in which a corner of the square falls, so that every corner
 /// is a border vertex. Mates stay mates. Path and border indices are renewed.

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "weft/param/collapse_passes.h"
+#include "weft/param/curvature_weight.h"
 #include "weft/param/disk_geometry.h"
-#include "weft/param/emphasis.h"
 #include "weft/param/inverse_stretch.h"
 #include "weft/param/reinsertion.h"
 
@@ -30,13 +30,13 @@ Triangles::Triangles(const DiskMesh& disk, std::span<const Vec2d> uv)
     : disk_(disk), quartic_(disk.positions.size(), 0.0) {
   const std::vector<SurfaceTriangle> surface = surface_triangles(disk.positions, disk.triangles);
   const HalfEdges edges = half_edges(static_cast<int>(disk.positions.size()), disk.triangles);
-  const std::vector<double> emphasis = curvature_emphasis(disk, edges, surface);
+  const std::vector<double> curvature_weight = curvature_weights(disk, edges, surface);
   std::vector<double> around(disk.positions.size(), 0.0);
   double area = 0;
   for (std::size_t t = 0; t < surface.size(); ++t) {
     area += surface[t].area;
     for (const int v : disk.triangles[t]) {
-      quartic_[v] += surface[t].area * emphasis[t];
+      quartic_[v] += surface[t].area * curvature_weight[t];
       around[v] += surface[t].area;
     }
   }
@@ -61,25 +61,25 @@ StarTriangle Triangles::operator()(const Triangle& t) const {
           inverse_unit_ * inverse_weight(surface)};
 }
 
-std::vector<BorderSlide> renumbered(std::span<const BorderSlide> slides, const CoarseDisk& coarse,
-                                    std::size_t vertices) {
+std::vector<BorderFreedom> renumbered(std::span<const BorderFreedom> freedoms,
+                                      const CoarseDisk& coarse, std::size_t vertices) {
   std::vector<int> number(vertices, -1);
   for (std::size_t v = 0; v < coarse.vertex.size(); ++v)
     number[coarse.vertex[v]] = static_cast<int>(v);
-  std::vector<BorderSlide> result(slides.begin(), slides.end());
-  for (BorderSlide& slide : result) {
-    slide.vertex = number[slide.vertex];
-    if (slide.mate >= 0) slide.mate = number[slide.mate];
+  std::vector<BorderFreedom> result(freedoms.begin(), freedoms.end());
+  for (BorderFreedom& freedom : result) {
+    freedom.vertex = number[freedom.vertex];
+    if (freedom.mate >= 0) freedom.mate = number[freedom.mate];
   }
   return result;
 }
 
 bool map_what_is_left(const CollapseHierarchy& mesh, const DiskMesh& disk, std::span<Vec2d> uv,
-                      const MapDisk& map, std::span<const BorderSlide> slides) {
+                      const MapDisk& map, std::span<const BorderFreedom> freedoms) {
   const CoarseDisk coarse = coarse_disk(mesh, disk);
   std::vector<Vec2d> coarse_uv;
   for (const int v : coarse.vertex) coarse_uv.push_back(uv[v]);
-  if (!map(coarse.disk, coarse_uv, renumbered(slides, coarse, uv.size()))) return false;
+  if (!map(coarse.disk, coarse_uv, renumbered(freedoms, coarse, uv.size()))) return false;
   for (std::size_t v = 0; v < coarse.vertex.size(); ++v) uv[coarse.vertex[v]] = coarse_uv[v];
   return true;
 }
@@ -99,12 +99,12 @@ bool map_coarse_to_fine(const DiskMesh& disk, std::span<Vec2d> uv, const MapDisk
                        {.triangles = wanted, .first_cost = triangles.mean_area(), .growth = 1.5});
     if (mesh.triangle_count() == left) return false;
     left = mesh.triangle_count();
-    if (map_what_is_left(mesh, disk, uv, map, options.slides)) break;
+    if (map_what_is_left(mesh, disk, uv, map, options.freedoms)) break;
   }
   ReinsertionOptions back{.triangle = triangles,
                           .growth = options.growth,
                           .sweeps = options.sweeps,
-                          .slides = options.slides,
+                          .freedoms = options.freedoms,
                           .progress = options.progress};
   return bring_back(mesh, uv, back) && is_valid_map(disk.triangles, uv);
 }

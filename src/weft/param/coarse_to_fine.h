@@ -5,20 +5,20 @@
 
 #include "weft/core/progress.h"
 #include "weft/cut/disk_mesh.h"
-#include "weft/param/border_slides.h"
+#include "weft/param/border_relaxation.h"
 
 namespace weft {
 
 /// Maps the inside of a disk into a convex border that is given, whose slides may move.
 /// @return whether the map is valid
-using MapDisk =
-    std::function<bool(const DiskMesh&, std::span<Vec2d> uv, std::span<const BorderSlide> slides)>;
+using MapDisk = std::function<bool(const DiskMesh&, std::span<Vec2d> uv,
+                                   std::span<const BorderFreedom> freedoms)>;
 
 struct CoarseToFineOptions {
   int triangles = 5000;  ///< of the coarse disk, about, if as many as its border takes
   double growth = 1.6;   ///< of the count of triangles from one round of sweeps to the next
   int sweeps = 8;        ///< in a round
-  std::span<const BorderSlide> slides = {};
+  std::span<const BorderFreedom> freedoms = {};
   Progress* progress = nullptr;
 };
 

@@ -18,8 +18,8 @@ Vec3d facing(Vec3d a, Vec3d b, Vec3d c) {
 
 /// Whether triangles around the vertex that goes face another way or become slivers.
 bool spoils_shape(const DiskMesh& disk, const CollapseHierarchy& mesh, int half_edge) {
-  constexpr double least_cosine = 0.5;
-  constexpr double least_quality = 0.2;
+  constexpr double min_cosine = 0.5;
+  constexpr double min_quality = 0.2;
   const int u = mesh.to(half_edge);
   bool spoils = false;
   mesh.around(mesh.from(half_edge), [&](int h) {
@@ -29,9 +29,9 @@ bool spoils_shape(const DiskMesh& disk, const CollapseHierarchy& mesh, int half_
     const auto& p = disk.positions;
     const Vec3d before = facing(p[mesh.from(h)], p[b], p[c]);
     const Vec3d after = facing(p[u], p[b], p[c]);
-    const double worse = std::min(least_quality, 0.5 * length(before));
+    const double worse = std::min(min_quality, 0.5 * length(before));
     spoils =
-        length(after) < worse || dot(before, after) < least_cosine * length(before) * length(after);
+        length(after) < worse || dot(before, after) < min_cosine * length(before) * length(after);
   });
   return spoils;
 }
@@ -49,7 +49,7 @@ class Passes {
 
   /// @return how many vertices went
   int run(double most);
-  [[nodiscard]] double least_refused() const { return least_refused_; }
+  [[nodiscard]] double min_refused() const { return min_refused_; }
   [[nodiscard]] bool is_done() const { return mesh_.triangle_count() <= triangles_; }
 
  private:
@@ -61,12 +61,12 @@ class Passes {
   std::vector<int> resting_;  ///< [V] the pass in which a vertex rests
   std::vector<Candidate> candidates_;
   int pass_ = 0;
-  double least_refused_ = infinity;
+  double min_refused_ = infinity;
 };
 
 int Passes::run(double most) {
   ++pass_;
-  least_refused_ = infinity;
+  min_refused_ = infinity;
   int count = 0;
   for (int v = 0; v < mesh_.vertex_count() && !is_done(); ++v)
     if (mesh_.is_inner(v) && resting_[v] != pass_ && take_away(v, most)) ++count;
@@ -80,7 +80,7 @@ bool Passes::take_away(int vertex, double most) {
     if (cost <= most)
       candidates_.push_back({cost, h});
     else
-      least_refused_ = std::min(least_refused_, cost);
+      min_refused_ = std::min(min_refused_, cost);
   });
   std::sort(candidates_.begin(), candidates_.end());
   for (const auto& [cost, h] : candidates_) {
@@ -95,7 +95,7 @@ bool Passes::take_away(int vertex, double most) {
 }  // namespace
 
 CollapseOrder shortest_first(const DiskMesh& disk) {
-  constexpr int most_edges = 10;
+  constexpr int max_edges = 10;
   CollapseOrder order;
   order.cost = [&disk](const CollapseHierarchy& mesh, int h) {
     return squared_length(disk.positions[mesh.from(h)] - disk.positions[mesh.to(h)]);
@@ -103,13 +103,13 @@ CollapseOrder shortest_first(const DiskMesh& disk) {
   order.allows = [&disk](const CollapseHierarchy& mesh, int h) {
     const int v = mesh.from(h);
     const int u = mesh.to(h);
-    const bool too_many = mesh.is_inner(u) && mesh.valence(v) + mesh.valence(u) - 4 > most_edges;
+    const bool too_many = mesh.is_inner(u) && mesh.valence(v) + mesh.valence(u) - 4 > max_edges;
     return !too_many && !spoils_shape(disk, mesh, h);
   };
   return order;
 }
 
-CollapseOrder least_valence_first() {
+CollapseOrder min_valence_first() {
   CollapseOrder order;
   order.cost = [](const CollapseHierarchy& mesh, int h) {
     return static_cast<double>(mesh.valence(mesh.from(h)) + mesh.valence(mesh.to(h)) - 4);
@@ -125,9 +125,9 @@ void collapse_in_passes(CollapseHierarchy& mesh, const CollapseOrder& order,
   while (!passes.is_done()) {
     const int before = mesh.triangle_count();
     const int gone = passes.run(most);
-    if (gone == 0 && !(passes.least_refused() < infinity)) return;
+    if (gone == 0 && !(passes.min_refused() < infinity)) return;
     if (gone > before / 40) continue;
-    most = std::max(most * options.growth, gone == 0 ? passes.least_refused() : most);
+    most = std::max(most * options.growth, gone == 0 ? passes.min_refused() : most);
   }
 }
 

@@ -21,7 +21,7 @@ struct CollapseOrder {
 CollapseOrder shortest_first(const DiskMesh& disk);
 /// By how many edges the vertex that stays gets, always allowed: whatever the surface looks like,
 /// all vertices keep about equally many neighbours.
-CollapseOrder least_valence_first();
+CollapseOrder min_valence_first();
 
 struct PassOptions {
   int triangles = 0;      ///< it ends when no more are left

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "weft/core/orientation.h"
+#include "weft/param/curvature_weight.h"
 #include "weft/param/edge_lengths.h"
-#include "weft/param/emphasis.h"
 #include "weft/param/inverse_stretch.h"
 
 namespace weft {
@@ -14,7 +14,7 @@ DiskGeometry::DiskGeometry(const DiskMesh& mesh)
       edges(half_edges(static_cast<int>(mesh.positions.size()), mesh.triangles)),
       sides(floored_lengths(mesh.positions, mesh.triangles)),
       surface(surface_triangles(mesh.positions, mesh.triangles)),
-      emphasis(curvature_emphasis(mesh, edges, surface)) {
+      curvature_weight(curvature_weights(mesh, edges, surface)) {
   for (const SurfaceTriangle& s : surface) inverse.push_back(inverse_weight(s));
 }
 
@@ -37,7 +37,7 @@ double DiskGeometry::energy(std::span<const Vec2d> uv) const {
     if (surface[t].area <= 0) continue;
     const auto& [a, b, c] = disk.triangles[t];
     const double m = triangle_stretch(surface[t], uv[a], uv[b], uv[c]).mean_square;
-    sum += surface[t].area * m * (1 + 0.5 * emphasis[t] * m / unit);
+    sum += surface[t].area * m * (1 + 0.5 * curvature_weight[t] * m / unit);
     const double d = cross(uv[b] - uv[a], uv[c] - uv[a]);
     // n = 2 m d^2, see inverse_weight.
     sum += inverse_unit * inverse[t] * 2 * m * d * d;

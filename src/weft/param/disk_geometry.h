@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "weft/cut/disk_mesh.h"
+#include "weft/mesh/stretch.h"
 #include "weft/mesh/topology.h"
-#include "weft/param/stretch.h"
 
 namespace weft {
 
@@ -20,8 +20,8 @@ struct DiskGeometry {
   std::vector<std::array<double, 3>> sides;  ///< [F] floored lengths
   std::vector<SurfaceTriangle> surface;      ///< [F] the metric as it is
 
-  std::vector<double> emphasis;  ///< [F] of the quartic term of the energy
-  std::vector<double> inverse;   ///< [F] of the inverse term, see inverse_weight
+  std::vector<double> curvature_weight;  ///< [F] of the quartic term of the energy
+  std::vector<double> inverse;           ///< [F] of the inverse term, see inverse_weight
 
   /// Square stretch of a map that keeps areas, of the size of this one: a constant of the disk and
   /// the square.

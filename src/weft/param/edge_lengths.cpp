@@ -24,10 +24,10 @@ std::vector<std::array<double, 3>> floored_lengths(std::span<const Vec3d> positi
     }
   const double mean =
       total / (3.0 * static_cast<double>(std::max<std::size_t>(triangles.size(), 1)));
-  const double least_slack = mean > 0 ? 1e-5 * mean : 1.0;
+  const double min_slack = mean > 0 ? 1e-5 * mean : 1.0;
 
   double raise = 0;
-  for (const auto& s : sides) raise = std::max(raise, least_slack - slack(s));
+  for (const auto& s : sides) raise = std::max(raise, min_slack - slack(s));
   if (raise > 0)
     for (auto& s : sides)
       for (double& l : s) l += raise;

@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-constexpr int most_cures = 6;
+constexpr int max_cures = 6;
 
 /// A disk whose inside is to be mapped, and what that takes.
 struct Task {
@@ -27,7 +27,7 @@ bool map_by_floater(const Task& task) {
   const auto& [geometry, solver, uv, options] = task;
   std::vector<double> weights =
       shape_preserving_weights(geometry.disk, geometry.edges, geometry.sides);
-  for (int cure = 0; cure <= most_cures; ++cure) {
+  for (int cure = 0; cure <= max_cures; ++cure) {
     update(options.progress, "map", 0.1);
     if (cure > 0) reweight(geometry, uv, weights);
     if (!solver.solve_general(weights, uv)) return false;
@@ -36,10 +36,10 @@ bool map_by_floater(const Task& task) {
   return false;
 }
 
-NewtonOptions newton(const StretchOptions& stretch, std::span<const BorderSlide> slides,
+NewtonOptions newton(const StretchOptions& stretch, std::span<const BorderFreedom> freedoms,
                      Progress* progress) {
   return {
-      .steps = stretch.newton_steps, .least_gain = 1e-4, .progress = progress, .slides = slides};
+      .steps = stretch.newton_steps, .min_gain = 1e-4, .progress = progress, .freedoms = freedoms};
 }
 
 /// By positive weights, reweighted; then Newton steps.
@@ -49,9 +49,9 @@ bool map_by_weights(const Task& task, const StretchOptions& stretch) {
   PartOfProgress second(options.progress, "map", 0.3, 1);
   std::vector<double> weights = symmetric_weights(geometry.disk, geometry.edges, geometry.sides);
   ReweightingOptions reweighting{
-      .iterations = stretch.iterations, .cures = most_cures, .progress = &first};
+      .iterations = stretch.iterations, .cures = max_cures, .progress = &first};
   // A Newton step gains more than the last of these would.
-  if (stretch.newton_steps > 0) reweighting.least_gain = 0.01;
+  if (stretch.newton_steps > 0) reweighting.min_gain = 0.01;
   bool found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
   if (!found) {
     // Equal weights do not see slivers at all.
@@ -59,7 +59,7 @@ bool map_by_weights(const Task& task, const StretchOptions& stretch) {
     found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
   }
   if (found && stretch.newton_steps > 0)
-    minimise_by_newton(geometry, uv, newton(stretch, options.slides, &second));
+    minimise_by_newton(geometry, uv, newton(stretch, options.freedoms, &second));
   return found;
 }
 
@@ -68,19 +68,19 @@ bool map_with_least_stretch(const DiskMesh& disk, std::span<Vec2d> uv,
   PartOfProgress first(options.progress, "map", 0.1, 0.4);
   PartOfProgress second(options.progress, "map", 0.4, 1);
   const MapDisk by_weights = [&](const DiskMesh& part, std::span<Vec2d> part_uv,
-                                 std::span<const BorderSlide> slides) {
+                                 std::span<const BorderFreedom> freedoms) {
     const DiskGeometry geometry(part);
     InteriorSolver solver(part, geometry.edges);
-    return map_by_weights({geometry, solver, part_uv, {slides, &first}}, stretch);
+    return map_by_weights({geometry, solver, part_uv, {freedoms, &first}}, stretch);
   };
   const MapDisk by_embedding = [&](const DiskMesh& part, std::span<Vec2d> part_uv,
-                                   std::span<const BorderSlide> slides) {
+                                   std::span<const BorderFreedom> freedoms) {
     if (!embed_progressively(part, part_uv, &first)) return false;
-    minimise_by_newton(DiskGeometry(part), part_uv, newton(stretch, slides, &first));
+    minimise_by_newton(DiskGeometry(part), part_uv, newton(stretch, freedoms, &first));
     return true;
   };
   if (stretch.newton_steps == 0 && by_weights(disk, uv, {})) return true;
-  const CoarseToFineOptions refinement{.slides = options.slides, .progress = &second};
+  const CoarseToFineOptions refinement{.freedoms = options.freedoms, .progress = &second};
   return map_coarse_to_fine(disk, uv, by_weights, refinement) ||
          map_coarse_to_fine(disk, uv, by_embedding, refinement) ||
          embed_progressively(disk, uv, &second);

@@ -3,14 +3,14 @@
 #include <span>
 
 #include "weft/core/progress.h"
-#include "weft/param/border_slides.h"
+#include "weft/param/border_relaxation.h"
 #include "weft/param/square_map.h"
 
 namespace weft {
 
 struct InteriorOptions {
   /// Border vertices that may move in the minimisation of stretch; Floater's map keeps them.
-  std::span<const BorderSlide> slides = {};
+  std::span<const BorderFreedom> freedoms = {};
   Progress* progress = nullptr;
 };
 /// Stages 7 and 8: maps the inside of a disk into a convex border that is given, without a flipped

@@ -32,15 +32,15 @@ struct InteriorSolver::System {
 
 Columns InteriorSolver::System::pull_of_border(std::span<const double> half_edge_weights,
                                                std::span<const Vec2d> uv) const {
-  Columns right = Columns::Zero(rows(), 2);
+  Columns rhs = Columns::Zero(rows(), 2);
   for (int h = 0; h < static_cast<int>(half_edge_weights.size()); ++h) {
     const int row = interior[from_vertex(triangles, h)];
     const int to = to_vertex(triangles, h);
     if (row < 0 || interior[to] >= 0) continue;
-    right(row, 0) += half_edge_weights[h] * uv[to].x;
-    right(row, 1) += half_edge_weights[h] * uv[to].y;
+    rhs(row, 0) += half_edge_weights[h] * uv[to].x;
+    rhs(row, 1) += half_edge_weights[h] * uv[to].y;
   }
-  return right;
+  return rhs;
 }
 
 void InteriorSolver::System::place(const Columns& solution, std::span<Vec2d> uv) const {
@@ -134,10 +134,10 @@ bool InteriorSolver::solve_general(std::span<const double> weights, std::span<Ve
   lu.setPivotThreshold(0.0);
   lu.compute(matrix);
   if (lu.info() != Eigen::Success) return false;
-  const Columns right = s.pull_of_border(weights, uv);
-  Columns solution = lu.solve(right);
+  const Columns rhs = s.pull_of_border(weights, uv);
+  Columns solution = lu.solve(rhs);
   for (int pass = 0; pass < 2; ++pass) {
-    const Columns residual = right - matrix * solution;
+    const Columns residual = rhs - matrix * solution;
     solution += lu.solve(residual);
   }
   if (!solution.allFinite()) return false;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/param/stretch.h"
+#include "weft/mesh/stretch.h"
 
 namespace weft {
 

@@ -10,23 +10,23 @@ namespace weft {
 namespace {
 
 /// A smaller relative gain is not worth the trials.
-constexpr double least_gain = 1e-8;
+constexpr double min_gain = 1e-8;
 
 /// Lengthens a whole step for as long as the energy falls by much: near a triangle that is all but
 /// closed Newton steps are short by far.
 double longer_way(const VertexStar& star, Vec2d place, Vec2d step, double most) {
   constexpr double much = 0.7;
-  double way = 1;
+  double step_length = 1;
   double last = star.energy(place);
   double reached = star.energy(place + step);
-  while (reached < much * last && way < most) {
-    const double next = std::min(2 * way, most);
+  while (reached < much * last && step_length < most) {
+    const double next = std::min(2 * step_length, most);
     last = reached;
     reached = star.energy(place + next * step);
     if (!(reached < last)) break;
-    way = next;
+    step_length = next;
   }
-  return way;
+  return step_length;
 }
 
 Vec2d on_axis(int axis, double length) { return axis == 0 ? Vec2d{length, 0} : Vec2d{0, length}; }
@@ -40,15 +40,16 @@ bool VertexMover::improve(int vertex) {
   const Symmetric2& curvature = here.hessian.is_positive() ? here.hessian : here.squares;
   const Vec2d step = curvature.solve(-1.0 * here.gradient);
   const double slope = dot(step, here.gradient);
-  if (!std::isfinite(here.energy) || !(slope < -least_gain * here.energy)) return false;
-  const double most = 0.9 * star_.free_way(place, step);
-  double way = std::min(1.0, most);
-  for (int halving = 0; halving < 8; ++halving, way *= 0.5) {
-    const double reached = star_.energy(place + way * step);
-    if (!(reached < here.energy + 1e-4 * way * slope)) continue;
-    if (way == 1 && reached < 0.7 * here.energy) way = longer_way(star_, place, step, most);
-    if (!star_.is_valid(place + way * step)) continue;
-    uv_[vertex] = place + way * step;
+  if (!std::isfinite(here.energy) || !(slope < -min_gain * here.energy)) return false;
+  const double most = 0.9 * star_.free_step_length(place, step);
+  double step_length = std::min(1.0, most);
+  for (int halving = 0; halving < 8; ++halving, step_length *= 0.5) {
+    const double reached = star_.energy(place + step_length * step);
+    if (!(reached < here.energy + 1e-4 * step_length * slope)) continue;
+    if (step_length == 1 && reached < 0.7 * here.energy)
+      step_length = longer_way(star_, place, step, most);
+    if (!star_.is_valid(place + step_length * step)) continue;
+    uv_[vertex] = place + step_length * step;
     return true;
   }
   return false;
@@ -62,12 +63,12 @@ bool VertexMover::centre(int vertex) {
   return true;
 }
 
-bool VertexMover::improve(const BorderSlide& slide) {
-  const std::array<int, 2> vertex = {slide.vertex, slide.mate};
+bool VertexMover::improve(const BorderFreedom& freedom) {
+  const std::array<int, 2> vertex = {freedom.vertex, freedom.mate};
   const std::array<VertexStar*, 2> star = {&star_, &mate_star_};
-  const std::array<Vec2d, 2> direction = {on_axis(slide.axis, 1),
-                                          on_axis(slide.mate_axis, slide.sign)};
-  const int ends = slide.mate >= 0 ? 2 : 1;
+  const std::array<Vec2d, 2> direction = {on_axis(freedom.axis, 1),
+                                          on_axis(freedom.mate_axis, freedom.sign)};
+  const int ends = freedom.mate >= 0 ? 2 : 1;
   std::array<Vec2d, 2> before{};
   double energy = 0, slope = 0, hessian = 0, squares = 0;
   for (int k = 0; k < ends; ++k) {
@@ -80,15 +81,15 @@ bool VertexMover::improve(const BorderSlide& slide) {
     squares += here.squares.along(direction[k]);
   }
   double step = -slope / (hessian > 0 ? hessian : squares);
-  if (!std::isfinite(energy) || !(slope * step < -least_gain * energy)) return false;
+  if (!std::isfinite(energy) || !(slope * step < -min_gain * energy)) return false;
   for (int k = 0; k < ends; ++k) {
     const double sign = step > 0 ? 1 : -1;
-    const double most = 0.9 * star[k]->free_way(before[k], sign * direction[k]);
+    const double most = 0.9 * star[k]->free_step_length(before[k], sign * direction[k]);
     step = std::clamp(step, -most, most);
   }
   for (int halving = 0; halving < 8; ++halving, step *= 0.5) {
-    uv_[slide.vertex] = before[0] + step * direction[0];
-    settle(std::span(&slide, 1), uv_);
+    uv_[freedom.vertex] = before[0] + step * direction[0];
+    snap_to_grid(std::span(&freedom, 1), uv_);
     double reached = 0;
     bool valid = true;
     for (int k = 0; k < ends; ++k) {
@@ -101,10 +102,10 @@ bool VertexMover::improve(const BorderSlide& slide) {
   return false;
 }
 
-void VertexMover::sweep(std::span<const BorderSlide> slides) {
+void VertexMover::sweep(std::span<const BorderFreedom> freedoms) {
   for (int v = 0; v < mesh_.vertex_count(); ++v)
     if (mesh_.is_inner(v)) improve(v);
-  for (const BorderSlide& slide : slides) improve(slide);
+  for (const BorderFreedom& freedom : freedoms) improve(freedom);
 }
 
 }  // namespace weft

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/param/border_slides.h"
+#include "weft/param/border_relaxation.h"
 #include "weft/param/vertex_star.h"
 
 namespace weft {
@@ -27,9 +27,9 @@ class VertexMover {
   /// energy: out of a crevice at once, from which Newton steps would take long to climb.
   bool centre(int vertex);
   /// Moves a border vertex along its side, and its mate with it.
-  bool improve(const BorderSlide& slide);
+  bool improve(const BorderFreedom& freedom);
   /// Moves all inner vertices and all slides once, in order.
-  void sweep(std::span<const BorderSlide> slides = {});
+  void sweep(std::span<const BorderFreedom> freedoms = {});
 
  private:
   const CollapseHierarchy& mesh_;

@@ -1,6 +1,6 @@
 #include "weft/core/orientation.h"
+#include "weft/mesh/stretch.h"
 #include "weft/param/square_map.h"
-#include "weft/param/stretch.h"
 
 namespace weft {
 

@@ -30,8 +30,8 @@ struct NewtonSystem::Blocks {
   /// [2 D] the unknown of each vertex' u and v: -1 where fixed, first all of block u, then block v.
   /// A slide's unknown is in the block of its vertex' axis, its mate's coordinate has the same.
   std::vector<int> unknown;
-  std::vector<double> sign;  ///< [2 D] by which the coordinate follows its unknown
-  std::vector<bool> slides;  ///< [F] whether a corner is on the border
+  std::vector<double> sign;    ///< [2 D] by which the coordinate follows its unknown
+  std::vector<bool> freedoms;  ///< [F] whether a corner is on the border
   int rows_u = 0, rows_v = 0;
   Matrix uu, vv;  ///< lower triangles
   Matrix vu;      ///< whole; the block uv is its transpose
@@ -42,7 +42,7 @@ struct NewtonSystem::Blocks {
   Cholesky cholesky_u, cholesky_v;
 
   explicit Blocks(const DiskGeometry& shape) : geometry(shape) {}
-  void number_unknowns(std::span<const BorderSlide> border_slides);
+  void number_unknowns(std::span<const BorderFreedom> border_freedoms);
   void prepare_pattern();
   void prepare_slots();
   void assemble(std::span<const Vec2d> uv);
@@ -53,7 +53,7 @@ struct NewtonSystem::Blocks {
   [[nodiscard]] Pair conjugate_gradients() const;
 };
 
-void NewtonSystem::Blocks::number_unknowns(std::span<const BorderSlide> border_slides) {
+void NewtonSystem::Blocks::number_unknowns(std::span<const BorderFreedom> border_freedoms) {
   const std::size_t vertices = geometry.disk.positions.size();
   std::vector<bool> border(vertices, false);
   for (const int v : geometry.disk.border) border[v] = true;
@@ -63,12 +63,12 @@ void NewtonSystem::Blocks::number_unknowns(std::span<const BorderSlide> border_s
     int row = axis == 0 ? 0 : rows_u;
     for (std::size_t v = 0; v < vertices; ++v)
       if (!border[v] && geometry.edges.outgoing[v] >= 0) unknown[2 * v + axis] = row++;
-    for (const BorderSlide& slide : border_slides) {
-      if (slide.axis != axis) continue;
-      unknown[2 * slide.vertex + axis] = row;
-      if (slide.mate >= 0) {
-        unknown[2 * slide.mate + slide.mate_axis] = row;
-        sign[2 * slide.mate + slide.mate_axis] = slide.sign;
+    for (const BorderFreedom& freedom : border_freedoms) {
+      if (freedom.axis != axis) continue;
+      unknown[2 * freedom.vertex + axis] = row;
+      if (freedom.mate >= 0) {
+        unknown[2 * freedom.mate + freedom.mate_axis] = row;
+        sign[2 * freedom.mate + freedom.mate_axis] = freedom.sign;
       }
       ++row;
     }
@@ -77,10 +77,10 @@ void NewtonSystem::Blocks::number_unknowns(std::span<const BorderSlide> border_s
   rows_u = number(0);
   rows_v = number(1) - rows_u;
   gradient = {Vector::Zero(rows_u), Vector::Zero(rows_v)};
-  slides.assign(geometry.surface.size(), false);
-  for (std::size_t t = 0; t < slides.size(); ++t)
+  freedoms.assign(geometry.surface.size(), false);
+  for (std::size_t t = 0; t < freedoms.size(); ++t)
     for (const int v : geometry.disk.triangles[t])
-      if (border[v]) slides[t] = true;
+      if (border[v]) freedoms[t] = true;
 }
 
 /// The unknowns of a triangle's u, v at corner 0, 1, 2; -1 where fixed and where an earlier one is
@@ -188,10 +188,11 @@ void NewtonSystem::Blocks::assemble(std::span<const Vec2d> uv) {
   for (std::size_t t = 0; t < geometry.surface.size(); ++t) {
     const auto& [a, b, c] = geometry.disk.triangles[t];
     TriangleEnergy energy = triangle_energy(geometry.surface[t], uv[a], uv[b], uv[c]);
-    emphasise(energy, geometry.surface[t].area, geometry.emphasis[t] / mean_square);
+    weigh_by_curvature(energy, geometry.surface[t].area,
+                       geometry.curvature_weight[t] / mean_square);
     add_inverse_stretch(energy, geometry.surface[t],
                         mean_square * mean_square * geometry.inverse[t], {uv[a], uv[b], uv[c]});
-    if (slides[t]) reduce(t, energy);
+    if (freedoms[t]) reduce(t, energy);
     add_triangle(t, energy);
   }
   const double* from = values.data();
@@ -213,7 +214,7 @@ Pair NewtonSystem::Blocks::multiply(const Pair& x) const {
 /// Minus the inverse of the Hessian times the gradient, to a tenth in the preconditioner's norm.
 /// Every iterate is a direction of descent, so ending early is safe.
 Pair NewtonSystem::Blocks::conjugate_gradients() const {
-  constexpr int most_iterations = 40;
+  constexpr int max_iterations = 40;
   constexpr double tolerance = 0.1;
   const auto precondition = [&](const Pair& r) {
     return Pair{cholesky_u.solve(r.u), cholesky_v.solve(r.v)};
@@ -224,7 +225,7 @@ Pair NewtonSystem::Blocks::conjugate_gradients() const {
   Pair direction = z;
   double square = residual.dot(z);
   const double wanted = tolerance * tolerance * square;
-  for (int iteration = 0; iteration < most_iterations && square > wanted; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations && square > wanted; ++iteration) {
     const Pair image = multiply(direction);
     const double step = square / direction.dot(image);
     x.add(step, direction);
@@ -238,9 +239,9 @@ Pair NewtonSystem::Blocks::conjugate_gradients() const {
   return x;
 }
 
-NewtonSystem::NewtonSystem(const DiskGeometry& geometry, std::span<const BorderSlide> slides)
+NewtonSystem::NewtonSystem(const DiskGeometry& geometry, std::span<const BorderFreedom> freedoms)
     : blocks_(std::make_unique<Blocks>(geometry)) {
-  blocks_->number_unknowns(slides);
+  blocks_->number_unknowns(freedoms);
   if (blocks_->rows_u + blocks_->rows_v == 0) return;
   blocks_->prepare_pattern();
   blocks_->prepare_slots();

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/param/border_slides.h"
+#include "weft/param/border_relaxation.h"
 #include "weft/param/disk_geometry.h"
 
 namespace weft {
@@ -19,7 +19,7 @@ namespace weft {
 class NewtonSystem {
  public:
   /// Keeps a reference to the geometry, which must outlive it.
-  explicit NewtonSystem(const DiskGeometry& geometry, std::span<const BorderSlide> slides = {});
+  explicit NewtonSystem(const DiskGeometry& geometry, std::span<const BorderFreedom> freedoms = {});
   NewtonSystem(const NewtonSystem&) = delete;
   NewtonSystem& operator=(const NewtonSystem&) = delete;
   ~NewtonSystem();

@@ -9,8 +9,7 @@ namespace weft {
 bool embed_progressively(const DiskMesh& disk, std::span<Vec2d> uv, Progress* progress) {
   constexpr StarTriangle equal_sides{{1, 0.5, 1, 0.4330127018922193}};
   CollapseHierarchy mesh(disk);
-  collapse_in_passes(mesh, least_valence_first(),
-                     {.triangles = 0, .first_cost = 6, .growth = 1.25});
+  collapse_in_passes(mesh, min_valence_first(), {.triangles = 0, .first_cost = 6, .growth = 1.25});
 
   Box3d box;
   for (const int v : disk.border) box.add({uv[v].x, uv[v].y, 0});

@@ -18,7 +18,7 @@ class Reinsertion {
   void renew_around(int vertex);
   bool bring_one_back();
   bool place(int vertex);
-  void make_room(int half_edge, int circles);
+  void reserve(int half_edge, int circles);
   [[nodiscard]] std::vector<int> neighbourhood(int half_edge, int circles) const;
 
   CollapseHierarchy& mesh_;
@@ -75,7 +75,7 @@ std::vector<int> Reinsertion::neighbourhood(int half_edge, int circles) const {
   return found;
 }
 
-void Reinsertion::make_room(int half_edge, int circles) {
+void Reinsertion::reserve(int half_edge, int circles) {
   constexpr int rounds = 8;
   const std::vector<int> near = neighbourhood(half_edge, circles);
   mesh_.collapse(half_edge);
@@ -89,16 +89,16 @@ void Reinsertion::make_room(int half_edge, int circles) {
 }
 
 bool Reinsertion::bring_one_back() {
-  constexpr int most_circles = 12;
+  constexpr int max_circles = 12;
   const int half_edge = mesh_.undo();
   const int vertex = mesh_.from(half_edge);
   renew_around(vertex);
   for (int circles = 0; !place(vertex); ++circles) {
-    if (circles == most_circles) {
+    if (circles == max_circles) {
       mesh_.collapse(half_edge);
       return false;
     }
-    make_room(half_edge, circles);
+    reserve(half_edge, circles);
   }
   mover_.improve(vertex);
   return true;
@@ -112,7 +112,7 @@ bool Reinsertion::run() {
     const double wanted = std::max(count * options_.growth, count + 8.0);
     while (mesh_.depth() > 0 && mesh_.triangle_count() < wanted)
       if (!bring_one_back()) return false;
-    for (int k = 0; k < options_.sweeps; ++k) mover_.sweep(options_.slides);
+    for (int k = 0; k < options_.sweeps; ++k) mover_.sweep(options_.freedoms);
   } while (mesh_.depth() > 0);
   return true;
 }

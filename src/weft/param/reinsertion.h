@@ -4,7 +4,7 @@
 #include <span>
 
 #include "weft/core/progress.h"
-#include "weft/param/border_slides.h"
+#include "weft/param/border_relaxation.h"
 #include "weft/param/collapse_hierarchy.h"
 #include "weft/param/vertex_star.h"
 
@@ -15,7 +15,7 @@ struct ReinsertionOptions {
   std::function<StarTriangle(const Triangle&)> triangle;
   double growth = 1.3;  ///< of the count of triangles from one round of sweeps to the next
   int sweeps = 2;       ///< in a round
-  std::span<const BorderSlide> slides = {};  ///< border vertices that move too
+  std::span<const BorderFreedom> freedoms = {};  ///< border vertices that move too
   Progress* progress = nullptr;
 };
 

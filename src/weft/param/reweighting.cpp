@@ -24,7 +24,7 @@ bool map_by_reweighting(const DiskGeometry& geometry, InteriorSolver& solver,
     if (!solver.factorize_symmetric(weights)) break;
     solver.solve_symmetric(uv);
     const double stretch = geometry.stretch_l2(uv);
-    const bool enough = stretch > best_stretch * (1 - options.least_gain);
+    const bool enough = stretch > best_stretch * (1 - options.min_gain);
     if (stretch < best_stretch && is_valid_map(geometry.disk.triangles, uv)) {
       best_stretch = stretch;
       best.assign(uv.begin(), uv.end());

@@ -14,9 +14,9 @@ namespace weft {
 /// The source divides by the stretch of one end only, which takes an unsymmetric factorization each
 /// time. Weights stay positive, so every iterate is an embedding as far as doubles can tell.
 struct ReweightingOptions {
-  int iterations = 10;       ///< at most, once a valid map is there
-  int cures = 6;             ///< how often a map that is not valid is reweighted before giving up
-  double least_gain = 1e-3;  ///< relative fall of the stretch below which the iteration ends
+  int iterations = 10;     ///< at most, once a valid map is there
+  int cures = 6;           ///< how often a map that is not valid is reweighted before giving up
+  double min_gain = 1e-3;  ///< relative fall of the stretch below which the iteration ends
   Progress* progress = nullptr;  ///< told of every iteration
 };
 

@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-constexpr int most_triangles = 2000;
+constexpr int max_triangles = 2000;
 
 /// The surface that was cut, whole again.
 struct Surface {
@@ -47,8 +47,8 @@ Surface closed(const CutDisk& cut) {
 
 /// Distance around the border.
 double apart(double a, double b, double around) {
-  const double way = std::fmod(std::abs(a - b), around);
-  return std::min(way, around - way);
+  const double distance = std::fmod(std::abs(a - b), around);
+  return std::min(distance, around - distance);
 }
 
 /// The rotation of a disk under which its nodes lie where those of its coarser self do.
@@ -108,10 +108,10 @@ int choose_rotation(const CutDisk& cut, int size, int count) {
   count = std::min(count, (size - 1) / 2);
   if (count <= 1) return 0;
   const int step = (size - 1) / (2 * count);
-  if (static_cast<int>(cut.disk.triangles.size()) <= most_triangles)
+  if (static_cast<int>(cut.disk.triangles.size()) <= max_triangles)
     return best_rotation(cut, size, count, step);
   const Surface surface = closed(cut);
-  const Proxy proxy = coarsen(surface.mesh, surface.cut, most_triangles);
+  const Proxy proxy = coarsen(surface.mesh, surface.cut, max_triangles);
   const CutDisk coarse = cut_open(proxy.mesh, proxy.cut);
   const Transfer transfer{cut, coarse, proxy.source_vertex, size};
   return transfer.rotation(best_rotation(coarse, size, count, step), step);

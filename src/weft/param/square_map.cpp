@@ -34,9 +34,9 @@ MappedDisk map_to_square(const CutDisk& cut, const MapOptions& options) {
   mapped.map.size = options.size;
   const std::vector<double> t = border_positions(mapped.cut, mapped.layout);
   mapped.map.uv = place_border(mapped.cut, options.size, t);
-  const std::vector<BorderSlide> slides = border_slides(mapped.cut, mapped.layout, t);
+  const std::vector<BorderFreedom> freedoms = border_freedoms(mapped.cut, mapped.layout, t);
   const bool found = map_interior(mapped.cut.disk, mapped.map.uv, options.parameterizer,
-                                  {.slides = slides, .progress = options.progress});
+                                  {.freedoms = freedoms, .progress = options.progress});
   mapped.quality = measure_map(mapped.cut.disk, mapped.map);
   if (!found)
     throw TopologyError(options.name,

@@ -21,52 +21,53 @@ double first_root(double c, double b, double d) {
 }
 
 /// How far all vertices can go along their steps before the first triangle closes.
-double free_way(std::span<const Triangle> triangles, std::span<const Vec2d> uv,
-                std::span<const Vec2d> step) {
-  double way = std::numeric_limits<double>::infinity();
+double free_step_length(std::span<const Triangle> triangles, std::span<const Vec2d> uv,
+                        std::span<const Vec2d> step) {
+  double step_length = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c] : triangles) {
     const Vec2d p = uv[b] - uv[a];
     const Vec2d q = uv[c] - uv[a];
     const Vec2d dp = step[b] - step[a];
     const Vec2d dq = step[c] - step[a];
-    way = std::min(way, first_root(cross(dp, dq), cross(p, dq) + cross(dp, q), cross(p, q)));
+    step_length =
+        std::min(step_length, first_root(cross(dp, dq), cross(p, dq) + cross(dp, q), cross(p, q)));
   }
-  return way;
+  return step_length;
 }
 
 /// A map that is being improved.
 struct State {
   const DiskGeometry& geometry;
-  std::span<const BorderSlide> slides;
+  std::span<const BorderFreedom> freedoms;
   std::span<Vec2d> uv;
   double energy = 0;
 };
 
 /// The map moved by so much of a step.
-std::vector<Vec2d> moved(const State& state, const NewtonSystem::Step& step, double way) {
+std::vector<Vec2d> moved(const State& state, const NewtonSystem::Step& step, double step_length) {
   std::vector<Vec2d> uv(state.uv.begin(), state.uv.end());
-  for (std::size_t v = 0; v < uv.size(); ++v) uv[v] = uv[v] + way * step.move[v];
-  settle(state.slides, uv);
+  for (std::size_t v = 0; v < uv.size(); ++v) uv[v] = uv[v] + step_length * step.move[v];
+  snap_to_grid(state.freedoms, uv);
   return uv;
 }
 
 /// Moves along the step as far as the energy falls enough; if none does, stays. The projected
 /// Hessian is too stiff along valleys, so a step that can be taken whole may be taken further.
 void line_search(State& state, const NewtonSystem::Step& step) {
-  const double most = 0.9 * free_way(state.geometry.disk.triangles, state.uv, step.move);
-  double way = std::min(1.0, most);
+  const double most = 0.9 * free_step_length(state.geometry.disk.triangles, state.uv, step.move);
+  double step_length = std::min(1.0, most);
   const auto lowers = [&](double reached) {
-    return reached <= state.energy + 1e-4 * way * step.slope;
+    return reached <= state.energy + 1e-4 * step_length * step.slope;
   };
-  for (int halving = 0; halving < 12; ++halving, way *= 0.5) {
-    std::vector<Vec2d> trial = moved(state, step, way);
+  for (int halving = 0; halving < 12; ++halving, step_length *= 0.5) {
+    std::vector<Vec2d> trial = moved(state, step, step_length);
     double reached = state.geometry.energy(trial);
     if (!lowers(reached)) continue;
-    while (halving == 0 && 2 * way < most) {
-      std::vector<Vec2d> further = moved(state, step, 2 * way);
+    while (halving == 0 && 2 * step_length < most) {
+      std::vector<Vec2d> further = moved(state, step, 2 * step_length);
       const double energy = state.geometry.energy(further);
       if (!(energy < reached)) break;
-      way *= 2;
+      step_length *= 2;
       reached = energy;
       trial = std::move(further);
     }
@@ -81,8 +82,8 @@ void line_search(State& state, const NewtonSystem::Step& step) {
 
 void minimise_by_newton(const DiskGeometry& geometry, std::span<Vec2d> uv,
                         const NewtonOptions& options) {
-  NewtonSystem system(geometry, options.slides);
-  State state{geometry, options.slides, uv, geometry.energy(uv)};
+  NewtonSystem system(geometry, options.freedoms);
+  State state{geometry, options.freedoms, uv, geometry.energy(uv)};
   for (int step = 0; step < options.steps; ++step) {
     update(options.progress, "map", static_cast<double>(step) / options.steps);
     const NewtonSystem::Step newton = system.solve(uv);
@@ -90,7 +91,7 @@ void minimise_by_newton(const DiskGeometry& geometry, std::span<Vec2d> uv,
     const double before = state.energy;
     line_search(state, newton);
     // A stretch goes with the root of the energy: half its relative fall.
-    if (state.energy > before * (1 - 2 * options.least_gain)) return;
+    if (state.energy > before * (1 - 2 * options.min_gain)) return;
   }
 }
 

@@ -3,17 +3,17 @@
 #include <span>
 
 #include "weft/core/progress.h"
-#include "weft/param/border_slides.h"
+#include "weft/param/border_relaxation.h"
 #include "weft/param/disk_geometry.h"
 
 namespace weft {
 
 struct NewtonOptions {
   int steps = 24;  ///< at most
-  double least_gain =
+  double min_gain =
       2e-3;  ///< relative fall of the root of the energy in a step below which it ends
-  Progress* progress = nullptr;              ///< told of every step
-  std::span<const BorderSlide> slides = {};  ///< the rest of the border stays
+  Progress* progress = nullptr;                  ///< told of every step
+  std::span<const BorderFreedom> freedoms = {};  ///< the rest of the border stays
 };
 
 /// Lowers the stretch of a valid map (DiskGeometry::energy: the L2 stretch, a quartic term where

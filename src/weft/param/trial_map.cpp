@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "weft/param/border_layout.h"
-#include "weft/param/border_slides.h"
+#include "weft/param/border_relaxation.h"
 #include "weft/param/chords.h"
 #include "weft/param/disk_geometry.h"
 #include "weft/param/interior_solver.h"
@@ -68,8 +68,8 @@ TrialMap try_map(const CutDisk& cut, int rotation, const TrialOptions& options) 
   trial.rotation = rotation;
   trial.worst_vertex = worst_vertex(geometry, uv, first_split);
   if (!valid) return trial;
-  const std::vector<BorderSlide> slides = border_slides(opened, layout, t);
-  minimise_by_newton(geometry, uv, {.progress = &second, .slides = slides});
+  const std::vector<BorderFreedom> freedoms = border_freedoms(opened, layout, t);
+  minimise_by_newton(geometry, uv, {.progress = &second, .freedoms = freedoms});
   trial.energy = geometry.energy(uv);
   trial.stretch_at = stretch_at(geometry, uv, first_split);
   return trial;

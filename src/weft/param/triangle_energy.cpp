@@ -69,7 +69,7 @@ TriangleEnergy triangle_energy(const SurfaceTriangle& surface, Vec2d a, Vec2d b,
   return energy;
 }
 
-void emphasise(TriangleEnergy& energy, double area, double quartic) {
+void weigh_by_curvature(TriangleEnergy& energy, double area, double quartic) {
   if (!(quartic > 0) || !(area > 0)) return;
   const double mean_square = energy.value / area;
   const double factor = 1 + quartic * mean_square;

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "weft/param/stretch.h"
+#include "weft/mesh/stretch.h"
 
 namespace weft {
 
@@ -22,7 +22,7 @@ TriangleEnergy triangle_energy(const SurfaceTriangle& surface, Vec2d a, Vec2d b,
 /// Turns an energy area * m of mean square stretch m into area * (m + quartic * m^2 / 2), with its
 /// derivatives: the second term counts for the more the more a triangle is stretched.
 /// @param quartic  >= 0
-void emphasise(TriangleEnergy& energy, double area, double quartic);
+void weigh_by_curvature(TriangleEnergy& energy, double area, double quartic);
 
 /// Adds the inverse term, unit^2 times inverse_weight being `weight`; it is the sum of its squares.
 void add_inverse_stretch(TriangleEnergy& energy, const SurfaceTriangle& surface, double weight,

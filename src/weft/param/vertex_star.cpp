@@ -7,8 +7,8 @@
 
 namespace weft {
 
-Vec2d Symmetric2::solve(Vec2d right) const {
-  return 1 / determinant() * Vec2d{yy * right.x - xy * right.y, xx * right.y - xy * right.x};
+Vec2d Symmetric2::solve(Vec2d rhs) const {
+  return 1 / determinant() * Vec2d{yy * rhs.x - xy * rhs.y, xx * rhs.y - xy * rhs.x};
 }
 
 void Symmetric2::add(double scale, Vec2d a, Vec2d b) {
@@ -55,13 +55,14 @@ bool VertexStar::is_valid(Vec2d place) const {
                      [&](const Corner& c) { return orientation(place, c.a, c.b) > 0; });
 }
 
-double VertexStar::free_way(Vec2d place, Vec2d step) const {
-  double way = std::numeric_limits<double>::infinity();
+double VertexStar::free_step_length(Vec2d place, Vec2d step) const {
+  double step_length = std::numeric_limits<double>::infinity();
   for (const Corner& c : corners_) {
     const double closing = cross(c.b - c.a, step);
-    if (closing < 0) way = std::min(way, cross(c.a - place, c.b - place) / -closing);
+    if (closing < 0)
+      step_length = std::min(step_length, cross(c.a - place, c.b - place) / -closing);
   }
-  return way;
+  return step_length;
 }
 
 VertexStar::Model VertexStar::model(Vec2d place) const {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "weft/mesh/stretch.h"
 #include "weft/param/collapse_hierarchy.h"
-#include "weft/param/stretch.h"
 
 namespace weft {
 
@@ -15,7 +15,7 @@ struct Symmetric2 {
   [[nodiscard]] double determinant() const { return xx * yy - xy * xy; }
   [[nodiscard]] bool is_positive() const { return xx > 0 && determinant() > 0; }
   /// @pre not singular
-  [[nodiscard]] Vec2d solve(Vec2d right) const;
+  [[nodiscard]] Vec2d solve(Vec2d rhs) const;
   [[nodiscard]] double along(Vec2d d) const {
     return xx * d.x * d.x + 2 * xy * d.x * d.y + yy * d.y * d.y;
   }
@@ -55,7 +55,7 @@ class VertexStar {
   /// Whether all triangles turn left, by exact arithmetic.
   [[nodiscard]] bool is_valid(Vec2d place) const;
   /// How far along a step the first triangle closes, in steps.
-  [[nodiscard]] double free_way(Vec2d place, Vec2d step) const;
+  [[nodiscard]] double free_step_length(Vec2d place, Vec2d step) const;
 
   struct Model {
     double energy = 0;

@@ -30,7 +30,7 @@ constexpr double seconds_of_lowering = 1;
 /// How fast the air slows a disc down [1/s]. It decides how soon a disc rests, not where.
 constexpr double air_drag = 4;
 /// Samples a side from which on discs are let down with half as many.
-constexpr int least_start_size = 33;
+constexpr int min_start_size = 33;
 /// Bending lengths between which fits look; cloth measures 1 to 5 cm [m].
 constexpr double softest_length = 0.005, stiffest_length = 0.1;
 /// A fit ends where it is this near, or knows B within this part.
@@ -170,7 +170,7 @@ void fall(const Cloth& cloth, const DrapeTestOptions& options, double lowering_s
 void settle(const Material& material, const Cloth& cloth, const DrapeTestOptions& options,
             Random& random, Progress& progress, ClothState& state) {
   const int coarse_size = (cloth.size + 1) / 2;
-  if (coarse_size < least_start_size || coarse_size % 2 == 0) {
+  if (coarse_size < min_start_size || coarse_size % 2 == 0) {
     state = pushed_disc(cloth, random);
     fall(cloth, options, seconds_of_lowering, progress, state);
     return;
@@ -267,10 +267,10 @@ class Fit {
   FittedBending drape(double bending) {
     material_.bending = bending;
     // As many as halving the bracket takes.
-    constexpr double most_trials = 12;
+    constexpr double max_trials = 12;
     DrapeTestOptions options = options_;
-    PartOfProgress part(options_.progress, "draping discs", std::min(1.0, trials_ / most_trials),
-                        std::min(1.0, (trials_ + 1) / most_trials));
+    PartOfProgress part(options_.progress, "draping discs", std::min(1.0, trials_ / max_trials),
+                        std::min(1.0, (trials_ + 1) / max_trials));
     options.progress = &part;
     ++trials_;
     return {bending, measure_drape(material_, options)};

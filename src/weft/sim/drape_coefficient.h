@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrator.h"
 #include "weft/core/progress.h"
 
 namespace weft {

@@ -18,7 +18,7 @@ int count_particles(const SimulatedCloth& cloth, const std::vector<char>& marked
   int count = 0;
   const int n = cloth.cloth.size;
   for (int s = 0; s < n * n; ++s)
-    count += marked[static_cast<std::size_t>(s)] != 0 && cloth.cloth.counted(s / n, s % n) > 0;
+    count += marked[static_cast<std::size_t>(s)] != 0 && cloth.cloth.owner(s / n, s % n) > 0;
   return count;
 }
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/material.h"
 #include "weft/cloth/wind.h"
 #include "weft/collide/collider.h"

@@ -8,9 +8,9 @@
 #include "weft/core/assert.h"
 #include "weft/core/error.h"
 #include "weft/core/hash.h"
-#include "weft/sim/detail/simulation_parts.h"
-#include "weft/sim/detail/stage_clock.h"
-#include "weft/sim/scene_file.h"
+#include "weft/sim/scene_file/scene_file.h"
+#include "weft/sim/stepping/simulation_parts.h"
+#include "weft/sim/stepping/stage_clock.h"
 
 namespace weft {
 namespace {
@@ -19,20 +19,20 @@ namespace {
 double mass_of(const Cloth& cloth) {
   double mass = 0;
   for (int r = 0; r < cloth.size; ++r)
-    for (int c = 0; c < cloth.size; ++c) mass += cloth.counted(r, c) * cloth.mass(r, c);
+    for (int c = 0; c < cloth.size; ++c) mass += cloth.owner(r, c) * cloth.mass(r, c);
   return mass;
 }
 
 /// A run stops whose energy rises above where it began and the work done on it by more than both.
-constexpr double most_unexplained = 1;  // [J]
-constexpr double most_unexplained_part = 0.05;
+constexpr double max_unexplained = 1;  // [J]
+constexpr double max_unexplained_part = 0.05;
 /// Work is known less well where it is done in a few steps: of a pin that jumps, solves leave a
 /// good part of the forces unbalanced.
-constexpr double most_unexplained_work = 0.5;
+constexpr double max_unexplained_work = 0.5;
 /// So many frames in a row.
 constexpr int frames_that_tell = 2;
 /// And one whose springs of highest strain, one in a hundred, exceed it beyond a material's limit.
-constexpr double most_strain = 1;
+constexpr double max_strain = 1;
 
 }  // namespace
 
@@ -74,10 +74,10 @@ void Simulation::Parts::check_energy(const FrameReport& report, double own) {
   // What it may have come by, were it all to the good.
   const double fallen = std::max(0.0, start_energy.total() - (now - own));
   const double come_by = start_energy.own() + fallen + work.pulled;
-  const double most = most_unexplained_part * come_by + most_unexplained_work * work.gross;
+  const double most = max_unexplained_part * come_by + max_unexplained_work * work.gross;
   // What a hand pulls on may be held back by bodies; and what the filter stretches in one frame the
   // next one lets go: only what goes on runs away.
-  const bool beyond = !grab.holds() && gained > std::max(most_unexplained, most);
+  const bool beyond = !grab.holds() && gained > std::max(max_unexplained, most);
   frames_beyond = beyond ? frames_beyond + 1 : 0;
   if (frames_beyond < frames_that_tell) return;
   const auto wildest = std::max_element(
@@ -91,7 +91,7 @@ void Simulation::Parts::check_energy(const FrameReport& report, double own) {
 }
 
 void Simulation::Parts::check_strain(std::size_t index, const StrainSummary& strain) const {
-  const double most = most_strain + std::max(0.0, cloths[index].cloth.material.strain_limit);
+  const double most = max_strain + std::max(0.0, cloths[index].cloth.material.strain_limit);
   if (soft || strain.p99 <= most) return;
   stop_torn(index, fmt::format("one spring of a hundred is strained by {:.0f} % or more",
                                100 * strain.p99));
@@ -131,7 +131,7 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
   parts_->tie_cloths();
   parts_->make_movers();
   parts_->find_insides();
-  parts_->make_guard();
+  parts_->make_collider_of_scene();
   parts_->note_too_fast();
 }
 
@@ -182,11 +182,11 @@ void Simulation::restore(const SimulationState& state) {
   parts_->known_energy = false;
   for (std::size_t i = 0; i < state.cloths.size(); ++i) parts_->cloths[i].state = state.cloths[i];
   if (parts_->driven.any_moves()) {
-    parts_->driven.go(parts_->substep_time * (parts_->frame * parts_->scene.substeps),
-                      parts_->team);
+    parts_->driven.move_to(parts_->substep_time * (parts_->frame * parts_->scene.substeps),
+                           parts_->team);
     parts_->bodies_arrive();
-    // A new guard, for which this is no motion.
-    parts_->make_guard();
+    // A new collider, for which this is no motion.
+    parts_->make_collider_of_scene();
   }
   for (std::size_t i = 0; i < state.marks.size(); ++i)
     parts_->collider->restore_marks(i, state.marks[i]);

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "weft/cloth/measure.h"
+#include "weft/convert/load_surface.h"
 #include "weft/core/contact.h"
 #include "weft/core/progress.h"
 #include "weft/core/thread_team.h"
-#include "weft/image/convert.h"
 #include "weft/sim/scene.h"
-#include "weft/sim/step_levels.h"
-#include "weft/sim/surface_shelf.h"
+#include "weft/sim/stepping/step_levels.h"
+#include "weft/sim/surface_cache.h"
 
 namespace weft {
 
@@ -92,19 +92,19 @@ struct SimulationState {
 /// Who helps a scene to life.
 struct SimulationHelp {
   Progress* progress = nullptr;      ///< told of loading and stepping
-  SurfaceShelf* surfaces = nullptr;  ///< keeps what was loaded for the next simulation
+  SurfaceCache* surfaces = nullptr;  ///< keeps what was loaded for the next simulation
 
   SimulationHelp(Progress* told = nullptr,  // NOLINT(google-explicit-constructor): most say no more
-                 SurfaceShelf* shelf = nullptr)
-      : progress(told), surfaces(shelf) {}
+                 SurfaceCache* surface_cache = nullptr)
+      : progress(told), surfaces(surface_cache) {}
 };
 
 /// A step that stands: every sample goes straight. [m]
 struct StepMotion {
-  struct Way {
+  struct Path {
     const Planes3 *start, *end;
   };
-  std::span<const Way> cloths, bodies;  ///< in the scene's order
+  std::span<const Path> cloths, bodies;  ///< in the scene's order
 };
 
 /// Is shown every step of a run.

@@ -97,9 +97,9 @@ Patch patch_of(const DiskMesh& disk, const SquareMap& map, const Triangle& t) {
 
 }  // namespace
 
-Picture colours_of(const GeometryImage& image, int least_side) {
+Picture colours_of(const GeometryImage& image, int min_side) {
   const int n = image.size();
-  const int scale = std::max(1, (least_side + n - 1) / n);
+  const int scale = std::max(1, (min_side + n - 1) / n);
   Picture picture{n * scale, n * scale, {}};
   picture.rgb.reserve(std::size_t{3} * picture.width * picture.height);
   for (int y = 0; y < picture.height; ++y)

@@ -9,8 +9,8 @@ namespace weft {
 
 /// The geometry image itself: x, y, z of the unit cube as red, green, blue, row 0 at the top. Small
 /// images are enlarged a whole number of times, without smoothing.
-/// @param least_side  sides below it are enlarged to reach it [pixels]
-Picture colours_of(const GeometryImage& image, int least_side = 256);
+/// @param min_side  sides below it are enlarged to reach it [pixels]
+Picture colours_of(const GeometryImage& image, int min_side = 256);
 
 struct MapDrawing {
   int side = 1024;  ///< of the square [pixels]

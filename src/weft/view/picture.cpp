@@ -12,7 +12,7 @@ namespace weft {
 namespace {
 
 /// More than any screen or poster; keeps a broken header from asking for all memory.
-constexpr std::size_t most_pixels = std::size_t{1} << 28U;
+constexpr std::size_t max_pixels = std::size_t{1} << 28U;
 
 /// libpng's state of one picture; its simplified interface reports by value, without long jumps.
 struct PngImage {
@@ -48,7 +48,7 @@ Picture read_png(const std::filesystem::path& path) {
   PngImage image;
   if (png_image_begin_read_from_memory(&image.state, bytes.data(), bytes.size()) == 0)
     throw InputError(path.string(), image.state.message, "a PNG picture is wanted");
-  if (std::size_t{image.state.width} * image.state.height > most_pixels)
+  if (std::size_t{image.state.width} * image.state.height > max_pixels)
     throw InputError(path.string(), "more than 2^28 pixels", "a smaller picture is wanted");
   image.state.format = PNG_FORMAT_RGB;
   Picture picture{static_cast<int>(image.state.width), static_cast<int>(image.state.height), {}};

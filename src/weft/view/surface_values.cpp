@@ -7,7 +7,7 @@
 
 #include "weft/image/rebuild.h"
 #include "weft/mesh/distance.h"
-#include "weft/param/stretch.h"
+#include "weft/mesh/stretch.h"
 #include "weft/view/camera.h"
 #include "weft/view/palette.h"
 

@@ -42,7 +42,7 @@ struct PatchWeights {
 
 /// A row whose moments are wanted.
 struct MomentRow {
-  const float *mass, *counted;
+  const float *mass, *owner;
   ConstRow3 position, acceleration;
   float about[3];
 };

@@ -50,7 +50,7 @@ struct BlockSweepRow {
   float factor;
   BlockRow inverse;
   const float* count;  ///< as of SweepRow
-  ConstRow3 right, value;
+  ConstRow3 rhs, value;
 };
 
 /// The columns first .. last - 1 of a row that have a neighbour `shift` columns to the right in
@@ -79,8 +79,8 @@ struct DifferenceRow {
 };
 
 /// z += way d; then d = w + beta d; then x = y + z + d.
-struct TurningRow {
-  float way, beta;
+struct DirectionRow {
+  float step_length, beta;
   ConstRow3 fall, correction;  ///< y, w [m]
   Row3 move, direction;        ///< z, d [m]
   Row3 position;               ///< x [m]
@@ -88,7 +88,7 @@ struct TurningRow {
 
 /// Where y + z + way d leads in a step: x, and its velocity v + gained + (z + way d) per_step.
 struct PlacedRow {
-  float way, per_step;
+  float step_length, per_step;
   float gained[3];  ///< by gravity [m/s]
   ConstRow3 fall, move, direction, start_velocity;
   Row3 position, velocity;
@@ -99,7 +99,7 @@ struct SweepRow {
   float factor;
   const float* inverse;        ///< of the diagonal; 0 where nothing moves
   const float *share, *count;  ///< of mates: one over their number, their number; null: 1
-  ConstRow3 right, value;
+  ConstRow3 rhs, value;
 };
 
 /// Springs that share no particle: from column c of `here` to column c + shift of `there` for c =
@@ -143,27 +143,27 @@ struct KernelTable {
   /// force -= weight (z + d). @return its dot product with d [N m]
   double (*inertia)(int n, const float* weight, ConstRow3 move, ConstRow3 direction, Row3 force);
   /// @return the largest |d|^2 [m^2]
-  float (*turn)(int n, const TurningRow& row);
+  float (*update_direction)(int n, const DirectionRow& row);
   void (*place)(int n, const PlacedRow& row);
   /// residual += way (far - residual).
-  void (*step_residual)(int n, float way, ConstRow3 far, Row3 residual);
+  void (*step_residual)(int n, float step_length, ConstRow3 far, Row3 residual);
 
   /// The sum of share a . b; share null: 1.
   double (*dot)(int n, const float* share, ConstRow3 a, ConstRow3 b);
 
-  /// out = factor inverse right: a sweep from zero.
-  void (*first_sweep)(int n, float factor, const float* inverse, ConstRow3 right, Row3 out);
+  /// out = factor inverse rhs: a sweep from zero.
+  void (*first_sweep)(int n, float factor, const float* inverse, ConstRow3 rhs, Row3 out);
   /// out = -A x, own part.
   void (*apply)(int n, const OperatorRow& row, const StencilRows& x, Row3 out);
-  /// out = out + share right where something moves, else 0. @param share  null: 1
-  void (*add_right)(int n, const float* share, const float* inverse, ConstRow3 right, Row3 out);
-  /// out = value + factor inverse (right + count out). @return share right . out
+  /// out = out + share rhs where something moves, else 0. @param share  null: 1
+  void (*add_rhs)(int n, const float* share, const float* inverse, ConstRow3 rhs, Row3 out);
+  /// out = value + factor inverse (rhs + count out). @return share rhs . out
   double (*sweep)(int n, const SweepRow& row, Row3 out);
   /// out -= B x.
   void (*subtract_blocks)(int n, const BlockRow& blocks, ConstRow3 x, Row3 out);
   /// out = factor B x.
   void (*apply_blocks)(int n, float factor, const BlockRow& blocks, ConstRow3 x, Row3 out);
-  /// out = value + factor inverse (right + count out).
+  /// out = value + factor inverse (rhs + count out).
   void (*block_sweep)(int n, const BlockSweepRow& row, Row3 out);
   /// The transpose of interpolation: a coarse row of three fine ones of n samples.
   void (*restrict_rows)(int n, const StencilRows& fine, Row3 lines, Row3 out);

@@ -261,11 +261,12 @@ double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& su
     if (border.starts.empty()) return energy;
     for (int i = border.starts[r]; i < border.starts[r + 1]; ++i) {
       const BorderBending::Edge& edge = border.edges[i];
-      const Vec3f way{position.x(edge.other_row, edge.other_col) - position.x(r, edge.col),
-                      position.y(edge.other_row, edge.other_col) - position.y(r, edge.col),
-                      position.z(edge.other_row, edge.other_col) - position.z(r, edge.col)};
+      const Vec3f displacement{
+          position.x(edge.other_row, edge.other_col) - position.x(r, edge.col),
+          position.y(edge.other_row, edge.other_col) - position.y(r, edge.col),
+          position.z(edge.other_row, edge.other_col) - position.z(r, edge.col)};
       // Each edge is there from both of its ends.
-      energy += 0.25 * edge.stiffness * squared_length(vec_cast<double>(way));
+      energy += 0.25 * edge.stiffness * squared_length(vec_cast<double>(displacement));
     }
     return energy;
   });

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "weft/cloth/integrate/contact_gather.h"
 #include "weft/cloth/newton/block_level.h"
 #include "weft/cloth/newton/coarsest_solver.h"
+#include "weft/cloth/newton/contact_gather.h"
 #include "weft/cloth/newton/curved_bending.h"
 #include "weft/cloth/newton/galerkin.h"
 #include "weft/cloth/newton/spring_hessian.h"

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<std::array<int, 3>, 3> entry_of{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
 /// Pivots below this part of their entry belong to nothing that moves.
-constexpr double least_pivot = 1e-10;
+constexpr double min_pivot = 1e-10;
 
 }  // namespace
 
@@ -73,7 +73,7 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
     double pivot = before;
     for (int k = 0; k < j; ++k) pivot -= at(j, k) * at(j, k) * at(k, k);
     // D is kept on the diagonal until all is done.
-    const bool moves = pivot > least_pivot * before && pivot > 0;
+    const bool moves = pivot > min_pivot * before && pivot > 0;
     for (int i = j + 1; i < unknowns_; ++i) {
       double sum = at(i, j);
       for (int k = 0; k < j; ++k) sum -= at(i, k) * at(j, k) * at(k, k);

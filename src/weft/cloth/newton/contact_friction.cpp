@@ -41,23 +41,24 @@ void ContactSystem::recall(int index) {
 /// Where positions have led the point since the step's start. Of positions, not of velocities: what
 /// rounding does to them each step would add up to creep.
 Vec3d ContactSystem::way_to(int index, Fields position) const {
-  Vec3d way;
+  Vec3d distance;
   for (std::size_t k = 0; k < 4; ++k) {
     const double w = contacts_[index].weights[k];
     if (w == 0) continue;
     const Place& at = places_[index][k];
     const PaddedVectors& x = *position[at.cloth];
     const Vec3f now{x.x(at.row, at.col), x.y(at.row, at.col), x.z(at.row, at.col)};
-    way += w * (vec_cast<double>(now) - vec_cast<double>(starts_[at.cloth]->at(at.row, at.col)));
+    distance +=
+        w * (vec_cast<double>(now) - vec_cast<double>(starts_[at.cloth]->at(at.row, at.col)));
   }
-  return way;
+  return distance;
 }
 
 void ContactSystem::locate(int index, Fields position) {
   const Contact& contact = contacts_[index];
-  const Vec3d normal = vec_cast<double>(contact.normal), way = way_to(index, position);
-  depth_[index] = attainable_offset(index) - dot(normal, start_of(index)) - dot(normal, way);
-  Vec3d relative = way - vec_cast<double>(contact.slide);
+  const Vec3d normal = vec_cast<double>(contact.normal), distance = way_to(index, position);
+  depth_[index] = attainable_offset(index) - dot(normal, start_of(index)) - dot(normal, distance);
+  Vec3d relative = distance - vec_cast<double>(contact.surface_displacement);
   // Friction that was there has stretched what sticks.
   if (past_[index] != nullptr && work_stiffness_[index] > 0)
     relative -= 1 / (sticking_stiffness * double{work_stiffness_[index]}) *
@@ -71,8 +72,8 @@ double ContactSystem::grip_for(int index, const Sliding& sliding) const {
   const double stiffness = sticking_stiffness * work_stiffness_[index];
   const double most = contacts_[index].friction * sliding.force;
   const double held = sliding.is_new ? most * lone_compliance(index) : 0;
-  if (stiffness * (sliding.way - held) <= most) return stiffness;
-  return most / (sliding.way - held);
+  if (stiffness * (sliding.distance - held) <= most) return stiffness;
+  return most / (sliding.distance - held);
 }
 
 /// What limits friction. @param pressed  by what it was held as the point came to that depth
@@ -88,10 +89,10 @@ double ContactSystem::limiting_force(int index, double depth, double pressed) co
 
 /// How much farther than it flies on a slipping point will go, if it gains speed as it did: its
 /// drag shall be right at the end of the step.
-double ContactSystem::foreseen_way(int index, double way) const {
+double ContactSystem::foreseen_distance(int index, double distance) const {
   if (past_[index] == nullptr) return 0;
   const double gained = past_[index]->acceleration * input_.time_step * input_.time_step;
-  return std::clamp(gained, -0.5 * way, way);
+  return std::clamp(gained, -0.5 * distance, distance);
 }
 
 bool ContactSystem::choose(int index, Fields step) {
@@ -103,13 +104,14 @@ bool ContactSystem::choose(int index, Fields step) {
   k = depth > 0 ? work_stiffness_[index] : 0.0F;
   const double force = limiting_force(index, depth, k_before);
   const bool is_new = past_[index] == nullptr && !(k_before > 0);
-  double way = length(slid_after(index, moved));
+  double distance = length(slid_after(index, moved));
   if (first_) {
-    first_way_[index] = way;
-    way += foreseen_way(index, way);
+    first_way_[index] = distance;
+    distance += foreseen_distance(index, distance);
   }
-  grip = k > 0 && contact.friction > 0 ? static_cast<float>(grip_for(index, {way, force, is_new}))
-                                       : 0.0F;
+  grip = k > 0 && contact.friction > 0
+             ? static_cast<float>(grip_for(index, {distance, force, is_new}))
+             : 0.0F;
   return (k > 0) != (k_before > 0) ||
          std::abs(grip - grip_before) > same_grip * std::max(grip, grip_before);
 }

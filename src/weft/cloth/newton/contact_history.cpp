@@ -8,7 +8,7 @@ namespace weft {
 namespace {
 
 /// Between normals of contacts that are taken for the same: an angle of 45 degrees.
-constexpr float least_cosine = 0.7F;
+constexpr float min_cosine = 0.7F;
 
 std::array<int, 4> samples_of(const Contact& contact) {
   std::array<int, 4> samples{};
@@ -63,7 +63,7 @@ const PastContact* ContactHistory::find(const Contact& contact, int second) cons
   auto entry = std::lower_bound(entries_.begin(), entries_.end(), key,
                                 [](const Entry& e, std::uint64_t k) { return e.key < k; });
   const PastContact* best = nullptr;
-  float closest = least_cosine;
+  float closest = min_cosine;
   for (; entry != entries_.end() && entry->key == key; ++entry) {
     const PastContact& past = past_[entry->index];
     const float cosine = dot(past.normal, contact.normal);

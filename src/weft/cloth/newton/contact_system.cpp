@@ -11,7 +11,7 @@ constexpr double relative_stiffness = 0.125;
 /// Of what its softest sample and its largest weight would yield together, that a point does at
 /// least: one that lies nearly on what is pinned would press on the rest of its triangle without
 /// end.
-constexpr double least_yield = 0.05;
+constexpr double min_yield = 0.05;
 /// What is inside something when a step begins, having been put or pressed there, leaves at this
 /// speed at most, lest it be shot out. [m/s]
 constexpr double fastest_way_out = 0.5;
@@ -56,8 +56,8 @@ void ContactSystem::add(const Contact& contact, const std::array<int, 4>& cloths
   places_.push_back(places);
 }
 
-void ContactSystem::take(std::span<const Own> own, std::span<const SharedContact> shared,
-                         const StepInput& input) {
+void ContactSystem::set_contacts(std::span<const Own> own, std::span<const SharedContact> shared,
+                                 const StepInput& input) {
   clear();
   input_ = input;
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -128,7 +128,7 @@ double ContactSystem::compliance(int index, std::span<const Grid<float>* const> 
     softest = std::max(softest, yields);
     largest = std::max(largest, w * w);
   }
-  return std::max(total, least_yield * softest * largest);
+  return std::max(total, min_yield * softest * largest);
 }
 
 /// The offset that the step may bring about.
@@ -138,7 +138,7 @@ double ContactSystem::attainable_offset(int index) const {
   const double farthest = fastest_way_out * input_.time_step;
   const double before = double{contact.offset} -
                         dot(vec_cast<double>(contact.normal), start_of(index)) -
-                        double{dot(contact.normal, contact.slide)};
+                        double{dot(contact.normal, contact.surface_displacement)};
   return contact.offset - (before > farthest ? before - farthest : 0) + lift_[index];
 }
 
@@ -243,8 +243,10 @@ double ContactSystem::sum_of_energies(Worker& worker) {
 double ContactSystem::work(Fields step, Worker& worker) {
   const Range mine = share(worker);
   for (int i = mine.first; i < mine.last; ++i) {
-    const Vec3f slide = contacts_[i].slide;
-    energy_[i] = slide == Vec3f{} ? 0 : dot(force_after(i, step), vec_cast<double>(slide));
+    const Vec3f surface_displacement = contacts_[i].surface_displacement;
+    energy_[i] = surface_displacement == Vec3f{}
+                     ? 0
+                     : dot(force_after(i, step), vec_cast<double>(surface_displacement));
   }
   return sum_of_energies(worker);
 }

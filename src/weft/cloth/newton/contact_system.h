@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "weft/cloth/integrate/contact_gather.h"
-#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrator.h"
+#include "weft/cloth/newton/contact_gather.h"
 #include "weft/cloth/newton/contact_history.h"
 #include "weft/cloth/newton/padded_planes.h"
 
@@ -30,8 +30,8 @@ class ContactSystem {
     const ContactHistory* history = nullptr;  ///< the same; of shared ones whose first it is, too
   };
   /// Takes the place of the contacts before.
-  void take(std::span<const Own> own, std::span<const SharedContact> shared,
-            const StepInput& input);
+  void set_contacts(std::span<const Own> own, std::span<const SharedContact> shared,
+                    const StepInput& input);
   [[nodiscard]] bool empty() const { return contacts_.empty(); }
 
   /// A vector at each sample of every cloth.
@@ -94,12 +94,12 @@ class ContactSystem {
   [[nodiscard]] int second_of(std::size_t index) const;
   /// How a contact's point moved along its obstacle.
   struct Sliding {
-    double way;    ///< that stretches what holds it [m]
-    double force;  ///< along the normal [N]
-    bool is_new;   ///< whether nothing held it as it moved so
+    double distance;  ///< that stretches what holds it [m]
+    double force;     ///< along the normal [N]
+    bool is_new;      ///< whether nothing held it as it moved so
   };
   [[nodiscard]] double grip_for(int index, const Sliding& sliding) const;
-  [[nodiscard]] double foreseen_way(int index, double way) const;
+  [[nodiscard]] double foreseen_distance(int index, double distance) const;
   [[nodiscard]] double limiting_force(int index, double depth, double pressed) const;
   bool choose(int index, Fields step);
   void count(Worker& worker);

@@ -19,9 +19,9 @@ Vec3d NewtonPart::force(Worker& worker) {
   return {sum[0], sum[1], sum[2]};
 }
 
-void NewtonPart::drift(Vec3d way, Worker& worker) {
+void NewtonPart::drift(Vec3d displacement, Worker& worker) {
   const auto h = static_cast<float>(input_.time_step);
-  const Vec3f moved = vec_cast<float>(way);
+  const Vec3f moved = vec_cast<float>(displacement);
   const float parts[3] = {moved.x, moved.y, moved.z}, per_square = 1 / (h * h);
   PaddedPlane* const step[3] = {&step_.x, &step_.y, &step_.z};
   PaddedPlane* const left[3] = {&residual_.x, &residual_.y, &residual_.z};
@@ -58,7 +58,7 @@ double NewtonPart::precondition(bool has_product, Worker& worker) {
   });
 }
 
-double NewtonPart::turn(double overlap, Worker& worker) {
+double NewtonPart::update_direction(double overlap, Worker& worker) {
   const int n = whole_vectors(cloth_.size);
   return sums_.sum(worker, [&](int r) {
     kernels_.scale_add(n, std::as_const(multigrid_).value().row(r), static_cast<float>(-overlap),

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/newton/block_multigrid.h"
 #include "weft/cloth/newton/contact_history.h"
 #include "weft/cloth/newton/curved_bending.h"
@@ -74,7 +74,7 @@ class NewtonPart {
   /// What is left of all forces on it: inner ones sum to nothing [N].
   Vec3d force(Worker& worker);
   /// Moves it as a whole, and takes what that balances off the residual. [m]
-  void drift(Vec3d way, Worker& worker);
+  void drift(Vec3d displacement, Worker& worker);
   void clear_pins(Worker& worker) { multigrid_.clear_pins(step_, worker); }
   /// state += length * step.
   void move_state(float length, Worker& worker);
@@ -89,7 +89,7 @@ class NewtonPart {
   double precondition(bool has_product, Worker& worker);
   /// The direction becomes the preconditioned residual less a part of itself.
   /// @return residual . direction [N m]
-  double turn(double overlap, Worker& worker);
+  double update_direction(double overlap, Worker& worker);
   /// The direction's product. @return direction . product [N m]
   double multiply(const Contacts& contacts, Worker& worker);
   /// Goes along the direction. @return how far at most [m]

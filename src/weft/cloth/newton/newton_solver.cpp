@@ -14,11 +14,11 @@ constexpr double harmless_gain = 0.02;
 /// And the part of what contacts lend that asks for one.
 constexpr double harmless_part = 0.25;
 /// How often a run linearises, and how often it halves a step that leads up.
-constexpr int most_linearisations = 4, most_halvings = 5;
+constexpr int max_linearisations = 4, max_halvings = 5;
 /// Of the tension at the guess that is stiffness across springs.
 constexpr float share_in_flight = 0.1F, share_in_contact = 1;
 /// How often a run finds out which contacts press.
-constexpr int most_contact_rounds = 2;
+constexpr int max_contact_rounds = 2;
 
 std::vector<const Cloth*> cloths_of(std::span<NewtonPart* const> parts) {
   std::vector<const Cloth*> cloths;
@@ -34,7 +34,7 @@ NewtonSolver::NewtonSolver(std::span<NewtonPart* const> parts)
       sums_(static_cast<int>(parts.size())),
       forces_(parts.size()),
       apart_(parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [](NewtonPart* part) {
-               return part->cloth().size < least_shared_size;
+               return part->cloth().size < min_shared_size;
              })) {
   for (const NewtonPart* part : parts_) {
     positions_.push_back(&part->position());
@@ -144,8 +144,9 @@ void NewtonSolver::iterate(Progress& progress, Worker& worker) {
     return parts_[i]->precondition(has_product, own);
   });
   if (has_product) overlap /= progress.curvature;
-  progress.slope =
-      total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->turn(overlap, own); });
+  progress.slope = total(worker, [&](std::size_t i, Worker& own) {
+    return parts_[i]->update_direction(overlap, own);
+  });
   // A cycle is no symmetric operator: where it points up, the way down is backwards.
   if (!std::isfinite(progress.slope)) progress.slope = 0;
   descend_direction(progress, worker);
@@ -183,7 +184,7 @@ bool NewtonSolver::shorten_step(Worker& worker) {
   const double before = energy(0, worker);
   float length = 1;
   move_state(length, worker);
-  for (int i = 0; after > before && i < most_halvings; ++i) {
+  for (int i = 0; after > before && i < max_halvings; ++i) {
     length *= 0.5F;
     move_state(-length, worker);
     after = energy(length, worker);
@@ -198,10 +199,10 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
   progress.promised = 0;
   if (pulled_) progress.before = energy(0, worker);
   drift(worker);
-  for (int round = 0; round < most_contact_rounds; ++round) {
+  for (int round = 0; round < max_contact_rounds; ++round) {
     each(worker, [&](std::size_t i, Worker& own) { parts_[i]->set_up(contacts_of(i), own); });
     solve(options, progress, worker);
-    if (contacts_.empty() || round + 1 == most_contact_rounds) break;
+    if (contacts_.empty() || round + 1 == max_contact_rounds) break;
     if (!choose_contacts(worker)) break;
   }
   // What iterations left of it, so that few of them lose no momentum.
@@ -236,7 +237,7 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
   const double allowed =
       harmless_gain * (kinetic + 0.5 * mass_ * fall * fall) + harmless_part * lent;
   double error = HUGE_VAL;
-  for (int i = 0; i < most_linearisations && error > allowed; ++i) {
+  for (int i = 0; i < max_linearisations && error > allowed; ++i) {
     advance(options, progress, worker);
     error = error_of(progress, known, worker);
     if (error > allowed && shorten_step(worker)) error = error_of(progress, known, worker);
@@ -269,7 +270,7 @@ void NewtonSolver::run(std::span<const std::span<const Contact>> own,
     first = first && parts_[i]->iterations == 0;
     pulled_ = pulled_ || parts_[i]->is_pulled();
   }
-  contacts_.take(own_, shared, parts_.front()->input());
+  contacts_.set_contacts(own_, shared, parts_.front()->input());
   team.run([&](Worker& worker) {
     each(worker, [&](std::size_t i, Worker& one) { parts_[i]->read_state(one); });
     Progress progress;

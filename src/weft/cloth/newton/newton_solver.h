@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/cloth/integrate/integrator.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/newton/contact_system.h"
 #include "weft/cloth/newton/newton_part.h"
 #include "weft/core/ordered_sum.h"

@@ -36,8 +36,9 @@ void BlockMotion::for_points(const Block& block, const Visit& visit) const {
       visit(grid_->point(r * grid_->size() + c));
 }
 
-double BlockMotion::approach_of_point(int point, Vec3d way) const {
-  return slides_ != nullptr ? slides_->approach(point, way) : length(way_of(point) - way);
+double BlockMotion::approach_of_point(int point, Vec3d displacement) const {
+  return slides_ != nullptr ? slides_->approach(point, displacement)
+                            : length(way_of(point) - displacement);
 }
 
 void BlockMotion::measure(Block& block) const {
@@ -48,14 +49,14 @@ void BlockMotion::measure(Block& block) const {
       block.swept.lower = min(block.swept.lower, at->at(point));
       block.swept.upper = max(block.swept.upper, at->at(point));
     }
-    block.way += way_of(point);
+    block.displacement += way_of(point);
     if (slides_ != nullptr) block.normal += slides_->normal(point);
     ++block.samples;
   });
-  block.way = (1 / block.samples) * block.way;
+  block.displacement = (1 / block.samples) * block.displacement;
   block.normal = (1 / block.samples) * block.normal;
   for_points(block, [&](int point) {
-    block.apart = std::max(block.apart, approach_of_point(point, block.way));
+    block.apart = std::max(block.apart, approach_of_point(point, block.displacement));
     if (slides_ == nullptr) return;
     block.normal_apart =
         std::max(block.normal_apart, length(slides_->normal(point) - block.normal));
@@ -63,17 +64,18 @@ void BlockMotion::measure(Block& block) const {
   });
 }
 
-double BlockMotion::bound_of(const Block& block, Vec3d way) const {
-  const Vec3d other = block.way - way;
+double BlockMotion::bound_of(const Block& block, Vec3d displacement) const {
+  const Vec3d other = block.displacement - displacement;
   if (slides_ == nullptr) return block.apart + length(other);
   const double along =
       std::abs(dot(block.normal, other)) + (block.normal_apart + block.slant) * length(other);
   return block.apart + along;
 }
 
-double BlockMotion::approach_of(const Block& block, Vec3d way) const {
+double BlockMotion::approach_of(const Block& block, Vec3d displacement) const {
   double most = 0;
-  for_points(block, [&](int point) { most = std::max(most, approach_of_point(point, way)); });
+  for_points(block,
+             [&](int point) { most = std::max(most, approach_of_point(point, displacement)); });
   return most;
 }
 
@@ -82,17 +84,17 @@ BlockMotion::Near BlockMotion::near(const Box3f& box, float reach, double enough
   double samples = 0;
   for (const Block& block : blocks_) {
     if (!overlap(block.swept, box, reach)) continue;
-    found.way += block.samples * block.way;
+    found.displacement += block.samples * block.displacement;
     samples += block.samples;
   }
   if (samples == 0) return found;
-  found.way = (1 / samples) * found.way;
+  found.displacement = (1 / samples) * found.displacement;
   for (const Block& block : blocks_) {
     if (!overlap(block.swept, box, reach)) continue;
-    const double bound = bound_of(block, found.way);
+    const double bound = bound_of(block, found.displacement);
     const double wanted = std::max(found.approach, enough);
     found.approach =
-        std::max(found.approach, bound <= wanted ? bound : approach_of(block, found.way));
+        std::max(found.approach, bound <= wanted ? bound : approach_of(block, found.displacement));
   }
   return found;
 }

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/contacts/surface_motion.h"
-#include "weft/collide/pairs/node_levels.h"
-#include "weft/collide/surface.h"
+#include "weft/collide/moving_surface.h"
 
 namespace weft {
 
@@ -18,7 +18,7 @@ class BlockMotion {
   /// How what is near a place moves: a way that it has in common, and how much closer any of it
   /// comes, at most, to what goes along with that. [m]
   struct Near {
-    Vec3d way;
+    Vec3d displacement;
     double approach = 0;
   };
 
@@ -33,7 +33,7 @@ class BlockMotion {
  private:
   struct Block {
     Box3f swept;
-    Vec3d way;  // mean
+    Vec3d displacement;  // mean
     double samples = 0;
     double apart = 0;         // approach of any point to what goes that way, at most [m]
     Vec3d normal;             // mean
@@ -47,10 +47,10 @@ class BlockMotion {
   template <class Visit>
   void for_points(const Block& block, const Visit& visit) const;
   void measure(Block& block) const;
-  [[nodiscard]] double approach_of_point(int point, Vec3d way) const;
+  [[nodiscard]] double approach_of_point(int point, Vec3d displacement) const;
   /// At most, at once; and by every point.
-  [[nodiscard]] double bound_of(const Block& block, Vec3d way) const;
-  [[nodiscard]] double approach_of(const Block& block, Vec3d way) const;
+  [[nodiscard]] double bound_of(const Block& block, Vec3d displacement) const;
+  [[nodiscard]] double approach_of(const Block& block, Vec3d displacement) const;
 
   const SurfaceGrid* grid_ = nullptr;
   const Planes3 *start_ = nullptr, *end_ = nullptr;

@@ -17,7 +17,7 @@ constexpr double known_well = 0.05;
 
 }  // namespace
 
-BodyContacts::BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
+BodyContacts::BodyContacts(const SurfaceGrid& grid, const CollidingCloth& cloth)
     : grid_(grid),
       kept_{cloth.thickness, cloth.friction},
       kept_in_(cloth.kept_in),
@@ -70,7 +70,8 @@ Box3f BodyContacts::box_of_block(const Planes3& at, int block) const {
 /// What never comes so near a block in a step is more than twice as far away as anything is known
 /// when it does, if no sample has gone farther than that in the step; and it cannot have come
 /// within what is known since, as both went by less.
-void BodyContacts::look_near(const MovingCloth& cloth, const ContactBody& body, ThreadTeam& team) {
+void BodyContacts::find_near_blocks(const MovingCloth& cloth, const ContactBody& body,
+                                    ThreadTeam& team) {
   Past& past = past_[body.number - 1];
   if (past.motion == body.motion) return;
   past.motion = body.motion;
@@ -90,27 +91,27 @@ void BodyContacts::arrive(std::size_t body, int motion) {
   if (past.motion != motion)  // nobody looked at it
     return past.samples.assign(past.samples.size(), {});
   for (NearBlock& block : past.blocks) {
-    block.carried += block.now.way;
+    block.carried += block.now.displacement;
     block.travelled += block.now.approach;
   }
 }
 
 /// How the body goes where a sample may come: near its block, unless the sample goes too far.
 BlockMotion::Near BodyContacts::near_of(const ContactBody& body, const NearBlock& block,
-                                        Vec3d way) const {
-  if (length(way) <= farthest_known()) return block.now;
-  return {{}, body.most_approach};
+                                        Vec3d displacement) const {
+  if (length(displacement) <= farthest_known()) return block.now;
+  return {{}, body.max_approach};
 }
 
-std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, const NearBlock& near,
-                                            Vec3d start, double reach, Known& known) const {
+std::optional<BodyPoint> BodyContacts::find_closest(const ContactBody& body, const NearBlock& near,
+                                                    Vec3d start, double reach, Known& known) const {
   const Vec3d place = start - near.carried;
   if (length(start - vec_cast<double>(known.seen)) > farthest_known()) known.distance = 0;
   known.seen = vec_cast<float>(start);
   const double since = length(place - known.place) + (near.travelled - known.travelled);
   if (known.distance - since > reach * (1 + rounding)) return std::nullopt;
   // Farther than need be, so that the next steps need not look again.
-  const double least = contact_foresight * kept_.gap;
+  const double least = contact_margin * kept_.gap;
   const double wider =
       std::max(reach, std::min(reach + ahead * (reach - least) + least, farthest_known()));
   const auto found = body.query->closest(start, wider, known.triangle);
@@ -126,13 +127,14 @@ std::optional<BodyPoint> BodyContacts::look(const ContactBody& body, const NearB
 void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, bool deep,
                              int sample, std::vector<Contact>& out) {
   const Vec3d start = vec_cast<double>(cloth.start.at(sample));
-  const Vec3d way = vec_cast<double>(cloth.position.at(sample)) - start;
+  const Vec3d displacement = vec_cast<double>(cloth.position.at(sample)) - start;
   Past& past = past_[body.number - 1];
   const NearBlock& block = block_of(past, sample);
-  const BlockMotion::Near near = near_of(body, block, way);
+  const BlockMotion::Near near = near_of(body, block, displacement);
   const double reach =
-      deep ? HUGE_VAL : contact_foresight * kept_.gap + length(way - near.way) + near.approach;
-  const auto found = look(body, block, start, reach, past.samples[sample]);
+      deep ? HUGE_VAL
+           : contact_margin * kept_.gap + length(displacement - near.displacement) + near.approach;
+  const auto found = find_closest(body, block, start, reach, past.samples[sample]);
   if (!found) return;
   // What was outside and kept out cannot be inside now, whatever the normals of an image say that
   // folds or crosses itself somewhere.
@@ -141,7 +143,7 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
   ClothPoint at;
   at.samples[0] = sample;
   at.start = start;
-  at.way = way;
+  at.displacement = displacement;
   at.kept_in = keeps_in(body);
   at.astray = astray;
   if (const auto contact = contact_before(body, *found, at, kept_)) out.push_back(*contact);
@@ -149,7 +151,7 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
 
 void BodyContacts::find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
                                std::vector<Contact>& out) const {
-  if (cloth.position.at(sample).y >= ground.height + contact_foresight * kept_.gap) return;
+  if (cloth.position.at(sample).y >= ground.height + contact_margin * kept_.gap) return;
   Contact contact;
   contact.samples[0] = sample;
   contact.normal = {0, 1, 0};
@@ -182,7 +184,7 @@ void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> b
     past.samples.resize(marks_.inside.size());
     past.blocks.resize(static_cast<std::size_t>(blocks_a_side()) * blocks_a_side());
   }
-  for (const ContactBody& body : bodies) look_near(cloth, body, team);
+  for (const ContactBody& body : bodies) find_near_blocks(cloth, body, team);
   const int n = grid_.size();
   team.run([&](Worker& worker) {
     found_.fill(n * n, worker, [&](int s, std::vector<Contact>& out) {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "weft/collide/broad_phase/chunks.h"
 #include "weft/collide/collider.h"
 #include "weft/collide/contacts/contact_body.h"
-#include "weft/collide/pairs/chunks.h"
 #include "weft/core/contact.h"
 
 namespace weft {
@@ -22,7 +22,7 @@ class BodyContacts {
     double height = 0, friction = 0;
   };
   /// @param grid  kept by reference
-  BodyContacts(const SurfaceGrid& grid, const GuardedCloth& cloth);
+  BodyContacts(const SurfaceGrid& grid, const CollidingCloth& cloth);
 
   /// @param ground  none: null
   void find(const MovingCloth& cloth, std::span<const ContactBody> bodies, const Ground* ground,
@@ -71,17 +71,17 @@ class BodyContacts {
     std::vector<NearBlock> blocks;  // of the cloth
     int motion = 0;                 // of the body, that `now` is of
   };
-  void look_near(const MovingCloth& cloth, const ContactBody& body, ThreadTeam& team);
+  void find_near_blocks(const MovingCloth& cloth, const ContactBody& body, ThreadTeam& team);
   [[nodiscard]] Box3f box_of_block(const Planes3& at, int block) const;
   [[nodiscard]] int blocks_a_side() const;
   [[nodiscard]] const NearBlock& block_of(const Past& past, int sample) const;
   [[nodiscard]] BlockMotion::Near near_of(const ContactBody& body, const NearBlock& block,
-                                          Vec3d way) const;
+                                          Vec3d displacement) const;
   /// How far records reach [m].
   [[nodiscard]] double farthest_known() const;
   /// The closest point, if it matters; remembers what there was to be known.
-  std::optional<BodyPoint> look(const ContactBody& body, const NearBlock& near, Vec3d start,
-                                double reach, Known& known) const;
+  std::optional<BodyPoint> find_closest(const ContactBody& body, const NearBlock& near, Vec3d start,
+                                        double reach, Known& known) const;
 
   const SurfaceGrid& grid_;
   KeptGap kept_;

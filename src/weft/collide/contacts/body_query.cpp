@@ -132,14 +132,14 @@ struct BodyQuery::Search {
   /// A hair more than the best, so that of equally close ones every one is looked at.
   void set_limit() {
     const double most = (std::sqrt(best.squared_distance) + absolute_error) * (1 + rounding);
-    limit = static_cast<float>(std::min(most * most * (1 + rounding), double{most_finite}));
+    limit = static_cast<float>(std::min(most * most * (1 + rounding), double{max_finite}));
   }
 
  private:
   /// Several times that of single precision.
   static constexpr double rounding = 1e-6;
   /// What is missing is farther.
-  static constexpr float most_finite = 1e38F;
+  static constexpr float max_finite = 1e38F;
 };
 
 void BodyQuery::try_triangle(int row, int col, int half, Search& search) const noexcept {

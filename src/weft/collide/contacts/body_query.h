@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "weft/collide/pairs/extent_levels.h"
-#include "weft/collide/surface.h"
+#include "weft/collide/broad_phase/extent_levels.h"
+#include "weft/collide/moving_surface.h"
 
 namespace weft {
 

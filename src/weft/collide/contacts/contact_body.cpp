@@ -8,7 +8,7 @@ namespace {
 
 /// Of the gap: how much of what is missing to it a step may win back, so that cloth that starts
 /// inside something is pushed out and not shot out.
-constexpr double most_recovery = 0.25;
+constexpr double max_recovery = 0.25;
 
 /// How much closer a body's surface comes to a place that it slides past: what turns in place comes
 /// no closer, though each of its points dives away. Nothing where it leaves. [m]
@@ -36,7 +36,7 @@ double pair_friction(double a, double b) { return std::sqrt(a * b); }
 
 void put_offset(double surface, double gap_at_start, double gap, Contact& contact) {
   contact.offset = static_cast<float>(surface + std::min(gap, gap_at_start));
-  contact.lift = static_cast<float>(std::clamp(gap - gap_at_start, 0.0, most_recovery * gap));
+  contact.lift = static_cast<float>(std::clamp(gap - gap_at_start, 0.0, max_recovery * gap));
 }
 
 std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& at,
@@ -48,26 +48,28 @@ std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& 
                            ? ((point.astray ? -1 : 1) / distance) * (point.start - at.position)
                            : (point.kept_in ? -1.0 : 1.0) * body.query->normal_at(at);
   const double gap = point.astray ? -distance : distance;
-  Vec3d slide = way_of(body, at);
+  Vec3d surface_displacement = way_of(body, at);
   if (body.at_end != nullptr) {
     const auto approach = approach_of(
         body, at, point.start, normal,
-        std::abs(gap) + body.most_approach + contact_foresight * kept.gap + length(point.way));
-    if (approach) slide += std::max(0.0, *approach - dot(normal, slide)) * normal;
+        std::abs(gap) + body.max_approach + contact_margin * kept.gap + length(point.displacement));
+    if (approach)
+      surface_displacement += std::max(0.0, *approach - dot(normal, surface_displacement)) * normal;
   }
-  if (gap + dot(normal, point.way - slide) >= contact_foresight * kept.gap) return std::nullopt;
+  if (gap + dot(normal, point.displacement - surface_displacement) >= contact_margin * kept.gap)
+    return std::nullopt;
   Contact contact;
   contact.samples = point.samples;
   contact.weights = point.weights;
   contact.normal = vec_cast<float>(normal);
-  put_offset(dot(normal, at.position + slide), gap, kept.gap, contact);
+  put_offset(dot(normal, at.position + surface_displacement), gap, kept.gap, contact);
   contact.friction = static_cast<float>(pair_friction(kept.friction, body.friction));
   if (point.astray) {
     // Nothing is pressed there: it is on its way back, a part of the gap in every step.
     contact.offset += contact.lift;
     contact.lift = contact.friction = 0;
   }
-  contact.slide = vec_cast<float>(slide);
+  contact.surface_displacement = vec_cast<float>(surface_displacement);
   return contact;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "weft/collide/broad_phase/candidate_pairs.h"
 #include "weft/collide/contacts/block_motion.h"
 #include "weft/collide/contacts/body_query.h"
 #include "weft/core/contact.h"
@@ -17,7 +18,7 @@ struct ContactBody {
   const Planes3* end = nullptr;       ///< the start where it stands still
   double friction = 0;                ///< of the body
   const BodyQuery* at_end = nullptr;  ///< placed at the end, where it goes far; else null
-  double most_approach = 0;  ///< how much closer it comes to anything during the step, at most [m]
+  double max_approach = 0;  ///< how much closer it comes to anything during the step, at most [m]
   const BlockMotion* blocks = nullptr;  ///< its parts in the step; null where it stands still
   int motion = 0;                       ///< which no other motion of it is called
 };
@@ -29,9 +30,9 @@ struct ContactBody {
 struct ClothPoint {
   std::array<int, 4> samples{};
   std::array<float, 4> weights{1, 0, 0, 0};
-  Vec3d start, way;      ///< [m]
-  bool kept_in = false;  ///< the body's inside is where it belongs
-  bool astray = false;   ///< at the start on the body's other side
+  Vec3d start, displacement;  ///< [m]
+  bool kept_in = false;       ///< the body's inside is where it belongs
+  bool astray = false;        ///< at the start on the body's other side
 };
 
 /// What a cloth keeps between itself and what it meets.
@@ -39,10 +40,6 @@ struct KeptGap {
   double gap = 0;       ///< [m]
   double friction = 0;  ///< of the cloth
 };
-
-/// The solve may bring cloth closer than its proposal, by springs: contacts begin this many gaps
-/// before the one that is kept.
-inline constexpr double contact_foresight = 1.5;
 
 /// The half-space before the point of a body that was closest to a cloth's at the start of the
 /// step; nothing where the proposal does not lead near it.

@@ -7,13 +7,15 @@ namespace weft {
 namespace {
 
 /// Of positions, and again of velocities.
-constexpr int most_passes = 8;
+constexpr int max_passes = 8;
 /// Moving a point by less is no reason for another pass [m].
 constexpr double settled = 1e-8;
 /// Of a position's length: what rounding may move a particle by that is held where it was.
 constexpr double rounding = 2.5e-7;
 
-Vec3d along_surface(Vec3d way, Vec3d normal) { return way - dot(way, normal) * normal; }
+Vec3d along_surface(Vec3d displacement, Vec3d normal) {
+  return displacement - dot(displacement, normal) * normal;
+}
 
 }  // namespace
 
@@ -21,15 +23,15 @@ int ContactResponse::respond(const MovingCloth& cloth, const PressedContacts& pr
                              double time_step, ThreadTeam& team) noexcept {
   if (pressed.contacts.empty()) return 0;
   collect(cloth, pressed, time_step);
-  busy_.assign(static_cast<std::size_t>(2) * most_passes * team.size(), 0);
+  busy_.assign(static_cast<std::size_t>(2) * max_passes * team.size(), 0);
   team.run([&](Worker& worker) {
     relax({&Particle::position, 0, settled}, worker);
     const Range mine = worker.share(static_cast<int>(points_.size()));
     for (int i = mine.first; i < mine.last; ++i) turn_to_velocities(time_step, points_[i]);
     worker.barrier();
-    relax({&Particle::velocity, most_passes, settled / time_step}, worker);
+    relax({&Particle::velocity, max_passes, settled / time_step}, worker);
     const Range particles = worker.share(static_cast<int>(particles_.size()));
-    for (int p = particles.first; p < particles.last; ++p) settle(cloth, p, time_step);
+    for (int p = particles.first; p < particles.last; ++p) write_back(cloth, p, time_step);
     worker.barrier();
     for (Planes3* planes : {&cloth.position, &cloth.velocity}) copy_to_mates(*planes, worker);
   });
@@ -91,29 +93,29 @@ void ContactResponse::place_point(const Contact& contact, double force_squared_s
     sum += w;
   }
   point.normal = vec_cast<double>(contact.normal);
-  point.slide = vec_cast<double>(contact.slide);
+  point.surface_displacement = vec_cast<double>(contact.surface_displacement);
   point.friction = contact.friction;
   point.target = double{contact.offset} + contact.lift;
   point.lift = contact.lift;
-  point.reference = start + point.slide;
-  point.force_way = force_squared_step * point.compliance;
-  point.hold = point.friction * point.force_way;
+  point.reference = start + point.surface_displacement;
+  point.force_direction = force_squared_step * point.compliance;
+  point.hold = point.friction * point.force_direction;
   // Of an obstacle's contact weights sum to 1, between parts of the cloth to 0.
   point.obstacle = sum > 0.5;
 }
 
-void ContactResponse::relax(const Course& course, Worker& worker) {
+void ContactResponse::relax(const SolverState& course, Worker& worker) {
   const Range points = worker.share(static_cast<int>(points_.size()));
   const Range particles = worker.share(static_cast<int>(particles_.size()));
-  const std::size_t team = busy_.size() / (2 * most_passes);
-  for (int pass = 0; pass < most_passes; ++pass) {
+  const std::size_t team = busy_.size() / (2 * max_passes);
+  for (int pass = 0; pass < max_passes; ++pass) {
     char* busy = &busy_[(course.first_pass + pass) * team];
-    for (int i = points.first; i < points.last; ++i) look(course.field, points_[i]);
+    for (int i = points.first; i < points.last; ++i) evaluate_depth(course.field, points_[i]);
     worker.barrier();
     for (int p = particles.first; p < particles.last; ++p) count(p);
     worker.barrier();
     for (int i = points.first; i < points.last; ++i)
-      if (press(points_[i]) > course.hair) busy[worker.rank()] = 1;
+      if (push_out(points_[i]) > course.hair) busy[worker.rank()] = 1;
     worker.barrier();
     if (std::none_of(busy, busy + team, [](char any) { return any != 0; })) return;
     for (int p = particles.first; p < particles.last; ++p) move(course.field, p);
@@ -121,7 +123,7 @@ void ContactResponse::relax(const Course& course, Worker& worker) {
   }
 }
 
-void ContactResponse::look(Field field, Point& point) const {
+void ContactResponse::evaluate_depth(Field field, Point& point) const {
   point.value = {};
   for (std::size_t i = 0; i < point.weights.size(); ++i)
     if (point.weights[i] != 0)
@@ -141,7 +143,7 @@ void ContactResponse::count(int particle) {
 
 /// Computes the impulse of a point: h^2 times a force for positions, h times one for velocities.
 /// @return the length of what it would move the point by, were it the only one
-double ContactResponse::press(Point& point) const {
+double ContactResponse::push_out(Point& point) const {
   point.impulse = {};
   double push_compliance = 0, hold_compliance = 0;  // of particles whose mass is divided
   for (std::size_t i = 0; i < point.weights.size(); ++i) {
@@ -183,8 +185,8 @@ void ContactResponse::move(Field field, int particle) {
 
 /// What neither pressed nor was pushed leaves velocities alone.
 void ContactResponse::turn_to_velocities(double time_step, Point& point) {
-  const bool touches = point.pushed || point.force_way > 0;
-  point.reference = (1 / time_step) * point.slide;
+  const bool touches = point.pushed || point.force_direction > 0;
+  point.reference = (1 / time_step) * point.surface_displacement;
   point.target = touches ? dot(point.normal, point.reference) : -HUGE_VAL;
   point.hold /= time_step;
   point.held = {};
@@ -193,7 +195,7 @@ void ContactResponse::turn_to_velocities(double time_step, Point& point) {
 }
 
 /// Writes a particle back, to the very place it had when all that moved it off was rounding.
-void ContactResponse::settle(const MovingCloth& cloth, int particle, double time_step) const {
+void ContactResponse::write_back(const MovingCloth& cloth, int particle, double time_step) const {
   const Particle& done = particles_[particle];
   if (!(done.inverse_mass > 0)) return;
   const std::span<const ContactUses::Use> uses = uses_->of(particle);
@@ -221,7 +223,7 @@ int ContactResponse::count_touching() const {
   for (int p = 0; p < static_cast<int>(particles_.size()); ++p)
     for (const ContactUses::Use& use : uses_->of(p)) {
       const Point& point = points_[use.contact];
-      if (!point.obstacle || (!point.pushed && !(point.force_way > 0))) continue;
+      if (!point.obstacle || (!point.pushed && !(point.force_direction > 0))) continue;
       ++touching;
       break;
     }

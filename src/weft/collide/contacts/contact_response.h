@@ -47,13 +47,13 @@ class ContactResponse {
   struct Point {
     std::array<int, 4> particles{};
     std::array<double, 4> weights{};  // those that are 0 come last
-    Vec3d normal, slide;
+    Vec3d normal, surface_displacement;
     double friction = 0, compliance = 0;  // sum of w^2 / m [1/kg]
     double target = 0;                    // least n . value
     double lift = 0;                      // left of the contact's
     Vec3d reference, value;               // what friction would restore, what is
     double depth = 0;                     // target - n . value
-    double force_way = 0;                 // what the force moved it by [m]
+    double force_direction = 0;           // what the force moved it by [m]
     double hold = 0;                      // most that friction may take
     Vec3d held;                           // what it took
     Vec3d impulse;
@@ -69,18 +69,18 @@ class ContactResponse {
   void take_contact(int index, const Contact& contact);
   void place_point(const Contact& contact, double force_squared_step, Point& point) const;
   /// What passes need.
-  struct Course {
+  struct SolverState {
     Field field;
     int first_pass = 0;  // in busy_
     double hair = 0;     // moving no point by more counts as rest
   };
-  void relax(const Course& course, Worker& worker);
-  void look(Field field, Point& point) const;
+  void relax(const SolverState& course, Worker& worker);
+  void evaluate_depth(Field field, Point& point) const;
   void count(int particle);
-  [[nodiscard]] double press(Point& point) const;
+  [[nodiscard]] double push_out(Point& point) const;
   void move(Field field, int particle);
   static void turn_to_velocities(double time_step, Point& point);
-  void settle(const MovingCloth& cloth, int particle, double time_step) const;
+  void write_back(const MovingCloth& cloth, int particle, double time_step) const;
   void copy_to_mates(Planes3& planes, Worker& worker) const;
   [[nodiscard]] int count_touching() const;
 

@@ -49,7 +49,7 @@ void for_near_cells(const Node& node, const Near& near, const Visit& visit) {
 
 }  // namespace
 
-CornerContacts::CornerContacts(const SurfaceGrid& grid, const GuardedCloth& cloth)
+CornerContacts::CornerContacts(const SurfaceGrid& grid, const CollidingCloth& cloth)
     : grid_(grid),
       kept_{cloth.thickness, cloth.friction},
       spacing_(cloth.rest_spacing),
@@ -108,7 +108,7 @@ void CornerContacts::find_touches(const Search& search, std::span<const int> poi
 void CornerContacts::find_touches_of(const Search& search, int point,
                                      std::vector<Touch>& out) const {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
-  const auto reach = static_cast<float>(contact_foresight * kept_.gap) + search.step.aside;
+  const auto reach = static_cast<float>(contact_margin * kept_.gap) + search.step.aside;
   const PathBox at = path_of(search.body.start->at(point), search.body.end->at(point));
   const PathBoxLevels& boxes = *search.step.boxes;
   const auto near = [&](const Node& node) {
@@ -147,9 +147,12 @@ void CornerContacts::try_triangle(const Search& search, Touch touch,
   const Vec3d apart = blend(start, w) - point;
   const double distance = length(apart);
   if (!(distance > 0)) return;
-  const Vec3d way = blend(corners_at(search.step.cloth.position, samples), w) - blend(start, w);
-  const Vec3d slide = vec_cast<double>(search.body.end->at(touch.point)) - point;
-  if (distance + dot(apart, way - slide) / distance >= contact_foresight * kept_.gap) return;
+  const Vec3d displacement =
+      blend(corners_at(search.step.cloth.position, samples), w) - blend(start, w);
+  const Vec3d surface_displacement = vec_cast<double>(search.body.end->at(touch.point)) - point;
+  if (distance + dot(apart, displacement - surface_displacement) / distance >=
+      contact_margin * kept_.gap)
+    return;
   touch.squared_distance = squared_length(apart);
   out.push_back(touch);
 }
@@ -179,7 +182,7 @@ void CornerContacts::make_contact(const Search& search, const Touch& touch,
   point.kept_in = keeps_in(search.body.number - 1);
   if (search.body.query->closed() && search.body.query->behind(point.start, *at) != point.kept_in)
     return;
-  point.way = blend(corners_at(search.step.cloth.position, samples), w) - point.start;
+  point.displacement = blend(corners_at(search.step.cloth.position, samples), w) - point.start;
   point.weights = {};
   for (std::size_t k = 0; k < 3; ++k) {
     point.samples[k] = samples[k];

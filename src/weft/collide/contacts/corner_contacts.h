@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "weft/collide/broad_phase/chunks.h"
+#include "weft/collide/broad_phase/path_boxes.h"
 #include "weft/collide/collider.h"
 #include "weft/collide/contacts/body_contacts.h"
 #include "weft/collide/contacts/contact_body.h"
-#include "weft/collide/pairs/chunks.h"
-#include "weft/collide/pairs/path_boxes.h"
 
 namespace weft {
 
@@ -19,7 +19,7 @@ namespace weft {
 class CornerContacts {
  public:
   /// @param grid  kept by reference
-  CornerContacts(const SurfaceGrid& grid, const GuardedCloth& cloth);
+  CornerContacts(const SurfaceGrid& grid, const CollidingCloth& cloth);
   /// Learns the sharp points of the next body. @param body  placed at `shape`
   void add_body(const SurfaceGrid& grid, const BodyQuery& body, const Planes3& shape);
 

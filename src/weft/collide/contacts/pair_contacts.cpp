@@ -11,10 +11,8 @@ namespace {
 
 /// Layers press on each other like soft springs, of this part of the stiffness that inertia has
 /// against a step: hard ones of many layers, linearised anew each step, could hardly be satisfied
-/// together, and strained the cloth by several percent. What they do not stop the guard does.
+/// together, and strained the cloth by several percent. What they do not stop the filter does.
 constexpr double softness = 100;
-/// As for bodies: contacts begin this many gaps before the one that is kept.
-constexpr double foresight = 1.5;
 /// Of the gap, what edges that cross in layers lying flat on each other keep, which samples and
 /// triangles hold apart as a rule; and the two sides of a crease, which bending does.
 constexpr float flat = 0.8F;
@@ -44,13 +42,13 @@ struct Side {
       sum += weights[k] * weights[k] * cloth->inverse_mass(samples[k] / n, samples[k] % n);
     return sum;
   }
-  [[nodiscard]] Vec3d way() const { return mean(cloth->position) - start(); }
+  [[nodiscard]] Vec3d distance() const { return mean(cloth->position) - start(); }
 };
 
 /// What stands against one side: where, and how it moves.
 struct Plane {
   double offset;
-  Vec3d slide;
+  Vec3d surface_displacement;
 };
 
 /// Looks at one pair of cells after the other and collects contacts.
@@ -58,15 +56,15 @@ class Finder {
  public:
   Finder(const ClothPair& pair, const PairLists& lists) : pair_(pair), lists_(lists) {}
 
-  void look_at(const CellPair& cells) {
-    const SeenCell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
+  void look_at(const CandidatePair& cells) {
+    const CandidateCell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
     const bool crease = pair_.same() && adjacent(a, b);
     if (pair_.same() && (crease ? !pair_.creases : beside(a, b))) return;
     gap_ = crease ? worn * pair_.gap : pair_.gap;
     const MovingSurface surface_a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
     const MovingSurface surface_b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
     const CellGaps gaps(surface_a, cells.a, surface_b, cells.b);
-    const double reach = foresight * gap_;
+    const double reach = contact_margin * gap_;
     if (gaps.apart(reach, reach)) return;
     samples_with_triangles(gaps, a, b);
     samples_with_triangles(gaps, b, a);
@@ -77,7 +75,7 @@ class Finder {
 
  private:
   /// Cells that share a corner fold onto each other at the crease only.
-  static bool adjacent(const SeenCell& a, const SeenCell& b) {
+  static bool adjacent(const CandidateCell& a, const CandidateCell& b) {
     if (a.next_to(b)) return true;
     if (!a.is_border() || !b.is_border()) return false;
     return std::any_of(a.samples.begin(), a.samples.end(), [&](int s) {
@@ -87,7 +85,7 @@ class Finder {
   }
 
   /// Whether the way from one to the other along a row and a column is shorter than that, at rest.
-  [[nodiscard]] bool beside(const SeenCell& a, const SeenCell& b) const {
+  [[nodiscard]] bool beside(const CandidateCell& a, const CandidateCell& b) const {
     if (pair_.rest == nullptr) return false;
     const double limit = beside_in_gaps * pair_.gap;
     const int cells = a.grid->cells();
@@ -95,28 +93,30 @@ class Finder {
     const int last_row = std::max(a.cell / cells, b.cell / cells);
     const int col = std::min(a.cell % cells, b.cell % cells);
     const int last_col = std::max(a.cell % cells, b.cell % cells);
-    double way = 0;
+    double distance = 0;
     const auto step = [&](int r, int c, int to_r, int to_c) {
-      way += length(vec_cast<double>(pair_.rest->at(to_r, to_c) - pair_.rest->at(r, c)));
+      distance += length(vec_cast<double>(pair_.rest->at(to_r, to_c) - pair_.rest->at(r, c)));
     };
     // Between the corners that face each other.
-    for (int r = row + 1; r < last_row && way <= limit; ++r) step(r, last_col, r + 1, last_col);
-    for (int c = col + 1; c < last_col && way <= limit; ++c) step(row + 1, c, row + 1, c + 1);
-    return way <= limit;
+    for (int r = row + 1; r < last_row && distance <= limit; ++r)
+      step(r, last_col, r + 1, last_col);
+    for (int c = col + 1; c < last_col && distance <= limit; ++c) step(row + 1, c, row + 1, c + 1);
+    return distance <= limit;
   }
 
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }
 
   /// What starts farther apart makes no contact.
   [[nodiscard]] float near(const CellGaps& gaps) const {
-    return static_cast<float>(foresight * gap_ + gaps.most_approach()) + gaps.margin();
+    return static_cast<float>(contact_margin * gap_ + gaps.max_approach()) + gaps.margin();
   }
 
-  void samples_with_triangles(const CellGaps& gaps, const SeenCell& own, const SeenCell& other) {
+  void samples_with_triangles(const CellGaps& gaps, const CandidateCell& own,
+                              const CandidateCell& other) {
     const float farthest = near(gaps);
     for (int half = 0; half < 2; ++half) {
       const std::array<int, 3> corners = other.grid->triangle_corners(other.cell, half);
-      const SeenTriangle seen(gaps, other.second, corners);
+      const CandidateTriangle seen(gaps, other.second, corners);
       own.for_own_corners([&](int k) {
         if (!seen.may_hold(gaps.start(own.second, k), farthest)) return;
         const std::array<int, 3> triangle{other.samples[corners[0]], other.samples[corners[1]],
@@ -135,7 +135,7 @@ class Finder {
                         {vec_cast<double>(at.at(triangle[0])), vec_cast<double>(at.at(triangle[1])),
                          vec_cast<double>(at.at(triangle[2]))});
     // Before an edge or a corner the way to it may lie along the cloth, where a push would strain
-    // it: that is left to edges and to the guard.
+    // it: that is left to edges and to the filter.
     if (std::any_of(weights.begin(), weights.end(), [](double w) { return !(w > 0); })) return;
     add({&cloth(swapped), {sample, sample, sample}, {1, 0, 0}},
         {&cloth(!swapped), triangle, weights}, swapped);
@@ -147,17 +147,17 @@ class Finder {
                        [&](int corner) { return grid.point(corner) == grid.point(sample); });
   }
 
-  void edges(const CellGaps& gaps, const SeenCell& a, const SeenCell& b) {
+  void edges(const CellGaps& gaps, const CandidateCell& a, const CandidateCell& b) {
     const float reach = near(gaps);
-    const auto seen = [&](const SeenCell& cell) {
-      std::array<SeenEdge, 3> edges{};
+    const auto seen = [&](const CandidateCell& cell) {
+      std::array<CandidateEdge, 3> edges{};
       const auto corners = cell.own_edges();
-      for (std::size_t i = 0; i < 3; ++i) edges[i] = SeenEdge::of(gaps, cell, corners[i]);
+      for (std::size_t i = 0; i < 3; ++i) edges[i] = CandidateEdge::of(gaps, cell, corners[i]);
       return edges;
     };
-    const std::array<SeenEdge, 3> of_b = seen(b);
-    for (const SeenEdge& p : seen(a))
-      for (const SeenEdge& q : of_b)
+    const std::array<CandidateEdge, 3> of_b = seen(b);
+    for (const CandidateEdge& p : seen(a))
+      for (const CandidateEdge& q : of_b)
         if (p.may_cross(q, reach)) add_edges(p.samples, q.samples);
   }
 
@@ -192,8 +192,8 @@ class Finder {
     const double distance = length(apart);
     if (!(distance > 0)) return;
     const Vec3d normal = (1 / distance) * apart;
-    const Vec3d own_way = own.way(), other_way = other.way();
-    if (distance + dot(normal, own_way - other_way) >= foresight * gap_) return;
+    const Vec3d own_way = own.distance(), other_way = other.distance();
+    if (distance + dot(normal, own_way - other_way) >= contact_margin * gap_) return;
     if (pair_.same()) {
       lists_.of_a.push_back(joint(own, other, normal));
     } else if (lists_.shared != nullptr) {
@@ -235,7 +235,7 @@ class Finder {
     }
     contact.weights[3] = 0;
     contact.offset = static_cast<float>(plane.offset);
-    contact.slide = vec_cast<float>(plane.slide);
+    contact.surface_displacement = vec_cast<float>(plane.surface_displacement);
     finish(normal, side.compliance(), contact);
     out.push_back(contact);
   }
@@ -255,8 +255,8 @@ class Finder {
 
 }  // namespace
 
-void PairContacts::find(const ClothPair& pair, std::span<const CellPair> cells, ThreadTeam& team,
-                        const PairLists& lists) {
+void PairContacts::find(const ClothPair& pair, std::span<const CandidatePair> cells,
+                        ThreadTeam& team, const PairLists& lists) {
   team.run([&](Worker& worker) {
     found_.fill(static_cast<int>(cells.size()), worker, [&](int i, Found& mine) {
       const PairLists out{mine.of_a, mine.of_b, lists.shared != nullptr ? &mine.shared : nullptr};

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
+#include "weft/collide/broad_phase/candidate_pairs.h"
+#include "weft/collide/broad_phase/chunks.h"
 #include "weft/collide/collider.h"
-#include "weft/collide/pairs/cell_pairs.h"
-#include "weft/collide/pairs/chunks.h"
 #include "weft/collide/untangle/tangle_marks.h"
 #include "weft/core/contact.h"
 
@@ -16,7 +16,7 @@ struct ClothPair {
   const SurfaceGrid *grid_a = nullptr, *grid_b = nullptr;
   const MovingCloth *a = nullptr, *b = nullptr;
   int number_a = 0, number_b = 0;       ///< of the cloths; equal: one and the same
-  const Planes3* rest = nullptr;        ///< of one and the same, see GuardedCloth [m]
+  const Planes3* rest = nullptr;        ///< of one and the same, see CollidingCloth [m]
   double gap = 0;                       ///< that is kept [m]
   double friction = 0;                  ///< of the pair
   double time_step = 0;                 ///< [s]
@@ -38,7 +38,7 @@ class PairContacts {
  public:
   /// Contacts of a cloth with itself go to `of_a` with both sides in them; of two cloths they are
   /// shared, or each gets its own side, against a plane that moves as both do on the mean.
-  void find(const ClothPair& pair, std::span<const CellPair> cells, ThreadTeam& team,
+  void find(const ClothPair& pair, std::span<const CandidatePair> cells, ThreadTeam& team,
             const PairLists& lists);
 
  private:

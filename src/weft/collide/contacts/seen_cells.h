@@ -4,24 +4,24 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "weft/collide/pairs/cell_gaps.h"
+#include "weft/collide/broad_phase/cell_gaps.h"
 
 namespace weft {
 
 /// One of two cells between which contacts are looked for.
-struct SeenCell {
+struct CandidateCell {
   const SurfaceGrid* grid;
   int cell;
   bool second;  ///< of the two
   std::array<int, 4> samples;
 
-  SeenCell(const SurfaceGrid& of, int number, bool is_second)
+  CandidateCell(const SurfaceGrid& of, int number, bool is_second)
       : grid(&of), cell(number), second(is_second), samples(of.corners(number)) {}
   [[nodiscard]] bool is_border() const {
     const int last = grid->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
     return row == 0 || col == 0 || row == last || col == last;
   }
-  [[nodiscard]] bool next_to(const SeenCell& other) const {
+  [[nodiscard]] bool next_to(const CandidateCell& other) const {
     const int side = grid->cells();
     return std::abs(cell / side - other.cell / side) <= 1 &&
            std::abs(cell % side - other.cell % side) <= 1;
@@ -43,11 +43,11 @@ struct SeenCell {
 };
 
 /// A triangle as it is seen in single precision, for what need not be looked at closely.
-struct SeenTriangle {
+struct CandidateTriangle {
   Vec3f origin, first, second, across;
   float area;  ///< twice
 
-  SeenTriangle(const CellGaps& gaps, bool of_second, const std::array<int, 3>& corners)
+  CandidateTriangle(const CellGaps& gaps, bool of_second, const std::array<int, 3>& corners)
       : origin(gaps.start(of_second, corners[0])),
         first(gaps.start(of_second, corners[1]) - origin),
         second(gaps.start(of_second, corners[2]) - origin),
@@ -65,18 +65,18 @@ struct SeenTriangle {
 };
 
 /// An edge of a cell in the same way.
-struct SeenEdge {
+struct CandidateEdge {
   std::array<int, 2> samples{};
   Vec3f origin, along;
 
-  static SeenEdge of(const CellGaps& gaps, const SeenCell& cell,
-                     const std::array<int, 2>& corners) {
+  static CandidateEdge of(const CellGaps& gaps, const CandidateCell& cell,
+                          const std::array<int, 2>& corners) {
     const Vec3f p = gaps.start(cell.second, corners[0]), q = gaps.start(cell.second, corners[1]);
     return {{cell.samples[corners[0]], cell.samples[corners[1]]}, p, q - p};
   }
   /// Whether two edges can be closest to each other inside of both and as near as that, rounding
   /// aside.
-  [[nodiscard]] bool may_cross(const SeenEdge& other, float near) const {
+  [[nodiscard]] bool may_cross(const CandidateEdge& other, float near) const {
     constexpr float hair = 1e-3F;
     const Vec3f from = origin - other.origin;
     const float a = dot(along, along), b = dot(along, other.along),

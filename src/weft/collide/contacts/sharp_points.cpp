@@ -62,8 +62,8 @@ class Judge {
   [[nodiscard]] bool may_fall_back(int point, Vec3d n) const {
     double most = 0;
     for_neighbours(point, [&](int neighbour) {
-      const Vec3d way = position(neighbour) - position(point);
-      const double back = -dot(n, way), beside = length(way + back * n);
+      const Vec3d displacement = position(neighbour) - position(point);
+      const double back = -dot(n, displacement), beside = length(displacement + back * n);
       if (!(back > 0)) return;
       const double times = beside > 0 ? sharpness_.aside / beside : HUGE_VAL;
       most = std::max(most, back * std::max({1.0, times, times * times}));
@@ -76,8 +76,8 @@ class Judge {
     const auto away = [&](Vec3d p) { return !body_.closest(p, sharpness_.away); };
     for (int i = 0; i < ways; ++i) {
       const double angle = pi * i / ways;
-      const Vec3d way = sharpness_.aside * (cosine(angle) * u + sine(angle) * v);
-      if (away(middle + way) && away(middle - way)) return true;
+      const Vec3d displacement = sharpness_.aside * (cosine(angle) * u + sine(angle) * v);
+      if (away(middle + displacement) && away(middle - displacement)) return true;
     }
     return false;
   }

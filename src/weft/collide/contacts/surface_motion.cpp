@@ -38,9 +38,9 @@ void SurfaceMotion::measure(const Planes3& start, const Planes3& end,
     for (int s = mine.first; s < mine.last; ++s) {
       const Vec3d from = normalized(sums_[s].from), to = normalized(sums_[s].to);
       Point& point = points_[s];
-      point.way = vec_cast<double>(end.at(s)) - vec_cast<double>(start.at(s));
+      point.displacement = vec_cast<double>(end.at(s)) - vec_cast<double>(start.at(s));
       point.normal = 0.5 * (from + to);
-      point.approach = std::abs(dot(point.normal, point.way));
+      point.approach = std::abs(dot(point.normal, point.displacement));
       point.turn = length(to - from);
       // The more they lean, the shorter the sum of their areas.
       const double lost = sums_[s].size > 0 ? 1 - length(sums_[s].from) / sums_[s].size : 0;
@@ -49,9 +49,9 @@ void SurfaceMotion::measure(const Planes3& start, const Planes3& end,
   });
 }
 
-double SurfaceMotion::approach(int sample, Vec3d way) const {
+double SurfaceMotion::approach(int sample, Vec3d displacement) const {
   const Point& point = points_[sample];
-  const Vec3d left = point.way - way;
+  const Vec3d left = point.displacement - displacement;
   return std::abs(dot(point.normal, left)) + point.slant * length(left);
 }
 

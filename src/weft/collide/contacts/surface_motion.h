@@ -22,7 +22,7 @@ class SurfaceMotion {
   [[nodiscard]] double approach(int sample) const { return points_[sample].approach; }
   /// The same to what goes along by `way`, and what the slant of the triangles around may add as
   /// they slide past it.
-  [[nodiscard]] double approach(int sample, Vec3d way) const;
+  [[nodiscard]] double approach(int sample, Vec3d displacement) const;
   /// How much its normal turns: nearly the angle, as long as it is small. [rad]
   [[nodiscard]] double turn(int sample) const { return points_[sample].turn; }
   /// The mean of its normals at both ends, and not unit.
@@ -36,7 +36,7 @@ class SurfaceMotion {
     double size = 0;  // of `from`, or of those that were summed
   };
   struct Point {
-    Vec3d way, normal;  // the mean of both ends'
+    Vec3d displacement, normal;  // the mean of both ends'
     double approach = 0, turn = 0;
     double slant = 0;  // sine of what triangles lean to it, twice their root mean square
   };

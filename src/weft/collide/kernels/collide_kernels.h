@@ -45,7 +45,7 @@ struct CollideKernels {
   void (*join_twos)(int n, const float* const* a, const float* const* b, float* const* out);
   /// Judges n rectangles for their extents: 1 where they are certainly unfolded, see
   /// UnfoldedWindows, else 0.
-  void (*judge)(int n, const float* const* extents, float slack, float* out);
+  void (*find_unfolded)(int n, const float* const* extents, float slack, float* out);
 
   /// Which of a node's children (1 << k) may come within `reach` of another: those that are not
   /// beyond it along some axis at both ends of the step in the same order. What moves along with

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "weft/collide/surface.h"
+#include "weft/collide/moving_surface.h"
 #include "weft/core/planes.h"
 
 namespace weft {

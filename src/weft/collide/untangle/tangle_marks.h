@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "weft/collide/surface.h"
+#include "weft/collide/moving_surface.h"
 
 namespace weft {
 

@@ -7,19 +7,19 @@ namespace weft {
 namespace {
 
 /// How fast layers are moved, in rest spacings a second; and in a step at most.
-constexpr double spacings_a_second = 30, most_spacings = 0.25;
+constexpr double spacings_a_second = 30, max_spacings = 0.25;
 /// Samples around a contour that its move reaches, as a power of 2; and that are held from going
 /// deeper.
 constexpr int push_levels = 5, hold_levels = 3;
 /// How far beyond each other layers are brought, in gaps.
 constexpr double margin_in_gaps = 0.5;
 /// A layer's way along the other's normal, below which depth says nothing.
-constexpr double least_slope = 0.05;
+constexpr double min_slope = 0.05;
 /// Of a contour by a move, lest single edges that hardly pass through decide.
-constexpr double most_shortening = 4;
+constexpr double max_shortening = 4;
 /// Samples of one cloth that lie on another, by which, and by what part more of them on one side
 /// than on the other, it is told where a cloth belongs.
-constexpr int least_lying = 30;
+constexpr int min_lying = 30;
 constexpr double clear_majority = 0.2;
 /// How much a move weighs that follows the contour from node to node: little, so that what is
 /// wanted around counts more and the layers move as wholes.
@@ -35,9 +35,9 @@ double sign(double x) { return x > 0 ? 1 : (x < 0 ? -1 : 0); }
 }  // namespace
 
 void Untangler::set_up(std::span<const SurfaceGrid* const> grids,
-                       std::span<const GuardedCloth> facts) {
+                       std::span<const CollidingCloth> properties) {
   grids_.assign(grids.begin(), grids.end());
-  for (const GuardedCloth& one : facts) facts_.push_back(one);
+  for (const CollidingCloth& one : properties) properties_.push_back(one);
   pairs_ = std::vector<Pair>(grids_.size() * grids_.size());
   pushes_.resize(grids_.size());
   holds_.resize(grids_.size());
@@ -86,15 +86,16 @@ void Untangler::vote(const StandingPair& standing, const ContourNode& node,
   ++verdict.cutting[node.layer];
   const int size_p = regions.size(of_p), size_q = regions.size(of_q);
   const bool p_is_right = size_p != size_q ? size_p > size_q : of_p < of_q;
-  const Vec3d way = standing.at(node.crossing.side, p) - standing.at(node.crossing.side, q);
+  const Vec3d displacement =
+      standing.at(node.crossing.side, p) - standing.at(node.crossing.side, q);
   const Vec3d normal = frame.normals[1 - node.layer];
-  verdict.turns[node.layer] += (p_is_right ? 1 : -1) * sign(dot(normal, way));
+  verdict.turns[node.layer] += (p_is_right ? 1 : -1) * sign(dot(normal, displacement));
   int& size = verdict.sizes[node.layer];
   const int least = std::min(size_p, size_q);
   size = size == 0 ? least : std::min(size, least);
 }
 
-void Untangler::judge(const StandingPair& standing, const Pair& pair) {
+void Untangler::choose_directions(const StandingPair& standing, const Pair& pair) {
   verdicts_.assign(static_cast<std::size_t>(pair.contours.count()), {});
   for (const ContourNode& node : pair.contours.nodes())
     vote(standing, node, verdicts_[node.contour]);
@@ -110,10 +111,10 @@ void Untangler::judge(const StandingPair& standing, const Pair& pair) {
   }
 }
 
-double Untangler::lying(const StandingPair& standing, std::span<const CellPair> cells,
+double Untangler::lying(const StandingPair& standing, std::span<const CandidatePair> cells,
                         double reach) {
   int above = 0, below = 0;
-  for (const CellPair& pair : cells) {
+  for (const CandidatePair& pair : cells) {
     const Vec3d point = standing.at(0, standing.grids[0]->first_sample(pair.a));
     for (int half = 0; half < 2; ++half) {
       const std::array<int, 3> triangle = standing.grids[1]->triangle(pair.b, half);
@@ -129,10 +130,10 @@ double Untangler::lying(const StandingPair& standing, std::span<const CellPair> 
     }
   }
   const int all = above + below;
-  return all >= least_lying ? static_cast<double>(above - below) / all : 0;
+  return all >= min_lying ? static_cast<double>(above - below) / all : 0;
 }
 
-void Untangler::heed_lying(double side) {
+void Untangler::add_lying(double side) {
   if (std::abs(side) < clear_majority) return;
   for (Verdict& verdict : verdicts_)
     if (!verdict.is_settled()) verdict.settled[verdict.first_side] = sign(side);
@@ -157,28 +158,28 @@ Vec3d Untangler::shortening(const StandingPair& standing, const ContourNode& nod
   const Vec3d normal = standing.normal(node.triangle_side(standing.same), node.crossing.triangle);
   const double through = dot(edge, normal);
   if (through == 0) return {};
-  const Vec3d way = node.onwards - (dot(edge, node.onwards) / through) * normal;
-  const double most = std::max(1.0, length(way) / most_shortening);
-  return ((node.layer == 0 ? 1 : -1) / most) * way;
+  const Vec3d displacement = node.onwards - (dot(edge, node.onwards) / through) * normal;
+  const double most = std::max(1.0, length(displacement) / max_shortening);
+  return ((node.layer == 0 ? 1 : -1) / most) * displacement;
 }
 
 void Untangler::find_ways(const StandingPair& standing, double most, double margin, Pair& pair) {
   pair.ways.clear();
   for (const ContourNode& node : pair.contours.nodes()) {
-    Way way;
-    way.apart = (node.layer == 0 ? 1.0 : -1.0) * direction(standing, node);
+    Way displacement;
+    displacement.apart = (node.layer == 0 ? 1.0 : -1.0) * direction(standing, node);
     const int other = node.triangle_side(standing.same);
     const Vec3d normal = standing.normal(other, node.crossing.triangle);
-    const double slope = dot(normal, way.apart);
+    const double slope = dot(normal, displacement.apart);
     double depth = 0;
     for (const int sample : node.crossing.edge) {
       const double height = dot(normal, standing.at(node.crossing.side, sample) - node.point);
       if (height * slope < 0) depth = std::abs(height);
     }
-    way.amount =
-        std::abs(slope) > least_slope ? std::min(most, (depth + margin) / std::abs(slope)) : most;
-    if (!verdicts_[node.contour].is_settled()) way.weight = light;
-    pair.ways.push_back(way);
+    displacement.amount =
+        std::abs(slope) > min_slope ? std::min(most, (depth + margin) / std::abs(slope)) : most;
+    if (!verdicts_[node.contour].is_settled()) displacement.weight = light;
+    pair.ways.push_back(displacement);
   }
 }
 
@@ -205,29 +206,29 @@ void Untangler::mark(const StandingPair& standing, Pair& pair) {
   }
 }
 
-void Untangler::look(std::size_t a, std::size_t b, std::span<const MovingCloth> cloths,
-                     std::span<const CellPair> cells, ThreadTeam& team) {
+void Untangler::find_crossings(std::size_t a, std::size_t b, std::span<const MovingCloth> cloths,
+                               std::span<const CandidatePair> cells, ThreadTeam& team) {
   Pair& looked = pair(a, b);
   const StandingPair standing{{grids_[a], grids_[b]}, {&cloths[a].start, &cloths[b].start}, a == b};
   looked.contours.find(standing, cells, team);
   looked.crossings = static_cast<int>(looked.contours.nodes().size());
   looked.open = looked.crossings > 0;
   if (!looked.open) return;
-  const double gap = 0.5 * (facts_[a].self_thickness + facts_[b].self_thickness);
+  const double gap = 0.5 * (properties_[a].self_thickness + properties_[b].self_thickness);
   find_regions(standing, looked);
-  judge(standing, looked);
-  if (a != b) heed_lying(lying(standing, cells, gap));
-  const double spacing = std::min(facts_[a].rest_spacing, facts_[b].rest_spacing);
+  choose_directions(standing, looked);
+  if (a != b) add_lying(lying(standing, cells, gap));
+  const double spacing = std::min(properties_[a].rest_spacing, properties_[b].rest_spacing);
   find_ways(standing, spacing, margin_in_gaps * gap, looked);
   mark(standing, looked);
 }
 
-void Untangler::want(const ContourNode& node, const Way& way, std::array<std::size_t, 2> of,
-                     std::span<const MovingCloth> cloths) {
+void Untangler::want(const ContourNode& node, const Way& displacement,
+                     std::array<std::size_t, 2> of, std::span<const MovingCloth> cloths) {
   const auto& edge = node.crossing.edge;
   const auto& triangle = node.crossing.triangle;
   const MovingCloth &own = cloths[of[0]], &other = cloths[of[1]];
-  const auto mean_way = [](const MovingCloth& cloth, const auto& samples) {
+  const auto mean_displacement = [](const MovingCloth& cloth, const auto& samples) {
     Vec3d sum;
     for (const int s : samples)
       sum += vec_cast<double>(cloth.position.at(s)) - vec_cast<double>(cloth.start.at(s));
@@ -240,16 +241,17 @@ void Untangler::want(const ContourNode& node, const Way& way, std::array<std::si
   };
   const double own_part = pinned(own, edge) ? 0 : (pinned(other, triangle) ? 1 : 0.5);
   const double other_part = pinned(other, triangle) ? 0 : 1 - own_part;
-  const double going = dot(way.apart, mean_way(own, edge) - mean_way(other, triangle));
+  const double going =
+      dot(displacement.apart, mean_displacement(own, edge) - mean_displacement(other, triangle));
   const double hold = std::max(0.0, -going);
-  const double push = std::max(0.0, way.amount - std::max(0.0, going));
+  const double push = std::max(0.0, displacement.amount - std::max(0.0, going));
   for (const int s : edge) {
-    pushes_[of[0]].want(s, (own_part * push) * way.apart, way.weight);
-    holds_[of[0]].want(s, (own_part * hold) * way.apart, way.weight);
+    pushes_[of[0]].want(s, (own_part * push) * displacement.apart, displacement.weight);
+    holds_[of[0]].want(s, (own_part * hold) * displacement.apart, displacement.weight);
   }
   for (const int s : triangle) {
-    pushes_[of[1]].want(s, (-other_part * push) * way.apart, way.weight);
-    holds_[of[1]].want(s, (-other_part * hold) * way.apart, way.weight);
+    pushes_[of[1]].want(s, (-other_part * push) * displacement.apart, displacement.weight);
+    holds_[of[1]].want(s, (-other_part * hold) * displacement.apart, displacement.weight);
   }
 }
 
@@ -262,8 +264,8 @@ void Untangler::move(std::span<const MovingCloth> cloths, double time_step) {
   for (std::size_t a = 0; a < grids_.size(); ++a)
     for (std::size_t b = a; b < grids_.size(); ++b) {
       const Pair& moved = pair(a, b);
-      const double most = std::min(most_spacings, spacings_a_second * time_step) *
-                          std::min(facts_[a].rest_spacing, facts_[b].rest_spacing);
+      const double most = std::min(max_spacings, spacings_a_second * time_step) *
+                          std::min(properties_[a].rest_spacing, properties_[b].rest_spacing);
       for (std::size_t k = 0; k < moved.ways.size() && moved.crossings > 0; ++k) {
         const ContourNode& node = moved.contours.nodes()[k];
         const bool of_b = node.crossing.side == 1;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "weft/collide/collider.h"
-#include "weft/collide/untangle/contours.h"
+#include "weft/collide/untangle/intersection_contours.h"
 #include "weft/collide/untangle/regions.h"
 #include "weft/collide/untangle/smooth_move.h"
 #include "weft/collide/untangle/tangle_marks.h"
@@ -20,15 +20,16 @@ namespace weft {
 class Untangler {
  public:
   /// @param grids  of the cloths, kept by reference
-  void set_up(std::span<const SurfaceGrid* const> grids, std::span<const GuardedCloth> facts);
+  void set_up(std::span<const SurfaceGrid* const> grids,
+              std::span<const CollidingCloth> properties);
 
   /// Whether a pair may be tangled. @pre a <= b
   [[nodiscard]] bool is_open(std::size_t a, std::size_t b) const { return pair(a, b).open; }
   void set_open(std::size_t a, std::size_t b, bool open) { pair(a, b).open = open; }
   /// Finds what crosses at the start of a step; closes the pair where nothing does.
   /// @param cells  all that may meet
-  void look(std::size_t a, std::size_t b, std::span<const MovingCloth> cloths,
-            std::span<const CellPair> cells, ThreadTeam& team);
+  void find_crossings(std::size_t a, std::size_t b, std::span<const MovingCloth> cloths,
+                      std::span<const CandidatePair> cells, ThreadTeam& team);
   /// Of a pair that the last look found tangled; else null.
   [[nodiscard]] const TangleMarks* marks(std::size_t a, std::size_t b) const {
     return pair(a, b).crossings > 0 ? &pair(a, b).marks : nullptr;
@@ -61,7 +62,7 @@ class Untangler {
   struct Pair {
     bool open = true;
     int crossings = 0;
-    Contours contours;
+    IntersectionContours contours;
     TangleMarks marks;
     std::vector<Way> ways;  // of the nodes
   };
@@ -82,13 +83,13 @@ class Untangler {
   Pair& pair(std::size_t a, std::size_t b) { return pairs_[index(a, b)]; }
 
   void find_regions(const StandingPair& standing, const Pair& pair);
-  void judge(const StandingPair& standing, const Pair& pair);
+  void choose_directions(const StandingPair& standing, const Pair& pair);
   /// On which side of the second cloth the first lies mostly where they lie on each other: from 1,
   /// the side that normals point to, to -1; 0 where that is not known.
-  [[nodiscard]] static double lying(const StandingPair& standing, std::span<const CellPair> cells,
-                                    double reach);
+  [[nodiscard]] static double lying(const StandingPair& standing,
+                                    std::span<const CandidatePair> cells, double reach);
   /// What lies through each other without one part being cut off goes to the side where more is.
-  void heed_lying(double side);
+  void add_lying(double side);
   void vote(const StandingPair& standing, const ContourNode& node, Verdict& verdict) const;
   void mark(const StandingPair& standing, Pair& pair);
   void find_ways(const StandingPair& standing, double most, double margin, Pair& pair);
@@ -96,11 +97,11 @@ class Untangler {
   /// The first layer's way against the second that shortens the contour most at a node.
   static Vec3d shortening(const StandingPair& standing, const ContourNode& node);
   static Frame frame_of(const StandingPair& standing, const ContourNode& node);
-  void want(const ContourNode& node, const Way& way, std::array<std::size_t, 2> of,
+  void want(const ContourNode& node, const Way& displacement, std::array<std::size_t, 2> of,
             std::span<const MovingCloth> cloths);
 
   std::vector<const SurfaceGrid*> grids_;
-  std::vector<GuardedCloth> facts_;
+  std::vector<CollidingCloth> properties_;
   std::vector<Pair> pairs_;                 // [cloths x cloths], those with a <= b in use
   std::vector<SmoothMove> pushes_, holds_;  // of each cloth
   // Of the pair that is looked at:

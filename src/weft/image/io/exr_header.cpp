@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t version_number = 2;
 constexpr std::uint32_t long_names_flag = 0x400;
 constexpr std::size_t bytes_per_sample = 12;
-constexpr int most_channels = 8;
+constexpr int max_channels = 8;
 
 // The rest of a header, little-endian, read from its front.
 class HeaderReader {
@@ -78,8 +78,8 @@ void check_channel_list(std::string_view value, std::string_view where) {
   HeaderReader reader(value, where);
   int count = 0;
   for (; !reader.text().empty(); reader.take(description))
-    if (++count > most_channels)
-      reader.fail("an EXR picture of more than " + std::to_string(most_channels) + " channels");
+    if (++count > max_channels)
+      reader.fail("an EXR picture of more than " + std::to_string(max_channels) + " channels");
   if (!reader.at_end()) reader.fail("a damaged EXR file: a channel list of a wrong size");
 }
 

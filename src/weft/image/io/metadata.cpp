@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 constexpr int deepest_nesting = 4;
 // Deflate shrinks by 1032 at most, the other compressions without loss by less.
-constexpr std::size_t most_compression = 1032;
+constexpr std::size_t max_compression = 1032;
 
 std::string checksum(const Json& without_checksum, const Planes3& cube) {
   const std::string text = json_text(without_checksum);
@@ -179,16 +179,16 @@ GeometryImage assemble_image(Planes3 cube, std::string_view text, std::string_vi
 }
 
 void require_image_size(std::int64_t width, std::int64_t height, std::string_view where) {
-  if (width == height && width >= least_image_size && width <= largest_image_size) return;
-  throw InputError(where, fmt::format("a picture of {} x {}", width, height),
-                   fmt::format("a square geometry image of side {} .. {}", least_image_size,
-                               largest_image_size));
+  if (width == height && width >= min_image_size && width <= largest_image_size) return;
+  throw InputError(
+      where, fmt::format("a picture of {} x {}", width, height),
+      fmt::format("a square geometry image of side {} .. {}", min_image_size, largest_image_size));
 }
 
 void require_enough_bytes(int side, std::size_t bytes_per_sample, std::size_t file_size,
                           std::string_view where) {
   const std::size_t samples = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  if (samples * bytes_per_sample / most_compression <= file_size) return;
+  if (samples * bytes_per_sample / max_compression <= file_size) return;
   throw InputError(where, fmt::format("{} bytes for a picture of {} x {}", file_size, side, side),
                    "a whole file");
 }

@@ -14,8 +14,8 @@
 namespace weft {
 namespace {
 
-constexpr png_alloc_size_t least_chunk_memory = 4096;
-constexpr png_uint_32 most_texts = 32;
+constexpr png_alloc_size_t min_chunk_memory = 4096;
+constexpr png_uint_32 max_texts = 32;
 constexpr std::size_t bytes_per_sample = 6;
 
 // libpng reports errors by a jump over its own frames. It may only pass over functions that hold
@@ -113,8 +113,8 @@ class Reader {
     png_set_read_fn(png_, &rest_, take);
     // Otherwise memory is set aside for whatever length a chunk tells, with a warning at most.
     png_set_benign_errors(png_, 0);
-    png_set_chunk_malloc_max(png_, std::max<png_alloc_size_t>(bytes.size(), least_chunk_memory));
-    png_set_chunk_cache_max(png_, most_texts + 1);  // libpng keeps one back for itself
+    png_set_chunk_malloc_max(png_, std::max<png_alloc_size_t>(bytes.size(), min_chunk_memory));
+    png_set_chunk_cache_max(png_, max_texts + 1);  // libpng keeps one back for itself
     png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
   }
   Reader(const Reader&) = delete;

@@ -64,7 +64,7 @@ Elements elements_of(const GltfObject& root, GltfBuffers& buffers, const GltfObj
   elements.bytes = bytes.substr(static_cast<std::size_t>(offset.value_or(0)));
   const std::size_t room =
       elements.bytes.size() < size ? 0 : (elements.bytes.size() - size) / elements.stride + 1;
-  elements.count = static_cast<std::size_t>(accessor.wanted("count", 1, most_elements));
+  elements.count = static_cast<std::size_t>(accessor.wanted("count", 1, max_elements));
   if (elements.count > room)
     accessor.fail(fmt::format("has {} elements where {} fit", elements.count, room),
                   "a whole file is wanted");

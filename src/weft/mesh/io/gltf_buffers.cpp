@@ -20,7 +20,7 @@ constexpr std::string_view container_mark = "glTF";
 constexpr std::size_t container_head = 12;  // mark, version, length
 constexpr std::size_t chunk_head = 8;       // length, kind
 constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
-constexpr std::int64_t most_bytes = std::numeric_limits<std::int64_t>::max() / 4;
+constexpr std::int64_t max_bytes = std::numeric_limits<std::int64_t>::max() / 4;
 
 std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   return load_integer<std::uint32_t>(bytes.substr(at), false);
@@ -143,7 +143,7 @@ std::string_view GltfBuffers::buffer(int index) {
   if (!uri && (index != 0 || !binary_))
     object.fail("has no data", "a uri, or for the first one a binary chunk, is wanted");
   const std::string_view bytes = uri ? fetch(object, *uri) : *binary_;
-  const auto told = static_cast<std::size_t>(object.wanted("byteLength", 1, most_bytes));
+  const auto told = static_cast<std::size_t>(object.wanted("byteLength", 1, max_bytes));
   if (told > bytes.size())
     object.fail(fmt::format("has {} bytes of {}", bytes.size(), told), "all of them are wanted");
   return buffers_[index] = bytes.substr(0, told);

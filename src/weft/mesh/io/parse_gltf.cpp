@@ -22,7 +22,7 @@ namespace {
 
 constexpr int deepest_nesting = 64;
 /// Nodes may show one mesh many times; beyond this, the result stays below the size of the file.
-constexpr std::size_t most_shown_freely = 4'000'000;
+constexpr std::size_t max_shown_freely = 4'000'000;
 
 enum Mode { triangles_mode = 4, strip_mode = 5, fan_mode = 6 };
 
@@ -81,7 +81,7 @@ std::vector<Triangle> triangles_of(const GltfObject& primitive, int mode,
 class Gatherer {
  public:
   Gatherer(const GltfObject& root, GltfBuffers& buffers, std::size_t file_size)
-      : root_(root), buffers_(buffers), most_(std::max(most_shown_freely, file_size)) {}
+      : root_(root), buffers_(buffers), most_(std::max(max_shown_freely, file_size)) {}
 
   void add(const PlacedMesh& placed) {
     bases_.clear();

@@ -28,8 +28,8 @@ Counts read_counts(LineReader& reader) {
   if (ahead.next_field().empty() && !reader.next_filled_line())
     reader.fail("the file ends before the counts", "vertex and face count are wanted");
   Counts counts;
-  counts.vertices = reader.integer("the vertex count", 1, most_elements);
-  counts.faces = reader.integer("the face count", 1, most_elements);
+  counts.vertices = reader.integer("the vertex count", 1, max_elements);
+  counts.faces = reader.integer("the face count", 1, max_elements);
   // No line takes fewer than two bytes: this keeps a false count from allocating, and leaves it to
   // the lines that follow to tell what is missing.
   const std::size_t left = reader.remaining().size();
@@ -42,7 +42,7 @@ Counts read_counts(LineReader& reader) {
 
 void read_face(LineReader& reader, TriangleMesh& mesh, std::vector<int>& polygon) {
   const auto last = static_cast<std::int64_t>(mesh.positions.size()) - 1;
-  const std::int64_t corners = reader.integer("the number of corners", 3, most_elements);
+  const std::int64_t corners = reader.integer("the number of corners", 3, max_elements);
   polygon.clear();
   for (std::int64_t i = 0; i < corners; ++i)
     polygon.push_back(static_cast<int>(reader.integer("a vertex index", 0, last)));

@@ -47,7 +47,7 @@ PlyFormat read_format(LineReader& reader) {
 PlyElement read_element(LineReader& reader) {
   PlyElement element;
   element.name = reader.next_field();
-  element.count = reader.integer("the number of " + in_quotes(element.name), 0, most_elements);
+  element.count = reader.integer("the number of " + in_quotes(element.name), 0, max_elements);
   return element;
 }
 
@@ -67,7 +67,7 @@ PlyProperty read_property(LineReader& reader) {
 }
 
 /// Fewest bytes that one item can take.
-std::int64_t least_size(const PlyElement& element, PlyFormat format) {
+std::int64_t min_size(const PlyElement& element, PlyFormat format) {
   std::int64_t size = 0;
   for (const PlyProperty& property : element.properties) {
     const PlyType first = property.is_list() ? property.count_type : property.type;
@@ -84,7 +84,7 @@ void check_counts(const LineReader& reader, const PlyHeader& header) {
   for (const PlyElement& element : header.elements) {
     if (element.properties.empty() && element.count > 0)
       reader.fail("element " + in_quotes(element.name) + " has no properties", "some are wanted");
-    needed += element.count * least_size(element, header.format);
+    needed += element.count * min_size(element, header.format);
     if (needed > left)
       reader.fail(fmt::format("{} of {} cannot fit into the {} bytes that follow", element.count,
                               in_quotes(element.name), left - 1),

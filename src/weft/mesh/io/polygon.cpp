@@ -36,11 +36,11 @@ void require_surface(const TriangleMesh& mesh, std::string_view name) {
   if (mesh.triangles.empty())
     throw InputError(name, fmt::format("has {} vertices but no faces", mesh.positions.size()),
                      "a surface is wanted");
-  if (mesh.positions.size() > most_elements || mesh.triangles.size() > most_elements)
+  if (mesh.positions.size() > max_elements || mesh.triangles.size() > max_elements)
     throw InputError(name,
                      fmt::format("has {} vertices and {} triangles", mesh.positions.size(),
                                  mesh.triangles.size()),
-                     fmt::format("at most {} of each are wanted", most_elements));
+                     fmt::format("at most {} of each are wanted", max_elements));
 }
 
 void require_text(std::string_view bytes, std::string_view name, std::string_view format) {

@@ -9,7 +9,7 @@
 namespace weft {
 
 /// Most triangles and vertices of a mesh: half-edges are counted in int.
-inline constexpr std::int64_t most_elements = 700'000'000;
+inline constexpr std::int64_t max_elements = 700'000'000;
 
 /// Appends a polygon as a fan of triangles from its first corner. @pre at least three corners
 void add_polygon(TriangleMesh& mesh, std::span<const int> corners);

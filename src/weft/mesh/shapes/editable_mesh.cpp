@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "weft/core/assert.h"
-#include "weft/mesh/facts.h"
+#include "weft/mesh/mesh_statistics.h"
 #include "weft/mesh/one_ring.h"
 
 namespace weft {
@@ -117,8 +117,8 @@ bool EditableMesh::can_collapse(int a, int b) const {
                         std::back_inserter(common));
   // Common neighbours but those across the edge are links of a loop that would vanish; so would a
   // lone triangle or tetrahedron.
-  const std::size_t least_neighbours = shared == 2 ? 8 : 5;
-  return static_cast<int>(common.size()) == shared && of_a.size() + of_b.size() >= least_neighbours;
+  const std::size_t min_neighbours = shared == 2 ? 8 : 5;
+  return static_cast<int>(common.size()) == shared && of_a.size() + of_b.size() >= min_neighbours;
 }
 
 void EditableMesh::collapse(int a, int b, Vec3d to) {
@@ -147,9 +147,9 @@ bool EditableMesh::flip_if_better(int a, int b) {
   if (std::min(quality_of(first), quality_of(second)) <= before + 1e-6) return false;
   // Both new triangles must face the way that the pair faces.
   const Vec3d facing = normalized(area_normal(left) + area_normal(right));
-  constexpr double least_cosine = 0.5;
+  constexpr double min_cosine = 0.5;
   for (const Triangle& t : {first, second})
-    if (dot(normalized(normal_of(t)), facing) < least_cosine) return false;
+    if (dot(normalized(normal_of(t)), facing) < min_cosine) return false;
   replace(left, first);
   replace(right, second);
   return true;

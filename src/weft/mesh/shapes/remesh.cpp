@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "weft/mesh/facts.h"
+#include "weft/mesh/mesh_statistics.h"
 #include "weft/mesh/shapes/editable_mesh.h"
 
 namespace weft {
@@ -24,7 +24,7 @@ class Remesher {
       split_long_edges();
       merge_short_edges();
       flip_edges();
-      slide_vertices();
+      relax_vertices();
     }
     flip_edges();
     return mesh_.compact();
@@ -52,11 +52,11 @@ class Remesher {
   void split_long_edges();
   void merge_short_edges();
   void flip_edges();
-  void slide_vertices();
+  void relax_vertices();
   void merge(int a, int b);
   bool merge_at(int a, int b, Vec3d to);
   [[nodiscard]] bool faces_outwards(Vec3d a, Vec3d b, Vec3d c, int replaced) const;
-  [[nodiscard]] bool may_move(int vertex, Vec3d to, int ignored, double least_quality) const;
+  [[nodiscard]] bool may_move(int vertex, Vec3d to, int ignored, double min_quality) const;
   [[nodiscard]] Vec3d centre_of_neighbourhood(int vertex) const;
 
   EditableMesh mesh_;
@@ -93,16 +93,16 @@ void Remesher::merge_short_edges() {
 /// True when a triangle that is to replace another faces the way of that one, or of the field: some
 /// tiny triangles face nowhere to begin with.
 bool Remesher::faces_outwards(Vec3d a, Vec3d b, Vec3d c, int replaced) const {
-  constexpr double least_cosine = 0.5;
+  constexpr double min_cosine = 0.5;
   const Vec3d normal = normalized(cross(b - a, c - a));
-  if (dot(normal, normalized(mesh_.area_normal(replaced))) > least_cosine) return true;
+  if (dot(normal, normalized(mesh_.area_normal(replaced))) > min_cosine) return true;
   const Vec3d outward = gradient(options_.surface, (1.0 / 3) * (a + b + c));
-  return dot(normal, normalized(outward)) > least_cosine;
+  return dot(normal, normalized(outward)) > min_cosine;
 }
 
 /// True when the triangles around a vertex, but for those that hold `ignored`, keep facing their
 /// way and do not fall below a quality once it moves.
-bool Remesher::may_move(int vertex, Vec3d to, int ignored, double least_quality) const {
+bool Remesher::may_move(int vertex, Vec3d to, int ignored, double min_quality) const {
   for (const int slot : mesh_.around(vertex)) {
     const Triangle& t = mesh_.triangle(slot);
     if (std::find(t.begin(), t.end(), ignored) != t.end()) continue;
@@ -110,7 +110,7 @@ bool Remesher::may_move(int vertex, Vec3d to, int ignored, double least_quality)
     const Vec3d a = place(t[0]), b = place(t[1]), c = place(t[2]);
     if (!faces_outwards(a, b, c, slot)) return false;
     const double quality = triangle_quality(a, b, c);
-    if (quality < least_quality && quality < mesh_.quality(slot)) return false;
+    if (quality < min_quality && quality < mesh_.quality(slot)) return false;
   }
   return true;
 }
@@ -124,8 +124,8 @@ bool Remesher::merge_at(int a, int b, Vec3d to) {
     for (const int w : mesh_.neighbours(v))
       if (!is_tiny && w != a && w != b && relative_length(to, mesh_.position(w)) > too_long)
         return false;
-  const double least_quality = is_tiny ? 0 : fair_quality;
-  if (!may_move(a, to, b, least_quality) || !may_move(b, to, a, least_quality)) return false;
+  const double min_quality = is_tiny ? 0 : fair_quality;
+  if (!may_move(a, to, b, min_quality) || !may_move(b, to, a, min_quality)) return false;
   mesh_.collapse(a, b, to);
   return true;
 }
@@ -158,7 +158,7 @@ Vec3d Remesher::centre_of_neighbourhood(int vertex) const {
   return (1 / weights) * sum;
 }
 
-void Remesher::slide_vertices() {
+void Remesher::relax_vertices() {
   for (int v = 0; v < mesh_.vertex_count(); ++v) {
     if (mesh_.around(v).empty()) continue;
     const auto along_border = mesh_.border_neighbours(v);

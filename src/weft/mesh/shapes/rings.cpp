@@ -47,14 +47,14 @@ void fill_between(TriangleMesh& mesh, const Placed& low, const Placed& high) {
 void add_rings(std::vector<Ring>& rings, Ring from, Ring to, double edge) {
   const double length = std::sqrt((to.radius - from.radius) * (to.radius - from.radius) +
                                   (to.height - from.height) * (to.height - from.height));
-  constexpr int least_count = 4;
+  constexpr int min_count = 4;
   const int steps = std::max(1, static_cast<int>(std::lround(length / edge)));
   for (int k = 1; k <= steps; ++k) {
     const double t = static_cast<double>(k) / steps;
     const double radius = (1 - t) * from.radius + t * to.radius;
     const int count = static_cast<int>(std::lround(2 * pi * radius / edge));
     rings.push_back({(1 - t) * from.height + t * to.height, radius,
-                     radius == 0 ? 1 : std::max(least_count, count)});
+                     radius == 0 ? 1 : std::max(min_count, count)});
   }
 }
 

@@ -16,7 +16,7 @@ constexpr int sky_size = 256;
 /// Quads a side that grids are drawn with into depth maps, about: each is a few texels.
 constexpr int key_quads = 128, sky_quads = 42;
 /// And into pictures at least.
-constexpr int least_quads = 128;
+constexpr int min_quads = 128;
 /// Offsets along the normal, in radii of the scene: beyond the size of a texel of the depth maps.
 constexpr double key_offset = 0.006;
 constexpr double sky_offset = 0.016;
@@ -278,7 +278,7 @@ void ScenePainter::draw_lit(SurfaceBuffers& surface, const Program& program, con
   surface.sky_front().bind(unit_front);
   surface.sky_back().bind(unit_back);
   // Normals are read for every pixel, so that quads of two or three pixels are small enough.
-  surface.draw_about(std::max(least_quads, target.height / 3));
+  surface.draw_about(std::max(min_quads, target.height / 3));
 }
 
 void ScenePainter::draw_ground(const Matrix& to_clip) {

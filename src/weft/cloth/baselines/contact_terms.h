@@ -1,0 +1,65 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "weft/cloth/baselines/contact_loads.h"
+#include "weft/cloth/baselines/spring_matrix.h"
+#include "weft/core/contact.h"
+
+namespace weft {
+
+/// Contacts as part of implicit Euler's system: the point of a contact that presses is held to its
+/// surface by a spring along the normal, an eighth as stiff as what the cloth holds it by. In terms
+/// of the velocity v at the end of the step the term of a contact is
+///   k (w n) (w n)^T v = k (w n) t,   t = how far the point may go along n, over h.
+/// Which contacts hold is found by turns: after a solve those that it violates join and those that
+/// would pull leave.
+class ContactTerms {
+ public:
+  /// @param cloth  kept by reference
+  explicit ContactTerms(const Cloth& cloth);
+
+  /// Forgets all contacts.
+  void clear() { loads_.set_contacts({}); }
+  /// None of them holds as yet. @param contacts  must stay until the last use
+  /// @param start  positions at the start of the step [m]
+  void set_contacts(std::span<const Contact> contacts, const Planes3& start, double time_step);
+
+  // To be called by every worker; each ends with a barrier.
+
+  /// Chooses anew which contacts hold. @param diagonal  blocks of the cloth's own, summed over
+  /// mates
+  /// @return whether that changed
+  bool choose(const Planes3& velocity, const Blocks& diagonal, Worker& worker);
+  /// The loads become the right side's. [kg m/s]
+  void aim(Worker& worker);
+  /// The loads become the terms' product with velocities. [kg m/s]
+  void multiply(const Planes3& velocity, Worker& worker);
+  /// Computes the forces that a solution stands for.
+  void measure(const Planes3& velocity, Worker& worker);
+
+  [[nodiscard]] bool empty() const { return loads_.stiff() == 0; }
+  /// Holding contacts are stiff [kg].
+  [[nodiscard]] const ContactLoads& loads() const { return loads_; }
+  /// What bounds the terms on the system's diagonal, summed over mates; where none holds, anything.
+  [[nodiscard]] const Blocks& blocks() const { return blocks_; }
+  /// Of each contact, in the order in which they were taken [N].
+  [[nodiscard]] std::span<const float> forces() const { return force_; }
+
+ private:
+  [[nodiscard]] double speed(int contact, const Planes3& velocity) const;
+  void renew_blocks(Worker& worker);
+
+  const Cloth& cloth_;
+  ContactLoads loads_;
+  double time_step_ = 0;        // [s]
+  std::vector<double> target_;  // t [m/s]
+  std::vector<float> force_;
+  std::vector<char> changed_;  // of each contact: whether it joined or left
+  bool any_changed_ = false;
+  Grid<float> inverse_diagonal_;  // [1/kg]
+  Blocks blocks_;
+};
+
+}  // namespace weft

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "weft/cloth/baselines/contact_springs.h"
+#include "weft/cloth/baselines/multigrid/multigrid_preconditioner.h"
+#include "weft/cloth/bending.h"
+#include "weft/cloth/integrator.h"
+#include "weft/cloth/spring_rows.h"
+#include "weft/core/ordered_sum.h"
+
+namespace weft {
+
+/// One step of implicit Euler with the springs as they are, by descending in its energy
+///   E(x) = |x - y|^2_M / (2 h^2) + springs(x) + bending(x) + damping(x) + contacts(x),  y = x0 + h
+///   v + h^2 g,
+/// from x = y on: conjugate gradients [fletcher64], preconditioned by the multigrid filter, with a
+/// secant step along each direction. The gradient at the step's end is taken as linear between
+/// those at both ends of the secant, so an iteration costs one V-cycle and one pass over the
+/// springs. Starting from y keeps free fall exact and, unlike a guess from the step before, adds no
+/// energy when few iterations are made.
+class NonlinearPcg {
+ public:
+  /// @param cloth  kept by reference, as is the team
+  NonlinearPcg(const Cloth& cloth, double time_step, ThreadTeam& team);
+
+  /// Starts a step: next() falls freely.
+  void begin(const StepInput& input, const ClothState& state);
+  /// Descends, with what is beyond contacts' surfaces pushed back by springs.
+  /// @param contacts  of samples of the cloth
+  void run(std::span<const Contact> contacts, const MultigridOptions& options);
+
+  /// Where the descent stands. The next run goes on from there, also where the caller moved
+  /// samples: a guess that was kept from passing through something is where the descent begins.
+  [[nodiscard]] ClothState& next() { return next_; }
+  /// Normal forces of the contacts of the last run, in their order, as far as friction has not
+  /// spent them [N].
+  [[nodiscard]] std::span<const float> contact_forces() const { return contacts_.forces(); }
+  /// Iterations since begin.
+  [[nodiscard]] int iterations() const { return iterations_; }
+  /// The last iteration's largest correction over the rest spacing.
+  [[nodiscard]] double correction() const { return correction_; }
+  /// That of every sample. @param sizes [n x n]
+  void last_corrections(Grid<float>& sizes) const;
+
+ private:
+  /// What a descent carries from one iteration to the next; every worker has its own, all alike.
+  struct SolverState {
+    double slope = 0;        ///< residual . W residual [N m]
+    double left = 0;         ///< residual . direction after the step [N m]
+    double step_length = 0;  ///< of the last step along its direction
+    double correction = 0;
+    int iterations = 0;
+    bool exact = true;  ///< whether the last residual was looked up, not interpolated
+  };
+  void renew_filter();
+  void hold_pins();
+  /// A row of y, the first guess, and z = 0.
+  void fall_row(int row);
+  void place_row(float step_length, int row);
+  /// z += way d; d = 0.
+  void accept_row(float step_length, int row);
+  /// z = x - y where the caller moved a sample.
+  void take_moved_row(int row);
+  /// Minus the gradient at `next`: forces less inertia. Ends with a barrier.
+  /// @return its dot product with d [N m]
+  double evaluate_gradient(Worker& worker);
+  /// Ends with a barrier.
+  void take_residual(SolverState& solver_state, Worker& worker);
+  /// d = what the filter makes of the residual, and of the last direction what keeps it conjugate;
+  /// next = y + z + d. Ends with a barrier. @return the slope along d [N m]
+  double update_direction(SolverState& solver_state, Worker& worker);
+  /// Goes along d to where its slope would vanish if that fell linearly.
+  void advance(double slope, SolverState& solver_state, Worker& worker);
+  [[nodiscard]] double largest_direction() const;
+  /// Looks up the residual where the descent stands, and forgets the direction.
+  /// @return whether contacts are taken otherwise than before
+  bool restart(SolverState& solver_state, Worker& worker);
+  /// Looks for contacts that press where `next` is and which of them stick, and lets the filter
+  /// know. Ends with a barrier. @return whether that changed
+  bool update_contacts(Worker& worker);
+  SolverState descend(const MultigridOptions& options, Worker& worker);
+
+  const Cloth& cloth_;
+  ThreadTeam& team_;
+  const KernelTable& kernels_;
+  /// Of one time step. Steps that are halved and doubled need each again and again.
+  struct TimedFilter {
+    double time_step;  // [s]
+    std::unique_ptr<MultigridPreconditioner> filter;
+  };
+  std::vector<TimedFilter> filters_;  // the one in use first
+  MultigridPreconditioner* filter_;
+  ContactSprings contacts_;
+  SpringRows springs_;
+  BendingPass bending_;
+  StepInput input_;
+  ClothState start_, next_;
+  Planes3 fall_, move_, direction_;  // y, z, d [m]
+  Planes3 far_residual_;             // minus the gradient where `next` is [N]
+  RowSums sums_;
+  std::vector<float> largest_;  // [n] squared direction of each row [m^2]
+  double pending_way_ = 0;      // along d, not yet in z
+  int iterations_ = 0;
+  double correction_ = 0;
+};
+
+}  // namespace weft

@@ -1,0 +1,58 @@
+#include "weft/cloth/baselines/strain_limit.h"
+
+#include <algorithm>
+
+#include "weft/cloth/mates.h"
+
+namespace weft {
+namespace {
+
+/// Corrections lead so much farther than the limit, so that rounding and the last of the passes
+/// leave none beyond it.
+constexpr float margin = 0.985F;
+
+}  // namespace
+
+StrainLimit::StrainLimit(const Cloth& cloth, const ThreadTeam& team)
+    : cloth_(cloth), passes_(cloth, team), velocities_(cloth, team), correction_(cloth.size) {}
+
+double strain_limit_of(const LimitOptions& options, const Material& material) {
+  return options.strain > 0 ? options.strain : material.strain_limit;
+}
+
+/// Corrections are gathered apart from the velocities, which then get what of them is safe.
+void StrainLimit::limit_safely(int passes, const StrainBounds& bounds, ClothState& state,
+                               Worker& worker) {
+  if (!passes_.run(passes, {0, bounds.longest}, {state.position, correction_}, worker)) return;
+  velocities_.add(correction_, bounds.inverse_step, state.velocity, worker);
+  const Range mine = worker.share(cloth_.size);
+  for (int r = mine.first; r < mine.last; ++r)
+    for (Grid<float>* plane : {&correction_.x, &correction_.y, &correction_.z})
+      std::fill(plane->row(r), plane->row(r) + cloth_.size, 0.0F);
+  worker.barrier();
+}
+
+void StrainLimit::limit(const LimitOptions& options, double time_step, ClothState& state,
+                        ThreadTeam& team) noexcept {
+  const double limit = strain_limit_of(options, cloth_.material);
+  if (limit <= 0 || options.passes <= 0) return;
+  const auto elongation = margin * static_cast<float>(limit);
+  const StrainBounds bounds{1 - elongation, 1 + elongation, static_cast<float>(1 / time_step),
+                            options.as_printed};
+  team.run([&](Worker& worker) {
+    if (options.as_printed)
+      passes_.run(options.passes, bounds, {state.position, state.velocity}, worker);
+    else
+      limit_safely(options.passes, bounds, state, worker);
+    copy_to_mates(cloth_.mates, worker,
+                  {&state.position.x, &state.position.y, &state.position.z, &state.velocity.x,
+                   &state.velocity.y, &state.velocity.z});
+  });
+}
+
+void limit_strain(const Cloth& cloth, const LimitOptions& options, double time_step,
+                  ClothState& state, ThreadTeam& team) {
+  StrainLimit(cloth, team).limit(options, time_step, state, team);
+}
+
+}  // namespace weft

@@ -1,0 +1,406 @@
+#include "weft/cloth/kernels/isa/newton_rows.h"
+
+// Block tridiagonal systems of neighbouring lines, side by side in lanes. Factors of blocks are
+// computed in double and stored in float: light, stiff cloth leaves the Schur complements a small
+// difference of large blocks. Of springs that difference is known.
+namespace weft::WEFT_KERNEL_SET {
+namespace {
+
+/// Positions that are read at a time.
+constexpr int chunk = 16;
+/// A pivot is at least this part of its diagonal entry, so that rounding never makes one negative.
+constexpr double min_pivot = 2e-7;
+constexpr float min_series_pivot = 1e-6F;
+
+using Four = float __attribute__((vector_size(16)));
+using UnalignedFour = float __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// A 4 x 4 matrix, by rows, becomes its transpose.
+inline void transpose(Four* m) {
+  const Four a = __builtin_shufflevector(m[0], m[1], 0, 4, 1, 5),
+             b = __builtin_shufflevector(m[0], m[1], 2, 6, 3, 7),
+             c = __builtin_shufflevector(m[2], m[3], 0, 4, 1, 5),
+             d = __builtin_shufflevector(m[2], m[3], 2, 6, 3, 7);
+  m[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  m[1] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  m[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  m[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
+/// Element j of line i becomes tile[j][i]. Beyond the last line stands something finite.
+template <int lanes>
+inline void read_tile(const PlaneView& plane, const LineBlock& block, int position, int count,
+                      float (*tile)[lanes]) {
+  const int width = block.width;
+  if (block.along_rows) {
+    for (int i = 0; i < width; i += 4) {
+      const float* line[4];
+      for (int k = 0; k < 4; ++k)
+        line[k] =
+            plane.base + (block.first + (i + k < width ? i + k : i)) * plane.stride + position;
+      for (int j = 0; j < chunk; j += 4) {
+        Four m[4];
+        for (int k = 0; k < 4; ++k) m[k] = *reinterpret_cast<const UnalignedFour*>(line[k] + j);
+        transpose(m);
+        for (int k = 0; k < 4; ++k) *reinterpret_cast<UnalignedFour*>(&tile[j + k][i]) = m[k];
+      }
+    }
+    return;
+  }
+  for (int j = 0; j < count; ++j) {
+    const float* line = plane.base + (position + j) * plane.stride + block.first;
+    // Beyond the last line is the frame.
+#pragma omp simd
+    for (int i = 0; i < lanes; ++i) tile[j][i] = line[i];
+  }
+}
+
+template <int lanes>
+inline void write_tile(const MutablePlaneView& plane, const LineBlock& block, int position,
+                       int count, const float (*tile)[lanes], bool add) {
+  const int width = block.width;
+  if (block.along_rows) {
+    for (int i = 0; i < width; i += 4)
+      for (int j = 0; j < count; j += 4) {
+        Four m[4];
+        for (int k = 0; k < 4; ++k) m[k] = *reinterpret_cast<const UnalignedFour*>(&tile[j + k][i]);
+        transpose(m);
+        float* const first = plane.base + (block.first + i) * plane.stride + position + j;
+        const int lines = width - i < 4 ? width - i : 4;
+        for (int k = 0; k < lines; ++k) {
+          float* const line = first + k * plane.stride;
+          if (j + 4 <= count) {
+            auto* const four = reinterpret_cast<UnalignedFour*>(line);
+            *four = add ? *four + m[k] : m[k];
+          } else {
+            for (int p = 0; p < count - j; ++p) line[p] = add ? line[p] + m[k][p] : m[k][p];
+          }
+        }
+      }
+    return;
+  }
+  for (int j = 0; j < count; ++j) {
+    float* line = plane.base + (position + j) * plane.stride + block.first;
+    if (add)
+      for (int i = 0; i < width; ++i) line[i] += tile[j][i];
+    else
+      for (int i = 0; i < width; ++i) line[i] = tile[j][i];
+  }
+}
+
+/// The inverses of the Schur complements, carried from position to position.
+template <int lanes>
+struct Elimination {
+  alignas(64) double inverse[6][lanes] = {};
+  alignas(64) double coupling[6][lanes] = {};
+
+  /// inverse = (block - coupling inverse coupling)^-1 by L D L^T.
+  void advance(const double (*block)[lanes]) {
+#pragma omp simd
+    for (int i = 0; i < lanes; ++i) {
+      const double o0 = coupling[0][i], o1 = coupling[1][i], o2 = coupling[2][i],
+                   o3 = coupling[3][i], o4 = coupling[4][i], o5 = coupling[5][i];
+      const double g0 = inverse[0][i], g1 = inverse[1][i], g2 = inverse[2][i], g3 = inverse[3][i],
+                   g4 = inverse[4][i], g5 = inverse[5][i];
+      const double h00 = g0 * o0 + g1 * o1 + g2 * o2, h01 = g0 * o1 + g1 * o3 + g2 * o4,
+                   h02 = g0 * o2 + g1 * o4 + g2 * o5;
+      const double h10 = g1 * o0 + g3 * o1 + g4 * o2, h11 = g1 * o1 + g3 * o3 + g4 * o4,
+                   h12 = g1 * o2 + g3 * o4 + g4 * o5;
+      const double h20 = g2 * o0 + g4 * o1 + g5 * o2, h21 = g2 * o1 + g4 * o3 + g5 * o4,
+                   h22 = g2 * o2 + g4 * o4 + g5 * o5;
+      const double a0 = block[0][i] - (o0 * h00 + o1 * h10 + o2 * h20);
+      const double a1 = block[1][i] - (o0 * h01 + o1 * h11 + o2 * h21);
+      const double a2 = block[2][i] - (o0 * h02 + o1 * h12 + o2 * h22);
+      const double a3 = block[3][i] - (o1 * h01 + o3 * h11 + o4 * h21);
+      const double a4 = block[4][i] - (o1 * h02 + o3 * h12 + o4 * h22);
+      const double a5 = block[5][i] - (o2 * h02 + o4 * h12 + o5 * h22);
+      const double least0 = min_pivot * block[0][i], least3 = min_pivot * block[3][i],
+                   least5 = min_pivot * block[5][i];
+      const double d0 = a0 > least0 ? a0 : least0;
+      const double i0 = 1 / d0, l1 = a1 * i0, l2 = a2 * i0;
+      const double p1 = a3 - l1 * a1, d1 = p1 > least3 ? p1 : least3;
+      const double i1 = 1 / d1, e4 = a4 - l1 * a2, m = e4 * i1;
+      const double p2 = a5 - l2 * a2 - m * e4, d2 = p2 > least5 ? p2 : least5;
+      const double i2 = 1 / d2, p = l1 * m - l2;
+      inverse[0][i] = i0 + l1 * l1 * i1 + p * p * i2;
+      inverse[1][i] = -l1 * i1 - p * m * i2;
+      inverse[2][i] = p * i2;
+      inverse[3][i] = i1 + m * m * i2;
+      inverse[4][i] = -m * i2;
+      inverse[5][i] = i2;
+    }
+  }
+};
+
+/// Reads coupling blocks as they are.
+template <int lanes>
+struct BlockCoupling {
+  const PlaneView* planes;
+  alignas(64) float tile[6][chunk][lanes] = {};
+  void read(const LineBlock& block, int position, int count) {
+    for (int k = 0; k < 6; ++k) read_tile<lanes>(planes[k], block, position, count, tile[k]);
+  }
+  void at(int j, float (*out)[lanes]) const {
+    for (int k = 0; k < 6; ++k)
+#pragma omp simd
+      for (int i = 0; i < lanes; ++i) out[k][i] = tile[k][j][i];
+  }
+};
+
+/// Makes them of springs.
+template <int lanes>
+struct SpringCoupling {
+  const PlaneView* planes;
+  alignas(64) float tile[4][chunk][lanes] = {};
+  void read(const LineBlock& block, int position, int count) {
+    for (int k = 0; k < 4; ++k) read_tile<lanes>(planes[k], block, position, count, tile[k]);
+  }
+  void at(int j, float (*out)[lanes]) const {
+#pragma omp simd
+    for (int i = 0; i < lanes; ++i) {
+      const float t = tile[0][j][i], x = tile[1][j][i], y = tile[2][j][i], z = tile[3][j][i];
+      out[0][i] = -(t + x * x);
+      out[1][i] = -(x * y);
+      out[2][i] = -(x * z);
+      out[3][i] = -(t + y * y);
+      out[4][i] = -(y * z);
+      out[5][i] = -(t + z * z);
+    }
+  }
+};
+
+template <int lanes, class Coupling>
+void factor(const LineBlock& block, const PlaneView* diagonal, const PlaneView& extra,
+            Coupling& coupling, float* factors) {
+  Elimination<lanes> state;
+  alignas(64) float tile[7][chunk][lanes] = {};
+  alignas(64) double here[6][lanes];
+  alignas(64) float next[6][lanes];
+  for (int position = 0; position < block.length; position += chunk) {
+    const int count = block.length - position < chunk ? block.length - position : chunk;
+    for (int k = 0; k < 6; ++k) read_tile<lanes>(diagonal[k], block, position, count, tile[k]);
+    read_tile<lanes>(extra, block, position, count, tile[6]);
+    coupling.read(block, position, count);
+    for (int j = 0; j < count; ++j) {
+      // Lanes without a line solve for nothing.
+      for (int i = block.width; i < lanes; ++i) tile[6][j][i] = 1;
+      for (int k = 0; k < 6; ++k) {
+        const bool on_diagonal = k == 0 || k == 3 || k == 5;
+#pragma omp simd
+        for (int i = 0; i < lanes; ++i)
+          here[k][i] = double{tile[k][j][i]} + (on_diagonal ? double{tile[6][j][i]} : 0.0);
+      }
+      state.advance(here);
+      coupling.at(j, next);
+      float* out =
+          factors + static_cast<std::ptrdiff_t>(position + j) * line_factor_entries * lanes;
+      for (int k = 0; k < 6; ++k)
+#pragma omp simd
+        for (int i = 0; i < lanes; ++i) {
+          out[k * lanes + i] = static_cast<float>(state.inverse[k][i]);
+          out[(6 + k) * lanes + i] = next[k][i];
+          state.coupling[k][i] = double{next[k][i]};
+        }
+    }
+  }
+}
+
+/// Springs in series, in single precision without cancellation: with Q what holds a sample but for
+/// the spring K = t 1 + s s^T after it, which passes on P = K - K (Q + K)^-1 K.
+template <int lanes>
+struct Series {
+  alignas(64) float passed[6][lanes] = {};  // P
+
+  /// out = (Q + K)^-1 and K. @param held  Q without what the spring before passes on
+  void advance(const float (*held)[chunk][lanes], const float (*spring)[chunk][lanes], int j,
+               float* out) {
+#pragma omp simd
+    for (int i = 0; i < lanes; ++i) {
+      const float t = spring[0][j][i], x = spring[1][j][i], y = spring[2][j][i],
+                  z = spring[3][j][i];
+      const float a0 = held[0][j][i] + passed[0][i] + t, a1 = held[1][j][i] + passed[1][i],
+                  a2 = held[2][j][i] + passed[2][i], a3 = held[3][j][i] + passed[3][i] + t,
+                  a4 = held[4][j][i] + passed[4][i], a5 = held[5][j][i] + passed[5][i] + t;
+      // W = (Q + t 1)^-1 by L D L^T.
+      const float i0 = 1 / a0, l1 = a1 * i0, l2 = a2 * i0;
+      const float p1 = a3 - l1 * a1, least1 = min_series_pivot * a3;
+      const float i1 = 1 / (p1 > least1 ? p1 : least1), e4 = a4 - l1 * a2, m = e4 * i1;
+      const float p2 = a5 - l2 * a2 - m * e4, least2 = min_series_pivot * a5;
+      const float i2 = 1 / (p2 > least2 ? p2 : least2), n = m * l1 - l2;
+      const float w0 = i0 + l1 * l1 * i1 + n * n * i2, w1 = -(l1 * i1 + m * n * i2), w2 = n * i2,
+                  w3 = i1 + m * m * i2, w4 = -(m * i2), w5 = i2;
+      // (W^-1 + s s^T)^-1 = W - q q^T / (1 + s . q), q = W s.
+      const float qx = w0 * x + w1 * y + w2 * z, qy = w1 * x + w3 * y + w4 * z,
+                  qz = w2 * x + w4 * y + w5 * z;
+      const float part = 1 / (1 + x * qx + y * qy + z * qz);
+      const float rx = part * qx, ry = part * qy, rz = part * qz;
+      out[i] = w0 - rx * qx;
+      out[lanes + i] = w1 - rx * qy;
+      out[2 * lanes + i] = w2 - rx * qz;
+      out[3 * lanes + i] = w3 - ry * qy;
+      out[4 * lanes + i] = w4 - ry * qz;
+      out[5 * lanes + i] = w5 - rz * qz;
+      out[6 * lanes + i] = t;
+      out[7 * lanes + i] = x;
+      out[8 * lanes + i] = y;
+      out[9 * lanes + i] = z;
+      // P = t (1 - t W) + (s - t q) (s - t q)^T / (1 + s . q)
+      const float ux = x - t * qx, uy = y - t * qy, uz = z - t * qz, tt = t * t;
+      const float vx = part * ux, vy = part * uy, vz = part * uz;
+      passed[0][i] = t - tt * w0 + vx * ux;
+      passed[1][i] = vx * uy - tt * w1;
+      passed[2][i] = vx * uz - tt * w2;
+      passed[3][i] = t - tt * w3 + vy * uy;
+      passed[4][i] = vy * uz - tt * w4;
+      passed[5][i] = t - tt * w5 + vz * uz;
+    }
+  }
+};
+
+template <int lanes>
+void factor_series(const LineBlock& block, const HeldLineMatrix& matrix, float* factors) {
+  Series<lanes> state;
+  alignas(64) float held[6][chunk][lanes] = {}, spring[4][chunk][lanes] = {};
+  for (int position = 0; position < block.length; position += chunk) {
+    const int count = block.length - position < chunk ? block.length - position : chunk;
+    for (int k = 0; k < 6; ++k) read_tile<lanes>(matrix.held[k], block, position, count, held[k]);
+    for (int k = 0; k < 4; ++k)
+      read_tile<lanes>(matrix.spring[k], block, position, count, spring[k]);
+    for (int j = 0; j < count; ++j) {
+      // Lanes without a line solve for nothing.
+      for (int i = block.width; i < lanes; ++i) held[0][j][i] = held[3][j][i] = held[5][j][i] = 1;
+      state.advance(
+          held, spring, j,
+          factors + static_cast<std::ptrdiff_t>(position + j) * held_factor_entries * lanes);
+    }
+  }
+}
+
+/// out = G v for the blocks of a position
+template <int lanes>
+inline void multiply(const float* blocks, const float (*v)[lanes], float (*out)[lanes]) {
+#pragma omp simd
+  for (int i = 0; i < lanes; ++i) {
+    const float x = v[0][i], y = v[1][i], z = v[2][i];
+    const float xy = blocks[lanes + i], xz = blocks[2 * lanes + i], yz = blocks[4 * lanes + i];
+    out[0][i] = blocks[i] * x + xy * y + xz * z;
+    out[1][i] = xy * x + blocks[3 * lanes + i] * y + yz * z;
+    out[2][i] = xz * x + yz * y + blocks[5 * lanes + i] * z;
+  }
+}
+
+/// What a sample's neighbours on its line do to it: of blocks B v, of springs -(t v + s (s . v)).
+struct BlockPull {
+  static constexpr int entries = line_factor_entries;
+  template <int lanes>
+  static void apply(const float* blocks, const float (*v)[lanes], float (*out)[lanes]) {
+    multiply<lanes>(blocks, v, out);
+  }
+};
+struct SpringPull {
+  static constexpr int entries = held_factor_entries;
+  template <int lanes>
+  static void apply(const float* spring, const float (*v)[lanes], float (*out)[lanes]) {
+#pragma omp simd
+    for (int i = 0; i < lanes; ++i) {
+      const float t = spring[i], x = spring[lanes + i], y = spring[2 * lanes + i],
+                  z = spring[3 * lanes + i];
+      const float along = x * v[0][i] + y * v[1][i] + z * v[2][i];
+      out[0][i] = -(t * v[0][i] + along * x);
+      out[1][i] = -(t * v[1][i] + along * y);
+      out[2][i] = -(t * v[2][i] + along * z);
+    }
+  }
+};
+
+template <int lanes, class Pull>
+void solve(const LineBlock& block, const float* factors, const PlaneView* rhs, float scale,
+           bool add, float* scratch, const MutablePlaneView* out) {
+  using Vectors = float(*)[lanes];
+  constexpr std::ptrdiff_t entries = std::ptrdiff_t{Pull::entries} * lanes;
+  alignas(64) float tile[3][chunk][lanes];
+  if (block.width < lanes) __builtin_memset(tile, 0, sizeof tile);
+  alignas(64) float passed[3][lanes] = {}, right[3][lanes];
+  for (int position = 0; position < block.length; position += chunk) {
+    const int count = block.length - position < chunk ? block.length - position : chunk;
+    for (int k = 0; k < 3; ++k) read_tile<lanes>(rhs[k], block, position, count, tile[k]);
+    for (int j = 0; j < count; ++j) {
+      const std::ptrdiff_t p = position + j;
+      const float* blocks = factors + p * entries;
+      const auto here = reinterpret_cast<Vectors>(scratch + p * 3 * lanes);
+      for (int k = 0; k < 3; ++k)
+#pragma omp simd
+        for (int i = 0; i < lanes; ++i) right[k][i] = tile[k][j][i] - passed[k][i];
+      multiply<lanes>(blocks, right, here);
+      Pull::template apply<lanes>(blocks + 6 * lanes, here, passed);
+    }
+  }
+  alignas(64) float later[3][lanes] = {}, pulled[3][lanes];
+  const int last = (block.length - 1) / chunk * chunk;
+  for (int position = last; position >= 0; position -= chunk) {
+    const int count = block.length - position < chunk ? block.length - position : chunk;
+    for (int j = count - 1; j >= 0; --j) {
+      const std::ptrdiff_t p = position + j;
+      const float* blocks = factors + p * entries;
+      const auto here = reinterpret_cast<Vectors>(scratch + p * 3 * lanes);
+      Pull::template apply<lanes>(blocks + 6 * lanes, later, passed);
+      multiply<lanes>(blocks, passed, pulled);
+      for (int k = 0; k < 3; ++k)
+#pragma omp simd
+        for (int i = 0; i < lanes; ++i) {
+          later[k][i] = here[k][i] - pulled[k][i];
+          tile[k][j][i] = scale * later[k][i];
+        }
+    }
+    for (int k = 0; k < 3; ++k) write_tile<lanes>(out[k], block, position, count, tile[k], add);
+  }
+}
+
+constexpr int half_lanes = line_lanes / 2;
+
+}  // namespace
+
+void factor_lines(const LineBlock& lines, const LineMatrix& matrix, float* factors) {
+  if (lines.width > half_lanes) {
+    BlockCoupling<line_lanes> coupling{matrix.coupling};
+    factor<line_lanes>(lines, matrix.diagonal, matrix.extra, coupling, factors);
+  } else {
+    BlockCoupling<half_lanes> coupling{matrix.coupling};
+    factor<half_lanes>(lines, matrix.diagonal, matrix.extra, coupling, factors);
+  }
+}
+
+void factor_spring_lines(const LineBlock& lines, const SpringLineMatrix& matrix, float* factors) {
+  if (lines.width > half_lanes) {
+    SpringCoupling<line_lanes> coupling{matrix.coupling};
+    factor<line_lanes>(lines, matrix.diagonal, matrix.extra, coupling, factors);
+  } else {
+    SpringCoupling<half_lanes> coupling{matrix.coupling};
+    factor<half_lanes>(lines, matrix.diagonal, matrix.extra, coupling, factors);
+  }
+}
+
+void solve_lines(const LineBlock& lines, const float* factors, const PlaneView* rhs, float scale,
+                 bool add, float* scratch, const MutablePlaneView* out) {
+  if (lines.width > half_lanes)
+    solve<line_lanes, BlockPull>(lines, factors, rhs, scale, add, scratch, out);
+  else
+    solve<half_lanes, BlockPull>(lines, factors, rhs, scale, add, scratch, out);
+}
+
+void factor_held_lines(const LineBlock& lines, const HeldLineMatrix& matrix, float* factors) {
+  if (lines.width > half_lanes)
+    factor_series<line_lanes>(lines, matrix, factors);
+  else
+    factor_series<half_lanes>(lines, matrix, factors);
+}
+
+void solve_held_lines(const LineBlock& lines, const float* factors, const PlaneView* rhs,
+                      float scale, bool add, float* scratch, const MutablePlaneView* out) {
+  if (lines.width > half_lanes)
+    solve<line_lanes, SpringPull>(lines, factors, rhs, scale, add, scratch, out);
+  else
+    solve<half_lanes, SpringPull>(lines, factors, rhs, scale, add, scratch, out);
+}
+
+}  // namespace weft::WEFT_KERNEL_SET

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "weft/collide/broad_phase/path_boxes.h"
+#include "weft/collide/moving_surface.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// Contacts begin this many gaps before the gap that is kept.
+inline constexpr double contact_margin = 1.5;
+
+/// Two cells (row * (n - 1) + col) that may meet during a step; of one surface with itself a < b.
+struct CandidatePair {
+  int a = 0, b = 0;
+  friend bool operator==(const CandidatePair&, const CandidatePair&) = default;
+};
+
+/// Tells which cells of surfaces may meet. Nothing allocates once warmed up.
+class BroadPhase {
+ public:
+  BroadPhase() = default;
+  BroadPhase(const BroadPhase&) = delete;
+  BroadPhase& operator=(const BroadPhase&) = delete;
+  virtual ~BroadPhase() = default;
+
+  /// Takes the surfaces' motion during a step: cloths first, then bodies, always as many and of the
+  /// same sizes.
+  virtual void refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) = 0;
+  /// All pairs of cells of two surfaces that come closer than `reach` at some time of the step,
+  /// each once, and perhaps some that do not; ordered by what does not depend on the team. Pairs
+  /// that are known not to come so close may be left out.
+  virtual void find(int surface_a, int surface_b, float reach, ThreadTeam& team,
+                    std::vector<CandidatePair>& out) = 0;
+  /// The same of a cloth with itself: all pairs of cells that can meet in more than a common corner
+  /// or edge while every sample stays within `slack` of its path. Neighbours whose rectangle is
+  /// certainly unfolded are left out, though they may be closer than `reach`.
+  virtual void find_self(int surface, float reach, float slack, ThreadTeam& team,
+                         std::vector<CandidatePair>& out) = 0;
+  /// Where the nodes of a surface's mip pyramid are in the step; null where there is no pyramid.
+  [[nodiscard]] virtual const PathBoxLevels* boxes(int /*surface*/) const { return nullptr; }
+};
+
+}  // namespace weft

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+
+#include "weft/collide/moving_surface.h"
+
+namespace weft {
+
+/// The corners of two cells at both ends of a step, seen from one of them, so that single precision
+/// tells their gaps.
+class CellGaps {
+ public:
+  CellGaps(const MovingSurface& a, int cell_a, const MovingSurface& b, int cell_b);
+  /// Whether the way between them or the normal direction of either certainly keeps them apart, in
+  /// the same order, by more than so much at the start and at the end. [m]
+  [[nodiscard]] bool apart(double at_start, double at_end) const;
+  /// How far the same ways certainly keep them apart, at the start and at the end; negative or 0
+  /// where none does. [m]
+  [[nodiscard]] float certain_gap() const;
+  /// A corner of the first or second cell as it is seen. [m]
+  [[nodiscard]] Vec3f start(bool second, int corner) const {
+    return at(second ? start_b_ : start_a_, corner);
+  }
+  [[nodiscard]] Vec3f end(bool second, int corner) const {
+    return at(second ? end_b_ : end_a_, corner);
+  }
+  /// What rounding may add to a gap, generously. [m]
+  [[nodiscard]] float margin() const { return margin_; }
+  /// Whether the cosine between their normals at the start is more than that, either way.
+  [[nodiscard]] bool parallel(float cosine) const;
+  /// How far any two of their points may come nearer to each other in the step, at most. [m]
+  [[nodiscard]] double max_approach() const;
+
+ private:
+  struct Corners {
+    std::array<float, 4> x, y, z;
+  };
+  static Vec3f at(const Corners& of, int corner) {
+    const auto k = static_cast<std::size_t>(corner);
+    return {of.x[k], of.y[k], of.z[k]};
+  }
+  static Corners corners(const Planes3& at, int first, Vec3f origin);
+  static Vec3f normal_of(const Corners& of);
+  [[nodiscard]] Vec3f displacement() const;
+  [[nodiscard]] bool apart_along(Vec3f n, float at_start, float at_end) const;
+  [[nodiscard]] float gap_along(Vec3f n) const;
+
+  Corners start_a_, end_a_, start_b_, end_b_;
+  float margin_ = 0;
+};
+
+}  // namespace weft

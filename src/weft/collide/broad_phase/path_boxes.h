@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "weft/collide/broad_phase/node_levels.h"
+#include "weft/collide/kernels/collide_kernels.h"
+#include "weft/collide/moving_surface.h"
+#include "weft/core/grid.h"
+#include "weft/core/thread_team.h"
+
+namespace weft {
+
+/// The longest side of what a node passes in a step. [m]
+float longest_side(const PathBox& box);
+PathBox child_box(const ChildPathBoxes& of, int child);
+
+/// The path boxes of all nodes of a surface's mip pyramid.
+class PathBoxLevels {
+ public:
+  PathBoxLevels() = default;
+  explicit PathBoxLevels(int cells);
+  /// To be called by every worker; ends with a barrier.
+  void fit(const MovingSurface& surface, Worker& worker);
+
+  [[nodiscard]] const std::vector<int>& sides() const { return sides_; }
+  [[nodiscard]] int top() const { return static_cast<int>(sides_.size()) - 1; }
+  [[nodiscard]] const PathBox& root_box() const { return root_; }
+  /// Of a node above the cells.
+  [[nodiscard]] const ChildPathBoxes& children(const Node& node) const {
+    const auto level = static_cast<std::size_t>(node.level);
+    return children_[level][static_cast<std::size_t>(node.row) * sides_[level] + node.col];
+  }
+
+ private:
+  void fill_row(const MovingSurface& surface, int row);
+  [[nodiscard]] PathBox box_of(const Node& node) const;
+  void fit_node(const Node& node);
+  /// The same of a node of level 1 that has all four cells, faster.
+  void pack_cells(const Node& node);
+  void fit_row(int level, int row);
+
+  std::vector<int> sides_;
+  std::array<Grid<float>, 12> cells_;                  // the planes of PathBox in its order
+  std::vector<std::vector<ChildPathBoxes>> children_;  // of each level [side * side], of 0 none
+  PathBox root_;
+};
+
+}  // namespace weft

@@ -1,0 +1,121 @@
+#include "weft/collide/broad_phase/unfolded_windows.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+namespace weft {
+namespace {
+
+std::array<float*, 12> row_of(std::array<Grid<float>, 12>& planes, int row) {
+  std::array<float*, 12> rows{};
+  for (std::size_t k = 0; k < 12; ++k) rows[k] = planes[k].row(row);
+  return rows;
+}
+std::array<const float*, 12> row_of(const std::array<Grid<float>, 12>& planes, int row) {
+  std::array<const float*, 12> rows{};
+  for (std::size_t k = 0; k < 12; ++k) rows[k] = planes[k].row(row);
+  return rows;
+}
+
+std::array<Grid<float>, 12> planes(int rows, int cols) {
+  std::array<Grid<float>, 12> made;
+  for (Grid<float>& plane : made) plane = Grid<float>(rows, cols);
+  return made;
+}
+
+}  // namespace
+
+UnfoldedWindows::UnfoldedWindows(int cells) : sides_(level_sides(cells)) {
+  for (const int side : sides_) {
+    const int twos = side - 1, threes = std::max(0, side - 2);
+    levels_.push_back(
+        {side, planes(side, side), Grid<float>(twos, twos), Grid<float>(threes, threes)});
+  }
+}
+
+void UnfoldedWindows::fill_row(const CollideKernels& kernels, const MovingSurface& surface,
+                               int row) {
+  Level& cells = levels_.front();
+  const std::array from{&surface.start->x, &surface.start->y, &surface.start->z};
+  const std::array to{&surface.end->x, &surface.end->y, &surface.end->z};
+  const std::array out = row_of(cells.nodes, row);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::array planes{out[k], out[k + 3], out[k + 6], out[k + 9]};
+    kernels.edges(cells.side,
+                  {from[k]->row(row), from[k]->row(row + 1), to[k]->row(row), to[k]->row(row + 1)},
+                  planes.data());
+  }
+}
+
+void UnfoldedWindows::join_row(const CollideKernels& kernels, std::size_t level, int row) {
+  const Level& fine = levels_[level - 1];
+  Level& coarse = levels_[level];
+  const std::array a = row_of(fine.nodes, 2 * row);
+  const std::array b = row_of(fine.nodes, std::min(2 * row + 1, fine.side - 1));
+  const int whole = fine.side / 2;
+  kernels.join_twos(whole, a.data(), b.data(), row_of(coarse.nodes, row).data());
+  if (coarse.side == whole) return;
+  for (std::size_t k = 0; k < 12; ++k) {  // the last, of one column
+    const float p = a[k][2 * whole], q = b[k][2 * whole];
+    coarse.nodes[k](row, whole) = k % 6 < 3 ? std::min(p, q) : std::max(p, q);
+  }
+}
+
+void UnfoldedWindows::fit(const CollideKernels& kernels, const MovingSurface& surface,
+                          Worker& worker) {
+  const Range mine = worker.share(levels_.front().side);
+  for (int r = mine.first; r < mine.last; ++r) fill_row(kernels, surface, r);
+  fit_levels(sides_, worker,
+             [&](int level, int row) { join_row(kernels, static_cast<std::size_t>(level), row); });
+  worker.barrier();
+}
+
+void UnfoldedWindows::find_unfolded_rows(const CollideKernels& kernels, Level& level, float slack,
+                                         Range rows, Lines& lines) {
+  const int twos = level.two_unfolded.cols(), threes = level.three_unfolded.cols();
+  const auto join_two = [&](int r) {
+    kernels.join_windows(twos, row_of(std::as_const(level.nodes), r).data(),
+                         row_of(std::as_const(level.nodes), r + 1).data(),
+                         row_of(lines.twos, r % 2).data());
+  };
+  const auto find_unfolded = [&](int count, const Extents& of, int row, float* out) {
+    kernels.find_unfolded(count, row_of(of, row).data(), slack, out);
+  };
+  if (rows.first < rows.last) join_two(rows.first);
+  for (int r = rows.first; r < rows.last; ++r) {
+    find_unfolded(twos, lines.twos, r % 2, level.two_unfolded.row(r));
+    if (r >= level.three_unfolded.rows()) continue;
+    join_two(r + 1);
+    kernels.join_windows(threes, row_of(std::as_const(lines.twos), r % 2).data(),
+                         row_of(std::as_const(lines.twos), (r + 1) % 2).data(),
+                         row_of(lines.threes, 0).data());
+    find_unfolded(threes, lines.threes, 0, level.three_unfolded.row(r));
+  }
+}
+
+void UnfoldedWindows::find_unfolded(const MovingSurface& surface, float slack, ThreadTeam& team) {
+  const CollideKernels& kernels = collide_kernels_for(team.instructions());
+  const int side = levels_.front().side;
+  while (static_cast<int>(lines_.size()) < team.size())
+    lines_.push_back({planes(2, side), planes(1, side)});
+  team.run([&](Worker& worker) {
+    fit(kernels, surface, worker);
+    // Of an edge both ends may leave their paths.
+    for (Level& level : levels_)
+      find_unfolded_rows(kernels, level, 2 * slack, worker.share(level.two_unfolded.rows()),
+                         lines_[static_cast<std::size_t>(worker.rank())]);
+  });
+}
+
+bool UnfoldedWindows::unfolded(const CandidatePair& pair) const {
+  const int side = levels_.front().side;
+  Node a{0, pair.a / side, pair.a % side}, b{0, pair.b / side, pair.b % side};
+  while (std::abs(a.row - b.row) > 2 || std::abs(a.col - b.col) > 2) {
+    a = {a.level + 1, a.row / 2, a.col / 2};
+    b = {b.level + 1, b.row / 2, b.col / 2};
+  }
+  return unfolded(a, b);
+}
+
+}  // namespace weft

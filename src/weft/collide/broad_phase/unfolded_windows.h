@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "weft/collide/broad_phase/candidate_pairs.h"
+#include "weft/collide/broad_phase/node_levels.h"
+#include "weft/collide/kernels/collide_kernels.h"
+#include "weft/core/grid.h"
+
+namespace weft {
+
+/// Tells which rectangles of a cloth's image certainly do not meet themselves during a step, by the
+/// extents that their edges along rows and along columns keep to.
+///
+/// Every triangle of a grid, whichever its diagonal, has one edge of each kind, so its gradient
+/// lies in these boxes, at all times of a step, since edges move on straight lines. Projected by
+/// the basis that is dual to the boxes' centres it becomes a 2 x 2 matrix near the identity. If the
+/// symmetric part of all such matrices is positive, (f(q) - f(p)) . (q - p) > 0 for every two
+/// points p and q of the rectangle, which is convex: no two points of the surface coincide. Unlike
+/// cones of normals this needs no test of contours.
+///
+/// Judged are all windows of 2 x 2 and of 3 x 3 nodes on all levels of the mip pyramid at once, in
+/// plain rows, so that a search only looks them up.
+class UnfoldedWindows {
+ public:
+  explicit UnfoldedWindows(int cells);
+  /// Takes a step's motion, of which any sample may yet leave its path by `slack`. [m]
+  void find_unfolded(const MovingSurface& surface, float slack, ThreadTeam& team);
+  /// Whether some window that holds two nodes of one level is certainly unfolded; false where they
+  /// are too far apart for one.
+  [[nodiscard]] bool unfolded(const Node& a, const Node& b) const {
+    const Level& level = levels_[static_cast<std::size_t>(a.level)];
+    const auto [row, last_row] = std::minmax(a.row, b.row);
+    const auto [col, last_col] = std::minmax(a.col, b.col);
+    const int apart = std::max(last_row - row, last_col - col);
+    if (apart > 2) return false;
+    const int size = apart < 2 ? 2 : 3;
+    const Grid<float>& marks = apart < 2 ? level.two_unfolded : level.three_unfolded;
+    for (int r = std::max(0, last_row - size + 1); r <= std::min(row, marks.rows() - 1); ++r)
+      for (int c = std::max(0, last_col - size + 1); c <= std::min(col, marks.cols() - 1); ++c)
+        if (marks.row(r)[c] != 0) return true;
+    return false;
+  }
+  /// The same of two cells, on the first level that has a window for them.
+  [[nodiscard]] bool unfolded(const CandidatePair& pair) const;
+
+ private:
+  /// Least x, y, z and largest x, y, z of the edges along rows, then of those along columns.
+  using Extents = std::array<Grid<float>, 12>;
+  struct Level {
+    int side = 0;  // nodes
+    Extents nodes;
+    Grid<float> two_unfolded, three_unfolded;  // 1 where the window that begins here is
+  };
+  /// Rows of windows that a worker has in hand: two of 2 x 2 nodes in turn, one of 3 x 3.
+  struct Lines {
+    std::array<Grid<float>, 12> twos, threes;  // [2 x side], [1 x side]
+  };
+  void fill_row(const CollideKernels& kernels, const MovingSurface& surface, int row);
+  void join_row(const CollideKernels& kernels, std::size_t level, int row);
+  void fit(const CollideKernels& kernels, const MovingSurface& surface, Worker& worker);
+  static void find_unfolded_rows(const CollideKernels& kernels, Level& level, float slack,
+                                 Range rows, Lines& lines);
+
+  std::vector<int> sides_;
+  std::vector<Level> levels_;
+  std::vector<Lines> lines_;  // one a worker
+};
+
+}  // namespace weft

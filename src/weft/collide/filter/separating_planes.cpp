@@ -1,0 +1,159 @@
+#include "weft/collide/filter/separating_planes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Rounding of positions in single precision, relative to their size, times a few: kept free on
+/// either side of a plane.
+constexpr double rounding = 1e-6;
+/// Of the gap at the start, between cloths on either side of the plane, before a body on one: what
+/// is no wider than the margins may hardly shrink, lest it vanish within a few steps.
+constexpr double max_margin = 0.4999, max_margin_before_body = 0.9998;
+
+/// A plane that would have to turn farther stays as it is.
+constexpr double min_cosine = 0.5;
+
+using FeaturePlaces = std::array<Vec3d, 3> MovingFeature::*;
+
+double min_along(Vec3d n, const std::array<Vec3d, 3>& corners, int count) {
+  double least = dot(n, corners[0]);
+  for (int i = 1; i < count; ++i) least = std::min(least, dot(n, corners[i]));
+  return least;
+}
+double max_along(Vec3d n, const std::array<Vec3d, 3>& corners, int count) {
+  return -min_along(-n, corners, count);
+}
+
+/// Gaps along a direction at both ends of the step.
+struct Gaps {
+  double start, end;
+};
+Gaps gaps_along(Vec3d n, const MovingFeature& a, const MovingFeature& b) {
+  return {min_along(n, a.start, a.count) - max_along(n, b.start, b.count),
+          min_along(n, a.end, a.count) - max_along(n, b.end, b.count)};
+}
+
+Vec3d face_normal(const MovingFeature& of) {
+  return normalized(cross(of.start[1] - of.start[0], of.start[2] - of.start[0]));
+}
+
+/// Whether a face's own direction, either way, keeps the two apart by the gaps that are wanted.
+bool certain_along_face(const MovingFeature& face, const MovingFeature& a, const MovingFeature& b,
+                        double wanted) {
+  if (face.count < 3) return false;
+  const Vec3d n = face_normal(face);
+  const auto enough = [&](Gaps gaps) { return gaps.start > 0 && gaps.end >= wanted; };
+  return n != Vec3d{} && (enough(gaps_along(n, a, b)) || enough(gaps_along(-n, a, b)));
+}
+
+Vec3d middle_of(const std::array<Vec3d, 3>& corners, int count) {
+  Vec3d sum;
+  for (int i = 0; i < count; ++i) sum += corners[i];
+  return (1.0 / count) * sum;
+}
+
+/// The same of a body's face that slides past: along the direction that it has where it comes by.
+bool certain_where_passed(const MovingFeature& a, const MovingFeature& body, double wanted) {
+  if (body.count < 3 || body.start == body.end) return false;
+  const Vec3d from = middle_of(body.start, body.count), to = middle_of(body.end, body.count);
+  const double distance = squared_length(to - from);
+  if (!(distance > 0)) return false;
+  const double t =
+      std::clamp(dot(middle_of(a.start, a.count) - from, to - from) / distance, 0.0, 1.0);
+  const Vec3d turned = normalized(cross(body.end[1] - body.end[0], body.end[2] - body.end[0]));
+  const Vec3d n = normalized((1 - t) * face_normal(body) + t * turned);
+  const auto enough = [&](Gaps gaps) { return gaps.start > 0 && gaps.end >= wanted; };
+  return n != Vec3d{} && (enough(gaps_along(n, a, body)) || enough(gaps_along(-n, a, body)));
+}
+
+void put_points(const MovingFeature& a, const MovingFeature& b, SeparatingPlane& plane) {
+  plane.count_a = a.body ? 0 : a.count;
+  plane.count_b = b.body ? 0 : b.count;
+  std::copy_n(a.points.begin(), plane.count_a, plane.points.begin());
+  std::copy_n(b.points.begin(), plane.count_b, plane.points.begin() + plane.count_a);
+}
+
+/// How far two features reach towards each other along a direction. [m]
+struct Reaches {
+  double a, b;
+  [[nodiscard]] double middle() const { return 0.5 * (a + b); }
+};
+Reaches reaches(Vec3d n, const MovingFeature& a, const MovingFeature& b, FeaturePlaces places) {
+  return {min_along(n, a.*places, a.count), max_along(n, b.*places, b.count)};
+}
+
+/// What is kept free on either side of a plane between features that are so near.
+double margin_for(const MovingFeature& b, Reaches near) {
+  const double size = std::max(std::abs(near.a), std::abs(near.b));
+  const double most = b.body ? max_margin_before_body : max_margin;
+  return std::min(rounding * (1 + size), most * std::max(0.0, near.a - near.b));
+}
+
+/// Where a plane stands: in the middle between two cloths, at the body's surface before one.
+PlaneLevels levels_between(const MovingFeature& b, Reaches reached, double margin) {
+  const double at = b.body ? reached.b : reached.middle();
+  return {at + margin, at - margin};
+}
+
+void put_levels(const MovingFeature& a, const MovingFeature& b, SeparatingPlane& plane) {
+  double margin = margin_for(b, reaches(plane.normal, a, b, &MovingFeature::start));
+  const Reaches safe_positions = reaches(plane.turned, a, b, &MovingFeature::safe_position);
+  if (plane.turns) margin = std::min(margin, margin_for(b, safe_positions));
+  plane.at_end = levels_between(b, reaches(plane.turned, a, b, &MovingFeature::end), margin);
+  plane.still = b.body ? plane.at_end : levels_between(b, safe_positions, margin);
+}
+
+/// How far two features reach halfway along a plane that turns, on their ways to their refuges.
+Reaches halfway_reaches(const SeparatingPlane& plane, const MovingFeature& a,
+                        const MovingFeature& b) {
+  const auto along = [&](const MovingFeature& of, int k) {
+    return dot(plane.normal, of.safe_position[k]) + dot(plane.turned, of.start[k]);
+  };
+  Reaches found{HUGE_VAL, -HUGE_VAL};
+  for (int k = 0; k < a.count; ++k) found.a = std::min(found.a, along(a, k));
+  for (int k = 0; k < b.count; ++k) found.b = std::max(found.b, along(b, k));
+  return found;
+}
+
+/// Turns it as the way between the features turns from the start to their refuges, between which it
+/// then stands: where it turns there is no room to be shared anew.
+void turn(const MovingFeature& a, const MovingFeature& b, SeparatingPlane& plane) {
+  const ClosestPair closest =
+      closest_points({a.safe_position, a.count}, {b.safe_position, b.count});
+  const Vec3d turned = normalized(closest.a - closest.b);
+  if (turned == plane.normal || !(dot(turned, plane.normal) > min_cosine)) return;
+  plane.turned = turned;
+  plane.turns = true;
+  put_levels(a, b, plane);
+  plane.at_end = plane.still;
+  const Reaches halfway = halfway_reaches(plane, a, b);
+  plane.halfway = levels_between(b, halfway, margin_for(b, halfway));
+}
+
+}  // namespace
+
+Separation separate(const MovingFeature& a, const MovingFeature& b, const PlaneOptions& options,
+                    SeparatingPlane& out) {
+  const double wanted = (b.body ? 1 : 2) * options.slack;
+  if (certain_along_face(b, a, b, wanted) || certain_along_face(a, a, b, wanted))
+    return Separation::certain;
+  if (b.body && certain_where_passed(a, b, wanted)) return Separation::certain;
+  const ClosestPair closest = closest_points({a.start, a.count}, {b.start, b.count});
+  out.normal = normalized(closest.a - closest.b);
+  const Gaps gaps = gaps_along(out.normal, a, b);
+  if (!(gaps.start > 0)) return Separation::meeting;
+  if (gaps.end >= wanted) return Separation::certain;
+  put_points(a, b, out);
+  out.turned = out.normal;
+  put_levels(a, b, out);
+  if (options.turn) turn(a, b, out);
+  if (b.body)
+    out.body_displacement =
+        max_along(out.turned, b.end, b.count) - max_along(out.turned, b.start, b.count);
+  return Separation::plane;
+}
+
+}  // namespace weft

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "weft/collide/kernels/collide_kernels.h"
+
+// The kernels of one instruction set, whose name WEFT_KERNEL_SET is.
+namespace weft::WEFT_KERNEL_SET {
+
+namespace {
+inline float least(float a, float b) { return a < b ? a : b; }
+inline float largest(float a, float b) { return a > b ? a : b; }
+}  // namespace
+
+void edges(int n, const EdgeRows& rows, float* const* out);
+void join_windows(int n, const float* const* a, const float* const* b, float* const* out);
+void join_twos(int n, const float* const* a, const float* const* b, float* const* out);
+void find_unfolded(int n, const float* const* extents, float slack, float* out);
+unsigned near_children(const PathBox& node, const ChildPathBoxes& children, float reach);
+unsigned near_pairs(const ChildPathBoxes& a, const ChildPathBoxes& b, float reach);
+Extent along(const SampleBlock& samples, const float* origin, const float* direction);
+
+extern const CollideKernels collide_kernels;
+
+}  // namespace weft::WEFT_KERNEL_SET

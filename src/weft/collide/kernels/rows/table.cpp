@@ -1,8 +1,0 @@
-#include "weft/collide/kernels/rows/rows.h"
-
-namespace weft::WEFT_KERNEL_SET {
-
-const CollideKernels collide_kernels{edges,         join_windows, join_twos, judge,
-                                     near_children, near_pairs,   along};
-
-}  // namespace weft::WEFT_KERNEL_SET

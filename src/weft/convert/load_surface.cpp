@@ -1,0 +1,87 @@
+#include "weft/convert/load_surface.h"
+
+#include <cctype>
+#include <filesystem>
+
+#include "weft/convert/surface_places.h"
+#include "weft/convert/vertex_places.h"
+#include "weft/image/builtin.h"
+#include "weft/image/io/image_file.h"
+#include "weft/mesh/io/read_mesh.h"
+#include "weft/mesh/shapes.h"
+
+namespace weft {
+namespace {
+
+constexpr std::string_view builtin_prefix = "builtin:";
+
+SampleBlends blends_of(const Conversion& made, int vertices) {
+  const TriangleMesh& mesh = made.input.mesh;
+  const std::vector<SurfacePlace> places =
+      surface_places(made.mapped, mesh.triangles, made.image.size());
+  SampleBlends follows{vertices, std::vector<BlendedVertex>(places.size())};
+  for (std::size_t s = 0; s < places.size(); ++s) {
+    // On the cut, mates lie in different triangles: one of them speaks for all.
+    const SurfacePlace& place =
+        places[static_cast<std::size_t>(made.image.mates.representative(static_cast<int>(s)))];
+    const Triangle& corners = mesh.triangles[place.triangle];
+    for (int k = 0; k < 3; ++k)
+      follows.blends[s].vertices[k] = made.input.source_vertex[corners[k]];
+    follows.blends[s].weights = place.weights;
+  }
+  return follows;
+}
+
+/// Built-in shapes are in metres with y up; files are what their user says.
+MeshFile load_mesh_file(const std::string& name, const MeshFrame& files) {
+  if (name.starts_with(builtin_prefix)) {
+    MeshFile made{make_shape(name.substr(builtin_prefix.size())), {}};
+    made.faces = faces_of(made.mesh);
+    return made;
+  }
+  MeshFile file = read_mesh_file(name);
+  file.mesh = in_metres_y_up(std::move(file.mesh), files);
+  return file;
+}
+
+}  // namespace
+
+bool is_image_name(const std::string& name) {
+  std::string ending = std::filesystem::path(name).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return !name.starts_with(builtin_prefix) && (ending == ".exr" || ending == ".png");
+}
+
+TriangleMesh load_mesh(const std::string& name) {
+  if (name.starts_with(builtin_prefix)) return make_shape(name.substr(builtin_prefix.size()));
+  return read_mesh(name);
+}
+
+bool is_image_surface(const std::string& name) {
+  return is_image_name(name) || (name.starts_with(builtin_prefix) &&
+                                 is_image_by_nature(name.substr(builtin_prefix.size())));
+}
+
+LoadedSurface load_surface(const std::string& name, const ConvertOptions& options) {
+  if (is_image_name(name)) return {read_image(name), {}, {}, {}, {}};
+  if (is_image_surface(name)) {
+    const int size = options.size == automatic_size ? ConvertOptions{}.size : options.size;
+    return {make_image_shape(name.substr(builtin_prefix.size()), size), {}, {}, {}, {}};
+  }
+  ConvertOptions quick = options;
+  quick.measure = false;
+  MeshFile file = load_mesh_file(name, options.files);
+  const auto vertices = static_cast<int>(file.mesh.positions.size());
+  Conversion made = convert_mesh(file.mesh, name, quick);
+  LoadedSurface loaded;
+  if (options.keep_places) loaded.follows = blends_of(made, vertices);
+  if (options.keep_source)
+    loaded.source = {std::move(file.mesh.positions), std::move(file.faces),
+                     vertex_places(made.mapped, made.input.source_vertex, vertices)};
+  loaded.image = std::move(made.image);
+  loaded.normals = std::move(made.normals);
+  loaded.notes = std::move(made.input.repairs);
+  return loaded;
+}
+
+}  // namespace weft

@@ -1,0 +1,102 @@
+#include "weft/convert/rasterise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weft/core/orientation.h"
+
+namespace weft {
+namespace {
+
+struct Span {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+// The interior samples that may lie in a span, one too many at most at either end: rounding may
+// widen the range but never loses a sample, and what is in it is tested exactly.
+struct SampleRange {
+  int first, last;
+  SampleRange(Span span, double samples_per_unit, int size)
+      : first(static_cast<int>(std::max(1.0, std::ceil(span.low * samples_per_unit - margin)))),
+        last(static_cast<int>(
+            std::min(size - 2.0, std::floor(span.high * samples_per_unit + margin)))) {}
+  static constexpr double margin = 1e-6;
+};
+
+// Where a horizontal line meets a triangle. @pre the line meets its box
+Span row_span(const CornerUv& corners, double v) {
+  Span span;
+  for (int k = 0; k < 3; ++k) {
+    const Vec2d a = corners[k];
+    const Vec2d b = corners[(k + 1) % 3];
+    if (a.y == b.y) {
+      if (a.y != v) continue;
+      span.add(a.x);
+      span.add(b.x);
+      continue;
+    }
+    if (v < std::min(a.y, b.y) || v > std::max(a.y, b.y)) continue;
+    span.add(a.x + (v - a.y) / (b.y - a.y) * (b.x - a.x));
+  }
+  return span;
+}
+
+// A point on an edge is moved by (e, e^2) for a vanishing e > 0: it then lies on one side of every
+// edge, the same for both triangles of an edge and for all those around a vertex.
+bool is_inside_edge(Vec2d a, Vec2d b, Vec2d point) {
+  const int side = orientation(a, b, point);
+  if (side != 0) return side > 0;
+  return b.y < a.y || (b.y == a.y && b.x > a.x);
+}
+
+bool covers(const CornerUv& c, Vec2d point) {
+  return is_inside_edge(c[0], c[1], point) && is_inside_edge(c[1], c[2], point) &&
+         is_inside_edge(c[2], c[0], point);
+}
+
+}  // namespace
+
+CornerUv corner_uv(const SquareMap& map, const Triangle& triangle) {
+  return {map.uv[triangle[0]], map.uv[triangle[1]], map.uv[triangle[2]]};
+}
+
+void rasterise(const DiskMesh& disk, const SquareMap& map, int size,
+               const std::function<void(int row, int col, int triangle)>& visit) {
+  const double per_unit = static_cast<double>(size - 1) / (map.size - 1);
+  for (std::size_t t = 0; t < disk.triangles.size(); ++t) {
+    const CornerUv corners = corner_uv(map, disk.triangles[t]);
+    Span rows;
+    for (const Vec2d uv : corners) rows.add(uv.y);
+    const SampleRange row_range(rows, per_unit, size);
+    for (int row = row_range.first; row <= row_range.last; ++row) {
+      const double v = sample_place(row, size, map.size);
+      const SampleRange col_range(row_span(corners, v), per_unit, size);
+      for (int col = col_range.first; col <= col_range.last; ++col)
+        if (covers(corners, {sample_place(col, size, map.size), v}))
+          visit(row, col, static_cast<int>(t));
+    }
+  }
+}
+
+std::array<double, 3> corner_weights(const CornerUv& corners, Vec2d point) {
+  const Vec2d a = corners[0] - point;
+  const Vec2d b = corners[1] - point;
+  const Vec2d c = corners[2] - point;
+  std::array<double, 3> weights{std::max(0.0, cross(b, c)), std::max(0.0, cross(c, a)),
+                                std::max(0.0, cross(a, b))};
+  const double sum = weights[0] + weights[1] + weights[2];
+  if (!(sum > 0)) {  // a sliver so thin that rounding ate its area: the nearest corner
+    const std::array<double, 3> d{dot(a, a), dot(b, b), dot(c, c)};
+    weights.fill(0);
+    weights[std::min_element(d.begin(), d.end()) - d.begin()] = 1;
+    return weights;
+  }
+  for (double& w : weights) w /= sum;
+  return weights;
+}
+
+}  // namespace weft

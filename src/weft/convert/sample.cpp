@@ -1,0 +1,149 @@
+#include "weft/convert/sample.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "weft/convert/border_walk.h"
+#include "weft/convert/rasterise.h"
+#include "weft/convert/surface_places.h"
+#include "weft/convert/vertex_normals.h"
+#include "weft/core/assert.h"
+#include "weft/core/error.h"
+
+namespace weft {
+namespace {
+
+WorldMap unit_cube_map(const DiskMesh& disk) {
+  Box3d box;
+  for (const Vec3d p : disk.positions) box.add(p);
+  const Vec3d extent = box.extent();
+  const double side = std::max({extent.x, extent.y, extent.z});
+  return {box.lower, side > 0 ? side : 1.0};
+}
+
+Vec3f to_cube(const WorldMap& world, Vec3d position) {
+  const auto clamped = [](double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); };
+  const Vec3d p = position - world.lower;
+  return {clamped(p.x / world.scale), clamped(p.y / world.scale), clamped(p.z / world.scale)};
+}
+
+BorderMates mates_of(const MappedDisk& mapped) {
+  std::vector<MateInterval> intervals;
+  const int around = 4 * (mapped.layout.size - 1);
+  for (int p = 0; p < static_cast<int>(mapped.cut.paths.size()); ++p) {
+    const int mate = mapped.cut.paths[p].mate;
+    if (mate <= p) continue;  // a true border, or told already
+    const int count = mapped.layout.intervals[p];
+    intervals.push_back(
+        {mapped.layout.first[p], (mapped.layout.first[mate] + count) % around, count});
+  }
+  return {mapped.layout.size, std::move(intervals)};
+}
+
+template <class Value>
+Value weighted(const std::array<double, 3>& w, const Value& a, const Value& b, const Value& c) {
+  return w[0] * a + w[1] * b + w[2] * c;
+}
+
+std::array<double, 3> weights_at(const MappedDisk& mapped, const Triangle& triangle, Vec2d point) {
+  return corner_weights(corner_uv(mapped.map, triangle), point);
+}
+
+Vec3f unit_normal(Vec3d sum) {
+  return squared_length(sum) > 0 ? vec_cast<float>(normalized(sum)) : Vec3f{0, 1, 0};
+}
+
+// Samples that are one surface point get the bits of their representative.
+void join_mates(GeometryImage& image) {
+  for (int k = 0; k < image.mates.class_count(); ++k)
+    for (const int sample : image.mates.mates(k))
+      image.cube.set(sample, image.cube.at(image.mates.mates(k)[0]));
+}
+
+void require_cover(const Grid<int>& times) {
+  int bad = 0;
+  for (int row = 1; row < times.rows() - 1; ++row)
+    for (int col = 1; col < times.cols() - 1; ++col) bad += times(row, col) != 1;
+  if (bad > 0)
+    throw TopologyError("",
+                        fmt::format("a map that leaves {} samples not covered exactly once", bad),
+                        "a map without flipped triangles");
+}
+
+}  // namespace
+
+GeometryImage sample_image(const MappedDisk& mapped) {
+  const DiskMesh& disk = mapped.cut.disk;
+  const int n = mapped.map.size;
+  GeometryImage image;
+  image.cube = Planes3(n);
+  image.mates = mates_of(mapped);
+  image.world = unit_cube_map(disk);
+  const BorderWalk border(mapped);
+  for (int t = 0; t < 4 * (n - 1); ++t) {
+    const EdgePoint point = border.at(t, n);
+    const Vec3d p = interpolate(point, disk.positions[point.from], disk.positions[point.to]);
+    image.cube.set(border_sample(n, t), to_cube(image.world, p));
+  }
+  Grid<int> times(n, n);
+  rasterise(disk, mapped.map, n, [&](int row, int col, int index) {
+    const Triangle& t = disk.triangles[index];
+    const std::array<double, 3> w =
+        weights_at(mapped, t, {static_cast<double>(col), static_cast<double>(row)});
+    const Vec3d p = weighted(w, disk.positions[t[0]], disk.positions[t[1]], disk.positions[t[2]]);
+    image.cube.set(row, col, to_cube(image.world, p));
+    ++times(row, col);
+  });
+  require_cover(times);
+  join_mates(image);
+  return image;
+}
+
+NormalMap sample_normals(const MappedDisk& mapped, int size) {
+  const DiskMesh& disk = mapped.cut.disk;
+  const std::vector<Vec3d> normals = disk_vertex_normals(disk);
+  NormalMap map{Planes3(size)};
+  const BorderWalk border(mapped);
+  for (int t = 0; t < 4 * (size - 1); ++t) {
+    const EdgePoint point = border.at(t, size);
+    const Vec3d normal = interpolate(point, normals[point.from], normals[point.to]);
+    map.normal.set(border_sample(size, t), unit_normal(normal));
+  }
+  rasterise(disk, mapped.map, size, [&](int row, int col, int index) {
+    const Triangle& t = disk.triangles[index];
+    const Vec2d place{sample_place(col, size, mapped.map.size),
+                      sample_place(row, size, mapped.map.size)};
+    const Vec3d normal =
+        weighted(weights_at(mapped, t, place), normals[t[0]], normals[t[1]], normals[t[2]]);
+    map.normal.set(row, col, unit_normal(normal));
+  });
+  return map;
+}
+
+Planes3 sample_texture(const MappedDisk& mapped, const TriangleMesh& surface) {
+  WEFT_ASSERT(surface.corner_uv.size() == surface.triangles.size());
+  const int n = mapped.map.size;
+  Planes3 texture(n);
+  const std::vector<SurfacePlace> places = surface_places(mapped, surface.triangles, n);
+  for (int sample = 0; sample < n * n; ++sample) {
+    const SurfacePlace& place = places[sample];
+    Vec2d uv;
+    for (int k = 0; k < 3; ++k) {
+      const Vec2f corner = surface.corner_uv[place.triangle][k];
+      uv = uv + place.weights[k] * Vec2d{corner.x, corner.y};
+    }
+    texture.set(sample, {static_cast<float>(uv.x), static_cast<float>(uv.y), 0});
+  }
+  return texture;
+}
+
+Grid<int> coverage(const MappedDisk& mapped) {
+  Grid<int> times(mapped.map.size, mapped.map.size);
+  rasterise(mapped.cut.disk, mapped.map, mapped.map.size,
+            [&](int row, int col, int) { ++times(row, col); });
+  return times;
+}
+
+}  // namespace weft

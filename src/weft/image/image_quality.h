@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "weft/core/progress.h"
+#include "weft/image/geometry_image.h"
+#include "weft/mesh/distance.h"
+#include "weft/mesh/triangle_mesh.h"
+
+namespace weft {
+
+/// Distances and topology of an image against the mesh it came from.
+struct ImageQuality {
+  bool mates_bit_equal = false;
+  int euler = 0, boundaries = 0;  ///< of the rebuilt mesh
+  double psnr_db = 0;             ///< 20 log10(box diagonal / larger one-sided RMS distance)
+  double hausdorff_percent = 0;   ///< larger one-sided maximum, in percent of the diagonal
+  OneSidedDistance from_mesh, from_image;  ///< what both are made of [m]
+};
+/// What psnr_db is where the surfaces are equal, so that reports hold a number.
+inline constexpr double best_psnr_db = 300;
+struct MeasureOptions {
+  int threads = 1;
+  std::uint64_t seed = 1;  ///< of the surface samples
+  Progress* progress = nullptr;
+};
+/// All of it. @throws TopologyError when the image's samples do not make a manifold
+ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
+                           const MeasureOptions& options = {});
+/// Without the distances, which stay 0: fast.
+ImageQuality measure_topology(const GeometryImage& image);
+
+}  // namespace weft

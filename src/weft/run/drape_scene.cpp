@@ -1,0 +1,112 @@
+#include "weft/run/drape_scene.h"
+
+#include <algorithm>
+
+#include "weft/convert/load_surface.h"
+#include "weft/image/io/image_file.h"
+#include "weft/mesh/shapes.h"
+#include "weft/sim/placement.h"
+
+namespace weft {
+namespace {
+
+constexpr double body_side = 1;          // [m]
+constexpr double cloth_over_body = 1.6;  // sides of a flat cloth over the body's
+constexpr double gap_above = 0.02;       // [m]
+constexpr double worn_share = 0.5;
+constexpr std::string_view builtin_prefix = "builtin:";
+
+std::string_view shape_of(const std::string& surface) {
+  return surface.starts_with(builtin_prefix)
+             ? std::string_view(surface).substr(builtin_prefix.size())
+             : std::string_view();
+}
+
+bool is_flat_shape(const std::string& surface) {
+  const std::string_view shape = shape_of(surface);
+  return shape == "sheet" || shape == "disk";
+}
+
+Box3d surface_box(const std::string& surface, const MeshFrame& files) {
+  Box3d box;
+  if (is_image_name(surface)) {
+    box = box_of(world_positions(read_image(surface)));
+  } else {
+    const bool built_in = surface.starts_with(builtin_prefix);
+    for (const Vec3d& p : load_mesh(surface).positions)
+      box.add(built_in ? p : in_metres_y_up(p, files));
+  }
+  return box;
+}
+
+/// The part of a's extent that lies within b's; a flat box counts whole when it lies within.
+double shared_part(double a_lower, double a_upper, double b_lower, double b_upper) {
+  const double shared = std::min(a_upper, b_upper) - std::max(a_lower, b_lower);
+  if (shared < 0) return 0;
+  return a_upper > a_lower ? shared / (a_upper - a_lower) : 1;
+}
+
+bool is_worn(const std::string& cloth, const Box3d& a, const Box3d& b) {
+  const std::string_view shape = shape_of(cloth);
+  if (!shape.empty() && is_image_by_nature(shape)) return false;
+  return shared_part(a.lower.x, a.upper.x, b.lower.x, b.upper.x) *
+             shared_part(a.lower.y, a.upper.y, b.lower.y, b.upper.y) *
+             shared_part(a.lower.z, a.upper.z, b.lower.z, b.upper.z) >
+         worn_share;
+}
+
+Vec3d all_sides(double scale) { return {scale, scale, scale}; }
+
+/// Centred over the body's box, above its top.
+Placement laid_above(const Box3d& cloth, double cloth_scale, const Box3d& placed_body) {
+  const Vec3d over = placed_body.centre(), own = cloth_scale * cloth.centre();
+  return {all_sides(cloth_scale),
+          {},
+          {over.x - own.x, placed_body.upper.y + gap_above - cloth_scale * cloth.lower.y,
+           over.z - own.z}};
+}
+
+double largest_side(const Box3d& box) {
+  const Vec3d extent = box.extent();
+  return std::max({extent.x, extent.y, extent.z, 1e-12});
+}
+
+}  // namespace
+
+Scene make_drape_scene(const std::string& cloth, const std::string& body,
+                       const DrapeOptions& options) {
+  const Box3d cloth_box = surface_box(cloth, options.files),
+              body_box = surface_box(body, options.files);
+  const bool worn = is_worn(cloth, cloth_box, body_box);
+  const double scale = options.as_is || worn ? 1 : body_side / largest_side(body_box);
+  const Placement standing{all_sides(scale), {}, {0, worn ? 0 : -scale * body_box.lower.y, 0}};
+  const Box3d placed_body{scale * body_box.lower + standing.translate,
+                          scale * body_box.upper + standing.translate};
+
+  Scene scene;
+  scene.frames = options.frames;
+  scene.files = options.files;
+  scene.ground = placed_body.lower.y;
+  SceneCloth dropped;
+  dropped.surface = cloth;
+  dropped.size = options.cloth_size;
+  dropped.material = options.material;
+  dropped.friction = options.friction;
+  if (!worn) {
+    const Vec3d wide = placed_body.extent();
+    const double grown = is_flat_shape(cloth)
+                             ? cloth_over_body * std::max(wide.x, wide.z) / largest_side(cloth_box)
+                             : 1;
+    dropped.placement = laid_above(cloth_box, grown, placed_body);
+  }
+  scene.cloths.push_back(dropped);
+
+  SceneBody stands;
+  stands.surface = body;
+  stands.size = options.body_size;
+  stands.placement = standing;
+  scene.bodies.push_back(stands);
+  return scene;
+}
+
+}  // namespace weft

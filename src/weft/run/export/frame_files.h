@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "weft/run/export/motion_writer.h"
+
+namespace weft {
+
+/// PLY, binary little-endian: positions and normals as floats, polygons.
+class PlyFrames {
+ public:
+  explicit PlyFrames(const ExportedSurface& surface);
+  [[nodiscard]] std::string encode(const MotionFrame& frame) const;
+
+ private:
+  std::string head_, faces_;  // the same for all frames
+  std::vector<Triangle> triangles_;
+};
+
+/// VTK's XML PolyData, its arrays appended raw: positions, normals, polygons, and the time of the
+/// frame.
+class VtpFrames {
+ public:
+  VtpFrames(const ExportedSurface& surface, double frame_rate);
+  [[nodiscard]] std::string encode(const MotionFrame& frame) const;
+
+ private:
+  double frame_rate_;
+  std::size_t vertices_ = 0, polygons_ = 0;
+  std::string connectivity_, offsets_;  // the same for all frames, with their lengths
+  std::vector<Triangle> triangles_;
+};
+
+/// What ParaView opens: which file is shown when.
+/// @param folder  of the frames, beside the file
+std::string pvd_text(const std::string& folder, const std::vector<std::string>& files,
+                     double frame_rate);
+
+/// All samples as a float32 EXR, R, G, B = x, y, z, bit for bit.
+std::string exr_frame(const MotionFrame& frame);
+
+}  // namespace weft

@@ -1,0 +1,122 @@
+#include "weft/run/export/surface_record.h"
+
+#include <algorithm>
+
+namespace weft {
+
+SurfaceRecord::SurfaceRecord(const Subject& subject, const ExportOptions& options)
+    : subject_(subject),
+      options_(options),
+      grid_(surface_points(*subject.image, options.unwelded)),
+      on_image_(grid_, options.files) {
+  if (subject.source != nullptr && !options.unwelded && options.on != WrittenOn::image)
+    on_input_.emplace(
+        grid_,
+        ExportedSurface::Source{subject.image, subject.source, subject.rest, subject.placement},
+        options.files);
+  if (subject.moves) add_writers();
+}
+
+MotionPlace SurfaceRecord::place(bool on_input) const {
+  // NAME.pc2 goes with NAME.obj.
+  const bool beside = !on_input && on_input_.has_value();
+  return {options_.folder, subject_.name,
+          options_.folder / (subject_.name + (beside ? ".image.pc2" : ".pc2")),
+          options_.frame_rate};
+}
+
+void SurfaceRecord::add_writer(const std::string& format, bool on_input) {
+  writers_.push_back(
+      {format, on_input, make_motion_writer(format, place(on_input), surface(on_input))});
+}
+
+void SurfaceRecord::add_writers() {
+  const auto cached = [](const std::string& format) {
+    return format == "pc2" || is_made_of_cache(format);
+  };
+  bool input_cache = false, image_cache = false;
+  for (const std::string& format : options_.formats) {
+    if (!cached(format)) continue;
+    image_cache = true;  // of which runs are drawn, too
+    input_cache = input_cache || shows_input(format);
+  }
+  if (input_cache) add_writer("pc2", true);
+  if (image_cache) {
+    add_writer("pc2", false);
+    image_cache_ = place(false).cache.filename().string();
+  }
+  for (const std::string& format : options_.formats)
+    if (format != "pc2" && format != "obj") add_writer(format, shows_input(format));
+}
+
+void SurfaceRecord::write_still_files() {
+  still_.clear();
+  for (const std::string& format : options_.formats) {
+    if (subject_.moves && format != "obj") continue;
+    const bool on_input = shows_input(format);
+    const MotionFrame now(0, *subject_.now, surface(on_input));
+    if (const auto path = write_still(format, place(on_input), now))
+      still_.push_back({*path, format, on_input, surface(on_input).vertices()});
+  }
+}
+
+template <class Visit>
+void SurfaceRecord::each_frame(int frame, const Visit& visit) const {
+  for (const bool on_input : {true, false}) {
+    std::optional<MotionFrame> now;  // the same for all that show it
+    for (const Writer& writer : writers_) {
+      if (writer.on_input != on_input) continue;
+      if (!now) now.emplace(frame, *subject_.now, surface(on_input));
+      visit(*writer.files, *now);
+    }
+  }
+}
+
+void SurfaceRecord::start() {
+  for (const Writer& writer : writers_) writer.files->start();
+  add(0);
+}
+
+void SurfaceRecord::check_resumable(int frame) const {
+  each_frame(frame,
+             [](const MotionWriter& files, const MotionFrame& now) { files.check_resumable(now); });
+}
+
+void SurfaceRecord::resume(int frame, bool finished) {
+  each_frame(frame,
+             [&](MotionWriter& files, const MotionFrame& now) { files.resume(now, finished); });
+}
+
+void SurfaceRecord::add(int frame) {
+  each_frame(frame, [](MotionWriter& files, const MotionFrame& now) { files.add(now); });
+}
+
+void SurfaceRecord::flush() {
+  for (const Writer& writer : writers_) writer.files->flush();
+}
+
+void SurfaceRecord::finish() {
+  for (const Writer& writer : writers_)
+    if (!is_made_of_cache(writer.format)) writer.files->finish();
+}
+
+void SurfaceRecord::make_of_caches() {
+  for (const Writer& writer : writers_)
+    if (is_made_of_cache(writer.format)) writer.files->finish();
+}
+
+std::vector<WrittenFile> SurfaceRecord::written() const {
+  std::vector<WrittenFile> all = still_;
+  for (const Writer& writer : writers_)
+    for (const std::filesystem::path& path : writer.files->outputs())
+      all.push_back({path, writer.format, writer.on_input, surface(writer.on_input).vertices()});
+  return all;
+}
+
+std::vector<std::filesystem::path> SurfaceRecord::outputs() const {
+  std::vector<std::filesystem::path> paths;
+  for (const WrittenFile& file : written()) paths.push_back(file.path);
+  return paths;
+}
+
+}  // namespace weft

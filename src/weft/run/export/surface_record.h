@@ -1,0 +1,98 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "weft/run/export/motion_writers.h"
+
+namespace weft {
+
+/// How surfaces are written.
+struct ExportOptions {
+  std::filesystem::path folder;
+  std::vector<std::string> formats;
+  WrittenOn on = WrittenOn::automatic;
+  bool unwelded = false;
+  double frame_rate = 60;  ///< [1/s]
+  MeshFrame files;         ///< unit and axes of what is written
+};
+
+/// What was written of a surface, for those who look for it.
+struct WrittenFile {
+  std::filesystem::path path;
+  std::string format;
+  bool on_input = false;
+  int vertices = 0;
+};
+
+/// All files of one cloth or body.
+class SurfaceRecord {
+ public:
+  struct Subject {
+    std::string name;
+    const GeometryImage* image = nullptr;
+    const Planes3* now = nullptr;        ///< where the samples are, at every frame [m]
+    const Planes3* rest = nullptr;       ///< placed, where the mesh's vertices are at rest [m]
+    const SourceMesh* source = nullptr;  ///< null: the image came from no mesh
+    PlacementMap placement;
+    bool moves = true;
+  };
+  /// @param subject  what it points to must outlive this
+  SurfaceRecord(const Subject& subject, const ExportOptions& options);
+  SurfaceRecord(const SurfaceRecord&) = delete;
+  SurfaceRecord& operator=(const SurfaceRecord&) = delete;
+
+  /// Writes what does not grow, as the surface stands. @throws OutputError, as all that follows
+  void write_still_files();
+  /// Begins the files that grow, with frame 0.
+  void start();
+  /// @throws InputError unless the files hold the frames up to `frame`
+  void check_resumable(int frame) const;
+  void resume(int frame, bool finished);
+  void add(int frame);
+  void flush();
+  /// Puts the files that grew in their places.
+  void finish();
+  /// Makes those that are made of them.
+  void make_of_caches();
+
+  [[nodiscard]] std::vector<std::filesystem::path> outputs() const;
+  [[nodiscard]] std::vector<WrittenFile> written() const;
+  [[nodiscard]] const SurfacePoints& grid() const { return grid_; }
+  [[nodiscard]] const Subject& subject() const { return subject_; }
+  /// The mesh's own vertices where any format shows them, else the samples.
+  [[nodiscard]] const ExportedSurface& shown() const { return surface(on_input_.has_value()); }
+  /// The file name of the point cache of the samples; empty: there is none.
+  [[nodiscard]] std::string image_cache() const { return image_cache_; }
+
+ private:
+  struct Writer {
+    std::string format;
+    bool on_input;
+    std::unique_ptr<MotionWriter> files;
+  };
+  [[nodiscard]] bool shows_input(std::string_view format) const {
+    return on_input_.has_value() && is_on_input(format, options_.on);
+  }
+  [[nodiscard]] const ExportedSurface& surface(bool on_input) const {
+    return on_input ? *on_input_ : on_image_;
+  }
+  [[nodiscard]] MotionPlace place(bool on_input) const;
+  void add_writer(const std::string& format, bool on_input);
+  void add_writers();
+  template <class Visit>
+  void each_frame(int frame, const Visit& visit) const;
+
+  Subject subject_;
+  ExportOptions options_;
+  SurfacePoints grid_;
+  ExportedSurface on_image_;
+  std::optional<ExportedSurface> on_input_;
+  std::string image_cache_;
+  std::vector<Writer> writers_;  // caches first: others are made of them
+  std::vector<WrittenFile> still_;
+};
+
+}  // namespace weft

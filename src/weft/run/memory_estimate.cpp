@@ -1,0 +1,94 @@
+#include "weft/run/memory_estimate.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "weft/convert/load_surface.h"
+#include "weft/core/error.h"
+#include "weft/image/io/image_file.h"
+
+namespace weft {
+namespace {
+
+// Measured as the most that a run held, by size; the test of the program compares them again.
+constexpr double program_bytes = 10e6;
+constexpr double body_bytes_per_sample = 370;
+/// Every cloth has a polar table of every body.
+constexpr double table_bytes_per_sample = 110;
+/// The other colliders keep trees of both.
+constexpr double colliding_cloth_bytes_per_sample = 210, colliding_body_bytes_per_sample = 200;
+/// What intersections are counted with.
+constexpr double counted_cloth_bytes_per_sample = 330;
+/// Its rest and both ends of a step, and what each sample is a blend of.
+constexpr double moving_bytes_per_sample = 64;
+constexpr double margin = 1.25, short_share = 0.8;
+
+/// Of a cloth of so many samples.
+struct ClothBytes {
+  double samples;
+  double operator()(const ExplicitOptions&) const { return 385 * samples; }
+  double operator()(const TwoLevelOptions&) const { return 445 * samples; }
+  double operator()(const NewtonOptions&) const { return 1150 * samples; }
+  double operator()(const MultigridOptions&) const { return 640 * samples; }
+  double operator()(const ImplicitOptions&) const { return 785 * samples; }
+  /// Its filter is one dense matrix.
+  double operator()(const DesbrunOptions&) const {
+    return 500 * samples + sizeof(float) * samples * samples;
+  }
+};
+
+double animation_bytes(const std::string& path) {
+  std::error_code missing;  // is told when it is read
+  const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
+  return missing ? 0 : static_cast<double>(bytes);
+}
+
+double samples_of(const std::string& surface, int size) {
+  const double side = is_image_name(surface) ? read_image(surface).size() : size;
+  return side * side;
+}
+
+}  // namespace
+
+std::uint64_t estimate_memory(const Scene& scene) {
+  double bytes = program_bytes;
+  const bool filtered = !std::holds_alternative<PolarMapOptions>(scene.collider);
+  for (const SceneCloth& cloth : scene.cloths) {
+    const double samples = samples_of(cloth.surface, cloth.size);
+    bytes += std::visit(ClothBytes{samples}, scene.integrator);
+    bytes += counted_cloth_bytes_per_sample * samples;
+    if (filtered) bytes += colliding_cloth_bytes_per_sample * samples;
+  }
+  const double per_body_sample =
+      body_bytes_per_sample +
+      (filtered ? colliding_body_bytes_per_sample
+                : table_bytes_per_sample * static_cast<double>(scene.cloths.size()));
+  for (const SceneBody& body : scene.bodies) {
+    const double samples = samples_of(body.surface, body.size);
+    bytes += per_body_sample * samples;
+    if (!body.motion.empty() || !body.animation.empty()) bytes += moving_bytes_per_sample * samples;
+    if (!body.animation.empty()) bytes += animation_bytes(body.animation);
+  }
+  return static_cast<std::uint64_t>(bytes);
+}
+
+void check_memory(std::uint64_t bytes, std::uint64_t available, const std::string& scene) {
+  if (static_cast<double>(bytes) <= margin * static_cast<double>(available)) return;
+  throw SceneError(scene,
+                   fmt::format("about {} of memory are needed, {} are there", memory_text(bytes),
+                               memory_text(available)),
+                   "smaller sizes are wanted");
+}
+
+bool is_memory_short(std::uint64_t bytes, std::uint64_t available) {
+  return static_cast<double>(bytes) > short_share * static_cast<double>(available);
+}
+
+std::string memory_text(std::uint64_t bytes) {
+  const double mb = 1e-6 * static_cast<double>(bytes);
+  return mb < 1000 ? fmt::format("{:.0f} MB", mb) : fmt::format("{:.1f} GB", mb / 1000);
+}
+
+}  // namespace weft

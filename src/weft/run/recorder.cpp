@@ -1,0 +1,190 @@
+#include "weft/run/recorder.h"
+
+#include <ostream>
+
+#include "weft/core/files.h"
+#include "weft/image/io/exr_codec.h"
+#include "weft/image/io/image_file.h"
+#include "weft/mesh/crossings.h"
+#include "weft/mesh/io/mesh_faces.h"
+#include "weft/run/export/cache_manifest.h"
+#include "weft/run/report.h"
+#include "weft/run/run_folder.h"
+
+namespace weft {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What a scene is made of may lie in the folder of an earlier run.
+std::vector<fs::path> input_files(const Scene& scene) {
+  std::vector<fs::path> files;
+  for (const SceneCloth& cloth : scene.cloths) files.emplace_back(cloth.surface);
+  for (const SceneBody& body : scene.bodies)
+    for (const std::string* file : {&body.surface, &body.animation}) files.emplace_back(*file);
+  return files;
+}
+
+}  // namespace
+
+Recorder::Recorder(const Simulation& simulation, const Scene& scene, const RunOptions& options)
+    : simulation_(simulation), scene_(scene), options_(options) {
+  const ExportOptions exports{options.folder,   options.exports,  options.on,
+                              options.unwelded, scene.frame_rate, scene.files};
+  record_cloths(exports);
+  record_bodies(exports);
+}
+
+void Recorder::record_cloths(const ExportOptions& options) {
+  for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
+    const SimulatedCloth& cloth = simulation_.cloths()[i];
+    const SurfaceRecord::Subject subject{cloth.name,
+                                         &cloth.image,
+                                         &cloth.state.position,
+                                         &cloth.cloth.rest,
+                                         cloth.source ? &*cloth.source : nullptr,
+                                         placement_map(scene_.cloths[i].placement),
+                                         true};
+    write_rest(subject);
+    cloths_.push_back(std::make_unique<SurfaceRecord>(subject, options));
+    cloths_.back()->write_still_files();
+  }
+}
+
+void Recorder::record_bodies(const ExportOptions& options) {
+  body_rests_.reserve(simulation_.bodies().size());
+  for (std::size_t i = 0; i < simulation_.bodies().size(); ++i) {
+    const PlacedBody& body = simulation_.bodies()[i];
+    const PlacementMap placement = placement_map(scene_.bodies[i].placement);
+    body_rests_.push_back(placed_positions(body.image, placement));
+    const SurfaceRecord::Subject subject{body.name,
+                                         &body.image,
+                                         &body.positions,
+                                         &body_rests_.back(),
+                                         body.source ? &*body.source : nullptr,
+                                         placement,
+                                         body.moves};
+    write_rest(subject);
+    write_normals(body);
+    bodies_.push_back(std::make_unique<SurfaceRecord>(subject, options));
+    bodies_.back()->write_still_files();
+  }
+}
+
+fs::path Recorder::file(const std::string& name, const std::string& ending) const {
+  return options_.folder / (name + ending);
+}
+
+void Recorder::write_rest(const SurfaceRecord::Subject& subject) {
+  write_image(file(subject.name, ".exr"), *subject.image);
+  rests_.push_back(file(subject.name, ".exr"));
+}
+
+void Recorder::write_normals(const PlacedBody& body) {
+  const fs::path path = normals_path(options_.folder, body.name);
+  std::error_code ignored;
+  fs::remove(path, ignored);  // of an earlier run
+  if (!body.image_normals) return;
+  const std::string bytes = encode_exr(body.image_normals->normal, "normals");
+  write_file(path, [&](std::ostream& out) { out << bytes; });
+  rests_.push_back(path);
+}
+
+template <class Visit>
+void Recorder::each(const Visit& visit) const {
+  for (const Records* records : {&cloths_, &bodies_})
+    for (const auto& record : *records) visit(*record);
+}
+
+void Recorder::start() {
+  each([](SurfaceRecord& record) { record.start(); });
+}
+
+void Recorder::resume(bool finished) {
+  const int frame = simulation_.frame();
+  // All are looked at before the first is cut back.
+  each([&](const SurfaceRecord& record) { record.check_resumable(frame); });
+  each([&](SurfaceRecord& record) { record.resume(frame, finished); });
+}
+
+void Recorder::add_frame() {
+  each([&](SurfaceRecord& record) { record.add(simulation_.frame()); });
+}
+
+void Recorder::flush() {
+  each([](SurfaceRecord& record) { record.flush(); });
+}
+
+void Recorder::finish(RunReport& report) {
+  each([](SurfaceRecord& record) { record.finish(); });
+  report.outputs = rests_;
+  each([&](const SurfaceRecord& record) {
+    for (const fs::path& path : record.outputs()) report.outputs.push_back(path);
+  });
+  const fs::path table = options_.folder / "frames.csv";
+  write_file(table, [&](std::ostream& out) {
+    out << frames_csv_header();
+    for (std::size_t i = 0; i < report.history.size(); ++i)
+      out << frames_csv_line(static_cast<int>(i) + 1, report.history[i], report.particles);
+  });
+  report.outputs.push_back(table);
+  write_manifests(report);
+}
+
+void Recorder::make_of_caches() {
+  each([](SurfaceRecord& record) { record.make_of_caches(); });
+}
+
+void Recorder::write_manifests(RunReport& report) {
+  CacheManifest exports{scene_.files, scene_.frame_rate,
+                        static_cast<int>(report.centre_of_mass.size())};
+  RunCaches caches{options_.folder, options_.unwelded, {}, {}};
+  for (const auto& record : cloths_) {
+    exports.cloths.push_back(record.get());
+    caches.cloths.push_back(record->image_cache());
+  }
+  for (const auto& record : bodies_) {
+    exports.bodies.push_back(record.get());
+    caches.bodies.push_back(record->image_cache());
+  }
+  const fs::path shown = options_.folder / "caches.json";
+  write_cache_manifest(shown, exports, input_files(scene_));
+  const fs::path manifest = options_.folder / "weft-run.json";
+  write_run_manifest(manifest, scene_, report, caches);
+  report.outputs.push_back(shown);
+  report.outputs.push_back(manifest);
+}
+
+std::int64_t Recorder::written_crossings() {
+  std::vector<CrossingSurface> surfaces;  // cloths first
+  each([&](const SurfaceRecord& record) {
+    const std::vector<Vec3f> points = record.shown().points(*record.subject().now);
+    std::vector<Corners> corners;
+    for (const auto& [a, b, c] : fans_of(record.shown().faces()).triangles)
+      corners.push_back(
+          {vec_cast<double>(points[a]), vec_cast<double>(points[b]), vec_cast<double>(points[c])});
+    surfaces.emplace_back(std::move(corners));
+  });
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    count += surfaces[i].count_self_crossings();
+    for (std::size_t j = i + 1; j < surfaces.size(); ++j)
+      count += surfaces[i].count_crossings(surfaces[j]);
+  }
+  return count;
+}
+
+IntersectionCounts Recorder::intersections() {
+  if (!check_) {
+    std::vector<GridTriangles> cloths, bodies;
+    for (const auto& record : cloths_)
+      cloths.push_back({record->subject().now, &record->grid().triangles});
+    for (const auto& record : bodies_)
+      bodies.push_back({record->subject().now, &record->grid().triangles});
+    check_.emplace(cloths, bodies, scene_.ground);
+  }
+  return check_->count();
+}
+
+}  // namespace weft

@@ -1,0 +1,196 @@
+#include "weft/run/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "weft/core/json_text.h"
+#include "weft/core/math.h"
+
+namespace weft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The smallest value that a share of all values does not exceed; 0 of none.
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
+template <class Field>
+std::vector<double> column(const RunReport& report, Field FrameReport::*field) {
+  std::vector<double> values;
+  for (const FrameReport& frame : report.history) values.push_back(frame.*field);
+  return values;
+}
+
+Json milliseconds(const RunReport& report) {
+  const auto median = [&](double FrameReport::*field) {
+    return quantile(column(report, field), 0.5);
+  };
+  return {{"median", median(&FrameReport::milliseconds)},
+          {"p95", quantile(column(report, &FrameReport::milliseconds), 0.95)},
+          {"forces", median(&FrameReport::forces_ms)},
+          {"solve", median(&FrameReport::solve_ms)},
+          {"collide", median(&FrameReport::collide_ms)},
+          {"limit", median(&FrameReport::limit_ms)}};
+}
+
+Json kinds_json(const IntersectionCounts& counts) {
+  return {{"self", counts.self},
+          {"cloths", counts.cloths},
+          {"bodies", counts.bodies},
+          {"ground", counts.ground}};
+}
+
+Json found_json(const FrameIntersections& found) {
+  Json json{{"frame", found.frame}};
+  json.update(kinds_json(found.counts));
+  return json;
+}
+
+/// Of the frame that stretched farthest; nothing where no frame was simulated.
+Json worst_strain(const RunReport& report) {
+  const auto worst = std::max_element(
+      report.history.begin(), report.history.end(),
+      [](const FrameReport& a, const FrameReport& b) { return a.strain.max < b.strain.max; });
+  if (worst == report.history.end()) return {};
+  return {{"frame", worst - report.history.begin() + 1},
+          {"p99", worst->strain.p99},
+          {"max", worst->strain.max}};
+}
+
+/// The largest count of a frame, and which frame that was; 0 and null where none was.
+Json worst_count(const RunReport& report, int FrameReport::*count) {
+  const auto worst = std::max_element(
+      report.history.begin(), report.history.end(),
+      [&](const FrameReport& a, const FrameReport& b) { return a.*count < b.*count; });
+  if (worst == report.history.end() || (*worst).*count == 0)
+    return {{"count", 0}, {"frame", nullptr}};
+  return {{"count", (*worst).*count}, {"frame", worst - report.history.begin() + 1}};
+}
+
+/// The part of all points that the filter held back in a frame.
+double blocked_share(const FrameReport& frame, int particles) {
+  return particles > 0 ? static_cast<double>(frame.stopped) / particles : 0;
+}
+
+/// Of the frame where it was largest.
+double worst_blocked_share(const RunReport& report) {
+  double worst = 0;
+  for (const FrameReport& frame : report.history)
+    worst = std::max(worst, blocked_share(frame, report.particles));
+  return worst;
+}
+
+Json thickness_json(const RunReport& report) {
+  Json json = Json::object();
+  for (const auto& [name, thickness] : report.thickness_used) json[name] = thickness;
+  return json;
+}
+
+Json start_insides_json(const RunReport& report) {
+  Json json = Json::array();
+  for (const StartInside& found : report.start_insides)
+    json.push_back({{"cloth", found.cloth},
+                    {"body", found.body},
+                    {"samples", found.samples},
+                    {"particles", found.particles},
+                    {"kept_in", found.kept_in}});
+  return json;
+}
+
+Json verification_json(const RunReport& report) {
+  if (!report.verification) return {};
+  const auto worst = [](const WorstCount& found) {
+    return Json{{"count", found.count}, {"frame", found.count > 0 ? Json(found.frame) : Json()}};
+  };
+  return {{"passed", worst(report.verification->passed)},
+          {"swallowed", worst(report.verification->swallowed)},
+          {"written", worst(report.verification->written)}};
+}
+
+/// Of energy_gained_mgl [m].
+constexpr double usual_height = 1;
+
+}  // namespace
+
+double energy_gained(const RunReport& report) {
+  double least = report.start_energy, work = 0, gained = 0;
+  for (const FrameReport& frame : report.history) {
+    work += frame.work;
+    const double energy = frame.kinetic_energy + frame.potential_energy - work;
+    least = std::min(least, energy);
+    gained = std::max(gained, energy - least);
+  }
+  return gained;
+}
+
+std::string to_json(const RunReport& report) {
+  const std::vector<double> residuals = column(report, &FrameReport::residual);
+  Json json{
+      {"frames", report.frames},
+      {"particles", report.particles},
+      {"integrator", report.integrator},
+      {"threads", report.threads},
+      {"time_step", report.time_step},
+      {"substeps", report.substeps},
+      {"ms_per_frame", milliseconds(report)},
+      {"strain",
+       {{"mean", report.strain.mean}, {"p99", report.strain.p99}, {"max", report.strain.max}}},
+      {"strain_worst", worst_strain(report)},
+      {"residual", {{"median", quantile(residuals, 0.5)}, {"max", quantile(residuals, 1)}}},
+      {"contacts_max", report.contacts_max},
+      {"self_contacts_max", report.self_contacts_max},
+      {"stopped", worst_count(report, &FrameReport::stopped)},
+      {"fell_back", worst_count(report, &FrameReport::fell_back)},
+      {"blocked_share", worst_blocked_share(report)},
+      {"energy_gained", energy_gained(report)},
+      {"energy_gained_mgl",
+       energy_gained(report) / (report.mass * standard_gravity * usual_height)},
+      {"thickness_used", thickness_json(report)},
+      {"intersections", report.intersections.counts.total()}};
+  json["centre_of_mass"] = Json::array();
+  for (const Vec3d& c : report.centre_of_mass) json["centre_of_mass"].push_back({c.x, c.y, c.z});
+  json["state_hash"] = report.state_hash;
+  json["intersections_found"] = found_json(report.intersections);
+  json["start_intersections"] = kinds_json(report.start_intersections);
+  json["verification"] = verification_json(report);
+  json["start_insides"] = start_insides_json(report);
+  json["untangled_frame"] = report.untangled_frame ? Json(*report.untangled_frame) : Json();
+  json["estimated_memory_mb"] = 1e-6 * static_cast<double>(report.estimated_memory);
+  json["outputs"] = Json::array();
+  for (const auto& path : report.outputs) json["outputs"].push_back(path.string());
+  return json_text(json);
+}
+
+std::string frames_csv_header() {
+  return "frame,ms,forces_ms,solve_ms,collide_ms,limit_ms,iterations,residual,strain_mean,strain_"
+         "p99,strain_max,"
+         "kinetic_energy,potential_energy,contacts,stopped,fell_back,blocked_share,work,smallest_"
+         "gap,com_x,com_y,"
+         "com_z\n";
+}
+
+std::string frames_csv_line(int frame, const FrameReport& f, int particles) {
+  // No gap is known when nothing is near: the field stays empty.
+  const std::string gap =
+      std::isfinite(f.smallest_gap) ? fmt::format("{:.6g}", f.smallest_gap) : "";
+  return fmt::format(
+             "{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{:.4g},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g},{}"
+             ",{},{},{:.4g},{:.6g},{},",
+             frame, f.milliseconds, f.forces_ms, f.solve_ms, f.collide_ms, f.limit_ms, f.iterations,
+             f.residual, f.strain.mean, f.strain.p99, f.strain.max, f.kinetic_energy,
+             f.potential_energy, f.contacts, f.stopped, f.fell_back, blocked_share(f, particles),
+             f.work, gap) +
+         fmt::format("{:.9g},{:.9g},{:.9g}\n", f.centre_of_mass.x, f.centre_of_mass.y,
+                     f.centre_of_mass.z);
+}
+
+}  // namespace weft

@@ -1,0 +1,363 @@
+#include "weft/run/run.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "weft/core/disk_reservation.h"
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/core/memory.h"
+#include "weft/run/checkpoint.h"
+#include "weft/run/memory_estimate.h"
+#include "weft/run/recorder.h"
+#include "weft/run/run_identity.h"
+#include "weft/sim/insides.h"
+#include "weft/sim/scene_file/scene_file.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Work that a killed run may lose where nobody says how many frames [s].
+constexpr double default_seconds_between_checkpoints = 5;
+/// At least what frames.csv and the manifests take [bytes].
+constexpr std::size_t min_room = 16384, room_of_surface = 1024, room_of_frame = 256;
+
+/// Points that fall back in a frame, of all, before the run remarks on it.
+constexpr double max_fallen_part = 0.01;
+
+std::string listed(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
+void check_exports(const Scene& scene, const RunOptions& options) {
+  const auto known = export_formats();
+  for (const std::string& format : options.exports)
+    if (std::find(known.begin(), known.end(), format) == known.end())
+      throw UsageError("--export", fmt::format("unknown format '{}'", format),
+                       "known are: " + listed(known));
+  if (options.on != WrittenOn::input) return;
+  if (options.unwelded)
+    throw UsageError("--unwelded", "goes with the image's samples, --on input with a mesh",
+                     "one of both is wanted");
+  for (const SceneCloth& cloth : scene.cloths)
+    if (is_image_name(cloth.surface))
+      throw UsageError("--on input",
+                       fmt::format("the cloth '{}' is a geometry image, {}, which holds no mesh",
+                                   cloth.name, cloth.surface),
+                       "the mesh that it was made from in its place, or --on image, is wanted");
+}
+
+/// Decides after which frames a checkpoint is written.
+class CheckpointClock {
+ public:
+  explicit CheckpointClock(std::optional<int> frames) : frames_(frames) {}
+  [[nodiscard]] bool off() const { return frames_ == 0; }
+  [[nodiscard]] bool is_due(int frame) const {
+    if (frames_) return *frames_ > 0 && frame % *frames_ == 0;
+    const std::chrono::duration<double> passed = Clock::now() - last_;
+    return passed.count() >= default_seconds_between_checkpoints;
+  }
+  void written() { last_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::optional<int> frames_;
+  Clock::time_point last_ = Clock::now();
+};
+
+/// What is known before the first frame.
+RunReport start_report(const Simulation& simulation, const Scene& scene, const std::string& name,
+                       int threads) {
+  RunReport report;
+  report.scene = name;
+  report.particles = simulation.particles();
+  report.threads = threads;
+  report.substeps = scene.substeps;
+  report.integrator = name_of(scene.integrator);
+  report.time_step = 1 / (scene.frame_rate * scene.substeps);
+  report.notes = simulation.notes();
+  report.start_energy = simulation.start_energy();
+  report.mass = simulation.mass();
+  for (std::size_t i = 0; i < simulation.cloths().size(); ++i)
+    report.thickness_used.emplace_back(simulation.cloths()[i].name, simulation.used_thickness(i));
+  report.start_insides = simulation.start_insides();
+  report.centre_of_mass.push_back(simulation.centre_of_mass());
+  return report;
+}
+
+void add_to_report(RunReport& report, const FrameReport& frame) {
+  ++report.frames;
+  report.history.push_back(frame);
+  report.strain = frame.strain;
+  report.contacts_max = std::max(report.contacts_max, frame.contacts);
+  report.self_contacts_max = std::max(report.self_contacts_max, frame.self_contacts);
+  report.centre_of_mass.push_back(frame.centre_of_mass);
+}
+
+/// Pairs of triangles of cloths alone.
+std::int64_t tangled_pairs(const IntersectionCounts& counts) { return counts.self + counts.cloths; }
+
+std::string tangle_text(const IntersectionCounts& counts) {
+  return fmt::format("{} pairs of triangles of cloth cross, {} of one cloth and {} of two",
+                     tangled_pairs(counts), counts.self, counts.cloths);
+}
+
+class Run {
+ public:
+  Run(const Scene& scene, const std::string& name, const RunOptions& options)
+      : scene_(scene),
+        options_(options),
+        path_(checkpoint_path(options.folder)),
+        clock_(options.checkpoint_frames),
+        simulation_(scene, name, {options.threads, options.instructions}, options.progress),
+        report_(start_report(simulation_, scene, name, options.threads)) {
+    if (options.verify) {
+      verifier_.emplace(simulation_, scene.ground);
+      simulation_.watch(&*verifier_);
+      report_.verification.emplace();
+    }
+    if (!clock_.off() || options.resume)
+      point_.identity = run_identity(scene, simulation_, options);
+    point_.start_centre = report_.centre_of_mass.front();
+  }
+
+  void start() {
+    // One of an earlier run would not fit to the files that begin now.
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+    make_recorder().start();
+    reserve();
+    look_at_start();
+    simulation_.save(point_.state);
+    if (options_.resume)
+      report_.notes.push_back(
+          fmt::format("{}: nothing to resume, begun at frame 0", options_.folder.string()));
+  }
+
+  void resume(const Checkpoint& from) {
+    check(from);
+    Recorder& recorder = make_recorder();
+    look_at_start();
+    simulation_.restore(from.state);
+    recorder.resume(from.state.frame == scene_.frames);
+    reserve();
+    point_.state = from.state;
+    for (const FrameReport& frame : from.history) add_to_report(report_, frame);
+    report_.intersections = from.intersections;
+    report_.untangled_frame = from.untangled_frame;
+    if (verifier_) {
+      verifier_->begin();
+      report_.verification = from.verification;
+    }
+    last_written_ = from.state.frame;
+    report_.notes.push_back(
+        from.state.frame == scene_.frames
+            ? fmt::format("{}: finished already, nothing is left to do", options_.folder.string())
+            : fmt::format("{}: resumed after frame {}", options_.folder.string(),
+                          from.state.frame));
+  }
+
+  RunReport go() {
+    try {
+      while (simulation_.frame() < scene_.frames) take_frame();
+      update(options_.progress, "simulate", 1);
+      if (!options_.verify) {
+        report_.intersections = {};
+        keep_worst(recorder_->intersections());
+      }
+      note_untangling();
+      note_fallen();
+      report_.state_hash = simulation_.state_hash();
+    } catch (const OutputError&) {
+      keep_what_fits();
+      throw;
+    } catch (...) {
+      keep();
+      throw;
+    }
+    keep();
+    return std::move(report_);
+  }
+
+ private:
+  Recorder& make_recorder() {
+    if (!options_.scene_file.empty()) write_scene(options_.scene_file, scene_);
+    recorder_.emplace(simulation_, scene_, options_);
+    return *recorder_;
+  }
+
+  void check(const Checkpoint& from) const {
+    const std::string difference = identity_difference(from.identity, point_.identity);
+    if (!difference.empty())
+      throw InputError(path_.string(), "is of another scene: " + difference,
+                       "the same scene, or a run without --resume, is wanted");
+    const auto& cloths = simulation_.cloths();
+    if (!std::equal(cloths.begin(), cloths.end(), from.state.cloths.begin(),
+                    from.state.cloths.end(),
+                    [](const SimulatedCloth& cloth, const ClothState& state) {
+                      return cloth.cloth.size == state.position.size();
+                    }))
+      throw InputError(path_.string(), "does not fit to its scene",
+                       "a run without --resume starts afresh");
+    if (from.state.frame > scene_.frames)
+      throw InputError(path_.string(), fmt::format("is of frame {}", from.state.frame),
+                       fmt::format("at least {} frames are wanted", from.state.frame));
+  }
+
+  void look_at_start() {
+    for (const StartInside& found : report_.start_insides)
+      if (options_.tell) options_.tell(start_inside_text(found));
+    const IntersectionCounts counts = recorder_->intersections();
+    report_.start_intersections = counts;
+    if (tangled_pairs(counts) == 0) {
+      report_.untangled_frame = 0;
+    } else if (options_.tell) {
+      const char* then = knows_self_collision(scene_.collider) ? "the run takes them apart"
+                                                               : "this collider leaves them so";
+      options_.tell(fmt::format("at the start {}; {}", tangle_text(counts), then));
+    }
+  }
+
+  /// Every frame with verify, else those of which cloths are known to cross, by an earlier look or
+  /// by the collider.
+  void look_at_frame() {
+    const bool tangled = !report_.untangled_frame || simulation_.crossings() > 0;
+    if (!options_.verify && !tangled) return;
+    const IntersectionCounts counts = recorder_->intersections();
+    if (tangled_pairs(counts) > 0) {
+      report_.untangled_frame.reset();
+    } else if (!report_.untangled_frame) {
+      report_.untangled_frame = simulation_.frame();
+    }
+    if (options_.verify) verify(counts);
+  }
+
+  void verify(const IntersectionCounts& counts) {
+    keep_worst(counts);
+    verifier_->count_frame(simulation_.frame(), *report_.verification);
+    if (options_.on == WrittenOn::input)
+      report_.verification->written.add(simulation_.frame(), recorder_->written_crossings());
+  }
+
+  void note_untangling() {
+    if (!report_.untangled_frame) {
+      const IntersectionCounts counts = recorder_->intersections();
+      report_.notes.push_back("cloth is still tangled: in the last frame " + tangle_text(counts));
+    } else if (*report_.untangled_frame > 0) {
+      report_.notes.push_back(fmt::format("what crossed at the start is apart since frame {}",
+                                          *report_.untangled_frame));
+    }
+  }
+
+  void note_fallen() {
+    const auto many = [&](const FrameReport& frame) {
+      return frame.fell_back > max_fallen_part * report_.particles;
+    };
+    const auto first = std::find_if(report_.history.begin(), report_.history.end(), many);
+    if (first == report_.history.end()) return;
+    // What was said of the run as a whole stays last.
+    report_.notes.insert(
+        report_.notes.begin(),
+        fmt::format("frame {}: {} of {} points were put back to where their step began, since they "
+                    "had nowhere else to go; more substeps are wanted",
+                    first - report_.history.begin() + 1, first->fell_back, report_.particles));
+  }
+
+  void keep_worst(const IntersectionCounts& counts) {
+    if (counts.total() > report_.intersections.counts.total())
+      report_.intersections = {simulation_.frame(), counts};
+  }
+
+  void take_frame() {
+    const FrameReport done = simulation_.advance();
+    recorder_->add_frame();
+    add_to_report(report_, done);
+    look_at_frame();
+    if (clock_.off()) return;
+    simulation_.save(point_.state);
+    if (!clock_.is_due(report_.frames)) return;
+    recorder_->flush();
+    write_point();
+  }
+
+  /// For what `keep` writes when the disk is full of frames.
+  void reserve() {
+    const std::size_t surfaces = scene_.cloths.size() + scene_.bodies.size();
+    const auto frames = static_cast<std::size_t>(scene_.frames);
+    reservation_.emplace(options_.folder / "room",
+                         min_room + room_of_surface * surfaces + room_of_frame * frames);
+  }
+
+  /// Everything so far, as files that are whole, and where to go on.
+  void keep() {
+    reservation_.reset();
+    recorder_->finish(report_);
+    if (!options_.scene_file.empty())
+      report_.outputs.insert(report_.outputs.begin(), options_.scene_file);
+    if (!clock_.off()) {
+      if (last_written_ != report_.frames) write_point();
+      report_.outputs.push_back(path_);
+    }
+    recorder_->make_of_caches();
+  }
+
+  /// The first error tells what is the matter; a second of the kind would only hide it.
+  void keep_what_fits() {
+    try {
+      keep();
+    } catch (const OutputError&) {
+      return;
+    }
+  }
+
+  void write_point() {
+    point_.history = report_.history;
+    point_.intersections = report_.intersections;
+    point_.untangled_frame = report_.untangled_frame;
+    point_.verification = report_.verification.value_or(Verification{});
+    write_checkpoint(path_, point_);
+    last_written_ = report_.frames;
+    clock_.written();
+  }
+
+  const Scene& scene_;
+  const RunOptions& options_;
+  fs::path path_;  // of the checkpoint
+  CheckpointClock clock_;
+  Simulation simulation_;
+  RunReport report_;
+  std::optional<Verifier> verifier_;
+  std::optional<Recorder> recorder_;
+  Checkpoint point_;  // its state is that of the last whole frame
+  int last_written_ = -1;
+  std::optional<DiskReservation> reservation_;
+};
+
+}  // namespace
+
+RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options) {
+  check_exports(scene, options);
+  const std::uint64_t memory = estimate_memory(scene);
+  if (const auto available = available_memory()) check_memory(memory, *available, name);
+  const WantedFolder folder(options.folder);
+  const FolderLock lock(options.folder);
+  std::optional<Checkpoint> found;
+  if (options.resume) found = read_checkpoint(checkpoint_path(options.folder));
+  Run run(scene, name, options);
+  if (found) {
+    run.resume(*found);
+  } else {
+    run.start();
+  }
+  RunReport report = run.go();
+  report.estimated_memory = memory;
+  return report;
+}
+
+}  // namespace weft

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "weft/run/passings.h"
+#include "weft/sim/insides.h"
+
+namespace weft {
+
+/// The largest count of a frame, and which frame that was first; 0 where none was.
+struct WorstCount {
+  int frame = 0;
+  std::int64_t count = 0;
+  void add(int at, std::int64_t found) {
+    if (found > count) *this = {at, found};
+  }
+};
+
+/// What counting triangles that cross at the ends of frames does not see.
+struct Verification {
+  WorstCount passed;     ///< vertices and faces, and pairs of edges, that met within a step
+  WorstCount swallowed;  ///< points on the wrong side of a closed body that had been on the right
+  WorstCount written;    ///< pairs of triangles that cross in the meshes that are written
+  [[nodiscard]] bool good() const {
+    return passed.count == 0 && swallowed.count == 0 && written.count == 0;
+  }
+};
+
+/// Looks at every step of a simulation and at the end of every frame, sharing nothing with its
+/// collider: what passes through what by continuous detection, what closed bodies swallow by
+/// winding numbers.
+class Verifier final : public StepWatcher {
+ public:
+  /// @param simulation  at its start; kept by reference
+  Verifier(const Simulation& simulation, std::optional<double> ground);
+  void see(const StepMotion& step) override { passed_ += passings_.count(step); }
+  /// Where everything stands is taken for right, as far as it is.
+  void begin() { count_swallowed(); }
+  /// At the end of a frame.
+  void count_frame(int frame, Verification& found);
+
+ private:
+  /// A cloth and a closed body.
+  struct Sides {
+    std::size_t cloth = 0;
+    ClosedBody body;
+    bool kept_in = false;
+    std::vector<char> right;  // [n * n] whether a sample has been on the side where it belongs
+  };
+  std::int64_t count_swallowed();
+
+  const Simulation& simulation_;
+  PassingCheck passings_;
+  std::vector<Sides> sides_;
+  std::vector<char> inside_;
+  ThreadTeam alone_{1};
+  std::int64_t passed_ = 0;  // in this frame
+};
+
+}  // namespace weft

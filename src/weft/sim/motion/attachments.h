@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "weft/cloth/cloth.h"
+#include "weft/mesh/triangle_mesh.h"
+#include "weft/sim/motion/pins.h"
+#include "weft/sim/scene.h"
+
+namespace weft {
+
+/// A surface that cloth is tied to, as it stands where the run begins.
+struct TiedSurface {
+  std::string name;
+  const Planes3* positions = nullptr;  ///< [n x n] world [m]
+  std::vector<Triangle> triangles;     ///< corners as samples
+};
+
+/// A pin that keeps its place beside the triangle of a body that was nearest at the start: beside
+/// the closest point, in axes that turn with the triangle.
+struct TiedPin {
+  int pin = 0;          ///< of the cloth
+  int body = 0;         ///< of the scene
+  Triangle triangle{};  ///< samples of the body
+  std::array<double, 3> weights{};
+  Vec3d offset;  ///< from the closest point, in the triangle's axes [m]
+};
+
+/// Pins what a cloth's `attach` names, from what pins held before. A sample named twice is tied by
+/// the last.
+/// @param bodies   the scene's, in its order
+/// @throws SceneError when a region holds no sample, or no body has the name
+std::vector<TiedPin> tie_places(Cloth& cloth, std::span<const SceneAttachment> places,
+                                std::span<const TiedSurface> bodies,
+                                std::vector<PinMotion>& motions);
+
+/// Sets the targets of tied pins.
+/// @param bodies  where each body is [n x n] world [m]; null where it stands still
+void move_tied(std::span<const TiedPin> tied, std::span<const Planes3* const> bodies, Cloth& cloth);
+
+}  // namespace weft

@@ -1,0 +1,169 @@
+#include "weft/sim/motion/body_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/image/rebuild.h"
+#include "weft/sim/motion/motion_path.h"
+
+namespace weft {
+namespace {
+
+/// The largest slope of the easing curve.
+constexpr double steepest = 1.5;
+
+PointCache load_animation(const SceneBody& body, const BodyMotion::Files& files) {
+  PointCache cache = read_point_cache(body.animation);
+  if (cache.times_in_frames)
+    for (double& time : cache.times) time /= files.frame_rate;
+  cache.times_in_frames = false;
+  for (Vec3f& p : cache.positions)
+    p = vec_cast<float>(in_metres_y_up(vec_cast<double>(p), files.frame));
+  return cache;
+}
+
+std::vector<BlendedVertex> one_vertex_each(const std::vector<int>& vertices) {
+  std::vector<BlendedVertex> blends;
+  blends.reserve(vertices.size());
+  for (const int vertex : vertices) blends.push_back({{vertex, vertex, vertex}, {1, 0, 0}});
+  return blends;
+}
+
+/// An image's animation has a point for each sample, or mates joined as runs export them.
+std::vector<BlendedVertex> blends_of_image(const GeometryImage& image, const SceneBody& body,
+                                           int points) {
+  const int samples = image.size() * image.size();
+  const RebuiltMesh rebuilt = rebuild_mesh(image);
+  const int vertices = static_cast<int>(rebuilt.sample_of.size());
+  if (points == vertices) return one_vertex_each(rebuilt.vertex_of);
+  if (points != samples)
+    throw SceneError(body.animation, fmt::format("{} points", points),
+                     fmt::format("{} (the samples of {}), or {} (mates joined), are wanted",
+                                 samples, body.surface, vertices));
+  std::vector<int> representatives(static_cast<std::size_t>(samples));
+  for (int s = 0; s < samples; ++s)
+    representatives[static_cast<std::size_t>(s)] = image.mates.representative(s);
+  return one_vertex_each(representatives);
+}
+
+std::vector<BlendedVertex> blends_of(const LoadedSurface& surface, const SceneBody& body,
+                                     int points) {
+  if (!surface.follows) return blends_of_image(surface.image, body, points);
+  if (points != surface.follows->vertices)
+    throw SceneError(
+        body.animation, fmt::format("{} points", points),
+        fmt::format("{}, the vertices of {}, are wanted", surface.follows->vertices, body.surface));
+  return surface.follows->blends;
+}
+
+double farthest_from(Vec3d centre, const Planes3& positions) {
+  double farthest = 0;
+  for (int s = 0; s < positions.size() * positions.size(); ++s)
+    farthest = std::max(farthest, length(vec_cast<double>(positions.at(s)) - centre));
+  return farthest;
+}
+
+}  // namespace
+
+BodyMotion::BodyMotion(const SceneBody& body, const LoadedSurface& surface, const Files& files)
+    : origin_(body.placement.translate),
+      map_(placement_map(body.placement)),
+      lead_in_(body.lead_in),
+      path_(body.motion) {
+  if (path_.empty() && body.animation.empty()) return;
+  rest_ = placed_positions(surface.image, map_);
+  if (!body.animation.empty()) {
+    animation_ = load_animation(body, files);
+    blends_ = blends_of(surface, body, animation_->points);
+    fastest_ = fastest_animated();
+  } else {
+    const double reach = farthest_from(origin_, rest_);
+    fastest_ = fastest_on(path_, reach);
+    if (lead_in_ > 0) {
+      const MotionKey begin = key_at(path_, 0);
+      const std::vector<MotionKey> lead{{0, {}, {}}, {lead_in_, begin.rotate, begin.translate}};
+      fastest_ = std::max(fastest_, steepest * fastest_on(lead, reach));
+    }
+  }
+}
+
+double BodyMotion::led_in(double seconds) const noexcept {
+  if (seconds >= lead_in_) return 1;
+  const double part = std::max(0.0, seconds / lead_in_);
+  return part * part * (3 - 2 * part);
+}
+
+MotionKey BodyMotion::key_now(double seconds) const noexcept {
+  const double share = led_in(seconds);
+  const MotionKey key = key_at(path_, std::max(0.0, seconds - lead_in_));
+  return {seconds, share * key.rotate, share * key.translate};
+}
+
+BodyMotion::Instant BodyMotion::instant_at(double seconds) const noexcept {
+  const std::vector<double>& times = animation_->times;
+  const auto next = std::upper_bound(times.begin(), times.end(), seconds);
+  const int last = animation_->samples() - 1;
+  const int before = std::max(0, static_cast<int>(next - times.begin()) - 1);
+  const int after = std::min(before + 1, last);
+  if (after == before) return {before, before, 0};
+  return {before, after, std::max(0.0, seconds - times[before]) / (times[after] - times[before])};
+}
+
+Vec3d BodyMotion::animated(const Instant& instant, int sample) const noexcept {
+  const BlendedVertex& blend = blends_[static_cast<std::size_t>(sample)];
+  const auto blended = [&](int index) {
+    const std::span<const Vec3f> points = animation_->sample(index);
+    Vec3d sum;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum +=
+          blend.weights[k] * vec_cast<double>(points[static_cast<std::size_t>(blend.vertices[k])]);
+    return sum;
+  };
+  const Vec3d a = blended(instant.before);
+  return map_.point(instant.part > 0 ? a + instant.part * (blended(instant.after) - a) : a);
+}
+
+void BodyMotion::place(double seconds, Planes3& positions, ThreadTeam& team) const noexcept {
+  const int n = rest_.size();
+  const double share = led_in(seconds);
+  const auto set_all = [&](const auto& where) {
+    team.run([&](Worker& worker) {
+      const Range rows = worker.share(n);
+      for (int s = rows.first * n; s < rows.last * n; ++s)
+        positions.set(s, vec_cast<float>(where(s, vec_cast<double>(rest_.at(s)))));
+    });
+  };
+  if (animation_) {
+    const Instant instant = instant_at(std::max(0.0, seconds - lead_in_));
+    set_all([&](int s, Vec3d rest) {
+      const Vec3d there = animated(instant, s);
+      return share < 1 ? rest + share * (there - rest) : there;
+    });
+  } else {
+    const MotionKey key = key_now(seconds);
+    const PlacementMap turn = placement_map({{1, 1, 1}, key.rotate, key.translate});
+    set_all([&](int, Vec3d rest) { return origin_ + turn.point(rest - origin_); });
+  }
+}
+
+double BodyMotion::fastest_animated() const {
+  double fastest = 0;
+  for (int s = 0; s < rest_.size() * rest_.size(); ++s) {
+    Vec3d before = animated({0, 0, 0}, s);
+    if (lead_in_ > 0)
+      fastest =
+          std::max(fastest, steepest * length(before - vec_cast<double>(rest_.at(s))) / lead_in_);
+    for (int k = 1; k < animation_->samples(); ++k) {
+      const Vec3d there = animated({k, k, 0}, s);
+      const double seconds = animation_->times[k] - animation_->times[k - 1];
+      fastest = std::max(fastest, length(there - before) / seconds);
+      before = there;
+    }
+  }
+  return fastest;
+}
+
+}  // namespace weft

@@ -1,0 +1,73 @@
+#include "weft/sim/motion/grab.h"
+
+#include <algorithm>
+
+#include "weft/sim/simulation.h"
+
+namespace weft {
+namespace {
+
+/// Of a hand [m/s].
+constexpr double max_speed = 3;
+/// From the samples beside it, in rest lengths: the strain limit lets cloth stretch a little.
+constexpr double max_stretch = 1.08;
+
+/// As far towards b as `most` from a.
+Vec3d towards(Vec3d a, Vec3d b, double most) {
+  const double distance = length(b - a);
+  return distance > most ? a + (most / distance) * (b - a) : b;
+}
+
+/// A place near the next one that tears at none of the samples beside a pin, seen from all of its
+/// copies. They are taken along as far as they go the same way by themselves; where the cloth is
+/// taut and springs back, the hand gives way no more than it must.
+/// @param way  from here to the next place [m]
+Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, double time_step, Vec3d distance) {
+  const int n = held.cloth.size;
+  Vec3d place = vec_cast<double>(held.state.position.at(pin.sample)) + distance;
+  const Vec3d ahead = normalized(distance);
+  const auto beside = [&](int copy, int down, int right) {
+    const int r = copy / n + down, c = copy % n + right;
+    if (std::min(r, c) < 0 || std::max(r, c) >= n) return;
+    const Vec3d rest = vec_cast<double>(held.cloth.rest.at(r, c) - held.cloth.rest.at(copy));
+    const double along = dot(vec_cast<double>(held.state.velocity.at(r, c)), ahead);
+    const Vec3d there = vec_cast<double>(held.state.position.at(r, c)) +
+                        std::min(std::max(0.0, along) * time_step, length(distance)) * ahead;
+    place = towards(there, place, max_stretch * length(rest));
+  };
+  for (const int copy : pin.copies) {
+    beside(copy, -1, 0);
+    beside(copy, 1, 0);
+    beside(copy, 0, -1);
+    beside(copy, 0, 1);
+  }
+  return place;
+}
+
+}  // namespace
+
+void Grab::take(std::size_t cloth, int sample, SimulatedCloth& held) {
+  const std::size_t pins = held.cloth.pins.size();
+  const Vec3d here = vec_cast<double>(held.state.position.at(sample));
+  pin_ = pin(held.cloth, sample, here);
+  added_ = held.cloth.pins.size() > pins;
+  cloth_ = cloth;
+  wanted_ = here;
+}
+
+void Grab::move(double time_step, std::optional<double> ground, SimulatedCloth& held) const {
+  Pin& pin = held.cloth.pins[static_cast<std::size_t>(pin_)];
+  const Vec3d here = vec_cast<double>(held.state.position.at(pin.sample));
+  const Vec3d distance = towards(here, wanted_, max_speed * time_step) - here;
+  Vec3d next = within_reach(held, pin, time_step, distance);
+  const double thickness = held.cloth.material.thickness;
+  if (ground) next.y = std::max(next.y, std::min(here.y, *ground + thickness));
+  pin.target = next;
+}
+
+void Grab::let_go(Cloth& held) {
+  if (added_) unpin_last(held);
+  pin_ = -1;
+}
+
+}  // namespace weft

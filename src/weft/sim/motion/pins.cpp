@@ -1,0 +1,120 @@
+#include "weft/sim/motion/pins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "weft/core/error.h"
+#include "weft/sim/motion/motion_path.h"
+#include "weft/sim/placement.h"
+
+namespace weft {
+namespace {
+
+struct Pinner {
+  Cloth& cloth;
+  std::vector<int>& held;  // pins of the cloth
+
+  void operator()(const ImagePin& at) const { hold(sample_at(cloth.size, at.uv)); }
+
+  void operator()(const NearestPin& at) const {
+    int nearest = 0;
+    double least = HUGE_VAL;
+    for (int s = 0; s < cloth.size * cloth.size; ++s) {
+      const double squared = squared_length(vec_cast<double>(cloth.rest.at(s)) - at.point);
+      if (squared < least) {
+        least = squared;
+        nearest = s;
+      }
+    }
+    hold(nearest);
+  }
+
+  void operator()(const RegionPin& at) const {
+    // A sample on the region's edge is within, also when its place rounds.
+    constexpr double hair = 1e-9;
+    const double steps = cloth.size - 1;
+    const int first_row = static_cast<int>(std::ceil(at.lower.y * steps - hair));
+    const int last_row = static_cast<int>(std::floor(at.upper.y * steps + hair));
+    const int first_col = static_cast<int>(std::ceil(at.lower.x * steps - hair));
+    const int last_col = static_cast<int>(std::floor(at.upper.x * steps + hair));
+    if (first_row > last_row || first_col > last_col)
+      throw SceneError("pins", "a region that holds no sample",
+                       "a larger region or a larger cloth size is wanted");
+    for (int r = first_row; r <= last_row; ++r)
+      for (int c = first_col; c <= last_col; ++c) hold(r * cloth.size + c);
+  }
+
+  void hold(int sample) const {
+    held.push_back(pin(cloth, sample, vec_cast<double>(cloth.rest.at(sample))));
+  }
+};
+
+/// Whose rest places are the targets still.
+PinMotion motion_of(const Cloth& cloth, const ScenePin& place, std::vector<int> held) {
+  PinMotion motion;
+  motion.path = place.path;
+  for (const int index : held) {
+    motion.rest.push_back(cloth.pins[static_cast<std::size_t>(index)].target);
+    motion.centre += (1 / static_cast<double>(held.size())) * motion.rest.back();
+  }
+  motion.pins = std::move(held);
+  return motion;
+}
+
+}  // namespace
+
+int sample_at(int size, Vec2d uv) {
+  const int row = static_cast<int>(std::lround(uv.y * (size - 1)));
+  const int col = static_cast<int>(std::lround(uv.x * (size - 1)));
+  return row * size + col;
+}
+
+std::vector<int> pin_place(Cloth& cloth, const PinPlace& place) {
+  std::vector<int> held;
+  std::visit(Pinner{cloth, held}, place);
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  return held;
+}
+
+void let_go(std::span<const int> held, std::vector<PinMotion>& motions) {
+  for (PinMotion& motion : motions)
+    for (std::size_t i = motion.pins.size(); i-- > 0;)
+      if (std::find(held.begin(), held.end(), motion.pins[i]) != held.end()) {
+        motion.pins.erase(motion.pins.begin() + static_cast<std::ptrdiff_t>(i));
+        motion.rest.erase(motion.rest.begin() + static_cast<std::ptrdiff_t>(i));
+      }
+}
+
+std::vector<PinMotion> pin_places(Cloth& cloth, std::span<const ScenePin> places) {
+  std::vector<PinMotion> motions;
+  for (const ScenePin& place : places) {
+    std::vector<int> held = pin_place(cloth, place.place);
+    let_go(held, motions);
+    if (!place.path.empty()) motions.push_back(motion_of(cloth, place, std::move(held)));
+  }
+  return motions;
+}
+
+void move_pins(std::span<const PinMotion> motions, double seconds, Cloth& cloth) {
+  for (const PinMotion& motion : motions) {
+    const MotionKey key = key_at(motion.path, seconds);
+    const PlacementMap map = placement_map({{1, 1, 1}, key.rotate, key.translate});
+    for (std::size_t i = 0; i < motion.pins.size(); ++i)
+      cloth.pins[static_cast<std::size_t>(motion.pins[i])].target =
+          motion.centre + map.point(motion.rest[i] - motion.centre);
+  }
+}
+
+double fastest_pin(std::span<const PinMotion> motions) {
+  double fastest = 0;
+  for (const PinMotion& motion : motions) {
+    double reach = 0;
+    for (const Vec3d& place : motion.rest) reach = std::max(reach, length(place - motion.centre));
+    fastest = std::max(fastest, fastest_on(motion.path, reach));
+  }
+  return fastest;
+}
+
+}  // namespace weft

@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/core/nearest_name.h"
+#include "weft/core/parse_json.h"
+#include "weft/sim/scene_file/scene_file.h"
+#include "weft/sim/scene_file/scene_keys.h"
+#include "weft/sim/scene_file/scene_parts.h"
+
+namespace weft {
+namespace {
+
+constexpr int max_substeps = 10'000;
+constexpr int max_frames = 10'000'000;
+constexpr int deepest_nesting = 32;
+
+nlohmann::json parse_scene_json(std::string_view text, const std::string& name) {
+  try {
+    return parse_json(text, deepest_nesting);
+  } catch (const JsonFault& fault) {
+    throw SceneError(fault.place(name), fault.what(), fault.wanted("a scene file is wanted"));
+  }
+}
+
+void check_version(const JsonObject& root) {
+  if (root.integer("version", 1, 0, 1'000'000) != 1)
+    root.place().key("version").fail("unknown version", "1 is wanted");
+}
+
+/// Still air is none unless its coefficients are given.
+std::optional<WindOptions> read_wind(const JsonObject& root) {
+  const nlohmann::json* value = root.find("wind");
+  if (value == nullptr) return std::nullopt;
+  const JsonObject object(*value, root.place().key("wind"), scene_keys::wind);
+  WindOptions wind;
+  wind.velocity = object.vector("velocity", wind.velocity);
+  wind.drag = object.number("drag", wind.drag, not_negative);
+  wind.lift = object.number("lift", wind.lift, not_negative);
+  const bool given = object.has("drag") || object.has("lift");
+  if (wind.velocity == Vec3d{} && !given) return std::nullopt;
+  return wind;
+}
+
+template <class Part, class Read>
+std::vector<Part> read_list(const JsonObject& root, std::string_view key, const Read& read) {
+  std::vector<Part> parts;
+  const nlohmann::json* list = root.find(key);
+  if (list == nullptr) return parts;
+  const JsonPlace place = root.place().key(key);
+  if (!list->is_array()) place.fail("no list", fmt::format("a list of {} is wanted", key));
+  for (std::size_t i = 0; i < list->size(); ++i)
+    parts.push_back(read((*list)[i], place.element(i)));
+  return parts;
+}
+
+std::string in_small_letters(std::string name) {
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return name;
+}
+
+/// Files are named by cloths and bodies: no two may share a name, on systems that take capital
+/// letters for small ones neither.
+void check_names(const Scene& scene, const JsonPlace& place) {
+  std::map<std::string, std::string> seen;  // by its letters made small
+  const auto check = [&](const std::string& name, std::string_view list, std::size_t index) {
+    const auto [other, is_new] = seen.emplace(in_small_letters(name), name);
+    if (is_new) return;
+    const std::string twice = fmt::format("'{}' is there twice", name);
+    const std::string alike =
+        fmt::format("'{}' differs from '{}' in capital letters only", name, other->second);
+    place.key(list).element(index).key("name").fail(
+        other->second == name ? twice : alike,
+        "a name of its own for each cloth and body is wanted");
+  };
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) check(scene.cloths[i].name, "cloths", i);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) check(scene.bodies[i].name, "bodies", i);
+  // The samples' cache lies beside that of the mesh, a body's normal map beside its image.
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+    check(scene.cloths[i].name + ".image", "cloths", i);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    check(scene.bodies[i].name + ".image", "bodies", i);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    check(scene.bodies[i].name + ".normals", "bodies", i);
+}
+
+/// Where a cloth is tied to what is not there.
+void check_attachments(const Scene& scene, const JsonPlace& place) {
+  std::vector<std::string_view> names;
+  for (const SceneBody& body : scene.bodies) names.push_back(body.name);
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    const std::vector<SceneAttachment>& attach = scene.cloths[i].attach;
+    for (std::size_t k = 0; k < attach.size(); ++k)
+      if (std::find(names.begin(), names.end(), attach[k].body) == names.end())
+        place.key("cloths").element(i).key("attach").element(k).key("body").fail(
+            fmt::format("no body is called '{}'", attach[k].body),
+            names.empty()
+                ? "a scene with a body is wanted"
+                : fmt::format("the nearest known is '{}'", nearest_name(attach[k].body, names)));
+  }
+}
+
+void read_ground(const JsonObject& root, Scene& scene) {
+  const nlohmann::json* ground = root.find("ground");
+  if (ground != nullptr && ground->is_null()) {
+    scene.ground.reset();
+  } else {
+    scene.ground = root.number("ground", *scene.ground);
+  }
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder) {
+  const nlohmann::json json = parse_scene_json(text, name);
+  const JsonObject root(json, {name, ""}, scene_keys::scene);
+  check_version(root);
+  Scene scene;
+  scene.gravity = root.vector("gravity", scene.gravity);
+  scene.frame_rate = root.number("frame_rate", scene.frame_rate, positive);
+  scene.substeps = root.integer("substeps", scene.substeps, 1, max_substeps);
+  scene.frames = root.integer("frames", scene.frames, 0, max_frames);
+  read_ground(root, scene);
+  scene.wind = read_wind(root);
+  if (const auto* value = root.find("integrator"))
+    scene.integrator =
+        read_integrator(*value, root.place().key("integrator"), scene.limiter_passes);
+  if (const auto* value = root.find("collider"))
+    scene.collider = read_collider(*value, root.place().key("collider"));
+  scene.files = read_frame(root);
+  scene.cloths = read_list<SceneCloth>(root, "cloths", [&](const auto& value, const auto& place) {
+    return read_cloth(value, place, folder);
+  });
+  scene.bodies = read_list<SceneBody>(root, "bodies", [&](const auto& value, const auto& place) {
+    return read_body(value, place, folder);
+  });
+  if (scene.cloths.empty()) root.place().key("cloths").fail("no cloth", "at least one is wanted");
+  check_names(scene, root.place());
+  check_attachments(scene, root.place());
+  check_abilities(scene, name);
+  return scene;
+}
+
+void check_abilities(const Scene& scene, const std::string& name) {
+  const JsonPlace root{name, ""};
+  const auto refuse = [&](const JsonPlace& place, std::string_view what, std::string_view wanted) {
+    place.fail(fmt::format("{} not available with collider {}", what, name_of(scene.collider)),
+               wanted);
+  };
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+    if (scene.cloths[i].self_collision.value_or(false) && !knows_self_collision(scene.collider))
+      refuse(root.key("cloths").element(i).key("self_collision"), "true is", "false is wanted");
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const SceneBody& body = scene.bodies[i];
+    if (knows_moving_bodies(scene.collider)) continue;
+    for (const auto& [key, given] : {std::pair{"motion", !body.motion.empty()},
+                                     std::pair{"animation", !body.animation.empty()}})
+      if (given)
+        refuse(root.key("bodies").element(i).key(key), "moving bodies are",
+               "another collider, or bodies that stand still, are wanted");
+  }
+}
+
+Scene read_scene(const std::filesystem::path& path) {
+  return parse_scene(read_file(path), path.string(), path.parent_path());
+}
+
+}  // namespace weft

@@ -1,0 +1,176 @@
+// The writing half of weft/sim/scene_file/scene_file.h.
+#include <ostream>
+
+#include <nlohmann/json.hpp>
+
+#include "weft/core/error.h"
+#include "weft/core/files.h"
+#include "weft/sim/scene_file/scene_file.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json to_json(Vec3d v) { return {v.x, v.y, v.z}; }
+Json to_json(Vec2d v) { return {v.x, v.y}; }
+
+/// Relative to the scene's folder, so that the folder can be moved together with what it holds.
+std::string surface_text(const std::string& surface, const fs::path& folder) {
+  if (surface.starts_with("builtin:")) return surface;
+  return fs::absolute(surface)
+      .lexically_normal()
+      .lexically_proximate(fs::absolute(folder).lexically_normal())
+      .string();
+}
+
+struct IntegratorWriter {
+  Json operator()(const ImplicitOptions& o) const { return iterative(o); }
+  Json operator()(const NewtonOptions& o) const { return iterative(o); }
+  Json operator()(const MultigridOptions& o) const { return iterative(o); }
+  Json operator()(const ExplicitOptions& o) const { return {{"type", name_of(o)}}; }
+  Json operator()(const DesbrunOptions& o) const { return {{"type", name_of(o)}}; }
+  Json operator()(const TwoLevelOptions& o) const {
+    return {{"type", name_of(o)},
+            {"local_size", o.local_size},
+            {"global_size", o.global_size},
+            {"as_printed", o.as_printed},
+            {"filter_stiffness", o.filter_stiffness}};
+  }
+
+ private:
+  template <class Options>
+  static Json iterative(const Options& o) {
+    return {{"type", name_of(o)}, {"max_iterations", o.max_iterations}, {"tolerance", o.tolerance}};
+  }
+};
+
+Json collider_json(const ColliderOptions& options) {
+  Json json{{"type", name_of(options)}};
+  if (const auto* polar_map = std::get_if<PolarMapOptions>(&options)) {
+    json["size"] = polar_map->size;
+    json["walk"] = polar_map->walk;
+  }
+  return json;
+}
+
+/// One number where warp and weft are alike.
+Json to_json(WarpWeft pair) {
+  return pair.warp == pair.weft ? Json(pair.warp) : Json{pair.warp, pair.weft};
+}
+
+Json material_json(const Material& m) {
+  return {
+      {"density", m.density},           {"stretch", to_json(m.stretch)},  {"shear", m.shear},
+      {"bending", to_json(m.bending)},  {"bend_springs", m.bend_springs}, {"damping", m.damping},
+      {"strain_limit", m.strain_limit}, {"thickness", m.thickness}};
+}
+
+struct PinWriter {
+  Json operator()(const ImagePin& pin) const { return {{"image", to_json(pin.uv)}}; }
+  Json operator()(const NearestPin& pin) const { return {{"nearest", to_json(pin.point)}}; }
+  Json operator()(const RegionPin& pin) const {
+    return {{"region", Json::array({to_json(pin.lower), to_json(pin.upper)})}};
+  }
+};
+
+void add_motion(Json& json, const char* name, const std::vector<MotionKey>& motion) {
+  for (const MotionKey& key : motion)
+    json[name].push_back({{"time", key.time},
+                          {"rotate", to_json(key.rotate)},
+                          {"translate", to_json(key.translate)}});
+}
+
+Json pin_json(const ScenePin& pin) {
+  Json json = std::visit(PinWriter{}, pin.place);
+  add_motion(json, "path", pin.path);
+  return json;
+}
+
+Json attachment_json(const SceneAttachment& attachment) {
+  Json json = std::visit(PinWriter{}, attachment.place);
+  json["body"] = attachment.body;
+  return json;
+}
+
+void add_placement(Json& json, const Placement& placement) {
+  json["scale"] = to_json(placement.scale);
+  json["rotate"] = to_json(placement.rotate);
+  json["translate"] = to_json(placement.translate);
+}
+
+Json cloth_json(const SceneCloth& cloth, bool self_collision, const fs::path& folder) {
+  Json json{
+      {"name", cloth.name}, {"surface", surface_text(cloth.surface, folder)}, {"size", cloth.size}};
+  add_placement(json, cloth.placement);
+  json["material"] = material_json(cloth.material);
+  json["self_collision"] = self_collision;
+  json["friction"] = cloth.friction;
+  json["velocity"] = to_json(cloth.velocity);
+  json["pins"] = Json::array();
+  for (const ScenePin& pin : cloth.pins) json["pins"].push_back(pin_json(pin));
+  json["attach"] = Json::array();
+  for (const SceneAttachment& attachment : cloth.attach)
+    json["attach"].push_back(attachment_json(attachment));
+  return json;
+}
+
+Json body_json(const SceneBody& body, const fs::path& folder) {
+  Json json{
+      {"name", body.name}, {"surface", surface_text(body.surface, folder)}, {"size", body.size}};
+  add_placement(json, body.placement);
+  json["friction"] = body.friction;
+  add_motion(json, "motion", body.motion);
+  if (!body.animation.empty()) json["animation"] = surface_text(body.animation, folder);
+  if (!body.motion.empty() || !body.animation.empty()) json["lead_in"] = body.lead_in;
+  return json;
+}
+
+Json scene_json(const Scene& scene, const fs::path& folder) {
+  Json json{{"version", 1},
+            {"gravity", to_json(scene.gravity)},
+            {"frame_rate", scene.frame_rate},
+            {"substeps", scene.substeps},
+            {"frames", scene.frames}};
+  json["ground"] = scene.ground ? Json(*scene.ground) : Json();
+  json["wind"] = {{"velocity", to_json(scene.wind ? scene.wind->velocity : Vec3d{})}};
+  if (scene.wind) {
+    json["wind"]["drag"] = scene.wind->drag;
+    json["wind"]["lift"] = scene.wind->lift;
+  }
+  json["integrator"] = std::visit(IntegratorWriter{}, scene.integrator);
+  if (scene.limiter_passes && has_limiter(scene.integrator))
+    json["integrator"]["limiter_passes"] = *scene.limiter_passes;
+  json["collider"] = collider_json(scene.collider);
+  json["unit"] = scene.files.unit.name;
+  json["up"] = scene.files.up();
+  json["cloths"] = Json::array();
+  const bool able = knows_self_collision(scene.collider);
+  for (const SceneCloth& cloth : scene.cloths)
+    json["cloths"].push_back(
+        cloth_json(cloth, able && cloth.self_collision.value_or(true), folder));
+  json["bodies"] = Json::array();
+  for (const SceneBody& body : scene.bodies) json["bodies"].push_back(body_json(body, folder));
+  return json;
+}
+
+}  // namespace
+
+std::string scene_text(const Scene& scene, const fs::path& path) {
+  try {
+    return scene_json(scene, path.parent_path()).dump(2) + '\n';
+  } catch (const Json::type_error&) {
+    throw OutputError(path.string(), "a surface's path is not UTF-8, which JSON cannot hold",
+                      "another name is wanted");
+  }
+}
+
+std::string material_text(const Material& material) { return material_json(material).dump(); }
+
+void write_scene(const fs::path& path, const Scene& scene) {
+  const std::string text = scene_text(scene, path);
+  write_file(path, [&](std::ostream& out) { out << text; });
+}
+
+}  // namespace weft

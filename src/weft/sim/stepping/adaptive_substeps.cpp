@@ -1,0 +1,77 @@
+#include "weft/sim/stepping/adaptive_substeps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weft/mesh/box_tree.h"
+
+namespace weft {
+namespace {
+
+/// Samples a side of a block.
+constexpr int block_size = 16;
+
+Box3d padded(const Box3d& box, double by) {
+  const Vec3d aside{by, by, by};
+  return {box.lower - aside, box.upper + aside};
+}
+
+}  // namespace
+
+ClothReach::ClothReach(int size) {
+  const auto blocks = static_cast<std::size_t>((size - 2) / block_size + 1);
+  blocks_.reserve(blocks * blocks);
+}
+
+void ClothReach::place(const ClothState& cloth, double seconds, double padding) noexcept {
+  const int n = cloth.position.size();
+  blocks_.clear();
+  whole_ = {};
+  for (int row = 0; row + 1 < n; row += block_size)
+    for (int col = 0; col + 1 < n; col += block_size) {
+      Box3d box;
+      // Up to the first samples of the next blocks: none lies between.
+      for (int r = row; r <= std::min(n - 1, row + block_size); ++r)
+        for (int c = col; c <= std::min(n - 1, col + block_size); ++c) {
+          const Vec3d at = vec_cast<double>(cloth.position.at(r, c));
+          box.add(at);
+          box.add(at + seconds * vec_cast<double>(cloth.velocity.at(r, c)));
+        }
+      blocks_.push_back(padded(box, padding));
+      whole_.add(blocks_.back().lower);
+      whole_.add(blocks_.back().upper);
+    }
+}
+
+bool ClothReach::meets(const Box3d& box) const noexcept {
+  return overlap(whole_, box) && std::any_of(blocks_.begin(), blocks_.end(),
+                                             [&](const Box3d& b) { return overlap(b, box); });
+}
+
+double wanted_subdivisions(const BodyStep& body, const ClothReach& cloth,
+                           double max_approach_in_step, SurfaceMotion& motion,
+                           ThreadTeam& team) noexcept {
+  double wanted = 1;
+  if (largest_displacement(body.start, body.end) <= max_approach_in_step) return wanted;
+  motion.measure(body.start, body.end, body.triangles, team);
+  for (const Triangle& t : body.triangles) {
+    double own = 0;
+    for (const int corner : t)
+      own = std::max(
+          {own, motion.approach(corner) / max_approach_in_step, motion.turn(corner) / max_turn});
+    if (own <= wanted) continue;
+    Box3d way;
+    for (const Planes3* at : {&body.start, &body.end})
+      for (const int corner : t) way.add(vec_cast<double>(at->at(corner)));
+    if (cloth.meets(way)) wanted = own;
+  }
+  return wanted;
+}
+
+int whole_subdivisions(double wanted) noexcept {
+  int subdivisions = 1;
+  while (subdivisions < max_pieces && subdivisions < wanted) subdivisions *= 2;
+  return subdivisions;
+}
+
+}  // namespace weft

@@ -1,0 +1,107 @@
+#include "weft/sim/stepping/driven_work.h"
+
+#include <algorithm>
+
+#include "weft/cloth/mates.h"
+#include "weft/cloth/neighbours.h"
+
+namespace weft {
+
+DrivenWork::DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team)
+    : cloth_(cloth),
+      gravity_(gravity),
+      team_(team),
+      springs_(cloth, team),
+      bending_(cloth, team.instructions()),
+      force_(cloth.size),
+      driven_(static_cast<std::size_t>(cloth.size) * cloth.size) {
+  samples_.reserve(driven_.size());
+}
+
+DrivenWork::Driven& DrivenWork::driven(int sample) {
+  Driven& found = driven_[sample];
+  if (found.weight == 0) samples_.push_back(sample);
+  return found;
+}
+
+void DrivenWork::add_pins(const DoneStep& step) {
+  for (const Pin& pin : cloth_.pins) {
+    const Vec3d displacement = vec_cast<double>(step.end.position.at(pin.sample)) -
+                               vec_cast<double>(step.start.position.at(pin.sample));
+    if (displacement == Vec3d{}) continue;
+    Driven& found = driven(pin.sample);
+    found.displacement = displacement;
+    found.weight = 1;
+    found.pinned = true;
+  }
+}
+
+void DrivenWork::add_contacts(const PressingObstacles& obstacles) {
+  for (std::size_t i = 0; i < obstacles.contacts.size(); ++i) {
+    const Contact& contact = obstacles.contacts[i];
+    if (contact.surface_displacement == Vec3f{}) continue;
+    for (std::size_t k = 0; k < contact.samples.size(); ++k) {
+      const double weight = contact.weights[k];
+      if (!(weight > 0)) continue;
+      const int sample = cloth_.mates.representative(contact.samples[k]);
+      Driven& found = driven(sample);
+      if (found.pinned) continue;
+      found.displacement += weight * vec_cast<double>(contact.surface_displacement);
+      found.normal += weight * vec_cast<double>(contact.normal);
+      if (i < obstacles.forces.size()) found.pressing += weight * double{obstacles.forces[i]};
+      found.friction = std::max(found.friction, double{contact.friction});
+      found.weight += weight;
+    }
+  }
+}
+
+void DrivenWork::find_forces(const DoneStep& step) {
+  const SpringRows::Motion motion{step.end.position, step.start.position, step.time_step};
+  team_.run([&](Worker& worker) {
+    if (bending_.active()) bending_.curve(step.end.position, worker);
+    springs_.begin(motion, worker);
+    const Range mine = worker.share(cloth_.size);
+    for (int r = mine.first; r < mine.last; ++r) {
+      const ConstRow3 row = springs_.row(motion, r, worker);
+      std::copy_n(row.x, cloth_.size, force_.x.row(r));
+      std::copy_n(row.y, cloth_.size, force_.y.row(r));
+      std::copy_n(row.z, cloth_.size, force_.z.row(r));
+      bending_.add_row(1, r, force_);
+    }
+    worker.barrier();
+    sum_over_mates(cloth_.mates, worker, {&force_.x, &force_.y, &force_.z});
+  });
+}
+
+Vec3d DrivenWork::force_on(const Driven& driven, Vec3d reaction) {
+  if (driven.pinned) return reaction;
+  const double size = length(driven.normal);
+  if (!(size > 0)) return {};
+  const Vec3d normal = (1 / size) * driven.normal;
+  const double along = dot(reaction, normal);
+  const double pressing = std::max({0.0, along, driven.pressing});
+  const Vec3d drag = reaction - along * normal;
+  const double most = driven.friction * pressing, has = length(drag);
+  return pressing * normal + (has > most ? most / has : 1.0) * drag;
+}
+
+double DrivenWork::measure(const DoneStep& step, const PressingObstacles& obstacles) noexcept {
+  add_pins(step);
+  add_contacts(obstacles);
+  if (samples_.empty()) return 0;
+  find_forces(step);
+  double work = 0;
+  for (const int s : samples_) {
+    const double mass = cloth_.mass(s / cloth_.size, s % cloth_.size);
+    const Vec3d gained =
+        vec_cast<double>(step.end.velocity.at(s)) - vec_cast<double>(step.start.velocity.at(s));
+    const Vec3d reaction =
+        mass * ((1 / step.time_step) * gained - gravity_) - vec_cast<double>(force_.at(s));
+    work += dot(force_on(driven_[s], reaction), (1 / driven_[s].weight) * driven_[s].displacement);
+    driven_[s] = {};
+  }
+  samples_.clear();
+  return work;
+}
+
+}  // namespace weft

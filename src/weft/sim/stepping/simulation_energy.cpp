@@ -1,0 +1,108 @@
+// What collisions may do to the energy of cloths in a step, and what is done about the rest.
+#include <algorithm>
+#include <cmath>
+
+#include "weft/core/math.h"
+#include "weft/sim/stepping/simulation_parts.h"
+
+namespace weft {
+namespace {
+
+/// A step is refused in which points fall back to its start, or whose filter or response adds more
+/// than this part of the energy within cloths, and so much of their mass besides [J/kg]; or whose
+/// solve missed by as much, by the energy that they started with.
+constexpr double max_added_part = 0.3, max_added = 0.01;
+/// Missed solves have a substep done in so many pieces at most: in crushed cloth, whose contacts
+/// want to part at once, shorter steps are more violent ones.
+constexpr double max_pieces_for_solves = 8;
+/// One that adds less than this part of that is calm.
+constexpr double calm_part = 0.2;
+
+/// What contacts and the springs that the filter stretched may lend a cloth, over what its weight
+/// does over its own length: the next solves let it go. Taken out of the motion at once, it would
+/// stop whatever moves in a pile.
+constexpr double lent_part = 0.003;
+
+/// @param mass  [kg] @param density  [kg/m^2] @return [J]
+double lent_energy(double mass, double density) {
+  return lent_part * mass * standard_gravity * std::sqrt(mass / density);
+}
+
+/// [J]
+double limit_for(const Energy& within, double mass) {
+  return max_added_part * within.inner() + max_added * mass;
+}
+
+}  // namespace
+
+bool Simulation::Parts::solve_is_lost() {
+  double missed = 0, mass = 0;
+  for (const Mover& mover : movers) missed += mover.integrator->missed();
+  if (!(missed > 0) || time_step < 1.5 * substep_time / max_pieces_for_solves) return false;
+  Energy start;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    start += movers[i].meter.measure(cloths[i].state);
+    mass += movers[i].meter.mass();
+  }
+  return missed > limit_for(start, mass);
+}
+
+void Simulation::Parts::lend() {
+  double start = 0, mass = 0, most = 0, explained = work.net;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    Mover& mover = movers[i];
+    if (!known_energy) mover.start = mover.meter.measure(cloths[i].state);
+    start += mover.start.total();
+    mass += mover.meter.mass();
+    explained += mover.wind_work;
+    most += lent_energy(mover.meter.mass(), cloths[i].cloth.material.density);
+  }
+  known_energy = true;
+  work.least = std::min(work.least, start - explained);
+  max_energy = work.least + explained + most;
+  const double left = std::max(0.0, max_energy - start);
+  for (Mover& mover : movers) mover.integrator->lend(left * mover.meter.mass() / mass);
+}
+
+void Simulation::Parts::assess_step(bool may_refuse, Tried& tried) {
+  Energy start, solved, end;
+  double mass = 0;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    Mover& mover = movers[i];
+    start += mover.start;
+    solved += mover.solved;
+    mass += mover.meter.mass();
+    mover.end = mover.meter.measure(mover.integrator->proposal());
+    end += mover.end;
+  }
+  const double added = end.total() - solved.total();
+  const double gained = std::min(added, end.total() - start.total() - tried.work);
+  const double limit = limit_for(solved, mass);
+  const double fault = std::max(end.elastic - solved.elastic, gained);
+  const bool bad = !(fault <= limit) || solve_is_lost() || tried.filtered.fell_back > 0;
+  tried.refused = bad && may_refuse;
+  tried.verdict = bad                         ? StepVerdict::forced
+                  : fault < calm_part * limit ? StepVerdict::calm
+                                              : StepVerdict::near;
+  // Bodies push by the filter, too.
+  if (driven.any_moves()) tried.pushed = std::max(0.0, added);
+  if (tried.refused) return;
+  const double excess = std::min(gained, end.total() - tried.work - max_energy);
+  if (excess > 0) take_excess(excess);
+}
+
+/// Of each cloth by its share in what all gained.
+void Simulation::Parts::take_excess(double excess) {
+  double gained = 0;
+  const auto own = [](const Mover& mover) {
+    return std::max(0.0, mover.end.total() - mover.start.total());
+  };
+  for (const Mover& mover : movers) gained += own(mover);
+  for (Mover& mover : movers)
+    if (own(mover) > 0)
+      mover.meter.take_out(excess * (own(mover) / gained), mover.integrator->proposal().velocity);
+  // What is left is measured, not reckoned: a run that goes on from here does so too.
+  known_energy = false;
+}
+
+}  // namespace weft

@@ -1,0 +1,194 @@
+// How a simulation comes to be: surfaces, ties, what moves them and keeps them apart.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "weft/core/error.h"
+#include "weft/image/rebuild.h"
+#include "weft/sim/placement.h"
+#include "weft/sim/scene_file/scene_file.h"
+#include "weft/sim/stepping/simulation_parts.h"
+
+namespace weft {
+namespace {
+
+constexpr int body_normal_map_size = 257;
+/// Between two samples the bend of a body would show that is not sharp enough to be a corner: the
+/// gap that is kept grows from the fabric's thickness to this part of the cloth's rest spacing, but
+/// to no more than a few thicknesses, lest coarse cloths float.
+constexpr double gap_in_spacings = 1.0 / 3, max_gap_in_thicknesses = 3;
+
+/// Between parts of cloth a gap of more than this part of the rest spacing would lock folds.
+constexpr double max_self_gap_in_spacings = 0.25;
+
+/// Of the ground, which scenes do not name a coefficient for.
+constexpr double ground_friction = 0.5;
+
+}  // namespace
+
+double self_gap_of(const Cloth& cloth) {
+  return std::min(cloth.material.thickness, max_self_gap_in_spacings * cloth.rest_spacing);
+}
+
+double gap_of(const Cloth& cloth) {
+  const double thickness = cloth.material.thickness;
+  return std::clamp(gap_in_spacings * cloth.rest_spacing, thickness,
+                    max_gap_in_thicknesses * thickness);
+}
+
+LoadedSurface Simulation::Parts::load(const std::string& surface, ConvertOptions options,
+                                      const std::string& what) {
+  update(options.progress, "load " + what, 0);
+  options.threads = team.size();
+  options.keep_source = true;
+  options.files = scene.files;
+  const auto read = [&] {
+    try {
+      return surface_cache != nullptr ? surface_cache->load(surface, options)
+                                      : load_surface(surface, options);
+    } catch (const UsageError& error) {
+      // What a command line gets wrong by itself, a scene names in its file.
+      throw SceneError(name, fmt::format("'{}': {}", what, error.what()), "");
+    }
+  };
+  LoadedSurface loaded = read();
+  for (const std::string& note : loaded.notes) notes.push_back(fmt::format("{}: {}", what, note));
+  return loaded;
+}
+
+Cloth Simulation::Parts::make(const SceneCloth& wanted, const Planes3& rest,
+                              const BorderMates& mates) const {
+  try {
+    return make_cloth(rest, mates, wanted.material);
+  } catch (const SceneError& error) {
+    throw SceneError(name, fmt::format("'{}': {}", wanted.name, error.what()), "");
+  }
+}
+
+void Simulation::Parts::load_cloths() {
+  for (const SceneCloth& wanted : scene.cloths) {
+    ConvertOptions options;
+    options.size = wanted.size;
+    options.progress = progress;
+    LoadedSurface loaded = load(wanted.surface, options, wanted.name);
+    const Planes3 rest = placed_positions(loaded.image, placement_map(wanted.placement));
+    Cloth cloth = make(wanted, rest, loaded.image.mates);
+    pin_motions.push_back(pin_places(cloth, wanted.pins));
+    ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
+    cloths.push_back({wanted.name, std::move(loaded.image), std::move(cloth), std::move(state),
+                      std::move(loaded.source)});
+  }
+}
+
+void Simulation::Parts::load_bodies() {
+  for (const SceneBody& wanted : scene.bodies) {
+    ConvertOptions options;
+    options.size = wanted.size;
+    options.normal_map_size = body_normal_map_size;
+    options.keep_places = !wanted.animation.empty();
+    options.progress = progress;
+    LoadedSurface loaded = load(wanted.surface, options, wanted.name);
+    BodyMotion motion(wanted, loaded, {scene.frame_rate, scene.files});
+    const PlacementMap map = placement_map(wanted.placement);
+    PlacedBody body;
+    body.name = wanted.name;
+    body.moves = motion.moves();
+    if (loaded.normals && !body.moves) body.normals = placed_normals(*loaded.normals, map);
+    body.image_normals = std::move(loaded.normals);
+    body.positions = placed_positions(loaded.image, map);
+    body.image = std::move(loaded.image);
+    body_triangles.push_back(body.moves ? joined_triangles(body.image) : std::vector<Triangle>());
+    body.source = std::move(loaded.source);
+    driven.add(std::move(motion));
+    bodies.push_back(std::move(body));
+  }
+  driven.move_to(0, team);
+  bodies_arrive();
+}
+
+void Simulation::Parts::tie_cloths() {
+  std::vector<TiedSurface> surfaces;
+  for (const PlacedBody& body : bodies)
+    surfaces.push_back({body.name, &body.positions, grid_triangles(body.image)});
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    tied_pins.push_back(
+        tie_places(cloths[i].cloth, scene.cloths[i].attach, surfaces, pin_motions[i]));
+}
+
+void Simulation::Parts::find_insides() {
+  for (const SimulatedCloth& cloth : cloths) {
+    start_sides.push_back(find_start_sides(cloth, bodies, knows_containers(scene.collider), team));
+    const std::vector<StartInside>& found = start_sides.back().inside;
+    insides.insert(insides.end(), found.begin(), found.end());
+  }
+}
+
+void Simulation::Parts::make_collider_of_scene() {
+  Obstacles obstacles;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    obstacles.bodies.push_back({bodies[i].positions, bodies[i].image.mates,
+                                scene.bodies[i].friction, choose_diagonals(bodies[i].image)});
+    if (bodies[i].moves)
+      obstacles.bodies.back().shape =
+          placed_positions(bodies[i].image, placement_map(scene.bodies[i].placement));
+  }
+  obstacles.ground = scene.ground;
+  obstacles.ground_friction = ground_friction;
+  std::vector<CollidingCloth> colliding;
+  max_approach_in_step = HUGE_VAL;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const SimulatedCloth& cloth = cloths[i];
+    max_approach_in_step = std::min(max_approach_in_step, max_way_in_gaps * gap_of(cloth.cloth));
+    colliding.push_back(
+        {cloth.cloth.mates, cloth.cloth.size, choose_diagonals(cloth.image), gap_of(cloth.cloth),
+         scene.cloths[i].friction, cloth.cloth.rest_spacing,
+         knows_self_collision(scene.collider) && scene.cloths[i].self_collision.value_or(true),
+         self_gap_of(cloth.cloth), &cloth.cloth.rest, start_sides[i].kept_in,
+         start_sides[i].wrong_side});
+  }
+  collider = make_collider(scene.collider, obstacles, colliding);
+  collider->share_contacts(joint != nullptr);
+}
+
+void Simulation::Parts::note_too_fast() {
+  if (driven.fastest() * substep_time <= max_pieces * max_approach_in_step) return;
+  notes.push_back(fmt::format(
+      "bodies go up to {:.3g} m/s, faster than cloth can be kept from them; {} substeps "
+      "or more are wanted",
+      driven.fastest(),
+      std::ceil(driven.fastest() / (scene.frame_rate * max_pieces * max_approach_in_step))));
+}
+
+void Simulation::Parts::make_movers() {
+  const StepInput typical{time_step, vec_cast<float>(scene.gravity)};
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const SimulatedCloth& cloth = cloths[i];
+    movers.push_back(
+        {make_integrator(scene.integrator, cloth.cloth, typical, solvers()),
+         scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
+         RunawayCheck(cloth.cloth, cloth.state, scene.gravity, drive_of(i)),
+         StrainLimit(cloth.cloth, solvers()), CoarseLimit(cloth.cloth, solvers()),
+         EnergyMeter(cloth.cloth, scene.gravity, solvers()),
+         DrivenWork(cloth.cloth, scene.gravity, solvers()), Energy{}, Energy{}, Energy{},
+         Planes3(scene.wind ? cloth.cloth.size : 0), Planes3(cloth.cloth.size)});
+    if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
+      notes.push_back(fmt::format("{}: {}", cloth.name, caution));
+  }
+  std::vector<Integrator*> all;
+  for (const Mover& mover : movers) all.push_back(mover.integrator.get());
+  if (all.size() > 1) joint = all.front()->join(all, team);
+  own_contacts.reserve(cloths.size());
+  moving.reserve(cloths.size());
+  int largest = min_image_size;
+  for (const SimulatedCloth& cloth : cloths) largest = std::max(largest, cloth.cloth.size);
+  reach = ClothReach(largest);
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    start_energy += movers[i].meter.measure(cloths[i].state);
+}
+
+double Simulation::Parts::drive_of(std::size_t index) const {
+  return (scene.wind ? length(scene.wind->velocity) : 0) +
+         std::max(fastest_pin(pin_motions[index]), driven.fastest());
+}
+
+}  // namespace weft

@@ -1,0 +1,350 @@
+// How a simulation advances.
+//
+// Each step: guesses where cloths go by themselves; what they passed through is taken back, so that
+// the solve starts where nothing crosses (springs know no orientation: started beyond a crossing,
+// they come to rest there, and the filter would stretch them back); contacts are looked for there
+// and again where the solve led; strain is limited, friction takes hold; the filter has the last
+// word. A step that the filter had to put back so far that springs hold much more energy for it, is
+// refused: all is as before it, and two halves take its place.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "weft/core/contact_point.h"
+#include "weft/sim/stepping/simulation_parts.h"
+#include "weft/sim/stepping/stage_clock.h"
+
+namespace weft {
+namespace {
+
+/// The limiter pulls cloth into bodies, the collider stretches it again. The two-level method's
+/// springs are so soft that the limiter carries the cloth: there both take turns, the collider
+/// last.
+constexpr int rounds_of_soft_springs = 4;
+/// What the two-level method is limited at where the material says nothing: its springs are none of
+/// the material's. [zink07]
+constexpr double strain_of_soft_springs = 0.05;
+
+/// Passes that suit a method. Stiff springs leave the limiter a few samples about pins, more of
+/// them in finer images, which it has to bring up the whole cloth's weight by: many passes, that
+/// cost little.
+struct SuitablePasses {
+  int size;
+  int operator()(const TwoLevelOptions& /*options*/) const { return 10; }
+  int operator()(const DesbrunOptions& /*options*/) const { return std::clamp(size / 2, 60, 128); }
+  int operator()(const MultigridOptions& /*options*/) const {
+    return std::clamp(size / 2, 60, 128);
+  }
+  /// Any other method holds its cloth by the springs themselves.
+  template <class Other>
+  int operator()(const Other& /*options*/) const {
+    return 0;
+  }
+};
+
+LimitOptions limit_for(const Scene& scene, const Cloth& cloth) {
+  LimitOptions limit{
+      has_limiter(scene.integrator)
+          ? scene.limiter_passes.value_or(std::visit(SuitablePasses{cloth.size}, scene.integrator))
+          : 0};
+  const auto* soft = std::get_if<TwoLevelOptions>(&scene.integrator);
+  if (soft == nullptr) return limit;
+  if (cloth.material.strain_limit == 0) limit.strain = strain_of_soft_springs;
+  limit.as_printed = soft->as_printed;
+  return limit;
+}
+/// Of the limiter on each coarse level.
+constexpr int coarse_passes = 2;
+
+/// What a solve with contacts leaves deeper in an obstacle than this part of the thickness, as
+/// where an impact went on beyond its last look, is pushed out.
+constexpr double harmless_depth = 0.75;
+
+/// In parts of the least gap: a solve that led less far from where its contacts were found has met
+/// what there is to meet, as those begin half a gap before they press; a guess that goes less far
+/// passes through nothing that is not closer.
+constexpr double same_place = 0.25, next_to_start = 0.05;
+
+int level_of(int subdivisions) {
+  int level = 0;
+  while (1 << level < subdivisions) ++level;
+  return level;
+}
+
+}  // namespace
+
+void Simulation::Parts::bodies_arrive() {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].moves) bodies[i].positions = *driven.ends()[i];
+}
+
+void Simulation::Parts::move_driven(double seconds) {
+  driven.move_to(seconds, team);
+  if (driven.any_moves()) collider->move_bodies(driven.ends(), team);
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    move_pins(pin_motions[i], seconds, cloths[i].cloth);
+    move_tied(tied_pins[i], driven.ends(), cloths[i].cloth);
+  }
+  if (grab.holds()) grab.move(time_step, scene.ground, cloths[grab.cloth()]);
+}
+
+void Simulation::Parts::propose(std::size_t index) {
+  SimulatedCloth& cloth = cloths[index];
+  Mover& mover = movers[index];
+  mover.wind_work = mover.pulled_work = 0;
+  if (mover.wind) {
+    known_energy = false;
+    mover.calm_velocity = cloth.state.velocity;
+    mover.wind->blow(time_step, cloth.state, solvers());
+    mover.wind_work =
+        mover.meter.kinetic(cloth.state.velocity) - mover.meter.kinetic(mover.calm_velocity);
+  }
+  mover.integrator->begin({time_step, vec_cast<float>(scene.gravity)}, cloth.state);
+  if (!mover.integrator->starts_at_proposal()) mover.integrator->iterate({});
+}
+
+bool Simulation::Parts::is_pulled(std::size_t index) const {
+  const SimulatedCloth& cloth = cloths[index];
+  if (soft || cloth.cloth.material.strain_limit <= 0) return false;
+  const auto& pins = cloth.cloth.pins;
+  return driven.any_moves() || std::any_of(pins.begin(), pins.end(), [&](const Pin& pin) {
+           return vec_cast<float>(pin.target) != cloth.state.position.at(pin.sample);
+         });
+}
+
+int Simulation::Parts::respond(std::size_t index) {
+  const std::span<const float> forces = movers[index].integrator->contact_forces();
+  const std::span<const Contact> obstacles = collider->obstacle_contacts(index);
+  const double harmless = harmless_depth * cloths[index].cloth.material.thickness;
+  const auto is_deep = [&](const Contact& contact) {
+    return depth_of(contact, moving[index].position) > harmless;
+  };
+  if (!movers[index].integrator->solves_contacts() ||
+      std::any_of(obstacles.begin(), obstacles.end(), is_deep))
+    return collider->correct(index, moving[index], forces, time_step, team);
+  const std::span<const float> pressing = forces.first(std::min(forces.size(), obstacles.size()));
+  return static_cast<int>(
+      std::count_if(pressing.begin(), pressing.end(), [](float force) { return force > 0; }));
+}
+
+int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport& report) {
+  const SimulatedCloth& cloth = cloths[index];
+  Mover& mover = movers[index];
+  StageClock clock;
+  LimitOptions limiter = limit_for(scene, cloth.cloth);
+  if (unlimited) limiter.passes = 0;
+  LimitOptions coarse_limiter = limiter;
+  coarse_limiter.passes = std::min(coarse_passes, limiter.passes);
+  int contacts = 0;
+  for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
+    if (soft) mover.coarse_limit.limit(coarse_limiter, time_step, next, solvers());
+    report.limit_ms += clock.lap();
+    const bool pulled = is_pulled(index);
+    const double before = pulled ? mover.meter.measure(next).total() : 0;
+    clock.lap();
+    // What it moves changes velocities as in a whole substep: the same way in a short step would be
+    // a shot.
+    mover.limit.limit(limiter, substep_time, next, solvers());
+    report.limit_ms += clock.lap();
+    if (watched || pulled) mover.solved = mover.meter.measure(next);
+    mover.pulled_work += pulled ? std::max(0.0, mover.solved.total() - before) : 0;
+    clock.lap();
+    const int touched = respond(index);
+    report.collide_ms += clock.lap();
+    contacts = std::max(contacts, touched);
+    if (touched == 0) break;
+  }
+  return contacts;
+}
+
+void Simulation::Parts::gather_moving() {
+  moving.clear();
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    ClothState& next = movers[i].integrator->proposal();
+    moving.push_back(
+        {cloths[i].state.position, next.position, next.velocity, cloths[i].cloth.inverse_mass});
+  }
+}
+
+void Simulation::Parts::substep(int number, FrameReport& report) {
+  const double begin = substep_time * number, end = substep_time * (number + 1);
+  StepWalk walk(level_of(subdivisions_until(end)), levels);
+  while (!walk.done()) {
+    time_step = substep_time / walk.subdivisions();
+    unlimited = walk.is_shortened();
+    const int piece = walk.index() + 1;
+    const double seconds = piece < walk.subdivisions() ? begin + time_step * piece : end;
+    move_driven(seconds);
+    const Tried tried = try_step(seconds, walk.may_halve(), report);
+    if (tried.refused) {
+      refuse_step();
+      walk.halve();
+    } else {
+      finish_step(tried, report);
+      walk.accept(tried.verdict);
+    }
+  }
+  levels = walk.next(levels);
+}
+
+int Simulation::Parts::subdivisions_until(double seconds) {
+  if (!driven.any_moves()) return 1;
+  driven.move_to(seconds, team);
+  double wanted = 1;
+  for (const SimulatedCloth& cloth : cloths) {
+    reach.place(cloth.state, substep_time, gap_of(cloth.cloth));
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (bodies[i].moves)
+        wanted = std::max(
+            wanted, wanted_subdivisions({bodies[i].positions, *driven.ends()[i], body_triangles[i]},
+                                        reach, max_approach_in_step, body_motion, team));
+  }
+  return whole_subdivisions(wanted);
+}
+
+bool Simulation::Parts::check_for_runaway(double seconds, bool may_refuse) {
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const auto bad = movers[i].runaway.find(cloths[i].cloth, movers[i].integrator->proposal(),
+                                            seconds, solvers());
+    if (bad && may_refuse) return false;
+    if (bad) stop_unstable(i, *bad);
+  }
+  return true;
+}
+
+Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, bool may_refuse,
+                                                     FrameReport& report) {
+  Tried tried;
+  solve_all(report);
+  gather_moving();
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    tried.contacts += correct(i, movers[i].integrator->proposal(), report);
+  tried.refused = !check_for_runaway(seconds, may_refuse && watched);
+  if (tried.refused) return tried;
+  StageClock clock;
+  tried.filtered = collider->filter(moving, time_step, team);
+  report.collide_ms += clock.lap();
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    tried.work += movers[i].driven_work.measure(
+        {cloths[i].state, movers[i].integrator->proposal(), time_step},
+        {collider->obstacle_contacts(i), movers[i].integrator->contact_forces()});
+  if (watched) {
+    assess_step(may_refuse, tried);
+  } else if (solve_is_lost()) {
+    tried.refused = may_refuse;
+    tried.verdict = StepVerdict::forced;
+  }
+  return tried;
+}
+
+void Simulation::Parts::iterate_together() {
+  own_contacts.clear();
+  for (std::size_t i = 0; i < cloths.size(); ++i) own_contacts.push_back(collider->contacts(i));
+  joint->iterate(own_contacts, collider->shared_contacts());
+}
+
+void Simulation::Parts::iterate_all() {
+  if (joint && !collider->shared_contacts().empty()) return iterate_together();
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const std::span<const Contact> found = collider->contacts(i);
+    if (movers[i].integrator->starts_at_proposal() || (heeds_contacts() && !found.empty()))
+      movers[i].integrator->iterate(found);
+  }
+}
+
+bool Simulation::Parts::guesses_go_far() const {
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    if (largest_displacement(moving[i].start, moving[i].position) >
+        next_to_start * self_gap_of(cloths[i].cloth))
+      return true;
+  return driven.any_moves();
+}
+
+bool Simulation::Parts::solves_go_far() const {
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    if (largest_displacement(movers[i].guess, moving[i].position) >
+        same_place * self_gap_of(cloths[i].cloth))
+      return true;
+  return false;
+}
+
+bool Simulation::Parts::free_guesses() {
+  const bool filters = !std::holds_alternative<PolarMapOptions>(scene.collider);
+  if (!heeds_contacts() && !filters) return false;
+  collider->detect(moving, time_step, team);
+  if (!filters || !heeds_contacts() || !collider->anything_near()) return false;
+  // Contacts stay: they are those of the step's start, and of a longer way.
+  if (movers.front().integrator->starts_at_proposal() && guesses_go_far())
+    collider->filter_guess(moving, time_step, team);
+  for (std::size_t i = 0; i < cloths.size(); ++i) movers[i].guess = moving[i].position;
+  return true;
+}
+
+void Simulation::Parts::solve_all(FrameReport& report) {
+  for (std::size_t i = 0; i < cloths.size(); ++i) propose(i);
+  gather_moving();
+  StageClock clock;
+  watched = free_guesses();
+  report.collide_ms += clock.lap();
+  if (watched) lend();
+  iterate_all();
+  gather_moving();
+  if (!watched || !solves_go_far()) return;
+  clock.lap();
+  collider->detect(moving, time_step, team);
+  report.collide_ms += clock.lap();
+  iterate_all();
+}
+
+void Simulation::Parts::refuse_step() {
+  collider->rollback();
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    if (movers[i].wind) cloths[i].state.velocity = movers[i].calm_velocity;
+  if (movers.front().wind) known_energy = false;
+}
+
+void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
+  if (watcher != nullptr) show_step(report);
+  collider->commit();
+  double done = tried.work;
+  work.pulled += tried.pushed;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    finish(i, report);
+    done += movers[i].wind_work;
+    work.pulled += movers[i].pulled_work;
+  }
+  // What it ends with the next one starts with.
+  known_energy = known_energy && watched;
+  for (Mover& mover : movers) mover.start = mover.end;
+  work.net += done;
+  work.gross += std::abs(done);
+  report.work += done;
+  report.contacts = std::max(report.contacts, tried.contacts);
+  report.self_contacts = std::max(report.self_contacts, collider->self_contacts());
+  report.stopped = std::max(report.stopped, tried.filtered.stopped);
+  report.fell_back = std::max(report.fell_back, tried.filtered.fell_back);
+  report.whole_fell_back = std::max(report.whole_fell_back, tried.filtered.whole);
+  bodies_arrive();
+}
+
+void Simulation::Parts::show_step(FrameReport& report) const {
+  StageClock clock;
+  std::vector<StepMotion::Path> cloth_paths, body_paths;
+  for (const MovingCloth& cloth : moving) cloth_paths.push_back({&cloth.start, &cloth.position});
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    body_paths.push_back(
+        {&bodies[i].positions, bodies[i].moves ? driven.ends()[i] : &bodies[i].positions});
+  watcher->see({cloth_paths, body_paths});
+  report.milliseconds -= clock.lap();
+}
+
+void Simulation::Parts::finish(std::size_t index, FrameReport& report) {
+  const StepReport stepped = movers[index].integrator->end(cloths[index].state);
+  report.forces_ms += 1000 * stepped.forces_seconds;
+  report.solve_ms += 1000 * stepped.solve_seconds;
+  report.iterations += stepped.iterations;
+  report.residual = std::max(report.residual, stepped.residual);
+}
+
+}  // namespace weft

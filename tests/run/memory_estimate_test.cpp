@@ -1,0 +1,61 @@
+#include "weft/run/memory_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/errors.h"
+#include "tests/support/temporary_folder.h"
+#include "weft/image/builtin.h"
+#include "weft/image/io/image_file.h"
+#include "weft/run/run.h"
+
+namespace weft {
+namespace {
+
+constexpr std::uint64_t gb = 1'000'000'000;
+
+Scene sheet(int size) {
+  Scene scene;
+  scene.cloths.resize(1);
+  scene.cloths[0].size = size;
+  return scene;
+}
+
+TEST(MemoryEstimate, GrowsWithSamplesClothsAndBodies) {
+  Scene scene = sheet(1001);
+  const std::uint64_t one = estimate_memory(scene);
+  EXPECT_NEAR(static_cast<double>(estimate_memory(sheet(2001))) / static_cast<double>(one), 4, 0.1);
+  scene.cloths.push_back(scene.cloths[0]);
+  EXPECT_NEAR(static_cast<double>(estimate_memory(scene)) / static_cast<double>(one), 2, 0.05);
+  const std::uint64_t two = estimate_memory(scene);
+  scene.bodies.resize(1);
+  scene.bodies[0].size = 1001;
+  EXPECT_GT(estimate_memory(scene), two + two / 10);
+}
+
+TEST(MemoryEstimate, TakesTheSizeOfAnImageFromItsFile) {
+  const test::TemporaryFolder folder;
+  write_image(folder / "s.exr", make_image_shape("sheet", 65));
+  Scene scene = sheet(5);
+  scene.cloths[0].surface = folder / "s.exr";
+  EXPECT_EQ(estimate_memory(scene), estimate_memory(sheet(65)));
+}
+
+TEST(MemoryEstimate, WhatCertainlyDoesNotFitIsRefusedWithBothFigures) {
+  check_memory(4 * gb, 4 * gb, "s.json");
+  EXPECT_EQ(
+      test::message_of<SceneError>([] { check_memory(5 * gb, 3 * gb, "s.json"); }),
+      "s.json: about 5.0 GB of memory are needed, 3.0 GB are there; smaller sizes are wanted");
+  EXPECT_TRUE(is_memory_short(4 * gb, 4 * gb));
+  EXPECT_FALSE(is_memory_short(2 * gb, 4 * gb));
+}
+
+TEST(MemoryEstimate, RunRefusesBeforeItMakesAnything) {
+  const test::TemporaryFolder place;
+  Scene scene = sheet(largest_image_size);
+  scene.cloths.resize(1000, scene.cloths[0]);
+  EXPECT_THROW(run_scene(scene, "s.json", {.folder = place / "run"}), SceneError);
+  EXPECT_EQ(place.entries(), 0);
+}
+
+}  // namespace
+}  // namespace weft
