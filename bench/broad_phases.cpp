@@ -19,9 +19,10 @@
 #include "weft/collide/baselines/sphere_tree.h"
 #include "weft/collide/broad_phase/cell_gaps.h"
 #include "weft/collide/broad_phase/pyramid_pairs.h"
-#include "weft/core/error.h"
-#include "weft/sim/scene_file/scene_file.h"
-#include "weft/sim/simulation.h"
+#include "weft/error.h"
+#include "weft/scene_file.h"
+#include "weft/simulation.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft::bench {
 namespace {
@@ -41,7 +42,7 @@ struct Moment {
       for (int s = 0; s < cloth.image.size() * cloth.image.size(); ++s)
         ends.back().set(s, vec_cast<float>(vec_cast<double>(cloth.state.position.at(s)) +
                                            step * vec_cast<double>(cloth.state.velocity.at(s))));
-      gap = std::min(gap, cloth.cloth.material.thickness);
+      gap = std::min(gap, cloth.model->material.thickness);
     }
     cloths = grids.size();
     for (const PlacedBody& body : simulation.bodies()) {

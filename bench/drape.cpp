@@ -7,9 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
-#include "weft/sim/drape_coefficient.h"
-#include "weft/sim/materials.h"
+#include "weft/error.h"
+#include "weft/fabric.h"
 
 namespace weft::bench {
 namespace {

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "bench/position_based.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
+#include "weft/cloth/cloth.h"
+#include "weft/cloth/measure.h"
 
 namespace weft::bench {
 namespace {
@@ -53,7 +55,7 @@ std::optional<HangingRun> run_hanging(const Scene& scene, int threads) try {
 
 HangingRun run_hanging_position_based(const Scene& scene) {
   const Simulation simulation(scene, "hanging sheet", 1);  // for its cloth alone
-  const Cloth& cloth = simulation.cloths()[0].cloth;
+  const Cloth& cloth = *simulation.cloths()[0].model;
   ClothState state = simulation.cloths()[0].state;
   PositionBased method(cloth, 1 / (scene.frame_rate * scene.substeps));
   HangingRun run;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 namespace weft::bench {
 

@@ -19,6 +19,7 @@
 #include "weft/cloth/integrator.h"
 #include "weft/cloth/neighbours.h"
 #include "weft/cloth/spring_rows.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft::bench {
 namespace {
@@ -81,7 +82,7 @@ class Sheet {
  public:
   Sheet(int size, int threads)
       : simulation_(moved(size, threads)),
-        cloth_(simulation_->cloths()[0].cloth),
+        cloth_(*simulation_->cloths()[0].model),
         state_(simulation_->cloths()[0].state),
         before_(state_),
         proposal_(state_),

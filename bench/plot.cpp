@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "weft/view/palette.h"
+#include "weft/picture.h"
 #include "weft/view/text.h"
 
 namespace weft::bench {

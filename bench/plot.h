@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "weft/view/picture.h"
+#include "weft/picture.h"
 
 namespace weft::bench {
 

@@ -16,13 +16,13 @@
 #include "bench/exact_inside.h"
 #include "weft/collide/baselines/polar_map.h"
 #include "weft/collide/contacts/body_query.h"
-#include "weft/convert/convert.h"
-#include "weft/convert/load_surface.h"
+#include "weft/convert.h"
 #include "weft/core/random.h"
-#include "weft/image/rebuild.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/shapes.h"
+#include "weft/geometry_image.h"
+#include "weft/mesh.h"
 #include "weft/mesh/topology.h"
+#include "weft/shapes.h"
+#include "weft/mesh/distance.h"
 
 namespace weft::bench {
 namespace {

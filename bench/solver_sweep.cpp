@@ -15,8 +15,8 @@
 #include <fmt/format.h>
 
 #include "bench/tight_solver.h"
-#include "weft/core/error.h"
 #include "weft/core/random.h"
+#include "weft/error.h"
 
 namespace weft::bench {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "weft/cloth/bending.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/core/error.h"
 #include "weft/core/random.h"
+#include "weft/error.h"
 
 namespace weft::bench {
 namespace {

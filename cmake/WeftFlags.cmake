@@ -5,6 +5,7 @@ target_compile_features(weft_flags INTERFACE cxx_std_20)
 target_compile_options(weft_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd)
 target_include_directories(weft_flags INTERFACE
+  "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>"
   "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
 set_target_properties(weft_flags PROPERTIES EXPORT_NAME flags)

@@ -4,7 +4,7 @@
 #include <zlib.h>
 
 #include "fuzz/properties.h"
-#include "weft/image/io/image_file.h"
+#include "weft/image_file.h"
 
 namespace weft::fuzz {
 namespace {

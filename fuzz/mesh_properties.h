@@ -6,9 +6,8 @@
 #include <cstdint>
 
 #include "fuzz/properties.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/io/write_mesh.h"
-#include "weft/mesh/repair.h"
+#include "weft/mesh.h"
+#include "weft/repair.h"
 
 namespace weft::fuzz {
 

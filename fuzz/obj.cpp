@@ -1,5 +1,5 @@
 #include "fuzz/mesh_properties.h"
-#include "weft/mesh/io/mesh_faces.h"
+#include "weft/mesh.h"
 
 namespace weft::fuzz {
 namespace {

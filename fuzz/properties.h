@@ -8,7 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft::fuzz {
 

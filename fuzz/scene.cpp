@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "fuzz/properties.h"
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/scene_file.h"
 
 namespace weft::fuzz {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/ccd/queries.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft::ccd {
 namespace {

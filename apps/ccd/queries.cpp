@@ -7,8 +7,8 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
+#include "weft/error.h"
+#include "weft/files.h"
 
 namespace weft::ccd {
 namespace {

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include "apps/figures/figures.h"
-#include "weft/convert/convert.h"
+#include "weft/convert.h"
 #include "weft/cut/seed_cut.h"
 #include "weft/cut/shortest_paths.h"
 #include "weft/cut/straighten.h"
-#include "weft/mesh/shapes.h"
-#include "weft/view/border_pictures.h"
-#include "weft/view/palette.h"
-#include "weft/view/panels.h"
-#include "weft/view/surface_values.h"
+#include "weft/drawing.h"
+#include "weft/picture.h"
+#include "weft/shapes.h"
 
 namespace weft::figures {
 namespace {
@@ -63,14 +61,14 @@ void draw_augmented(const std::filesystem::path& path) {
     options.augment = augment;
     options.measure = false;
     const Conversion made = convert_mesh(mesh, "builtin:mannequin", options);
-    const SurfaceValues stretch = stretch_on_surface(made.mapped);
+    const SurfaceValues stretch = stretch_on_surface(*made.mapped);
     SurfaceDrawing drawing = draw_stretch(stretch);
-    add_cut(drawing, made.mapped.cut);
+    add_cut(drawing, *made.mapped);
     panels.push_back(
         {draw_on_white(drawing, {360, 480, 0.5, 0.15}),
          fmt::format("{}: L2 {:.2f}",
                      augment ? fmt::format("{} paths more", made.rounds) : std::string("first cut"),
-                     made.mapped.quality.stretch_l2)});
+                     made.map_quality.stretch_l2)});
   }
   write_png(path, in_a_row(panels));
 }

@@ -4,8 +4,7 @@
 #include "apps/figures/figures.h"
 #include "weft/cloth/baselines/filter_matrix.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/view/palette.h"
-#include "weft/view/panels.h"
+#include "weft/picture.h"
 
 namespace weft::figures {
 namespace {

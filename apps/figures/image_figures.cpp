@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 
 #include "apps/figures/figures.h"
-#include "weft/convert/convert.h"
-#include "weft/image/rebuild.h"
-#include "weft/mesh/shapes.h"
-#include "weft/view/border_pictures.h"
-#include "weft/view/camera.h"
-#include "weft/view/image_pictures.h"
-#include "weft/view/palette.h"
-#include "weft/view/panels.h"
-#include "weft/view/surface_values.h"
+#include "weft/camera.h"
+#include "weft/convert.h"
+#include "weft/drawing.h"
+#include "weft/geometry_image.h"
+#include "weft/picture.h"
+#include "weft/shapes.h"
 
 namespace weft::figures {
 namespace {
@@ -93,8 +90,7 @@ void draw_rebuilt(const std::filesystem::path& path) {
 void draw_pair(const std::filesystem::path& folder) {
   const Conversion made = convert_figure(257);
   write_png(folder / "mannequin-colours.png", colours_of(made.image, 257));
-  write_png(folder / "mannequin-map.png",
-            draw_map(made.mapped.cut.disk, made.mapped.map, {.side = 257, .edges = false}));
+  write_png(folder / "mannequin-map.png", draw_map(*made.mapped, {.side = 257, .edges = false}));
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 #include <algorithm>
 
 #include "apps/figures/figures.h"
+#include "weft/camera.h"
 #include "weft/core/math.h"
-#include "weft/mesh/repair.h"
-#include "weft/mesh/shapes.h"
-#include "weft/view/camera.h"
-#include "weft/view/palette.h"
-#include "weft/view/panels.h"
-#include "weft/view/surface_drawing.h"
+#include "weft/drawing.h"
+#include "weft/picture.h"
+#include "weft/repair.h"
+#include "weft/shapes.h"
 
 namespace weft::figures {
 namespace {

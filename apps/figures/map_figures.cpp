@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include "apps/figures/figures.h"
-#include "weft/convert/convert.h"
-#include "weft/mesh/shapes.h"
+#include "weft/convert.h"
+#include "weft/drawing.h"
 #include "weft/param/chords.h"
-#include "weft/view/border_pictures.h"
-#include "weft/view/image_pictures.h"
-#include "weft/view/panels.h"
-#include "weft/view/surface_values.h"
+#include "weft/picture.h"
+#include "weft/shapes.h"
+#include "weft/view/map_picture.h"
 
 namespace weft::figures {
 namespace {
@@ -26,10 +25,9 @@ void draw_border(const std::filesystem::path& path) {
   SurfaceDrawing drawing;
   drawing.mesh = &made.input.mesh;
   drawing.curve_radius = 0.006;
-  add_cut(drawing, made.mapped.cut);
-  const Picture square = framed_by_mates(
-      draw_map(made.mapped.cut.disk, made.mapped.map, {.side = side, .stretch = false}),
-      border_bands(made.mapped), options.size);
+  add_cut(drawing, *made.mapped);
+  const Picture square = framed_by_mates(draw_map(*made.mapped, {.side = side, .stretch = false}),
+                                         border_bands(*made.mapped), options.size);
   write_png(path, in_a_row({{draw_on_white(drawing, {400, square.height, 0.35, 0.85}),
                              "paths and nodes of the cut"},
                             {square, "around the square"}}));
@@ -100,14 +98,13 @@ void draw_parameterizers(const std::filesystem::path& path) {
     options.measure = false;
     if (floater) options.parameterizer = FloaterOptions{};
     const Conversion made = convert("mannequin", options);
-    Picture square =
-        draw_map(made.mapped.cut.disk, made.mapped.map, {.side = side, .edges = false});
-    square = framed_by_mates(square, border_bands(made.mapped), options.size);
-    const SurfaceValues stretch = stretch_on_surface(made.mapped);
+    Picture square = draw_map(*made.mapped, {.side = side, .edges = false});
+    square = framed_by_mates(square, border_bands(*made.mapped), options.size);
+    const SurfaceValues stretch = stretch_on_surface(*made.mapped);
     SurfaceDrawing drawing = draw_stretch(stretch);
     drawing.legend.reset();
     squares.push_back({square, fmt::format("{}: L2 {:.2f}", floater ? "floater" : "stretch",
-                                           made.mapped.quality.stretch_l2)});
+                                           made.map_quality.stretch_l2)});
     surfaces.push_back({draw_on_white(drawing, {140, square.height, 0.5, 0.15}), ""});
   }
   Picture figure = in_a_row({squares[0], surfaces[0], squares[1], surfaces[1]});

@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include "apps/figures/figures.h"
-#include "weft/convert/convert.h"
-#include "weft/mesh/shapes.h"
-#include "weft/view/border_pictures.h"
-#include "weft/view/image_pictures.h"
-#include "weft/view/outline.h"
-#include "weft/view/panels.h"
-#include "weft/view/renderer.h"
-#include "weft/view/surface_values.h"
+#include "weft/camera.h"
+#include "weft/convert.h"
+#include "weft/drawing.h"
+#include "weft/picture.h"
+#include "weft/shapes.h"
 
 namespace weft::figures {
 namespace {
@@ -109,17 +106,16 @@ void draw_way(const std::filesystem::path& path) {
     const Conversion made = convert_figure(options);
     SurfaceDrawing drawing;
     drawing.mesh = &made.input.mesh;
-    add_cut(drawing, made.mapped.cut);
+    add_cut(drawing, *made.mapped);
     cuts.push_back({draw_on_white(drawing, view), augment ? "(c) improved cut" : "(a) first cut"});
-    maps.push_back({draw_map(made.mapped.cut.disk, made.mapped.map, {.side = side, .edges = false}),
+    maps.push_back({draw_map(*made.mapped, {.side = side, .edges = false}),
                     augment ? "(d) floater" : "(b) floater"});
   }
   ConvertOptions options;
   options.size = side;
   options.normal_map_size = 513;
   const Conversion made = convert_figure(options);
-  maps.push_back({draw_map(made.mapped.cut.disk, made.mapped.map, {.side = side, .edges = false}),
-                  "(e) stretch"});
+  maps.push_back({draw_map(*made.mapped, {.side = side, .edges = false}), "(e) stretch"});
   images.push_back({colours_of(made.image, side), "(f) image"});
   images.push_back({normal_colours(*made.normals, side), "(g) normal map"});
   Portrait portrait(made.input.mesh, view.width, view.height);

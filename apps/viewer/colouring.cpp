@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "weft/view/camera.h"
-#include "weft/view/palette.h"
+#include "weft/camera.h"
+#include "weft/picture.h"
 
 namespace weft::viewer {
 namespace {
@@ -33,33 +33,6 @@ void fill(Planes3& colours, Vec3f display) {
 
 double full_strain(double limit) { return limit > 0 ? limit : usual_limit; }
 
-/// Sum of the strains of the stretch springs that end at each sample, and their number.
-struct SpringSums {
-  Grid<float> strain, count;
-  explicit SpringSums(int n) : strain(n, n), count(n, n) {}
-  void add(int row, int col, float value) {
-    strain(row, col) += value;
-    count(row, col) += 1;
-  }
-};
-
-SpringSums sum_strain(const Cloth& cloth, const Planes3& positions) {
-  SpringSums sums(cloth.size);
-  for (const SpringDirection direction : {stretch_u, stretch_v}) {
-    const SpringPlane& springs = cloth.springs[direction];
-    for (int r = 0; r + springs.down < cloth.size; ++r)
-      for (int c = 0; c + springs.right < cloth.size; ++c) {
-        if (!(springs.stiffness(r, c) > 0)) continue;
-        const int there = r + springs.down, right = c + springs.right;
-        const float strain =
-            length(positions.at(there, right) - positions.at(r, c)) / springs.rest_length(r, c) - 1;
-        sums.add(r, c, strain);
-        sums.add(there, right, strain);
-      }
-  }
-  return sums;
-}
-
 /// Longest side of the box; 1 for a point.
 double side_of(const Box3d& box) {
   const Vec3d e = box.extent();
@@ -69,16 +42,12 @@ double side_of(const Box3d& box) {
 
 }  // namespace
 
-void colour_strain(const Cloth& cloth, const Planes3& positions, Planes3& colours) {
-  fit(colours, cloth.size);
-  const SpringSums sums = sum_strain(cloth, positions);
-  const double full = full_strain(cloth.material.strain_limit);
-  for (int r = 0; r < cloth.size; ++r)
-    for (int c = 0; c < cloth.size; ++c) {
-      const double strain =
-          sums.count(r, c) > 0 ? double{sums.strain(r, c)} / sums.count(r, c) : 0.0;
-      colours.set(r, c, linear_light(stretch_colour(std::exp2(2 * strain / full))));
-    }
+void colour_strain(const Grid<float>& strains, double limit, Planes3& colours) {
+  fit(colours, strains.rows());
+  const double full = full_strain(limit);
+  for (int r = 0; r < colours.size(); ++r)
+    for (int c = 0; c < colours.size(); ++c)
+      colours.set(r, c, linear_light(stretch_colour(std::exp2(2 * double{strains(r, c)} / full))));
 }
 
 void colour_residual(const Grid<float>& corrections, Planes3& colours) {

@@ -4,18 +4,18 @@
 #include <string>
 
 #include "apps/viewer/colour_by.h"
-#include "weft/cloth/cloth.h"
-#include "weft/core/contact.h"
-#include "weft/view/legend.h"
+#include "weft/contact.h"
+#include "weft/drawing.h"
+#include "weft/geometry_image.h"
 
 namespace weft::viewer {
 
 // Colours of samples, linear RGB [n x n]; `colours` is made to fit. Data is pale where there is
 // nothing to tell.
 
-/// The mean of |l / r - 1| over the stretch springs around each sample, its sign kept: blue where
-/// they are shorter, red where longer, full at the strain limit.
-void colour_strain(const Cloth& cloth, const Planes3& positions, Planes3& colours);
+/// Blue where cloth is shorter than at rest, red where longer, full at the strain limit.
+/// @param strains  see Simulation::strain_at_samples @param limit  of the material; 0: none
+void colour_strain(const Grid<float>& strains, double limit, Planes3& colours);
 /// Corrections over the rest spacing from a millionth (pale) to 1 (dark), by their power of ten.
 void colour_residual(const Grid<float>& corrections, Planes3& colours);
 /// What touches bodies or the ground, and what touches cloth.

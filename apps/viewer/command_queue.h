@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/viewer/colour_by.h"
-#include "weft/sim/scene.h"
+#include "weft/scene.h"
 
 namespace weft::viewer {
 

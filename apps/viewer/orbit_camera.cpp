@@ -1,8 +1,7 @@
 #include "apps/viewer/orbit_camera.h"
 
 #include <algorithm>
-
-#include "weft/core/math.h"
+#include <cmath>
 
 namespace weft::viewer {
 namespace {
@@ -13,7 +12,7 @@ constexpr double nearer_per_step = 0.88;
 constexpr double min_distance = 1e-3, largest_distance = 1e4;  // [m]
 
 double half_slope() {
-  return sine(Camera{}.vertical_angle / 2) / cosine(Camera{}.vertical_angle / 2);
+  return std::sin(Camera{}.vertical_angle / 2) / std::cos(Camera{}.vertical_angle / 2);
 }
 
 }  // namespace
@@ -32,9 +31,9 @@ void OrbitCamera::frame(const Box3d& box) {
 }
 
 OrbitCamera::Axes OrbitCamera::axes() const {
-  const Vec3d back{sine(azimuth_) * cosine(elevation_), sine(elevation_),
-                   cosine(azimuth_) * cosine(elevation_)};
-  const Vec3d right{cosine(azimuth_), 0, -sine(azimuth_)};
+  const Vec3d back{std::sin(azimuth_) * std::cos(elevation_), std::sin(elevation_),
+                   std::cos(azimuth_) * std::cos(elevation_)};
+  const Vec3d right{std::cos(azimuth_), 0, -std::sin(azimuth_)};
   return {right, cross(back, right), back};
 }
 

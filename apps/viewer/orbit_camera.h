@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/view/camera.h"
+#include "weft/camera.h"
 
 namespace weft::viewer {
 

@@ -10,7 +10,7 @@
 #include "apps/viewer/colouring.h"
 #include "apps/viewer/panel_parts.h"
 #include "apps/viewer/scene_edit.h"
-#include "weft/sim/materials.h"
+#include "weft/fabric.h"
 
 namespace weft::viewer {
 namespace {
@@ -27,7 +27,7 @@ constexpr const char* keys =
 std::string body_name(const Scene& scene) {
   if (scene.bodies.empty()) return "none";
   if (scene.bodies.size() > 1) return fmt::format("{} bodies", scene.bodies.size());
-  return short_name(scene.bodies[0].surface);
+  return short_name(scene.bodies[0].surface.name);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "weft/view/legend.h"
+#include "weft/drawing.h"
 
 namespace weft::viewer {
 

@@ -3,8 +3,8 @@
 
 #include "apps/viewer/colouring.h"
 #include "apps/viewer/sources.h"
-#include "weft/sim/scene_file/scene_file.h"
-#include "weft/view/camera.h"
+#include "weft/camera.h"
+#include "weft/scene_file.h"
 
 namespace weft::viewer {
 namespace {

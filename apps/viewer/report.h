@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "apps/viewer/snapshot.h"
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft::viewer {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "weft/sim/materials.h"
+#include "weft/fabric.h"
 
 namespace weft::viewer {
 namespace {

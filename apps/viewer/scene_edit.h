@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "weft/sim/scene.h"
+#include "weft/scene.h"
 
 namespace weft::viewer {
 

@@ -2,7 +2,7 @@
 
 #include "apps/viewer/colouring.h"
 #include "apps/viewer/sources.h"
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/scene_file.h"
 
 namespace weft::viewer {
 namespace {
@@ -17,7 +17,7 @@ Subject subject_of(const Scene& scene, const Simulation& simulation, const std::
   subject.plays = true;
   for (const SimulatedCloth& cloth : simulation.cloths())
     subject.cloths.push_back(
-        {cloth.name, cloth.cloth.mates, std::nullopt, cloth.state.position, true});
+        {cloth.name, cloth.image.mates, std::nullopt, cloth.state.position, true});
   for (const PlacedBody& body : simulation.bodies())
     subject.bodies.push_back(
         {body.name, body.image.mates, body.normals, body.positions, body.moves});
@@ -85,14 +85,18 @@ void SceneSource::go_on_from(const SceneSource& other) {
 void SceneSource::colour(const Colouring& colouring, std::size_t cloth, Planes3& colours) const {
   const SimulatedCloth& shown = simulation_.cloths()[cloth];
   const Planes3& positions = shown.state.position;
-  if (colouring.by == ColourBy::strain) return colour_strain(shown.cloth, positions, colours);
+  const int n = positions.size();
+  Grid<float> values(n, n);
+  if (colouring.by == ColourBy::strain) {
+    simulation_.strain_at_samples(cloth, values);
+    return colour_strain(values, subject_->scene->cloths[cloth].material.strain_limit, colours);
+  }
   if (colouring.by == ColourBy::contacts)
-    return colour_contacts(simulation_.contacts(cloth), shown.cloth.size, colours);
+    return colour_contacts(simulation_.contacts(cloth), n, colours);
   if (colouring.by != ColourBy::residual)
-    return colour_surface(colouring, shown.cloth.mates, positions, colours);
-  Grid<float> sizes(shown.cloth.size, shown.cloth.size);
-  simulation_.last_corrections(cloth, sizes);
-  colour_residual(sizes, colours);
+    return colour_surface(colouring, shown.image.mates, positions, colours);
+  simulation_.last_corrections(cloth, values);
+  colour_residual(values, colours);
 }
 
 void SceneSource::show(const Colouring& colouring, Snapshot& snapshot) const {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/viewer/snapshot.h"
-#include "weft/view/drawn_scene.h"
+#include "weft/drawing.h"
 
 namespace weft::viewer {
 

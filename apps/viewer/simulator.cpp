@@ -5,12 +5,19 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
-#include "weft/core/overloaded.h"
-#include "weft/run/drape_scene.h"
+#include "weft/drape_scene.h"
+#include "weft/error.h"
 
 namespace weft::viewer {
 namespace {
+
+/// What std::visit is given: one call for each alternative of a variant.
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 /// How long the thread sleeps when there is nothing to do.
 constexpr std::chrono::seconds rest{1};
@@ -119,7 +126,7 @@ void Simulator::drape_over(const std::string& body) {
   Scene scene;
   if (source_->subject()->scene) {
     scene = *source_->subject()->scene;
-    cloth = scene.cloths[0].surface;
+    cloth = scene.cloths[0].surface.name;
     options.cloth_size = scene.cloths[0].size;
     options.material = scene.cloths[0].material;
     options.friction = scene.cloths[0].friction;

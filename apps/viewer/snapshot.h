@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "apps/viewer/colour_by.h"
-#include "weft/image/geometry_image.h"
-#include "weft/sim/simulation.h"
+#include "weft/geometry_image.h"
+#include "weft/simulation.h"
 
 namespace weft::viewer {
 

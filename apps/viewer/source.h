@@ -5,9 +5,9 @@
 #include <string>
 
 #include "apps/viewer/snapshot.h"
-#include "weft/core/instruction_set.h"
-#include "weft/core/progress.h"
-#include "weft/sim/surface_cache.h"
+#include "weft/progress.h"
+#include "weft/simulation.h"
+#include "weft/threads.h"
 
 namespace weft::viewer {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/viewer/source.h"
-#include "weft/run/run_folder.h"
+#include "weft/run_folder.h"
 
 namespace weft::viewer {
 

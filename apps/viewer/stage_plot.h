@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 namespace weft::viewer {
 

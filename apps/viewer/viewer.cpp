@@ -9,17 +9,14 @@
 
 #include "apps/viewer/controls.h"
 #include "apps/viewer/detail.h"
-#include "apps/viewer/image_texture.h"
 #include "apps/viewer/panel.h"
 #include "apps/viewer/pictures.h"
 #include "apps/viewer/report.h"
-#include "apps/viewer/scene_canvas.h"
 #include "apps/viewer/scene_view.h"
 #include "apps/viewer/simulator.h"
 #include "apps/viewer/theme.h"
-#include "weft/core/files.h"
-#include "weft/core/json_text.h"
-#include "weft/view/gl/canvas.h"
+#include "weft/files.h"
+#include "weft/window_canvas.h"
 
 namespace weft::viewer {
 namespace {
@@ -171,7 +168,8 @@ class Viewer {
     scene.keep_light = detail_.keeps_light();
     const Vec2d pixels = window_.pixels();
     canvas_.paint(scene, {static_cast<int>(pixels.x), static_cast<int>(pixels.y)}, detail_.pixel());
-    if (panel_.shows_image() && is_new && !snapshot.cloths.empty()) image_.load(snapshot.cloths[0]);
+    if (panel_.shows_image() && is_new && !snapshot.cloths.empty())
+      image_ = canvas_.load_image(snapshot.cloths[0]);
   }
 
   [[nodiscard]] double seconds() const { return milliseconds_since(start_) / 1000; }
@@ -182,7 +180,7 @@ class Viewer {
       panel_.mark(camera_.pixel_of(vec_cast<double>(snapshot.cloths[held->cloth].at(held->sample))),
                   controls_.mouse());
     const Status shown = note_.empty() || !status_.error.empty() ? status_ : noted();
-    fulfil(panel_.show({snapshot, shown, image_.name(), report_.draw.median()}, controls_));
+    fulfil(panel_.show({snapshot, shown, image_, report_.draw.median()}, controls_));
     PanelContext::draw();
   }
 
@@ -197,8 +195,7 @@ class Viewer {
     const Vec2d pixels = window_.pixels();
     const bool at_the_end = path == options_.screenshot;
     try {
-      write_png(path,
-                gl::read_picture(0, {static_cast<int>(pixels.x), static_cast<int>(pixels.y)}));
+      write_png(path, WindowCanvas::read({static_cast<int>(pixels.x), static_cast<int>(pixels.y)}));
       report_.outputs.push_back(path.string());
       note_ = "wrote " + path.string();
       options_.say("wrote   " + path.string());
@@ -221,17 +218,18 @@ class Viewer {
 
   void write_status() const {
     if (options_.status_file.empty()) return;
-    write_file(options_.status_file,
-               [&](std::ostream& out) { out << json_text(tell(), 2) << '\n'; });
+    write_file(options_.status_file, [&](std::ostream& out) {
+      out << tell().dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    });
   }
 
   const ViewerOptions& options_;
   Window window_;
   PanelContext context_;
-  SceneCanvas canvas_;
+  WindowCanvas canvas_;
   Detail detail_;
-  Camera seen_from_;  // of the last picture
-  ImageTexture image_;
+  Camera seen_from_;    // of the last picture
+  unsigned image_ = 0;  // the texture of the geometry image
   Panel panel_;
   Controls controls_;
   OrbitCamera camera_;

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "weft/core/instruction_set.h"
+#include "weft/threads.h"
 
 namespace weft::viewer {
 

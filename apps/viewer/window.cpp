@@ -8,7 +8,7 @@
 // After the loader, which brings OpenGL's own names.
 #include <GLFW/glfw3.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft::viewer {
 namespace {

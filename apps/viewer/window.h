@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 struct GLFWwindow;
 

@@ -5,8 +5,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/error.h"
-#include "weft/core/json_text.h"
+#include "weft/error.h"
 
 namespace weft::app {
 namespace {
@@ -34,7 +33,10 @@ void warn(const Context& context, const std::string& line) {
   if (!context.quiet) fmt::print(stderr, "weft: warning: {}\n", line);
 }
 
-std::string text_of(const nlohmann::ordered_json& report) { return json_text(report, 2); }
+std::string text_of(const nlohmann::ordered_json& report) {
+  // Paths may hold bytes that are no UTF-8.
+  return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 
 void print_report(const Context& context, const nlohmann::ordered_json& report) {
   if (context.json) put(text_of(report));

@@ -1,4 +1,4 @@
-#include "weft/convert/convert.h"
+#include "weft/convert.h"
 
 #include <chrono>
 #include <climits>
@@ -13,8 +13,8 @@
 #include "apps/weft/peak_memory.h"
 #include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
-#include "weft/core/error.h"
-#include "weft/image/io/image_file.h"
+#include "weft/error.h"
+#include "weft/image_file.h"
 
 namespace weft::app {
 namespace {
@@ -75,8 +75,8 @@ void print_summary(const Context& context, const Conversion& c) {
                            in.triangles, in.genus, in.boundaries));
   say(context,
       fmt::format("map     {} flipped, {} degenerate, stretch {:.3f} (L2), {:.1f} (largest)",
-                  c.mapped.quality.flipped, c.mapped.quality.degenerate,
-                  c.mapped.quality.stretch_l2, c.mapped.quality.stretch_linf));
+                  c.map_quality.flipped, c.map_quality.degenerate, c.map_quality.stretch_l2,
+                  c.map_quality.stretch_linf));
   say(context, fmt::format("image   {0} x {0}, PSNR {1:.1f} dB, Hausdorff {2:.2f} %",
                            c.image.size(), c.quality.psnr_db, c.quality.hausdorff_percent));
   say(context, fmt::format("time    {:.2f} s, of which measuring {:.2f} s", c.seconds.total,

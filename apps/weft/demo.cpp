@@ -10,12 +10,12 @@
 #include "apps/weft/drawing.h"
 #include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
-#include "weft/core/files.h"
-#include "weft/image/io/image_file.h"
-#include "weft/run/drape_scene.h"
-#include "weft/run/report.h"
-#include "weft/sim/scene_file/scene_file.h"
-#include "weft/view/image_pictures.h"
+#include "weft/drape_scene.h"
+#include "weft/drawing.h"
+#include "weft/files.h"
+#include "weft/image_file.h"
+#include "weft/run.h"
+#include "weft/scene_file.h"
 
 namespace weft::app {
 namespace {
@@ -58,14 +58,14 @@ void show_image(Demo& demo) {
   demo.add("mannequin-colours.png",
            [&](const fs::path& path) { write_png(path, colours_of(conversion.image, 512)); });
   demo.add("mannequin-map.png", [&](const fs::path& path) {
-    write_png(path, draw_map(conversion.mapped.cut.disk, conversion.mapped.map, {.side = 512}));
+    write_png(path, draw_map(*conversion.mapped, {.side = 512}));
   });
   demo.report["convert"] = conversion_json(name, conversion, {});
   say(demo.context,
       fmt::format(
           "image   {0} x {0} of {1}: stretch {2:.2f}, PSNR {3:.1f} dB, {4} flipped triangles",
-          conversion.image.size(), name, conversion.mapped.quality.stretch_l2,
-          conversion.quality.psnr_db, conversion.mapped.quality.flipped));
+          conversion.image.size(), name, conversion.map_quality.stretch_l2,
+          conversion.quality.psnr_db, conversion.map_quality.flipped));
 }
 
 /// A cloth to show on the figure.

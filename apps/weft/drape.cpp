@@ -5,10 +5,10 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/run_words.h"
-#include "weft/convert/load_surface.h"
-#include "weft/image/io/image_file.h"
-#include "weft/mesh/units.h"
-#include "weft/run/drape_scene.h"
+#include "weft/convert.h"
+#include "weft/drape_scene.h"
+#include "weft/image_file.h"
+#include "weft/mesh.h"
 
 namespace weft::app {
 namespace {

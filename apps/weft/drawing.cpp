@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "weft/view/carried_normals.h"
-#include "weft/view/movie_writer.h"
+#include "weft/drawing.h"
+#include "weft/picture.h"
 
 namespace weft::app {
 namespace {

@@ -4,10 +4,9 @@
 #include <memory>
 
 #include "apps/weft/subject.h"
-#include "weft/core/progress.h"
-#include "weft/run/run_folder.h"
-#include "weft/view/renderer.h"
-#include "weft/view/surface_drawing.h"
+#include "weft/drawing.h"
+#include "weft/progress.h"
+#include "weft/run_folder.h"
 
 namespace weft::app {
 

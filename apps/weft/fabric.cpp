@@ -1,3 +1,5 @@
+#include "weft/fabric.h"
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -10,9 +12,8 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/terminal_progress.h"
-#include "weft/core/error.h"
-#include "weft/sim/drape_coefficient.h"
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/error.h"
+#include "weft/scene_file.h"
 
 namespace weft::app {
 namespace {

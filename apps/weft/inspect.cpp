@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/weft/commands.h"
-#include "weft/convert/load_surface.h"
-#include "weft/core/error.h"
+#include "weft/convert.h"
+#include "weft/error.h"
 
 namespace weft::app {
 namespace {

@@ -6,8 +6,8 @@
 #include "apps/weft/inspect.h"
 #include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
-#include "weft/image/image_statistics.h"
-#include "weft/image/io/image_file.h"
+#include "weft/image_file.h"
+#include "weft/image_quality.h"
 
 namespace weft::app {
 namespace {

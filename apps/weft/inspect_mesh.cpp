@@ -6,11 +6,10 @@
 
 #include "apps/weft/inspect.h"
 #include "apps/weft/reports.h"
-#include "weft/core/error.h"
-#include "weft/cut/open_to_disk.h"
-#include "weft/mesh/mesh_statistics.h"
-#include "weft/mesh/repair.h"
-#include "weft/param/border_layout.h"
+#include "weft/convert.h"
+#include "weft/error.h"
+#include "weft/mesh_statistics.h"
+#include "weft/repair.h"
 
 namespace weft::app {
 namespace {
@@ -159,12 +158,13 @@ struct Fate {
 
 Fate fate_of(const std::string& name, const TriangleMesh& mesh, const MeshStatistics& statistics) {
   try {
-    const RepairedMesh repaired = repair_mesh(mesh, {name, {}});
-    const int least = min_size(cut_open(repaired.mesh, open_to_disk(repaired.mesh)));
-    std::string verdict = fmt::format("converts: genus {}, {} border(s); size {} or more",
-                                      repaired.counts.genus, repaired.counts.boundaries, least);
+    const CutPreview cut = preview_cut(mesh, name);
+    const RepairedMesh& repaired = cut.input;
+    std::string verdict =
+        fmt::format("converts: genus {}, {} border(s); size {} or more", repaired.counts.genus,
+                    repaired.counts.boundaries, cut.min_size);
     for (const std::string& repair : repaired.repairs) verdict += "; " + repair;
-    return {input_json(name, repaired), least, verdict};
+    return {input_json(name, repaired), cut.min_size, verdict};
   } catch (const Error& error) {
     return {{{"path", name},
              {"vertices", statistics.vertices},

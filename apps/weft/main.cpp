@@ -7,7 +7,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/terminal_progress.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft::app {
 namespace {

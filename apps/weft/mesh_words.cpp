@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "weft/convert/load_surface.h"
-#include "weft/mesh/units.h"
+#include "weft/convert.h"
+#include "weft/mesh.h"
 
 namespace weft::app {
 

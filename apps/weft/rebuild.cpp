@@ -1,5 +1,3 @@
-#include "weft/image/rebuild.h"
-
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -8,8 +6,9 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/reports.h"
-#include "weft/image/io/image_file.h"
-#include "weft/mesh/io/write_mesh.h"
+#include "weft/geometry_image.h"
+#include "weft/image_file.h"
+#include "weft/mesh.h"
 
 namespace weft::app {
 namespace {

@@ -2,6 +2,7 @@
 #include <climits>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -13,9 +14,8 @@
 #include "apps/weft/shots.h"
 #include "apps/weft/shown.h"
 #include "apps/weft/terminal_progress.h"
-#include "weft/core/error.h"
-#include "weft/core/math.h"
-#include "weft/view/movie_writer.h"
+#include "weft/error.h"
+#include "weft/picture.h"
 
 namespace weft::app {
 namespace {
@@ -104,8 +104,8 @@ void film(const RenderArgs& args, Shots& shots, const Context& context) {
 
 void render(RenderArgs& args, const Context& context) {
   check_output(args.output, {".png", ".mp4", ".gif"});
-  args.shown.view.azimuth = args.azimuth * pi / 180;
-  args.shown.view.elevation = args.elevation * pi / 180;
+  args.shown.view.azimuth = args.azimuth * std::numbers::pi / 180;
+  args.shown.view.elevation = args.elevation * std::numbers::pi / 180;
   check(args);
   Shots shots = open_subjects(args, context);
   if (is_movie(args))

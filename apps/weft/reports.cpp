@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/weft/peak_memory.h"
-#include "weft/core/error.h"
-#include "weft/core/files.h"
-#include "weft/image/rebuild.h"
-#include "weft/mesh/topology.h"
+#include "weft/error.h"
+#include "weft/files.h"
+#include "weft/geometry_image.h"
+#include "weft/mesh_statistics.h"
 
 namespace weft::app {
 namespace {
@@ -21,9 +21,9 @@ Json seconds_json(const StageSeconds& s) {
 
 Json vector_json(Vec3d p) { return {p.x, p.y, p.z}; }
 
-Json map_json(const MappedDisk& mapped) {
-  const MapQuality& q = mapped.quality;
-  return {{"parameterizer", mapped.parameterizer},
+Json map_json(const Conversion& conversion) {
+  const MapQuality& q = conversion.map_quality;
+  return {{"parameterizer", conversion.parameterizer},
           {"flipped", q.flipped},
           {"degenerate", q.degenerate},
           {"stretch_l2", q.stretch_l2},
@@ -65,7 +65,7 @@ Json conversion_json(const std::string& path, const Conversion& conversion,
             {"nodes", conversion.cut.nodes},
             {"length", conversion.cut.length},
             {"rounds", conversion.rounds}}},
-          {"map", map_json(conversion.mapped)},
+          {"map", map_json(conversion)},
           {"image",
            {{"size", conversion.image.size()},
             {"mates_bit_equal", q.mates_bit_equal},

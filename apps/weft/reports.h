@@ -6,7 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "weft/convert/convert.h"
+#include "weft/convert.h"
 
 namespace weft::app {
 

@@ -9,10 +9,8 @@
 
 #include "apps/weft/peak_memory.h"
 #include "apps/weft/terminal_progress.h"
-#include "weft/core/error.h"
-#include "weft/core/memory.h"
-#include "weft/run/memory_estimate.h"
-#include "weft/run/report.h"
+#include "weft/error.h"
+#include "weft/run.h"
 
 namespace weft::app {
 namespace {

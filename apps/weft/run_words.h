@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/weft/context.h"
-#include "weft/run/run.h"
+#include "weft/run.h"
 
 namespace CLI {
 class App;

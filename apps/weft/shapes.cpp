@@ -1,4 +1,4 @@
-#include "weft/mesh/shapes.h"
+#include "weft/shapes.h"
 
 #include <memory>
 
@@ -8,9 +8,9 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/reports.h"
-#include "weft/core/error.h"
-#include "weft/mesh/io/write_mesh.h"
-#include "weft/mesh/repair.h"
+#include "weft/error.h"
+#include "weft/mesh.h"
+#include "weft/repair.h"
 
 namespace weft::app {
 namespace {

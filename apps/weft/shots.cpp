@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "apps/weft/drawing.h"
-#include "weft/core/error.h"
-#include "weft/core/math.h"
-#include "weft/view/panels.h"
+#include "weft/error.h"
+#include "weft/picture.h"
 
 namespace weft::app {
 namespace {
@@ -116,7 +116,7 @@ Picture Shots::draw(const Take& take, int i) {
   for (const auto& subject : subjects_)
     frames.push_back(take.plays ? frame_at_time(*subject, i / take.rate)
                                 : frame_of(*subject, take.frame));
-  const double turned = take.turns ? 2 * pi * i / take.count : 0;
+  const double turned = take.turns ? 2 * std::numbers::pi * i / take.count : 0;
   return draw(frames, view_.azimuth + turned, take.points);
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/weft/subject.h"
-#include "weft/view/surface_drawing.h"
+#include "weft/drawing.h"
 
 namespace weft::app {
 

@@ -3,14 +3,11 @@
 #include <algorithm>
 
 #include "apps/weft/terminal_progress.h"
-#include "weft/core/error.h"
-#include "weft/cut/open_to_disk.h"
-#include "weft/image/io/image_file.h"
-#include "weft/image/rebuild.h"
-#include "weft/mesh/repair.h"
-#include "weft/param/augment.h"
-#include "weft/view/border_pictures.h"
-#include "weft/view/image_pictures.h"
+#include "weft/drawing.h"
+#include "weft/error.h"
+#include "weft/geometry_image.h"
+#include "weft/image_file.h"
+#include "weft/repair.h"
 
 namespace weft::app {
 namespace {
@@ -94,13 +91,11 @@ void Shown::show_mesh(const ShownArgs& args, const Context& context) {
 void Shown::show_cut(const ShownArgs& args, const Context& context, const TriangleMesh& mesh) {
   SurfaceDrawing drawing;
   try {
-    surface_.mesh = repair_mesh(mesh, {args.subject, {}}).mesh;
     TerminalProgress progress(context.quiet || context.json);
-    AugmentOptions options;
-    options.size = size_of(args);
-    options.progress = &progress;
-    const Cut cut = augment_cut(surface_.mesh, open_to_disk(surface_.mesh), options).cut;
-    add_cut(drawing, cut_open(surface_.mesh, cut));
+    CutPreview cut = preview_cut(mesh, args.subject,
+                                 {.augment = true, .size = size_of(args), .progress = &progress});
+    surface_.mesh = std::move(cut.input.mesh);
+    add_cut(drawing, *cut.disk);
   } catch (const TopologyError& error) {
     note(context, std::string("drawn without a cut: ") + error.what());
     surface_.mesh = mesh;
@@ -121,17 +116,16 @@ void Shown::show_conversion(const ShownArgs& args, const Context& context,
   const Conversion made = convert_mesh(mesh, args.subject, options);
   if (args.show == "error") return show_error(made.image, made.input.mesh);
   if (args.show == "stretch") {
-    surface_ = stretch_on_surface(made.mapped);
+    surface_ = stretch_on_surface(*made.mapped);
     SurfaceDrawing drawing = draw_stretch(surface_);
-    add_cut(drawing, made.mapped.cut);
+    add_cut(drawing, *made.mapped);
     return show(drawing, args.view);
   }
   if (args.show != "map") return show_image(args, made.image);
-  const DiskMesh& disk = made.mapped.cut.disk;
   MapDrawing drawing;
   drawing.side = flat_side(args.view);
-  drawing.edges = static_cast<int>(disk.triangles.size()) <= max_edges_shown;
-  flat_ = framed_by_mates(draw_map(disk, made.mapped.map, drawing), border_bands(made.mapped),
+  drawing.edges = static_cast<int>(made.input.mesh.triangles.size()) <= max_edges_shown;
+  flat_ = framed_by_mates(draw_map(*made.mapped, drawing), border_bands(*made.mapped),
                           made.image.size());
   add_legend(flat_, stretch_legend("stretch"));
 }

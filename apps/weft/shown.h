@@ -6,8 +6,8 @@
 
 #include "apps/weft/context.h"
 #include "apps/weft/subject.h"
-#include "weft/convert/convert.h"
-#include "weft/view/surface_values.h"
+#include "weft/convert.h"
+#include "weft/drawing.h"
 
 namespace weft::app {
 

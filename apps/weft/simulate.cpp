@@ -5,7 +5,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/run_words.h"
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/scene_file.h"
 
 namespace weft::app {
 namespace {

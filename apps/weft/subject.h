@@ -1,8 +1,7 @@
 #pragma once
 
-#include "weft/view/camera.h"
-#include "weft/view/outline.h"
-#include "weft/view/picture.h"
+#include "weft/camera.h"
+#include "weft/picture.h"
 
 namespace weft::app {
 

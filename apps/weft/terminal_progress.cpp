@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft::app {
 namespace {

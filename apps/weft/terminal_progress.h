@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "weft/core/progress.h"
+#include "weft/progress.h"
 
 namespace weft::app {
 

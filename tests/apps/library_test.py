@@ -1,6 +1,7 @@
-"""Weft as others use it: installed, found by CMake, and the example built against it."""
+"""Weft as others use it: installed, found by CMake, and the examples built against it."""
 import os
 import pathlib
+import re
 import subprocess
 import unittest
 
@@ -13,19 +14,31 @@ class Library(ProgramTest):
         self.assertEqual(done.returncode, 0, f"{words}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}")
         return done.stdout
 
-    def test_example_builds_against_the_installed_package_and_runs(self):
+    def test_examples_build_against_the_installed_package_and_run(self):
         build = pathlib.Path(PROGRAM).resolve().parents[1]
         self.run_tool("cmake", "--install", build, "--prefix", self.folder / "weft")
-        headers = {str(path.relative_to(SOURCE / "src")) for path in (SOURCE / "src/weft").rglob("*.h")}
+        headers = {f"weft/{path.name}" for path in (SOURCE / "include/weft").glob("*.h")}
         there = {str(path.relative_to(self.folder / "weft/include")) for path in (self.folder / "weft/include").rglob("*.*")}
         self.assertEqual(there, headers)
         self.run_tool("cmake", "-S", SOURCE / "examples/library", "-B", "example", "-G", "Ninja",
                       f"-DCMAKE_PREFIX_PATH={self.folder / 'weft'}", "-DCMAKE_BUILD_TYPE=Release")
         self.run_tool("cmake", "--build", "example")
-        words = self.run_tool(self.folder / "example/hang").splitlines()
-        self.assertRegex(words[0], r"^converted: \d\d\.\d dB, Euler number -2$")  # a shirt has four openings
-        self.assertRegex(words[1], r"^frame 10: lowest point at -?\d\.\d{4} m$")
+        words = self.run_tool(self.folder / "example/convert").splitlines()
+        self.assertRegex(words[0], r"^converted: \d\d\.\d dB, Euler number -2, stretch 1\.\d{3}$")  # a shirt has four openings
+        self.assertRegex(words[1], r"^rebuilt: 1\d{3} vertices, 2\d{3} triangles$")
         self.assertTrue((self.folder / "shirt.exr").exists())
+        words = self.run_tool(self.folder / "example/drape")
+        found = re.match(r"^frame 30: lowest point at (-?\d\.\d{4}) m, (\d+) contacts, strain (\d+\.\d\d) %, ", words)
+        self.assertTrue(found, words)
+        self.assertGreater(float(found[1]), -1e-3)
+        self.assertGreater(int(found[2]), 0)
+        self.assertLess(float(found[3]), 5)
+        words = self.run_tool(self.folder / "example/game_loop")
+        self.assertEqual(words, "frame 30: played again alike\nstopped\n")
+        # Every public header can be the first.
+        first = "".join(f'#include "weft/{path.name}"\n' for path in sorted((SOURCE / "include/weft").glob("*.h"), reverse=True))
+        (self.folder / "all.cpp").write_text(first)
+        self.run_tool("c++", "-std=c++20", "-fsyntax-only", f"-I{self.folder / 'weft/include'}", "all.cpp")
         # The installed program is the program.
         version = self.run_tool(self.folder / "weft/bin/weft", "--version")
         self.assertEqual(version, self.run_weft("--version").stdout)

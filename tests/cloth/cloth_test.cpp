@@ -7,7 +7,7 @@
 #include "tests/cloth/sheets.h"
 #include "tests/support/errors.h"
 #include "weft/cloth/measure.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

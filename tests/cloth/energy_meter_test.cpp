@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "weft/cloth/measure.h"
-#include "weft/convert/convert.h"
-#include "weft/convert/load_surface.h"
+#include "weft/convert.h"
 #include "weft/core/random.h"
 
 namespace weft {

@@ -11,7 +11,7 @@
 #include "weft/cloth/newton/line_factor.h"
 #include "weft/cloth/newton/newton_solver.h"
 #include "weft/cloth/newton/seams.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

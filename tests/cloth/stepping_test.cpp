@@ -7,7 +7,7 @@
 #include "weft/cloth/baselines/strain_limit.h"
 #include "weft/cloth/integrator.h"
 #include "weft/cloth/measure.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

@@ -1,4 +1,4 @@
-#include "weft/convert/convert.h"
+#include "weft/convert.h"
 
 #include <cmath>
 #include <filesystem>
@@ -9,14 +9,13 @@
 #include "tests/convert/maps.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/convert/load_surface.h"
 #include "weft/convert/sample.h"
-#include "weft/core/error.h"
 #include "weft/core/hash.h"
+#include "weft/error.h"
 #include "weft/image/builtin.h"
-#include "weft/image/image_quality.h"
-#include "weft/image/io/image_file.h"
-#include "weft/mesh/io/write_mesh.h"
+#include "weft/image_file.h"
+#include "weft/image_quality.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {
@@ -88,8 +87,8 @@ TEST(Convert, TorusStaysATorus) {
   options.size = 65;
   options.normal_map_size = 33;
   const Conversion made = convert_mesh(test::torus(20, 20, 1, 0.4), "folder/ring.obj", options);
-  EXPECT_EQ(made.mapped.quality.flipped, 0);
-  EXPECT_EQ(made.mapped.quality.degenerate, 0);
+  EXPECT_EQ(made.map_quality.flipped, 0);
+  EXPECT_EQ(made.map_quality.degenerate, 0);
   EXPECT_TRUE(made.quality.mates_bit_equal);
   EXPECT_EQ(made.quality.euler, 0);
   EXPECT_EQ(made.quality.boundaries, 0);
@@ -235,8 +234,8 @@ TEST(Convert, SharedMeshesKeepTheirTopology) {
         "dc_tshirt1000-tri.obj", "dc_sock1055-2081.obj"}) {
     const std::string path = (folder / name).string();
     const Conversion made = convert_mesh(load_mesh(path), path, options);
-    EXPECT_EQ(made.mapped.quality.flipped, 0) << name;
-    EXPECT_EQ(made.mapped.quality.degenerate, 0) << name;
+    EXPECT_EQ(made.map_quality.flipped, 0) << name;
+    EXPECT_EQ(made.map_quality.degenerate, 0) << name;
     EXPECT_TRUE(made.quality.mates_bit_equal) << name;
     EXPECT_EQ(made.quality.euler, made.input.counts.euler) << name;
     EXPECT_EQ(made.quality.boundaries, made.input.counts.boundaries) << name;

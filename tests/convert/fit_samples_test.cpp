@@ -6,7 +6,7 @@
 
 #include "tests/convert/maps.h"
 #include "weft/convert/sample.h"
-#include "weft/image/rebuild.h"
+#include "weft/geometry_image.h"
 #include "weft/mesh/distance.h"
 #include "weft/mesh/topology.h"
 

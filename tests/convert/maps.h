@@ -7,7 +7,7 @@
 #include "weft/core/math.h"
 #include "weft/core/orientation.h"
 #include "weft/core/random.h"
-#include "weft/image/border_mates.h"
+#include "weft/geometry_image.h"
 #include "weft/param/square_map.h"
 
 /// Mapped disks made by hand: a grid of m x m vertices laid evenly over the square of n x n

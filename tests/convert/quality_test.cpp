@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "weft/convert/convert.h"
-#include "weft/mesh/io/read_mesh.h"
+#include "weft/convert.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {
@@ -28,7 +28,7 @@ TEST_P(Quality, BettersItsTarget) {
   ConvertOptions options;
   options.size = 129;
   const Conversion made = convert_mesh(read_mesh(meshes / file), file, options);
-  EXPECT_LT(made.mapped.quality.stretch_l2, stretch_l2);
+  EXPECT_LT(made.map_quality.stretch_l2, stretch_l2);
   EXPECT_GT(made.quality.psnr_db, psnr_db);
 }
 
@@ -48,7 +48,7 @@ TEST(Convert, SliversDoNotMisleadTheChoiceOfTheCut) {
     ConvertOptions options;
     options.size = size;
     options.measure = false;
-    EXPECT_LT(convert_mesh(mesh, "slivers", options).mapped.quality.stretch_l2, 1.7) << size;
+    EXPECT_LT(convert_mesh(mesh, "slivers", options).map_quality.stretch_l2, 1.7) << size;
   }
 }
 

@@ -7,11 +7,12 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/random_mesh.h"
-#include "weft/convert/convert.h"
-#include "weft/core/error.h"
+#include "weft/convert.h"
 #include "weft/core/random.h"
-#include "weft/mesh/io/write_mesh.h"
+#include "weft/error.h"
+#include "weft/mesh.h"
 #include "weft/param/border_layout.h"
+#include "weft/cut/open_to_disk.h"
 
 // Set WEFT_RANDOM_SEEDS="FIRST COUNT" to try other seeds than 1 .. 500 (one alone: "77 1"), and
 // WEFT_RANDOM_KEEP=FOLDER to have the meshes that fail written there.
@@ -74,8 +75,8 @@ std::string fault(const TriangleMesh& mesh, int size) {
     };
     require("size", made.image.size(), size);
     require("components", input.components, 1);
-    require("flipped", made.mapped.quality.flipped, 0);
-    require("degenerate", made.mapped.quality.degenerate, 0);
+    require("flipped", made.map_quality.flipped, 0);
+    require("degenerate", made.map_quality.degenerate, 0);
     require("mates bit-equal", made.quality.mates_bit_equal ? 1 : 0, 1);
     require("Euler number", made.quality.euler, input.euler);
     require("borders", made.quality.boundaries, input.boundaries);

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/convert/maps.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

@@ -7,9 +7,10 @@
 #include "tests/cut/voxel_mesh.h"
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
-#include "weft/convert/convert.h"
-#include "weft/core/error.h"
+#include "weft/convert.h"
+#include "weft/error.h"
 #include "weft/param/border_layout.h"
+#include "weft/cut/open_to_disk.h"
 
 namespace weft {
 namespace {
@@ -35,7 +36,7 @@ void expect_topology_at_every_size(const TriangleMesh& mesh, int genus) {
     options.size = n;
     const Conversion made = convert_mesh(mesh, "mesh", options);
     EXPECT_EQ(made.image.size(), n);
-    EXPECT_EQ(made.mapped.quality.flipped + made.mapped.quality.degenerate, 0) << n;
+    EXPECT_EQ(made.map_quality.flipped + made.map_quality.degenerate, 0) << n;
     EXPECT_TRUE(made.quality.mates_bit_equal) << n;
     EXPECT_EQ(made.quality.euler, 2 - 2 * genus) << n;
     EXPECT_EQ(made.quality.boundaries, 0) << n;
@@ -65,7 +66,7 @@ TEST(Sizes, FineTorusKeepsItsTopologyFromTheLeastSizeOn) {
   for (const int n : {min_of(mesh), 33, 257}) {
     options.size = n;
     const Conversion made = convert_mesh(mesh, "mesh", options);
-    EXPECT_EQ(made.mapped.quality.flipped + made.mapped.quality.degenerate, 0) << n;
+    EXPECT_EQ(made.map_quality.flipped + made.map_quality.degenerate, 0) << n;
     EXPECT_EQ(made.quality.euler, 0) << n;
     EXPECT_EQ(made.quality.boundaries, 0) << n;
   }

@@ -7,9 +7,10 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
-#include "weft/convert/convert.h"
+#include "weft/convert.h"
 #include "weft/core/math.h"
-#include "weft/mesh/shapes.h"
+#include "weft/shapes.h"
+#include "weft/cut/seam.h"
 
 namespace weft {
 namespace {
@@ -49,7 +50,7 @@ TEST_P(Places, AreWhereTheSamplesAre) {
   const Conversion made = convert_mesh(mesh(), GetParam(), quick(65));
   const TriangleMesh& surface = made.input.mesh;
   for (const int size : {65, 97}) {
-    const std::vector<SurfacePlace> places = surface_places(made.mapped, surface.triangles, size);
+    const std::vector<SurfacePlace> places = surface_places(*made.mapped, surface.triangles, size);
     for (int sample = 0; sample < size * size; ++sample) {
       const SurfacePlace& place = places[sample];
       Vec3d p;

@@ -1,4 +1,4 @@
-#include "weft/core/files.h"
+#include "weft/files.h"
 
 #include <csignal>
 #include <filesystem>
@@ -9,8 +9,7 @@
 #include <sys/resource.h>
 
 #include "tests/support/temporary_folder.h"
-#include "weft/core/disk_reservation.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {
@@ -96,30 +95,6 @@ TEST(WantedFolder, OnesThatHoldSomethingStay) {
   }
   EXPECT_TRUE(std::filesystem::exists(place / "a/file"));
   EXPECT_FALSE(std::filesystem::exists(place / "a/b"));
-}
-
-TEST(DiskReservation, IsTakenAndGivenBack) {
-  const test::TemporaryFolder place;
-  {
-    const DiskReservation room(place / "room", 100'000);
-    EXPECT_EQ(std::filesystem::file_size(place / ".room.part"), 100'000);
-  }
-  EXPECT_EQ(place.entries(), 0);
-}
-
-TEST(DiskReservation, MoreThanThereIsIsAnErrorThatLeavesNothing) {
-  const test::TemporaryFolder place;
-  rlimit old{};
-  getrlimit(RLIMIT_FSIZE, &old);
-  const rlimit small{1000, old.rlim_max};
-  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-  setrlimit(RLIMIT_FSIZE, &small);
-  const std::string message =
-      message_of([&] { const DiskReservation room(place / "room", 100'000); });
-  setrlimit(RLIMIT_FSIZE, &old);
-  (void)std::signal(SIGXFSZ, old_handler);
-  EXPECT_NE(message.find("no room to report in: "), std::string::npos) << message;
-  EXPECT_EQ(place.entries(), 0);
 }
 
 }  // namespace

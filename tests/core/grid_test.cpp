@@ -1,4 +1,4 @@
-#include "weft/core/grid.h"
+#include "weft/grid.h"
 
 #include <cstdint>
 #include <vector>
@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "weft/core/hash.h"
-#include "weft/core/planes.h"
 
 namespace weft {
 namespace {

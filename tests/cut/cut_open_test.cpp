@@ -7,9 +7,9 @@
 #include "tests/cut/cut_cases.h"
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
-#include "weft/core/error.h"
 #include "weft/cut/open_to_disk.h"
 #include "weft/cut/split_border_edge.h"
+#include "weft/error.h"
 #include "weft/mesh/topology.h"
 
 namespace weft {

@@ -8,11 +8,11 @@
 #include "tests/cut/cut_cases.h"
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
-#include "weft/core/error.h"
 #include "weft/core/math.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/repair.h"
+#include "weft/error.h"
+#include "weft/mesh.h"
 #include "weft/mesh/topology.h"
+#include "weft/repair.h"
 
 namespace weft {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft::test {
 

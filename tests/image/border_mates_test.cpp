@@ -1,11 +1,10 @@
-#include "weft/image/border_mates.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/support/errors.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
+#include "weft/geometry_image.h"
 
 namespace weft {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "weft/core/error.h"
-#include "weft/image/image_quality.h"
+#include "weft/error.h"
+#include "weft/image_quality.h"
 #include "weft/mesh/shapes/parametric.h"
 
 namespace weft {

@@ -10,8 +10,8 @@
 
 #include "tests/convert/maps.h"
 #include "weft/convert/sample.h"
-#include "weft/core/error.h"
-#include "weft/image/io/image_file.h"
+#include "weft/error.h"
+#include "weft/image_file.h"
 
 namespace weft::test {
 

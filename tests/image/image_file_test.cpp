@@ -1,4 +1,4 @@
-#include "weft/image/io/image_file.h"
+#include "weft/image_file.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,10 +14,10 @@
 
 #include "tests/image/image_cases.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/core/error.h"
-#include "weft/core/files.h"
 #include "weft/core/json_text.h"
 #include "weft/core/parse_json.h"
+#include "weft/error.h"
+#include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image/io/metadata.h"
 #include "weft/image/io/png_codec.h"

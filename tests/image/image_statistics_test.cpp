@@ -1,8 +1,7 @@
-#include "weft/image/image_statistics.h"
-
 #include <gtest/gtest.h>
 
 #include "weft/image/builtin.h"
+#include "weft/image_quality.h"
 
 namespace weft {
 namespace {

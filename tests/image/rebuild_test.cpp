@@ -1,5 +1,3 @@
-#include "weft/image/rebuild.h"
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -7,8 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/meshes.h"
-#include "weft/core/error.h"
 #include "weft/core/random.h"
+#include "weft/error.h"
+#include "weft/geometry_image.h"
 #include "weft/mesh/topology.h"
 
 namespace weft {

@@ -6,14 +6,14 @@
 
 #include "tests/support/meshes.h"
 #include "weft/core/math.h"
-#include "weft/mesh/mesh_statistics.h"
-#include "weft/mesh/repair.h"
-#include "weft/mesh/shapes.h"
 #include "weft/mesh/shapes/box.h"
 #include "weft/mesh/shapes/handles.h"
 #include "weft/mesh/shapes/knot.h"
 #include "weft/mesh/shapes/parametric.h"
 #include "weft/mesh/shapes/rings.h"
+#include "weft/mesh_statistics.h"
+#include "weft/repair.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

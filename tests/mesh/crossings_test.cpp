@@ -7,7 +7,7 @@
 
 #include "tests/mesh/small_meshes.h"
 #include "tests/support/random_points.h"
-#include "weft/mesh/shapes.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

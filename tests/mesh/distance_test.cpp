@@ -7,7 +7,7 @@
 
 #include "tests/support/random_points.h"
 #include "weft/core/random.h"
-#include "weft/mesh/shapes.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "tests/support/meshes.h"
 #include "weft/mesh/distance.h"
-#include "weft/mesh/mesh_statistics.h"
-#include "weft/mesh/shapes.h"
 #include "weft/mesh/shapes/mannequin.h"
 #include "weft/mesh/topology.h"
+#include "weft/mesh_statistics.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

@@ -1,14 +1,10 @@
-#include "weft/mesh/io/mesh_faces.h"
-
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"
-#include "weft/core/files.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/io/write_mesh.h"
+#include "weft/files.h"
+#include "weft/mesh.h"
 #include "weft/mesh/point_normals.h"
-#include "weft/mesh/shapes.h"
-#include "weft/mesh/units.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

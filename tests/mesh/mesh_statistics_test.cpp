@@ -1,9 +1,9 @@
-#include "weft/mesh/mesh_statistics.h"
+#include "weft/mesh_statistics.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/mesh/small_meshes.h"
-#include "weft/mesh/shapes.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/mesh/gltf_files.h"
-#include "weft/core/error.h"
 #include "weft/core/random.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/repair.h"
+#include "weft/error.h"
+#include "weft/mesh.h"
+#include "weft/repair.h"
 
 namespace weft {
 namespace {

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "weft/core/json_text.h"
 #include "weft/core/parse_json.h"
-#include "weft/mesh/io/read_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

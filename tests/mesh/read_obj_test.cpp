@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/errors.h"
-#include "weft/mesh/io/read_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/errors.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/repair.h"
+#include "weft/mesh.h"
+#include "weft/repair.h"
 
 namespace weft {
 namespace {

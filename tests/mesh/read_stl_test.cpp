@@ -5,7 +5,7 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
-#include "weft/mesh/io/read_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

@@ -9,12 +9,12 @@
 #include "tests/support/meshes.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
-#include "weft/mesh/mesh_statistics.h"
 #include "weft/mesh/shapes/clip.h"
 #include "weft/mesh/shapes/editable_mesh.h"
 #include "weft/mesh/shapes/polygonise.h"
 #include "weft/mesh/shapes/sphere.h"
 #include "weft/mesh/topology.h"
+#include "weft/mesh_statistics.h"
 
 namespace weft {
 namespace {

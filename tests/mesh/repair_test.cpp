@@ -1,4 +1,4 @@
-#include "weft/mesh/repair.h"
+#include "weft/repair.h"
 
 #include <algorithm>
 #include <limits>

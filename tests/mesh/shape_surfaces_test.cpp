@@ -5,8 +5,8 @@
 
 #include "weft/mesh/crossings.h"
 #include "weft/mesh/distance.h"
-#include "weft/mesh/shapes.h"
 #include "weft/mesh/shapes/mannequin.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

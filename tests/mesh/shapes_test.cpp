@@ -1,4 +1,4 @@
-#include "weft/mesh/shapes.h"
+#include "weft/shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/meshes.h"
-#include "weft/core/error.h"
 #include "weft/core/math.h"
+#include "weft/error.h"
 #include "weft/mesh/shapes/parametric.h"
 #include "weft/mesh/topology.h"
 

@@ -1,8 +1,7 @@
-#include "weft/mesh/units.h"
-
 #include <gtest/gtest.h>
 
 #include "tests/support/meshes.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

@@ -1,5 +1,3 @@
-#include "weft/mesh/io/write_mesh.h"
-
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -8,7 +6,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 #include "weft/core/random.h"
-#include "weft/mesh/io/read_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/param/layout_cases.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/param/border_curves.h"
 
 namespace weft {

@@ -9,12 +9,12 @@
 #include "tests/param/disks.h"
 #include "tests/param/surfaces.h"
 #include "tests/support/meshes.h"
-#include "weft/core/error.h"
 #include "weft/cut/open_to_disk.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/repair.h"
+#include "weft/error.h"
+#include "weft/mesh.h"
 #include "weft/param/augment.h"
 #include "weft/param/proxy.h"
+#include "weft/repair.h"
 
 namespace weft {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "weft/core/math.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft::test {
 

@@ -1,4 +1,5 @@
 #include "weft/param/vertex_star.h"
+#include "weft/cloth/cloth.h"
 
 #include <cmath>
 

@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "weft/convert/convert.h"
-#include "weft/convert/load_surface.h"
-#include "weft/mesh/shapes.h"
+#include "weft/convert.h"
+#include "weft/shapes.h"
 #include "weft/sim/placement.h"
 
 namespace weft {

@@ -7,9 +7,9 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/core/files.h"
 #include "weft/core/hash.h"
 #include "weft/core/random.h"
+#include "weft/files.h"
 
 namespace weft {
 namespace {

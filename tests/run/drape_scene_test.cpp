@@ -1,11 +1,11 @@
-#include "weft/run/drape_scene.h"
+#include "weft/drape_scene.h"
 
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"
-#include "weft/mesh/io/write_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

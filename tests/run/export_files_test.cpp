@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/run/exported_runs.h"
-#include "weft/core/files.h"
+#include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
-#include "weft/mesh/io/read_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

@@ -5,7 +5,7 @@
 #include <tiny_gltf.h>
 
 #include "tests/run/exported_runs.h"
-#include "weft/mesh/io/read_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

@@ -7,11 +7,10 @@
 
 #include "tests/run/exported_runs.h"
 #include "tests/support/errors.h"
-#include "weft/core/files.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/io/write_mesh.h"
-#include "weft/mesh/shapes.h"
-#include "weft/run/run_folder.h"
+#include "weft/files.h"
+#include "weft/mesh.h"
+#include "weft/run_folder.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

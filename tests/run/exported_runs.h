@@ -5,7 +5,7 @@
 
 #include "tests/support/temporary_folder.h"
 #include "weft/mesh/io/point_cache.h"
-#include "weft/run/run.h"
+#include "weft/run.h"
 
 namespace weft::test {
 

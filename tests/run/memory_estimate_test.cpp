@@ -1,12 +1,10 @@
-#include "weft/run/memory_estimate.h"
-
 #include <gtest/gtest.h>
 
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 #include "weft/image/builtin.h"
-#include "weft/image/io/image_file.h"
-#include "weft/run/run.h"
+#include "weft/image_file.h"
+#include "weft/run.h"
 
 namespace weft {
 namespace {

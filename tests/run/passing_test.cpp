@@ -2,7 +2,7 @@
 
 #include "tests/cloth/sheets.h"
 #include "weft/run/passings.h"
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 namespace weft {
 namespace {

@@ -11,11 +11,10 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/core/files.h"
 #include "weft/core/parse_json.h"
+#include "weft/files.h"
+#include "weft/run.h"
 #include "weft/run/checkpoint.h"
-#include "weft/run/report.h"
-#include "weft/run/run.h"
 
 namespace weft {
 namespace {

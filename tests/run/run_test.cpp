@@ -1,4 +1,4 @@
-#include "weft/run/run.h"
+#include "weft/run.h"
 
 #include <cstdint>
 #include <cstring>
@@ -8,13 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/temporary_folder.h"
-#include "weft/core/error.h"
-#include "weft/core/files.h"
 #include "weft/core/parse_json.h"
-#include "weft/mesh/io/read_mesh.h"
+#include "weft/error.h"
+#include "weft/files.h"
+#include "weft/mesh.h"
 #include "weft/run/export/pc2_writer.h"
-#include "weft/run/report.h"
-#include "weft/run/run_folder.h"
+#include "weft/run_folder.h"
 
 namespace weft {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
+#include "weft/geometry_image.h"
 #include "weft/image/builtin.h"
-#include "weft/image/rebuild.h"
 #include "weft/sim/placement.h"
 
 namespace weft {

@@ -4,11 +4,11 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/image/builtin.h"
-#include "weft/mesh/io/write_mesh.h"
-#include "weft/mesh/shapes.h"
+#include "weft/mesh.h"
 #include "weft/run/export/pc2_writer.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 namespace weft {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "tests/cloth/sheets.h"
 #include "weft/collide/intersections.h"
-#include "weft/image/rebuild.h"
-#include "weft/sim/simulation.h"
+#include "weft/geometry_image.h"
+#include "weft/simulation.h"
 
 namespace weft {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 namespace weft {
 namespace {

@@ -1,10 +1,9 @@
-#include "weft/sim/drape_coefficient.h"
-
 #include <gtest/gtest.h>
 
 #include "tests/support/errors.h"
-#include "weft/core/error.h"
 #include "weft/core/math.h"
+#include "weft/error.h"
+#include "weft/fabric.h"
 
 namespace weft {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "weft/core/math.h"
-#include "weft/run/report.h"
-#include "weft/sim/simulation.h"
+#include "weft/run.h"
+#include "weft/simulation.h"
 
 namespace weft {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "tests/cloth/sheets.h"
 #include "weft/run/verification.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {
@@ -83,7 +84,7 @@ TEST(Insides, AClothHalfInsideABallIsNamedAndPushedOut) {
   EXPECT_LT(found.samples, found.particles - 50);
   EXPECT_NE(start_inside_text(found).find("points inside of body 'room'"), std::string::npos);
   for (int frame = 1; frame <= 60; ++frame) simulation.advance();
-  const int n = simulation.cloths()[0].cloth.size;
+  const int n = simulation.cloths()[0].model->size;
   EXPECT_EQ(points_outside(simulation), n * n);
 }
 

@@ -1,9 +1,8 @@
-#include "weft/sim/materials.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "weft/core/files.h"
+#include "weft/fabric.h"
+#include "weft/files.h"
 
 namespace weft {
 namespace {

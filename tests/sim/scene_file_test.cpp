@@ -1,4 +1,4 @@
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/scene_file.h"
 
 #include <filesystem>
 #include <set>
@@ -9,10 +9,10 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/core/error.h"
-#include "weft/core/files.h"
 #include "weft/core/parse_json.h"
-#include "weft/sim/materials.h"
+#include "weft/error.h"
+#include "weft/fabric.h"
+#include "weft/files.h"
 #include "weft/sim/scene_file/scene_keys.h"
 
 namespace weft {

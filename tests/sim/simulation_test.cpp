@@ -1,10 +1,12 @@
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
-#include "weft/core/error.h"
 #include "weft/core/math.h"
+#include "weft/error.h"
+#include "weft/cloth/cloth.h"
+#include "weft/cloth/wind.h"
 
 namespace weft {
 namespace {
@@ -65,7 +67,7 @@ TEST(Simulation, PlacementScalesThenRotatesThenMoves) {
   Scene scene = free_fall(ImplicitOptions{});
   scene.cloths[0].placement = {{2, 1, 1}, {0, 0, 90}, {0, 3, 0}};
   const Simulation simulation(scene, "placed", 1);
-  const Planes3& rest = simulation.cloths()[0].cloth.rest;
+  const Planes3& rest = simulation.cloths()[0].model->rest;
   // Column 0 lies at x = -0.5: scaled to -1, turned about z onto y = -1, moved up by 3.
   EXPECT_NEAR(rest.at(0, 0).x, 0, 1e-6);
   EXPECT_NEAR(rest.at(0, 0).y, 2, 1e-6);

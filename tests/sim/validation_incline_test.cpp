@@ -4,7 +4,7 @@
 
 #include "tests/cloth/validation.h"
 #include "weft/core/math.h"
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 namespace weft {
 namespace {

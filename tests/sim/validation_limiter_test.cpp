@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/validation.h"
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 namespace weft {
 namespace {

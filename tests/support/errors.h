@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft::test {
 

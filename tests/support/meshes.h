@@ -1,8 +1,8 @@
 #pragma once
 
 #include "weft/core/math.h"
+#include "weft/mesh.h"
 #include "weft/mesh/topology.h"
-#include "weft/mesh/triangle_mesh.h"
 
 namespace weft::test {
 

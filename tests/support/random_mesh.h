@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "weft/core/random.h"
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "weft/core/random.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft::test {
 

@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "weft/drawing.h"
 #include "weft/image/builtin.h"
-#include "weft/view/border_pictures.h"
-#include "weft/view/legend.h"
-#include "weft/view/palette.h"
+#include "weft/picture.h"
 #include "weft/view/text.h"
 
 namespace weft {

@@ -1,4 +1,4 @@
-#include "weft/view/camera.h"
+#include "weft/camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include "tests/view/shapes.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
-#include "weft/view/outline.h"
 
 namespace weft {
 namespace {

@@ -1,10 +1,9 @@
-#include "weft/view/carried_normals.h"
-
 #include <gtest/gtest.h>
 
 #include "tests/view/shapes.h"
-#include "weft/core/error.h"
 #include "weft/core/math.h"
+#include "weft/drawing.h"
+#include "weft/error.h"
 #include "weft/view/normals.h"
 
 namespace weft {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "weft/view/picture.h"
+#include "weft/picture.h"
 
 namespace weft {
 

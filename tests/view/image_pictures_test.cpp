@@ -1,6 +1,7 @@
-#include "weft/view/image_pictures.h"
-
 #include <gtest/gtest.h>
+
+#include "weft/drawing.h"
+#include "weft/view/map_picture.h"
 
 namespace weft {
 namespace {

@@ -1,5 +1,3 @@
-#include "weft/view/movie_writer.h"
-
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -8,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
+#include "weft/picture.h"
 
 namespace weft {
 namespace {

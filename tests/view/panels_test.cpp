@@ -1,8 +1,6 @@
-#include "weft/view/panels.h"
-
 #include <gtest/gtest.h>
 
-#include "weft/view/palette.h"
+#include "weft/picture.h"
 
 namespace weft {
 namespace {

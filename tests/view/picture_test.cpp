@@ -1,4 +1,4 @@
-#include "weft/view/picture.h"
+#include "weft/picture.h"
 
 #include <filesystem>
 #include <fstream>
@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"
-#include "weft/core/error.h"
-#include "weft/core/files.h"
 #include "weft/core/random.h"
+#include "weft/error.h"
+#include "weft/files.h"
 
 namespace weft {
 namespace {

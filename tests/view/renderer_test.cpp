@@ -1,12 +1,11 @@
-#include "weft/view/renderer.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "tests/view/golden.h"
 #include "tests/view/shapes.h"
-#include "weft/core/error.h"
+#include "weft/drawing.h"
+#include "weft/error.h"
 #include "weft/view/normals.h"
 
 namespace weft {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "weft/core/math.h"
-#include "weft/core/planes.h"
-#include "weft/view/drawn_scene.h"
+#include "weft/drawing.h"
+#include "weft/grid.h"
 
 namespace weft {
 

@@ -1,13 +1,11 @@
-#include "weft/view/surface_drawing.h"
-
 #include <gtest/gtest.h>
 
+#include "weft/drawing.h"
+#include "weft/geometry_image.h"
 #include "weft/image/builtin.h"
-#include "weft/image/rebuild.h"
-#include "weft/mesh/shapes.h"
 #include "weft/mesh/topology.h"
-#include "weft/view/palette.h"
-#include "weft/view/surface_values.h"
+#include "weft/picture.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

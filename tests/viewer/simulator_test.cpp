@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "weft/run/run.h"
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/run.h"
+#include "weft/scene_file.h"
 
 namespace weft::viewer {
 namespace {

@@ -9,7 +9,7 @@
 #include "weft/cloth/border_springs.h"
 #include "weft/cloth/neighbours.h"
 #include "weft/cloth/rest_shape.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

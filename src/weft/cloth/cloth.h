@@ -3,9 +3,10 @@
 #include <array>
 #include <vector>
 
-#include "weft/cloth/material.h"
-#include "weft/core/planes.h"
-#include "weft/image/geometry_image.h"
+#include "weft/cloth_state.h"
+#include "weft/geometry_image.h"
+#include "weft/grid.h"
+#include "weft/material.h"
 
 namespace weft {
 
@@ -85,12 +86,6 @@ struct Cloth {
   std::vector<Pin> pins;
   int particles = 0;        ///< mates counted once
   double rest_spacing = 0;  ///< mean rest length of the stretch springs [m]
-};
-
-/// What moves. Mates hold equal bits.
-struct ClothState {
-  Planes3 position;  ///< [m]
-  Planes3 velocity;  ///< [m/s]
 };
 
 /// No spring is shorter than this part of the mean stretch spring, no particle lighter than the

@@ -2,9 +2,9 @@
 
 #include <initializer_list>
 
-#include "weft/core/planes.h"
 #include "weft/core/thread_team.h"
-#include "weft/image/border_mates.h"
+#include "weft/geometry_image.h"
+#include "weft/grid.h"
 
 namespace weft {
 

@@ -7,11 +7,9 @@
 
 namespace weft {
 
-/// |l / r - 1| over the stretch springs (a seam spring once).
-struct StrainSummary {
-  double mean = 0, p99 = 0, max = 0;
-};
 StrainSummary measure_strain(const Cloth& cloth, const ClothState& state);
+/// The mean of l / r - 1 over the stretch springs around each sample. @param strains  [n x n]
+void strain_at_samples(const Cloth& cloth, const Planes3& positions, Grid<float>& strains);
 
 /// Particles counted once, weighted by mass [m].
 Vec3d centre_of_mass(const Cloth& cloth, const ClothState& state);

@@ -2,14 +2,9 @@
 
 #include "weft/cloth/cloth.h"
 #include "weft/core/thread_team.h"
+#include "weft/material.h"
 
 namespace weft {
-
-/// Air that moves past the cloth.
-struct WindOptions {
-  Vec3d velocity;  ///< [m/s]
-  double drag = 1, lift = 1;
-};
 
 /// [kg/m^3] at 20 degrees and sea level
 inline constexpr double air_density = 1.204;

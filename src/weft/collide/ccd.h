@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft {
 

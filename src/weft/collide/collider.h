@@ -7,11 +7,12 @@
 #include <variant>
 #include <vector>
 
-#include "weft/core/contact.h"
-#include "weft/core/planes.h"
+#include "weft/colliders.h"
+#include "weft/contact.h"
 #include "weft/core/thread_team.h"
+#include "weft/geometry_image.h"
+#include "weft/grid.h"
 #include "weft/image/diagonals.h"
-#include "weft/image/geometry_image.h"
 
 namespace weft {
 
@@ -25,35 +26,6 @@ struct Body {
   /// resumed; empty: the positions. [n x n] [m]
   Planes3 shape{};
 };
-
-/// The default: mip pyramids as bounding hierarchies, planes that nothing passes.
-struct PyramidOptions {};
-
-/// The same with other broad phases, to compare with: spheres in a tree over the image [benes05], a
-/// hashed grid of space [teschner03], and depth images [govindaraju03].
-struct SphereTreeOptions {};
-struct SpatialHashOptions {};
-struct ImageSpaceOptions {};
-
-/// The paper's angular table [zink07, section 5].
-struct PolarMapOptions {
-  int size = 0;  ///< cells a side of the table; 0: the body's image size
-  /// From the surface point on the particle's ray, walk over neighbouring samples to the closest
-  /// point, and push no deeper than a tenth of the body's side. False: the printed method, whose
-  /// radial point may lie far from the closest one, so that single pushes are far too deep.
-  bool walk = true;
-};
-using ColliderOptions = std::variant<PyramidOptions, PolarMapOptions, SphereTreeOptions,
-                                     SpatialHashOptions, ImageSpaceOptions>;
-std::string_view name_of(const ColliderOptions& options);
-/// The collider of that name, with default options; nothing where there is none.
-std::optional<ColliderOptions> collider_named(std::string_view name);
-/// Whether it can keep a cloth from passing through itself.
-bool knows_self_collision(const ColliderOptions& options);
-/// Whether it can keep cloth inside of a body.
-bool knows_containers(const ColliderOptions& options);
-/// Whether it can keep cloth out of bodies that move.
-bool knows_moving_bodies(const ColliderOptions& options);
 
 /// What a collider needs to know of a cloth it serves.
 struct CollidingCloth {

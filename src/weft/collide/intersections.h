@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "weft/core/planes.h"
+#include "weft/colliders.h"
+#include "weft/grid.h"
 #include "weft/mesh/crossings.h"
 
 namespace weft {
@@ -15,15 +16,6 @@ namespace weft {
 struct GridTriangles {
   const Planes3* positions = nullptr;                ///< [n x n] world, mates equal [m]
   const std::vector<Triangle>* triangles = nullptr;  ///< corners as samples
-};
-
-/// What cloths pass through.
-struct IntersectionCounts {
-  std::int64_t self = 0;    ///< pairs of triangles of one cloth
-  std::int64_t cloths = 0;  ///< of two cloths
-  std::int64_t bodies = 0;  ///< of a cloth and a body
-  std::int64_t ground = 0;  ///< triangles of cloths with a corner below the ground
-  [[nodiscard]] std::int64_t total() const { return self + cloths + bodies + ground; }
 };
 
 /// Counts the pairs of triangles that cross each other (weft/mesh/crossings.h): exact for the

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "weft/core/planes.h"
-#include "weft/image/border_mates.h"
+#include "weft/geometry_image.h"
+#include "weft/grid.h"
 #include "weft/image/diagonals.h"
 
 namespace weft {

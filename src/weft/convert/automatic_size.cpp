@@ -1,6 +1,6 @@
 #include "weft/convert/automatic_size.h"
 
-#include "weft/image/geometry_image.h"
+#include "weft/geometry_image.h"
 #include "weft/param/border_layout.h"
 
 namespace weft {

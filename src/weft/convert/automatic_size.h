@@ -4,9 +4,6 @@
 
 namespace weft {
 
-/// Asks for a size that suits the mesh, instead of a number.
-inline constexpr int automatic_size = 0;
-
 /// The least n = 2^k + 1 from 33 on that holds a cut well, with twice the border that its paths
 /// need at least, and samples enough for the mesh: as many as it has vertices. More than 1025 only
 /// where the cut needs them.

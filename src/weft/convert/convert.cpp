@@ -1,4 +1,4 @@
-#include "weft/convert/convert.h"
+#include "weft/convert.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,12 +6,17 @@
 
 #include <fmt/format.h>
 
+#include "weft/convert/automatic_size.h"
 #include "weft/convert/fit_samples.h"
 #include "weft/convert/sample.h"
-#include "weft/core/error.h"
 #include "weft/core/hash.h"
-#include "weft/image/image_quality.h"
+#include "weft/cut/open_to_disk.h"
+#include "weft/cut/seam.h"
+#include "weft/error.h"
+#include "weft/image_quality.h"
 #include "weft/param/augment.h"
+#include "weft/param/border_layout.h"
+#include "weft/param/square_map.h"
 
 namespace weft {
 namespace {
@@ -105,16 +110,19 @@ void cut_and_map(Conversion& made, const std::string& name, const ConvertOptions
   map.parameterizer = options.parameterizer;
   map.name = name;
   map.progress = options.progress;
-  made.mapped = map_to_square(cut_open(mesh, augmented.cut), map);
-  if (augmented.rounds > 0 && is_suspicious(made.mapped)) {
+  MappedDisk mapped = map_to_square(cut_open(mesh, augmented.cut), map);
+  if (augmented.rounds > 0 && is_suspicious(mapped)) {
     MappedDisk plain = map_to_square(cut_open(mesh, cut), map);
-    if (plain.quality.stretch_l2 < made.mapped.quality.stretch_l2) {
-      made.mapped = std::move(plain);
+    if (plain.quality.stretch_l2 < mapped.quality.stretch_l2) {
+      mapped = std::move(plain);
       augmented = {cut, 0};
     }
   }
   made.cut = summarise(cut_open(mesh, augmented.cut));
   made.rounds = augmented.rounds;
+  made.map_quality = mapped.quality;
+  made.parameterizer = mapped.parameterizer;
+  made.mapped = std::make_shared<MappedDisk>(std::move(mapped));
   made.seconds.map = watch.lap();
 }
 
@@ -144,14 +152,14 @@ void named(const std::string& name, const Stage& stage) {
 void sample(Conversion& made, const std::string& name, const ConvertOptions& options) {
   Stopwatch watch;
   update(options.progress, "sample", 0);
-  made.image = sample_image(made.mapped);
+  made.image = sample_image(*made.mapped);
   if (options.fit_samples)
-    made.image = fit_samples(made.mapped, made.image, {.progress = options.progress});
+    made.image = fit_samples(*made.mapped, made.image, {.progress = options.progress});
   made.image.source = source_name(name);
   made.image.source_hash = hash_of(made.input.mesh);
   if (options.normal_map_size > 0)
-    made.normals = sample_normals(made.mapped, options.normal_map_size);
-  if (options.keep_uv) made.texture = sample_texture(made.mapped, made.input.mesh);
+    made.normals = sample_normals(*made.mapped, options.normal_map_size);
+  if (options.keep_uv) made.texture = sample_texture(*made.mapped, made.input.mesh);
   made.quality = measure_topology(made.image);
   require_topology(made, name);
   made.seconds.sample = watch.lap();
@@ -182,6 +190,22 @@ Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
   }
   const StageSeconds& s = made.seconds;
   made.seconds.total = s.load + s.cut + s.map + s.sample + s.measure;
+  return made;
+}
+
+CutPreview preview_cut(const TriangleMesh& mesh, const std::string& name,
+                       const CutPreviewOptions& options) {
+  CutPreview made;
+  made.input = repair_mesh(mesh, {name, {}});
+  Cut cut = open_to_disk(made.input.mesh);
+  CutDisk disk = cut_open(made.input.mesh, cut);
+  made.min_size = min_size(disk);
+  if (options.augment)
+    disk = cut_open(
+        made.input.mesh,
+        augment_cut(made.input.mesh, cut, {.size = options.size, .progress = options.progress})
+            .cut);
+  made.disk = std::make_shared<CutDisk>(std::move(disk));
   return made;
 }
 

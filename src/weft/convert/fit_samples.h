@@ -1,8 +1,8 @@
 #pragma once
 
-#include "weft/core/progress.h"
-#include "weft/image/geometry_image.h"
+#include "weft/geometry_image.h"
 #include "weft/param/square_map.h"
+#include "weft/progress.h"
 
 namespace weft {
 

@@ -1,14 +1,13 @@
-#include "weft/convert/load_surface.h"
-
 #include <cctype>
 #include <filesystem>
 
+#include "weft/convert.h"
 #include "weft/convert/surface_places.h"
 #include "weft/convert/vertex_places.h"
 #include "weft/image/builtin.h"
-#include "weft/image/io/image_file.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/shapes.h"
+#include "weft/image_file.h"
+#include "weft/mesh.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {
@@ -18,7 +17,7 @@ constexpr std::string_view builtin_prefix = "builtin:";
 SampleBlends blends_of(const Conversion& made, int vertices) {
   const TriangleMesh& mesh = made.input.mesh;
   const std::vector<SurfacePlace> places =
-      surface_places(made.mapped, mesh.triangles, made.image.size());
+      surface_places(*made.mapped, mesh.triangles, made.image.size());
   SampleBlends follows{vertices, std::vector<BlendedVertex>(places.size())};
   for (std::size_t s = 0; s < places.size(); ++s) {
     // On the cut, mates lie in different triangles: one of them speaks for all.
@@ -57,27 +56,32 @@ TriangleMesh load_mesh(const std::string& name) {
   return read_mesh(name);
 }
 
-bool is_image_surface(const std::string& name) {
+bool is_image_surface(const Surface& surface) {
+  if (surface.in_memory()) return surface.image != nullptr;
+  const std::string& name = surface.name;
   return is_image_name(name) || (name.starts_with(builtin_prefix) &&
                                  is_image_by_nature(name.substr(builtin_prefix.size())));
 }
 
-LoadedSurface load_surface(const std::string& name, const ConvertOptions& options) {
-  if (is_image_name(name)) return {read_image(name), {}, {}, {}, {}};
-  if (is_image_surface(name)) {
+LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options) {
+  const std::string& name = surface.name;
+  if (surface.image) return {*surface.image, {}, {}, {}, {}};
+  if (!surface.mesh && is_image_name(name)) return {read_image(name), {}, {}, {}, {}};
+  if (is_image_surface(surface)) {
     const int size = options.size == automatic_size ? ConvertOptions{}.size : options.size;
     return {make_image_shape(name.substr(builtin_prefix.size()), size), {}, {}, {}, {}};
   }
   ConvertOptions quick = options;
   quick.measure = false;
-  MeshFile file = load_mesh_file(name, options.files);
+  MeshFile file = surface.mesh ? MeshFile{*surface.mesh, faces_of(*surface.mesh)}
+                               : load_mesh_file(name, options.files);
   const auto vertices = static_cast<int>(file.mesh.positions.size());
   Conversion made = convert_mesh(file.mesh, name, quick);
   LoadedSurface loaded;
   if (options.keep_places) loaded.follows = blends_of(made, vertices);
   if (options.keep_source)
     loaded.source = {std::move(file.mesh.positions), std::move(file.faces),
-                     vertex_places(made.mapped, made.input.source_vertex, vertices)};
+                     vertex_places(*made.mapped, made.input.source_vertex, vertices)};
   loaded.image = std::move(made.image);
   loaded.normals = std::move(made.normals);
   loaded.notes = std::move(made.input.repairs);

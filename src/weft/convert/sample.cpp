@@ -10,7 +10,7 @@
 #include "weft/convert/surface_places.h"
 #include "weft/convert/vertex_normals.h"
 #include "weft/core/assert.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

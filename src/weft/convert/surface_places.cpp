@@ -5,7 +5,7 @@
 #include "weft/convert/border_walk.h"
 #include "weft/convert/rasterise.h"
 #include "weft/core/assert.h"
-#include "weft/image/border_mates.h"
+#include "weft/geometry_image.h"
 
 namespace weft {
 namespace {

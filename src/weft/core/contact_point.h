@@ -1,7 +1,7 @@
 #pragma once
 
-#include "weft/core/contact.h"
-#include "weft/core/planes.h"
+#include "weft/contact.h"
+#include "weft/grid.h"
 
 namespace weft {
 

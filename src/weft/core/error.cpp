@@ -1,4 +1,4 @@
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

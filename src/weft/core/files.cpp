@@ -1,4 +1,4 @@
-#include "weft/core/files.h"
+#include "weft/files.h"
 
 #include <cerrno>
 #include <cstring>
@@ -10,7 +10,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "weft/core/grid.h"
+#include "weft/grid.h"
 
 namespace weft {
 

@@ -1,8 +1,8 @@
-#include "weft/core/planes.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "weft/grid.h"
 
 namespace weft {
 

@@ -20,17 +20,6 @@ struct Range {
 
 class ThreadTeam;
 
-/// How many work, and how wide their hands are.
-struct TeamOptions {
-  int size = 1;  ///< threads, >= 1
-  /// Of the inner loops; this processor must have it.
-  InstructionSet instructions = best_instruction_set();
-
-  TeamOptions(int threads,  // NOLINT(google-explicit-constructor): most say no more
-              InstructionSet set = best_instruction_set())
-      : size(threads), instructions(set) {}
-};
-
 /// One member of a team inside a parallel region.
 class Worker {
  public:

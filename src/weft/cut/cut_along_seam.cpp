@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
 #include "weft/cut/cut_graph.h"
 #include "weft/cut/seam.h"
 #include "weft/cut/shortest_paths.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

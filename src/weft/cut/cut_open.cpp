@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
 #include "weft/cut/cut_graph.h"
 #include "weft/cut/split_border_edge.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

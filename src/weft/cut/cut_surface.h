@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "weft/mesh.h"
 #include "weft/mesh/topology.h"
-#include "weft/mesh/triangle_mesh.h"
 
 namespace weft {
 

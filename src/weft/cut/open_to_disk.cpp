@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
 #include "weft/cut/seed_cut.h"
 #include "weft/cut/shortest_paths.h"
 #include "weft/cut/straighten.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

@@ -2,8 +2,9 @@
 
 #include <vector>
 
+#include "weft/cut.h"
 #include "weft/cut/disk_mesh.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 
@@ -41,12 +42,6 @@ Cut extend_cut(const TriangleMesh& mesh, const Cut& cut, int vertex);
 /// @throws TopologyError when the opened mesh is not one disk
 CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut);
 
-/// What `convert` reports of a cut.
-struct CutSummary {
-  int paths = 0;      ///< distinct curves: a mated pair counts once, true borders included
-  int nodes = 0;      ///< distinct surface points where paths end
-  double length = 0;  ///< of the interior cut, each curve once [m]
-};
 CutSummary summarise(const CutDisk& cut);
 
 }  // namespace weft

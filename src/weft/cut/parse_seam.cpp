@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
 #include "weft/cut/seam.h"
+#include "weft/error.h"
+#include "weft/files.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/number.h"
 #include "weft/mesh/io/polygon.h"

@@ -6,25 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "weft/cut.h"
 #include "weft/cut/open_to_disk.h"
 
 namespace weft {
 
-/// Where a user wants a mesh to be cut: paths of vertices, numbered from 0 in the order of the
-/// mesh's file, whatever its format. Vertices that follow each other are joined by their edge, or
-/// by the shortest path along edges where they share none.
-struct SeamPath {
-  int line = 0;  ///< of the seam's file
-  std::vector<int> vertices;
-};
-struct Seam {
-  std::string name;  ///< what errors call it, mostly its path
-  std::vector<SeamPath> paths;
-};
-
-/// Reads a seam: text, one path a line, numbers apart by blanks, # begins a comment.
-/// @throws InputError with FILE:LINE
-Seam read_seam(const std::filesystem::path& path);
 /// The same from memory; `name` is what errors call it.
 Seam parse_seam(std::string_view bytes, std::string_view name);
 

@@ -1,12 +1,11 @@
-#include "weft/image/border_mates.h"
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
+#include "weft/geometry_image.h"
 
 namespace weft {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "weft/core/assert.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/mesh/shapes/parametric.h"
 
 namespace weft {

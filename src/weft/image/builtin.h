@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "weft/image/geometry_image.h"
+#include "weft/geometry_image.h"
 
 namespace weft {
 

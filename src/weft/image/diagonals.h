@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/image/geometry_image.h"
+#include "weft/geometry_image.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "weft/image/geometry_image.h"
+#include "weft/geometry_image.h"
 
 #include <bit>
 

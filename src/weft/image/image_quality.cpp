@@ -1,10 +1,10 @@
-#include "weft/image/image_quality.h"
+#include "weft/image_quality.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "weft/image/rebuild.h"
+#include "weft/geometry_image.h"
 #include "weft/mesh/distance.h"
 #include "weft/mesh/topology.h"
 

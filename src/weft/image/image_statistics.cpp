@@ -1,8 +1,7 @@
-#include "weft/image/image_statistics.h"
-
 #include <algorithm>
 
-#include "weft/image/rebuild.h"
+#include "weft/geometry_image.h"
+#include "weft/image_quality.h"
 #include "weft/mesh/crossings.h"
 #include "weft/mesh/stretch.h"
 

@@ -1,5 +1,4 @@
-#include "weft/image/rebuild.h"
-
+#include "weft/geometry_image.h"
 #include "weft/image/diagonals.h"
 
 namespace weft {

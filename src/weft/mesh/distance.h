@@ -5,8 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "weft/core/progress.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
+#include "weft/mesh_statistics.h"
+#include "weft/progress.h"
 
 namespace weft {
 
@@ -41,11 +42,6 @@ Vec3d closest_on_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c);
 /// order of the triangles. @pre at least one triangle
 std::vector<Vec3d> sample_surface(const TriangleMesh& mesh, int count, std::uint64_t seed);
 
-/// From one surface to the other: the root mean square over samples of its area, the largest over
-/// these and all its vertices [m].
-struct OneSidedDistance {
-  double rms = 0, largest = 0;
-};
 struct SurfaceDistance {
   double rms = 0;        ///< the larger of the two one-sided root mean squares [m]
   double hausdorff = 0;  ///< the larger of the two one-sided maxima [m]

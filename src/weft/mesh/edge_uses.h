@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 

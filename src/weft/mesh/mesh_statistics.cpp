@@ -1,13 +1,13 @@
-#include "weft/mesh/mesh_statistics.h"
+#include "weft/mesh_statistics.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "weft/mesh/crossings.h"
 #include "weft/mesh/edge_uses.h"
-#include "weft/mesh/repair.h"
 #include "weft/mesh/surface_parts.h"
 #include "weft/mesh/surface_statistics.h"
+#include "weft/repair.h"
 
 namespace weft {
 namespace {

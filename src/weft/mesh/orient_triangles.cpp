@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/mesh/topology.h"
 
 namespace weft {

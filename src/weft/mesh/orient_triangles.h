@@ -3,8 +3,8 @@
 #include <span>
 #include <string_view>
 
+#include "weft/mesh.h"
 #include "weft/mesh/edge_uses.h"
-#include "weft/mesh/triangle_mesh.h"
 
 namespace weft {
 

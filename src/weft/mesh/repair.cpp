@@ -1,4 +1,4 @@
-#include "weft/mesh/repair.h"
+#include "weft/repair.h"
 
 #include <algorithm>
 #include <climits>
@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "weft/core/assert.h"
-#include "weft/core/error.h"
 #include "weft/core/hash.h"
+#include "weft/error.h"
 #include "weft/mesh/orient_triangles.h"
 #include "weft/mesh/split_fans.h"
 #include "weft/mesh/surface_parts.h"

@@ -1,11 +1,11 @@
-#include "weft/mesh/shapes.h"
+#include "weft/shapes.h"
 
 #include <array>
 #include <iterator>
 #include <string>
 
-#include "weft/core/error.h"
 #include "weft/core/nearest_name.h"
+#include "weft/error.h"
 #include "weft/mesh/shapes/box.h"
 #include "weft/mesh/shapes/handles.h"
 #include "weft/mesh/shapes/knot.h"

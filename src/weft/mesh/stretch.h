@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 

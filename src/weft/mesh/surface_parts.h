@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "weft/mesh.h"
 #include "weft/mesh/edge_uses.h"
-#include "weft/mesh/triangle_mesh.h"
 
 namespace weft {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/mesh/mesh_statistics.h"
+#include "weft/mesh_statistics.h"
 
 namespace weft {
 

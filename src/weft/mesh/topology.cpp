@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "weft/core/assert.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/mesh/edge_uses.h"
 
 namespace weft {

@@ -3,7 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
+#include "weft/mesh_statistics.h"
 
 namespace weft {
 
@@ -40,19 +41,7 @@ HalfEdges half_edges(int vertex_count, std::span<const Triangle> triangles);
 std::vector<std::vector<int>> border_loops(std::span<const Triangle> triangles,
                                            const HalfEdges& edges);
 
-/// Counts that fix a surface up to deformation.
-struct TopologyCounts {
-  int vertices = 0;  ///< referenced ones
-  int edges = 0;
-  int triangles = 0;
-  int components = 0;  ///< joined through shared vertices
-  int boundaries = 0;  ///< border loops
-  int euler = 0;       ///< V - E + F
-  int genus = 0;       ///< of all components together: (2 components - boundaries - euler) / 2
-};
-/// For a manifold, oriented mesh. @throws TopologyError as half_edges
-TopologyCounts count_topology(int vertex_count, std::span<const Triangle> triangles);
-/// The same where the half-edges are there already.
+/// As count_topology (weft/mesh_statistics.h), where the half-edges are there already.
 TopologyCounts count_topology(std::span<const Triangle> triangles, const HalfEdges& edges);
 
 }  // namespace weft

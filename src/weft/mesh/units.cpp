@@ -1,8 +1,8 @@
-#include "weft/mesh/units.h"
-
 #include <algorithm>
 
 #include <fmt/format.h>
+
+#include "weft/mesh.h"
 
 namespace weft {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "weft/core/progress.h"
 #include "weft/cut/open_to_disk.h"
+#include "weft/progress.h"
 
 namespace weft {
 

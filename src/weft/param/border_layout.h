@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "weft/core/vec.h"
 #include "weft/cut/disk_mesh.h"
+#include "weft/vec.h"
 
 namespace weft {
 

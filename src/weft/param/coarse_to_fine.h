@@ -3,9 +3,9 @@
 #include <functional>
 #include <span>
 
-#include "weft/core/progress.h"
 #include "weft/cut/disk_mesh.h"
 #include "weft/param/border_relaxation.h"
+#include "weft/progress.h"
 
 namespace weft {
 

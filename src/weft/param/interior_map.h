@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "weft/core/progress.h"
 #include "weft/param/border_relaxation.h"
 #include "weft/param/square_map.h"
+#include "weft/progress.h"
 
 namespace weft {
 

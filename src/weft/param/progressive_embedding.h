@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "weft/core/progress.h"
 #include "weft/cut/disk_mesh.h"
+#include "weft/progress.h"
 
 namespace weft {
 

@@ -3,10 +3,10 @@
 #include <functional>
 #include <span>
 
-#include "weft/core/progress.h"
 #include "weft/param/border_relaxation.h"
 #include "weft/param/collapse_hierarchy.h"
 #include "weft/param/vertex_star.h"
+#include "weft/progress.h"
 
 namespace weft {
 

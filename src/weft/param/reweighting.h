@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "weft/core/progress.h"
 #include "weft/param/disk_geometry.h"
 #include "weft/param/interior_solver.h"
+#include "weft/progress.h"
 
 namespace weft {
 

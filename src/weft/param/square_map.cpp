@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/param/chords.h"
 #include "weft/param/interior_map.h"
 #include "weft/param/rotation.h"

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "weft/core/progress.h"
 #include "weft/cut/disk_mesh.h"
+#include "weft/progress.h"
 
 namespace weft {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft {
 

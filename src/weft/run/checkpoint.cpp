@@ -6,11 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
 #include "weft/core/hash.h"
-#include "weft/image/geometry_image.h"
+#include "weft/error.h"
+#include "weft/files.h"
+#include "weft/geometry_image.h"
 #include "weft/run/bytes.h"
+#include "weft/sim/stepping/step_levels.h"
 
 namespace weft {
 namespace {

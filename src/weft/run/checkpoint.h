@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "weft/run/frame_intersections.h"
+#include "weft/run.h"
 #include "weft/run/verification.h"
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 namespace weft {
 

@@ -1,10 +1,10 @@
-#include "weft/run/drape_scene.h"
+#include "weft/drape_scene.h"
 
 #include <algorithm>
 
-#include "weft/convert/load_surface.h"
-#include "weft/image/io/image_file.h"
-#include "weft/mesh/shapes.h"
+#include "weft/convert.h"
+#include "weft/image_file.h"
+#include "weft/shapes.h"
 #include "weft/sim/placement.h"
 
 namespace weft {

@@ -1,13 +1,12 @@
-#include "weft/run/memory_estimate.h"
-
 #include <filesystem>
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "weft/convert/load_surface.h"
-#include "weft/core/error.h"
-#include "weft/image/io/image_file.h"
+#include "weft/convert.h"
+#include "weft/error.h"
+#include "weft/image_file.h"
+#include "weft/run.h"
 
 namespace weft {
 namespace {
@@ -45,8 +44,11 @@ double animation_bytes(const std::string& path) {
   return missing ? 0 : static_cast<double>(bytes);
 }
 
-double samples_of(const std::string& surface, int size) {
-  const double side = is_image_name(surface) ? read_image(surface).size() : size;
+double samples_of(const Surface& surface, int size) {
+  const bool is_file = !surface.in_memory() && is_image_name(surface.name);
+  const double side = surface.image ? surface.image->size()
+                      : is_file     ? read_image(surface.name).size()
+                                    : size;
   return side * side;
 }
 

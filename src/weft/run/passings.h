@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "weft/image/geometry_image.h"
+#include "weft/geometry_image.h"
 #include "weft/mesh/box_tree.h"
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 namespace weft {
 

@@ -2,14 +2,16 @@
 
 #include <ostream>
 
-#include "weft/core/files.h"
+#include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
-#include "weft/image/io/image_file.h"
+#include "weft/image_file.h"
+#include "weft/mesh.h"
 #include "weft/mesh/crossings.h"
-#include "weft/mesh/io/mesh_faces.h"
+#include "weft/run.h"
 #include "weft/run/export/cache_manifest.h"
-#include "weft/run/report.h"
-#include "weft/run/run_folder.h"
+#include "weft/run_folder.h"
+#include "weft/cloth/cloth.h"
+#include "weft/run/run_manifest.h"
 
 namespace weft {
 
@@ -20,9 +22,14 @@ namespace {
 /// What a scene is made of may lie in the folder of an earlier run.
 std::vector<fs::path> input_files(const Scene& scene) {
   std::vector<fs::path> files;
-  for (const SceneCloth& cloth : scene.cloths) files.emplace_back(cloth.surface);
-  for (const SceneBody& body : scene.bodies)
-    for (const std::string* file : {&body.surface, &body.animation}) files.emplace_back(*file);
+  const auto add = [&](const Surface& surface) {
+    if (!surface.in_memory()) files.emplace_back(surface.name);
+  };
+  for (const SceneCloth& cloth : scene.cloths) add(cloth.surface);
+  for (const SceneBody& body : scene.bodies) {
+    add(body.surface);
+    files.emplace_back(body.animation);
+  }
   return files;
 }
 
@@ -42,7 +49,7 @@ void Recorder::record_cloths(const ExportOptions& options) {
     const SurfaceRecord::Subject subject{cloth.name,
                                          &cloth.image,
                                          &cloth.state.position,
-                                         &cloth.cloth.rest,
+                                         &cloth.model->rest,
                                          cloth.source ? &*cloth.source : nullptr,
                                          placement_map(scene_.cloths[i].placement),
                                          true};

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "weft/collide/intersections.h"
+#include "weft/run.h"
 #include "weft/run/export/surface_record.h"
-#include "weft/run/run.h"
 
 namespace weft {
 

@@ -1,5 +1,3 @@
-#include "weft/run/report.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -9,6 +7,7 @@
 
 #include "weft/core/json_text.h"
 #include "weft/core/math.h"
+#include "weft/run.h"
 
 namespace weft {
 namespace {

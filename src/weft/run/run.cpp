@@ -1,20 +1,20 @@
-#include "weft/run/run.h"
+#include "weft/run.h"
 
 #include <algorithm>
 #include <chrono>
 
 #include <fmt/format.h>
 
-#include "weft/core/disk_reservation.h"
-#include "weft/core/error.h"
-#include "weft/core/files.h"
-#include "weft/core/memory.h"
+#include "weft/error.h"
+#include "weft/files.h"
+#include "weft/run.h"
 #include "weft/run/checkpoint.h"
-#include "weft/run/memory_estimate.h"
+#include "weft/run/disk_reservation.h"
 #include "weft/run/recorder.h"
 #include "weft/run/run_identity.h"
+#include "weft/scene_file.h"
 #include "weft/sim/insides.h"
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {
@@ -46,10 +46,10 @@ void check_exports(const Scene& scene, const RunOptions& options) {
     throw UsageError("--unwelded", "goes with the image's samples, --on input with a mesh",
                      "one of both is wanted");
   for (const SceneCloth& cloth : scene.cloths)
-    if (is_image_name(cloth.surface))
+    if (cloth.surface.image || (!cloth.surface.mesh && is_image_name(cloth.surface.name)))
       throw UsageError("--on input",
                        fmt::format("the cloth '{}' is a geometry image, {}, which holds no mesh",
-                                   cloth.name, cloth.surface),
+                                   cloth.name, cloth.surface.name),
                        "the mesh that it was made from in its place, or --on image, is wanted");
 }
 
@@ -201,7 +201,7 @@ class Run {
     if (!std::equal(cloths.begin(), cloths.end(), from.state.cloths.begin(),
                     from.state.cloths.end(),
                     [](const SimulatedCloth& cloth, const ClothState& state) {
-                      return cloth.cloth.size == state.position.size();
+                      return cloth.model->size == state.position.size();
                     }))
       throw InputError(path_.string(), "does not fit to its scene",
                        "a run without --resume starts afresh");

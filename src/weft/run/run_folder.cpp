@@ -1,4 +1,4 @@
-#include "weft/run/run_folder.h"
+#include "weft/run_folder.h"
 
 #include <algorithm>
 #include <array>
@@ -8,16 +8,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
 #include "weft/core/json_text.h"
 #include "weft/core/parse_json.h"
+#include "weft/error.h"
+#include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
-#include "weft/image/io/image_file.h"
+#include "weft/image_file.h"
 #include "weft/run/export/point_frames.h"
 #include "weft/run/export/surface_points.h"
 #include "weft/sim/placement.h"
 #include "weft/sim/scene_file/scene_parts.h"
+#include "weft/run/run_manifest.h"
 
 namespace weft {
 namespace {

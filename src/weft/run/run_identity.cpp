@@ -5,11 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/files.h"
 #include "weft/core/hash.h"
 #include "weft/core/json_text.h"
 #include "weft/core/parse_json.h"
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/files.h"
+#include "weft/scene_file.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {
@@ -53,7 +54,7 @@ std::string run_identity(const Scene& scene, const Simulation& simulation,
                          const RunOptions& options) {
   Scene named = scene;
   for (std::size_t i = 0; i < named.cloths.size(); ++i) {
-    const Cloth& cloth = simulation.cloths()[i].cloth;
+    const Cloth& cloth = *simulation.cloths()[i].model;
     named.cloths[i].surface = surface_name(cloth.rest, cloth.mates);
   }
   for (std::size_t i = 0; i < named.bodies.size(); ++i) {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "weft/run/run.h"
+#include "weft/run.h"
 
 namespace weft {
 

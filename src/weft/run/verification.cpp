@@ -1,4 +1,5 @@
 #include "weft/run/verification.h"
+#include "weft/cloth/cloth.h"
 
 #include <algorithm>
 
@@ -39,10 +40,10 @@ std::int64_t Verifier::count_swallowed() {
     const SimulatedCloth& cloth = simulation_.cloths()[sides.cloth];
     sides.body.follow();
     sides.body.mark_inside(cloth.state.position, alone_, inside_);
-    const int n = cloth.cloth.size;
+    const int n = cloth.model->size;
     for (int s = 0; s < n * n; ++s) {
       const bool right = (inside_[s] != 0) == sides.kept_in;
-      count += !right && sides.right[s] != 0 && cloth.cloth.owner(s / n, s % n) > 0 ? 1 : 0;
+      count += !right && sides.right[s] != 0 && cloth.model->owner(s / n, s % n) > 0 ? 1 : 0;
       if (right) sides.right[s] = 1;
     }
   }

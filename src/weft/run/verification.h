@@ -3,29 +3,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "weft/run.h"
 #include "weft/run/passings.h"
 #include "weft/sim/insides.h"
 
 namespace weft {
-
-/// The largest count of a frame, and which frame that was first; 0 where none was.
-struct WorstCount {
-  int frame = 0;
-  std::int64_t count = 0;
-  void add(int at, std::int64_t found) {
-    if (found > count) *this = {at, found};
-  }
-};
-
-/// What counting triangles that cross at the ends of frames does not see.
-struct Verification {
-  WorstCount passed;     ///< vertices and faces, and pairs of edges, that met within a step
-  WorstCount swallowed;  ///< points on the wrong side of a closed body that had been on the right
-  WorstCount written;    ///< pairs of triangles that cross in the meshes that are written
-  [[nodiscard]] bool good() const {
-    return passed.count == 0 && swallowed.count == 0 && written.count == 0;
-  }
-};
 
 /// Looks at every step of a simulation and at the end of every frame, sharing nothing with its
 /// collider: what passes through what by continuous detection, what closed bodies swallow by

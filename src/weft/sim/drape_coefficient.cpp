@@ -1,5 +1,3 @@
-#include "weft/sim/drape_coefficient.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,11 +6,14 @@
 #include <fmt/format.h>
 
 #include "weft/cloth/measure.h"
-#include "weft/core/error.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
+#include "weft/error.h"
+#include "weft/fabric.h"
 #include "weft/image/builtin.h"
 #include "weft/sim/shadow.h"
+#include "weft/cloth/integrator.h"
+#include "weft/core/thread_team.h"
 
 namespace weft {
 namespace {

@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "weft/image/rebuild.h"
+#include "weft/geometry_image.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {
@@ -16,9 +17,9 @@ bool holds(const Box3d& box, Vec3d p) {
 
 int count_particles(const SimulatedCloth& cloth, const std::vector<char>& marked) {
   int count = 0;
-  const int n = cloth.cloth.size;
+  const int n = cloth.model->size;
   for (int s = 0; s < n * n; ++s)
-    count += marked[static_cast<std::size_t>(s)] != 0 && cloth.cloth.owner(s / n, s % n) > 0;
+    count += marked[static_cast<std::size_t>(s)] != 0 && cloth.model->owner(s / n, s % n) > 0;
   return count;
 }
 
@@ -72,7 +73,7 @@ void ClosedBody::mark_inside(const Planes3& samples, ThreadTeam& team,
 
 StartSides find_start_sides(const SimulatedCloth& cloth, std::span<const PlacedBody> bodies,
                             bool containers, ThreadTeam& team) {
-  const int n = cloth.cloth.size;
+  const int n = cloth.model->size;
   StartSides sides{{},
                    std::vector<char>(bodies.size(), 0),
                    std::vector<int>(static_cast<std::size_t>(n) * n, 0)};
@@ -83,8 +84,8 @@ StartSides find_start_sides(const SimulatedCloth& cloth, std::span<const PlacedB
     body.mark_inside(cloth.state.position, team, inside);
     const int count = count_particles(cloth, inside);
     if (count == 0) continue;
-    const bool kept_in = containers && count == cloth.cloth.particles;
-    sides.inside.push_back({cloth.name, bodies[b].name, count, cloth.cloth.particles, kept_in});
+    const bool kept_in = containers && count == cloth.model->particles;
+    sides.inside.push_back({cloth.name, bodies[b].name, count, cloth.model->particles, kept_in});
     sides.kept_in[b] = kept_in ? 1 : 0;
     for (std::size_t s = 0; s < inside.size() && !kept_in; ++s)
       if (inside[s] != 0) sides.wrong_side[s] = static_cast<int>(b) + 1;

@@ -5,7 +5,7 @@
 
 #include "weft/core/thread_team.h"
 #include "weft/mesh/winding.h"
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 namespace weft {
 

@@ -1,6 +1,6 @@
-#include "weft/sim/materials.h"
-
 #include <array>
+
+#include "weft/fabric.h"
 
 namespace weft {
 namespace {

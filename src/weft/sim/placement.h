@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "weft/image/geometry_image.h"
-#include "weft/sim/scene.h"
+#include "weft/geometry_image.h"
+#include "weft/scene.h"
 
 namespace weft {
 

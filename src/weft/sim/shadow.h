@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/core/planes.h"
+#include "weft/grid.h"
 
 namespace weft {
 

@@ -1,16 +1,18 @@
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "weft/cloth/measure.h"
 #include "weft/core/assert.h"
-#include "weft/core/error.h"
 #include "weft/core/hash.h"
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/error.h"
+#include "weft/scene_file.h"
 #include "weft/sim/stepping/simulation_parts.h"
 #include "weft/sim/stepping/stage_clock.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {
@@ -52,8 +54,8 @@ Vec3d Simulation::Parts::centre() const {
   Vec3d moment;
   double total = 0;
   for (const SimulatedCloth& cloth : cloths) {
-    const double mass = mass_of(cloth.cloth);
-    moment += mass * weft::centre_of_mass(cloth.cloth, cloth.state);
+    const double mass = mass_of(*cloth.model);
+    moment += mass * weft::centre_of_mass(*cloth.model, cloth.state);
     total += mass;
   }
   return (1 / total) * moment;
@@ -82,7 +84,7 @@ void Simulation::Parts::check_energy(const FrameReport& report, double own) {
   if (frames_beyond < frames_that_tell) return;
   const auto wildest = std::max_element(
       cloths.begin(), cloths.end(), [](const SimulatedCloth& a, const SimulatedCloth& b) {
-        return kinetic_energy(a.cloth, a.state) < kinetic_energy(b.cloth, b.state);
+        return kinetic_energy(*a.model, a.state) < kinetic_energy(*b.model, b.state);
       });
   stop_torn(static_cast<std::size_t>(wildest - cloths.begin()),
             fmt::format("the energy rose by {:.3g} J beyond what pins, bodies and wind put in, "
@@ -91,7 +93,7 @@ void Simulation::Parts::check_energy(const FrameReport& report, double own) {
 }
 
 void Simulation::Parts::check_strain(std::size_t index, const StrainSummary& strain) const {
-  const double most = max_strain + std::max(0.0, cloths[index].cloth.material.strain_limit);
+  const double most = max_strain + std::max(0.0, cloths[index].model->material.strain_limit);
   if (soft || strain.p99 <= most) return;
   stop_torn(index, fmt::format("one spring of a hundred is strained by {:.0f} % or more",
                                100 * strain.p99));
@@ -101,20 +103,20 @@ void Simulation::Parts::measure(FrameReport& report) {
   double weight = 0, own = 0;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
-    const double kinetic = kinetic_energy(cloth.cloth, cloth.state);
-    const double potential = potential_energy(cloth.cloth, cloth.state, scene.gravity);
-    const Vec3d weight_force = mass_of(cloth.cloth) * scene.gravity;
-    own += kinetic + potential + dot(weight_force, weft::centre_of_mass(cloth.cloth, cloth.state));
+    const double kinetic = kinetic_energy(*cloth.model, cloth.state);
+    const double potential = potential_energy(*cloth.model, cloth.state, scene.gravity);
+    const Vec3d weight_force = mass_of(*cloth.model) * scene.gravity;
+    own += kinetic + potential + dot(weight_force, weft::centre_of_mass(*cloth.model, cloth.state));
     report.kinetic_energy += kinetic;
     report.potential_energy += potential;
     report.smallest_gap =
         std::min(report.smallest_gap, collider->smallest_gap(i, cloth.state.position, team));
-    const StrainSummary strain = measure_strain(cloth.cloth, cloth.state);
+    const StrainSummary strain = measure_strain(*cloth.model, cloth.state);
     check_strain(i, strain);
-    report.strain.mean += strain.mean * cloth.cloth.particles;
+    report.strain.mean += strain.mean * cloth.model->particles;
     report.strain.p99 = std::max(report.strain.p99, strain.p99);
     report.strain.max = std::max(report.strain.max, strain.max);
-    weight += cloth.cloth.particles;
+    weight += cloth.model->particles;
   }
   report.strain.mean /= weight;
   check_energy(report, own);
@@ -205,7 +207,7 @@ void Simulation::grab(std::size_t cloth, int sample) {
 void Simulation::pull(Vec3d target) { parts_->grab.pull(target); }
 
 void Simulation::let_go() {
-  if (holds()) parts_->grab.let_go(parts_->cloths[parts_->grab.cloth()].cloth);
+  if (holds()) parts_->grab.let_go(*parts_->cloths[parts_->grab.cloth()].model);
 }
 
 bool Simulation::holds() const { return parts_->grab.holds(); }
@@ -226,7 +228,7 @@ std::string Simulation::state_hash() const {
 
 int Simulation::particles() const {
   int total = 0;
-  for (const SimulatedCloth& cloth : parts_->cloths) total += cloth.cloth.particles;
+  for (const SimulatedCloth& cloth : parts_->cloths) total += cloth.model->particles;
   return total;
 }
 
@@ -234,14 +236,14 @@ Vec3d Simulation::centre_of_mass() const { return parts_->centre(); }
 
 double Simulation::mass() const {
   double mass = 0;
-  for (const SimulatedCloth& cloth : parts_->cloths) mass += mass_of(cloth.cloth);
+  for (const SimulatedCloth& cloth : parts_->cloths) mass += mass_of(*cloth.model);
   return mass;
 }
 
 double Simulation::start_energy() const { return parts_->start_energy.total(); }
 
 double Simulation::used_thickness(std::size_t cloth) const {
-  return self_gap_of(parts_->cloths[cloth].cloth);
+  return self_gap_of(*parts_->cloths[cloth].model);
 }
 
 std::span<const Contact> Simulation::contacts(std::size_t cloth) const {
@@ -249,6 +251,11 @@ std::span<const Contact> Simulation::contacts(std::size_t cloth) const {
 }
 
 int Simulation::crossings() const { return parts_->collider->crossings(); }
+
+void Simulation::strain_at_samples(std::size_t cloth, Grid<float>& strains) const {
+  const SimulatedCloth& shown = parts_->cloths[cloth];
+  weft::strain_at_samples(*shown.model, shown.state.position, strains);
+}
 
 bool Simulation::last_corrections(std::size_t cloth, Grid<float>& sizes) const {
   return parts_->movers[cloth].integrator->last_corrections(sizes);

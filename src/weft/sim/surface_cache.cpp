@@ -1,12 +1,13 @@
-#include "weft/sim/surface_cache.h"
+#include "weft/simulation.h"
 
 namespace weft {
 
-LoadedSurface SurfaceCache::load(const std::string& name, const ConvertOptions& options) {
-  const Key key{name, options.size, options.normal_map_size, options.keep_places};
+LoadedSurface SurfaceCache::load(const Surface& surface, const ConvertOptions& options) {
+  if (surface.in_memory()) return load_surface(surface, options);
+  const Key key{surface.name, options.size, options.normal_map_size, options.keep_places};
   const auto found = kept_.find(key);
   if (found != kept_.end()) return found->second;
-  return kept_.emplace(key, load_surface(name, options)).first->second;
+  return kept_.emplace(key, load_surface(surface, options)).first->second;
 }
 
 }  // namespace weft

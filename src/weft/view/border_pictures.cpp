@@ -1,9 +1,9 @@
-#include "weft/view/border_pictures.h"
-
 #include <algorithm>
 #include <set>
 
-#include "weft/view/palette.h"
+#include "weft/drawing.h"
+#include "weft/param/square_map.h"
+#include "weft/picture.h"
 
 namespace weft {
 namespace {
@@ -122,6 +122,8 @@ void add_cut(SurfaceDrawing& drawing, const CutDisk& cut) {
   for (std::size_t v = 0; v < cut.disk.positions.size(); ++v)
     if (nodes.erase(cut.disk.surface_vertex[v]) > 0) drawing.nodes.push_back(cut.disk.positions[v]);
 }
+
+void add_cut(SurfaceDrawing& drawing, const MappedDisk& mapped) { add_cut(drawing, mapped.cut); }
 
 void add_cut(SurfaceDrawing& drawing, const GeometryImage& image) {
   const int n = image.size(), around = 4 * (n - 1);

@@ -1,4 +1,4 @@
-#include "weft/view/camera.h"
+#include "weft/camera.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,9 @@
-#include "weft/view/carried_normals.h"
-
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "weft/core/error.h"
+#include "weft/drawing.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

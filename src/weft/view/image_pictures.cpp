@@ -1,10 +1,10 @@
-#include "weft/view/image_pictures.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "weft/core/assert.h"
-#include "weft/view/palette.h"
+#include "weft/drawing.h"
+#include "weft/picture.h"
+#include "weft/view/map_picture.h"
 
 namespace weft {
 namespace {
@@ -108,6 +108,10 @@ Picture colours_of(const GeometryImage& image, int min_side) {
       for (const float channel : {p.x, p.y, p.z}) picture.rgb.push_back(byte_of(channel));
     }
   return picture;
+}
+
+Picture draw_map(const MappedDisk& mapped, const MapDrawing& options) {
+  return draw_map(mapped.cut.disk, mapped.map, options);
 }
 
 Picture draw_map(const DiskMesh& disk, const SquareMap& map, const MapDrawing& options) {

@@ -1,9 +1,8 @@
-#include "weft/view/legend.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "weft/view/palette.h"
+#include "weft/drawing.h"
+#include "weft/picture.h"
 #include "weft/view/text.h"
 
 namespace weft {

@@ -1,5 +1,3 @@
-#include "weft/view/movie_writer.h"
-
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -15,8 +13,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
+#include "weft/error.h"
+#include "weft/files.h"
+#include "weft/picture.h"
 
 namespace weft {
 namespace {

@@ -1,7 +1,6 @@
-#include "weft/view/outline.h"
-
 #include <cmath>
 
+#include "weft/camera.h"
 #include "weft/core/math.h"
 
 namespace weft {

@@ -1,10 +1,9 @@
-#include "weft/view/palette.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "weft/core/math.h"
+#include "weft/picture.h"
 
 namespace weft {
 namespace {

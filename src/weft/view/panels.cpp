@@ -1,8 +1,6 @@
-#include "weft/view/panels.h"
-
 #include <algorithm>
 
-#include "weft/view/palette.h"
+#include "weft/picture.h"
 #include "weft/view/text.h"
 
 namespace weft {

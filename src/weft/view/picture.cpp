@@ -1,12 +1,12 @@
-#include "weft/view/picture.h"
+#include "weft/picture.h"
 
 #include <ostream>
 #include <string>
 
 #include <png.h>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
+#include "weft/error.h"
+#include "weft/files.h"
 
 namespace weft {
 namespace {

@@ -1,8 +1,7 @@
-#include "weft/view/renderer.h"
-
 #include <algorithm>
 
-#include "weft/core/error.h"
+#include "weft/drawing.h"
+#include "weft/error.h"
 #include "weft/view/gl/canvas.h"
 #include "weft/view/gl/context.h"
 #include "weft/view/gl/scene_painter.h"

@@ -1,14 +1,12 @@
-#include "weft/view/surface_drawing.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "weft/camera.h"
 #include "weft/core/math.h"
+#include "weft/drawing.h"
 #include "weft/mesh/edge_uses.h"
 #include "weft/mesh/shapes/sphere.h"
-#include "weft/view/camera.h"
-#include "weft/view/outline.h"
-#include "weft/view/palette.h"
+#include "weft/picture.h"
 
 namespace weft {
 namespace {

@@ -1,15 +1,15 @@
-#include "weft/view/surface_values.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "weft/image/rebuild.h"
+#include "weft/camera.h"
+#include "weft/drawing.h"
+#include "weft/geometry_image.h"
 #include "weft/mesh/distance.h"
 #include "weft/mesh/stretch.h"
-#include "weft/view/camera.h"
-#include "weft/view/palette.h"
+#include "weft/param/square_map.h"
+#include "weft/picture.h"
 
 namespace weft {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "weft/view/palette.h"
+#include "weft/picture.h"
 
 namespace weft {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "weft/core/vec.h"
-#include "weft/view/picture.h"
+#include "weft/picture.h"
+#include "weft/vec.h"
 
 namespace weft {
 

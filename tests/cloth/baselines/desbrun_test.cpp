@@ -7,7 +7,7 @@
 #include "weft/cloth/baselines/viscous_springs.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/measure.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

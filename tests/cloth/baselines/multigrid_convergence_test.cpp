@@ -4,8 +4,7 @@
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/baselines/multigrid/multigrid_preconditioner.h"
 #include "weft/cloth/mates.h"
-#include "weft/convert/convert.h"
-#include "weft/convert/load_surface.h"
+#include "weft/convert.h"
 
 namespace weft {
 namespace {

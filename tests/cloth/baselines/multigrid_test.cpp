@@ -6,7 +6,7 @@
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/integrator.h"
 #include "weft/cloth/measure.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

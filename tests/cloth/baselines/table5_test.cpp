@@ -1,4 +1,4 @@
-#include "weft/cloth/baselines/table5.h"
+#include "weft/table5.h"
 
 #include <gtest/gtest.h>
 

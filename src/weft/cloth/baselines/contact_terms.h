@@ -5,7 +5,7 @@
 
 #include "weft/cloth/baselines/contact_loads.h"
 #include "weft/cloth/baselines/spring_matrix.h"
-#include "weft/core/contact.h"
+#include "weft/contact.h"
 
 namespace weft {
 

@@ -7,7 +7,7 @@
 #include "weft/cloth/baselines/filtered_integrator.h"
 #include "weft/cloth/baselines/vectors3.h"
 #include "weft/cloth/proposal.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

@@ -9,7 +9,7 @@
 #include "weft/cloth/mates.h"
 #include "weft/cloth/neighbours.h"
 #include "weft/cloth/proposal.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

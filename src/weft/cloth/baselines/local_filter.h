@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "weft/cloth/kernels/filtering_kernels.h"
-#include "weft/core/planes.h"
 #include "weft/core/thread_team.h"
+#include "weft/grid.h"
 
 namespace weft {
 

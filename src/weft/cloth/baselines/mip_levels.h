@@ -1,7 +1,7 @@
 #pragma once
 
-#include "weft/core/grid.h"
-#include "weft/image/border_mates.h"
+#include "weft/geometry_image.h"
+#include "weft/grid.h"
 
 namespace weft {
 

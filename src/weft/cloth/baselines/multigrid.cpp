@@ -4,7 +4,7 @@
 
 #include "weft/cloth/baselines/nonlinear_pcg.h"
 #include "weft/cloth/proposal.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

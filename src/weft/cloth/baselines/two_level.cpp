@@ -7,7 +7,7 @@
 #include "weft/cloth/baselines/local_filter.h"
 #include "weft/cloth/baselines/mass_springs.h"
 #include "weft/cloth/proposal.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "weft/cloth/kernels/row_pointers.h"
-#include "weft/core/grid.h"
-#include "weft/core/vec.h"
+#include "weft/grid.h"
+#include "weft/vec.h"
 
 namespace weft {
 

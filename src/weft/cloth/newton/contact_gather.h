@@ -6,7 +6,7 @@
 
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/kernels/row_pointers.h"
-#include "weft/core/contact.h"
+#include "weft/contact.h"
 #include "weft/core/contact_uses.h"
 #include "weft/core/thread_team.h"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/core/contact.h"
+#include "weft/contact.h"
 
 namespace weft {
 

@@ -7,7 +7,7 @@
 
 #include "weft/cloth/newton/newton_solver.h"
 #include "weft/cloth/proposal.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

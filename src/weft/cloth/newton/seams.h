@@ -6,7 +6,7 @@
 
 #include "weft/cloth/newton/padded_planes.h"
 #include "weft/cloth/newton/workers.h"
-#include "weft/image/border_mates.h"
+#include "weft/geometry_image.h"
 
 namespace weft {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "weft/core/math.h"
-#include "weft/image/rebuild.h"
+#include "weft/geometry_image.h"
 #include "weft/mesh/distance.h"
 
 namespace weft {

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "weft/core/planes.h"
-#include "weft/image/border_mates.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/geometry_image.h"
+#include "weft/grid.h"
+#include "weft/mesh.h"
 
 namespace weft {
 

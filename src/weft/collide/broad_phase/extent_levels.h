@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "weft/collide/broad_phase/node_levels.h"
-#include "weft/core/grid.h"
-#include "weft/core/planes.h"
 #include "weft/core/thread_team.h"
+#include "weft/grid.h"
 
 namespace weft {
 

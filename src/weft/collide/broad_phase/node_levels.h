@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "weft/core/thread_team.h"
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft {
 

@@ -6,8 +6,8 @@
 #include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/kernels/collide_kernels.h"
 #include "weft/collide/moving_surface.h"
-#include "weft/core/grid.h"
 #include "weft/core/thread_team.h"
+#include "weft/grid.h"
 
 namespace weft {
 

@@ -7,7 +7,7 @@
 #include "weft/collide/broad_phase/candidate_pairs.h"
 #include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/kernels/collide_kernels.h"
-#include "weft/core/grid.h"
+#include "weft/grid.h"
 
 namespace weft {
 

@@ -5,7 +5,7 @@
 #include "weft/collide/broad_phase/chunks.h"
 #include "weft/collide/collider.h"
 #include "weft/collide/contacts/contact_body.h"
-#include "weft/core/contact.h"
+#include "weft/contact.h"
 
 namespace weft {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft {
 

@@ -6,7 +6,7 @@
 #include "weft/collide/broad_phase/candidate_pairs.h"
 #include "weft/collide/contacts/block_motion.h"
 #include "weft/collide/contacts/body_query.h"
-#include "weft/core/contact.h"
+#include "weft/contact.h"
 
 namespace weft {
 

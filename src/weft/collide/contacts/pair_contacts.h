@@ -7,7 +7,7 @@
 #include "weft/collide/broad_phase/chunks.h"
 #include "weft/collide/collider.h"
 #include "weft/collide/untangle/tangle_marks.h"
-#include "weft/core/contact.h"
+#include "weft/contact.h"
 
 namespace weft {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft {
 

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "weft/core/planes.h"
 #include "weft/core/thread_team.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/grid.h"
+#include "weft/mesh.h"
 
 namespace weft {
 

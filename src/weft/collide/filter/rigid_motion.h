@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "weft/core/planes.h"
+#include "weft/grid.h"
 
 namespace weft {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "weft/collide/moving_surface.h"
-#include "weft/core/planes.h"
+#include "weft/grid.h"
 
 namespace weft {
 

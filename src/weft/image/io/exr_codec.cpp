@@ -14,7 +14,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/image/io/exr_header.h"
 #include "weft/image/io/metadata.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "weft/core/planes.h"
+#include "weft/grid.h"
 
 namespace weft {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/image/io/metadata.h"
 
 namespace weft {

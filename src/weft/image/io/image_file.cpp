@@ -1,11 +1,11 @@
-#include "weft/image/io/image_file.h"
+#include "weft/image_file.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
+#include "weft/error.h"
+#include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image/io/metadata.h"
 #include "weft/image/io/png_codec.h"

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/error.h"
 #include "weft/core/hash.h"
 #include "weft/core/json_text.h"
 #include "weft/core/parse_json.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "weft/image/geometry_image.h"
+#include "weft/geometry_image.h"
 
 namespace weft {
 

@@ -8,7 +8,7 @@
 #include <png.h>
 
 #include "weft/core/assert.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/image/io/metadata.h"
 
 namespace weft {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "weft/core/vec.h"
 #include "weft/mesh/io/gltf_buffers.h"
+#include "weft/vec.h"
 
 namespace weft {
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
+#include "weft/error.h"
+#include "weft/files.h"
 #include "weft/mesh/io/byte_reader.h"
 #include "weft/mesh/io/line_reader.h"
 

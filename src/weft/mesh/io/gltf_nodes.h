@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "weft/core/vec.h"
 #include "weft/mesh/io/gltf_object.h"
+#include "weft/vec.h"
 
 namespace weft {
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/error.h"
 #include "weft/core/json_text.h"
+#include "weft/error.h"
 #include "weft/mesh/io/line_reader.h"
 
 namespace weft {

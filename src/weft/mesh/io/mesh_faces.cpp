@@ -1,9 +1,7 @@
-#include "weft/mesh/io/mesh_faces.h"
-
 #include <cctype>
 
-#include "weft/core/files.h"
-#include "weft/mesh/io/read_mesh.h"
+#include "weft/files.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

@@ -5,14 +5,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/error.h"
 #include "weft/core/parse_json.h"
+#include "weft/error.h"
+#include "weft/mesh.h"
 #include "weft/mesh/io/gltf_accessor.h"
 #include "weft/mesh/io/gltf_nodes.h"
 #include "weft/mesh/io/number.h"
 #include "weft/mesh/io/polygon.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/repair.h"
+#include "weft/repair.h"
 
 // After the glTF 2.0 specification [gltf20]. Why not by a library:
 // docs/decisions/0019-own-gltf-reader.md.

@@ -7,12 +7,11 @@
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
+#include "weft/mesh.h"
 #include "weft/mesh/io/line_reader.h"
-#include "weft/mesh/io/mesh_faces.h"
 #include "weft/mesh/io/number.h"
 #include "weft/mesh/io/polygon.h"
-#include "weft/mesh/io/read_mesh.h"
 
 // tinyobjloader splits the face lines. It accepts whatever it meets (cut lines, words as zeros,
 // indices out of range), does not round decimals correctly, and knows no lines, so every vertex and

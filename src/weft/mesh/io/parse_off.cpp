@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
+#include "weft/mesh.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
-#include "weft/mesh/io/read_mesh.h"
 
 namespace weft {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
+#include "weft/mesh.h"
 #include "weft/mesh/io/number.h"
 #include "weft/mesh/io/ply_values.h"
 #include "weft/mesh/io/polygon.h"
-#include "weft/mesh/io/read_mesh.h"
 
 namespace weft {
 namespace {

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
+#include "weft/mesh.h"
 #include "weft/mesh/io/byte_reader.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/number.h"
 #include "weft/mesh/io/polygon.h"
-#include "weft/mesh/io/read_mesh.h"
-#include "weft/mesh/repair.h"
+#include "weft/repair.h"
 
 namespace weft {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/mesh/io/byte_reader.h"
 #include "weft/mesh/io/number.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft {
 

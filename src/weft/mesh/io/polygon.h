@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 

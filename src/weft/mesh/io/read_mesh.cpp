@@ -1,12 +1,11 @@
-#include "weft/mesh/io/read_mesh.h"
-
 #include <array>
 #include <cctype>
 #include <string>
 #include <utility>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
+#include "weft/error.h"
+#include "weft/files.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

@@ -1,5 +1,3 @@
-#include "weft/mesh/io/write_mesh.h"
-
 #include <cctype>
 #include <cstdint>
 #include <iterator>
@@ -8,8 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
+#include "weft/error.h"
+#include "weft/files.h"
+#include "weft/mesh.h"
 
 namespace weft {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "weft/mesh/repair.h"
 #include "weft/mesh/shapes/patch.h"
+#include "weft/repair.h"
 
 namespace weft {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "weft/mesh.h"
 #include "weft/mesh/shapes/field.h"
-#include "weft/mesh/triangle_mesh.h"
 
 namespace weft {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "weft/core/assert.h"
-#include "weft/mesh/mesh_statistics.h"
 #include "weft/mesh/one_ring.h"
+#include "weft/mesh_statistics.h"
 
 namespace weft {
 namespace {

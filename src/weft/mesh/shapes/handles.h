@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "weft/core/vec.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
+#include "weft/vec.h"
 
 namespace weft {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "weft/mesh/mesh_statistics.h"
 #include "weft/mesh/shapes/editable_mesh.h"
+#include "weft/mesh_statistics.h"
 
 namespace weft {
 namespace {

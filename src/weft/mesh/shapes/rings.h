@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
 
 namespace weft {
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft {
 

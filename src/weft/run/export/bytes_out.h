@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft {
 

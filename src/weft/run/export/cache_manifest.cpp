@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
 #include "weft/core/json_text.h"
 #include "weft/core/parse_json.h"
+#include "weft/error.h"
+#include "weft/files.h"
 #include "weft/run/export/frame_sequence.h"
 
 namespace weft {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "weft/convert/load_surface.h"
-#include "weft/mesh/units.h"
+#include "weft/convert.h"
+#include "weft/mesh.h"
 #include "weft/run/export/bound_vertices.h"
 #include "weft/sim/placement.h"
 

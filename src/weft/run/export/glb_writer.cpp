@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
+#include "weft/error.h"
+#include "weft/files.h"
 #include "weft/mesh/point_normals.h"
 #include "weft/run/export/bytes_out.h"
 #include "weft/run/export/glb_layout.h"

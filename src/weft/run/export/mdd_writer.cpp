@@ -1,7 +1,7 @@
 #include <cstdint>
 #include <ostream>
 
-#include "weft/core/files.h"
+#include "weft/files.h"
 #include "weft/run/export/bytes_out.h"
 #include "weft/run/export/motion_files.h"
 

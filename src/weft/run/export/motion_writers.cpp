@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "weft/core/assert.h"
-#include "weft/core/files.h"
+#include "weft/files.h"
 #include "weft/run/export/frame_files.h"
 #include "weft/run/export/frame_sequence.h"
 #include "weft/run/export/motion_files.h"

@@ -7,20 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "weft/run.h"
 #include "weft/run/export/motion_writer.h"
 
 namespace weft {
-
-/// All that --export knows, in the order of the documentation.
-std::span<const std::string_view> export_formats();
-
-/// What of a surface is written: what suits the format (the mesh that a cloth came from for OBJ,
-/// PC2, MDD and GLB, the image for the others), always the image, or always the mesh.
-enum class WrittenOn { automatic, image, input };
-/// As on the command line: auto, image, input.
-std::string_view name_of(WrittenOn on);
-/// Whether a format shows the mesh where there is one. Never EXR, which is the image.
-bool is_on_input(std::string_view format, WrittenOn on);
 
 /// Formats whose files are made of a point cache when the motion is over.
 bool is_made_of_cache(std::string_view format);

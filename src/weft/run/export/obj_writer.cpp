@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/files.h"
+#include "weft/files.h"
 #include "weft/mesh/point_normals.h"
 
 namespace weft {

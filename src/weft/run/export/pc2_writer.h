@@ -6,8 +6,8 @@
 #include <memory>
 #include <span>
 
-#include "weft/core/files.h"
-#include "weft/core/vec.h"
+#include "weft/files.h"
+#include "weft/vec.h"
 
 namespace weft {
 

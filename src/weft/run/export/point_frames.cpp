@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "weft/core/assert.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

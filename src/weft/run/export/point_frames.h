@@ -4,7 +4,7 @@
 #include <fstream>
 #include <vector>
 
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 
 namespace weft {
 

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "weft/image/rebuild.h"
+#include "weft/geometry_image.h"
 
 namespace weft {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "weft/image/geometry_image.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/geometry_image.h"
+#include "weft/mesh.h"
 
 namespace weft {
 

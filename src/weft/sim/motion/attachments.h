@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "weft/cloth/cloth.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"
+#include "weft/scene.h"
 #include "weft/sim/motion/pins.h"
-#include "weft/sim/scene.h"
 
 namespace weft {
 

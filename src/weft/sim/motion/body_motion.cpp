@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
-#include "weft/image/rebuild.h"
+#include "weft/error.h"
+#include "weft/geometry_image.h"
 #include "weft/sim/motion/motion_path.h"
 
 namespace weft {
@@ -42,7 +42,7 @@ std::vector<BlendedVertex> blends_of_image(const GeometryImage& image, const Sce
   if (points != samples)
     throw SceneError(body.animation, fmt::format("{} points", points),
                      fmt::format("{} (the samples of {}), or {} (mates joined), are wanted",
-                                 samples, body.surface, vertices));
+                                 samples, body.surface.name, vertices));
   std::vector<int> representatives(static_cast<std::size_t>(samples));
   for (int s = 0; s < samples; ++s)
     representatives[static_cast<std::size_t>(s)] = image.mates.representative(s);
@@ -53,9 +53,9 @@ std::vector<BlendedVertex> blends_of(const LoadedSurface& surface, const SceneBo
                                      int points) {
   if (!surface.follows) return blends_of_image(surface.image, body, points);
   if (points != surface.follows->vertices)
-    throw SceneError(
-        body.animation, fmt::format("{} points", points),
-        fmt::format("{}, the vertices of {}, are wanted", surface.follows->vertices, body.surface));
+    throw SceneError(body.animation, fmt::format("{} points", points),
+                     fmt::format("{}, the vertices of {}, are wanted", surface.follows->vertices,
+                                 body.surface.name));
   return surface.follows->blends;
 }
 

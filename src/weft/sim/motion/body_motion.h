@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "weft/convert/load_surface.h"
+#include "weft/convert.h"
 #include "weft/core/thread_team.h"
 #include "weft/mesh/io/point_cache.h"
+#include "weft/scene.h"
 #include "weft/sim/placement.h"
-#include "weft/sim/scene.h"
 
 namespace weft {
 

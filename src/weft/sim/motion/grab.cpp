@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "weft/sim/simulation.h"
+#include "weft/simulation.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {
@@ -23,13 +24,13 @@ Vec3d towards(Vec3d a, Vec3d b, double most) {
 /// taut and springs back, the hand gives way no more than it must.
 /// @param way  from here to the next place [m]
 Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, double time_step, Vec3d distance) {
-  const int n = held.cloth.size;
+  const int n = held.model->size;
   Vec3d place = vec_cast<double>(held.state.position.at(pin.sample)) + distance;
   const Vec3d ahead = normalized(distance);
   const auto beside = [&](int copy, int down, int right) {
     const int r = copy / n + down, c = copy % n + right;
     if (std::min(r, c) < 0 || std::max(r, c) >= n) return;
-    const Vec3d rest = vec_cast<double>(held.cloth.rest.at(r, c) - held.cloth.rest.at(copy));
+    const Vec3d rest = vec_cast<double>(held.model->rest.at(r, c) - held.model->rest.at(copy));
     const double along = dot(vec_cast<double>(held.state.velocity.at(r, c)), ahead);
     const Vec3d there = vec_cast<double>(held.state.position.at(r, c)) +
                         std::min(std::max(0.0, along) * time_step, length(distance)) * ahead;
@@ -47,20 +48,20 @@ Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, double time_step,
 }  // namespace
 
 void Grab::take(std::size_t cloth, int sample, SimulatedCloth& held) {
-  const std::size_t pins = held.cloth.pins.size();
+  const std::size_t pins = held.model->pins.size();
   const Vec3d here = vec_cast<double>(held.state.position.at(sample));
-  pin_ = pin(held.cloth, sample, here);
-  added_ = held.cloth.pins.size() > pins;
+  pin_ = pin(*held.model, sample, here);
+  added_ = held.model->pins.size() > pins;
   cloth_ = cloth;
   wanted_ = here;
 }
 
 void Grab::move(double time_step, std::optional<double> ground, SimulatedCloth& held) const {
-  Pin& pin = held.cloth.pins[static_cast<std::size_t>(pin_)];
+  Pin& pin = held.model->pins[static_cast<std::size_t>(pin_)];
   const Vec3d here = vec_cast<double>(held.state.position.at(pin.sample));
   const Vec3d distance = towards(here, wanted_, max_speed * time_step) - here;
   Vec3d next = within_reach(held, pin, time_step, distance);
-  const double thickness = held.cloth.material.thickness;
+  const double thickness = held.model->material.thickness;
   if (ground) next.y = std::max(next.y, std::min(here.y, *ground + thickness));
   pin.target = next;
 }

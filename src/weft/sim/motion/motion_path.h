@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "weft/sim/scene.h"
+#include "weft/scene.h"
 
 namespace weft {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 #include "weft/sim/motion/motion_path.h"
 #include "weft/sim/placement.h"
 

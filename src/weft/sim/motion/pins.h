@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "weft/cloth/cloth.h"
-#include "weft/sim/scene.h"
+#include "weft/scene.h"
 
 namespace weft {
 

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/error.h"
 #include "weft/core/json_text.h"
 #include "weft/core/nearest_name.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "weft/cloth/material.h"
-#include "weft/core/vec.h"
+#include "weft/material.h"
+#include "weft/vec.h"
 
 namespace weft {
 

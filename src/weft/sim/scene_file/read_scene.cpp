@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
 #include "weft/core/nearest_name.h"
 #include "weft/core/parse_json.h"
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/error.h"
+#include "weft/files.h"
+#include "weft/scene_file.h"
 #include "weft/sim/scene_file/scene_keys.h"
 #include "weft/sim/scene_file/scene_parts.h"
 

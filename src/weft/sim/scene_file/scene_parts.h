@@ -1,6 +1,6 @@
 #pragma once
 
-#include "weft/sim/scene.h"
+#include "weft/scene.h"
 #include "weft/sim/scene_file/json_object.h"
 
 namespace weft {

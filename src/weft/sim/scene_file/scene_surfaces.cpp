@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/nearest_name.h"
+#include "weft/fabric.h"
 #include "weft/mesh/io/point_cache.h"
-#include "weft/sim/materials.h"
 #include "weft/sim/scene_file/scene_keys.h"
 #include "weft/sim/scene_file/scene_parts.h"
 
@@ -103,7 +103,7 @@ SceneCloth read_cloth(const nlohmann::json& value, const JsonPlace& place, const
   const JsonObject object(value, place, scene_keys::cloth);
   SceneCloth cloth;
   cloth.name = read_name(object, cloth.name);
-  cloth.surface = read_surface(object, cloth.surface, folder);
+  cloth.surface = read_surface(object, cloth.surface.name, folder);
   cloth.size = object.integer("size", cloth.size, min_image_size, largest_image_size);
   cloth.placement = read_placement(object);
   if (const nlohmann::json* material = object.find("material"))

@@ -1,11 +1,12 @@
 // The writing half of weft/sim/scene_file/scene_file.h.
 #include <ostream>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/error.h"
-#include "weft/core/files.h"
-#include "weft/sim/scene_file/scene_file.h"
+#include "weft/error.h"
+#include "weft/files.h"
+#include "weft/scene_file.h"
 
 namespace weft {
 namespace {
@@ -17,9 +18,12 @@ Json to_json(Vec3d v) { return {v.x, v.y, v.z}; }
 Json to_json(Vec2d v) { return {v.x, v.y}; }
 
 /// Relative to the scene's folder, so that the folder can be moved together with what it holds.
-std::string surface_text(const std::string& surface, const fs::path& folder) {
-  if (surface.starts_with("builtin:")) return surface;
-  return fs::absolute(surface)
+std::string surface_text(const Surface& surface, const fs::path& folder) {
+  if (surface.in_memory())
+    throw UsageError("scene", fmt::format("the surface '{}' is in memory alone", surface.name),
+                     "a file or builtin:NAME, which a scene file can tell of, is wanted");
+  if (surface.name.starts_with("builtin:")) return surface.name;
+  return fs::absolute(surface.name)
       .lexically_normal()
       .lexically_proximate(fs::absolute(folder).lexically_normal())
       .string();

@@ -5,9 +5,9 @@
 
 #include "weft/cloth/cloth.h"
 #include "weft/collide/contacts/surface_motion.h"
-#include "weft/core/planes.h"
-#include "weft/core/vec.h"
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/grid.h"
+#include "weft/mesh.h"
+#include "weft/vec.h"
 
 namespace weft {
 

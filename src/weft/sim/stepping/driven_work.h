@@ -5,7 +5,7 @@
 
 #include "weft/cloth/bending.h"
 #include "weft/cloth/spring_rows.h"
-#include "weft/core/contact.h"
+#include "weft/contact.h"
 
 namespace weft {
 

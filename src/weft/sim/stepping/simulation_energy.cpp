@@ -4,6 +4,7 @@
 
 #include "weft/core/math.h"
 #include "weft/sim/stepping/simulation_parts.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {
@@ -55,7 +56,7 @@ void Simulation::Parts::lend() {
     start += mover.start.total();
     mass += mover.meter.mass();
     explained += mover.wind_work;
-    most += lent_energy(mover.meter.mass(), cloths[i].cloth.material.density);
+    most += lent_energy(mover.meter.mass(), cloths[i].model->material.density);
   }
   known_energy = true;
   work.least = std::min(work.least, start - explained);

@@ -13,10 +13,15 @@
 #include "weft/sim/motion/driven_bodies.h"
 #include "weft/sim/motion/grab.h"
 #include "weft/sim/motion/pins.h"
-#include "weft/sim/simulation.h"
 #include "weft/sim/stepping/adaptive_substeps.h"
 #include "weft/sim/stepping/driven_work.h"
 #include "weft/sim/stepping/runaway.h"
+#include "weft/simulation.h"
+#include "weft/cloth/cloth.h"
+#include "weft/cloth/integrator.h"
+#include "weft/cloth/wind.h"
+#include "weft/collide/collider.h"
+#include "weft/sim/stepping/step_levels.h"
 
 namespace weft {
 
@@ -57,7 +62,7 @@ struct Simulation::Parts {
         time_step(substep_time),
         soft(std::holds_alternative<TwoLevelOptions>(scene.integrator)) {}
 
-  LoadedSurface load(const std::string& surface, ConvertOptions options, const std::string& what);
+  LoadedSurface load(const Surface& surface, ConvertOptions options, const std::string& what);
   Cloth make(const SceneCloth& wanted, const Planes3& rest, const BorderMates& mates) const;
   void load_cloths();
   void load_bodies();
@@ -146,7 +151,7 @@ struct Simulation::Parts {
   /// Who steps the cloths: all of them alike, as they may be solved together.
   [[nodiscard]] ThreadTeam& solvers() {
     for (const SimulatedCloth& cloth : cloths)
-      if (cloth.cloth.size >= min_shared_size) return team;
+      if (cloth.model->size >= min_shared_size) return team;
     return lone_team;
   }
 

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/error.h"
-#include "weft/image/rebuild.h"
+#include "weft/error.h"
+#include "weft/geometry_image.h"
+#include "weft/scene_file.h"
 #include "weft/sim/placement.h"
-#include "weft/sim/scene_file/scene_file.h"
 #include "weft/sim/stepping/simulation_parts.h"
+#include "weft/cloth/cloth.h"
+#include "weft/image/diagonals.h"
 
 namespace weft {
 namespace {
@@ -36,7 +38,7 @@ double gap_of(const Cloth& cloth) {
                     max_gap_in_thicknesses * thickness);
 }
 
-LoadedSurface Simulation::Parts::load(const std::string& surface, ConvertOptions options,
+LoadedSurface Simulation::Parts::load(const Surface& surface, ConvertOptions options,
                                       const std::string& what) {
   update(options.progress, "load " + what, 0);
   options.threads = team.size();
@@ -75,7 +77,8 @@ void Simulation::Parts::load_cloths() {
     Cloth cloth = make(wanted, rest, loaded.image.mates);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
-    cloths.push_back({wanted.name, std::move(loaded.image), std::move(cloth), std::move(state),
+    cloths.push_back({wanted.name, std::move(loaded.image),
+                      std::make_shared<Cloth>(std::move(cloth)), std::move(state),
                       std::move(loaded.source)});
   }
 }
@@ -112,7 +115,7 @@ void Simulation::Parts::tie_cloths() {
     surfaces.push_back({body.name, &body.positions, grid_triangles(body.image)});
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tied_pins.push_back(
-        tie_places(cloths[i].cloth, scene.cloths[i].attach, surfaces, pin_motions[i]));
+        tie_places(*cloths[i].model, scene.cloths[i].attach, surfaces, pin_motions[i]));
 }
 
 void Simulation::Parts::find_insides() {
@@ -138,12 +141,12 @@ void Simulation::Parts::make_collider_of_scene() {
   max_approach_in_step = HUGE_VAL;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
-    max_approach_in_step = std::min(max_approach_in_step, max_way_in_gaps * gap_of(cloth.cloth));
+    max_approach_in_step = std::min(max_approach_in_step, max_way_in_gaps * gap_of(*cloth.model));
     colliding.push_back(
-        {cloth.cloth.mates, cloth.cloth.size, choose_diagonals(cloth.image), gap_of(cloth.cloth),
-         scene.cloths[i].friction, cloth.cloth.rest_spacing,
+        {cloth.model->mates, cloth.model->size, choose_diagonals(cloth.image), gap_of(*cloth.model),
+         scene.cloths[i].friction, cloth.model->rest_spacing,
          knows_self_collision(scene.collider) && scene.cloths[i].self_collision.value_or(true),
-         self_gap_of(cloth.cloth), &cloth.cloth.rest, start_sides[i].kept_in,
+         self_gap_of(*cloth.model), &cloth.model->rest, start_sides[i].kept_in,
          start_sides[i].wrong_side});
   }
   collider = make_collider(scene.collider, obstacles, colliding);
@@ -164,13 +167,13 @@ void Simulation::Parts::make_movers() {
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
     movers.push_back(
-        {make_integrator(scene.integrator, cloth.cloth, typical, solvers()),
-         scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, cloth.cloth) : std::nullopt,
-         RunawayCheck(cloth.cloth, cloth.state, scene.gravity, drive_of(i)),
-         StrainLimit(cloth.cloth, solvers()), CoarseLimit(cloth.cloth, solvers()),
-         EnergyMeter(cloth.cloth, scene.gravity, solvers()),
-         DrivenWork(cloth.cloth, scene.gravity, solvers()), Energy{}, Energy{}, Energy{},
-         Planes3(scene.wind ? cloth.cloth.size : 0), Planes3(cloth.cloth.size)});
+        {make_integrator(scene.integrator, *cloth.model, typical, solvers()),
+         scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, *cloth.model) : std::nullopt,
+         RunawayCheck(*cloth.model, cloth.state, scene.gravity, drive_of(i)),
+         StrainLimit(*cloth.model, solvers()), CoarseLimit(*cloth.model, solvers()),
+         EnergyMeter(*cloth.model, scene.gravity, solvers()),
+         DrivenWork(*cloth.model, scene.gravity, solvers()), Energy{}, Energy{}, Energy{},
+         Planes3(scene.wind ? cloth.model->size : 0), Planes3(cloth.model->size)});
     if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
       notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }
@@ -180,7 +183,7 @@ void Simulation::Parts::make_movers() {
   own_contacts.reserve(cloths.size());
   moving.reserve(cloths.size());
   int largest = min_image_size;
-  for (const SimulatedCloth& cloth : cloths) largest = std::max(largest, cloth.cloth.size);
+  for (const SimulatedCloth& cloth : cloths) largest = std::max(largest, cloth.model->size);
   reach = ClothReach(largest);
   for (std::size_t i = 0; i < cloths.size(); ++i)
     start_energy += movers[i].meter.measure(cloths[i].state);

@@ -14,6 +14,7 @@
 #include "weft/core/contact_point.h"
 #include "weft/sim/stepping/simulation_parts.h"
 #include "weft/sim/stepping/stage_clock.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {
@@ -83,8 +84,8 @@ void Simulation::Parts::move_driven(double seconds) {
   driven.move_to(seconds, team);
   if (driven.any_moves()) collider->move_bodies(driven.ends(), team);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
-    move_pins(pin_motions[i], seconds, cloths[i].cloth);
-    move_tied(tied_pins[i], driven.ends(), cloths[i].cloth);
+    move_pins(pin_motions[i], seconds, *cloths[i].model);
+    move_tied(tied_pins[i], driven.ends(), *cloths[i].model);
   }
   if (grab.holds()) grab.move(time_step, scene.ground, cloths[grab.cloth()]);
 }
@@ -106,8 +107,8 @@ void Simulation::Parts::propose(std::size_t index) {
 
 bool Simulation::Parts::is_pulled(std::size_t index) const {
   const SimulatedCloth& cloth = cloths[index];
-  if (soft || cloth.cloth.material.strain_limit <= 0) return false;
-  const auto& pins = cloth.cloth.pins;
+  if (soft || cloth.model->material.strain_limit <= 0) return false;
+  const auto& pins = cloth.model->pins;
   return driven.any_moves() || std::any_of(pins.begin(), pins.end(), [&](const Pin& pin) {
            return vec_cast<float>(pin.target) != cloth.state.position.at(pin.sample);
          });
@@ -116,7 +117,7 @@ bool Simulation::Parts::is_pulled(std::size_t index) const {
 int Simulation::Parts::respond(std::size_t index) {
   const std::span<const float> forces = movers[index].integrator->contact_forces();
   const std::span<const Contact> obstacles = collider->obstacle_contacts(index);
-  const double harmless = harmless_depth * cloths[index].cloth.material.thickness;
+  const double harmless = harmless_depth * cloths[index].model->material.thickness;
   const auto is_deep = [&](const Contact& contact) {
     return depth_of(contact, moving[index].position) > harmless;
   };
@@ -132,7 +133,7 @@ int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport&
   const SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
   StageClock clock;
-  LimitOptions limiter = limit_for(scene, cloth.cloth);
+  LimitOptions limiter = limit_for(scene, *cloth.model);
   if (unlimited) limiter.passes = 0;
   LimitOptions coarse_limiter = limiter;
   coarse_limiter.passes = std::min(coarse_passes, limiter.passes);
@@ -163,7 +164,7 @@ void Simulation::Parts::gather_moving() {
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     ClothState& next = movers[i].integrator->proposal();
     moving.push_back(
-        {cloths[i].state.position, next.position, next.velocity, cloths[i].cloth.inverse_mass});
+        {cloths[i].state.position, next.position, next.velocity, cloths[i].model->inverse_mass});
   }
 }
 
@@ -193,7 +194,7 @@ int Simulation::Parts::subdivisions_until(double seconds) {
   driven.move_to(seconds, team);
   double wanted = 1;
   for (const SimulatedCloth& cloth : cloths) {
-    reach.place(cloth.state, substep_time, gap_of(cloth.cloth));
+    reach.place(cloth.state, substep_time, gap_of(*cloth.model));
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if (bodies[i].moves)
         wanted = std::max(
@@ -205,7 +206,7 @@ int Simulation::Parts::subdivisions_until(double seconds) {
 
 bool Simulation::Parts::check_for_runaway(double seconds, bool may_refuse) {
   for (std::size_t i = 0; i < cloths.size(); ++i) {
-    const auto bad = movers[i].runaway.find(cloths[i].cloth, movers[i].integrator->proposal(),
+    const auto bad = movers[i].runaway.find(*cloths[i].model, movers[i].integrator->proposal(),
                                             seconds, solvers());
     if (bad && may_refuse) return false;
     if (bad) stop_unstable(i, *bad);
@@ -256,7 +257,7 @@ void Simulation::Parts::iterate_all() {
 bool Simulation::Parts::guesses_go_far() const {
   for (std::size_t i = 0; i < cloths.size(); ++i)
     if (largest_displacement(moving[i].start, moving[i].position) >
-        next_to_start * self_gap_of(cloths[i].cloth))
+        next_to_start * self_gap_of(*cloths[i].model))
       return true;
   return driven.any_moves();
 }
@@ -264,7 +265,7 @@ bool Simulation::Parts::guesses_go_far() const {
 bool Simulation::Parts::solves_go_far() const {
   for (std::size_t i = 0; i < cloths.size(); ++i)
     if (largest_displacement(movers[i].guess, moving[i].position) >
-        same_place * self_gap_of(cloths[i].cloth))
+        same_place * self_gap_of(*cloths[i].model))
       return true;
   return false;
 }

@@ -1,15 +1,9 @@
 #pragma once
 
+#include "weft/simulation.h"
+
 namespace weft {
 
-/// Into which steps substeps are split that collisions ask shorter ones for; level l: 2^l of them.
-struct StepLevels {
-  /// A substep is not split further than this.
-  static constexpr int deepest = 6;
-  int first = 0;       ///< with which the next substep begins
-  int most = deepest;  ///< to which it may go: less while shorter steps turned out to be no help
-  friend bool operator==(const StepLevels&, const StepLevels&) = default;
-};
 /// Whether a walk can begin with them.
 constexpr bool is_valid(const StepLevels& levels) {
   return levels.first >= 0 && levels.first <= levels.most && levels.most >= 1 &&

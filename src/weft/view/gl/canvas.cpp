@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft::gl {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "weft/picture.h"
 #include "weft/view/gl/objects.h"
-#include "weft/view/picture.h"
 
 namespace weft::gl {
 

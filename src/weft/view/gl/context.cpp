@@ -6,7 +6,7 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft::gl {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "weft/view/drawn_scene.h"
+#include "weft/drawing.h"
 #include "weft/view/gl/matrix.h"
 
 namespace weft::gl {

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "weft/core/vec.h"
-#include "weft/view/camera.h"
+#include "weft/camera.h"
+#include "weft/vec.h"
 
 namespace weft::gl {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "weft/core/assert.h"
-#include "weft/core/error.h"
+#include "weft/error.h"
 
 namespace weft::gl {
 namespace {

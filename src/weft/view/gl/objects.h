@@ -6,7 +6,7 @@
 
 #include <epoxy/gl.h>
 
-#include "weft/core/vec.h"
+#include "weft/vec.h"
 #include "weft/view/gl/matrix.h"
 
 namespace weft::gl {

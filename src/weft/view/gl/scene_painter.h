@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "weft/view/drawn_scene.h"
+#include "weft/drawing.h"
 #include "weft/view/gl/lights.h"
 #include "weft/view/gl/objects.h"
 #include "weft/view/gl/surface_buffers.h"

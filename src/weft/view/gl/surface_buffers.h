@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/view/drawn_scene.h"
+#include "weft/drawing.h"
 #include "weft/view/gl/objects.h"
 
 namespace weft::gl {

@@ -1,2 +1,2 @@
 #pragma once
-#include "weft/mesh/triangle_mesh.h"
+#include "weft/mesh.h"

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "weft/grid.h"
+#include "weft/mesh.h"
+#include "weft/vec.h"
+
+namespace weft {
+
+/// A perspective camera.
+struct Camera {
+  Vec3d eye{0, 1, 3}, target{0, 0, 0}, up{0, 1, 0};
+  double vertical_angle = 0.6;  ///< field of view [rad]
+};
+
+/// The nearest camera that sees the whole box from a direction: its corners touch a frame a little
+/// inside the picture. An empty or not-finite box is taken for the unit cube around the origin.
+/// @param azimuth, elevation  of the eye seen from the box [rad]; azimuth 0 looks from +z
+/// @param aspect              width / height
+Camera frame_box(const Box3d& box, double azimuth, double elevation, double aspect);
+
+/// The same for points: the farthest ones touch the frame. None: the unit cube.
+/// @pre points are finite
+Camera frame_points(std::span<const Vec3d> points, double azimuth, double elevation, double aspect);
+
+/// How much of the half picture frame_box leaves free on the tight sides.
+inline constexpr double frame_margin = 0.06;
+
+/// The box of the finite samples; empty when there is none.
+Box3d bounds(const Planes3& positions);
+/// The box of the finite vertices; empty when there is none.
+Box3d bounds(const TriangleMesh& mesh);
+
+/// The points of a set that stand out farthest to 134 sides: what a camera has to see, however many
+/// points there are. No point of the set lies more than 2 percent of the set's size beyond them.
+class Outline {
+ public:
+  Outline();
+  /// No-op for a point that is not finite.
+  void add(Vec3d point);
+  void add(const Planes3& positions);
+  void add(const TriangleMesh& mesh);
+  void add(const Outline& other);
+  /// [m]; empty when nothing was added
+  [[nodiscard]] std::vector<Vec3d> points() const;
+  /// The same turned all around the vertical line through the middle of their box.
+  [[nodiscard]] std::vector<Vec3d> points_turning() const;
+
+ private:
+  static constexpr int side_count = 134;  // 128 on a spiral, and along the axes
+  std::array<Vec3d, side_count> sides_;
+  std::array<Vec3d, side_count> farthest_;
+  std::array<double, side_count> distance_;
+};
+
+}  // namespace weft

@@ -1,0 +1,228 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "weft/camera.h"
+#include "weft/geometry_image.h"
+#include "weft/grid.h"
+#include "weft/mesh.h"
+#include "weft/picture.h"
+#include "weft/vec.h"
+
+namespace weft {
+
+struct CutDisk;
+struct MappedDisk;
+
+/// fabric: two-sided, woven, with sheen. body: satin plaster.
+enum class Look { fabric, body };
+
+/// A surface to draw, straight from its grid of positions. Pointers must outlive the call to draw.
+/// Samples that are not finite are drawn at the sample before them.
+struct DrawnSurface {
+  const Planes3* positions = nullptr;  ///< [n x n] world [m], n >= 2
+  const BorderMates* mates = nullptr;  ///< so that normals are smooth across seams
+  const NormalMap* normals = nullptr;  ///< shading of bodies; null: made from the positions
+  Vec3f colour{0.42F, 0.05F, 0.07F};   ///< linear RGB
+  const Planes3* colours =
+      nullptr;  ///< [m x m], m >= 1, linear RGB that `colour` is times; or null
+  Look look = Look::fabric;
+  float threads = 300;  ///< of the weave along a side of the image, for fabric; 0: none
+  /// Differs whenever what the pointers lead to does: a surface that was drawn with it before, in
+  /// the same place of the list, is not looked at again. 0: look always.
+  std::uint64_t revision = 0;
+};
+
+/// A plain mesh to draw as a body, some of its edges as lines. Pointers must outlive the call to
+/// draw.
+struct DrawnMesh {
+  const TriangleMesh* mesh = nullptr;
+  std::vector<std::array<int, 2>> marked_edges;  ///< pairs of vertices
+  Vec3f colour{0.62F, 0.60F, 0.57F};             ///< linear RGB
+  std::vector<Vec3f> colours;                    ///< of each vertex instead, [V] or none
+  Vec3f mark_colour{0.75F, 0.05F, 0.03F};        ///< linear RGB
+  double mark_width = 2;                         ///< in pixels of a picture 480 high
+};
+
+/// Where the one light that throws sharp shadows stands, seen from the scene [rad]; azimuth 0 is
+/// +z.
+struct KeyLight {
+  double azimuth = -0.75, elevation = 0.92;
+  friend bool operator==(const KeyLight&, const KeyLight&) = default;
+};
+
+struct DrawnScene {
+  std::vector<DrawnSurface> surfaces;
+  std::optional<double> ground;  ///< height, with soft shadow
+  Camera camera;
+  std::vector<DrawnMesh> meshes;
+  KeyLight light;
+  bool on_white = false;  ///< white paper behind all, instead of a backdrop
+  /// The light of the picture before is good enough, where it was of the same surfaces: for
+  /// windows, as light costs more than the rest where there is no graphics hardware.
+  bool keep_light = false;
+};
+
+/// Draws scenes offscreen through EGL without a display (software or hardware). One renderer a
+/// thread.
+class Renderer {
+ public:
+  /// @throws Error when no OpenGL 3.3 core context can be made, saying what is missing
+  Renderer(int width, int height);
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+  ~Renderer();
+  /// Buffers are kept between calls: drawing the same surfaces moved is cheaper than new ones.
+  Picture draw(const DrawnScene& scene);
+
+ private:
+  struct Device;
+  std::unique_ptr<Device> device_;
+};
+
+/// What the colours of a drawing mean.
+struct Legend {
+  std::string title;
+  std::function<Vec3f(double)> colour;  ///< of a place of the scale in [0, 1], display space
+  struct Mark {
+    double place = 0;  ///< in [0, 1]
+    std::string label;
+  };
+  std::vector<Mark> marks;
+};
+/// The scale of stretch_colour.
+Legend stretch_legend(const std::string& title);
+/// The scale of amount_colour. @param largest  what the end of the scale stands for, with its unit
+Legend amount_legend(const std::string& title, const std::string& largest);
+
+/// Puts a strip with the scale below the picture, as wide as it is.
+void add_legend(Picture& picture, const Legend& legend);
+/// The height of such a strip [pixels].
+int legend_height(int width);
+
+/// A curve on a surface, drawn as a round tube.
+struct DrawnCurve {
+  std::vector<Vec3d> points;  ///< [m]
+  Vec3f colour;               ///< display space
+};
+
+/// A mesh with what is shown on it. The mesh must outlive the drawing.
+struct SurfaceDrawing {
+  const TriangleMesh* mesh = nullptr;
+  std::vector<Vec3f> colours;  ///< of each vertex, display space; none: plaster
+  std::vector<DrawnCurve> curves;
+  std::vector<Vec3d> nodes;     ///< drawn as dark balls
+  double curve_radius = 0.005;  ///< in diagonals of the mesh's box
+  std::optional<Legend> legend;
+  bool show_edges = false;
+  bool on_white = false;
+};
+
+struct ViewFrom {
+  int width = 1280, height = 720;           ///< pixels
+  double azimuth = 0.45, elevation = 0.25;  ///< of the eye [rad]; azimuth 0 looks from +z
+};
+
+/// A round tube along a curve; empty for fewer than two points.
+TriangleMesh tube(std::span<const Vec3d> points, double radius);
+
+/// Pictures of a drawing, all of the view's size, legend included.
+class SurfacePainter {
+ public:
+  /// @throws Error as Renderer
+  SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& view);
+  Picture draw(const Camera& camera);
+  /// Width over height of what a camera sees: the picture without its legend.
+  [[nodiscard]] double aspect() const;
+
+ private:
+  SurfaceDrawing drawing_;
+  TriangleMesh marks_;  // tubes and balls
+  DrawnScene scene_;
+  std::array<int, 2> size_;  // without the legend
+  Renderer renderer_;
+};
+
+/// The drawing seen once, its whole mesh in the picture.
+Picture draw_surface(const SurfaceDrawing& drawing, const ViewFrom& view);
+/// The same on white paper, as figures show surfaces.
+Picture draw_on_white(SurfaceDrawing drawing, const ViewFrom& view);
+
+/// A surface with seams closed, and a number at each vertex.
+struct SurfaceValues {
+  TriangleMesh mesh;
+  std::vector<double> values;  ///< [V]
+};
+
+/// The L2 stretch around each vertex, scaled as MapQuality is: 1 where lengths are kept.
+SurfaceValues stretch_on_surface(const MappedDisk& mapped);
+/// The same of the samples as a map.
+SurfaceValues stretch_on_surface(const GeometryImage& image);
+
+/// How far the rebuilt surface is from a mesh: around each vertex the largest distance of the
+/// middles of triangles and edges [m].
+SurfaceValues error_on_surface(const GeometryImage& image, const TriangleMesh& mesh);
+
+/// Colours by stretch_colour, with the legend.
+SurfaceDrawing draw_stretch(const SurfaceValues& stretch);
+/// Colours by amount_colour up to the largest value, with the legend in percent of the diagonal.
+SurfaceDrawing draw_error(const SurfaceValues& error);
+
+/// The geometry image itself: x, y, z of the unit cube as red, green, blue, row 0 at the top. Small
+/// images are enlarged a whole number of times, without smoothing.
+/// @param min_side  sides below it are enlarged to reach it [pixels]
+Picture colours_of(const GeometryImage& image, int min_side = 256);
+
+struct MapDrawing {
+  int side = 1024;  ///< of the square [pixels]
+  bool stretch = true;
+  ///< triangles coloured by stretch: blue where the map has room to spare, red where it is short of
+  ///< it
+  bool edges = true;  ///< of the triangles, as lines
+};
+
+/// The parameterization in the square, row v = 0 at the top as in the image.
+Picture draw_map(const MappedDisk& mapped, const MapDrawing& options = {});
+
+/// A run of the square's border, from border position `first` over `count` sample intervals.
+struct BorderBand {
+  int first = 0, count = 0;
+  Vec3f colour;  ///< display space
+};
+
+/// Both runs of each pair of mates in the pair's colour, pairs in order of their least border
+/// position.
+std::vector<BorderBand> border_bands(const BorderMates& mates);
+/// The same of a mapped disk; true borders dark.
+std::vector<BorderBand> border_bands(const MappedDisk& mapped);
+
+/// A square picture with a frame around it that shows the bands, nodes (where bands begin and end)
+/// as ticks. @param size  n of the bands' border positions
+Picture framed_by_mates(const Picture& square, const std::vector<BorderBand>& bands, int size);
+
+/// The curves of a cut on the surface, each pair of mates once, and its nodes: colours as the bands
+/// of the same disk.
+void add_cut(SurfaceDrawing& drawing, const CutDisk& cut);
+/// The same of what a conversion mapped.
+void add_cut(SurfaceDrawing& drawing, const MappedDisk& mapped);
+/// The border of an image in space, coloured as its bands.
+void add_cut(SurfaceDrawing& drawing, const GeometryImage& image);
+
+/// The normals that a surface has where it moved to, from those it had: each texel's is turned and
+/// sheared as the samples around it were (by the inverse transpose of the map of their tangents and
+/// normal), so that what is finer than the samples stays on it. The grid's own normals are taken
+/// where it has no area, before or after.
+/// @param rest     [n x n] where the surface was [m], finite
+/// @param normals  [k x k] of the surface there, any size k >= 2
+/// @param moved    [n x n] where it is [m], finite
+/// @throws UsageError when the grids differ in size
+NormalMap carried_normals(const Planes3& rest, const NormalMap& normals, const Planes3& moved);
+
+}  // namespace weft

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "weft/geometry_image.h"
+
+namespace weft {
+
+/// Writes a geometry image by the ending of the name: .exr (float32, the same bits when read back)
+/// or .png (16 bits a channel: positions are rounded to 1 / 65535 of the cube's side). Mates, world
+/// map and source travel inside. @throws OutputError; UsageError on another ending
+void write_image(const std::filesystem::path& path, const GeometryImage& image);
+
+/// The same in memory.
+std::string exr_bytes(const GeometryImage& image);
+std::string png_bytes(const GeometryImage& image);
+
+/// Reads one back, by what the file holds. Nothing in it is believed unchecked.
+/// @throws InputError for what is not a geometry image, cut short, of a wrong size or version,
+/// mates out of
+///         range or unequal, or not finite
+GeometryImage read_image(const std::filesystem::path& path);
+
+/// The same from memory; `where` is what errors call it.
+GeometryImage parse_image(std::string_view bytes, std::string_view where);
+
+/// A normal map as an 8-bit PNG (n * 127.5 + 127.5) or float EXR, by the ending of the name, for
+/// other programs. @throws OutputError; UsageError on another ending
+void write_normal_map(const std::filesystem::path& path, const NormalMap& normals);
+
+/// Texture coordinates as a float EXR, R = u, G = v, B = 0. @throws OutputError
+void write_texture(const std::filesystem::path& path, const Planes3& texture);
+
+}  // namespace weft

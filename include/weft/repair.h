@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "weft/mesh.h"
+#include "weft/mesh_statistics.h"
+
+namespace weft {
+
+/// Which of several components to keep.
+struct ComponentChoice {
+  enum class Kind { only, largest, index };
+  Kind kind = Kind::only;  ///< `only`: more than one is an error
+  int index = 0;           ///< for Kind::index, largest area first
+};
+
+struct RepairOptions {
+  std::string name = "mesh";  ///< what errors call the mesh, mostly its path
+  ComponentChoice component;
+};
+
+/// A mesh fit for the stages that follow: finite, indexed, manifold, consistently oriented, one
+/// component, no unreferenced vertex, no triangle with a repeated vertex.
+struct RepairedMesh {
+  TriangleMesh mesh;
+  std::vector<int> source_vertex;    ///< [V] the input's vertex for each of the mesh's
+  std::vector<int> source_triangle;  ///< [F] the input's triangle; it may have been turned over
+  std::vector<std::string> repairs;  ///< one sentence for each kind of change, with its count
+  TopologyCounts counts;             ///< of `mesh`
+  int components_found = 1;          ///< before one was chosen
+};
+
+/// Stage 1 of the conversion: checks, and repairs what can be repaired without changing the
+/// surface. Drops triangles with a repeated index and unreferenced vertices, orients consistently
+/// (breadth first), splits non-manifold vertices into fans, and picks the component.
+/// @throws InputError     empty mesh, not-finite coordinates, index out of range, no area at all
+/// @throws TopologyError  non-manifold edges (count, the first one's vertices), a component that
+///                        cannot be oriented (an edge named), several components (how many)
+RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options);
+
+/// How many components a mesh has to choose from, whether they convert or not.
+/// @throws InputError as repair_mesh
+int count_components(const TriangleMesh& mesh, const std::string& name);
+
+/// Joins vertices at exactly equal positions; for formats without indices.
+/// @return the joined mesh; vertices in order of first occurrence
+TriangleMesh weld_exact(const TriangleMesh& mesh);
+
+}  // namespace weft

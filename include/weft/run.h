@@ -1,0 +1,153 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "weft/colliders.h"
+#include "weft/progress.h"
+#include "weft/scene.h"
+#include "weft/simulation.h"
+
+namespace weft {
+
+/// All that --export knows, in the order of the documentation.
+std::span<const std::string_view> export_formats();
+
+/// What of a surface is written: what suits the format (the mesh that a cloth came from for OBJ,
+/// PC2, MDD and GLB, the image for the others), always the image, or always the mesh.
+enum class WrittenOn { automatic, image, input };
+/// As on the command line: auto, image, input.
+std::string_view name_of(WrittenOn on);
+/// Whether a format shows the mesh where there is one. Never EXR, which is the image.
+bool is_on_input(std::string_view format, WrittenOn on);
+
+/// What passed through what in a frame that was looked at.
+struct FrameIntersections {
+  int frame = 0;  ///< of the first frame that has as many; 0 when there are none
+  IntersectionCounts counts;
+};
+
+/// The largest count of a frame, and which frame that was first; 0 where none was.
+struct WorstCount {
+  int frame = 0;
+  std::int64_t count = 0;
+  void add(int at, std::int64_t found) {
+    if (found > count) *this = {at, found};
+  }
+};
+
+/// What counting triangles that cross at the ends of frames does not see.
+struct Verification {
+  WorstCount passed;     ///< vertices and faces, and pairs of edges, that met within a step
+  WorstCount swallowed;  ///< points on the wrong side of a closed body that had been on the right
+  WorstCount written;    ///< pairs of triangles that cross in the meshes that are written
+  [[nodiscard]] bool good() const {
+    return passed.count == 0 && swallowed.count == 0 && written.count == 0;
+  }
+};
+
+struct RunOptions {
+  std::filesystem::path folder{};  ///< where everything is written
+  std::vector<std::string> exports{"obj", "pc2"};
+  WrittenOn on = WrittenOn::automatic;  ///< whose vertices are written
+  bool unwelded = false;  ///< write every sample instead of joining mates; none of a mesh's then
+  /// Count intersections in every frame, not in the last one only, and look at every step.
+  bool verify = false;
+  int threads = 1;
+  InstructionSet instructions = best_instruction_set();
+  Progress* progress = nullptr;
+  /// Told at the start, in one line each, what is better known before the run ends.
+  std::function<void(const std::string& line)> tell{};
+  /// Frames between two checkpoints; 0: none; nothing: every five seconds.
+  std::optional<int> checkpoint_frames{};
+  bool resume = false;  ///< go on where the folder's checkpoint stands, if it has one
+  /// Where the scene is written once it is known to run; empty: nowhere.
+  std::filesystem::path scene_file{};
+};
+
+/// What `simulate` reports: the fields of its JSON, and more.
+struct RunReport {
+  int frames = 0, particles = 0, threads = 1, substeps = 1;
+  std::string scene, integrator;
+  double time_step = 0;              ///< [s]
+  double start_energy = 0;           ///< kinetic plus potential, of frame 0 [J]
+  double mass = 0;                   ///< of all cloths [kg]
+  std::vector<FrameReport> history;  ///< one a frame, from frame 1
+  /// Of each cloth: its name, and the gap that it kept to cloth [m].
+  std::vector<std::pair<std::string, double>> thickness_used;
+  std::vector<StartInside> start_insides;
+  StrainSummary strain;  ///< last frame
+  int contacts_max = 0, self_contacts_max = 0;
+  FrameIntersections intersections;          ///< of the last frame; with verify: of the worst one
+  IntersectionCounts start_intersections;    ///< of frame 0
+  std::optional<Verification> verification;  ///< with verify
+  /// The first frame from which on no cloth crosses itself or another: 0 where none did at the
+  /// start; nothing where some still do.
+  std::optional<int> untangled_frame;
+  std::vector<Vec3d> centre_of_mass;  ///< frame 0 first
+  std::string state_hash;
+  std::uint64_t estimated_memory = 0;  ///< before the start [bytes]
+  std::vector<std::string> notes;
+  std::vector<std::filesystem::path> outputs;
+};
+
+/// Runs a whole scene into a folder, which is made when missing: for each cloth and body its
+/// geometry image NAME.exr (at rest, unplaced) and what is exported of it; caches.json, which tells
+/// what that is; frames.csv; weft-run.json, by which open_run_folder finds it again. When the run
+/// stops early by error or interruption, what was finished is kept: files appear whole, with the
+/// frames there are, and a checkpoint of the last of them. A run that was killed goes on at its
+/// last checkpoint; either way it ends in the bits and the report (but for times) of one that never
+/// stopped.
+/// @throws UsageError for an export that is not known, or a mesh's vertices asked for where a cloth
+/// is a geometry image; OutputError; what Simulation throws;
+/// SceneError when the memory that is there can certainly not hold it; InputError for a checkpoint
+/// that is damaged, of another version or another scene; Interrupted
+RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options);
+
+/// A run as one JSON object, the contract of `simulate --json`.
+std::string to_json(const RunReport& report);
+
+/// The largest rise of kinetic plus potential energy above the least that it was before, less the
+/// work of pins, moving bodies and wind in between. [J]
+double energy_gained(const RunReport& report);
+
+/// The columns of frames.csv, one line with its end.
+std::string frames_csv_header();
+/// One frame as a line of frames.csv.
+/// @param particles  of all cloths
+std::string frames_csv_line(int frame, const FrameReport& report, int particles);
+
+/// About how much memory a run takes at most, by the sizes in the scene: within a quarter for
+/// scenes of 257 samples a side and more. Converting a mesh first takes some hundred bytes a
+/// triangle, which is not in it. Reads the geometry images among the surfaces. @throws InputError
+/// for these
+/// @return bytes
+std::uint64_t estimate_memory(const Scene& scene);
+
+/// Refuses what can certainly not run.
+/// @param bytes      of the estimate
+/// @param available  see available_memory
+/// @throws SceneError when the estimate, wrong by a quarter, is still more
+void check_memory(std::uint64_t bytes, std::uint64_t available, const std::string& scene);
+
+/// Whether a run may be short of memory by the estimate: more than four fifths of what is there.
+bool is_memory_short(std::uint64_t bytes, std::uint64_t available);
+
+/// For people: "1.3 GB", "45 MB". MB of 10^6 bytes.
+std::string memory_text(std::uint64_t bytes);
+
+/// Memory that this process may still take without pushing out what others use: what the system
+/// calls available, or less where a control group's limit (a container's, a batch job's) leaves
+/// less. Nothing where the system does not tell.
+/// @param root  of the file system, for tests
+/// @return bytes
+std::optional<std::uint64_t> available_memory(const std::filesystem::path& root = "/");
+
+}  // namespace weft

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "weft/run.h"
+
+namespace weft {
+
+/// The point cache of a surface of a finished run.
+struct RecordedPoints {
+  std::vector<int> vertex_of;   ///< [n * n] point of the cache for each sample
+  std::filesystem::path cache;  ///< PC2
+  int points = 0, frames = 0;   ///< of the cache; frame 0 is the start
+  MeshFrame files;              ///< what its numbers mean
+
+  /// Where the surface is at a frame. [n x n] world [m]
+  /// @throws InputError when the cache is cut short; UsageError when there is no such frame
+  [[nodiscard]] Planes3 positions(int frame) const;
+};
+
+struct RecordedCloth {
+  std::string name;
+  GeometryImage image;  ///< at rest, unplaced
+  RecordedPoints recorded;
+};
+
+struct RecordedBody {
+  std::string name;
+  GeometryImage image;
+  std::optional<NormalMap> normals;        ///< in the world, where it is before the start
+  Planes3 positions;                       ///< before the start, world [m]
+  std::optional<RecordedPoints> recorded;  ///< where it moves
+
+  /// Where it is at a frame. @throws as RecordedPoints::positions
+  [[nodiscard]] Planes3 positions_at(int frame) const {
+    return recorded ? recorded->positions(frame) : positions;
+  }
+};
+
+/// What run_scene left in a folder, for drawing it.
+struct RunFolder {
+  std::string scene;
+  double frame_rate = 60;        ///< [1/s]
+  int frames = 0;                ///< samples in the caches, frame 0 included
+  std::optional<double> ground;  ///< [m]
+  std::vector<RecordedCloth> cloths;
+  std::vector<RecordedBody> bodies;
+};
+
+/// @throws InputError when the folder holds no run, or its files do not fit together
+RunFolder open_run_folder(const std::filesystem::path& folder);
+
+}  // namespace weft

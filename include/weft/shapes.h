@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "weft/mesh.h"
+
+namespace weft {
+
+/// A built-in shape, made by our own code.
+struct ShapeInfo {
+  std::string_view name;
+  std::string_view description;
+};
+/// All shapes, in the order of the documentation.
+std::vector<ShapeInfo> built_in_shapes();
+
+/// The shape as a mesh. Deterministic. @throws UsageError naming the nearest known name
+TriangleMesh make_shape(std::string_view name);
+
+/// True for the shapes that are images by nature (sheet, disk, torus, cylinder): the image module
+/// samples them directly, no map is computed.
+bool is_image_by_nature(std::string_view name);
+
+}  // namespace weft

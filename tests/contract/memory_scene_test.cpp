@@ -1,0 +1,97 @@
+// The library as others use it: by its public headers alone, nothing in files.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "weft/convert.h"
+#include "weft/error.h"
+#include "weft/geometry_image.h"
+#include "weft/run.h"
+#include "weft/scene_file.h"
+#include "weft/shapes.h"
+#include "weft/simulation.h"
+
+namespace weft {
+namespace {
+
+constexpr int frames = 12;
+
+Scene sheet_on(Surface body) {
+  SceneCloth sheet;
+  sheet.size = 33;
+  sheet.placement.translate = {0, 0.55, 0};
+  SceneBody ball;
+  ball.name = "ball";
+  ball.surface = std::move(body);
+  ball.size = 33;
+  ball.placement.translate = {0, 0.3, 0};
+  ball.placement.scale = {0.5, 0.5, 0.5};
+  Scene scene;
+  scene.cloths = {sheet};
+  scene.bodies = {ball};
+  return scene;
+}
+
+std::string hash_of(const Scene& scene) {
+  Simulation simulation(scene, "memory", 1);
+  for (int frame = 0; frame < frames; ++frame) simulation.advance();
+  return simulation.state_hash();
+}
+
+TEST(MemoryScene, MeshInMemoryActsAsItsNameDoes) {
+  const Surface named = "builtin:sphere";
+  const Surface given{make_shape("sphere"), "builtin:sphere"};
+  EXPECT_EQ(hash_of(sheet_on(given)), hash_of(sheet_on(named)));
+}
+
+TEST(MemoryScene, ImageInMemoryActsAsItsFileDoes) {
+  ConvertOptions options;
+  options.size = 33;
+  const GeometryImage image = convert_mesh(make_shape("sphere"), "builtin:sphere", options).image;
+  Simulation simulation(sheet_on({image, "ball"}), "memory", 1);
+  FrameReport report;
+  for (int frame = 0; frame < frames; ++frame) report = simulation.advance();
+  EXPECT_GT(report.contacts, 0);
+  EXPECT_EQ(simulation.bodies()[0].image.size(), 33);
+}
+
+TEST(MemoryScene, MeshThatCannotBecomeAnImageIsNamed) {
+  TriangleMesh open_book = make_shape("sphere");
+  open_book.triangles.push_back({0, 1, 2});
+  open_book.triangles.push_back({0, 2, 1});
+  try {
+    Simulation(sheet_on({open_book, "open book"}), "memory", 1);
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::input);
+    EXPECT_NE(std::string(error.what()).find("open book"), std::string::npos) << error.what();
+  }
+}
+
+TEST(MemoryScene, WhatIsInMemoryAloneIsNotWrittenAsAFile) {
+  const Scene scene = sheet_on({make_shape("sphere"), "ball"});
+  EXPECT_THROW(write_scene("scene.json", scene), UsageError);
+  EXPECT_GT(estimate_memory(scene), 1'000'000U);
+}
+
+TEST(MemoryScene, StrainAtSamplesTellsOfStretch) {
+  SceneCloth sheet;
+  sheet.size = 17;
+  sheet.pins = {ImagePin{{0, 0}}, ImagePin{{1, 0}}};
+  Scene scene;
+  scene.ground.reset();
+  scene.cloths = {sheet};
+  Simulation simulation(scene, "memory", 1);
+  Grid<float> strains(17, 17);
+  simulation.strain_at_samples(0, strains);
+  EXPECT_NEAR(strains(8, 8), 0, 1e-6);
+  for (int frame = 0; frame < 30; ++frame) simulation.advance();
+  simulation.strain_at_samples(0, strains);
+  float largest = 0;
+  for (int r = 0; r < 17; ++r)
+    for (int c = 0; c < 17; ++c) largest = std::max(largest, strains(r, c));
+  EXPECT_GT(largest, 1e-3);
+}
+
+}  // namespace
+}  // namespace weft
