@@ -8,10 +8,6 @@
 namespace weft::viewer {
 namespace {
 
-constexpr std::array<std::string_view, 6> integrators{"newton",   "multigrid", "implicit",
-                                                      "explicit", "desbrun",   "two_level"};
-constexpr std::array<std::string_view, 5> colliders{"pyramid", "polar_map", "sphere_tree",
-                                                    "spatial_hash", "image_space"};
 constexpr std::array<std::string_view, 8> bodies{"mannequin", "sphere", "torus", "cone",
                                                  "box",       "knot",   "rod",   "double_torus"};
 
@@ -23,22 +19,17 @@ bool are_same(const Material& a, const Material& b) {
 
 }  // namespace
 
-std::span<const std::string_view> integrator_names() { return integrators; }
-std::span<const std::string_view> collider_names() { return colliders; }
+std::vector<std::string_view> integrator_names() { return Integrators::names(); }
+std::vector<std::string_view> collider_names() { return Colliders::names(); }
 
 void set_integrator(Scene& scene, std::string_view name) {
-  if (name == "newton") scene.integrator = NewtonOptions{};
-  if (name == "multigrid") scene.integrator = MultigridOptions{};
-  if (name == "implicit") scene.integrator = ImplicitOptions{};
-  if (name == "explicit") scene.integrator = ExplicitOptions{};
-  if (name == "desbrun") scene.integrator = DesbrunOptions{};
-  if (name == "two_level") scene.integrator = TwoLevelOptions{};
+  if (const auto found = Integrators::find(name)) scene.integrator = *found;
 }
 
 void set_collider(Scene& scene, std::string_view name) {
-  if (const auto collider = collider_named(name)) scene.collider = *collider;
+  if (const auto collider = Colliders::find(name)) scene.collider = *collider;
   // What was asked of another collider, this one may not know.
-  if (!knows_self_collision(scene.collider))
+  if (!Colliders::traits_of(scene.collider).self_collision)
     for (SceneCloth& cloth : scene.cloths) cloth.self_collision.reset();
 }
 

@@ -11,8 +11,8 @@ namespace weft::viewer {
 
 // What the panel offers to change of a scene.
 
-std::span<const std::string_view> integrator_names();
-std::span<const std::string_view> collider_names();
+std::vector<std::string_view> integrator_names();
+std::vector<std::string_view> collider_names();
 /// With default options. @pre one of the names
 void set_integrator(Scene& scene, std::string_view name);
 void set_collider(Scene& scene, std::string_view name);

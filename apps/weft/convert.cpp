@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/weft/commands.h"
-#include "apps/weft/mesh_words.h"
+#include "apps/weft/mesh_args.h"
 #include "apps/weft/peak_memory.h"
 #include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"

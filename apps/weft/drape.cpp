@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/weft/commands.h"
-#include "apps/weft/run_words.h"
+#include "apps/weft/run_args.h"
 #include "weft/convert.h"
 #include "weft/drape_scene.h"
 #include "weft/image_file.h"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "apps/weft/context.h"
-#include "apps/weft/mesh_words.h"
+#include "apps/weft/mesh_args.h"
 
 namespace weft::app {
 

@@ -15,6 +15,7 @@
 #include "apps/weft/shown.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/error.h"
+#include "weft/files.h"
 #include "weft/picture.h"
 
 namespace weft::app {

@@ -95,13 +95,6 @@ Json image_json(const GeometryImage& image) {
           {"genus", counts.genus}};
 }
 
-std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 void check_output(const std::filesystem::path& path,
                   std::initializer_list<std::string_view> endings) {
   if (std::find(endings.begin(), endings.end(), ending_of(path)) == endings.end()) {

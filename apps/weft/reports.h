@@ -25,7 +25,4 @@ Json paths_json(const std::vector<std::filesystem::path>& paths);
 void check_output(const std::filesystem::path& path,
                   std::initializer_list<std::string_view> endings);
 
-/// The lower-case ending with its dot.
-std::string ending_of(const std::filesystem::path& path);
-
 }  // namespace weft::app

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/weft/commands.h"
-#include "apps/weft/run_words.h"
+#include "apps/weft/run_args.h"
 #include "weft/scene_file.h"
 
 namespace weft::app {

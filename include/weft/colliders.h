@@ -5,16 +5,46 @@
 #include <string_view>
 #include <variant>
 
+#include "weft/methods.h"
+
 namespace weft {
 
+/// What others have to know of a collider.
+struct ColliderTraits {
+  bool filters = true;         ///< takes back what passes through, so that nothing does
+  bool self_collision = true;  ///< can keep a cloth from passing through itself
+  bool containers = true;      ///< can keep cloth inside of a body
+  bool moving_bodies = true;   ///< can keep cloth out of bodies that move
+};
+
 /// The default: mip pyramids as bounding hierarchies, planes that nothing passes.
-struct PyramidOptions {};
+struct PyramidOptions {
+  static constexpr std::string_view name = "pyramid";
+  static constexpr ColliderTraits traits{};
+  template <class Visit>
+  static void visit_options(const Visit& /*visit*/) {}
+};
 
 /// The same with other broad phases, to compare with: spheres in a tree over the image [benes05], a
 /// hashed grid of space [teschner03], and depth images [govindaraju03].
-struct SphereTreeOptions {};
-struct SpatialHashOptions {};
-struct ImageSpaceOptions {};
+struct SphereTreeOptions {
+  static constexpr std::string_view name = "sphere_tree";
+  static constexpr ColliderTraits traits{};
+  template <class Visit>
+  static void visit_options(const Visit& /*visit*/) {}
+};
+struct SpatialHashOptions {
+  static constexpr std::string_view name = "spatial_hash";
+  static constexpr ColliderTraits traits{};
+  template <class Visit>
+  static void visit_options(const Visit& /*visit*/) {}
+};
+struct ImageSpaceOptions {
+  static constexpr std::string_view name = "image_space";
+  static constexpr ColliderTraits traits{};
+  template <class Visit>
+  static void visit_options(const Visit& /*visit*/) {}
+};
 
 /// The paper's angular table [zink07, section 5].
 struct PolarMapOptions {
@@ -23,18 +53,24 @@ struct PolarMapOptions {
   /// point, and push no deeper than a tenth of the body's side. False: the printed method, whose
   /// radial point may lie far from the closest one, so that single pushes are far too deep.
   bool walk = true;
+
+  static constexpr std::string_view name = "polar_map";
+  static constexpr ColliderTraits traits{
+      .filters = false, .self_collision = false, .containers = false, .moving_bodies = false};
+  template <class Visit>
+  static void visit_options(const Visit& visit) {
+    visit("size", &PolarMapOptions::size, OptionRange{0, 8193});
+    visit("walk", &PolarMapOptions::walk, OptionRange{});
+  }
 };
 using ColliderOptions = std::variant<PyramidOptions, PolarMapOptions, SphereTreeOptions,
                                      SpatialHashOptions, ImageSpaceOptions>;
-std::string_view name_of(const ColliderOptions& options);
-/// The collider of that name, with default options; nothing where there is none.
-std::optional<ColliderOptions> collider_named(std::string_view name);
-/// Whether it can keep a cloth from passing through itself.
-bool knows_self_collision(const ColliderOptions& options);
-/// Whether it can keep cloth inside of a body.
-bool knows_containers(const ColliderOptions& options);
-/// Whether it can keep cloth out of bodies that move.
-bool knows_moving_bodies(const ColliderOptions& options);
+using Colliders = Methods<ColliderOptions>;
+
+/// The name in scene file and command line.
+inline std::string_view name_of(const ColliderOptions& options) {
+  return Colliders::name_of(options);
+}
 
 /// What cloths pass through.
 struct IntersectionCounts {

@@ -12,6 +12,9 @@ namespace weft {
 /// @throws InputError when it is missing, a folder, or cannot be read
 std::string read_file(const std::filesystem::path& path);
 
+/// The ending of a name in lower case, with its dot; empty where it has none.
+std::string ending_of(const std::filesystem::path& path);
+
 /// Makes a folder and those that it lies in; one that is there is left as it is.
 /// @throws OutputError when it cannot be made, or a file has its name
 void make_folder(const std::filesystem::path& path);

@@ -1,21 +1,64 @@
 #pragma once
 
+#include <cmath>
 #include <string_view>
 #include <variant>
 
+#include "weft/methods.h"
+
 namespace weft {
 
+/// What others have to know of an integrator.
+struct IntegratorTraits {
+  /// Solves with contacts in view; what others pass through is pushed out at the end of the step.
+  bool heeds_contacts = false;
+  /// Springs leave all stretch to the limiter, which takes turns with the collider then.
+  bool soft_springs = false;
+  /// The strain limiter goes with it, so that `limiter_passes` is a key of it: with methods of the
+  /// literature that it came with, and with those whose few iterations may leave springs too long.
+  /// Implicit Euler solved to the end holds its cloth by the springs themselves.
+  bool has_limiter = false;
+  /// Passes of the limiter that suit it: half the samples a side, within these. Stiff springs leave
+  /// it a few samples about pins, more of them in finer images, which it has to bring up the whole
+  /// cloth's weight by: many passes, that cost little.
+  int min_passes = 0, max_passes = 0;
+  double bytes_per_sample = 0;  ///< of memory that a cloth takes
+  double bytes_per_pair = 0;    ///< and for every pair of samples
+};
+
 /// Explicit Euler [provot95]; with Provot's limit where `limiter_passes` asks for it.
-struct ExplicitOptions {};
+struct ExplicitOptions {
+  static constexpr std::string_view name = "explicit";
+  static constexpr IntegratorTraits traits{.has_limiter = true, .bytes_per_sample = 385};
+  template <class Visit>
+  static void visit_options(const Visit& /*visit*/) {}
+};
 /// Linearised implicit Euler, conjugate gradients without a matrix [baraff98].
 struct ImplicitOptions {
   int max_iterations = 200;
   /// Stop when the correction of an iteration falls below this times the rest spacing; a tenth
   /// of it while something presses on the cloth.
   double tolerance = 1e-4;
+
+  static constexpr std::string_view name = "implicit";
+  static constexpr IntegratorTraits traits{.heeds_contacts = true, .bytes_per_sample = 785};
+  template <class Visit>
+  static void visit_options(const Visit& visit) {
+    visit("max_iterations", &ImplicitOptions::max_iterations, OptionRange{1, 1'000'000});
+    visit("tolerance", &ImplicitOptions::tolerance, OptionRange{0, HUGE_VAL, true});
+  }
 };
 /// One dense filter W of the cloth's own springs [desbrun99].
-struct DesbrunOptions {};
+struct DesbrunOptions {
+  static constexpr std::string_view name = "desbrun";
+  static constexpr IntegratorTraits traits{.has_limiter = true,
+                                           .min_passes = 60,
+                                           .max_passes = 128,
+                                           .bytes_per_sample = 500,
+                                           .bytes_per_pair = 4};
+  template <class Visit>
+  static void visit_options(const Visit& /*visit*/) {}
+};
 /// The paper's local and global filters [zink07]. Its soft springs leave all stretch to the
 /// limiter, at 5 % where the material has no limit of its own.
 struct TwoLevelOptions {
@@ -26,6 +69,20 @@ struct TwoLevelOptions {
   bool as_printed = false;
   /// k of the filter and of its soft springs [N/m]; 0: the largest known stable.
   double filter_stiffness = 0;
+
+  static constexpr std::string_view name = "two_level";
+  static constexpr IntegratorTraits traits{.soft_springs = true,
+                                           .has_limiter = true,
+                                           .min_passes = 10,
+                                           .max_passes = 10,
+                                           .bytes_per_sample = 445};
+  template <class Visit>
+  static void visit_options(const Visit& visit) {
+    visit("local_size", &TwoLevelOptions::local_size, OptionRange{3, 8193, false, true});
+    visit("global_size", &TwoLevelOptions::global_size, OptionRange{0, 8193});
+    visit("as_printed", &TwoLevelOptions::as_printed, OptionRange{});
+    visit("filter_stiffness", &TwoLevelOptions::filter_stiffness, OptionRange{0});
+  }
 };
 /// Implicit Euler solved by descent, preconditioned by the exact filter on the image's mip pyramid.
 /// Two iterations a step, and a tolerance that only cloth near rest meets before: with four steps a
@@ -37,6 +94,18 @@ struct MultigridOptions {
   /// Stop when the correction of an iteration falls below this times the rest spacing; a ten
   /// thousandth of it while something presses on the cloth.
   double tolerance = 1e-3;
+
+  static constexpr std::string_view name = "multigrid";
+  static constexpr IntegratorTraits traits{.heeds_contacts = true,
+                                           .has_limiter = true,
+                                           .min_passes = 60,
+                                           .max_passes = 128,
+                                           .bytes_per_sample = 640};
+  template <class Visit>
+  static void visit_options(const Visit& visit) {
+    visit("max_iterations", &MultigridOptions::max_iterations, OptionRange{1, 1'000'000});
+    visit("tolerance", &MultigridOptions::tolerance, OptionRange{0, HUGE_VAL, true});
+  }
 };
 /// Implicit Euler by Newton's method with a block multigrid preconditioner: the default. Soft and
 /// heavy fabrics take about three iterations a step, light and stiff ones five; more change the
@@ -46,17 +115,23 @@ struct NewtonOptions {
   /// Stop when an iteration's correction, as a force on every particle (in the norm of the system's
   /// inverse), is below this times its weight.
   double tolerance = 0.1;
+
+  static constexpr std::string_view name = "newton";
+  static constexpr IntegratorTraits traits{.heeds_contacts = true, .bytes_per_sample = 1150};
+  template <class Visit>
+  static void visit_options(const Visit& visit) {
+    visit("max_iterations", &NewtonOptions::max_iterations, OptionRange{1, 1'000'000});
+    visit("tolerance", &NewtonOptions::tolerance, OptionRange{0, HUGE_VAL, true});
+  }
 };
-using IntegratorOptions = std::variant<NewtonOptions, MultigridOptions, ImplicitOptions,
-                                       ExplicitOptions, DesbrunOptions, TwoLevelOptions>;
+using IntegratorOptions = std::variant<NewtonOptions, ImplicitOptions, ExplicitOptions,
+                                       DesbrunOptions, TwoLevelOptions, MultigridOptions>;
 
-/// Whether the strain limiter goes with a method, so that `limiter_passes` is a key of it: with
-/// those of the literature that came with it, and with multigrid, whose few iterations may leave
-/// springs too long. Implicit Euler solved to the end holds its cloth by the springs themselves.
-bool has_limiter(const IntegratorOptions& options);
+using Integrators = Methods<IntegratorOptions>;
 
-/// The name in scene file and command line: newton, multigrid, implicit, explicit, desbrun,
-/// two_level.
-std::string_view name_of(const IntegratorOptions& options);
+/// The name in scene file and command line.
+inline std::string_view name_of(const IntegratorOptions& options) {
+  return Integrators::name_of(options);
+}
 
 }  // namespace weft

@@ -9,10 +9,10 @@
 #include "tests/support/random_mesh.h"
 #include "weft/convert.h"
 #include "weft/core/random.h"
+#include "weft/cut/open_to_disk.h"
 #include "weft/error.h"
 #include "weft/mesh.h"
 #include "weft/param/border_layout.h"
-#include "weft/cut/open_to_disk.h"
 
 // Set WEFT_RANDOM_SEEDS="FIRST COUNT" to try other seeds than 1 .. 500 (one alone: "77 1"), and
 // WEFT_RANDOM_KEEP=FOLDER to have the meshes that fail written there.

@@ -8,9 +8,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
 #include "weft/convert.h"
+#include "weft/cut/open_to_disk.h"
 #include "weft/error.h"
 #include "weft/param/border_layout.h"
-#include "weft/cut/open_to_disk.h"
 
 namespace weft {
 namespace {

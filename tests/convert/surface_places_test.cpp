@@ -9,8 +9,8 @@
 #include "tests/support/meshes.h"
 #include "weft/convert.h"
 #include "weft/core/math.h"
-#include "weft/shapes.h"
 #include "weft/cut/seam.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {

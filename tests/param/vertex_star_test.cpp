@@ -1,11 +1,11 @@
 #include "weft/param/vertex_star.h"
-#include "weft/cloth/cloth.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "tests/param/disks.h"
+#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {

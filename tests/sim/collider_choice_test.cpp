@@ -32,7 +32,7 @@ class Guarding : public ::testing::TestWithParam<const char*> {};
 TEST_P(Guarding, DrapesWithoutIntersectionsAndWithTheSameBitsOnEveryTeam) {
   std::string hash;
   for (const int threads : {1, 2, 3, 7}) {
-    Simulation simulation(sheet_on_sphere(*collider_named(GetParam())), "s.json", threads);
+    Simulation simulation(sheet_on_sphere(*Colliders::find(GetParam())), "s.json", threads);
     const std::vector<Triangle> cloth = grid_triangles(simulation.cloths()[0].image),
                                 body = grid_triangles(simulation.bodies()[0].image);
     const GridTriangles moving{&simulation.cloths()[0].state.position, &cloth};

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
-#include "weft/run/verification.h"
 #include "weft/cloth/cloth.h"
+#include "weft/run/verification.h"
 
 namespace weft {
 namespace {

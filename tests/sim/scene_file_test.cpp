@@ -371,15 +371,15 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
   const auto& parts = schema["$defs"];
   EXPECT_EQ(properties_of(schema), as_set(scene_keys::scene));
   EXPECT_EQ(properties_of(parts["wind"]), as_set(scene_keys::wind));
-  EXPECT_EQ(properties_of(parts["newton"]), as_set(scene_keys::newton_integrator));
-  EXPECT_EQ(properties_of(parts["implicit"]), as_set(scene_keys::implicit_integrator));
-  EXPECT_EQ(properties_of(parts["explicit"]), as_set(scene_keys::explicit_integrator));
-  EXPECT_EQ(properties_of(parts["desbrun"]), as_set(scene_keys::desbrun_integrator));
-  EXPECT_EQ(properties_of(parts["multigrid"]), as_set(scene_keys::multigrid_integrator));
-  EXPECT_EQ(properties_of(parts["two_level"]), as_set(scene_keys::two_level_integrator));
+  EXPECT_EQ(properties_of(parts["newton"]), as_set(scene_keys::of_method<NewtonOptions>()));
+  EXPECT_EQ(properties_of(parts["implicit"]), as_set(scene_keys::of_method<ImplicitOptions>()));
+  EXPECT_EQ(properties_of(parts["explicit"]), as_set(scene_keys::of_method<ExplicitOptions>()));
+  EXPECT_EQ(properties_of(parts["desbrun"]), as_set(scene_keys::of_method<DesbrunOptions>()));
+  EXPECT_EQ(properties_of(parts["multigrid"]), as_set(scene_keys::of_method<MultigridOptions>()));
+  EXPECT_EQ(properties_of(parts["two_level"]), as_set(scene_keys::of_method<TwoLevelOptions>()));
   for (const char* type : {"pyramid", "sphere_tree", "spatial_hash", "image_space"})
-    EXPECT_EQ(properties_of(parts[type]), as_set(scene_keys::pipeline_collider));
-  EXPECT_EQ(properties_of(parts["polar_map"]), as_set(scene_keys::polar_map_collider));
+    EXPECT_EQ(properties_of(parts[type]), as_set(scene_keys::of_method<PyramidOptions>()));
+  EXPECT_EQ(properties_of(parts["polar_map"]), as_set(scene_keys::of_method<PolarMapOptions>()));
   EXPECT_EQ(properties_of(parts["cloth"]), as_set(scene_keys::cloth));
   EXPECT_EQ(properties_of(parts["body"]), as_set(scene_keys::body));
   EXPECT_EQ(properties_of(parts["material"]), as_set(scene_keys::material));

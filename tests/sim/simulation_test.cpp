@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
-#include "weft/core/math.h"
-#include "weft/error.h"
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/wind.h"
+#include "weft/core/math.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {

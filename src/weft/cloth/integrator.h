@@ -118,5 +118,18 @@ class Integrator {
 /// many particles for a dense matrix, ...)
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Cloth& cloth,
                                             const StepInput& typical, ThreadTeam& team);
+// The same of one kind, each defined in its own source.
+std::unique_ptr<Integrator> make_integrator_of(const NewtonOptions& options, const Cloth& cloth,
+                                               const StepInput& typical, ThreadTeam& team);
+std::unique_ptr<Integrator> make_integrator_of(const ImplicitOptions& options, const Cloth& cloth,
+                                               const StepInput& typical, ThreadTeam& team);
+std::unique_ptr<Integrator> make_integrator_of(const ExplicitOptions& options, const Cloth& cloth,
+                                               const StepInput& typical, ThreadTeam& team);
+std::unique_ptr<Integrator> make_integrator_of(const DesbrunOptions& options, const Cloth& cloth,
+                                               const StepInput& typical, ThreadTeam& team);
+std::unique_ptr<Integrator> make_integrator_of(const TwoLevelOptions& options, const Cloth& cloth,
+                                               const StepInput& typical, ThreadTeam& team);
+std::unique_ptr<Integrator> make_integrator_of(const MultigridOptions& options, const Cloth& cloth,
+                                               const StepInput& typical, ThreadTeam& team);
 
 }  // namespace weft

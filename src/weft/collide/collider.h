@@ -162,4 +162,21 @@ struct Obstacles {
 std::unique_ptr<Collider> make_collider(const ColliderOptions& options, const Obstacles& obstacles,
                                         std::span<const CollidingCloth> cloths);
 
+// The same of one kind, each defined in its own source.
+std::unique_ptr<Collider> make_collider_of(const PyramidOptions& options,
+                                           const Obstacles& obstacles,
+                                           std::span<const CollidingCloth> cloths);
+std::unique_ptr<Collider> make_collider_of(const PolarMapOptions& options,
+                                           const Obstacles& obstacles,
+                                           std::span<const CollidingCloth> cloths);
+std::unique_ptr<Collider> make_collider_of(const SphereTreeOptions& options,
+                                           const Obstacles& obstacles,
+                                           std::span<const CollidingCloth> cloths);
+std::unique_ptr<Collider> make_collider_of(const SpatialHashOptions& options,
+                                           const Obstacles& obstacles,
+                                           std::span<const CollidingCloth> cloths);
+std::unique_ptr<Collider> make_collider_of(const ImageSpaceOptions& options,
+                                           const Obstacles& obstacles,
+                                           std::span<const CollidingCloth> cloths);
+
 }  // namespace weft

@@ -169,4 +169,14 @@ class ContactPipeline final : public Collider {
   Untangler untangler_;
 };
 
+/// The pipeline with a broad phase of that kind.
+template <class Pairs>
+std::unique_ptr<Collider> make_pipeline(const Obstacles& obstacles,
+                                        std::span<const CollidingCloth> cloths) {
+  return std::make_unique<ContactPipeline>(
+      [](std::span<const SurfaceGrid* const> grids, std::size_t count)
+          -> std::unique_ptr<BroadPhase> { return std::make_unique<Pairs>(grids, count); },
+      obstacles, cloths);
+}
+
 }  // namespace weft

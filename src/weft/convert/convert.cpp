@@ -1,7 +1,6 @@
 #include "weft/convert.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "weft/convert/fit_samples.h"
 #include "weft/convert/sample.h"
 #include "weft/core/hash.h"
+#include "weft/core/stopwatch.h"
 #include "weft/cut/open_to_disk.h"
 #include "weft/cut/seam.h"
 #include "weft/error.h"
@@ -20,21 +20,6 @@
 
 namespace weft {
 namespace {
-
-class Stopwatch {
- public:
-  /// Seconds since the last call, or since the beginning.
-  double lap() {
-    const Clock::time_point now = Clock::now();
-    const std::chrono::duration<double> passed = now - last_;
-    last_ = now;
-    return passed.count();
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point last_ = Clock::now();
-};
 
 void check_size(int size) {
   if (size == automatic_size) return;

@@ -1,9 +1,9 @@
-#include <cctype>
 #include <filesystem>
 
 #include "weft/convert.h"
 #include "weft/convert/surface_places.h"
 #include "weft/convert/vertex_places.h"
+#include "weft/files.h"
 #include "weft/image/builtin.h"
 #include "weft/image_file.h"
 #include "weft/mesh.h"
@@ -46,8 +46,7 @@ MeshFile load_mesh_file(const std::string& name, const MeshFrame& files) {
 }  // namespace
 
 bool is_image_name(const std::string& name) {
-  std::string ending = std::filesystem::path(name).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = ending_of(name);
   return !name.starts_with(builtin_prefix) && (ending == ".exr" || ending == ".png");
 }
 

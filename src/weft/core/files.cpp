@@ -10,6 +10,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "weft/core/lower_case.h"
 #include "weft/error.h"
 
 namespace weft {
@@ -21,6 +22,10 @@ constexpr const char* reservation_size = "more room, or another place, is wanted
 std::string system_reason() { return std::strerror(errno); }
 
 }  // namespace
+
+std::string ending_of(const std::filesystem::path& path) {
+  return lower_case(path.extension().string());
+}
 
 std::string read_file(const fs::path& path) {
   std::error_code ignored;

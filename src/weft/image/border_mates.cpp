@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/core/disjoint_sets.h"
 #include "weft/error.h"
 #include "weft/geometry_image.h"
 
@@ -12,31 +13,6 @@ namespace {
 
 // Sample indices row * n + col fit an int up to here.
 constexpr int max_side = 46340;
-
-// Disjoint sets of border positions whose root is the member with the least sample.
-class Classes {
- public:
-  explicit Classes(int size) : size_(size), parent_(static_cast<std::size_t>(4 * (size - 1))) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int position) {
-    while (parent_[position] != position) {
-      parent_[position] = parent_[parent_[position]];
-      position = parent_[position];
-    }
-    return position;
-  }
-  void join(int a, int b) {
-    a = root(a);
-    b = root(b);
-    if (border_sample(size_, b) < border_sample(size_, a)) std::swap(a, b);
-    parent_[b] = a;
-  }
-
- private:
-  int size_;
-  std::vector<int> parent_;
-};
 
 std::string describe(const MateInterval& interval) {
   return fmt::format("mates {} {} {}", interval.first, interval.mate, interval.count);
@@ -98,7 +74,7 @@ BorderMates::BorderMates(int size, std::vector<MateInterval> intervals)
     throw InputError("", fmt::format("an image side of {}", size),
                      fmt::format("2 .. {}", max_side));
   const int around = 4 * (size - 1);
-  Classes classes(size);
+  DisjointSets classes(around);
   std::vector<bool> taken(static_cast<std::size_t>(around), false);
   for (MateInterval& interval : intervals_) {
     check_range(interval, around);
@@ -109,9 +85,14 @@ BorderMates::BorderMates(int size, std::vector<MateInterval> intervals)
     for (int k = 0; k <= interval.count; ++k)
       classes.join((interval.first + k) % around, (interval.mate + around - k) % around);
   }
+  // Of each class its least sample, which need not lie at its least position.
+  std::vector<int> least(static_cast<std::size_t>(around), size * size);
+  for (int t = 0; t < around; ++t) {
+    int& sample = least[classes.root(t)];
+    sample = std::min(sample, border_sample(size_, t));
+  }
   border_representative_.resize(static_cast<std::size_t>(around));
-  for (int t = 0; t < around; ++t)
-    border_representative_[t] = border_sample(size_, classes.root(t));
+  for (int t = 0; t < around; ++t) border_representative_[t] = least[classes.root(t)];
   collect_classes();
 }
 

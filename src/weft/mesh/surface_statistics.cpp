@@ -4,50 +4,13 @@
 #include <numeric>
 #include <tuple>
 
+#include "weft/core/disjoint_sets.h"
 #include "weft/mesh/edge_uses.h"
 #include "weft/mesh/surface_parts.h"
 #include "weft/mesh/topology.h"
 
 namespace weft {
 namespace {
-
-/// Disjoint sets with the parity of an element against its root.
-class ParitySets {
- public:
-  explicit ParitySets(int count) : parent_(count), parity_(count, 0) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  /// @param parity  of i against its root
-  int root(int i, int& parity) {
-    parity = 0;
-    while (parent_[i] != i) {
-      const int above = parent_[i];
-      parity_[i] ^= parity_[above];
-      parent_[i] = parent_[above];
-      parity ^= parity_[i];
-      i = parent_[i];
-    }
-    return i;
-  }
-  int root(int i) {
-    int parity = 0;
-    return root(i, parity);
-  }
-  /// Joins i and j with the given relative parity; false when they are joined already with the
-  /// other one.
-  bool join(int i, int j, int parity = 0) {
-    int pi = 0, pj = 0;
-    const int ri = root(i, pi), rj = root(j, pj);
-    if (ri == rj) return (pi ^ pj) == parity;
-    const auto [low, high] = std::minmax(ri, rj);
-    parent_[high] = low;
-    parity_[high] = pi ^ pj ^ parity;
-    return true;
-  }
-
- private:
-  std::vector<int> parent_, parity_;
-};
 
 /// Gathers the facts edge by edge. A corner of a triangle is named like the half-edge that leaves
 /// it; corners joined over the edges that they share at a vertex make a fan.
@@ -137,7 +100,7 @@ class SurfaceExamination {
   /// Border edges are joined where they meet in one fan, so that loops which touch at a
   /// non-manifold vertex stay two.
   void collect_loops() {
-    ParitySets loops(3 * static_cast<int>(mesh_.triangles.size()));
+    DisjointSets loops(3 * static_cast<int>(mesh_.triangles.size()));
     for_border([&](int h) { loops.join(fans_.root(h), fans_.root(HalfEdges::next(h))); });
     std::vector<int> loop_of(3 * mesh_.triangles.size(), -1);
     for_border([&](int h) {
@@ -170,7 +133,7 @@ class SurfaceExamination {
   MeshStatistics& statistics_;
   EdgeUses edges_;
   SurfaceParts parts_;
-  ParitySets turns_, fans_;
+  DisjointSets turns_, fans_;
 };
 
 }  // namespace

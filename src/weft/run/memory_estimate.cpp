@@ -24,20 +24,6 @@ constexpr double counted_cloth_bytes_per_sample = 330;
 constexpr double moving_bytes_per_sample = 64;
 constexpr double margin = 1.25, short_share = 0.8;
 
-/// Of a cloth of so many samples.
-struct ClothBytes {
-  double samples;
-  double operator()(const ExplicitOptions&) const { return 385 * samples; }
-  double operator()(const TwoLevelOptions&) const { return 445 * samples; }
-  double operator()(const NewtonOptions&) const { return 1150 * samples; }
-  double operator()(const MultigridOptions&) const { return 640 * samples; }
-  double operator()(const ImplicitOptions&) const { return 785 * samples; }
-  /// Its filter is one dense matrix.
-  double operator()(const DesbrunOptions&) const {
-    return 500 * samples + sizeof(float) * samples * samples;
-  }
-};
-
 double animation_bytes(const std::string& path) {
   std::error_code missing;  // is told when it is read
   const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
@@ -56,10 +42,11 @@ double samples_of(const Surface& surface, int size) {
 
 std::uint64_t estimate_memory(const Scene& scene) {
   double bytes = program_bytes;
-  const bool filtered = !std::holds_alternative<PolarMapOptions>(scene.collider);
+  const bool filtered = Colliders::traits_of(scene.collider).filters;
+  const IntegratorTraits needs = Integrators::traits_of(scene.integrator);
   for (const SceneCloth& cloth : scene.cloths) {
     const double samples = samples_of(cloth.surface, cloth.size);
-    bytes += std::visit(ClothBytes{samples}, scene.integrator);
+    bytes += needs.bytes_per_sample * samples + needs.bytes_per_pair * samples * samples;
     bytes += counted_cloth_bytes_per_sample * samples;
     if (filtered) bytes += colliding_cloth_bytes_per_sample * samples;
   }

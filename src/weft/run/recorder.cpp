@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "weft/cloth/cloth.h"
 #include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image_file.h"
@@ -9,9 +10,8 @@
 #include "weft/mesh/crossings.h"
 #include "weft/run.h"
 #include "weft/run/export/cache_manifest.h"
-#include "weft/run_folder.h"
-#include "weft/cloth/cloth.h"
 #include "weft/run/run_manifest.h"
+#include "weft/run_folder.h"
 
 namespace weft {
 

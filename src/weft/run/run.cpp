@@ -1,10 +1,10 @@
 #include "weft/run.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/format.h>
 
+#include "weft/cloth/cloth.h"
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/run.h"
@@ -14,7 +14,7 @@
 #include "weft/run/run_identity.h"
 #include "weft/scene_file.h"
 #include "weft/sim/insides.h"
-#include "weft/cloth/cloth.h"
+#include "weft/core/stopwatch.h"
 
 namespace weft {
 namespace {
@@ -60,15 +60,13 @@ class CheckpointClock {
   [[nodiscard]] bool off() const { return frames_ == 0; }
   [[nodiscard]] bool is_due(int frame) const {
     if (frames_) return *frames_ > 0 && frame % *frames_ == 0;
-    const std::chrono::duration<double> passed = Clock::now() - last_;
-    return passed.count() >= default_seconds_between_checkpoints;
+    return since_.seconds() >= default_seconds_between_checkpoints;
   }
-  void written() { last_ = Clock::now(); }
+  void written() { since_ = {}; }
 
  private:
-  using Clock = std::chrono::steady_clock;
   std::optional<int> frames_;
-  Clock::time_point last_ = Clock::now();
+  Stopwatch since_;  // the last one
 };
 
 /// What is known before the first frame.
@@ -218,8 +216,9 @@ class Run {
     if (tangled_pairs(counts) == 0) {
       report_.untangled_frame = 0;
     } else if (options_.tell) {
-      const char* then = knows_self_collision(scene_.collider) ? "the run takes them apart"
-                                                               : "this collider leaves them so";
+      const char* then = Colliders::traits_of(scene_.collider).self_collision
+                             ? "the run takes them apart"
+                             : "this collider leaves them so";
       options_.tell(fmt::format("at the start {}; {}", tangle_text(counts), then));
     }
   }

@@ -16,9 +16,9 @@
 #include "weft/image_file.h"
 #include "weft/run/export/point_frames.h"
 #include "weft/run/export/surface_points.h"
+#include "weft/run/run_manifest.h"
 #include "weft/sim/placement.h"
 #include "weft/sim/scene_file/scene_parts.h"
-#include "weft/run/run_manifest.h"
 
 namespace weft {
 namespace {

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "weft/cloth/cloth.h"
 #include "weft/core/hash.h"
 #include "weft/core/json_text.h"
 #include "weft/core/parse_json.h"
 #include "weft/files.h"
 #include "weft/scene_file.h"
-#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {

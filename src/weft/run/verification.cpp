@@ -1,7 +1,8 @@
 #include "weft/run/verification.h"
-#include "weft/cloth/cloth.h"
 
 #include <algorithm>
+
+#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {

@@ -5,15 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/measure.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
+#include "weft/core/thread_team.h"
 #include "weft/error.h"
 #include "weft/fabric.h"
 #include "weft/image/builtin.h"
 #include "weft/sim/shadow.h"
-#include "weft/cloth/integrator.h"
-#include "weft/core/thread_team.h"
 
 namespace weft {
 namespace {

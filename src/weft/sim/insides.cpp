@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "weft/geometry_image.h"
 #include "weft/cloth/cloth.h"
+#include "weft/geometry_image.h"
 
 namespace weft {
 namespace {

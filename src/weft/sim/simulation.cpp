@@ -5,14 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "weft/cloth/cloth.h"
 #include "weft/cloth/measure.h"
 #include "weft/core/assert.h"
 #include "weft/core/hash.h"
+#include "weft/core/stopwatch.h"
 #include "weft/error.h"
 #include "weft/scene_file.h"
 #include "weft/sim/stepping/simulation_parts.h"
-#include "weft/sim/stepping/stage_clock.h"
-#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {
@@ -141,7 +141,7 @@ Simulation::~Simulation() = default;
 
 FrameReport Simulation::advance() {
   FrameReport report;
-  StageClock clock;
+  Stopwatch clock;
   const int substeps = parts_->scene.substeps;
   // A frame follows from what save keeps alone, so that a run can be resumed at any.
   for (const auto& mover : parts_->movers) mover.integrator->forget();
@@ -152,7 +152,7 @@ FrameReport Simulation::advance() {
                std::max(parts_->frame + 1, parts_->scene.frames));
     parts_->substep(parts_->frame * substeps + substep, report);
   }
-  report.milliseconds += clock.lap();
+  report.milliseconds += clock.lap_ms();
   parts_->measure(report);
   ++parts_->frame;
   return report;

@@ -106,8 +106,9 @@ class Desbrun final : public FilteredIntegrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_desbrun(const Cloth& cloth, const StepInput& typical,
-                                         ThreadTeam& team) {
+std::unique_ptr<Integrator> make_integrator_of(const DesbrunOptions& /*options*/,
+                                               const Cloth& cloth, const StepInput& typical,
+                                               ThreadTeam& team) {
   const std::int64_t bytes = std::int64_t{4} * cloth.particles * cloth.particles;
   if (bytes > max_matrix_bytes)
     throw SceneError("integrator.type",

@@ -95,8 +95,9 @@ class Explicit final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_explicit(const Cloth& cloth, const StepInput& typical,
-                                          ThreadTeam& team) {
+std::unique_ptr<Integrator> make_integrator_of(const ExplicitOptions& /*options*/,
+                                               const Cloth& cloth, const StepInput& typical,
+                                               ThreadTeam& team) {
   return std::make_unique<Explicit>(cloth, typical, team);
 }
 

@@ -210,8 +210,8 @@ class Implicit final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_implicit(const ImplicitOptions& options, const Cloth& cloth,
-                                          ThreadTeam& team) {
+std::unique_ptr<Integrator> make_integrator_of(const ImplicitOptions& options, const Cloth& cloth,
+                                               const StepInput& /*typical*/, ThreadTeam& team) {
   if (options.max_iterations < 1)
     throw SceneError("integrator.max_iterations", fmt::format("{}", options.max_iterations),
                      "at least 1");

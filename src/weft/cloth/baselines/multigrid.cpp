@@ -63,8 +63,8 @@ class Multigrid final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_multigrid(const MultigridOptions& options, const Cloth& cloth,
-                                           const StepInput& typical, ThreadTeam& team) {
+std::unique_ptr<Integrator> make_integrator_of(const MultigridOptions& options, const Cloth& cloth,
+                                               const StepInput& typical, ThreadTeam& team) {
   if (options.max_iterations < 1)
     throw SceneError("integrator.max_iterations", fmt::format("{}", options.max_iterations),
                      "at least 1");

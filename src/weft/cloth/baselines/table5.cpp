@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -13,6 +12,7 @@
 #include "weft/cloth/baselines/strain_limit.h"
 #include "weft/cloth/integrator.h"
 #include "weft/core/math.h"
+#include "weft/core/stopwatch.h"
 
 namespace weft {
 namespace {
@@ -49,9 +49,9 @@ constexpr double strain_limit = 0.05;
 const StepInput step_input{frame_step, {0, -9.81F, 0}};
 
 double seconds_of(const auto& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return watch.seconds();
 }
 
 /// The sheet in the xz plane, and how it starts.

@@ -141,8 +141,8 @@ void check(const TwoLevelOptions& options, int n) {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_two_level(const TwoLevelOptions& options, const Cloth& cloth,
-                                           const StepInput& typical, ThreadTeam& team) {
+std::unique_ptr<Integrator> make_integrator_of(const TwoLevelOptions& options, const Cloth& cloth,
+                                               const StepInput& typical, ThreadTeam& team) {
   TwoLevelOptions chosen = options;
   if (chosen.global_size == 0) chosen.global_size = default_global_size(cloth.size);
   check(chosen, cloth.size);

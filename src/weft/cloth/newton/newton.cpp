@@ -122,8 +122,8 @@ std::unique_ptr<JointIntegrator> Newton::join(std::span<Integrator* const> all, 
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_newton(const NewtonOptions& options, const Cloth& cloth,
-                                        ThreadTeam& team) {
+std::unique_ptr<Integrator> make_integrator_of(const NewtonOptions& options, const Cloth& cloth,
+                                               const StepInput& /*typical*/, ThreadTeam& team) {
   if (options.max_iterations < 1)
     throw SceneError("integrator.max_iterations", fmt::format("{}", options.max_iterations),
                      "at least 1");

@@ -2,32 +2,14 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
+
+#include "weft/core/disjoint_sets.h"
 
 namespace weft {
 namespace {
 
 float& at(PaddedPlane& plane, int n, int sample) { return plane(sample / n, sample % n); }
-
-/// Sets of samples that grow together.
-class DisjointSets {
- public:
-  explicit DisjointSets(int count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) {
-    const int first = root(a), second = root(b);
-    parent_[std::max(first, second)] = std::min(first, second);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 }  // namespace
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "weft/collide/contact_pipeline.h"
+
 namespace weft {
 namespace {
 
@@ -199,6 +201,12 @@ void ImageSpacePairs::find_self(int surface, float reach, float slack, ThreadTea
       if (other > block && !touch(of, block, other)) pair_with(block, other, mine);
     }
   });
+}
+
+std::unique_ptr<Collider> make_collider_of(const ImageSpaceOptions& /*options*/,
+                                           const Obstacles& obstacles,
+                                           std::span<const CollidingCloth> cloths) {
+  return make_pipeline<ImageSpacePairs>(obstacles, cloths);
 }
 
 }  // namespace weft

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "weft/collide/contact_pipeline.h"
+
 namespace weft {
 namespace {
 
@@ -191,6 +193,12 @@ void SpatialHashPairs::find_self(int surface, float reach, float slack, ThreadTe
         mine.push_back({cell, other});
     });
   });
+}
+
+std::unique_ptr<Collider> make_collider_of(const SpatialHashOptions& /*options*/,
+                                           const Obstacles& obstacles,
+                                           std::span<const CollidingCloth> cloths) {
+  return make_pipeline<SpatialHashPairs>(obstacles, cloths);
 }
 
 }  // namespace weft

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/collide/contact_pipeline.h"
+
 namespace weft {
 namespace {
 
@@ -175,6 +177,12 @@ void SphereTreePairs::find_self(int surface, float reach, float slack, ThreadTea
               if (!folds.unfolded(CandidatePair{a, b})) mine.push_back({a, b});
             });
       });
+}
+
+std::unique_ptr<Collider> make_collider_of(const SphereTreeOptions& /*options*/,
+                                           const Obstacles& obstacles,
+                                           std::span<const CollidingCloth> cloths) {
+  return make_pipeline<SphereTreePairs>(obstacles, cloths);
 }
 
 }  // namespace weft

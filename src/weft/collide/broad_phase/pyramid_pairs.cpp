@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "weft/collide/contact_pipeline.h"
+
 namespace weft {
 namespace {
 
@@ -180,6 +182,12 @@ void PyramidPairs::find_self(int surface, float reach, float slack, ThreadTeam& 
               descend_self(
                   search, self_tasks_[task], [](const NodePair&) { return false; }, emit);
             });
+}
+
+std::unique_ptr<Collider> make_collider_of(const PyramidOptions& /*options*/,
+                                           const Obstacles& obstacles,
+                                           std::span<const CollidingCloth> cloths) {
+  return make_pipeline<PyramidPairs>(obstacles, cloths);
 }
 
 }  // namespace weft

@@ -135,22 +135,8 @@ void IntersectionContours::collect_nodes(const StandingPair& pair) {
   }
 }
 
-int IntersectionContours::root(int node) {
-  int flips = 0, at = node;
-  while (parent_[at] != at) {
-    flips ^= flip_[at];
-    at = parent_[at];
-  }
-  // Straight to the root from now on.
-  parent_[node] = at;
-  flip_[node] = flips;
-  return at;
-}
-
 void IntersectionContours::join() {
-  parent_.resize(nodes_.size());
-  flip_.assign(nodes_.size(), 0);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) parent_[i] = static_cast<int>(i);
+  sets_.reset(static_cast<int>(nodes_.size()));
   for (const Segment& segment : segments_) {
     std::array<int, 2> ends{-1, -1};
     for (int k = 0; k < segment.count; ++k) {
@@ -161,12 +147,8 @@ void IntersectionContours::join() {
     const Vec3d displacement = normalized(nodes_[ends[1]].point - nodes_[ends[0]].point);
     nodes_[ends[0]].onwards += displacement;
     nodes_[ends[1]].onwards -= displacement;
-    const int a = root(ends[0]), b = root(ends[1]);
-    if (a == b) continue;
     const int swap = segment.ends[0].of_first != segment.ends[1].of_first ? 1 : 0;
-    const int flips = flip_[ends[0]] ^ flip_[ends[1]] ^ swap;
-    parent_[std::max(a, b)] = std::min(a, b);
-    flip_[std::max(a, b)] = flips;
+    sets_.join(ends[0], ends[1], swap);
   }
 }
 
@@ -174,10 +156,10 @@ void IntersectionContours::name_contours() {
   names_.assign(nodes_.size(), -1);
   contours_ = 0;
   for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
-    const int of = root(i);
+    const int of = sets_.root(i);
     if (names_[of] < 0) names_[of] = contours_++;
     nodes_[i].contour = names_[of];
-    nodes_[i].layer = of == i ? 0 : flip_[i];
+    nodes_[i].layer = sets_.parity(i);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "weft/collide/broad_phase/candidate_pairs.h"
 #include "weft/collide/broad_phase/chunks.h"
 #include "weft/collide/moving_surface.h"
+#include "weft/core/disjoint_sets.h"
 #include "weft/core/thread_team.h"
 
 namespace weft {
@@ -77,13 +78,11 @@ class IntersectionContours {
   void name_contours();
   [[nodiscard]] int node_of(const Crossing& crossing) const;
   /// The node that stands for one's contour; layers become relative to it.
-  int root(int node);
 
   ChunkedLists<std::vector<Segment>> found_;
   std::vector<Segment> segments_;
   std::vector<ContourNode> nodes_;
-  std::vector<int> parent_,
-      flip_;  // of nodes: towards the root, and whether layers swap on the way
+  DisjointSets sets_;  // of nodes; parities tell whether layers swap on the way
   std::vector<int> names_;
   int contours_ = 0;
 };

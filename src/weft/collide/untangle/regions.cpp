@@ -4,20 +4,12 @@
 
 namespace weft {
 
-int Regions::root(int sample) {
-  while (parent_[sample] != sample) {
-    parent_[sample] = parent_[parent_[sample]];
-    sample = parent_[sample];
-  }
-  return sample;
-}
-
 void Regions::find(const SurfaceGrid& grid, std::span<const CutEdge> cut) {
   const int n = grid.size(), count = n * n;
-  parent_.resize(static_cast<std::size_t>(count));
+  sets_.reset(count);
   touched_.assign(static_cast<std::size_t>(count), 0);
+  roots_.resize(static_cast<std::size_t>(count));
   sizes_.assign(static_cast<std::size_t>(count), 0);
-  for (int s = 0; s < count; ++s) parent_[s] = s;
   for (const CutEdge& edge : cut) touched_[edge[0]] = touched_[edge[1]] = 1;
   const auto join = [&](int from, int to) {
     const auto [p, q] = std::minmax({grid.point(from), grid.point(to)});
@@ -25,8 +17,7 @@ void Regions::find(const SurfaceGrid& grid, std::span<const CutEdge> cut) {
       const auto [first, last] = std::equal_range(cut.begin(), cut.end(), CutEdge{p, q});
       if ((last - first) % 2 != 0) return;
     }
-    const int a = root(p), b = root(q);
-    parent_[std::max(a, b)] = std::min(a, b);
+    sets_.join(p, q);
   };
   for (int cell = 0; cell < grid.cells() * grid.cells(); ++cell)
     for (int half = 0; half < 2; ++half) {
@@ -35,8 +26,8 @@ void Regions::find(const SurfaceGrid& grid, std::span<const CutEdge> cut) {
     }
   for (int s = 0; s < count; ++s) {
     if (grid.point(s) != s) continue;
-    parent_[s] = root(s);
-    ++sizes_[parent_[s]];
+    roots_[s] = sets_.root(s);
+    ++sizes_[roots_[s]];
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "weft/collide/moving_surface.h"
+#include "weft/core/disjoint_sets.h"
 
 namespace weft {
 
@@ -17,15 +18,14 @@ class Regions {
   /// @param cut  ascending; an edge that is there twice is whole
   void find(const SurfaceGrid& grid, std::span<const CutEdge> cut);
   /// The part that a sample (which stands for its class) is in, by its least sample.
-  [[nodiscard]] int of(int sample) const { return parent_[sample]; }
+  [[nodiscard]] int of(int sample) const { return roots_[sample]; }
   /// How many samples a part has.
   [[nodiscard]] int size(int region) const { return sizes_[region]; }
 
  private:
-  int root(int sample);
-
-  std::vector<int> parent_, sizes_;  // [n * n]
-  std::vector<char> touched_;        // [n * n] whether cut edges begin there
+  DisjointSets sets_;               // of samples
+  std::vector<int> roots_, sizes_;  // [n * n]
+  std::vector<char> touched_;       // [n * n] whether cut edges begin there
 };
 
 }  // namespace weft

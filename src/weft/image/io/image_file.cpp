@@ -15,12 +15,6 @@ namespace {
 
 constexpr float full_scale = 65535;
 
-std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
-
 void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
   write_file(path, [&](std::ostream& out) {
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

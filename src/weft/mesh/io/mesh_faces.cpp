@@ -7,8 +7,7 @@ namespace weft {
 namespace {
 
 bool is_obj(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = ending_of(path);
   return ending == ".obj";
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/core/lower_case.h"
 #include "weft/error.h"
 #include "weft/mesh.h"
 #include "weft/mesh/io/byte_reader.h"
@@ -17,19 +18,13 @@ namespace {
 constexpr std::size_t header_size = 84;  // 80 bytes of text and the count
 constexpr std::size_t facet_size = 50;   // normal, three corners, two spare bytes
 
-std::string lower(std::string_view word) {
-  std::string result(word);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
 /// Facets of a text file hold their corners between "outer loop" and "endloop".
 class TextFacets {
  public:
   TextFacets(std::string_view bytes, std::string_view name) : reader_(bytes, name) {}
 
   TriangleMesh read() {
-    while (reader_.next_filled_line()) take_line(lower(reader_.next_field()));
+    while (reader_.next_filled_line()) take_line(lower_case(reader_.next_field()));
     if (inside_) reader_.fail("the file ends inside a solid", "endsolid is wanted");
     return std::move(mesh_);
   }
@@ -97,7 +92,7 @@ TriangleMesh read_binary(std::string_view bytes, std::string_view name) {
 /// Many binary files begin with "solid", so only the size tells.
 bool looks_like_text(std::string_view bytes) {
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-  return start != bytes.npos && lower(bytes.substr(start, 5)) == "solid" &&
+  return start != bytes.npos && lower_case(bytes.substr(start, 5)) == "solid" &&
          bytes.find('\0') == bytes.npos;
 }
 

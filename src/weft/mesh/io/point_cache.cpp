@@ -19,12 +19,6 @@ constexpr std::string_view pc2_signature{"POINTCACHE2\0", 12};
 constexpr std::size_t pc2_header = 32, mdd_header = 8;
 constexpr std::size_t word = 4, point_size = 3 * word;
 
-std::string ending_of(const std::filesystem::path& name) {
-  std::string ending = name.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
-
 /// What a header says that the rest of the file holds.
 struct Counts {
   std::uint64_t points, samples;

@@ -15,8 +15,7 @@ using Parser = TriangleMesh (*)(std::string_view, std::string_view);
 TriangleMesh parse_by_ending(std::string_view bytes, const std::filesystem::path& path) {
   constexpr std::array<std::pair<std::string_view, Parser>, 4> parsers{
       {{".obj", parse_obj}, {".off", parse_off}, {".ply", parse_ply}, {".stl", parse_stl}}};
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = ending_of(path);
   for (const auto& [known, parser] : parsers)
     if (known == ending) return parser(bytes, path.string());
   if (ending == ".glb" || ending == ".gltf")

@@ -49,8 +49,7 @@ std::string ply_bytes(const TriangleMesh& mesh) {
 }
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = ending_of(path);
   if (ending != ".obj" && ending != ".ply")
     throw UsageError(path.string(), "a mesh cannot be written with the ending '" + ending + "'",
                      ".obj or .ply is wanted");

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "weft/simulation.h"
 #include "weft/cloth/cloth.h"
+#include "weft/simulation.h"
 
 namespace weft {
 namespace {

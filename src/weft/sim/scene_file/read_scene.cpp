@@ -155,11 +155,12 @@ void check_abilities(const Scene& scene, const std::string& name) {
                wanted);
   };
   for (std::size_t i = 0; i < scene.cloths.size(); ++i)
-    if (scene.cloths[i].self_collision.value_or(false) && !knows_self_collision(scene.collider))
+    if (scene.cloths[i].self_collision.value_or(false) &&
+        !Colliders::traits_of(scene.collider).self_collision)
       refuse(root.key("cloths").element(i).key("self_collision"), "true is", "false is wanted");
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const SceneBody& body = scene.bodies[i];
-    if (knows_moving_bodies(scene.collider)) continue;
+    if (Colliders::traits_of(scene.collider).moving_bodies) continue;
     for (const auto& [key, given] : {std::pair{"motion", !body.motion.empty()},
                                      std::pair{"animation", !body.animation.empty()}})
       if (given)

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 namespace weft::scene_keys {
 
@@ -12,18 +13,17 @@ inline constexpr std::array<std::string_view, 13> scene{
     "version",    "gravity",  "frame_rate", "substeps", "frames", "ground", "wind",
     "integrator", "collider", "unit",       "up",       "cloths", "bodies"};
 inline constexpr std::array<std::string_view, 3> wind{"velocity", "drag", "lift"};
-inline constexpr std::array<std::string_view, 2> explicit_integrator{"type", "limiter_passes"};
-inline constexpr std::array<std::string_view, 2> desbrun_integrator{"type", "limiter_passes"};
-inline constexpr std::array<std::string_view, 3> newton_integrator{"type", "max_iterations",
-                                                                   "tolerance"};
-inline constexpr std::array<std::string_view, 3> implicit_integrator{"type", "max_iterations",
-                                                                     "tolerance"};
-inline constexpr std::array<std::string_view, 4> multigrid_integrator{
-    "type", "limiter_passes", "max_iterations", "tolerance"};
-inline constexpr std::array<std::string_view, 6> two_level_integrator{
-    "type", "limiter_passes", "local_size", "global_size", "as_printed", "filter_stiffness"};
-inline constexpr std::array<std::string_view, 1> pipeline_collider{"type"};
-inline constexpr std::array<std::string_view, 3> polar_map_collider{"type", "size", "walk"};
+inline constexpr std::string_view limiter_passes = "limiter_passes";
+/// Of an integrator or a collider, see weft/methods.h.
+template <class Options>
+std::vector<std::string_view> of_method() {
+  std::vector<std::string_view> keys{"type"};
+  if constexpr (requires { Options::traits.has_limiter; })
+    if (Options::traits.has_limiter) keys.push_back(limiter_passes);
+  Options::visit_options(
+      [&](std::string_view key, auto /*member*/, const auto& /*range*/) { keys.push_back(key); });
+  return keys;
+}
 inline constexpr std::array<std::string_view, 12> cloth{
     "name",     "surface",        "size",     "scale",    "rotate", "translate",
     "material", "self_collision", "friction", "velocity", "pins",   "attach"};

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "weft/sim/scene_file/scene_keys.h"
@@ -7,9 +8,7 @@
 namespace weft {
 namespace {
 
-constexpr int max_iterations = 1'000'000;
 constexpr int max_passes = 10'000;
-constexpr int largest_table = 8193;
 
 /// The `type` of a method, looked at before its other keys, which depend on it.
 std::string type_of(const nlohmann::json& value, const JsonPlace& place,
@@ -21,78 +20,57 @@ std::string type_of(const nlohmann::json& value, const JsonPlace& place,
   return at->get<std::string>();
 }
 
-/// Of the methods that iterate to a tolerance.
-template <class Options>
-Options read_iterative(const JsonObject& object) {
-  Options options;
-  options.max_iterations =
-      object.integer("max_iterations", options.max_iterations, 1, max_iterations);
-  options.tolerance = object.number("tolerance", options.tolerance, positive);
-  return options;
+void read_option(const JsonObject& object, std::string_view key, bool& value, OptionRange) {
+  value = object.boolean(key, value);
 }
 
-TwoLevelOptions read_two_level(const JsonObject& object) {
-  TwoLevelOptions options;
-  options.local_size = object.integer("local_size", options.local_size, 3, largest_image_size);
-  if (options.local_size % 2 == 0)
-    object.place()
-        .key("local_size")
-        .fail(fmt::format("{}", options.local_size), "an odd number is wanted");
-  options.global_size = object.integer("global_size", options.global_size, 0, largest_image_size);
-  options.as_printed = object.boolean("as_printed", options.as_printed);
-  options.filter_stiffness =
-      object.number("filter_stiffness", options.filter_stiffness, not_negative);
-  return options;
+void read_option(const JsonObject& object, std::string_view key, double& value, OptionRange range) {
+  value = object.number(key, value, {range.min, range.max, range.above_min});
 }
 
-std::optional<int> read_passes(const JsonObject& object) {
-  if (!object.has("limiter_passes")) return std::nullopt;
-  return object.integer("limiter_passes", 0, 0, max_passes);
+void read_option(const JsonObject& object, std::string_view key, int& value, OptionRange range) {
+  value = object.integer(key, value, static_cast<int>(range.min), static_cast<int>(range.max));
+  if (range.odd && value % 2 == 0)
+    object.place().key(key).fail(fmt::format("{}", value), "an odd number is wanted");
+}
+
+/// @param kind  "integrator" or the like
+template <class Methods>
+typename Methods::Variant read_method(const nlohmann::json& value, const JsonPlace& place,
+                                      std::string_view kind) {
+  const std::string type = type_of(value, place, Methods::names().front());
+  auto method = Methods::find(type);
+  if (!method)
+    place.key("type").fail(fmt::format("unknown {} '{}'", kind, type),
+                           fmt::format("known are: {}", fmt::join(Methods::names(), ", ")));
+  std::visit(
+      [&]<class Options>(Options& options) {
+        const std::vector<std::string_view> keys = scene_keys::of_method<Options>();
+        const JsonObject object(value, place, keys);
+        Options::visit_options([&](std::string_view key, auto member, OptionRange range) {
+          read_option(object, key, options.*member, range);
+        });
+      },
+      *method);
+  return *method;
 }
 
 }  // namespace
 
 IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& place,
                                   std::optional<int>& limiter_passes) {
-  const std::string type = type_of(value, place, name_of(IntegratorOptions{}));
-  const auto read = [&](std::span<const std::string_view> keys,
-                        const auto& options_of) -> IntegratorOptions {
-    const JsonObject object(value, place, keys);
-    limiter_passes = read_passes(object);
-    return options_of(object);
-  };
-  if (type == name_of(NewtonOptions{}))
-    return read(scene_keys::newton_integrator, read_iterative<NewtonOptions>);
-  if (type == name_of(ImplicitOptions{}))
-    return read(scene_keys::implicit_integrator, read_iterative<ImplicitOptions>);
-  if (type == name_of(MultigridOptions{}))
-    return read(scene_keys::multigrid_integrator, read_iterative<MultigridOptions>);
-  if (type == name_of(TwoLevelOptions{}))
-    return read(scene_keys::two_level_integrator, read_two_level);
-  if (type == name_of(ExplicitOptions{}))
-    return read(scene_keys::explicit_integrator,
-                [](const JsonObject&) { return ExplicitOptions{}; });
-  if (type == name_of(DesbrunOptions{}))
-    return read(scene_keys::desbrun_integrator, [](const JsonObject&) { return DesbrunOptions{}; });
-  place.key("type").fail(fmt::format("unknown integrator '{}'", type),
-                         "known are: newton, implicit, explicit, desbrun, two_level, multigrid");
+  const IntegratorOptions options = read_method<Integrators>(value, place, "integrator");
+  if (!Integrators::traits_of(options).has_limiter) return options;
+  const std::vector<std::string_view> keys = std::visit(
+      []<class Options>(const Options&) { return scene_keys::of_method<Options>(); }, options);
+  const JsonObject object(value, place, keys);
+  if (object.has(scene_keys::limiter_passes))
+    limiter_passes = object.integer(scene_keys::limiter_passes, 0, 0, max_passes);
+  return options;
 }
 
 ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place) {
-  const std::string type = type_of(value, place, name_of(ColliderOptions{}));
-  const std::optional<ColliderOptions> named = collider_named(type);
-  if (!named)
-    place.key("type").fail(fmt::format("unknown collider '{}'", type),
-                           "known are: pyramid, polar_map, sphere_tree, spatial_hash, image_space");
-  if (!std::holds_alternative<PolarMapOptions>(*named)) {
-    const JsonObject object(value, place, scene_keys::pipeline_collider);
-    return *named;
-  }
-  const JsonObject object(value, place, scene_keys::polar_map_collider);
-  PolarMapOptions options;
-  options.size = object.integer("size", options.size, 0, largest_table);
-  options.walk = object.boolean("walk", options.walk);
-  return options;
+  return read_method<Colliders>(value, place, "collider");
 }
 
 }  // namespace weft

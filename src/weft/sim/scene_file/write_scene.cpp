@@ -29,34 +29,18 @@ std::string surface_text(const Surface& surface, const fs::path& folder) {
       .string();
 }
 
-struct IntegratorWriter {
-  Json operator()(const ImplicitOptions& o) const { return iterative(o); }
-  Json operator()(const NewtonOptions& o) const { return iterative(o); }
-  Json operator()(const MultigridOptions& o) const { return iterative(o); }
-  Json operator()(const ExplicitOptions& o) const { return {{"type", name_of(o)}}; }
-  Json operator()(const DesbrunOptions& o) const { return {{"type", name_of(o)}}; }
-  Json operator()(const TwoLevelOptions& o) const {
-    return {{"type", name_of(o)},
-            {"local_size", o.local_size},
-            {"global_size", o.global_size},
-            {"as_printed", o.as_printed},
-            {"filter_stiffness", o.filter_stiffness}};
-  }
-
- private:
-  template <class Options>
-  static Json iterative(const Options& o) {
-    return {{"type", name_of(o)}, {"max_iterations", o.max_iterations}, {"tolerance", o.tolerance}};
-  }
-};
-
-Json collider_json(const ColliderOptions& options) {
-  Json json{{"type", name_of(options)}};
-  if (const auto* polar_map = std::get_if<PolarMapOptions>(&options)) {
-    json["size"] = polar_map->size;
-    json["walk"] = polar_map->walk;
-  }
-  return json;
+/// An integrator or a collider, with every option.
+template <class Method>
+Json method_json(const Method& method) {
+  return std::visit(
+      []<class Options>(const Options& options) {
+        Json json{{"type", Options::name}};
+        Options::visit_options([&](std::string_view key, auto member, const auto& /*range*/) {
+          json[std::string(key)] = options.*member;
+        });
+        return json;
+      },
+      method);
 }
 
 /// One number where warp and weft are alike.
@@ -143,14 +127,14 @@ Json scene_json(const Scene& scene, const fs::path& folder) {
     json["wind"]["drag"] = scene.wind->drag;
     json["wind"]["lift"] = scene.wind->lift;
   }
-  json["integrator"] = std::visit(IntegratorWriter{}, scene.integrator);
-  if (scene.limiter_passes && has_limiter(scene.integrator))
+  json["integrator"] = method_json(scene.integrator);
+  if (scene.limiter_passes && Integrators::traits_of(scene.integrator).has_limiter)
     json["integrator"]["limiter_passes"] = *scene.limiter_passes;
-  json["collider"] = collider_json(scene.collider);
+  json["collider"] = method_json(scene.collider);
   json["unit"] = scene.files.unit.name;
   json["up"] = scene.files.up();
   json["cloths"] = Json::array();
-  const bool able = knows_self_collision(scene.collider);
+  const bool able = Colliders::traits_of(scene.collider).self_collision;
   for (const SceneCloth& cloth : scene.cloths)
     json["cloths"].push_back(
         cloth_json(cloth, able && cloth.self_collision.value_or(true), folder));

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/cloth/cloth.h"
 #include "weft/core/math.h"
 #include "weft/sim/stepping/simulation_parts.h"
-#include "weft/cloth/cloth.h"
 
 namespace weft {
 namespace {

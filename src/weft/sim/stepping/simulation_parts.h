@@ -7,7 +7,11 @@
 
 #include "weft/cloth/baselines/coarse_limit.h"
 #include "weft/cloth/baselines/strain_limit.h"
+#include "weft/cloth/cloth.h"
 #include "weft/cloth/energy_meter.h"
+#include "weft/cloth/integrator.h"
+#include "weft/cloth/wind.h"
+#include "weft/collide/collider.h"
 #include "weft/sim/insides.h"
 #include "weft/sim/motion/attachments.h"
 #include "weft/sim/motion/driven_bodies.h"
@@ -16,12 +20,8 @@
 #include "weft/sim/stepping/adaptive_substeps.h"
 #include "weft/sim/stepping/driven_work.h"
 #include "weft/sim/stepping/runaway.h"
-#include "weft/simulation.h"
-#include "weft/cloth/cloth.h"
-#include "weft/cloth/integrator.h"
-#include "weft/cloth/wind.h"
-#include "weft/collide/collider.h"
 #include "weft/sim/stepping/step_levels.h"
+#include "weft/simulation.h"
 
 namespace weft {
 
@@ -60,7 +60,7 @@ struct Simulation::Parts {
         lone_team({1, given_team.instructions}),
         substep_time(1 / (scene.frame_rate * scene.substeps)),
         time_step(substep_time),
-        soft(std::holds_alternative<TwoLevelOptions>(scene.integrator)) {}
+        soft(Integrators::traits_of(scene.integrator).soft_springs) {}
 
   LoadedSurface load(const Surface& surface, ConvertOptions options, const std::string& what);
   Cloth make(const SceneCloth& wanted, const Planes3& rest, const BorderMates& mates) const;
@@ -144,9 +144,7 @@ struct Simulation::Parts {
   [[nodiscard]] Vec3d centre() const;
   /// Only implicit methods heed contacts; the others are pushed out at the end of the step.
   [[nodiscard]] bool heeds_contacts() const {
-    return std::holds_alternative<NewtonOptions>(scene.integrator) ||
-           std::holds_alternative<MultigridOptions>(scene.integrator) ||
-           std::holds_alternative<ImplicitOptions>(scene.integrator);
+    return Integrators::traits_of(scene.integrator).heeds_contacts;
   }
   /// Who steps the cloths: all of them alike, as they may be solved together.
   [[nodiscard]] ThreadTeam& solvers() {

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "weft/cloth/cloth.h"
 #include "weft/error.h"
 #include "weft/geometry_image.h"
+#include "weft/image/diagonals.h"
 #include "weft/scene_file.h"
 #include "weft/sim/placement.h"
 #include "weft/sim/stepping/simulation_parts.h"
-#include "weft/cloth/cloth.h"
-#include "weft/image/diagonals.h"
 
 namespace weft {
 namespace {
@@ -120,7 +120,8 @@ void Simulation::Parts::tie_cloths() {
 
 void Simulation::Parts::find_insides() {
   for (const SimulatedCloth& cloth : cloths) {
-    start_sides.push_back(find_start_sides(cloth, bodies, knows_containers(scene.collider), team));
+    start_sides.push_back(
+        find_start_sides(cloth, bodies, Colliders::traits_of(scene.collider).containers, team));
     const std::vector<StartInside>& found = start_sides.back().inside;
     insides.insert(insides.end(), found.begin(), found.end());
   }
@@ -142,12 +143,12 @@ void Simulation::Parts::make_collider_of_scene() {
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
     max_approach_in_step = std::min(max_approach_in_step, max_way_in_gaps * gap_of(*cloth.model));
-    colliding.push_back(
-        {cloth.model->mates, cloth.model->size, choose_diagonals(cloth.image), gap_of(*cloth.model),
-         scene.cloths[i].friction, cloth.model->rest_spacing,
-         knows_self_collision(scene.collider) && scene.cloths[i].self_collision.value_or(true),
-         self_gap_of(*cloth.model), &cloth.model->rest, start_sides[i].kept_in,
-         start_sides[i].wrong_side});
+    colliding.push_back({cloth.model->mates, cloth.model->size, choose_diagonals(cloth.image),
+                         gap_of(*cloth.model), scene.cloths[i].friction, cloth.model->rest_spacing,
+                         Colliders::traits_of(scene.collider).self_collision &&
+                             scene.cloths[i].self_collision.value_or(true),
+                         self_gap_of(*cloth.model), &cloth.model->rest, start_sides[i].kept_in,
+                         start_sides[i].wrong_side});
   }
   collider = make_collider(scene.collider, obstacles, colliding);
   collider->share_contacts(joint != nullptr);

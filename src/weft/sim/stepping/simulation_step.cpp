@@ -11,10 +11,10 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/contact_point.h"
-#include "weft/sim/stepping/simulation_parts.h"
-#include "weft/sim/stepping/stage_clock.h"
 #include "weft/cloth/cloth.h"
+#include "weft/core/contact_point.h"
+#include "weft/core/stopwatch.h"
+#include "weft/sim/stepping/simulation_parts.h"
 
 namespace weft {
 namespace {
@@ -27,32 +27,25 @@ constexpr int rounds_of_soft_springs = 4;
 /// the material's. [zink07]
 constexpr double strain_of_soft_springs = 0.05;
 
-/// Passes that suit a method. Stiff springs leave the limiter a few samples about pins, more of
-/// them in finer images, which it has to bring up the whole cloth's weight by: many passes, that
-/// cost little.
-struct SuitablePasses {
-  int size;
-  int operator()(const TwoLevelOptions& /*options*/) const { return 10; }
-  int operator()(const DesbrunOptions& /*options*/) const { return std::clamp(size / 2, 60, 128); }
-  int operator()(const MultigridOptions& /*options*/) const {
-    return std::clamp(size / 2, 60, 128);
-  }
-  /// Any other method holds its cloth by the springs themselves.
-  template <class Other>
-  int operator()(const Other& /*options*/) const {
-    return 0;
-  }
-};
+/// Whether the limiter works as the paper prints it, where a method has the choice.
+bool is_as_printed(const IntegratorOptions& options) {
+  return std::visit(
+      [](const auto& chosen) {
+        if constexpr (requires { chosen.as_printed; })
+          return chosen.as_printed;
+        else
+          return false;
+      },
+      options);
+}
 
 LimitOptions limit_for(const Scene& scene, const Cloth& cloth) {
-  LimitOptions limit{
-      has_limiter(scene.integrator)
-          ? scene.limiter_passes.value_or(std::visit(SuitablePasses{cloth.size}, scene.integrator))
-          : 0};
-  const auto* soft = std::get_if<TwoLevelOptions>(&scene.integrator);
-  if (soft == nullptr) return limit;
+  const IntegratorTraits traits = Integrators::traits_of(scene.integrator);
+  const int suitable = std::clamp(cloth.size / 2, traits.min_passes, traits.max_passes);
+  LimitOptions limit{traits.has_limiter ? scene.limiter_passes.value_or(suitable) : 0};
+  if (!traits.soft_springs) return limit;
   if (cloth.material.strain_limit == 0) limit.strain = strain_of_soft_springs;
-  limit.as_printed = soft->as_printed;
+  limit.as_printed = is_as_printed(scene.integrator);
   return limit;
 }
 /// Of the limiter on each coarse level.
@@ -132,7 +125,7 @@ int Simulation::Parts::respond(std::size_t index) {
 int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport& report) {
   const SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
-  StageClock clock;
+  Stopwatch clock;
   LimitOptions limiter = limit_for(scene, *cloth.model);
   if (unlimited) limiter.passes = 0;
   LimitOptions coarse_limiter = limiter;
@@ -140,19 +133,19 @@ int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport&
   int contacts = 0;
   for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
     if (soft) mover.coarse_limit.limit(coarse_limiter, time_step, next, solvers());
-    report.limit_ms += clock.lap();
+    report.limit_ms += clock.lap_ms();
     const bool pulled = is_pulled(index);
     const double before = pulled ? mover.meter.measure(next).total() : 0;
-    clock.lap();
+    clock.lap_ms();
     // What it moves changes velocities as in a whole substep: the same way in a short step would be
     // a shot.
     mover.limit.limit(limiter, substep_time, next, solvers());
-    report.limit_ms += clock.lap();
+    report.limit_ms += clock.lap_ms();
     if (watched || pulled) mover.solved = mover.meter.measure(next);
     mover.pulled_work += pulled ? std::max(0.0, mover.solved.total() - before) : 0;
-    clock.lap();
+    clock.lap_ms();
     const int touched = respond(index);
-    report.collide_ms += clock.lap();
+    report.collide_ms += clock.lap_ms();
     contacts = std::max(contacts, touched);
     if (touched == 0) break;
   }
@@ -223,9 +216,9 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, bool may_re
     tried.contacts += correct(i, movers[i].integrator->proposal(), report);
   tried.refused = !check_for_runaway(seconds, may_refuse && watched);
   if (tried.refused) return tried;
-  StageClock clock;
+  Stopwatch clock;
   tried.filtered = collider->filter(moving, time_step, team);
-  report.collide_ms += clock.lap();
+  report.collide_ms += clock.lap_ms();
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tried.work += movers[i].driven_work.measure(
         {cloths[i].state, movers[i].integrator->proposal(), time_step},
@@ -271,7 +264,7 @@ bool Simulation::Parts::solves_go_far() const {
 }
 
 bool Simulation::Parts::free_guesses() {
-  const bool filters = !std::holds_alternative<PolarMapOptions>(scene.collider);
+  const bool filters = Colliders::traits_of(scene.collider).filters;
   if (!heeds_contacts() && !filters) return false;
   collider->detect(moving, time_step, team);
   if (!filters || !heeds_contacts() || !collider->anything_near()) return false;
@@ -285,16 +278,16 @@ bool Simulation::Parts::free_guesses() {
 void Simulation::Parts::solve_all(FrameReport& report) {
   for (std::size_t i = 0; i < cloths.size(); ++i) propose(i);
   gather_moving();
-  StageClock clock;
+  Stopwatch clock;
   watched = free_guesses();
-  report.collide_ms += clock.lap();
+  report.collide_ms += clock.lap_ms();
   if (watched) lend();
   iterate_all();
   gather_moving();
   if (!watched || !solves_go_far()) return;
-  clock.lap();
+  clock.lap_ms();
   collider->detect(moving, time_step, team);
-  report.collide_ms += clock.lap();
+  report.collide_ms += clock.lap_ms();
   iterate_all();
 }
 
@@ -330,14 +323,14 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
 }
 
 void Simulation::Parts::show_step(FrameReport& report) const {
-  StageClock clock;
+  Stopwatch clock;
   std::vector<StepMotion::Path> cloth_paths, body_paths;
   for (const MovingCloth& cloth : moving) cloth_paths.push_back({&cloth.start, &cloth.position});
   for (std::size_t i = 0; i < bodies.size(); ++i)
     body_paths.push_back(
         {&bodies[i].positions, bodies[i].moves ? driven.ends()[i] : &bodies[i].positions});
   watcher->see({cloth_paths, body_paths});
-  report.milliseconds -= clock.lap();
+  report.milliseconds -= clock.lap_ms();
 }
 
 void Simulation::Parts::finish(std::size_t index, FrameReport& report) {

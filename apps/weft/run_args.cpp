@@ -1,4 +1,4 @@
-#include "apps/weft/run_words.h"
+#include "apps/weft/run_args.h"
 
 #include <algorithm>
 #include <climits>
@@ -99,6 +99,10 @@ RunOptions options_of(const RunArgs& args, const Context& context, TerminalProgr
   return options;
 }
 
+CLI::IsMember is_one_of(const std::vector<std::string_view>& names) {
+  return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
 }  // namespace
 
 void add_run_options(CLI::App& command, RunArgs& args) {
@@ -108,11 +112,9 @@ void add_run_options(CLI::App& command, RunArgs& args) {
       ->check(CLI::Range(1, INT_MAX));
   command
       .add_option("--integrator", args.integrator, "Instead of the scene's, with default options")
-      ->check(
-          CLI::IsMember({"newton", "implicit", "explicit", "desbrun", "two_level", "multigrid"}));
+      ->check(is_one_of(Integrators::names()));
   command.add_option("--collider", args.collider, "Instead of the scene's")
-      ->check(
-          CLI::IsMember({"pyramid", "polar_map", "sphere_tree", "spatial_hash", "image_space"}));
+      ->check(is_one_of(Colliders::names()));
   command.add_option("--export", args.exports, "What to write, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember({"obj", "pc2", "mdd", "glb", "ply", "vtp", "exr", "usda"}))
@@ -151,14 +153,9 @@ MeshFrame frame_of(const RunArgs& args, const MeshFrame& otherwise) {
 
 void apply_run_args(const RunArgs& args, Scene& scene) {
   if (args.frames > 0) scene.frames = args.frames;
-  if (args.integrator == "newton") scene.integrator = NewtonOptions{};
-  if (args.integrator == "multigrid") scene.integrator = MultigridOptions{};
-  if (args.integrator == "implicit") scene.integrator = ImplicitOptions{};
-  if (args.integrator == "explicit") scene.integrator = ExplicitOptions{};
-  if (args.integrator == "desbrun") scene.integrator = DesbrunOptions{};
-  if (args.integrator == "two_level") scene.integrator = TwoLevelOptions{};
+  if (const auto found = Integrators::find(args.integrator)) scene.integrator = *found;
   scene.files = frame_of(args, scene.files);
-  if (const auto collider = collider_named(args.collider)) scene.collider = *collider;
+  if (const auto collider = Colliders::find(args.collider)) scene.collider = *collider;
 }
 
 void run_and_report(Scene scene, const std::string& name, const RunArgs& args,

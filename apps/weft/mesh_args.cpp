@@ -1,4 +1,4 @@
-#include "apps/weft/mesh_words.h"
+#include "apps/weft/mesh_args.h"
 
 #include <CLI/CLI.hpp>
 
