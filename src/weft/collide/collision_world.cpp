@@ -1,0 +1,178 @@
+#include "weft/collide/collision_world.h"
+
+#include <algorithm>
+
+namespace weft {
+namespace {
+
+/// Parts of the gap that is kept, and of the rest spacing.
+constexpr double slack_in_gaps = 0.2, slack_in_spacings = 0.03;
+constexpr double aside_in_spacings = 1;
+/// Twice what cloth may move before pairs that came near are looked for anew.
+constexpr double skin_in_gaps = 0.5;
+
+std::vector<Triangle> triangles_by_points(const SurfaceGrid& grid) {
+  std::vector<Triangle> triangles;
+  for (int t = 0; t < 2 * grid.cells() * grid.cells(); ++t) {
+    const std::array<int, 3> samples = grid.triangle(t / 2, t % 2);
+    if (!grid.folded(samples))
+      triangles.push_back({grid.point(samples[0]), grid.point(samples[1]), grid.point(samples[2])});
+  }
+  return triangles;
+}
+
+}  // namespace
+
+CollisionWorld::CollisionWorld(MakeBroadPhase make_broad_phase, const Obstacles& obstacles,
+                               std::span<const CollidingCloth> given) {
+  cloths.reserve(given.size());
+  for (const CollidingCloth& cloth : given) {
+    cloths.push_back({SurfaceGrid(cloth.size, cloth.mates, cloth.diagonals), cloth, points(), {}});
+    cloth_of_.insert(cloth_of_.end(), static_cast<std::size_t>(cloth.size) * cloth.size,
+                     cloths.size() - 1);
+    slack_ = std::min(
+        {slack_, slack_in_gaps * cloth.self_thickness, slack_in_spacings * cloth.rest_spacing});
+    max_aside_ = std::min(max_aside_, aside_in_spacings * cloth.rest_spacing);
+    min_gap_ = std::min(min_gap_, cloth.thickness);
+  }
+  for (WorldCloth& cloth : cloths)
+    cloth.body_contacts = std::make_unique<BodyContacts>(cloth.grid, cloth.properties);
+  bodies.reserve(obstacles.bodies.size());
+  for (const Body& body : obstacles.bodies)
+    bodies.push_back({SurfaceGrid(body.positions.size(), body.mates, body.diagonals), nullptr,
+                      nullptr, body.positions, nullptr, body.friction});
+  for (WorldBody& body : bodies) {
+    body.query = std::make_unique<BodyQuery>(body.grid);
+    body.end = &body.start;
+    body.triangles = triangles_by_points(body.grid);
+  }
+  if (obstacles.ground) ground_ = {*obstacles.ground, obstacles.ground_friction};
+  std::vector<const SurfaceGrid*> grids;
+  for (const WorldCloth& cloth : cloths) grids.push_back(&cloth.grid);
+  for (const WorldBody& body : bodies) grids.push_back(&body.grid);
+  const auto skin = static_cast<float>(skin_in_gaps * min_gap_);
+  pairs_.emplace(make_broad_phase(grids, cloths.size()), grids, cloths.size(), skin);
+}
+
+bool CollisionWorld::needs_boxes() const {
+  const bool lonely = bodies.empty() && cloths.size() == 1;
+  return !lonely || cloths.front().properties.self_collision;
+}
+
+void CollisionWorld::move_bodies(std::span<const Planes3* const> ends, ThreadTeam& team) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    WorldBody& body = bodies[i];
+    body.end = ends[i] != nullptr ? ends[i] : &body.start;
+    body.max_moved = body.max_approach = 0;
+    body.goes_far = false;
+    if (body.end == &body.start) continue;
+    body.max_moved = largest_displacement(body.start, *body.end);
+    if (body.max_moved == 0) {
+      body.end = &body.start;
+      continue;
+    }
+    ++body.motion;
+    measure_motion(body, team);
+  }
+}
+
+/// What goes far in a step mostly slides past: its surface, not each of its points, is followed.
+void CollisionWorld::measure_motion(WorldBody& body, ThreadTeam& team) const {
+  body.max_approach = body.max_moved;
+  body.goes_far = body.max_moved > min_gap_;
+  if (body.goes_far) body.surface.measure(body.start, *body.end, body.triangles, team);
+  body.blocks.measure(body.grid, body.start, *body.end, body.goes_far ? &body.surface : nullptr,
+                      team);
+  if (!body.goes_far) return;
+  body.max_approach = 0;
+  for (const Triangle& t : body.triangles)
+    for (const int corner : t)
+      body.max_approach = std::max(body.max_approach, body.surface.approach(corner));
+}
+
+void CollisionWorld::commit() {
+  for (WorldCloth& cloth : cloths) cloth.body_contacts->commit();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    WorldBody& body = bodies[i];
+    if (body.end == &body.start) continue;
+    for (WorldCloth& cloth : cloths) cloth.body_contacts->arrive(i, body.motion);
+    body.start = *body.end;
+    body.end = &body.start;
+    body.max_moved = body.max_approach = 0;
+    body.goes_far = false;
+    body.moved = true;
+    ++body.motion;
+  }
+}
+
+void CollisionWorld::rollback() {
+  for (WorldCloth& cloth : cloths) cloth.body_contacts->rollback();
+  for (WorldBody& body : bodies) {
+    if (body.end == &body.start) continue;
+    body.end = &body.start;
+    body.max_moved = body.max_approach = 0;
+    body.goes_far = false;
+    ++body.motion;
+  }
+}
+
+void CollisionWorld::gather_surfaces(std::span<const MovingCloth> moving) {
+  surfaces.clear();
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    surfaces.push_back({&cloths[i].grid, &moving[i].start, &moving[i].position});
+  for (const WorldBody& body : bodies)
+    surfaces.push_back({&body.grid, &body.start, body.end, body.motion});
+}
+
+void CollisionWorld::refit(ThreadTeam& team) {
+  if (needs_boxes()) pairs_->refit(surfaces, team);
+}
+
+void CollisionWorld::place_bodies(ThreadTeam& team) {
+  contact_bodies.clear();
+  for (WorldBody& body : bodies) {
+    if (body.moved) body.query->place(body.start, team);
+    body.moved = false;
+    if (body.goes_far && !body.query_at_end)
+      body.query_at_end = std::make_unique<BodyQuery>(body.grid);
+    if (body.goes_far && body.end_placed != body.motion) {
+      body.query_at_end->place(*body.end, team);
+      body.end_placed = body.motion;
+    }
+    contact_bodies.push_back({static_cast<int>(contact_bodies.size()) + 1, body.query.get(),
+                              &body.start, body.end, body.friction,
+                              body.goes_far ? body.query_at_end.get() : nullptr, body.max_approach,
+                              body.end == &body.start ? nullptr : &body.blocks, body.motion});
+  }
+}
+
+void CollisionWorld::copy_to_mates(std::span<const MovingCloth> moving) const {
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    const BorderMates& mates = cloths[i].properties.mates;
+    for (int k = 0; k < mates.class_count(); ++k)
+      for (const int s : mates.mates(k).subspan(1)) {
+        moving[i].position.set(s, moving[i].position.at(mates.mates(k)[0]));
+        moving[i].velocity.set(s, moving[i].velocity.at(mates.mates(k)[0]));
+      }
+  }
+}
+
+double CollisionWorld::gap_between(std::size_t i, std::size_t j) const {
+  return 0.5 * (cloths[i].properties.self_thickness + cloths[j].properties.self_thickness);
+}
+
+std::span<const CandidatePair> CollisionWorld::near_cells(std::size_t i, std::size_t j,
+                                                          ThreadTeam& team) {
+  const int first = static_cast<int>(i), second = static_cast<int>(j);
+  const auto reach = static_cast<float>(contact_margin * gap_between(i, j));
+  if (i == j) return pairs_->find_self(first, reach, static_cast<float>(slack_), team);
+  return pairs_->find(first, second, reach, team);
+}
+
+double CollisionWorld::fastest_body(double time_step) const {
+  double fastest = 0;
+  for (const WorldBody& body : bodies) fastest = std::max(fastest, body.max_moved / time_step);
+  return fastest;
+}
+
+}  // namespace weft

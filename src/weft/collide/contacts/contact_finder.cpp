@@ -1,0 +1,75 @@
+#include "weft/collide/contacts/contact_finder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Finer cloth bends round its thickness over several cells.
+constexpr double min_crease_in_gaps = 3;
+
+}  // namespace
+
+ContactFinder::ContactFinder(CollisionWorld& world, const Obstacles& obstacles) : world_(world) {
+  for (const WorldCloth& cloth : world.cloths)
+    found_.push_back({std::make_unique<CornerContacts>(cloth.grid, cloth.properties)});
+  learn_corners(obstacles);
+}
+
+void ContactFinder::learn_corners(const Obstacles& obstacles) {
+  ThreadTeam alone(1);
+  for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
+    WorldBody& body = world_.bodies[i];
+    const Planes3& given = obstacles.bodies[i].shape;
+    const Planes3& shape = given.size() > 0 ? given : obstacles.bodies[i].positions;
+    body.query->place(shape, alone);
+    for (Found& one : found_) one.corners->add_body(body.grid, *body.query, shape);
+  }
+}
+
+void ContactFinder::find_with_bodies(std::span<const MovingCloth> moving, ThreadTeam& team) {
+  near_ = false;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    BodyContacts& bodies = *world_.cloths[i].body_contacts;
+    Found& one = found_[i];
+    bodies.find(moving[i], world_.contact_bodies, world_.ground(), team);
+    one.corners->find({moving[i], bodies.inside(), world_.pairs().boxes(static_cast<int>(i)),
+                       world_.pairs().skin()},
+                      world_.contact_bodies, team);
+    one.contacts.clear();
+    for (const std::span<const Contact> found : {bodies.contacts(), one.corners->contacts()})
+      one.contacts.insert(one.contacts.end(), found.begin(), found.end());
+    one.hard = one.contacts.size();
+    near_ = near_ || one.hard > 0;
+  }
+}
+
+int ContactFinder::count() const {
+  int count = static_cast<int>(shared_.size());
+  for (const Found& one : found_) count += static_cast<int>(one.contacts.size());
+  return count;
+}
+
+void ContactFinder::find_between_cloths(std::span<const MovingCloth> moving, double time_step,
+                                        const Untangler& untangler, ThreadTeam& team) {
+  shared_.clear();
+  const int with_bodies = count();
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    for (std::size_t j = i; j < moving.size(); ++j) {
+      const WorldCloth &a = world_.cloths[i], &b = world_.cloths[j];
+      if (i == j && !a.properties.self_collision) continue;
+      const double gap = world_.gap_between(i, j);
+      const std::span<const CandidatePair> cells = world_.near_cells(i, j, team);
+      near_ = near_ || !cells.empty();
+      pair_contacts_.find(
+          {&a.grid, &b.grid, &moving[i], &moving[j], static_cast<int>(i), static_cast<int>(j),
+           a.properties.rest, gap, std::sqrt(a.properties.friction * b.properties.friction),
+           time_step, i == j && a.properties.rest_spacing >= min_crease_in_gaps * gap,
+           untangler.marks(i, j)},
+          cells, team, {found_[i].contacts, found_[j].contacts, shares_ ? &shared_ : nullptr});
+    }
+  self_contacts_ = count() - with_bodies;
+}
+
+}  // namespace weft

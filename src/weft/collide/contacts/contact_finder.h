@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "weft/collide/collision_world.h"
+#include "weft/collide/contacts/corner_contacts.h"
+#include "weft/collide/contacts/pair_contacts.h"
+#include "weft/collide/untangle/untangler.h"
+
+namespace weft {
+
+/// The stage that finds the contacts of a step's proposals: with bodies and the ground, with what
+/// of bodies is too sharp for samples, and between parts of cloth.
+class ContactFinder {
+ public:
+  /// @param world  kept by reference
+  ContactFinder(CollisionWorld& world, const Obstacles& obstacles);
+
+  // In this order, once the world has placed its bodies and fitted its broad phase.
+  void find_with_bodies(std::span<const MovingCloth> moving, ThreadTeam& team);
+  /// @param untangler  knows where cloths cross
+  void find_between_cloths(std::span<const MovingCloth> moving, double time_step,
+                           const Untangler& untangler, ThreadTeam& team);
+
+  /// See Collider::share_contacts.
+  void share(bool shared) { shares_ = shared; }
+  [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const {
+    return found_[cloth].contacts;
+  }
+  /// With bodies and the ground.
+  [[nodiscard]] std::span<const Contact> hard_contacts(std::size_t cloth) const {
+    return std::span(found_[cloth].contacts).first(found_[cloth].hard);
+  }
+  [[nodiscard]] std::span<const SharedContact> shared() const { return shared_; }
+  [[nodiscard]] bool anything_near() const { return near_; }
+  [[nodiscard]] int self_contacts() const { return self_contacts_; }
+
+ private:
+  /// Of one cloth.
+  struct Found {
+    std::unique_ptr<CornerContacts> corners;
+    std::vector<Contact> contacts{};  // hard ones first
+    std::size_t hard = 0;
+  };
+  void learn_corners(const Obstacles& obstacles);
+  [[nodiscard]] int count() const;
+
+  CollisionWorld& world_;
+  std::vector<Found> found_;  // of each cloth
+  std::vector<SharedContact> shared_;
+  PairContacts pair_contacts_;
+  int self_contacts_ = 0;
+  bool near_ = false, shares_ = false;
+};
+
+}  // namespace weft
