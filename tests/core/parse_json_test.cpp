@@ -1,7 +1,7 @@
-#include "weft/core/parse_json.h"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "weft/core/json.h"
 
 namespace weft {
 namespace {

@@ -14,8 +14,7 @@
 
 #include "tests/image/image_cases.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/core/json_text.h"
-#include "weft/core/parse_json.h"
+#include "weft/core/json.h"
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/image/io/exr_codec.h"

@@ -6,11 +6,10 @@
 
 #include "tests/support/meshes.h"
 #include "weft/core/math.h"
-#include "weft/mesh/shapes/box.h"
 #include "weft/mesh/shapes/handles.h"
-#include "weft/mesh/shapes/knot.h"
 #include "weft/mesh/shapes/parametric.h"
 #include "weft/mesh/shapes/rings.h"
+#include "weft/mesh/shapes/solids.h"
 #include "weft/mesh_statistics.h"
 #include "weft/repair.h"
 #include "weft/shapes.h"

@@ -8,7 +8,7 @@
 
 #include "tests/support/random_points.h"
 #include "weft/core/random.h"
-#include "weft/mesh/shapes/torso_profile.h"
+#include "weft/mesh/shapes/rings.h"
 
 namespace weft {
 namespace {

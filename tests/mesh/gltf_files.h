@@ -6,8 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "weft/core/json_text.h"
-#include "weft/core/parse_json.h"
+#include "weft/core/json.h"
 
 namespace weft::test {
 

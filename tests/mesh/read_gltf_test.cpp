@@ -9,8 +9,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/core/json_text.h"
-#include "weft/core/parse_json.h"
+#include "weft/core/json.h"
 #include "weft/mesh.h"
 
 namespace weft {

@@ -9,10 +9,10 @@
 #include "tests/support/meshes.h"
 #include "weft/core/math.h"
 #include "weft/core/random.h"
-#include "weft/mesh/shapes/clip.h"
 #include "weft/mesh/shapes/editable_mesh.h"
+#include "weft/mesh/shapes/patch.h"
 #include "weft/mesh/shapes/polygonise.h"
-#include "weft/mesh/shapes/sphere.h"
+#include "weft/mesh/shapes/solids.h"
 #include "weft/mesh/topology.h"
 #include "weft/mesh_statistics.h"
 

@@ -1,5 +1,3 @@
-#include "weft/param/inverse_stretch.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -7,6 +5,7 @@
 #include "tests/param/disks.h"
 #include "weft/param/disk_geometry.h"
 #include "weft/param/stretch_newton.h"
+#include "weft/param/triangle_energy.h"
 
 namespace weft {
 namespace {

@@ -1,10 +1,9 @@
-#include "weft/param/vertex_kernel.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "weft/core/random.h"
+#include "weft/param/vertex_star.h"
 
 namespace weft {
 namespace {

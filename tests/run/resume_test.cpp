@@ -11,7 +11,7 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/core/parse_json.h"
+#include "weft/core/json.h"
 #include "weft/files.h"
 #include "weft/run.h"
 #include "weft/run/checkpoint.h"

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/temporary_folder.h"
-#include "weft/core/parse_json.h"
+#include "weft/core/json.h"
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/mesh.h"
-#include "weft/run/export/pc2_writer.h"
+#include "weft/run/export/point_cache_writers.h"
 #include "weft/run_folder.h"
 
 namespace weft {

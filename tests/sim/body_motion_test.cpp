@@ -7,7 +7,7 @@
 #include "weft/error.h"
 #include "weft/image/builtin.h"
 #include "weft/mesh.h"
-#include "weft/run/export/pc2_writer.h"
+#include "weft/run/export/point_cache_writers.h"
 #include "weft/shapes.h"
 
 namespace weft {

@@ -9,7 +9,7 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/core/parse_json.h"
+#include "weft/core/json.h"
 #include "weft/error.h"
 #include "weft/fabric.h"
 #include "weft/files.h"

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "weft/cloth/bending_border.h"
-#include "weft/cloth/bending_ring.h"
 
 namespace weft {
 namespace {

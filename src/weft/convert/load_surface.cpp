@@ -2,7 +2,6 @@
 
 #include "weft/convert.h"
 #include "weft/convert/surface_places.h"
-#include "weft/convert/vertex_places.h"
 #include "weft/files.h"
 #include "weft/image/builtin.h"
 #include "weft/image_file.h"

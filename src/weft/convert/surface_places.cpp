@@ -1,5 +1,7 @@
 #include "weft/convert/surface_places.h"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "weft/convert/border_walk.h"
@@ -8,6 +10,7 @@
 #include "weft/geometry_image.h"
 
 namespace weft {
+
 namespace {
 
 using Weights = std::array<double, 3>;
@@ -109,6 +112,21 @@ std::vector<SurfacePlace> surface_places(const MappedDisk& mapped,
         places.at(triangle, corner_weights(corner_uv(mapped.map, disk.triangles[triangle]), place));
   });
   return found;
+}
+
+std::vector<Vec2d> vertex_places(const MappedDisk& mapped, std::span<const int> source_vertex,
+                                 int vertices) {
+  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<int>& points = mapped.cut.disk.surface_vertex;
+  std::vector<Vec2d> places(static_cast<std::size_t>(vertices), Vec2d{nowhere, nowhere});
+  for (std::size_t d = 0; d < points.size(); ++d) {
+    // From there on they came from splitting edges.
+    if (std::cmp_greater_equal(points[d], source_vertex.size())) continue;
+    Vec2d& place =
+        places[static_cast<std::size_t>(source_vertex[static_cast<std::size_t>(points[d])])];
+    if (!std::isfinite(place.x)) place = mapped.map.uv[d];
+  }
+  return places;
 }
 
 }  // namespace weft

@@ -1,13 +1,17 @@
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "weft/cut/cut_graph.h"
+#include "weft/cut/open_to_disk.h"
+#include "weft/cut/shortest_paths.h"
 #include "weft/cut/split_border_edge.h"
 #include "weft/error.h"
 
 namespace weft {
+
 namespace {
 
 /// Fewer border vertices than this would give two edges of the disk the same ends.
@@ -155,6 +159,45 @@ CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut) {
   while (static_cast<int>(opened.disk.border.size()) < min_border)
     split_border_edge(opened, 0, 0.5);
   return opened;
+}
+
+Cut extend_cut(const TriangleMesh& mesh, const Cut& cut, int vertex) {
+  const CutSurface surface(mesh);
+  CutGraph graph(surface, cut);
+  const PathTree tree =
+      search_paths(surface, std::array{vertex}, [&](int v) { return graph.valence(v) > 0; });
+  if (tree.end < 0) return cut;
+  for (const int h : path_to(surface, tree, tree.end)) graph.add(h);
+  return graph.cut();
+}
+
+namespace {
+
+double path_length(const DiskMesh& disk, const BorderPath& path) {
+  const int size = static_cast<int>(disk.border.size());
+  double total = 0;
+  for (int j = 0; j < path.edges; ++j)
+    total += length(disk.positions[disk.border[(path.first + j) % size]] -
+                    disk.positions[disk.border[(path.first + j + 1) % size]]);
+  return total;
+}
+
+}  // namespace
+
+CutSummary summarise(const CutDisk& cut) {
+  CutSummary summary;
+  std::vector<int> nodes;
+  const int count = static_cast<int>(cut.paths.size());
+  for (int p = 0; p < count; ++p) {
+    const BorderPath& path = cut.paths[p];
+    nodes.push_back(cut.disk.surface_vertex[cut.disk.border[path.first]]);
+    if (path.mate >= 0 && path.mate < p) continue;
+    ++summary.paths;
+    if (path.mate >= 0) summary.length += path_length(cut.disk, path);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  summary.nodes = static_cast<int>(std::unique(nodes.begin(), nodes.end()) - nodes.begin());
+  return summary;
 }
 
 }  // namespace weft

@@ -6,7 +6,6 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/mesh/io/line_reader.h"
-#include "weft/mesh/io/number.h"
 #include "weft/mesh/io/polygon.h"
 
 namespace weft {

@@ -5,10 +5,13 @@
 #include <limits>
 
 #include "weft/geometry_image.h"
+#include "weft/mesh/crossings.h"
 #include "weft/mesh/distance.h"
+#include "weft/mesh/stretch.h"
 #include "weft/mesh/topology.h"
 
 namespace weft {
+
 namespace {
 
 void set_topology(ImageQuality& quality, const GeometryImage& image, const TriangleMesh& rebuilt) {
@@ -48,6 +51,67 @@ ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
   quality.psnr_db = std::min(quality.psnr_db, best_psnr_db);
   quality.hausdorff_percent = size > 0 ? 100 * distance.hausdorff / size : 0;
   return quality;
+}
+
+namespace {
+
+struct Samples {
+  std::vector<Vec3d> positions;  ///< world [n * n]
+  std::vector<Vec2d> uv;         ///< (col, row)
+};
+
+Samples samples_of(const GeometryImage& image) {
+  const int n = image.size();
+  Samples samples;
+  for (int row = 0; row < n; ++row)
+    for (int col = 0; col < n; ++col) {
+      samples.positions.push_back(image.world_position(row, col));
+      samples.uv.push_back({static_cast<double>(col), static_cast<double>(row)});
+    }
+  return samples;
+}
+
+std::array<int, 2> quad_of(const Triangle& t, int n) {
+  const auto [row_a, row_b] = std::minmax({t[0] / n, t[1] / n, t[2] / n});
+  const auto [col_a, col_b] = std::minmax({t[0] % n, t[1] % n, t[2] % n});
+  return {row_a, col_a};
+}
+
+}  // namespace
+
+ImageStatistics examine_image(const GeometryImage& image) {
+  const Samples samples = samples_of(image);
+  const std::vector<Triangle> triangles = grid_triangles(image);
+  const std::vector<SurfaceTriangle> surface = surface_triangles(samples.positions, triangles);
+  ImageStatistics statistics;
+  for (const Vec3d p : samples.positions) statistics.box.add(p);
+  for (int k = 0; k < image.mates.class_count(); ++k)
+    statistics.largest_mate_class =
+        std::max(statistics.largest_mate_class, static_cast<int>(image.mates.mates(k).size()));
+  const Stretch stretch = measure_stretch(surface, triangles, samples.uv);
+  statistics.stretch_l2 = stretch.l2;
+  statistics.stretch_linf = stretch.linf;
+
+  double worst = 0;
+  Vec3d normal_before;
+  std::array<int, 2> quad_before{-1, -1};
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto& [a, b, c] = triangles[i];
+    const Corners corners{samples.positions[a], samples.positions[b], samples.positions[c]};
+    statistics.zero_area_triangles += has_no_area(corners) ? 1 : 0;
+    const std::array<int, 2> quad = quad_of(triangles[i], image.size());
+    const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    // The two triangles of a quad follow each other.
+    statistics.folded_quads += quad == quad_before && dot(normal, normal_before) < 0 ? 1 : 0;
+    normal_before = normal;
+    quad_before = quad;
+    const double largest =
+        triangle_stretch(surface[i], samples.uv[a], samples.uv[b], samples.uv[c]).largest;
+    if (surface[i].area <= 0 || largest <= worst) continue;
+    worst = largest;
+    statistics.worst_quad = quad;
+  }
+  return statistics;
 }
 
 }  // namespace weft

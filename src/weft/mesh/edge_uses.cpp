@@ -8,6 +8,7 @@
 #include "weft/mesh/topology.h"
 
 namespace weft {
+
 namespace {
 
 std::pair<int, int> ends(std::span<const Triangle> triangles, int half_edge) {
@@ -74,6 +75,17 @@ EdgeUses edge_uses(int vertex_count, std::span<const Triangle> triangles) {
 std::string edge_name(std::span<const Triangle> triangles, const EdgeUses& edges, int edge) {
   const auto [low, high] = ends(triangles, edges.of(edge)[0]);
   return fmt::format("vertices {} and {} (counted from 0)", low, high);
+}
+
+std::vector<int> one_ring(std::span<const Triangle> triangles, std::span<const int> around,
+                          int vertex) {
+  std::vector<int> found;
+  for (const int t : around)
+    for (const int v : triangles[t])
+      if (v != vertex) found.push_back(v);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 }  // namespace weft

@@ -27,4 +27,10 @@ EdgeUses edge_uses(int vertex_count, std::span<const Triangle> triangles);
 /// An edge as errors name it: "vertices 3 and 7 (counted from 0)".
 std::string edge_name(std::span<const Triangle> triangles, const EdgeUses& edges, int edge);
 
+/// The other vertices of the triangles around a vertex, ascending, each once.
+/// @param triangles  all triangles
+/// @param around     indices of those that have the vertex for a corner, in any order
+std::vector<int> one_ring(std::span<const Triangle> triangles, std::span<const int> around,
+                          int vertex);
+
 }  // namespace weft

@@ -12,8 +12,7 @@
 #include "weft/core/assert.h"
 #include "weft/core/hash.h"
 #include "weft/error.h"
-#include "weft/mesh/orient_triangles.h"
-#include "weft/mesh/split_fans.h"
+#include "weft/mesh/manifold.h"
 #include "weft/mesh/surface_parts.h"
 
 namespace weft {

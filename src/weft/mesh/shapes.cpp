@@ -6,14 +6,12 @@
 
 #include "weft/core/nearest_name.h"
 #include "weft/error.h"
-#include "weft/mesh/shapes/box.h"
 #include "weft/mesh/shapes/handles.h"
-#include "weft/mesh/shapes/knot.h"
 #include "weft/mesh/shapes/mannequin.h"
 #include "weft/mesh/shapes/parametric.h"
 #include "weft/mesh/shapes/rings.h"
 #include "weft/mesh/shapes/skirt.h"
-#include "weft/mesh/shapes/sphere.h"
+#include "weft/mesh/shapes/solids.h"
 #include "weft/mesh/shapes/tshirt.h"
 
 namespace weft {

@@ -5,8 +5,8 @@
 #include "weft/param/collapse_passes.h"
 #include "weft/param/curvature_weight.h"
 #include "weft/param/disk_geometry.h"
-#include "weft/param/inverse_stretch.h"
-#include "weft/param/reinsertion.h"
+#include "weft/param/progressive_embedding.h"
+#include "weft/param/triangle_energy.h"
 
 namespace weft {
 namespace {

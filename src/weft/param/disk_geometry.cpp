@@ -4,8 +4,8 @@
 
 #include "weft/core/orientation.h"
 #include "weft/param/curvature_weight.h"
-#include "weft/param/edge_lengths.h"
-#include "weft/param/inverse_stretch.h"
+#include "weft/param/edge_queue.h"
+#include "weft/param/triangle_energy.h"
 
 namespace weft {
 

@@ -4,7 +4,6 @@
 #include "weft/param/disk_geometry.h"
 #include "weft/param/interior_solver.h"
 #include "weft/param/progressive_embedding.h"
-#include "weft/param/reweighting.h"
 #include "weft/param/stretch_newton.h"
 #include "weft/param/weights.h"
 

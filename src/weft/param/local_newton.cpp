@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "weft/param/vertex_kernel.h"
+#include "weft/param/vertex_star.h"
 
 namespace weft {
 namespace {

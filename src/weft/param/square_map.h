@@ -41,4 +41,11 @@ struct MappedDisk {
 /// @throws TopologyError when n is too small (naming the least n) or no valid map was found
 MappedDisk map_to_square(const CutDisk& cut, const MapOptions& options);
 
+/// The border position of the first path's first node that gives the least stretch of about `count`
+/// candidates, spread evenly over one side of the square (turning by a whole side gives the same
+/// map, turned), and of the neighbours of the best at half the spacing. Candidates are mapped in
+/// full, on a coarser mesh where the disk has more than a few thousand triangles.
+/// @pre n is large enough for the cut
+int choose_rotation(const CutDisk& cut, int size, int count);
+
 }  // namespace weft

@@ -7,7 +7,6 @@
 #include "weft/param/chords.h"
 #include "weft/param/disk_geometry.h"
 #include "weft/param/interior_solver.h"
-#include "weft/param/reweighting.h"
 #include "weft/param/stretch_newton.h"
 #include "weft/param/weights.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace weft {
+
 namespace {
 
 /// A symmetric 2 x 2 matrix by its eigenvalues and the unit eigenvector of the larger.
@@ -105,6 +106,15 @@ void add_inverse_stretch(TriangleEnergy& energy, const SurfaceTriangle& surface,
   };
   add(4, first, surface.g22);
   add(6, second, rest);
+}
+
+double inverse_weight(const SurfaceTriangle& surface) {
+  constexpr double share = 0.2;
+  constexpr double flattest = 0.01;  // area over square sides
+  const auto& [g11, g12, g22, area] = surface;
+  const double least = flattest * 2 * (g11 - g12 + g22);
+  const double raised = std::sqrt(area * area + least * least);
+  return raised > 0 ? share / (8 * raised) : 0;
 }
 
 }  // namespace weft

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/json_text.h"
+#include "weft/core/json.h"
 #include "weft/core/math.h"
 #include "weft/run.h"
 

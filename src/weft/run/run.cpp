@@ -5,16 +5,15 @@
 #include <fmt/format.h>
 
 #include "weft/cloth/cloth.h"
+#include "weft/core/stopwatch.h"
 #include "weft/error.h"
 #include "weft/files.h"
-#include "weft/run.h"
 #include "weft/run/checkpoint.h"
 #include "weft/run/disk_reservation.h"
 #include "weft/run/recorder.h"
 #include "weft/run/run_identity.h"
 #include "weft/scene_file.h"
 #include "weft/sim/insides.h"
-#include "weft/core/stopwatch.h"
 
 namespace weft {
 namespace {

@@ -8,13 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/json_text.h"
-#include "weft/core/parse_json.h"
+#include "weft/core/json.h"
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image_file.h"
-#include "weft/run/export/point_frames.h"
 #include "weft/run/export/surface_points.h"
 #include "weft/run/run_manifest.h"
 #include "weft/sim/placement.h"

@@ -7,8 +7,7 @@
 
 #include "weft/cloth/cloth.h"
 #include "weft/core/hash.h"
-#include "weft/core/json_text.h"
-#include "weft/core/parse_json.h"
+#include "weft/core/json.h"
 #include "weft/files.h"
 #include "weft/scene_file.h"
 

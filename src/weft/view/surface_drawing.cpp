@@ -5,7 +5,7 @@
 #include "weft/core/math.h"
 #include "weft/drawing.h"
 #include "weft/mesh/edge_uses.h"
-#include "weft/mesh/shapes/sphere.h"
+#include "weft/mesh/shapes/solids.h"
 #include "weft/picture.h"
 
 namespace weft {

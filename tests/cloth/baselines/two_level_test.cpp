@@ -4,10 +4,9 @@
 
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/baselines/filter_matrix.h"
-#include "weft/cloth/baselines/global_filter.h"
-#include "weft/cloth/baselines/local_filter.h"
-#include "weft/cloth/baselines/mass_springs.h"
 #include "weft/cloth/baselines/momentum.h"
+#include "weft/cloth/baselines/paper_filters.h"
+#include "weft/cloth/baselines/spring_matrix.h"
 #include "weft/cloth/integrator.h"
 #include "weft/cloth/measure.h"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/cloth/baselines/contact_loads.h"
+#include "weft/cloth/baselines/contact_terms.h"
 
 namespace weft {
 

@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "weft/cloth/baselines/global_filter.h"
-#include "weft/cloth/baselines/local_filter.h"
+#include "weft/cloth/baselines/paper_filters.h"
 #include "weft/cloth/baselines/strain_limit.h"
 #include "weft/cloth/integrator.h"
 #include "weft/core/math.h"

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include "weft/cloth/baselines/filtered_integrator.h"
-#include "weft/cloth/baselines/global_filter.h"
-#include "weft/cloth/baselines/local_filter.h"
-#include "weft/cloth/baselines/mass_springs.h"
+#include "weft/cloth/baselines/paper_filters.h"
+#include "weft/cloth/baselines/spring_matrix.h"
 #include "weft/cloth/proposal.h"
 #include "weft/error.h"
 

@@ -1,6 +1,11 @@
 #include "weft/cloth/newton/block_level.h"
 
+#include <algorithm>
+
+#include "weft/cloth/neighbours.h"
+
 namespace weft {
+
 BlockLevel::BlockLevel(const Shape& shape, Seams seam_classes, BendingStencil stiffness)
     : size(shape.size),
       seams(std::move(seam_classes)),
@@ -27,6 +32,103 @@ BlockLevel::BlockLevel(const Shape& shape, Seams seam_classes, BendingStencil st
     for (int c = 0; c < n; ++c) extra(r, c) *= bending_share;
   for (int i = 0; i < seams.class_count(); ++i)
     for (const int s : seams.samples(i).subspan(1)) extra(s / n, s % n) = holding_stiffness;
+}
+
+namespace {
+
+constexpr int frame = 16;
+constexpr int blocks_a_row = 5, entries = 6;
+
+BlockRow6 row_of(const PaddedBlocks& blocks, int r) {
+  BlockRow6 row{};
+  for (int k = 0; k < entries; ++k) row.entry[k] = blocks.entry[k].row(r);
+  return row;
+}
+MutableBlockRow6 row_of(PaddedBlocks& blocks, int r) {
+  MutableBlockRow6 row{};
+  for (int k = 0; k < entries; ++k) row.entry[k] = blocks.entry[k].row(r);
+  return row;
+}
+StencilBlocks rows_of(const BlockStencil& stencil, int r) {
+  return {row_of(stencil.centre, r), row_of(stencil.right, r), row_of(stencil.below_left, r),
+          row_of(stencil.below, r), row_of(stencil.below_right, r)};
+}
+MutableStencilBlocks rows_of(BlockStencil& stencil, int r) {
+  return {row_of(stencil.centre, r), row_of(stencil.right, r), row_of(stencil.below_left, r),
+          row_of(stencil.below, r), row_of(stencil.below_right, r)};
+}
+
+}  // namespace
+
+Galerkin::Rows::Rows(int cols)
+    : values(static_cast<std::size_t>(cols + 2 * frame) * blocks_a_row * entries) {
+  BlockRow6* const from[] = {&read.centre, &read.right, &read.below_left, &read.below,
+                             &read.below_right};
+  MutableBlockRow6* const to[] = {&write.centre, &write.right, &write.below_left, &write.below,
+                                  &write.below_right};
+  float* row = values.data() + frame;
+  for (int b = 0; b < blocks_a_row; ++b)
+    for (int k = 0; k < entries; ++k, row += cols + 2 * frame)
+      from[b]->entry[k] = to[b]->entry[k] = row;
+}
+
+Galerkin::Galerkin(int size, int workers) : scratch_(workers) {
+  for (Scratch& own : scratch_) {
+    own.fine = Rows(size);
+    for (Rows& half : own.half) half = Rows(size / 2 + 1);
+  }
+}
+
+template <class FineRow>
+void Galerkin::coarsen_rows(int fine_size, BlockLevel& coarse, const Workers& workers,
+                            const NewtonKernels& kernels, const FineRow& fine_row) {
+  Scratch& own = scratch_[workers.alone() ? 0 : workers.rank()];
+  const int m = coarse.size;
+  // The half-coarsened rows 2 q - 1, 2 q, 2 q + 1 stand in turns.
+  const auto slot = [](int fine) { return (fine + 3) % 3; };
+  const auto make = [&](int fine) {
+    Rows& half = own.half[slot(fine)];
+    if (fine < 0 || fine >= fine_size)
+      std::fill(half.values.begin(), half.values.end(), 0.0F);
+    else
+      kernels.coarsen_columns(m, fine_row(fine, own.fine), half.write);
+  };
+  const Range mine = workers.share(m);
+  for (int q = mine.first; q < mine.last; ++q) {
+    if (q == mine.first) make(2 * q - 1);
+    make(2 * q);
+    make(2 * q + 1);
+    const StencilBlocks half[3] = {own.half[slot(2 * q - 1)].read, own.half[slot(2 * q)].read,
+                                   own.half[slot(2 * q + 1)].read};
+    kernels.coarsen_rows(m, half, rows_of(coarse.stencil, q));
+  }
+}
+
+void Galerkin::coarsen(const SpringHessian& springs, const BlockLevel& fine,
+                       const PaddedPlane& mask, BlockLevel& coarse, const Workers& workers,
+                       const NewtonKernels& kernels) {
+  const int n = fine.size;
+  const auto fine_row = [&](int r, Rows& scratch) {
+    const MutableStencilBlocks& rows = scratch.write;
+    const MutableBlockRow6* const after[] = {&rows.right, &rows.below, &rows.below_right,
+                                             &rows.below_left};
+    const float* here = mask.row(r);
+    for (int d = 0; d < 4; ++d) {
+      const auto [down, right] = spring_offsets[d];
+      kernels.spring_blocks(whole_vectors(n), springs.springs_row(d, r), here,
+                            mask.row(r + down) + right, *after[d]);
+    }
+    StencilBlocks all = scratch.read;
+    all.centre = row_of(fine.stencil.centre, r);
+    return all;
+  };
+  coarsen_rows(n, coarse, workers, kernels, fine_row);
+}
+
+void Galerkin::coarsen(const BlockLevel& fine, BlockLevel& coarse, const Workers& workers,
+                       const NewtonKernels& kernels) {
+  const auto fine_row = [&](int r, Rows&) { return rows_of(fine.stencil, r); };
+  coarsen_rows(fine.size, coarse, workers, kernels, fine_row);
 }
 
 }  // namespace weft

@@ -2,13 +2,12 @@
 
 #include <vector>
 
+#include "weft/cloth/newton/bending_stencil.h"
 #include "weft/cloth/newton/block_level.h"
 #include "weft/cloth/newton/coarsest_solver.h"
 #include "weft/cloth/newton/contact_gather.h"
-#include "weft/cloth/newton/curved_bending.h"
-#include "weft/cloth/newton/galerkin.h"
+#include "weft/cloth/newton/padded_planes.h"
 #include "weft/cloth/newton/spring_hessian.h"
-#include "weft/cloth/newton/workers.h"
 #include "weft/core/ordered_sum.h"
 
 namespace weft {

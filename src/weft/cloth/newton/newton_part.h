@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "weft/cloth/integrator.h"
+#include "weft/cloth/newton/bending_stencil.h"
 #include "weft/cloth/newton/block_multigrid.h"
 #include "weft/cloth/newton/contact_history.h"
-#include "weft/cloth/newton/curved_bending.h"
 #include "weft/cloth/newton/spring_hessian.h"
 #include "weft/core/ordered_sum.h"
 

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "weft/cloth/kernels/row_pointers.h"
+#include "weft/core/thread_team.h"
 
 namespace weft {
 
@@ -84,6 +85,26 @@ struct PaddedBlocks {
   PaddedBlocks(int rows, int cols) {
     for (PaddedPlane& plane : entry) plane = PaddedPlane(rows, cols);
   }
+};
+
+/// Who works on a level: all workers of a team, or one whom the others wait for.
+class Workers {
+ public:
+  Workers(Worker& worker, bool alone)  // alone: only the worker of rank 0 may call
+      : worker_(&worker), alone_(alone) {}
+  [[nodiscard]] Range share(int count) const {
+    return alone_ ? Range{0, count} : worker_->share(count);
+  }
+  void barrier() const {
+    if (!alone_) worker_->barrier();
+  }
+  [[nodiscard]] int rank() const { return worker_->rank(); }
+  [[nodiscard]] bool alone() const { return alone_ || worker_->alone(); }
+  [[nodiscard]] Worker& worker() const { return *worker_; }
+
+ private:
+  Worker* worker_;
+  bool alone_;
 };
 
 }  // namespace weft

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "weft/cloth/newton/padded_planes.h"
-#include "weft/cloth/newton/workers.h"
 #include "weft/geometry_image.h"
 
 namespace weft {

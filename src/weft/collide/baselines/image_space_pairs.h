@@ -6,8 +6,8 @@
 
 #include "weft/collide/baselines/depth_image.h"
 #include "weft/collide/broad_phase/candidate_pairs.h"
-#include "weft/collide/broad_phase/extent_levels.h"
-#include "weft/collide/broad_phase/shared_pairs.h"
+#include "weft/collide/broad_phase/chunks.h"
+#include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/broad_phase/unfolded_windows.h"
 
 namespace weft {

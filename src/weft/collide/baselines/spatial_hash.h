@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
-#include "weft/collide/broad_phase/extent_levels.h"
-#include "weft/collide/broad_phase/shared_pairs.h"
+#include "weft/collide/broad_phase/chunks.h"
+#include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/broad_phase/unfolded_windows.h"
 
 namespace weft {

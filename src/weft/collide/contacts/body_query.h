@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/collide/broad_phase/extent_levels.h"
+#include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/moving_surface.h"
 
 namespace weft {

@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/hash.h"
-#include "weft/core/json_text.h"
-#include "weft/core/parse_json.h"
+#include "weft/core/json.h"
 #include "weft/error.h"
 
 namespace weft {

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/parse_json.h"
+#include "weft/core/json.h"
 #include "weft/error.h"
 #include "weft/mesh.h"
 #include "weft/mesh/io/gltf_accessor.h"
 #include "weft/mesh/io/gltf_nodes.h"
-#include "weft/mesh/io/number.h"
+#include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
 #include "weft/repair.h"
 

@@ -10,7 +10,6 @@
 #include "weft/error.h"
 #include "weft/mesh.h"
 #include "weft/mesh/io/line_reader.h"
-#include "weft/mesh/io/number.h"
 #include "weft/mesh/io/polygon.h"
 
 // tinyobjloader splits the face lines. It accepts whatever it meets (cut lines, words as zeros,

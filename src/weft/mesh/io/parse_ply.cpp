@@ -7,8 +7,8 @@
 
 #include "weft/error.h"
 #include "weft/mesh.h"
-#include "weft/mesh/io/number.h"
-#include "weft/mesh/io/ply_values.h"
+#include "weft/mesh/io/line_reader.h"
+#include "weft/mesh/io/ply_format.h"
 #include "weft/mesh/io/polygon.h"
 
 namespace weft {

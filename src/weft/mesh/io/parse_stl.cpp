@@ -8,7 +8,6 @@
 #include "weft/mesh.h"
 #include "weft/mesh/io/byte_reader.h"
 #include "weft/mesh/io/line_reader.h"
-#include "weft/mesh/io/number.h"
 #include "weft/mesh/io/polygon.h"
 #include "weft/repair.h"
 

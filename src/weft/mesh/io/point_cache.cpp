@@ -10,7 +10,7 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/mesh/io/byte_reader.h"
-#include "weft/mesh/io/number.h"
+#include "weft/mesh/io/line_reader.h"
 
 namespace weft {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "weft/core/assert.h"
-#include "weft/mesh/one_ring.h"
+#include "weft/mesh/edge_uses.h"
 #include "weft/mesh_statistics.h"
 
 namespace weft {

@@ -7,7 +7,7 @@
 #include "weft/mesh/shapes/field.h"
 #include "weft/mesh/shapes/polygonise.h"
 #include "weft/mesh/shapes/remesh.h"
-#include "weft/mesh/shapes/torso_profile.h"
+#include "weft/mesh/shapes/rings.h"
 
 namespace weft {
 namespace {

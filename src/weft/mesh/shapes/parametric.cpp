@@ -1,11 +1,13 @@
 #include "weft/mesh/shapes/parametric.h"
 
 #include <cmath>
+#include <vector>
 
 #include "weft/core/math.h"
 #include "weft/mesh/shapes/patch.h"
 
 namespace weft {
+
 Vec3d sheet_point(double u, double v) { return {u - 0.5, 0, v - 0.5}; }
 
 Vec3d disk_point(double u, double v) {
@@ -38,6 +40,83 @@ TriangleMesh torus_mesh() {
 }
 TriangleMesh cylinder_mesh() {
   return patch_mesh({.cols = 80, .rows = 64, .wraps_u = true}, cylinder_point);
+}
+
+namespace {
+
+constexpr int rows = 14, cols = 228;  // around the tube, along it
+
+/// A place on the middle line and two directions across it.
+struct Frame {
+  Vec3d centre, tangent, side;
+};
+
+Vec3d tangent_at(double t) {
+  constexpr double step = 1e-5;
+  return normalized(knot_point(t + step) - knot_point(t - step));
+}
+
+/// Parameters at equal distances along the curve: `count` of them, the first 0.
+std::vector<double> even_parameters(int count) {
+  constexpr int fine = 64;  // pieces for each
+  const int pieces = fine * count;
+  std::vector<double> passed{0};
+  for (int i = 1; i <= pieces; ++i)
+    passed.push_back(passed.back() + length(knot_point(static_cast<double>(i) / pieces) -
+                                            knot_point(static_cast<double>(i - 1) / pieces)));
+  std::vector<double> parameters;
+  for (int i = 0, k = 0; k < count; ++k) {
+    const double wanted = passed.back() * k / count;
+    while (passed[i + 1] <= wanted) ++i;
+    parameters.push_back((i + (wanted - passed[i]) / (passed[i + 1] - passed[i])) / pieces);
+  }
+  return parameters;
+}
+
+Vec3d across(Vec3d direction, Vec3d tangent) {
+  return normalized(direction - dot(direction, tangent) * tangent);
+}
+
+/// Frames that turn about the curve as little as can be; the turn by which the last would miss the
+/// first is spread over all.
+std::vector<Frame> frames() {
+  std::vector<Frame> list;
+  Vec3d side{0, 1, 0};
+  for (const double t : even_parameters(cols)) {
+    const Vec3d tangent = tangent_at(t);
+    side = across(side, tangent);
+    list.push_back({knot_point(t), tangent, side});
+  }
+  const Frame& first = list.front();
+  const Vec3d back = across(side, first.tangent);
+  const double missed =
+      arc_tangent(dot(cross(back, first.side), first.tangent), dot(back, first.side));
+  for (int i = 0; i < cols; ++i) {
+    const double angle = missed * i / cols;
+    Frame& frame = list[i];
+    frame.side = cosine(angle) * frame.side + sine(angle) * cross(frame.tangent, frame.side);
+  }
+  return list;
+}
+
+}  // namespace
+
+Vec3d knot_point(double t) {
+  constexpr double ring = 0.23, sway = 0.115, height = 0.11;
+  const double angle = 2 * pi * t;
+  const double radius = ring + sway * cosine(3 * angle);
+  return {radius * cosine(2 * angle), height * sine(3 * angle), -radius * sine(2 * angle)};
+}
+
+TriangleMesh knot_mesh() {
+  const std::vector<Frame> along = frames();
+  return patch_mesh(
+      {.cols = cols, .rows = rows, .wraps_u = true, .wraps_v = true}, [&](double u, double v) {
+        const Frame& frame = along[static_cast<int>(std::lround(u * cols))];
+        const double angle = 2 * pi * v;
+        return frame.centre + knot_tube_radius * (cosine(angle) * frame.side +
+                                                  sine(angle) * cross(frame.side, frame.tangent));
+      });
 }
 
 }  // namespace weft

@@ -2,12 +2,12 @@
 
 #include <array>
 
-#include "weft/mesh/shapes/clip.h"
 #include "weft/mesh/shapes/field.h"
 #include "weft/mesh/shapes/mannequin.h"
+#include "weft/mesh/shapes/patch.h"
 #include "weft/mesh/shapes/polygonise.h"
 #include "weft/mesh/shapes/remesh.h"
-#include "weft/mesh/shapes/torso_profile.h"
+#include "weft/mesh/shapes/rings.h"
 
 namespace weft {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "weft/core/json_text.h"
+#include "weft/core/json.h"
 
 namespace weft {
 namespace {

@@ -11,8 +11,8 @@
 #include "weft/run/export/frame_sequence.h"
 #include "weft/run/export/motion_files.h"
 #include "weft/run/export/obj_writer.h"
-#include "weft/run/export/pc2_writer.h"
-#include "weft/run/export/point_frames.h"
+#include "weft/run/export/point_cache_writers.h"
+#include "weft/run/export/surface_points.h"
 
 namespace weft {
 namespace {

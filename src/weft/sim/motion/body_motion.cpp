@@ -2,14 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "weft/core/math.h"
 #include "weft/error.h"
 #include "weft/geometry_image.h"
-#include "weft/sim/motion/motion_path.h"
 
 namespace weft {
+
+namespace {
+
+Vec3d between(double part, Vec3d a, Vec3d b) { return a + part * (b - a); }
+
+}  // namespace
+
+MotionKey key_at(std::span<const MotionKey> path, double seconds) {
+  if (seconds <= path.front().time) return path.front();
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const MotionKey &a = path[i - 1], &b = path[i];
+    if (seconds > b.time) continue;
+    const double part = (seconds - a.time) / (b.time - a.time);
+    return {seconds, between(part, a.rotate, b.rotate), between(part, a.translate, b.translate)};
+  }
+  return path.back();
+}
+
+double fastest_on(std::span<const MotionKey> path, double reach) {
+  double fastest = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const MotionKey &a = path[i - 1], &b = path[i];
+    const double distance =
+        length(b.translate - a.translate) + reach * pi / 180 * length(b.rotate - a.rotate);
+    fastest = std::max(fastest, distance / (b.time - a.time));
+  }
+  return fastest;
+}
+
 namespace {
 
 /// The largest slope of the easing curve.
@@ -163,6 +193,27 @@ double BodyMotion::fastest_animated() const {
       before = there;
     }
   }
+  return fastest;
+}
+
+void DrivenBodies::add(BodyMotion motion) {
+  places_.push_back(motion.moves() ? std::make_unique<Planes3>(motion.size()) : nullptr);
+  ends_.push_back(places_.back().get());
+  motions_.push_back(std::move(motion));
+}
+
+void DrivenBodies::move_to(double seconds, ThreadTeam& team) noexcept {
+  for (std::size_t i = 0; i < motions_.size(); ++i)
+    if (places_[i]) motions_[i].place(seconds, *places_[i], team);
+}
+
+bool DrivenBodies::any_moves() const {
+  return std::any_of(ends_.begin(), ends_.end(), [](const Planes3* end) { return end != nullptr; });
+}
+
+double DrivenBodies::fastest() const {
+  double fastest = 0;
+  for (const BodyMotion& motion : motions_) fastest = std::max(fastest, motion.fastest());
   return fastest;
 }
 

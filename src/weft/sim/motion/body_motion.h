@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,14 @@
 #include "weft/sim/placement.h"
 
 namespace weft {
+
+/// Where a path stands: linear between its keys, still before the first and after the last.
+/// @pre at least one key
+MotionKey key_at(std::span<const MotionKey> path, double seconds);
+
+/// The fastest that anything goes that a path turns and moves. [m/s]
+/// @param reach  how far from the middle of turning it may be [m]
+double fastest_on(std::span<const MotionKey> path, double reach);
 
 /// Where a body is at each time: a function of time alone, so a run that goes on needs nothing of
 /// it. Rigid motion turns the placed body about its placed origin; an animation moves the vertices
@@ -55,6 +65,25 @@ class BodyMotion {
   std::vector<MotionKey> path_;
   std::optional<PointCache> animation_;  // times in seconds
   std::vector<BlendedVertex> blends_;    // [n * n]
+};
+
+/// The bodies of a scene on their ways, in its order.
+class DrivenBodies {
+ public:
+  void add(BodyMotion motion);
+  /// Finds where each is at the end of a step.
+  void move_to(double seconds, ThreadTeam& team) noexcept;
+
+  /// Where each is at the end of the step. [n x n] world [m]; null where it stands still
+  [[nodiscard]] std::span<const Planes3* const> ends() const { return ends_; }
+  [[nodiscard]] bool any_moves() const;
+  /// The fastest that any of them goes. [m/s]
+  [[nodiscard]] double fastest() const;
+
+ private:
+  std::vector<BodyMotion> motions_;
+  std::vector<std::unique_ptr<Planes3>> places_;  // null where a body stands still
+  std::vector<const Planes3*> ends_;
 };
 
 }  // namespace weft

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "weft/error.h"
-#include "weft/sim/motion/motion_path.h"
+#include "weft/sim/motion/body_motion.h"
 #include "weft/sim/placement.h"
 
 namespace weft {

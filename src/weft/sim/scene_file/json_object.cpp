@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/json_text.h"
+#include "weft/core/json.h"
 #include "weft/core/nearest_name.h"
 #include "weft/error.h"
 

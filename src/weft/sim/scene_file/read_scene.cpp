@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "weft/core/json.h"
 #include "weft/core/nearest_name.h"
-#include "weft/core/parse_json.h"
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/scene_file.h"

@@ -14,7 +14,7 @@
 #include "weft/collide/collider.h"
 #include "weft/sim/insides.h"
 #include "weft/sim/motion/attachments.h"
-#include "weft/sim/motion/driven_bodies.h"
+#include "weft/sim/motion/body_motion.h"
 #include "weft/sim/motion/grab.h"
 #include "weft/sim/motion/pins.h"
 #include "weft/sim/stepping/adaptive_substeps.h"

@@ -9,56 +9,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "weft/cloth/cloth.h"
-#include "weft/core/contact_point.h"
 #include "weft/core/stopwatch.h"
 #include "weft/sim/stepping/simulation_parts.h"
 
 namespace weft {
 namespace {
-
-/// The limiter pulls cloth into bodies, the collider stretches it again. The two-level method's
-/// springs are so soft that the limiter carries the cloth: there both take turns, the collider
-/// last.
-constexpr int rounds_of_soft_springs = 4;
-/// What the two-level method is limited at where the material says nothing: its springs are none of
-/// the material's. [zink07]
-constexpr double strain_of_soft_springs = 0.05;
-
-/// Whether the limiter works as the paper prints it, where a method has the choice.
-bool is_as_printed(const IntegratorOptions& options) {
-  return std::visit(
-      [](const auto& chosen) {
-        if constexpr (requires { chosen.as_printed; })
-          return chosen.as_printed;
-        else
-          return false;
-      },
-      options);
-}
-
-LimitOptions limit_for(const Scene& scene, const Cloth& cloth) {
-  const IntegratorTraits traits = Integrators::traits_of(scene.integrator);
-  const int suitable = std::clamp(cloth.size / 2, traits.min_passes, traits.max_passes);
-  LimitOptions limit{traits.has_limiter ? scene.limiter_passes.value_or(suitable) : 0};
-  if (!traits.soft_springs) return limit;
-  if (cloth.material.strain_limit == 0) limit.strain = strain_of_soft_springs;
-  limit.as_printed = is_as_printed(scene.integrator);
-  return limit;
-}
-/// Of the limiter on each coarse level.
-constexpr int coarse_passes = 2;
-
-/// What a solve with contacts leaves deeper in an obstacle than this part of the thickness, as
-/// where an impact went on beyond its last look, is pushed out.
-constexpr double harmless_depth = 0.75;
-
-/// In parts of the least gap: a solve that led less far from where its contacts were found has met
-/// what there is to meet, as those begin half a gap before they press; a guess that goes less far
-/// passes through nothing that is not closer.
-constexpr double same_place = 0.25, next_to_start = 0.05;
 
 int level_of(int subdivisions) {
   int level = 0;
@@ -67,99 +22,6 @@ int level_of(int subdivisions) {
 }
 
 }  // namespace
-
-void Simulation::Parts::bodies_arrive() {
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].moves) bodies[i].positions = *driven.ends()[i];
-}
-
-void Simulation::Parts::move_driven(double seconds) {
-  driven.move_to(seconds, team);
-  if (driven.any_moves()) collider->move_bodies(driven.ends(), team);
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    move_pins(pin_motions[i], seconds, *cloths[i].model);
-    move_tied(tied_pins[i], driven.ends(), *cloths[i].model);
-  }
-  if (grab.holds()) grab.move(time_step, scene.ground, cloths[grab.cloth()]);
-}
-
-void Simulation::Parts::propose(std::size_t index) {
-  SimulatedCloth& cloth = cloths[index];
-  Mover& mover = movers[index];
-  mover.wind_work = mover.pulled_work = 0;
-  if (mover.wind) {
-    known_energy = false;
-    mover.calm_velocity = cloth.state.velocity;
-    mover.wind->blow(time_step, cloth.state, solvers());
-    mover.wind_work =
-        mover.meter.kinetic(cloth.state.velocity) - mover.meter.kinetic(mover.calm_velocity);
-  }
-  mover.integrator->begin({time_step, vec_cast<float>(scene.gravity)}, cloth.state);
-  if (!mover.integrator->starts_at_proposal()) mover.integrator->iterate({});
-}
-
-bool Simulation::Parts::is_pulled(std::size_t index) const {
-  const SimulatedCloth& cloth = cloths[index];
-  if (soft || cloth.model->material.strain_limit <= 0) return false;
-  const auto& pins = cloth.model->pins;
-  return driven.any_moves() || std::any_of(pins.begin(), pins.end(), [&](const Pin& pin) {
-           return vec_cast<float>(pin.target) != cloth.state.position.at(pin.sample);
-         });
-}
-
-int Simulation::Parts::respond(std::size_t index) {
-  const std::span<const float> forces = movers[index].integrator->contact_forces();
-  const std::span<const Contact> obstacles = collider->obstacle_contacts(index);
-  const double harmless = harmless_depth * cloths[index].model->material.thickness;
-  const auto is_deep = [&](const Contact& contact) {
-    return depth_of(contact, moving[index].position) > harmless;
-  };
-  if (!movers[index].integrator->solves_contacts() ||
-      std::any_of(obstacles.begin(), obstacles.end(), is_deep))
-    return collider->correct(index, moving[index], forces, time_step, team);
-  const std::span<const float> pressing = forces.first(std::min(forces.size(), obstacles.size()));
-  return static_cast<int>(
-      std::count_if(pressing.begin(), pressing.end(), [](float force) { return force > 0; }));
-}
-
-int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport& report) {
-  const SimulatedCloth& cloth = cloths[index];
-  Mover& mover = movers[index];
-  Stopwatch clock;
-  LimitOptions limiter = limit_for(scene, *cloth.model);
-  if (unlimited) limiter.passes = 0;
-  LimitOptions coarse_limiter = limiter;
-  coarse_limiter.passes = std::min(coarse_passes, limiter.passes);
-  int contacts = 0;
-  for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
-    if (soft) mover.coarse_limit.limit(coarse_limiter, time_step, next, solvers());
-    report.limit_ms += clock.lap_ms();
-    const bool pulled = is_pulled(index);
-    const double before = pulled ? mover.meter.measure(next).total() : 0;
-    clock.lap_ms();
-    // What it moves changes velocities as in a whole substep: the same way in a short step would be
-    // a shot.
-    mover.limit.limit(limiter, substep_time, next, solvers());
-    report.limit_ms += clock.lap_ms();
-    if (watched || pulled) mover.solved = mover.meter.measure(next);
-    mover.pulled_work += pulled ? std::max(0.0, mover.solved.total() - before) : 0;
-    clock.lap_ms();
-    const int touched = respond(index);
-    report.collide_ms += clock.lap_ms();
-    contacts = std::max(contacts, touched);
-    if (touched == 0) break;
-  }
-  return contacts;
-}
-
-void Simulation::Parts::gather_moving() {
-  moving.clear();
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    ClothState& next = movers[i].integrator->proposal();
-    moving.push_back(
-        {cloths[i].state.position, next.position, next.velocity, cloths[i].model->inverse_mass});
-  }
-}
 
 void Simulation::Parts::substep(int number, FrameReport& report) {
   const double begin = substep_time * number, end = substep_time * (number + 1);
@@ -180,31 +42,6 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
     }
   }
   levels = walk.next(levels);
-}
-
-int Simulation::Parts::subdivisions_until(double seconds) {
-  if (!driven.any_moves()) return 1;
-  driven.move_to(seconds, team);
-  double wanted = 1;
-  for (const SimulatedCloth& cloth : cloths) {
-    reach.place(cloth.state, substep_time, gap_of(*cloth.model));
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (bodies[i].moves)
-        wanted = std::max(
-            wanted, wanted_subdivisions({bodies[i].positions, *driven.ends()[i], body_triangles[i]},
-                                        reach, max_approach_in_step, body_motion, team));
-  }
-  return whole_subdivisions(wanted);
-}
-
-bool Simulation::Parts::check_for_runaway(double seconds, bool may_refuse) {
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    const auto bad = movers[i].runaway.find(*cloths[i].model, movers[i].integrator->proposal(),
-                                            seconds, solvers());
-    if (bad && may_refuse) return false;
-    if (bad) stop_unstable(i, *bad);
-  }
-  return true;
 }
 
 Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, bool may_refuse,
@@ -230,49 +67,6 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, bool may_re
     tried.verdict = StepVerdict::forced;
   }
   return tried;
-}
-
-void Simulation::Parts::iterate_together() {
-  own_contacts.clear();
-  for (std::size_t i = 0; i < cloths.size(); ++i) own_contacts.push_back(collider->contacts(i));
-  joint->iterate(own_contacts, collider->shared_contacts());
-}
-
-void Simulation::Parts::iterate_all() {
-  if (joint && !collider->shared_contacts().empty()) return iterate_together();
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    const std::span<const Contact> found = collider->contacts(i);
-    if (movers[i].integrator->starts_at_proposal() || (heeds_contacts() && !found.empty()))
-      movers[i].integrator->iterate(found);
-  }
-}
-
-bool Simulation::Parts::guesses_go_far() const {
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (largest_displacement(moving[i].start, moving[i].position) >
-        next_to_start * self_gap_of(*cloths[i].model))
-      return true;
-  return driven.any_moves();
-}
-
-bool Simulation::Parts::solves_go_far() const {
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (largest_displacement(movers[i].guess, moving[i].position) >
-        same_place * self_gap_of(*cloths[i].model))
-      return true;
-  return false;
-}
-
-bool Simulation::Parts::free_guesses() {
-  const bool filters = Colliders::traits_of(scene.collider).filters;
-  if (!heeds_contacts() && !filters) return false;
-  collider->detect(moving, time_step, team);
-  if (!filters || !heeds_contacts() || !collider->anything_near()) return false;
-  // Contacts stay: they are those of the step's start, and of a longer way.
-  if (movers.front().integrator->starts_at_proposal() && guesses_go_far())
-    collider->filter_guess(moving, time_step, team);
-  for (std::size_t i = 0; i < cloths.size(); ++i) movers[i].guess = moving[i].position;
-  return true;
 }
 
 void Simulation::Parts::solve_all(FrameReport& report) {
@@ -320,25 +114,6 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
   report.fell_back = std::max(report.fell_back, tried.filtered.fell_back);
   report.whole_fell_back = std::max(report.whole_fell_back, tried.filtered.whole);
   bodies_arrive();
-}
-
-void Simulation::Parts::show_step(FrameReport& report) const {
-  Stopwatch clock;
-  std::vector<StepMotion::Path> cloth_paths, body_paths;
-  for (const MovingCloth& cloth : moving) cloth_paths.push_back({&cloth.start, &cloth.position});
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    body_paths.push_back(
-        {&bodies[i].positions, bodies[i].moves ? driven.ends()[i] : &bodies[i].positions});
-  watcher->see({cloth_paths, body_paths});
-  report.milliseconds -= clock.lap_ms();
-}
-
-void Simulation::Parts::finish(std::size_t index, FrameReport& report) {
-  const StepReport stepped = movers[index].integrator->end(cloths[index].state);
-  report.forces_ms += 1000 * stepped.forces_seconds;
-  report.solve_ms += 1000 * stepped.solve_seconds;
-  report.iterations += stepped.iterations;
-  report.residual = std::max(report.residual, stepped.residual);
 }
 
 }  // namespace weft

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "weft/cloth/baselines/contact_loads.h"
+#include "weft/cloth/baselines/contact_terms.h"
 #include "weft/cloth/kernels/kernel_table.h"
 #include "weft/core/thread_team.h"
 

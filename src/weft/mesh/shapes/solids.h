@@ -1,0 +1,18 @@
+#pragma once
+
+#include "weft/mesh.h"
+
+namespace weft {
+
+/// A closed box around the origin with sharp edges, in squares of 2 cm cut in two.
+TriangleMesh box_mesh();
+/// [m]
+inline constexpr Vec3d box_size{0.6, 0.4, 0.5};
+
+/// An icosahedron whose triangles are split in four `levels` times (20 * 4^levels triangles), every
+/// vertex on the sphere around the origin.
+/// @param radius  [m], > 0
+/// @param levels  >= 0
+TriangleMesh icosphere(double radius, int levels);
+
+}  // namespace weft
