@@ -7,8 +7,8 @@
 namespace weft {
 namespace {
 
-using test::guarding;
 using test::octahedral_sphere;
+using test::polar_collider;
 using test::TestCloth;
 
 constexpr int n = 9;
@@ -25,7 +25,7 @@ std::unique_ptr<Collider> on_ground(double ground_friction, double cloth_frictio
   Obstacles obstacles;
   obstacles.ground = 0;
   obstacles.ground_friction = ground_friction;
-  return guarding(obstacles, 0.002, cloth_friction);
+  return polar_collider(obstacles, 0.002, cloth_friction);
 }
 
 /// A sheet without springs lying on the ground, sliding along x; semi-implicit Euler under gravity.
@@ -86,7 +86,7 @@ TEST(Collider, PinnedParticlesAreNeverMoved) {
 TEST(Collider, ContactsAreHalfSpacesThatTouchTheSphere) {
   Obstacles obstacles;
   obstacles.bodies.push_back(octahedral_sphere(65, 0.5, {}));
-  const auto collider = guarding(obstacles, 0.004, 0.4);
+  const auto collider = polar_collider(obstacles, 0.004, 0.4);
   TestCloth cloth(n);
   cloth.place([](int r, int c) { return Vec3d{0.1 * c - 0.4, 0.49, 0.1 * r - 0.4}; });
   ThreadTeam team(2);
@@ -109,7 +109,7 @@ TEST(Collider, TeamsOfAnySizeGiveTheSameBits) {
   obstacles.bodies.push_back(octahedral_sphere(17, 0.3, {0.4, 0.2, 0}));
   obstacles.ground = -0.1;
   const auto run = [&](int threads) {
-    const auto collider = guarding(obstacles, 0.01, 0.4);
+    const auto collider = polar_collider(obstacles, 0.01, 0.4);
     TestCloth cloth(33);
     cloth.place([](int r, int c) {
       return Vec3d{0.03 * c - 0.5, 0.02 * r - 0.2, 0.01 * (r + c) - 0.3};

@@ -62,9 +62,9 @@ inline Body torus(int n, double ring, double tube) {
   return body;
 }
 
-/// A polar map that guards one cloth without seams.
-inline std::unique_ptr<Collider> guarding(const Obstacles& obstacles, double thickness,
-                                          double friction) {
+/// The polar map as the collider of one cloth without seams.
+inline std::unique_ptr<Collider> polar_collider(const Obstacles& obstacles, double thickness,
+                                                double friction) {
   static const BorderMates no_mates;
   const CollidingCloth cloth{.mates = no_mates, .thickness = thickness, .friction = friction};
   return make_collider(PolarMapOptions{}, obstacles, std::span(&cloth, 1));

@@ -90,7 +90,7 @@ TEST(Allocation, SteppingAllocatesNothingOnceWarm) {
       const StepInput input{1e-4, {0, -9.81F, 0}};
       const auto integrator = make_integrator(options, cloth, input, team);
       const Obstacles ball{{test::octahedral_sphere(17, 0.3, {0, -0.35, 0})}, -0.5, 0.5};
-      const auto collider = test::guarding(ball, 0.002, 0.4);
+      const auto collider = test::polar_collider(ball, 0.002, 0.4);
       Wind wind({{1, 2, 0}}, cloth);
       CoarseLimit coarse(cloth, team);
       StrainLimit limit(cloth, team);

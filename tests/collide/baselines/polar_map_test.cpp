@@ -154,7 +154,7 @@ TEST(PolarMap, NoClothVertexUnderASphereAfterThePush) {
   const PolarMap map(body, {});
   Obstacles obstacles;
   obstacles.bodies.push_back(body);
-  const auto collider = test::guarding(obstacles, 0.004, 0.3);
+  const auto collider = test::polar_collider(obstacles, 0.004, 0.3);
   TestCloth cloth(n);
   // Bent through the sphere: most of the sheet lies up to 4 cm under its surface.
   cloth.place([](int r, int c) {

@@ -4,7 +4,7 @@
 
 #include "weft/cloth/kernels/row_pointers.h"
 
-// Inner loops that are compiled once for every instruction set (kernels/rows/): each works on one
+// Inner loops that are compiled once for every instruction set (kernels/isa/): each works on one
 // row of n samples, reads its neighbours' rows and writes nothing but what it is given to write.
 // They give the same bits in each set: no sum's order depends on the vector's width. Here stand
 // those of multigrid, bending, the strain limiter and the look for runaways; implicit and explicit
