@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "weft/sim/scene_file/scene_keys.h"
@@ -31,7 +30,13 @@ void read_option(const JsonObject& object, std::string_view key, double& value, 
 void read_option(const JsonObject& object, std::string_view key, int& value, OptionRange range) {
   value = object.integer(key, value, static_cast<int>(range.min), static_cast<int>(range.max));
   if (range.odd && value % 2 == 0)
-    object.place().key(key).fail(fmt::format("{}", value), "an odd number is wanted");
+    object.place().key(key).fail(std::to_string(value), "an odd number is wanted");
+}
+
+std::string listed(const std::vector<std::string_view>& names) {
+  std::string list;
+  for (const std::string_view name : names) list.append(list.empty() ? "" : ", ").append(name);
+  return list;
 }
 
 /// @param kind  "integrator" or the like
@@ -42,7 +47,7 @@ typename Methods::Variant read_method(const nlohmann::json& value, const JsonPla
   auto method = Methods::find(type);
   if (!method)
     place.key("type").fail(fmt::format("unknown {} '{}'", kind, type),
-                           fmt::format("known are: {}", fmt::join(Methods::names(), ", ")));
+                           "known are: " + listed(Methods::names()));
   std::visit(
       [&]<class Options>(Options& options) {
         const std::vector<std::string_view> keys = scene_keys::of_method<Options>();
