@@ -14,8 +14,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # So many commits may change a block's sources before it has to be measured anew.
 MOST_COMMITS = 60
 
-CLOTH = ("src/weft/cloth",)
-SIMULATION = ("src/weft/cloth", "src/weft/collide", "src/weft/sim")
+# The defaults that a measurement runs on stand in public headers.
+CLOTH = ("src/weft/cloth", "include/weft/integrators.h", "include/weft/material.h")
+SIMULATION = (*CLOTH, "src/weft/collide", "src/weft/sim", "include/weft/colliders.h", "include/weft/scene.h")
 CONVERSION = ("src/weft/mesh", "src/weft/cut", "src/weft/param", "src/weft/image", "src/weft/convert")
 SOURCES = {
     "meshes": CONVERSION, "targets": CONVERSION, "growth": CONVERSION,

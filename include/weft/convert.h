@@ -34,10 +34,10 @@ struct ConvertOptions {
   bool keep_places = false;  ///< tell where on the mesh each sample lies (load_surface)
   bool keep_source = false;  ///< keep the mesh and where its vertices lie (load_surface)
   MeshFrame files;           ///< what the numbers of mesh files mean (load_surface)
-  bool fit_samples =
-      false;               ///< move samples so that the triangles between them fit, see fit_samples
-  bool measure = true;     ///< stage 11
-  std::uint64_t seed = 1;  ///< of the samples that stage 11 measures by
+  /// Move samples off the surface, so that the triangles between them fit it best.
+  bool fit_samples = false;
+  bool measure = true;     ///< how far image and mesh are apart
+  std::uint64_t seed = 1;  ///< of the points that this is measured at
   int threads = 1;
   Progress* progress = nullptr;
 };
@@ -55,14 +55,14 @@ struct Conversion {
   RepairedMesh input;
   std::vector<std::string> warnings;  ///< what was not done as asked for
   CutSummary cut;
-  int rounds = 0;
+  int rounds = 0;  ///< paths that were added to the cut to better the map
   MapQuality map_quality;
   std::string parameterizer;  ///< name as on the command line
   /// The cut surface in its square, for what draws it (weft/drawing.h).
   std::shared_ptr<const MappedDisk> mapped;
   GeometryImage image;
   std::optional<NormalMap> normals;
-  std::optional<Planes3> texture;  ///< with keep_uv: x = u, y = v (see sample_texture)
+  std::optional<Planes3> texture;  ///< with keep_uv: x = u, y = v; mates differ along seams of it
   ImageQuality quality;
   StageSeconds seconds;
 };
@@ -89,7 +89,7 @@ struct CutPreviewOptions {
   int size = 257;        ///< of the image that it is lengthened for
   Progress* progress = nullptr;
 };
-/// @throws InputError, TopologyError as repair_mesh
+/// @param name  what errors call the mesh  @throws InputError, TopologyError as repair_mesh
 CutPreview preview_cut(const TriangleMesh& mesh, const std::string& name,
                        const CutPreviewOptions& options = {});
 
@@ -143,7 +143,7 @@ struct LoadedSurface {
   std::optional<SampleBlends> follows;  ///< with keep_places, where it came from a mesh
   std::optional<SourceMesh> source;     ///< with keep_source, where it came from a mesh
 };
-/// @throws InputError, TopologyError, UsageError as the stages
+/// @throws InputError, TopologyError, UsageError as convert_mesh and check_image
 LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options);
 
 /// True when a name ends as geometry images do: .exr or .png.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "weft/grid.h"
@@ -88,6 +89,12 @@ struct NormalMap {
 
 /// True when all samples of every class hold the same bits.
 bool mates_bit_equal(const GeometryImage& image);
+
+/// Refuses an image that does not keep what its type says, as one that a caller put together may.
+/// @param name  what the error calls it
+/// @throws InputError for a side out of range, mates of another size, positions outside the unit
+///         cube or not finite, a world without size, or mates that differ
+void check_image(const GeometryImage& image, std::string_view name);
 
 /// Positions in the world, mates again equal.
 Planes3 world_positions(const GeometryImage& image);

@@ -15,7 +15,7 @@ namespace weft {
 using Triangle = std::array<int, 3>;
 
 /// A triangle mesh as a plain value: nothing is promised of its topology until it was checked
-/// (`weft/mesh/repair.h`).
+/// (`weft/repair.h`).
 struct TriangleMesh {
   std::vector<Vec3d> positions;     ///< [V], metres
   std::vector<Triangle> triangles;  ///< [F], indices into positions

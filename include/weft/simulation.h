@@ -50,8 +50,10 @@ struct FrameReport {
   int fell_back = 0;        ///< of these, points put back to the step's start, largest of its steps
   int whole_fell_back = 0;  ///< cloths of which all points were, largest of its steps
   double work = 0;          ///< of pins, moving bodies and wind [J]
-  double smallest_gap = HUGE_VAL;  ///< see Collider::smallest_gap [m]
-  Vec3d centre_of_mass;            ///< all cloths together [m]
+  /// The least signed distance of a particle to an obstacle, negative inside; known up to twice the
+  /// thickness, infinite where nothing is known to be near. [m]
+  double smallest_gap = HUGE_VAL;
+  Vec3d centre_of_mass;  ///< all cloths together [m]
 };
 
 struct Cloth;
@@ -59,8 +61,9 @@ struct Cloth;
 /// A cloth of a running simulation, for those who draw or export it.
 struct SimulatedCloth {
   std::string name;
-  GeometryImage image;           ///< the rest shape as it was loaded
-  std::shared_ptr<Cloth> model;  ///< springs and masses, for the library's own sources
+  GeometryImage image;  ///< the rest shape as it was loaded
+  /// Springs and masses, for the library's own sources; copies of this share it.
+  std::shared_ptr<Cloth> model;
   ClothState state;
   std::optional<SourceMesh> source;  ///< unplaced, where the surface came from a mesh
 };
@@ -112,9 +115,10 @@ struct StepLevels {
 struct SimulationState {
   int frame = 0;                   ///< frames done
   std::vector<ClothState> cloths;  ///< in the scene's order
-  /// Of each cloth, what the collider knows of it, see Collider::save_marks.
+  /// Of each cloth, what the collider knows of it beyond positions: which samples are inside of
+  /// bodies, and what it may be tangled with.
   std::vector<std::vector<int>> marks{};
-  /// Of each cloth, see Integrator::past_contacts.
+  /// Of each cloth, what contacts did in the last step.
   std::vector<std::vector<PastContact>> contacts{};
   StepLevels levels{};  ///< of the next substep
   WorkDone work{};      ///< up to this frame
@@ -202,7 +206,8 @@ class Simulation {
   [[nodiscard]] double used_thickness(std::size_t cloth) const;
   /// What the last step found to press on a cloth.
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const;
-  /// See Collider::crossings, of the last step.
+  /// Edges of cloth that passed through cloth at the start of the last step, and are being
+  /// untangled.
   [[nodiscard]] int crossings() const;
   /// The mean of l / r - 1 over the springs along rows and columns around each sample, now.
   /// @param strains  [n x n]

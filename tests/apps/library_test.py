@@ -35,10 +35,6 @@ class Library(ProgramTest):
         self.assertLess(float(found[3]), 5)
         words = self.run_tool(self.folder / "example/game_loop")
         self.assertEqual(words, "frame 30: played again alike\nstopped\n")
-        # Every public header can be the first.
-        first = "".join(f'#include "weft/{path.name}"\n' for path in sorted((SOURCE / "include/weft").glob("*.h"), reverse=True))
-        (self.folder / "all.cpp").write_text(first)
-        self.run_tool("c++", "-std=c++20", "-fsyntax-only", f"-I{self.folder / 'weft/include'}", "all.cpp")
         # The installed program is the program.
         version = self.run_tool(self.folder / "weft/bin/weft", "--version")
         self.assertEqual(version, self.run_weft("--version").stdout)

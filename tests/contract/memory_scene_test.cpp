@@ -68,6 +68,48 @@ TEST(MemoryScene, MeshThatCannotBecomeAnImageIsNamed) {
   }
 }
 
+/// What a simulation says of a body that it refuses.
+std::string refusal_of(Surface body) {
+  try {
+    Simulation(sheet_on(std::move(body)), "memory", 1);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::input);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(MemoryScene, BrokenMeshesAreRefusedInOneLine) {
+  TriangleMesh beyond = make_shape("sphere");
+  beyond.triangles[3][1] = 1'000'000;
+  TriangleMesh not_finite = make_shape("sphere");
+  not_finite.positions[5].y = NAN;
+  TriangleMesh half_textured = make_shape("sphere");
+  half_textured.corner_uv.resize(2);
+  for (const TriangleMesh& mesh : {TriangleMesh{}, beyond, not_finite, half_textured}) {
+    const std::string said = refusal_of({mesh, "given"});
+    EXPECT_TRUE(said.starts_with("given: ")) << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+  }
+}
+
+TEST(MemoryScene, BrokenImagesAreRefusedInOneLine) {
+  ConvertOptions options;
+  options.size = 33;
+  const GeometryImage sound = convert_mesh(make_shape("sphere"), "ball", options).image;
+  GeometryImage not_finite = sound, far = sound, no_size = sound, apart = sound, other = sound;
+  not_finite.cube.x(4, 4) = NAN;
+  far.cube.y(4, 4) = 2;
+  no_size.world.scale = 0;
+  apart.cube.z(0, 3) += 0.01F;
+  other.mates = BorderMates(17, {});
+  for (const GeometryImage& image : {GeometryImage{}, not_finite, far, no_size, apart, other}) {
+    const std::string said = refusal_of({image, "given"});
+    EXPECT_TRUE(said.starts_with("given: ")) << said;
+  }
+  EXPECT_EQ(refusal_of({sound, "given"}), "accepted");
+}
+
 TEST(MemoryScene, WhatIsInMemoryAloneIsNotWrittenAsAFile) {
   const Scene scene = sheet_on({make_shape("sphere"), "ball"});
   EXPECT_THROW(write_scene("scene.json", scene), UsageError);

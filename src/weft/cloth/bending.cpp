@@ -33,10 +33,10 @@ void add_border_bound(const BorderBending& border, SpringDirection direction, Gr
   for (int r = 0; r + 1 < static_cast<int>(border.starts.size()); ++r)
     for (int i = border.starts[r]; i < border.starts[r + 1]; ++i) {
       const BorderBending::Edge& edge = border.edges[i];
-      const int way_down = edge.other_row - r, way_right = edge.other_col - edge.col;
+      const int rows_between = edge.other_row - r, cols_between = edge.other_col - edge.col;
       const float stiffness = std::max(edge.stiffness, 0.0F);
-      if (way_down == down && way_right == right) bound(r, edge.col) += stiffness;
-      if (way_down != 2 * down || way_right != 2 * right) continue;
+      if (rows_between == down && cols_between == right) bound(r, edge.col) += stiffness;
+      if (rows_between != 2 * down || cols_between != 2 * right) continue;
       bound(r, edge.col) += 2 * stiffness;
       bound(r + down, edge.col + right) += 2 * stiffness;
     }

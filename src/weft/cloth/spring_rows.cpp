@@ -8,8 +8,8 @@ namespace weft {
 namespace {
 
 /// Rows whose forces are under way: springs reach two rows down.
-constexpr int rows_under_way = 3;
-constexpr int lines_a_worker = rows_under_way + 1;
+constexpr int rows_in_progress = 3;
+constexpr int lines_a_worker = rows_in_progress + 1;
 
 void clear(Row3 row, int n) {
   for (float* line : {row.x, row.y, row.z}) std::fill(line, line + n, 0.0F);
@@ -36,11 +36,11 @@ SpringRow SpringRows::springs(int direction, int row) const {
 }
 
 void SpringRows::begin(const Motion& motion, Worker& worker) {
-  for (int i = 0; i < rows_under_way; ++i) clear(lines(worker, i), cloth_.size);
+  for (int i = 0; i < rows_in_progress; ++i) clear(lines(worker, i), cloth_.size);
   const Range mine = worker.share(cloth_.size);
   for (int r = std::max(0, mine.first - (bends_ ? 2 : 1)); r < mine.first; ++r) {
     add_row(motion, r, worker);
-    clear(lines(worker, r % rows_under_way), cloth_.size);
+    clear(lines(worker, r % rows_in_progress), cloth_.size);
   }
 }
 
@@ -50,23 +50,23 @@ void SpringRows::add_row(const Motion& motion, int row, Worker& worker) {
   const auto at = [&](int r) {
     return MovingRow{row_of(motion.position, r), row_of(motion.start, r)};
   };
-  const auto under_way = [&](int r) { return lines(worker, r % rows_under_way); };
-  const Row3 out = under_way(row), scratch = lines(worker, rows_under_way);
+  const auto in_progress = [&](int r) { return lines(worker, r % rows_in_progress); };
+  const Row3 out = in_progress(row), scratch = lines(worker, rows_in_progress);
   for (int d = 0; d < (bends_ ? spring_directions : bend_u); ++d) {
     const auto [down, right] = spring_offsets[d];
     if (row + down >= n) continue;
     const int first = std::max(0, -right), last = n - std::max(0, right);
     kernels_.springs({first, last, right, per_step, springs(d, row), at(row), at(row + down)},
-                     scratch, out, under_way(row + down));
+                     scratch, out, in_progress(row + down));
   }
 }
 
 ConstRow3 SpringRows::row(const Motion& motion, int row, Worker& worker) {
   // The row before was read; its lines serve the row that is now two further.
   if (row > worker.share(cloth_.size).first)
-    clear(lines(worker, (row - 1) % rows_under_way), cloth_.size);
+    clear(lines(worker, (row - 1) % rows_in_progress), cloth_.size);
   add_row(motion, row, worker);
-  const Row3 done = lines(worker, row % rows_under_way);
+  const Row3 done = lines(worker, row % rows_in_progress);
   return {done.x, done.y, done.z};
 }
 

@@ -1,7 +1,10 @@
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include "weft/convert.h"
 #include "weft/convert/surface_places.h"
+#include "weft/error.h"
 #include "weft/files.h"
 #include "weft/image/builtin.h"
 #include "weft/image_file.h"
@@ -42,6 +45,14 @@ MeshFile load_mesh_file(const std::string& name, const MeshFrame& files) {
   return file;
 }
 
+void check_texture(const TriangleMesh& mesh, const std::string& name) {
+  if (mesh.corner_uv.empty() || mesh.corner_uv.size() == mesh.triangles.size()) return;
+  throw InputError(name,
+                   fmt::format("texture coordinates for {} of {} triangles", mesh.corner_uv.size(),
+                               mesh.triangles.size()),
+                   "three a triangle, or none at all");
+}
+
 }  // namespace
 
 bool is_image_name(const std::string& name) {
@@ -63,7 +74,10 @@ bool is_image_surface(const Surface& surface) {
 
 LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options) {
   const std::string& name = surface.name;
-  if (surface.image) return {*surface.image, {}, {}, {}, {}};
+  if (surface.image) {
+    check_image(*surface.image, name);
+    return {*surface.image, {}, {}, {}, {}};
+  }
   if (!surface.mesh && is_image_name(name)) return {read_image(name), {}, {}, {}, {}};
   if (is_image_surface(surface)) {
     const int size = options.size == automatic_size ? ConvertOptions{}.size : options.size;
@@ -71,12 +85,14 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
   }
   ConvertOptions quick = options;
   quick.measure = false;
-  MeshFile file = surface.mesh ? MeshFile{*surface.mesh, faces_of(*surface.mesh)}
-                               : load_mesh_file(name, options.files);
+  MeshFile file = surface.mesh ? MeshFile{*surface.mesh, {}} : load_mesh_file(name, options.files);
+  if (surface.mesh) check_texture(*surface.mesh, name);
   const auto vertices = static_cast<int>(file.mesh.positions.size());
   Conversion made = convert_mesh(file.mesh, name, quick);
   LoadedSurface loaded;
   if (options.keep_places) loaded.follows = blends_of(made, vertices);
+  // Of a mesh in memory only once it is known to be sound.
+  if (options.keep_source && surface.mesh) file.faces = faces_of(file.mesh);
   if (options.keep_source)
     loaded.source = {std::move(file.mesh.positions), std::move(file.faces),
                      vertex_places(*made.mapped, made.input.source_vertex, vertices)};

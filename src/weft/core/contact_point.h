@@ -19,6 +19,10 @@ inline double depth_of(const Contact& contact, const Planes3& planes) {
   return double{contact.offset} - dot(vec_cast<double>(contact.normal), point_of(contact, planes));
 }
 
+/// What is inside something when a step begins, having been put or pressed there, leaves at this
+/// speed at most, lest it be shot out. [m/s]
+inline constexpr double max_exit_speed = 0.5;
+
 /// The offset that a step may bring about, in which nothing that was beyond the half-space when the
 /// step began is pushed out of it by more than `farthest`.
 inline double attainable_offset(const Contact& contact, const Planes3& start, double farthest) {

@@ -25,7 +25,7 @@ struct CutOptions {
 /// Stage 3: the edges to open a mesh along [gu02, section 3.1]: removal of triangles in order of
 /// geodesic distance from a seed, pruning, then straightening. A closed sphere gets a path between
 /// a far pair of vertices; a disk gets no edge.
-/// @pre repaired mesh (weft/mesh/repair.h). Deterministic.
+/// @pre repaired mesh (weft/repair.h). Deterministic.
 /// @throws TopologyError when the seed triangle does not exist
 Cut open_to_disk(const TriangleMesh& mesh, const CutOptions& options = {});
 

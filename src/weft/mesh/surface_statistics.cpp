@@ -12,8 +12,8 @@
 namespace weft {
 namespace {
 
-/// Gathers the facts edge by edge. A corner of a triangle is named like the half-edge that leaves
-/// it; corners joined over the edges that they share at a vertex make a fan.
+/// Gathers the statistics edge by edge. A corner of a triangle is named like the half-edge that
+/// leaves it; corners joined over the edges that they share at a vertex make a fan.
 class SurfaceExamination {
  public:
   SurfaceExamination(const TriangleMesh& mesh, MeshStatistics& statistics)

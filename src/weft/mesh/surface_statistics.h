@@ -4,8 +4,8 @@
 
 namespace weft {
 
-/// The part of a mesh's facts that is about how its triangles hang together: components, borders,
-/// non-manifold places, orientation.
+/// The part of a mesh's statistics that is about how its triangles hang together: components,
+/// borders, non-manifold places, orientation.
 /// @param mesh  finite; no triangle with a repeated vertex
 void examine_surface(const TriangleMesh& mesh, MeshStatistics& statistics);
 

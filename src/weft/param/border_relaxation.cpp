@@ -22,7 +22,7 @@ bool is_corner(int size, double t) { return std::fmod(t, size - 1) == 0; }
 
 double& along(Vec2d& point, int axis) { return axis == 0 ? point.x : point.y; }
 
-/// Finds the slides of a cut disk.
+/// Finds the freedoms of a cut disk.
 struct Finder {
   const CutDisk& cut;
   const BorderLayout& layout;

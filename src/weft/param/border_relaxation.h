@@ -25,8 +25,8 @@ struct BorderFreedom {
 std::vector<BorderFreedom> border_freedoms(const CutDisk& cut, const BorderLayout& layout,
                                            std::span<const double> t);
 
-/// Takes every slide's vertex to the nearest multiple of 2^-32 along its side, and its mate to the
-/// corresponding place, exactly.
+/// Takes the vertex of every freedom to the nearest multiple of 2^-32 along its side, and its mate
+/// to the corresponding place, exactly.
 /// @param uv  [D]
 void snap_to_grid(std::span<const BorderFreedom> freedoms, std::span<Vec2d> uv);
 

@@ -9,7 +9,7 @@
 
 namespace weft {
 
-/// Maps the inside of a disk into a convex border that is given, whose slides may move.
+/// Maps the inside of a disk into a convex border that is given, whose freedoms may move.
 /// @return whether the map is valid
 using MapDisk = std::function<bool(const DiskMesh&, std::span<Vec2d> uv,
                                    std::span<const BorderFreedom> freedoms)>;

@@ -27,8 +27,8 @@ struct DiskGeometry {
   /// the square.
   [[nodiscard]] double mean_square_stretch(std::span<const Vec2d> uv) const;
   /// What the Newton steps lower: the sum over all triangles of area * (m + q m^2 / 2), m their
-  /// mean square stretch and q their emphasis in units of mean_square_stretch, and of their inverse
-  /// stretch. For a valid map.
+  /// mean square stretch and q their curvature weight in units of mean_square_stretch, and of their
+  /// inverse stretch. For a valid map.
   [[nodiscard]] double energy(std::span<const Vec2d> uv) const;
   [[nodiscard]] double stretch_l2(std::span<const Vec2d> uv) const;
 };

@@ -14,7 +14,7 @@ constexpr double min_gain = 1e-8;
 
 /// Lengthens a whole step for as long as the energy falls by much: near a triangle that is all but
 /// closed Newton steps are short by far.
-double longer_way(const VertexStar& star, Vec2d place, Vec2d step, double most) {
+double longer_step_length(const VertexStar& star, Vec2d place, Vec2d step, double most) {
   constexpr double much = 0.7;
   double step_length = 1;
   double last = star.energy(place);
@@ -47,7 +47,7 @@ bool VertexMover::improve(int vertex) {
     const double reached = star_.energy(place + step_length * step);
     if (!(reached < here.energy + 1e-4 * step_length * slope)) continue;
     if (step_length == 1 && reached < 0.7 * here.energy)
-      step_length = longer_way(star_, place, step, most);
+      step_length = longer_step_length(star_, place, step, most);
     if (!star_.is_valid(place + step_length * step)) continue;
     uv_[vertex] = place + step_length * step;
     return true;

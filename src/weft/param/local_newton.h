@@ -28,7 +28,7 @@ class VertexMover {
   bool centre(int vertex);
   /// Moves a border vertex along its side, and its mate with it.
   bool improve(const BorderFreedom& freedom);
-  /// Moves all inner vertices and all slides once, in order.
+  /// Moves all inner vertices and all freedoms once, in order.
   void sweep(std::span<const BorderFreedom> freedoms = {});
 
  private:

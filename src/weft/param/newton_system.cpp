@@ -28,7 +28,8 @@ struct Pair {
 struct NewtonSystem::Blocks {
   const DiskGeometry& geometry;
   /// [2 D] the unknown of each vertex' u and v: -1 where fixed, first all of block u, then block v.
-  /// A slide's unknown is in the block of its vertex' axis, its mate's coordinate has the same.
+  /// The unknown of a freedom is in the block of its vertex' axis, its mate's coordinate has the
+  /// same.
   std::vector<int> unknown;
   std::vector<double> sign;    ///< [2 D] by which the coordinate follows its unknown
   std::vector<bool> freedoms;  ///< [F] whether a corner is on the border

@@ -10,7 +10,7 @@
 namespace weft {
 
 /// The projected Newton system of the stretch energy (see weft/param/stretch_newton.h): two
-/// unknowns for each interior vertex, one for each slide of the border; one pattern and one
+/// unknowns for each interior vertex, one for each freedom of the border; one pattern and one
 /// symbolic factorization for all steps.
 ///
 /// Solved by conjugate gradients, preconditioned with the Cholesky factors of the two diagonal

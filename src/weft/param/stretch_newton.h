@@ -29,7 +29,8 @@ struct NewtonOptions {
 /// whose last three terms form a 2 x 2 block with one negative eigenvalue; without that one the
 /// system is positive definite. Energy grows without bound as a triangle closes and steps end
 /// before the first one does, so a valid map stays valid.
-/// @param uv  [D] a valid map; the border stays but for `slides`, whose mates stay exactly opposite
+/// @param uv  [D] a valid map; the border stays but for `freedoms`, whose mates stay exactly
+/// opposite
 void minimise_by_newton(const DiskGeometry& geometry, std::span<Vec2d> uv,
                         const NewtonOptions& options);
 

@@ -12,8 +12,8 @@ namespace weft {
 struct TriangleEnergy {
   double value = 0;
   std::array<double, 6> gradient{};  ///< u, v of corner 0, 1, 2
-  /// Hessian = sum of outer products of these rows; the fourth is of `emphasise` alone, the last
-  /// four of `add_inverse_stretch`
+  /// Hessian = sum of outer products of these rows; the fourth is of `weigh_by_curvature` alone,
+  /// the last four of `add_inverse_stretch`
   std::array<std::array<double, 6>, 8> squares{};
 };
 /// @pre the triangle turns left

@@ -64,7 +64,7 @@ PassingSurface::PassingSurface(const GeometryImage& image, const Planes3& start)
     : triangles_(joined_triangles(image)),
       tree_(all_corners(start, triangles_)),
       boxes_(tree_.nodes.size()),
-      way_of_(triangles_.size()) {
+      swept_boxes_(triangles_.size()) {
   own_features();
   follow({&start, &start});
 }
@@ -84,7 +84,7 @@ void PassingSurface::own_features() {
 
 void PassingSurface::follow(const StepMotion::Path& step) {
   step_ = step;
-  for (std::size_t t = 0; t < triangles_.size(); ++t) way_of_[t] = swept(step, triangles_[t]);
+  for (std::size_t t = 0; t < triangles_.size(); ++t) swept_boxes_[t] = swept(step, triangles_[t]);
   for (int i = static_cast<int>(boxes_.size()) - 1; i >= 0; --i) {
     const BoxTree::Node& node = tree_.nodes[static_cast<std::size_t>(i)];
     Box3d& box = boxes_[static_cast<std::size_t>(i)];
@@ -95,7 +95,7 @@ void PassingSurface::follow(const StepMotion::Path& step) {
       continue;
     }
     for (int place = node.first; place < node.last; ++place)
-      add(box, way_of_[static_cast<std::size_t>(tree_.triangle_at[place])]);
+      add(box, swept_boxes_[static_cast<std::size_t>(tree_.triangle_at[place])]);
   }
 }
 
@@ -106,7 +106,7 @@ std::int64_t PassingSurface::count_vertices(int s, const PassingSurface& other, 
   for (std::size_t k = 0; k < 3; ++k) {
     const int v = own[k];
     if ((owned_[s].vertices >> k & 1U) == 0 || (same && has(face, v))) continue;
-    if (!overlap(swept(step_, std::array{v}), other.way_of_[t])) continue;
+    if (!overlap(swept(step_, std::array{v}), other.swept_boxes_[t])) continue;
     const auto hit = time_of_impact(vertex_face(at(*step_.start, v), *other.step_.start, face),
                                     vertex_face(at(*step_.end, v), *other.step_.end, face));
     count += hit ? 1 : 0;
@@ -159,7 +159,7 @@ void PassingSurface::find(int node, const PassingSurface& other, int other_node,
   for (int i = a.first; i < a.last; ++i)
     for (int k = pairs.same && node == other_node ? i + 1 : b.first; k < b.last; ++k) {
       const int s = tree_.triangle_at[i], t = other.tree_.triangle_at[k];
-      if (overlap(way_of_[s], other.way_of_[t]))
+      if (overlap(swept_boxes_[s], other.swept_boxes_[t]))
         pairs.count += count_between(s, other, t, pairs.same);
     }
 }

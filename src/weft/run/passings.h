@@ -44,8 +44,8 @@ class PassingSurface {
   std::vector<Triangle> triangles_;  // by samples that stand for their classes
   std::vector<Owned> owned_;         // [F]
   BoxTree tree_;
-  std::vector<Box3d> boxes_;   // [nodes] of what they sweep
-  std::vector<Box3d> way_of_;  // [F] the same of triangles
+  std::vector<Box3d> boxes_;        // [nodes] of what they sweep
+  std::vector<Box3d> swept_boxes_;  // [F] the same of triangles
   StepMotion::Path step_{};
 };
 

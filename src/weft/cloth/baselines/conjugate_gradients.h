@@ -36,7 +36,7 @@ class ConjugateGradients {
     int max_iterations = 0;
     double correction = 0;  ///< [m/s]
   };
-  /// @param right  [n x n] b without the mates' sums: each sample's own part; overwritten
+  /// @param rhs  [n x n] b without the mates' sums: each sample's own part; overwritten
   /// @param v      [n x n] the guess, then the solution; mates equal [m/s]
   SolveReport solve(const System& system, const Stop& stop, Planes3& rhs, Planes3& v,
                     ThreadTeam& team);

@@ -17,9 +17,6 @@ constexpr double touching = 1e-3;
 
 /// Forces that differ by this part of them are alike.
 constexpr double same_force = 0.02;
-/// What is inside something when a step begins, having been put or pressed there, leaves at this
-/// speed at most, lest it be shot out. [m/s]
-constexpr double fastest_way_out = 0.5;
 
 }  // namespace
 
@@ -67,7 +64,7 @@ bool ContactSprings::update_active(const Planes3& now, const Grid<float>& invers
     stick_stiffness_[i] = soft ? contact.stiffness : static_cast<float>(relative_stiffness * own);
     stiffness[i] = soft ? contact.stiffness : stick_stiffness_[i];
     const double offset = soft ? double{contact.offset}
-                               : attainable_offset(contact, *start_, fastest_way_out * time_step_);
+                               : attainable_offset(contact, *start_, max_exit_speed * time_step_);
     slack_[i] = dot(vec_cast<double>(contact.normal), point_of(contact, *start_)) - offset;
   }
   loads_.count(worker);

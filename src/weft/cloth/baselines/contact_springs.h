@@ -24,28 +24,28 @@ class ContactSprings {
   explicit ContactSprings(const Cloth& cloth);
 
   void clear() { loads_.set_contacts({}); }
-  /// Knows of contacts, but heeds none yet.
+  /// Knows of contacts, of which none is active yet.
   /// @param contacts  must stay until the last press
   /// @param start  positions then, by reference until the last press [m]
   void set_contacts(std::span<const Contact> contacts, const Planes3& start, double time_step);
 
   // To be called by every worker of the team, of any size.
 
-  /// Heeds, besides those that it heeds already, the contacts that may press: whose point is beyond
-  /// the half-space, or touches it, when each of the two sides is where it presses more, at the
-  /// start of the step or now. Ends with a barrier.
+  /// Makes active, besides those that are already, the contacts that may press: whose point is
+  /// beyond the half-space, or touches it, when each of the two sides is where it presses more, at
+  /// the start of the step or now. Ends with a barrier.
   /// @param inverse_diagonal  [n x n] of the filter, 0 where held [m/N]
   /// @return whether there were any such
   bool update_active(const Planes3& now, const Grid<float>& inverse_diagonal, Worker& worker);
-  /// Where particles are: at from + move + way * direction, the parts of the sum apart, since
-  /// depths are so small that rounding positions would drown them. [m]
+  /// Where particles are: at from + move + step_length * direction, the parts of the sum apart,
+  /// since depths are so small that rounding positions would drown them. [m]
   struct Place {
     const Planes3 &from, &move, &direction;
     float step_length = 1;
   };
   /// Decides which contacts stick and which slip, by their forces from the last press, or, where
   /// there was none, by what would stop their points if they were alone. Ends with a barrier.
-  /// @return whether any is judged otherwise than before
+  /// @return whether any sticks or slips otherwise than before
   bool update_friction(const Place& place, Worker& worker);
   /// Computes all forces. Ends with a barrier.
   void update_forces(const Place& place, Worker& worker);
@@ -75,7 +75,7 @@ class ContactSprings {
   const Planes3* start_ = nullptr;
   double time_step_ = 0;  // [s]
   std::vector<float> force_, friction_, spare_;
-  std::vector<float> max_friction_;     // as judged [N]
+  std::vector<float> max_friction_;     // as last decided [N]
   std::vector<float> stick_stiffness_;  // 0 where not heeded [N/m]
   std::vector<char> sticks_, changed_;
   bool any_changed_ = false;

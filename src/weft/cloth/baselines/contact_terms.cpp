@@ -44,9 +44,6 @@ void ContactLoads::count(Worker& worker) {
 namespace {
 
 constexpr double contact_stiffness = 0.125;
-/// What is inside something when a step begins, having been put or pressed there, leaves at this
-/// speed at most, lest it be shot out. [m/s]
-constexpr double fastest_way_out = 0.5;
 
 }  // namespace
 
@@ -64,7 +61,7 @@ void ContactTerms::set_contacts(std::span<const Contact> contacts, const Planes3
   target_.resize(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Vec3d normal = vec_cast<double>(contacts[i].normal);
-    const double offset = attainable_offset(contacts[i], start, fastest_way_out * time_step);
+    const double offset = attainable_offset(contacts[i], start, max_exit_speed * time_step);
     target_[i] = (offset - dot(normal, point_of(contacts[i], start))) / time_step;
   }
 }

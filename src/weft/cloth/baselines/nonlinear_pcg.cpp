@@ -12,7 +12,7 @@ namespace weft {
 namespace {
 
 /// Of the secant: directions are as long as the filter, which is too stiff, makes them.
-constexpr double max_way = 4;
+constexpr double max_step_length = 4;
 /// What presses on a cloth from outside moves it out of its surface, where springs give way; the
 /// filter, which takes them for stiff in every direction, needs more iterations for it.
 constexpr int iterations_under_contact = 4;
@@ -76,7 +76,7 @@ void NonlinearPcg::begin(const StepInput& input, const ClothState& state) {
   input_ = input;
   iterations_ = 0;
   correction_ = 0;
-  pending_way_ = 0;
+  pending_step_length_ = 0;
   contacts_.clear();
   renew_filter();
   team_.run([&](Worker& worker) {
@@ -95,7 +95,7 @@ void NonlinearPcg::run(std::span<const Contact> contacts, const MultigridOptions
   team_.run([&](Worker& worker) {
     contacts_.update_active(next_.position, filter_->finest().inverse_diagonal, worker);
     const Range mine = worker.share(cloth_.size);
-    const auto pending = static_cast<float>(pending_way_);
+    const auto pending = static_cast<float>(pending_step_length_);
     for (int r = mine.first; r < mine.last; ++r) {
       accept_row(pending, r);
       take_moved_row(r);
@@ -105,7 +105,7 @@ void NonlinearPcg::run(std::span<const Contact> contacts, const MultigridOptions
     update_contacts(worker);
     const SolverState solver_state = descend(options, worker);
     if (worker.rank() != 0) return;
-    pending_way_ = solver_state.step_length;
+    pending_step_length_ = solver_state.step_length;
     iterations_ += solver_state.iterations;
     correction_ = solver_state.correction;
   });
@@ -113,7 +113,7 @@ void NonlinearPcg::run(std::span<const Contact> contacts, const MultigridOptions
 }
 
 void NonlinearPcg::last_corrections(Grid<float>& sizes) const {
-  const auto scale = static_cast<float>(pending_way_ / cloth_.rest_spacing);
+  const auto scale = static_cast<float>(pending_step_length_ / cloth_.rest_spacing);
   for (int r = 0; r < cloth_.size; ++r)
     for (int c = 0; c < cloth_.size; ++c) sizes(r, c) = scale * length(direction_.at(r, c));
 }
@@ -233,7 +233,7 @@ double NonlinearPcg::largest_direction() const {
 void NonlinearPcg::advance(double slope, SolverState& solver_state, Worker& worker) {
   const double there = evaluate_gradient(worker);
   const double bend = slope - there;
-  solver_state.step_length = bend > 0 && slope > 0 ? std::min(slope / bend, max_way) : 1.0;
+  solver_state.step_length = bend > 0 && slope > 0 ? std::min(slope / bend, max_step_length) : 1.0;
   solver_state.left = slope - solver_state.step_length * bend;
   solver_state.correction = solver_state.step_length * largest_direction() / cloth_.rest_spacing;
   ++solver_state.iterations;

@@ -60,7 +60,7 @@ class NonlinearPcg {
   /// A row of y, the first guess, and z = 0.
   void fall_row(int row);
   void place_row(float step_length, int row);
-  /// z += way d; d = 0.
+  /// z += step_length d; d = 0.
   void accept_row(float step_length, int row);
   /// z = x - y where the caller moved a sample.
   void take_moved_row(int row);
@@ -101,8 +101,8 @@ class NonlinearPcg {
   Planes3 fall_, move_, direction_;  // y, z, d [m]
   Planes3 far_residual_;             // minus the gradient where `next` is [N]
   RowSums sums_;
-  std::vector<float> largest_;  // [n] squared direction of each row [m^2]
-  double pending_way_ = 0;      // along d, not yet in z
+  std::vector<float> largest_;      // [n] squared direction of each row [m^2]
+  double pending_step_length_ = 0;  // along d, not yet in z
   int iterations_ = 0;
   double correction_ = 0;
 };

@@ -78,7 +78,7 @@ struct DifferenceRow {
   ConstRow3 here, there;
 };
 
-/// z += way d; then d = w + beta d; then x = y + z + d.
+/// z += step_length d; then d = w + beta d; then x = y + z + d.
 struct DirectionRow {
   float step_length, beta;
   ConstRow3 fall, correction;  ///< y, w [m]
@@ -86,7 +86,8 @@ struct DirectionRow {
   Row3 position;               ///< x [m]
 };
 
-/// Where y + z + way d leads in a step: x, and its velocity v + gained + (z + way d) per_step.
+/// Where y + z + step_length d leads in a step: x, and its velocity v + gained + (z + step_length
+/// d) per_step.
 struct PlacedRow {
   float step_length, per_step;
   float gained[3];  ///< by gravity [m/s]

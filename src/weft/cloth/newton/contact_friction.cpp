@@ -40,25 +40,27 @@ void ContactSystem::recall(int index) {
 
 /// Where positions have led the point since the step's start. Of positions, not of velocities: what
 /// rounding does to them each step would add up to creep.
-Vec3d ContactSystem::way_to(int index, Fields position) const {
-  Vec3d distance;
+Vec3d ContactSystem::displacement_of(int index, Fields position) const {
+  Vec3d displacement;
   for (std::size_t k = 0; k < 4; ++k) {
     const double w = contacts_[index].weights[k];
     if (w == 0) continue;
     const Place& at = places_[index][k];
     const PaddedVectors& x = *position[at.cloth];
     const Vec3f now{x.x(at.row, at.col), x.y(at.row, at.col), x.z(at.row, at.col)};
-    distance +=
+    displacement +=
         w * (vec_cast<double>(now) - vec_cast<double>(starts_[at.cloth]->at(at.row, at.col)));
   }
-  return distance;
+  return displacement;
 }
 
 void ContactSystem::locate(int index, Fields position) {
   const Contact& contact = contacts_[index];
-  const Vec3d normal = vec_cast<double>(contact.normal), distance = way_to(index, position);
-  depth_[index] = attainable_offset(index) - dot(normal, start_of(index)) - dot(normal, distance);
-  Vec3d relative = distance - vec_cast<double>(contact.surface_displacement);
+  const Vec3d normal = vec_cast<double>(contact.normal),
+              displacement = displacement_of(index, position);
+  depth_[index] =
+      attainable_offset(index) - dot(normal, start_of(index)) - dot(normal, displacement);
+  Vec3d relative = displacement - vec_cast<double>(contact.surface_displacement);
   // Friction that was there has stretched what sticks.
   if (past_[index] != nullptr && work_stiffness_[index] > 0)
     relative -= 1 / (sticking_stiffness * double{work_stiffness_[index]}) *
@@ -106,7 +108,7 @@ bool ContactSystem::choose(int index, Fields step) {
   const bool is_new = past_[index] == nullptr && !(k_before > 0);
   double distance = length(slid_after(index, moved));
   if (first_) {
-    first_way_[index] = distance;
+    first_slip_[index] = distance;
     distance += foreseen_distance(index, distance);
   }
   grip = k > 0 && contact.friction > 0
@@ -128,7 +130,7 @@ void ContactSystem::measure(Fields position, Worker& worker) {
     const bool slips = grip_[i] < 0.99 * sticking_stiffness * work_stiffness_[i];
     const double h = input_.time_step;
     acceleration_[i] =
-        slips ? static_cast<float>((length(slid_[i]) - first_way_[i]) / (h * h)) : 0.0F;
+        slips ? static_cast<float>((length(slid_[i]) - first_slip_[i]) / (h * h)) : 0.0F;
   }
   worker.barrier();
 }

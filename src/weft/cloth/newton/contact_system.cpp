@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/core/contact_point.h"
+
 namespace weft {
 namespace {
 
@@ -12,9 +14,6 @@ constexpr double relative_stiffness = 0.125;
 /// least: one that lies nearly on what is pinned would press on the rest of its triangle without
 /// end.
 constexpr double min_yield = 0.05;
-/// What is inside something when a step begins, having been put or pressed there, leaves at this
-/// speed at most, lest it be shot out. [m/s]
-constexpr double fastest_way_out = 0.5;
 /// What stands nearer than it should rises at this speed at most, which nobody sees. [m/s]
 constexpr double lifting_speed = 0.02;
 
@@ -84,7 +83,7 @@ void ContactSystem::set_contacts(std::span<const Own> own, std::span<const Share
   limiting_.assign(count, 0.0F);
   friction_.assign(count, Vec3f{});
   acceleration_.assign(count, 0.0F);
-  first_way_.assign(count, 0.0);
+  first_slip_.assign(count, 0.0);
   past_.assign(count, nullptr);
   load_.assign(count, Vec3f{});
 }
@@ -135,7 +134,7 @@ double ContactSystem::compliance(int index, std::span<const Grid<float>* const> 
 double ContactSystem::attainable_offset(int index) const {
   const Contact& contact = contacts_[index];
   if (contact.stiffness > 0) return contact.offset;
-  const double farthest = fastest_way_out * input_.time_step;
+  const double farthest = max_exit_speed * input_.time_step;
   const double before = double{contact.offset} -
                         dot(vec_cast<double>(contact.normal), start_of(index)) -
                         double{dot(contact.normal, contact.surface_displacement)};

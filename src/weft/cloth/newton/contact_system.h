@@ -89,7 +89,7 @@ class ContactSystem {
   [[nodiscard]] double attainable_offset(int index) const;
   [[nodiscard]] double lone_compliance(int index) const;
   void recall(int index);
-  [[nodiscard]] Vec3d way_to(int index, Fields position) const;
+  [[nodiscard]] Vec3d displacement_of(int index, Fields position) const;
   void locate(int index, Fields position);
   [[nodiscard]] int second_of(std::size_t index) const;
   /// How a contact's point moved along its obstacle.
@@ -133,7 +133,7 @@ class ContactSystem {
   std::vector<float> force_, limiting_;   // along the normal now, and as friction knows it [N]
   std::vector<Vec3f> friction_;           // [N]
   std::vector<float> acceleration_;       // see PastContact [m/s^2]
-  std::vector<double> first_way_;         // of the point before the solve [m]
+  std::vector<double> first_slip_;        // of the point before the solve [m]
   std::vector<double> energy_;            // or work [J]
   std::vector<char> changed_;
   int active_ = 0;

@@ -33,7 +33,7 @@ Bounds bounds(Vec3f n, const Four& x, const Four& y, const Four& z) {
           largest(largest(along[0], along[1]), largest(along[2], along[3]))};
 }
 
-Bounds way_bounds(const Four& start, const Four& end) {
+Bounds displacement_bounds(const Four& start, const Four& end) {
   Four displacement{};
 #pragma omp simd
   for (std::size_t k = 0; k < 4; ++k) displacement[k] = end[k] - start[k];
@@ -108,7 +108,7 @@ bool CellGaps::parallel(float cosine) const {
 double CellGaps::max_approach() const {
   const auto along = [](const Four& start_a, const Four& end_a, const Four& start_b,
                         const Four& end_b) {
-    const Bounds a = way_bounds(start_a, end_a), b = way_bounds(start_b, end_b);
+    const Bounds a = displacement_bounds(start_a, end_a), b = displacement_bounds(start_b, end_b);
     return largest(a.upper - b.lower, b.upper - a.lower);
   };
   const Vec3f most{along(start_a_.x, end_a_.x, start_b_.x, end_b_.x),

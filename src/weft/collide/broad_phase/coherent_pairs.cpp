@@ -14,7 +14,7 @@ CoherentPairs::CoherentPairs(std::unique_ptr<BroadPhase> broad_phase,
     : broad_phase_(std::move(broad_phase)),
       skin_(skin),
       snapshots_(surfaces.size()),
-      judged_(cloths),
+      found_slack_(cloths),
       lists_(cloths * surfaces.size()) {
   for (const SurfaceGrid* cloth : surfaces.first(cloths)) windows_.emplace_back(cloth->cells());
 }
@@ -24,7 +24,7 @@ void CoherentPairs::forget() {
   for (List& list : lists_) list.reach = list.slack = 0;
 }
 
-float CoherentPairs::way_from(const Snapshot& snapshot, const MovingSurface& now) const {
+float CoherentPairs::distance_from(const Snapshot& snapshot, const MovingSurface& now) const {
   if (now.name != 0 && now.name == snapshot.name) return 0;
   const Planes3& end = snapshot.still ? snapshot.start : snapshot.end;
   double distance = largest_displacement(snapshot.start, *now.start);
@@ -57,9 +57,9 @@ void CoherentPairs::take(std::span<const MovingSurface> surfaces, ThreadTeam& te
 
 void CoherentPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
   now_.assign(surfaces.begin(), surfaces.end());
-  std::fill(judged_.begin(), judged_.end(), -1.0F);
+  std::fill(found_slack_.begin(), found_slack_.end(), -1.0F);
   for (std::size_t i = 0; known_ && i < surfaces.size(); ++i) {
-    snapshots_[i].distance = way_from(snapshots_[i], surfaces[i]);
+    snapshots_[i].distance = distance_from(snapshots_[i], surfaces[i]);
     known_ = snapshots_[i].distance < HUGE_VALF;
   }
   if (!known_) take(surfaces, team);
@@ -114,10 +114,10 @@ std::span<const CandidatePair> CoherentPairs::find(int surface_a, int surface_b,
 }
 
 void CoherentPairs::find_unfolded(int surface, float slack, ThreadTeam& team) {
-  float& judged = judged_[static_cast<std::size_t>(surface)];
-  if (judged != slack)
+  float& found = found_slack_[static_cast<std::size_t>(surface)];
+  if (found != slack)
     windows_[static_cast<std::size_t>(surface)].find_unfolded(now_[surface], slack, team);
-  judged = slack;
+  found = slack;
 }
 
 /// Nearly all neighbours lie flat: how far apart they are is of no use.

@@ -60,7 +60,7 @@ class CoherentPairs {
     std::vector<CandidatePair> smooth;  // neighbours whose rectangle was unfolded, in any order
   };
   /// How far a surface is from its snapshot at most; infinite: farther than lists hold for.
-  [[nodiscard]] float way_from(const Snapshot& snapshot, const MovingSurface& now) const;
+  [[nodiscard]] float distance_from(const Snapshot& snapshot, const MovingSurface& now) const;
   void take(std::span<const MovingSurface> surfaces, ThreadTeam& team);
   List& list_of(int a, int b) {
     return lists_[static_cast<std::size_t>(a) * snapshots_.size() + b];
@@ -78,7 +78,7 @@ class CoherentPairs {
   std::vector<Snapshot> snapshots_;
   std::vector<MovingSurface> placed_, now_;  // as they were, and are
   std::vector<UnfoldedWindows> windows_;     // of each cloth, now
-  std::vector<float> judged_;  // of each cloth, the slack they were judged with; -1: not
+  std::vector<float> found_slack_;  // of each cloth, the slack its folds were found with; -1: not
   SharedPairs shared_;
   std::vector<CandidatePair> folded_;
   std::vector<List> lists_;  // [surfaces x surfaces]

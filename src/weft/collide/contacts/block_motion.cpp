@@ -38,7 +38,7 @@ void BlockMotion::for_points(const Block& block, const Visit& visit) const {
 
 double BlockMotion::approach_of_point(int point, Vec3d displacement) const {
   return slides_ != nullptr ? slides_->approach(point, displacement)
-                            : length(way_of(point) - displacement);
+                            : length(displacement_of(point) - displacement);
 }
 
 void BlockMotion::measure(Block& block) const {
@@ -49,7 +49,7 @@ void BlockMotion::measure(Block& block) const {
       block.swept.lower = min(block.swept.lower, at->at(point));
       block.swept.upper = max(block.swept.upper, at->at(point));
     }
-    block.displacement += way_of(point);
+    block.displacement += displacement_of(point);
     if (slides_ != nullptr) block.normal += slides_->normal(point);
     ++block.samples;
   });

@@ -9,7 +9,7 @@
 namespace weft {
 
 /// How the parts of a body move in a step, by blocks of its image, so that what is near one part
-/// need not heed how fast another goes.
+/// need not care how fast another goes.
 class BlockMotion {
  public:
   /// Samples a side of a block.
@@ -41,7 +41,7 @@ class BlockMotion {
     double slant = 0;         // see SurfaceMotion::approach, the largest
     int first_row = 0, last_row = 0, first_col = 0, last_col = 0;
   };
-  [[nodiscard]] Vec3d way_of(int sample) const {
+  [[nodiscard]] Vec3d displacement_of(int sample) const {
     return vec_cast<double>(end_->at(sample)) - vec_cast<double>(start_->at(sample));
   }
   template <class Visit>

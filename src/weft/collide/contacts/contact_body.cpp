@@ -23,7 +23,7 @@ std::optional<double> approach_of(const ContactBody& body, const BodyPoint& at, 
 
 }  // namespace
 
-Vec3d way_of(const ContactBody& body, const BodyPoint& at) {
+Vec3d displacement_of(const ContactBody& body, const BodyPoint& at) {
   if (body.start == body.end) return {};
   Vec3d moved;
   for (std::size_t k = 0; k < 3; ++k)
@@ -48,7 +48,7 @@ std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& 
                            ? ((point.astray ? -1 : 1) / distance) * (point.start - at.position)
                            : (point.kept_in ? -1.0 : 1.0) * body.query->normal_at(at);
   const double gap = point.astray ? -distance : distance;
-  Vec3d surface_displacement = way_of(body, at);
+  Vec3d surface_displacement = displacement_of(body, at);
   if (body.at_end != nullptr) {
     const auto approach = approach_of(
         body, at, point.start, normal,

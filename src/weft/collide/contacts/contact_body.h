@@ -24,7 +24,7 @@ struct ContactBody {
 };
 
 /// How a point of a body's surface goes during the step. [m]
-[[nodiscard]] Vec3d way_of(const ContactBody& body, const BodyPoint& at);
+[[nodiscard]] Vec3d displacement_of(const ContactBody& body, const BodyPoint& at);
 
 /// A point of a cloth in the step's motion: a sample, or a blend of several.
 struct ClothPoint {

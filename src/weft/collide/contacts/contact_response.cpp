@@ -104,21 +104,21 @@ void ContactResponse::place_point(const Contact& contact, double force_squared_s
   point.obstacle = sum > 0.5;
 }
 
-void ContactResponse::relax(const SolverState& course, Worker& worker) {
+void ContactResponse::relax(const RelaxationPasses& relaxation, Worker& worker) {
   const Range points = worker.share(static_cast<int>(points_.size()));
   const Range particles = worker.share(static_cast<int>(particles_.size()));
   const std::size_t team = busy_.size() / (2 * max_passes);
   for (int pass = 0; pass < max_passes; ++pass) {
-    char* busy = &busy_[(course.first_pass + pass) * team];
-    for (int i = points.first; i < points.last; ++i) evaluate_depth(course.field, points_[i]);
+    char* busy = &busy_[(relaxation.first_pass + pass) * team];
+    for (int i = points.first; i < points.last; ++i) evaluate_depth(relaxation.field, points_[i]);
     worker.barrier();
     for (int p = particles.first; p < particles.last; ++p) count(p);
     worker.barrier();
     for (int i = points.first; i < points.last; ++i)
-      if (push_out(points_[i]) > course.hair) busy[worker.rank()] = 1;
+      if (push_out(points_[i]) > relaxation.hair) busy[worker.rank()] = 1;
     worker.barrier();
     if (std::none_of(busy, busy + team, [](char any) { return any != 0; })) return;
-    for (int p = particles.first; p < particles.last; ++p) move(course.field, p);
+    for (int p = particles.first; p < particles.last; ++p) move(relaxation.field, p);
     worker.barrier();
   }
 }

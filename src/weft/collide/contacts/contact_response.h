@@ -69,12 +69,12 @@ class ContactResponse {
   void take_contact(int index, const Contact& contact);
   void place_point(const Contact& contact, double force_squared_step, Point& point) const;
   /// What passes need.
-  struct SolverState {
+  struct RelaxationPasses {
     Field field;
     int first_pass = 0;  // in busy_
     double hair = 0;     // moving no point by more counts as rest
   };
-  void relax(const SolverState& course, Worker& worker);
+  void relax(const RelaxationPasses& relaxation, Worker& worker);
   void evaluate_depth(Field field, Point& point) const;
   void count(int particle);
   [[nodiscard]] double push_out(Point& point) const;

@@ -42,7 +42,7 @@ struct Side {
       sum += weights[k] * weights[k] * cloth->inverse_mass(samples[k] / n, samples[k] % n);
     return sum;
   }
-  [[nodiscard]] Vec3d distance() const { return mean(cloth->position) - start(); }
+  [[nodiscard]] Vec3d displacement() const { return mean(cloth->position) - start(); }
 };
 
 /// What stands against one side: where, and how it moves.
@@ -192,18 +192,22 @@ class Finder {
     const double distance = length(apart);
     if (!(distance > 0)) return;
     const Vec3d normal = (1 / distance) * apart;
-    const Vec3d own_way = own.distance(), other_way = other.distance();
-    if (distance + dot(normal, own_way - other_way) >= contact_margin * gap_) return;
+    const Vec3d own_displacement = own.displacement(), other_displacement = other.displacement();
+    if (distance + dot(normal, own_displacement - other_displacement) >= contact_margin * gap_)
+      return;
     if (pair_.same()) {
       lists_.of_a.push_back(joint(own, other, normal));
     } else if (lists_.shared != nullptr) {
       const int a = pair_.number_a, b = pair_.number_b;
       lists_.shared->push_back({joint(own, other, normal), swapped ? b : a, swapped ? a : b});
     } else {
-      const Vec3d middle = 0.5 * (own.start() + other.start() + own_way + other_way);
+      const Vec3d middle =
+          0.5 * (own.start() + other.start() + own_displacement + other_displacement);
       const double half = 0.5 * gap_, along = dot(normal, middle);
-      add_half(own, normal, {along + half, other_way}, swapped ? lists_.of_b : lists_.of_a);
-      add_half(other, -normal, {-along + half, own_way}, swapped ? lists_.of_a : lists_.of_b);
+      add_half(own, normal, {along + half, other_displacement},
+               swapped ? lists_.of_b : lists_.of_a);
+      add_half(other, -normal, {-along + half, own_displacement},
+               swapped ? lists_.of_a : lists_.of_b);
     }
   }
 

@@ -35,7 +35,7 @@ class Shift {
 
 Vec3d SafePositions::Carrier::displacement(Vec3d start, const BodyPoint& at, bool slides) const {
   if (stands()) return {};
-  const Vec3d whole = rigid ? (*rigid)(start)-start : way_of(*body, at);
+  const Vec3d whole = rigid ? (*rigid)(start)-start : displacement_of(*body, at);
   const Vec3d across = normalized(start - at.position);
   return slides ? dot(whole, across) * across : whole;
 }

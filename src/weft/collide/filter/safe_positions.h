@@ -25,7 +25,7 @@ struct SafePositionSurroundings {
 class SafePositions {
  public:
   /// @param start   [n x n] [m]
-  /// @param refuge  [n x n] out [m]
+  /// @param safe_position  [n x n] out [m]
   void find(const Planes3& start, const SafePositionSurroundings& surroundings,
             Planes3& safe_position, ThreadTeam& team);
 

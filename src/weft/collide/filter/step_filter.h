@@ -42,7 +42,7 @@ class StepFilter {
   };
   void begin(std::span<const MovingCloth> moving);
   bool all_pass(std::span<const MovingCloth> moving, ThreadTeam& team);
-  /// One round. @param all  planes of the last round are of no use  @return whether it was the last
+  /// Finds planes and holds points by them once. @return whether nothing is left to do
   bool do_round(std::span<const MovingCloth> moving, double time_step, Pass pass, int round,
                 ThreadTeam& team);
 

@@ -23,17 +23,18 @@ Vec3d towards(Vec3d a, Vec3d b, double most) {
 /// copies. They are taken along as far as they go the same way by themselves; where the cloth is
 /// taut and springs back, the hand gives way no more than it must.
 /// @param way  from here to the next place [m]
-Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, double time_step, Vec3d distance) {
+Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, double time_step,
+                   Vec3d displacement) {
   const int n = held.model->size;
-  Vec3d place = vec_cast<double>(held.state.position.at(pin.sample)) + distance;
-  const Vec3d ahead = normalized(distance);
+  Vec3d place = vec_cast<double>(held.state.position.at(pin.sample)) + displacement;
+  const Vec3d ahead = normalized(displacement);
   const auto beside = [&](int copy, int down, int right) {
     const int r = copy / n + down, c = copy % n + right;
     if (std::min(r, c) < 0 || std::max(r, c) >= n) return;
     const Vec3d rest = vec_cast<double>(held.model->rest.at(r, c) - held.model->rest.at(copy));
     const double along = dot(vec_cast<double>(held.state.velocity.at(r, c)), ahead);
     const Vec3d there = vec_cast<double>(held.state.position.at(r, c)) +
-                        std::min(std::max(0.0, along) * time_step, length(distance)) * ahead;
+                        std::min(std::max(0.0, along) * time_step, length(displacement)) * ahead;
     place = towards(there, place, max_stretch * length(rest));
   };
   for (const int copy : pin.copies) {
@@ -59,8 +60,8 @@ void Grab::take(std::size_t cloth, int sample, SimulatedCloth& held) {
 void Grab::move(double time_step, std::optional<double> ground, SimulatedCloth& held) const {
   Pin& pin = held.model->pins[static_cast<std::size_t>(pin_)];
   const Vec3d here = vec_cast<double>(held.state.position.at(pin.sample));
-  const Vec3d distance = towards(here, wanted_, max_speed * time_step) - here;
-  Vec3d next = within_reach(held, pin, time_step, distance);
+  const Vec3d displacement = towards(here, wanted_, max_speed * time_step) - here;
+  Vec3d next = within_reach(held, pin, time_step, displacement);
   const double thickness = held.model->material.thickness;
   if (ground) next.y = std::max(next.y, std::min(here.y, *ground + thickness));
   pin.target = next;

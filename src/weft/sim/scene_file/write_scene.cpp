@@ -1,4 +1,4 @@
-// The writing half of weft/sim/scene_file/scene_file.h.
+// The writing half of weft/scene_file.h.
 #include <ostream>
 
 #include <fmt/format.h>

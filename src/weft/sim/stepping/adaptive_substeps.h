@@ -13,7 +13,7 @@ namespace weft {
 
 /// Bodies come at most this part of the least gap closer in a step where cloth is near, so that
 /// cloth is pushed before it is passed: faster ones take more steps.
-inline constexpr double max_way_in_gaps = 0.75;
+inline constexpr double max_approach_in_gaps = 0.75;
 /// And turn by so little that their normals at both ends tell how close they come. [rad]
 inline constexpr double max_turn = 0.35;
 /// Of a substep.

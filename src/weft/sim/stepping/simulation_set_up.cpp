@@ -142,7 +142,8 @@ void Simulation::Parts::make_collider_of_scene() {
   max_approach_in_step = HUGE_VAL;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
-    max_approach_in_step = std::min(max_approach_in_step, max_way_in_gaps * gap_of(*cloth.model));
+    max_approach_in_step =
+        std::min(max_approach_in_step, max_approach_in_gaps * gap_of(*cloth.model));
     colliding.push_back({cloth.model->mates, cloth.model->size, choose_diagonals(cloth.image),
                          gap_of(*cloth.model), scene.cloths[i].friction, cloth.model->rest_spacing,
                          Colliders::traits_of(scene.collider).self_collision &&

@@ -1,0 +1,1 @@
+#include "weft/cloth/cloth.h"
