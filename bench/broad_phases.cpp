@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "bench/bounding_volumes.h"
+#include "weft/cloth/cloth.h"
 #include "weft/collide/baselines/image_space_pairs.h"
 #include "weft/collide/baselines/spatial_hash.h"
 #include "weft/collide/baselines/sphere_tree.h"
@@ -22,7 +23,6 @@
 #include "weft/error.h"
 #include "weft/scene_file.h"
 #include "weft/simulation.h"
-#include "weft/cloth/cloth.h"
 
 namespace weft::bench {
 namespace {

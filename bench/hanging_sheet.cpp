@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "bench/position_based.h"
-#include "weft/error.h"
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/measure.h"
+#include "weft/error.h"
 
 namespace weft::bench {
 namespace {

@@ -16,10 +16,10 @@
 #include "weft/cloth/baselines/multigrid/multigrid_preconditioner.h"
 #include "weft/cloth/baselines/multigrid/preconditioner_level.h"
 #include "weft/cloth/baselines/strain_limit.h"
+#include "weft/cloth/cloth.h"
 #include "weft/cloth/integrator.h"
 #include "weft/cloth/neighbours.h"
 #include "weft/cloth/spring_rows.h"
-#include "weft/cloth/cloth.h"
 
 namespace weft::bench {
 namespace {

@@ -20,9 +20,9 @@
 #include "weft/core/random.h"
 #include "weft/geometry_image.h"
 #include "weft/mesh.h"
+#include "weft/mesh/distance.h"
 #include "weft/mesh/topology.h"
 #include "weft/shapes.h"
-#include "weft/mesh/distance.h"
 
 namespace weft::bench {
 namespace {

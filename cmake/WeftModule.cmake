@@ -1,3 +1,12 @@
+# What nearly every source includes, parsed once. That headers include what they use of it is checked by
+# the test House.IncludesGoDownwardsOnly, and by the preset dev, which has none of this.
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/common_headers.cpp" CONTENT "")
+add_library(common_headers OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/common_headers.cpp")
+target_link_libraries(common_headers PRIVATE weft_flags weft_warnings fmt::fmt)
+target_precompile_headers(common_headers PRIVATE
+  <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <mutex>
+  <numeric> <optional> <span> <string> <string_view> <tuple> <utility> <variant> <vector> <fmt/format.h>)
+
 # weft_module(NAME [PUBLIC lib...] [PRIVATE lib...])
 # The library weft::NAME from every source below src/weft/NAME. PRIVATE libraries are asked for again
 # by those who link the installed one (cmake/WeftConfig.cmake.in); HEADERS are libraries of headers
@@ -15,6 +24,7 @@ function(weft_module name)
   foreach(headers ${MODULE_HEADERS})
     target_link_libraries(weft_${name} PRIVATE $<BUILD_INTERFACE:${headers}>)
   endforeach()
+  target_precompile_headers(weft_${name} REUSE_FROM common_headers)
   set_property(GLOBAL APPEND PROPERTY WEFT_MODULES weft_${name})
 endfunction()
 

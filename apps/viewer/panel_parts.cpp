@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
 namespace weft::viewer {
@@ -75,6 +77,78 @@ std::vector<std::string> strings(std::span<const std::string_view> names) {
 std::string short_name(const std::string& path) {
   const std::string name = std::filesystem::path(path).filename().string();
   return name.empty() ? path : name;
+}
+namespace {
+
+/// A font that reads well, where the system has it (Debian: fonts-dejavu-core).
+constexpr const char* font_path = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr float font_size = 14;  // [pixels] on a usual screen
+
+void choose_font(float scale) {
+  ImGuiIO& io = ImGui::GetIO();
+  // More than Latin letters would be seen as boxes: none is used.
+  if (std::filesystem::exists(font_path))
+    io.Fonts->AddFontFromFileTTF(font_path, font_size * scale);
+  else
+    io.FontGlobalScale = scale;
+}
+
+void choose_colours() {
+  ImGui::StyleColorsDark();
+  ImVec4* colours = ImGui::GetStyle().Colors;
+  const ImVec4 accent(0.78F, 0.30F, 0.30F, 1), quiet(0.24F, 0.25F, 0.27F, 1);
+  colours[ImGuiCol_WindowBg] = ImVec4(0.13F, 0.135F, 0.145F, 0.96F);
+  colours[ImGuiCol_PopupBg] = ImVec4(0.16F, 0.165F, 0.175F, 0.98F);
+  colours[ImGuiCol_Text] = ImVec4(0.90F, 0.90F, 0.89F, 1);
+  colours[ImGuiCol_TextDisabled] = ImVec4(0.60F, 0.61F, 0.62F, 1);
+  colours[ImGuiCol_FrameBg] = quiet;
+  colours[ImGuiCol_FrameBgHovered] = ImVec4(0.30F, 0.31F, 0.33F, 1);
+  colours[ImGuiCol_FrameBgActive] = ImVec4(0.34F, 0.35F, 0.37F, 1);
+  colours[ImGuiCol_Button] = quiet;
+  colours[ImGuiCol_ButtonHovered] = ImVec4(0.34F, 0.35F, 0.37F, 1);
+  colours[ImGuiCol_ButtonActive] = accent;
+  colours[ImGuiCol_SliderGrab] = ImVec4(0.62F, 0.63F, 0.65F, 1);
+  colours[ImGuiCol_SliderGrabActive] = accent;
+  colours[ImGuiCol_Header] = ImVec4(0.19F, 0.195F, 0.21F, 1);
+  colours[ImGuiCol_HeaderHovered] = ImVec4(0.27F, 0.28F, 0.30F, 1);
+  colours[ImGuiCol_HeaderActive] = accent;
+  colours[ImGuiCol_Separator] = ImVec4(0.28F, 0.29F, 0.31F, 1);
+}
+
+}  // namespace
+
+PanelContext::PanelContext(GLFWwindow* window, double scale) {
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // nothing is left in the working directory
+  choose_font(static_cast<float>(scale));
+  choose_colours();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 0;
+  style.FrameRounding = 3;
+  style.GrabRounding = 3;
+  style.WindowBorderSize = 0;
+  style.ItemSpacing = ImVec2(8, 4);
+  style.FramePadding = ImVec2(4, 2);
+  style.ScaleAllSizes(static_cast<float>(scale));
+  ImGui_ImplGlfw_InitForOpenGL(window, true);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+PanelContext::~PanelContext() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void PanelContext::begin() {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void PanelContext::draw() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
 }  // namespace weft::viewer

@@ -1,5 +1,6 @@
 #pragma once
 
+struct GLFWwindow;
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,5 +27,19 @@ void show_legend(const Legend& legend);
 std::vector<std::string> strings(std::span<const std::string_view> names);
 /// The last part of a path.
 std::string short_name(const std::string& path);
+
+/// Dear ImGui on a window while it lives, dressed for this program. The window's callbacks are
+/// kept.
+class PanelContext {
+ public:
+  /// @param scale  how large text shall be, 1 on a usual screen
+  PanelContext(GLFWwindow* window, double scale);
+  PanelContext(const PanelContext&) = delete;
+  PanelContext& operator=(const PanelContext&) = delete;
+  ~PanelContext();
+
+  static void begin();  ///< a frame
+  static void draw();   ///< what was put into it since
+};
 
 }  // namespace weft::viewer

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace weft::viewer {
@@ -44,6 +45,13 @@ nlohmann::ordered_json to_json(const WindowReport& report, const Snapshot& snaps
   json["error"] = status.error;
   json["outputs"] = report.outputs;
   return json;
+}
+
+std::filesystem::path next_picture(const std::filesystem::path& folder) {
+  for (int number = 1;; ++number) {
+    std::filesystem::path path = folder / fmt::format("weft-view-{:04}.png", number);
+    if (!std::filesystem::exists(path)) return path;
+  }
 }
 
 }  // namespace weft::viewer

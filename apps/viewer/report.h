@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,8 @@ struct WindowReport {
 /// @param middle  where the middle sample of the first cloth is seen [pixels]
 nlohmann::ordered_json to_json(const WindowReport& report, const Snapshot& snapshot,
                                const Status& status, Vec2d middle);
+
+/// A name in the folder that no file has: weft-view-0001.png and so on.
+std::filesystem::path next_picture(const std::filesystem::path& folder);
 
 }  // namespace weft::viewer

@@ -10,11 +10,10 @@
 #include "apps/viewer/controls.h"
 #include "apps/viewer/detail.h"
 #include "apps/viewer/panel.h"
-#include "apps/viewer/pictures.h"
+#include "apps/viewer/panel_parts.h"
 #include "apps/viewer/report.h"
 #include "apps/viewer/scene_view.h"
 #include "apps/viewer/simulator.h"
-#include "apps/viewer/theme.h"
 #include "weft/files.h"
 #include "weft/window_canvas.h"
 

@@ -10,7 +10,6 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/mesh_args.h"
-#include "apps/weft/peak_memory.h"
 #include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/error.h"

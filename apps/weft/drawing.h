@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "apps/weft/subject.h"
+#include "apps/weft/shots.h"
 #include "weft/drawing.h"
 #include "weft/progress.h"
 #include "weft/run_folder.h"

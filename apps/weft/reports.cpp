@@ -2,16 +2,28 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
-#include "apps/weft/peak_memory.h"
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/geometry_image.h"
 #include "weft/mesh_statistics.h"
 
 namespace weft::app {
+
+std::optional<double> peak_memory_mb() {
+  constexpr double mb_of_kib = 1024e-6;
+  std::ifstream status("/proc/self/status");
+  std::string arg;
+  while (status >> arg) {
+    double kib = 0;
+    if (arg == "VmHWM:" && status >> kib) return kib * mb_of_kib;
+  }
+  return std::nullopt;
+}
 namespace {
 
 Json seconds_json(const StageSeconds& s) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include "weft/convert.h"
 
 namespace weft::app {
+
+/// The most memory that this process has held at once so far [MB of 10^6 bytes]; nothing where the
+/// system does not tell.
+std::optional<double> peak_memory_mb();
 
 using Json = nlohmann::ordered_json;
 

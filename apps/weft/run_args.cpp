@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/weft/peak_memory.h"
+#include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/error.h"
 #include "weft/run.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/weft/context.h"
-#include "apps/weft/subject.h"
+#include "apps/weft/shots.h"
 #include "weft/convert.h"
 #include "weft/drawing.h"
 

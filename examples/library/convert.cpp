@@ -1,8 +1,9 @@
 // Turns a mesh into a geometry image and back: convert MESH IMAGE.exr
+#include "weft/convert.h"
+
 #include <cstdio>
 #include <exception>
 
-#include "weft/convert.h"
 #include "weft/geometry_image.h"
 #include "weft/image_file.h"
 

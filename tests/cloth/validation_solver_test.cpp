@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/validation.h"
-#include "weft/cloth/baselines/forces.h"
+#include "weft/cloth/baselines/spring_matrix.h"
 #include "weft/cloth/bending.h"
 #include "weft/cloth/mates.h"
 

@@ -1,8 +1,7 @@
-#include "weft/collide/filter/rigid_motion.h"
-
 #include <gtest/gtest.h>
 
 #include "tests/collide/test_bodies.h"
+#include "weft/collide/filter/safe_positions.h"
 
 namespace weft {
 namespace {

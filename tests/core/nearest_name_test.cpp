@@ -1,6 +1,6 @@
-#include "weft/core/nearest_name.h"
-
 #include <gtest/gtest.h>
+
+#include "weft/core/names.h"
 
 namespace weft {
 namespace {

@@ -7,8 +7,8 @@
 #include "tests/cut/cut_cases.h"
 #include "tests/support/errors.h"
 #include "tests/support/meshes.h"
+#include "weft/cut/disk_mesh.h"
 #include "weft/cut/open_to_disk.h"
-#include "weft/cut/split_border_edge.h"
 #include "weft/error.h"
 #include "weft/mesh/topology.h"
 

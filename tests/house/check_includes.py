@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks who includes whom: lower modules never see higher ones; the program, the window, the examples and the tests of
-contract see the public headers alone, which see each other alone; and every source of the library
-begins with the header beside it, which so is compiled with nothing before it.
+contract see the public headers alone, which see each other alone; every source of the library begins with the header
+beside it; and what a header takes from the standard library and from fmt it includes, or has of what it includes (they
+are compiled with those headers in front, cmake/WeftModule.cmake).
 
 Usage: check_includes.py SOURCE_FOLDER   (exit 1 and one line a violation)
 """
@@ -41,6 +42,25 @@ OWNER = {header: module for module, headers in PUBLIC.items() for header in head
 # Who uses the library by its public headers alone.
 OUTSIDE = ("apps/weft", "apps/viewer", "examples/library", "tests/contract")
 EIGEN_MODULES = {"cut", "param", "cloth"}  # and only in .cpp files
+# Where names of the standard library, and of fmt, come from.
+PROVIDERS = {
+    "algorithm": "sort stable_sort max_element min_element count_if find_if any_of all_of none_of fill copy clamp lower_bound",
+    "array": "array", "atomic": "atomic memory_order_relaxed", "chrono": "chrono", "cmath": "sqrt hypot floor ceil isfinite lround",
+    "condition_variable": "condition_variable", "cstdint": "uint8_t uint16_t uint32_t uint64_t int32_t int64_t",
+    "filesystem": "filesystem", "functional": "function less greater", "fstream": "ifstream ofstream", "limits": "numeric_limits",
+    "map": "map", "memory": "unique_ptr shared_ptr make_unique make_shared weak_ptr", "mutex": "mutex lock_guard unique_lock",
+    "numeric": "accumulate iota", "optional": "optional nullopt", "queue": "priority_queue queue", "set": "set", "span": "span",
+    "string": "string to_string", "string_view": "string_view", "thread": "thread", "tuple": "tuple tie",
+    "type_traits": "is_same_v conditional_t decay_t remove_cvref_t", "unordered_map": "unordered_map",
+    "utility": "pair move swap exchange forward", "variant": "variant visit holds_alternative", "vector": "vector",
+}
+PROVIDER = {name: header for header, names in PROVIDERS.items() for name in names.split()}
+# Headers that promise more than the names after which they are called.
+ALSO = {"algorithm": {"utility"}, "array": {"utility"}, "filesystem": {"string", "string_view"}, "fstream": {"string"},
+        "functional": {"utility"}, "map": {"utility"}, "memory": {"utility"}, "optional": {"utility"},
+        "string": {"string_view"}, "tuple": {"utility"}, "variant": {"utility"}, "vector": {"utility"}}
+STANDARD_NAME = re.compile(r"\bstd::(\w+)")
+COMMENT = re.compile(r"//.*")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 
 
@@ -99,9 +119,35 @@ def header_not_first(root: pathlib.Path, path: pathlib.Path):
         yield f"{path}: its own header {wanted} comes first"
 
 
+def included(root: pathlib.Path, path: pathlib.Path, seen: dict):
+    """The names between angle brackets that a header brings, by itself and by what it includes of this library."""
+    if path in seen:
+        return seen[path]
+    seen[path] = found = set()
+    for line in path.read_text().splitlines():
+        match = INCLUDE.match(line)
+        if match and match[1] == "<":
+            found |= {match[2]} | ALSO.get(match[2], set())
+        elif match:
+            other = next((top / match[2] for top in (root / "include", root / "src") if (top / match[2]).exists()), None)
+            found |= included(root, other, seen) if other else set()
+    return found
+
+
+def missing_includes(root: pathlib.Path):
+    seen: dict = {}
+    for path in sorted([*(root / "include").rglob("*.h"), *(root / "src/weft").rglob("*.h")]):
+        code = COMMENT.sub("", path.read_text())
+        wanted = {PROVIDER[name] for name in STANDARD_NAME.findall(code) if name in PROVIDER}
+        if "fmt::" in code:
+            wanted.add("fmt/format.h")
+        for header in sorted(wanted - included(root, path, seen)):
+            yield f"{path}: uses <{header}> and does not include it"
+
+
 def main() -> int:
     root = pathlib.Path(sys.argv[1])
-    found = [*violations(root), *public_violations(root)]
+    found = [*violations(root), *public_violations(root), *missing_includes(root)]
     print("\n".join(found) if found else "includes are in order")
     return 1 if found else 0
 

@@ -6,7 +6,6 @@
 
 #include "tests/support/meshes.h"
 #include "weft/core/math.h"
-#include "weft/mesh/shapes/handles.h"
 #include "weft/mesh/shapes/parametric.h"
 #include "weft/mesh/shapes/rings.h"
 #include "weft/mesh/shapes/solids.h"

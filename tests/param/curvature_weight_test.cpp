@@ -1,11 +1,10 @@
-#include "weft/param/curvature_weight.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "tests/param/disks.h"
+#include "weft/param/disk_geometry.h"
 
 namespace weft {
 namespace {

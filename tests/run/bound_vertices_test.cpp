@@ -1,10 +1,9 @@
-#include "weft/run/export/bound_vertices.h"
-
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "weft/convert.h"
+#include "weft/run/export/exported_surface.h"
 #include "weft/shapes.h"
 #include "weft/sim/placement.h"
 

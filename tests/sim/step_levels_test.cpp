@@ -1,6 +1,6 @@
-#include "weft/sim/stepping/step_levels.h"
-
 #include <gtest/gtest.h>
+
+#include "weft/sim/stepping/adaptive_substeps.h"
 
 namespace weft {
 namespace {

@@ -5,14 +5,15 @@
 
 #include <fmt/format.h>
 
-#include "weft/convert/automatic_size.h"
 #include "weft/convert/fit_samples.h"
 #include "weft/convert/sample.h"
 #include "weft/core/hash.h"
 #include "weft/core/stopwatch.h"
+#include "weft/cut/disk_mesh.h"
 #include "weft/cut/open_to_disk.h"
 #include "weft/cut/seam.h"
 #include "weft/error.h"
+#include "weft/geometry_image.h"
 #include "weft/image_quality.h"
 #include "weft/param/augment.h"
 #include "weft/param/border_layout.h"
@@ -20,6 +21,24 @@
 
 namespace weft {
 namespace {
+
+constexpr int min_suitable = 33;
+/// More samples than this for detail alone are to be asked for.
+constexpr int max_for_detail = 1025;
+/// The paths that better the map later lengthen the border, and one interval a path distorts.
+constexpr int spare_border = 2;
+
+/// The least n = 2^k + 1 from 33 on that holds a cut well, with twice the border that its paths
+/// need at least, and samples enough for the mesh: as many as it has vertices. More than 1025 only
+/// where the cut needs them.
+int suitable_size(const CutDisk& cut, int vertex_count) {
+  const int border = spare_border * (min_size(cut) - 1);
+  int n = min_suitable;
+  const auto larger = [&] { return n = 2 * n - 1; };
+  while (n < max_for_detail && n * n < vertex_count) larger();
+  while (n - 1 < border && 2 * n - 1 <= largest_image_size) larger();
+  return n;
+}
 
 void check_size(int size) {
   if (size == automatic_size) return;

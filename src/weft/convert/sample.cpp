@@ -2,18 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "weft/convert/border_walk.h"
 #include "weft/convert/rasterise.h"
 #include "weft/convert/surface_places.h"
-#include "weft/convert/vertex_normals.h"
 #include "weft/core/assert.h"
+#include "weft/core/math.h"
+#include "weft/cut/disk_mesh.h"
 #include "weft/error.h"
 
 namespace weft {
 namespace {
+
+/// Unit normals at the vertices of a disk, weighted by the triangles' angles there and summed over
+/// all disk vertices that are one point of the surface: mates get the same bits. A vertex whose
+/// triangles have no area gets the normal (0, 1, 0). [D]
+std::vector<Vec3d> disk_vertex_normals(const DiskMesh& disk) {
+  int count = 0;
+  for (const int s : disk.surface_vertex) count = std::max(count, s + 1);
+  std::vector<Vec3d> sums(static_cast<std::size_t>(count));
+  for (const Triangle& t : disk.triangles) {
+    const std::array<Vec3d, 3> p{disk.positions[t[0]], disk.positions[t[1]], disk.positions[t[2]]};
+    const Vec3d normal = normalized(cross(p[1] - p[0], p[2] - p[0]));
+    for (int k = 0; k < 3; ++k) {
+      const Vec3d to_next = normalized(p[(k + 1) % 3] - p[k]);
+      const Vec3d to_last = normalized(p[(k + 2) % 3] - p[k]);
+      sums[disk.surface_vertex[t[k]]] += arc_cosine(dot(to_next, to_last)) * normal;
+    }
+  }
+  for (Vec3d& sum : sums) sum = squared_length(sum) > 0 ? normalized(sum) : Vec3d{0, 1, 0};
+  std::vector<Vec3d> normals;
+  normals.reserve(disk.surface_vertex.size());
+  for (const int s : disk.surface_vertex) normals.push_back(sums[s]);
+  return normals;
+}
 
 WorldMap unit_cube_map(const DiskMesh& disk) {
   Box3d box;

@@ -10,7 +10,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "weft/core/lower_case.h"
+#include "weft/core/names.h"
 #include "weft/error.h"
 
 namespace weft {

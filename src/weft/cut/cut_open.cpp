@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "weft/cut/cut_graph.h"
+#include "weft/cut/cut_surface.h"
+#include "weft/cut/disk_mesh.h"
 #include "weft/cut/open_to_disk.h"
-#include "weft/cut/shortest_paths.h"
-#include "weft/cut/split_border_edge.h"
 #include "weft/error.h"
 
 namespace weft {

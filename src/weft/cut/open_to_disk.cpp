@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "weft/cut/cut_surface.h"
 #include "weft/cut/seed_cut.h"
-#include "weft/cut/shortest_paths.h"
 #include "weft/cut/straighten.h"
 #include "weft/error.h"
 

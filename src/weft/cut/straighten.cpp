@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "weft/cut/shortest_paths.h"
+#include "weft/cut/cut_surface.h"
 
 namespace weft {
 namespace {

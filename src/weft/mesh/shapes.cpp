@@ -4,15 +4,13 @@
 #include <iterator>
 #include <string>
 
-#include "weft/core/nearest_name.h"
+#include "weft/core/names.h"
 #include "weft/error.h"
-#include "weft/mesh/shapes/handles.h"
+#include "weft/mesh/shapes/garments.h"
 #include "weft/mesh/shapes/mannequin.h"
 #include "weft/mesh/shapes/parametric.h"
 #include "weft/mesh/shapes/rings.h"
-#include "weft/mesh/shapes/skirt.h"
 #include "weft/mesh/shapes/solids.h"
-#include "weft/mesh/shapes/tshirt.h"
 
 namespace weft {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "weft/cut/cut_graph.h"
-#include "weft/cut/shortest_paths.h"
+#include "weft/cut/cut_surface.h"
 #include "weft/param/border_layout.h"
 #include "weft/param/proxy.h"
 #include "weft/param/trial_map.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <tuple>
 
-#include "weft/cut/split_border_edge.h"
+#include "weft/cut/disk_mesh.h"
 #include "weft/param/border_layout.h"
 
 namespace weft {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "weft/param/collapse_passes.h"
-#include "weft/param/curvature_weight.h"
 #include "weft/param/disk_geometry.h"
 #include "weft/param/progressive_embedding.h"
 #include "weft/param/triangle_energy.h"

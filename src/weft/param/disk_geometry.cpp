@@ -3,11 +3,79 @@
 #include <algorithm>
 
 #include "weft/core/orientation.h"
-#include "weft/param/curvature_weight.h"
 #include "weft/param/edge_queue.h"
 #include "weft/param/triangle_energy.h"
 
 namespace weft {
+namespace {
+
+/// A quantity on the surface as its integral and area, triangle by triangle.
+struct Density {
+  std::vector<double> sum, area;
+};
+
+/// The square curvature: a bend by an angle over an edge of length l stands for a cylinder of that
+/// angle over the two triangles' width.
+Density square_curvature(const DiskMesh& disk, const HalfEdges& edges,
+                         std::span<const SurfaceTriangle> surface) {
+  const std::vector<Vec3d>& p = disk.positions;
+  std::vector<Vec3d> normals;
+  Density density{std::vector<double>(surface.size(), 0.0), {}};
+  for (std::size_t t = 0; t < surface.size(); ++t) {
+    const auto& [a, b, c] = disk.triangles[t];
+    normals.push_back(normalized(cross(p[b] - p[a], p[c] - p[a])));
+    density.area.push_back(surface[t].area);
+  }
+  for (int h = 0; h < static_cast<int>(edges.twin.size()); ++h) {
+    const int twin = edges.twin[h];
+    if (twin < 0) continue;
+    const double area = surface[h / 3].area + surface[twin / 3].area;
+    if (!(area > 0)) continue;
+    const Vec3d edge = p[to_vertex(disk.triangles, h)] - p[from_vertex(disk.triangles, h)];
+    const double square_angle = squared_length(normals[h / 3] - normals[twin / 3]);
+    density.sum[h / 3] += square_angle * squared_length(edge) / area;
+  }
+  return density;
+}
+
+/// Adds to every triangle what its neighbours have.
+void spread(Density& density, const HalfEdges& edges) {
+  const Density before = density;
+  for (int h = 0; h < static_cast<int>(edges.twin.size()); ++h) {
+    if (edges.twin[h] < 0) continue;
+    density.sum[h / 3] += before.sum[edges.twin[h] / 3];
+    density.area[h / 3] += before.area[edges.twin[h] / 3];
+  }
+}
+
+double total(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+}  // namespace
+
+std::vector<double> curvature_weights(const DiskMesh& disk, const HalfEdges& edges,
+                                      std::span<const SurfaceTriangle> surface) {
+  constexpr double everywhere = 0.1;
+  constexpr double by_curvature = 0.2;
+  constexpr double most = 20;
+  constexpr int rounds = 4;
+  Density density = square_curvature(disk, edges, surface);
+  const double whole = total(density.sum);
+  const double area = total(density.area);
+  std::vector<double> curvature_weight(surface.size(), everywhere);
+  // A flat surface has no curvature but for rounding.
+  if (!(whole > 1e-12)) return curvature_weight;
+  for (int round = 0; round < rounds; ++round) spread(density, edges);
+  for (std::size_t t = 0; t < curvature_weight.size(); ++t) {
+    if (!(density.area[t] > 0)) continue;
+    const double relative = density.sum[t] / density.area[t] * (area / whole);
+    curvature_weight[t] += by_curvature * std::min(relative, most);
+  }
+  return curvature_weight;
+}
 
 DiskGeometry::DiskGeometry(const DiskMesh& mesh)
     : disk(mesh),

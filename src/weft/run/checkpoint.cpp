@@ -11,7 +11,7 @@
 #include "weft/files.h"
 #include "weft/geometry_image.h"
 #include "weft/run/bytes.h"
-#include "weft/sim/stepping/step_levels.h"
+#include "weft/sim/stepping/adaptive_substeps.h"
 
 namespace weft {
 namespace {

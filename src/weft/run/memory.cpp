@@ -1,8 +1,15 @@
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 
+#include <fmt/format.h>
+
+#include "weft/convert.h"
+#include "weft/error.h"
+#include "weft/image_file.h"
 #include "weft/run.h"
 
 namespace weft {
@@ -65,6 +72,76 @@ std::optional<std::uint64_t> available_memory(const fs::path& root) {
     }
   }
   return least;
+}
+namespace {
+
+// Measured as the most that a run held, by size; the test of the program compares them again.
+constexpr double program_bytes = 10e6;
+constexpr double body_bytes_per_sample = 370;
+/// Every cloth has a polar table of every body.
+constexpr double table_bytes_per_sample = 110;
+/// The other colliders keep trees of both.
+constexpr double colliding_cloth_bytes_per_sample = 210, colliding_body_bytes_per_sample = 200;
+/// What intersections are counted with.
+constexpr double counted_cloth_bytes_per_sample = 330;
+/// Its rest and both ends of a step, and what each sample is a blend of.
+constexpr double moving_bytes_per_sample = 64;
+constexpr double margin = 1.25, short_share = 0.8;
+
+double animation_bytes(const std::string& path) {
+  std::error_code missing;  // is told when it is read
+  const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
+  return missing ? 0 : static_cast<double>(bytes);
+}
+
+double samples_of(const Surface& surface, int size) {
+  const bool is_file = !surface.in_memory() && is_image_name(surface.name);
+  const double side = surface.image ? surface.image->size()
+                      : is_file     ? read_image(surface.name).size()
+                                    : size;
+  return side * side;
+}
+
+}  // namespace
+
+std::uint64_t estimate_memory(const Scene& scene) {
+  double bytes = program_bytes;
+  const bool filtered = Colliders::traits_of(scene.collider).filters;
+  const IntegratorTraits needs = Integrators::traits_of(scene.integrator);
+  for (const SceneCloth& cloth : scene.cloths) {
+    const double samples = samples_of(cloth.surface, cloth.size);
+    bytes += needs.bytes_per_sample * samples + needs.bytes_per_pair * samples * samples;
+    bytes += counted_cloth_bytes_per_sample * samples;
+    if (filtered) bytes += colliding_cloth_bytes_per_sample * samples;
+  }
+  const double per_body_sample =
+      body_bytes_per_sample +
+      (filtered ? colliding_body_bytes_per_sample
+                : table_bytes_per_sample * static_cast<double>(scene.cloths.size()));
+  for (const SceneBody& body : scene.bodies) {
+    const double samples = samples_of(body.surface, body.size);
+    bytes += per_body_sample * samples;
+    if (!body.motion.empty() || !body.animation.empty()) bytes += moving_bytes_per_sample * samples;
+    if (!body.animation.empty()) bytes += animation_bytes(body.animation);
+  }
+  return static_cast<std::uint64_t>(bytes);
+}
+
+void check_memory(std::uint64_t bytes, std::uint64_t available, const std::string& scene) {
+  if (static_cast<double>(bytes) <= margin * static_cast<double>(available)) return;
+  throw SceneError(scene,
+                   fmt::format("about {} of memory are needed, {} are there", memory_text(bytes),
+                               memory_text(available)),
+                   "smaller sizes are wanted");
+}
+
+bool is_memory_short(std::uint64_t bytes, std::uint64_t available) {
+  return static_cast<double>(bytes) > short_share * static_cast<double>(available);
+}
+
+std::string memory_text(std::uint64_t bytes) {
+  const double mb = 1e-6 * static_cast<double>(bytes);
+  return mb < 1000 ? fmt::format("{:.0f} MB", mb) : fmt::format("{:.1f} GB", mb / 1000);
 }
 
 }  // namespace weft

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
-#include "weft/cloth/baselines/vectors3.h"
+#include "weft/cloth/baselines/filter_matrix.h"
 #include "weft/cloth/measure.h"
 #include "weft/cloth/neighbours.h"
 

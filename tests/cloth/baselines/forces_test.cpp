@@ -1,4 +1,3 @@
-#include "weft/cloth/baselines/forces.h"
 
 #include <gtest/gtest.h>
 

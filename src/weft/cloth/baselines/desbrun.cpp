@@ -5,7 +5,6 @@
 
 #include "weft/cloth/baselines/filter_matrix.h"
 #include "weft/cloth/baselines/filtered_integrator.h"
-#include "weft/cloth/baselines/vectors3.h"
 #include "weft/cloth/proposal.h"
 #include "weft/error.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "weft/cloth/baselines/forces.h"
+#include "weft/cloth/baselines/spring_matrix.h"
 #include "weft/cloth/baselines/stable_step.h"
 #include "weft/cloth/bending.h"
 #include "weft/cloth/mates.h"

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "weft/cloth/baselines/momentum.h"
-#include "weft/cloth/baselines/viscous_springs.h"
+#include "weft/cloth/baselines/filtered_forces.h"
 #include "weft/cloth/integrator.h"
 
 namespace weft {

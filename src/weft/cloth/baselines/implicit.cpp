@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "weft/cloth/baselines/conjugate_gradients.h"
-#include "weft/cloth/baselines/forces.h"
+#include "weft/cloth/baselines/spring_matrix.h"
 #include "weft/cloth/bending.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/neighbours.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "weft/cloth/baselines/vectors3.h"
+#include "weft/cloth/baselines/filter_matrix.h"
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/kernels/filtering_kernels.h"
 #include "weft/core/thread_team.h"

@@ -4,10 +4,44 @@
 
 #include "weft/collide/baselines/polar_map.h"
 #include "weft/collide/collider.h"
-#include "weft/collide/contacts/response.h"
+#include "weft/vec.h"
 
 namespace weft {
 namespace {
+
+/// One particle during a step, for the response to an obstacle.
+struct StruckParticle {
+  Vec3d start;     ///< at the start of the step [m]
+  Vec3d position;  ///< proposed [m]
+  Vec3d velocity;  ///< proposed [m/s]
+};
+
+/// What strikes it.
+struct Push {
+  Vec3d normal;      ///< unit, out of the obstacle
+  double depth = 0;  ///< how far the particle has to move along the normal, >= 0 [m]
+  double hold = 0;   ///< tangential motion that friction may take: the coefficient times the depth
+                     ///< of the step [m]
+};
+
+/// Moves the particle out, stops its velocity into the obstacle, and takes back as much of the
+/// tangential motion of this step as friction may: at most `hold`, all of it when it was less
+/// (sticking). The velocity loses the same over the time step, never turning round.
+void respond(const Push& push, double time_step, StruckParticle& particle) noexcept {
+  const Vec3d n = push.normal;
+  particle.position += push.depth * n;
+  const double inward = dot(particle.velocity, n);
+  if (inward < 0) particle.velocity -= inward * n;
+
+  const Vec3d moved = particle.position - particle.start;
+  const Vec3d slid = moved - dot(moved, n) * n;
+  const double slid_length = length(slid);
+  if (slid_length > 0) particle.position -= std::min(1.0, push.hold / slid_length) * slid;
+
+  const Vec3d along = particle.velocity - dot(particle.velocity, n) * n;
+  const double speed = length(along);
+  if (speed > 0) particle.velocity -= std::min(1.0, push.hold / (time_step * speed)) * along;
+}
 
 constexpr int no_sample = -1;
 /// Pushing out of one obstacle may push into the next (a crotch, a body on the ground): a few

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/lower_case.h"
+#include "weft/core/names.h"
 #include "weft/error.h"
 #include "weft/mesh.h"
 #include "weft/mesh/io/byte_reader.h"

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
+#include "weft/run/export/exported_surface.h"
 #include "weft/run/export/motion_writer.h"
 
 namespace weft {
@@ -38,5 +40,10 @@ std::string pvd_text(const std::string& folder, const std::vector<std::string>& 
 
 /// All samples as a float32 EXR, R, G, B = x, y, z, bit for bit.
 std::string exr_frame(const MotionFrame& frame);
+
+/// Writes an OBJ: positions, texture coordinates where there are some, a smooth normal for each
+/// vertex, polygons. @param points  [vertices]  @throws OutputError
+void write_obj(const std::filesystem::path& path, const ExportedSurface& surface,
+               std::span<const Vec3f> points);
 
 }  // namespace weft

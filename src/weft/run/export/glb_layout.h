@@ -6,7 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "weft/run/export/motion_files.h"
+#include "weft/run/export/motion_writer.h"
 
 namespace weft {
 

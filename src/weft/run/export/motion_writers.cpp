@@ -9,8 +9,7 @@
 #include "weft/files.h"
 #include "weft/run/export/frame_files.h"
 #include "weft/run/export/frame_sequence.h"
-#include "weft/run/export/motion_files.h"
-#include "weft/run/export/obj_writer.h"
+#include "weft/run/export/motion_writer.h"
 #include "weft/run/export/point_cache_writers.h"
 #include "weft/run/export/surface_points.h"
 

@@ -5,7 +5,7 @@
 
 #include "weft/files.h"
 #include "weft/mesh/point_normals.h"
-#include "weft/run/export/motion_files.h"
+#include "weft/run/export/motion_writer.h"
 
 namespace weft {
 namespace {

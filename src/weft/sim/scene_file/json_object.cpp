@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "weft/core/json.h"
-#include "weft/core/nearest_name.h"
+#include "weft/core/names.h"
 #include "weft/error.h"
 
 namespace weft {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/core/nearest_name.h"
+#include "weft/core/names.h"
 #include "weft/fabric.h"
 #include "weft/mesh/io/point_cache.h"
 #include "weft/sim/scene_file/scene_keys.h"

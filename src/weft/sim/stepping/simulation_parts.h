@@ -20,7 +20,6 @@
 #include "weft/sim/stepping/adaptive_substeps.h"
 #include "weft/sim/stepping/driven_work.h"
 #include "weft/sim/stepping/runaway.h"
-#include "weft/sim/stepping/step_levels.h"
 #include "weft/simulation.h"
 
 namespace weft {

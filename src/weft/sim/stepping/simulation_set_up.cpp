@@ -10,8 +10,17 @@
 #include "weft/scene_file.h"
 #include "weft/sim/placement.h"
 #include "weft/sim/stepping/simulation_parts.h"
+#include "weft/simulation.h"
 
 namespace weft {
+
+LoadedSurface SurfaceCache::load(const Surface& surface, const ConvertOptions& options) {
+  if (surface.in_memory()) return load_surface(surface, options);
+  const Key key{surface.name, options.size, options.normal_map_size, options.keep_places};
+  const auto found = kept_.find(key);
+  if (found != kept_.end()) return found->second;
+  return kept_.emplace(key, load_surface(surface, options)).first->second;
+}
 namespace {
 
 constexpr int body_normal_map_size = 257;

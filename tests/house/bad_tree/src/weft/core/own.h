@@ -1,3 +1,3 @@
 #pragma once
 
-int own();
+std::vector<int> own();

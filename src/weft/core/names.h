@@ -1,10 +1,18 @@
 #pragma once
 
+#include <cctype>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace weft {
+
+/// Letters of ASCII in lower case; other bytes as they are.
+inline std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
 
 /// How many letters must be put in, taken out or replaced to turn one word into the other
 /// (Levenshtein 1966).

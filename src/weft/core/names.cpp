@@ -1,4 +1,4 @@
-#include "weft/core/nearest_name.h"
+#include "weft/core/names.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,0 +1,52 @@
+#include "weft/cloth/kernels/isa/filtering_rows.h"
+#include "weft/cloth/kernels/isa/implicit_rows.h"
+#include "weft/cloth/kernels/isa/newton_rows.h"
+#include "weft/cloth/kernels/isa/rows.h"
+
+namespace weft::WEFT_KERNEL_SET {
+
+const KernelTable table{springs,        spring_energy,   add_differences,
+                        add_transposed, inertia,         update_direction,
+                        place,          step_residual,   dot,
+                        first_sweep,    apply,           add_rhs,
+                        sweep,          subtract_blocks, apply_blocks,
+                        block_sweep,    restrict_rows,   interpolate,
+                        substitute,     breaks_limit,    limit,
+                        motion};
+
+const FilteringKernels filtering{viscous_springs, scale,    accelerate, moments,
+                                 dense_rows,      add_rows, patch_row};
+
+const ImplicitKernels implicit{elastic,       axial_damping,    linearise,     multiply,
+                               add_blocks,    add_mass,         invert_blocks, multiply_blocks,
+                               gradient_step, update_direction, subtract,      restrict_plane,
+                               fall,          right_side,       move,          advance};
+
+const NewtonKernels newton{linearise,
+                           gradient,
+                           diagonal,
+                           line_diagonals,
+                           apply_springs,
+                           spring_energy,
+                           bend,
+                           unbend,
+                           apply_block_stencil,
+                           add_block_row,
+                           spring_blocks,
+                           coarsen_columns,
+                           coarsen_rows,
+                           factor_lines,
+                           factor_spring_lines,
+                           factor_held_lines,
+                           solve_lines,
+                           solve_held_lines,
+                           restrict_row,
+                           prolong_row,
+                           subtract,
+                           scale_add,
+                           scale_row,
+                           add_scaled,
+                           newton_dot,
+                           largest};
+
+}  // namespace weft::WEFT_KERNEL_SET
