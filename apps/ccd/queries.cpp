@@ -17,7 +17,7 @@ using boost::multiprecision::cpp_int;
 using boost::multiprecision::cpp_rational;
 
 constexpr int points_a_query = 8, fields_a_line = 7;
-/// Longer numbers are no coordinates; parsing takes the square of their length.
+/// Longer numbers are no coordinates; parsing takes time by the square of their length.
 constexpr std::size_t max_digits = 1000;
 
 class Reader {
@@ -49,7 +49,7 @@ class Reader {
     return query;
   }
 
-  /// @return the truth
+  /// @return whether the query collides
   bool line(Vec3d& point, double& error) {
     ++line_;
     std::string_view text = rest_.substr(0, rest_.find('\n'));
@@ -86,7 +86,7 @@ class Reader {
     return digits.size() < text.size() ? -value : value;
   }
 
-  /// The double next to a quotient; `error` grows to what is lost.
+  /// The double nearest to a quotient; raises `error` to a bound on the rounding error.
   [[nodiscard]] double number(std::string_view above, std::string_view below, double& error) const {
     const cpp_int denominator = whole(below);
     if (denominator <= 0) fail(fmt::format("denominator '{}'", below), "one above 0 is wanted");

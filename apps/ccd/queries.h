@@ -19,7 +19,7 @@ struct Query {
   /// the corners of the face.
   std::array<Vec3d, 8> points;
   bool collides = false;
-  /// The most by which a coordinate differs from the file's; 0 where doubles hold them all.
+  /// Largest difference of a coordinate from the file's; 0 where doubles hold them all.
   double input_error = 0;
 };
 
@@ -33,10 +33,10 @@ struct QueryFile {
 /// @throws InputError for a file that cannot be read, whose name has neither `edge-edge` nor
 /// `vertex-face` in it, or that is not of that form
 QueryFile read_queries(const std::filesystem::path& path);
-/// The same from memory; `name` is what errors call it.
+/// Reads the same from memory; `name` is what errors call it.
 std::vector<Query> parse_queries(std::string_view text, const std::string& name);
 
-/// Asks time_of_impact.
+/// Answers a query by time_of_impact.
 std::optional<Impact> answer(const Query& query, QueryKind kind, CcdOptions options);
 
 }  // namespace weft::ccd

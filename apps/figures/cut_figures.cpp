@@ -17,7 +17,7 @@ namespace {
 constexpr int seed_triangle = 0;
 const ViewFrom from_above{440, 330, 0.35, 0.85};
 
-/// Bands of equal distance from the seed.
+/// Draws the distance from the seed, and the cut from it.
 void draw_distance(const CutSurface& surface, const std::filesystem::path& path) {
   const TriangleMesh& mesh = surface.mesh();
   const std::vector<double> distance = paths_from(surface, mesh.triangles[seed_triangle]).distance;

@@ -4,8 +4,8 @@
 
 namespace weft::figures {
 
-// The pictures of the documents but for draped cloth, a file a picture, each by a function of its
-// name's group. All are made from built-in shapes; the same machine makes the same bits.
+// Pictures of the documents except draped cloth, one file each. All are made from built-in shapes;
+// the same machine makes the same bits.
 
 /// repair.png, cube.png
 void draw_input(const std::filesystem::path& folder);

@@ -20,7 +20,7 @@ constexpr int cell = 7;  // [pixels]
 /// Weights of all particles of a grid, one plane.
 using Weights = std::vector<double>;
 
-/// A row of W for a grid whose particles weigh so much and are joined as the cloth's are.
+/// A row of W for a grid of particles of equal mass, joined as those of the cloth are.
 Weights filter_row(int side, double mass, int row, int col) {
   FilterGrid grid;
   grid.size = side;
@@ -43,7 +43,7 @@ Weights filter_row(int side, double mass, int row, int col) {
   return weights;
 }
 
-/// The patch's weights about a particle, at their places in the cloth.
+/// Weights of the patch around a particle, at their places in the cloth.
 Weights local_weights(int row, int col) {
   const auto first = [](int i) { return std::clamp(i - patch_size / 2, 0, size - patch_size); };
   const int top = first(row), left = first(col);
@@ -55,7 +55,7 @@ Weights local_weights(int row, int col) {
   return weights;
 }
 
-/// What every particle gets of a force at a coarse one: W_g between nodes, bilinear elsewhere.
+/// Response of every particle to a force at a coarse one: W_g at nodes, bilinear between them.
 Weights global_weights(int row, int col) {
   const Weights coarse = filter_row(nodes, step * step, row / step, col / step);
   Weights weights;
@@ -71,7 +71,7 @@ Weights global_weights(int row, int col) {
   return weights;
 }
 
-/// By the root of each share of the largest weight; grid nodes as dots.
+/// Draws each weight by the square root of its part of the largest; grid nodes as dots.
 Picture draw_weights(const Weights& weights, bool with_nodes) {
   const double largest = *std::max_element(weights.begin(), weights.end());
   Picture picture = blank_picture(size * cell, size * cell, {1, 1, 1});

@@ -19,7 +19,7 @@ Conversion convert_figure(int size) {
   return convert_mesh(make_shape("mannequin"), "builtin:mannequin", options);
 }
 
-/// Rows and columns of the image on the surface, every `step` of them.
+/// Adds rows and columns of the image on the surface, every `step` of them.
 void add_lines(SurfaceDrawing& drawing, const GeometryImage& image, int step) {
   for (int line = 0; line < image.size(); line += step) {
     DrawnCurve row{{}, {0.80F, 0.20F, 0.15F}}, col{{}, {0.15F, 0.35F, 0.75F}};
@@ -46,7 +46,7 @@ void draw_samples(const GeometryImage& image, const std::filesystem::path& path)
                 {square, "the image"}}));
 }
 
-/// Every second sample, again and again.
+/// Draws the pyramid, each level of which has every second sample of the one before.
 void draw_pyramid(const GeometryImage& image, const std::filesystem::path& path) {
   std::vector<Panel> panels;
   GeometryImage level = image;

@@ -33,7 +33,7 @@ TriangleMesh touching_cones() {
   return mesh;
 }
 
-/// Each triangle on its own vertices, in the colour of the side that it shows as its front.
+/// Draws each triangle on its own vertices, coloured by whether its front faces outwards.
 Picture draw_sides(const TriangleMesh& mesh, const ViewFrom& view) {
   TriangleMesh apart;
   SurfaceDrawing drawing;
@@ -51,7 +51,7 @@ Picture draw_sides(const TriangleMesh& mesh, const ViewFrom& view) {
   return draw_on_white(drawing, view);
 }
 
-/// The fans of each component moved apart a little, as only their own vertices are held.
+/// Moves both cones apart a little, which share no vertex any more.
 TriangleMesh moved_apart(const TriangleMesh& mesh) {
   TriangleMesh moved = mesh;
   for (const Triangle& t : mesh.triangles) {

@@ -33,7 +33,7 @@ void draw_border(const std::filesystem::path& path) {
                             {square, "around the square"}}));
 }
 
-/// A disk of eight border vertices and one inside, two edges of it chords.
+/// A disk of eight border vertices and one inside, two of whose edges are chords.
 DiskMesh disk_with_chords() {
   DiskMesh disk;
   const std::vector<Vec2d> places{{0, 0}, {2, 0}, {4, 0}, {4, 2},  {4, 4},
@@ -52,7 +52,8 @@ DiskMesh disk_with_chords() {
   return disk;
 }
 
-/// The disk on the square's border, inner vertices at the mean of their neighbours.
+/// Tutte map of the disk: its border on that of the square, inner vertices at the mean of their
+/// neighbours.
 SquareMap tutte_map(const DiskMesh& disk) {
   SquareMap map{5, {{0, 0}, {2, 0}, {4, 0}, {4, 2}, {4, 4}, {2, 4}, {0, 4}, {0, 2}}};
   map.uv.resize(disk.positions.size(), {2, 2});

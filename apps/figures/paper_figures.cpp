@@ -18,7 +18,7 @@ Conversion convert_figure(const ConvertOptions& options) {
   return convert_mesh(make_shape("mannequin"), "builtin:mannequin", options);
 }
 
-/// The mesh and pictures of grids over the same place, all from one camera.
+/// Draws a mesh and geometry images of it from one camera.
 class Portrait {
  public:
   Portrait(const TriangleMesh& mesh, int width, int height)
@@ -28,7 +28,7 @@ class Portrait {
     scene_.camera = frame_points(outline.points(), 0.5, 0.15, static_cast<double>(width) / height);
     scene_.on_white = true;
   }
-  /// The mesh's upper part alone, where there is more to see.
+  /// Frames the upper part of the mesh alone, which has the most detail.
   void look_at_head() {
     const Vec3d middle = 0.5 * (bounds(mesh_).lower + bounds(mesh_).upper);
     const double top = bounds(mesh_).upper.y;

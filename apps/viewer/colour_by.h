@@ -5,7 +5,7 @@
 
 namespace weft::viewer {
 
-/// What the colours on a surface tell.
+/// The quantity that the colours of a surface show.
 enum class ColourBy { plain, strain, residual, contacts, mates, mip, stretch, positions };
 
 /// How a surface is coloured.

@@ -14,11 +14,11 @@ namespace {
 
 constexpr Vec3f pale{0.80F, 0.80F, 0.78F}, dark{0.20F, 0.21F, 0.23F};        // display
 constexpr Vec3f touching{0.85F, 0.16F, 0.10F}, folded{0.95F, 0.62F, 0.10F};  // display
-/// What full colour stands for where a material has no strain limit.
+/// Strain shown in full colour where a material has no strain limit.
 constexpr double usual_limit = 0.05;
 /// Powers of ten of the residual that the scale covers.
 constexpr double residual_decades = 6;
-/// Samples from the border that show its mates.
+/// Width of the band that shows mates: 1 / band_part of the side, at least min_band samples.
 constexpr int band_part = 32, min_band = 2;
 
 void fit(Planes3& colours, int n) {

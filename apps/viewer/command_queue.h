@@ -12,7 +12,7 @@
 
 namespace weft::viewer {
 
-// What the window asks of the thread that simulates.
+// Commands of the window to the simulating thread.
 
 struct Play {
   bool running = true;
@@ -27,7 +27,7 @@ struct Pull {
   Vec3d target;  ///< [m]
 };
 struct LetGo {};
-/// Shows something else.
+/// Opens another subject.
 struct Open {
   std::string subject;
 };
@@ -35,7 +35,7 @@ struct Open {
 struct DrapeOver {
   std::string body;
 };
-/// Goes on with the scene changed.
+/// Continues with a changed scene.
 struct Change {
   Scene scene;
   std::string what;  ///< a few words for the status line
@@ -51,7 +51,7 @@ using Command =
 class CommandQueue {
  public:
   void push(Command command);
-  /// Moves everything that came into `commands`, which is emptied first.
+  /// Moves all waiting commands into `commands`, which is emptied first.
   void take(std::vector<Command>& commands);
   /// Waits until there is a command, `stop` was called or the time has come.
   /// @return whether there is a command
@@ -59,7 +59,7 @@ class CommandQueue {
   /// Ends waiting, now and from now on.
   void stop();
   [[nodiscard]] bool stopped() const;
-  /// Whether something waits that makes loading what is being loaded useless.
+  /// Whether a waiting command makes the current loading obsolete.
   [[nodiscard]] bool is_overtaken() const;
 
  private:

@@ -10,28 +10,28 @@
 
 namespace weft::viewer {
 
-/// What somebody wants, by hand or in the panel.
+/// Requests of the user, by mouse, key or panel.
 struct Wishes {
   std::vector<Command> commands{};
   bool close = false;
   bool picture = false;       ///< of the scene alone
   bool whole_window = false;  ///< a picture with everything
-  bool frame = false;         ///< look at all of it
+  bool frame = false;         ///< show the whole subject
   bool toggle_panel = false;
   bool toggle_image = false;  ///< the geometry image in the panel
 };
 
-/// What mouse and keys mean.
+/// Translates events of mouse and keys into wishes and camera motion.
 class Controls {
  public:
   explicit Controls(bool running) : running_(running) {}
 
-  /// Turns the camera at once; adds everything else to the wishes.
-  /// @param over_panel  the mouse is over something that takes it
+  /// Moves the camera at once; adds everything else to the wishes.
+  /// @param over_panel  whether the mouse is over something that takes its events
   void handle(const Event& event, const Snapshot& snapshot, OrbitCamera& camera, bool over_panel);
   void play(bool running);
   void step();
-  /// What came together, which is forgotten here.
+  /// Returns the wishes since the last call.
   [[nodiscard]] Wishes take_wishes();
 
   [[nodiscard]] bool running() const { return running_; }
@@ -53,7 +53,7 @@ class Controls {
   Wishes wishes_;
   bool running_;
   Drag drag_ = Drag::none;
-  MouseButton button_ = MouseButton::left;  // that drags
+  MouseButton button_ = MouseButton::left;  // the one that drags
   Vec2d at_;
   std::optional<ClothHit> held_;
   Colouring colouring_;

@@ -5,9 +5,9 @@
 namespace weft::viewer {
 namespace {
 
-/// What a picture may cost while things move [s].
+/// Longest time to draw a picture while things move [s].
 constexpr double slow = 0.045;
-/// How long nothing moves before it is drawn finely [s].
+/// Time without motion after which a picture is drawn finely [s].
 constexpr double calm = 0.25;
 constexpr int coarsest_pixel = 3;
 
@@ -26,7 +26,7 @@ void Detail::end(double seconds) {
     return;
   }
   if (keeps_light() && seconds > slow) coarse_pixel_ = std::min(coarse_pixel_ + 1, coarsest_pixel);
-  // Fine ones have four samples in each pixel: where they would do, they are tried again.
+  // Fine pictures have four samples in each pixel; they are tried again once they would be quick.
   const int samples = 4 * coarse_pixel_ * coarse_pixel_;
   if (samples * seconds < slow) is_slow_ = false;
 }

@@ -4,32 +4,32 @@
 
 namespace weft::viewer {
 
-/// A line of sight.
+/// A ray of sight.
 struct Ray {
   Vec3d from;
   Vec3d direction;  ///< unit
 };
 
-/// A camera that a hand turns about what it looks at. Places in the window are in pixels from its
+/// A camera that the user orbits about its target. Positions in the window are in pixels from its
 /// upper left corner.
 class OrbitCamera {
  public:
-  /// The window's size in pixels, and how much at its left something covers.
+  /// Sets the size of the window, and the width that is covered at its left [pixels].
   void resize(int width, int height, int covered);
-  /// Looks at all of a box, from where it looks now.
+  /// Frames a box from the current direction.
   void frame(const Box3d& box);
 
-  /// By a way of the mouse [pixels].
+  /// Orbits or pans by a displacement of the mouse [pixels].
   void orbit(Vec2d displacement);
   void pan(Vec2d displacement);
-  /// Nearer by steps of the wheel, towards the place under the mouse.
+  /// Zooms by steps of the wheel, towards the point under the mouse.
   void zoom(double steps, Vec2d at);
 
   [[nodiscard]] Camera camera() const;
   [[nodiscard]] Ray ray_through(Vec2d pixel) const;
-  /// Where the ray meets the plane through a point that faces the camera.
+  /// Intersection of a pixel's ray with the plane through a point that faces the camera.
   [[nodiscard]] Vec3d on_facing_plane(Vec2d pixel, Vec3d point) const;
-  /// Where a point is seen; far outside the window for one behind the eye.
+  /// Pixel of a point; far outside the window for one behind the eye.
   [[nodiscard]] Vec2d pixel_of(Vec3d point) const;
 
  private:
@@ -37,7 +37,7 @@ class OrbitCamera {
     Vec3d right, up, back;
   };
   [[nodiscard]] Axes axes() const;
-  /// Of a pixel at the target's distance [m].
+  /// Size of a pixel at the target's distance [m].
   [[nodiscard]] double pixel_size() const;
 
   int width_ = 1280, height_ = 720, covered_ = 0;

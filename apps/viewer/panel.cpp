@@ -44,7 +44,7 @@ void Panel::remember(const Snapshot& snapshot) { plot_.add(snapshot.frame, snaps
 
 void Panel::follow(const PanelInput& input) {
   const std::uint64_t number = input.snapshot.subject ? input.snapshot.subject->number : 0;
-  // A change that failed is taken back.
+  // A failed change is undone.
   const bool failed = !input.status.error.empty() && !ImGui::IsAnyItemActive();
   if (number == subject_ && !failed) return;
   subject_ = number;
@@ -181,7 +181,7 @@ void Panel::show_colours(const PanelInput& input, Controls& controls) {
   const auto& subject = input.snapshot.subject;
   const double limit =
       subject && subject->scene ? subject->scene->cloths[0].material.strain_limit : 0;
-  // Of what is seen, which follows what is chosen a picture later.
+  // The legend is that of the current snapshot, which follows a choice one picture later.
   show_legend(legend_of(input.snapshot.colouring, limit));
 }
 

@@ -8,7 +8,7 @@
 
 namespace weft::viewer {
 
-/// What the panel shows and cannot find out by itself.
+/// Input that the panel shows.
 struct PanelInput {
   const Snapshot& snapshot;
   const Status& status;
@@ -16,25 +16,25 @@ struct PanelInput {
   double draw_ms = 0;          ///< the window's own work
 };
 
-/// The panel at the left, the line at the bottom and the mark of what the mouse holds. What
-/// somebody changes there goes to the controls or into the wishes.
+/// The panel at the left, the status line at the bottom and the mark of the grabbed point. Changes
+/// of the user go to the controls or into the wishes.
 class Panel {
  public:
   explicit Panel(double scale) : scale_(static_cast<float>(scale)) {}
 
-  /// Puts everything into the frame that was begun.
-  /// @return what was asked for by buttons
+  /// Adds everything to the current frame of ImGui.
+  /// @return what was requested by buttons
   Wishes show(const PanelInput& input, Controls& controls);
-  /// Marks a place in the scene, and draws a line from it to the mouse. [pixels]
+  /// Marks a grabbed point, and draws a line from it to the mouse. [pixels]
   void mark(Vec2d held, Vec2d mouse) const;
   void remember(const Snapshot& snapshot);  ///< for the plot
 
   void toggle() { visible_ = !visible_; }
   void toggle_image() { shows_image_ = !shows_image_; }
   [[nodiscard]] bool shows_image() const { return visible_ && shows_image_; }
-  /// How much of the window's left it covers, in window coordinates.
+  /// Width that the panel covers at the window's left, in window coordinates.
   [[nodiscard]] int covered() const;
-  /// Whether the mouse there is the panel's. @param at  in window coordinates
+  /// Whether the panel takes mouse events at a point. @param at  in window coordinates
   [[nodiscard]] bool takes_mouse(Vec2d at) const;
 
  private:
@@ -54,7 +54,7 @@ class Panel {
   float scale_;
   bool visible_ = true, shows_image_ = true;
   std::optional<Scene> edited_;  // the scene with what is being changed
-  std::uint64_t subject_ = 0;    // that it was taken from
+  std::uint64_t subject_ = 0;    // number of the subject of `edited_`
   StagePlot plot_;
 };
 

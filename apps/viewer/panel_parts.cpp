@@ -86,7 +86,7 @@ constexpr float font_size = 14;  // [pixels] on a usual screen
 
 void choose_font(float scale) {
   ImGuiIO& io = ImGui::GetIO();
-  // More than Latin letters would be seen as boxes: none is used.
+  // The font has Latin letters only; no others are used.
   if (std::filesystem::exists(font_path))
     io.Fonts->AddFontFromFileTTF(font_path, font_size * scale);
   else

@@ -22,7 +22,7 @@ double distance_to(const Ray& ray, const std::array<Vec3d, 3>& corners) {
   return distance > 0 ? distance : HUGE_VAL;
 }
 
-/// Whether a row's box can be nearer than what was met.
+/// Whether a ray meets a box within a distance.
 bool is_near(const Ray& ray, const Box3d& box, double limit) {
   double enter = 0, leave = limit;
   const auto cut = [&](double from, double way, double low, double high) {

@@ -111,7 +111,7 @@ std::unique_ptr<Source> open_source(const std::string& name, const SourceMaker& 
   const std::filesystem::path path(name);
   if (path.extension() == ".json")
     return std::make_unique<SceneSource>(read_scene(path), name, maker);
-  std::error_code ignored;  // whoever reads it tells what is the matter
+  std::error_code ignored;  // reported when it is read
   if (std::filesystem::is_directory(path, ignored)) return std::make_unique<RunSource>(name, maker);
   return std::make_unique<StillSource>(name, maker);
 }

@@ -11,7 +11,7 @@
 
 namespace weft::viewer {
 
-/// How long the window's own work took, picture by picture [ms].
+/// Times of the window's own work, one for each of the last pictures [ms].
 class WorkTimes {
  public:
   void add(double milliseconds);
@@ -24,18 +24,18 @@ class WorkTimes {
   std::size_t next_ = 0;
 };
 
-/// What the window tells when it closes, and whoever watches it meanwhile.
+/// Report of the window when it closes, and in its status file before.
 struct WindowReport {
   int frames = 0;  ///< drawn
   int width = 0, height = 0;
   WorkTimes draw;  ///< upload and draw calls of the processor, of pictures with something new
   std::vector<std::string> outputs;
 };
-/// @param middle  where the middle sample of the first cloth is seen [pixels]
+/// @param middle  pixel of the middle sample of the first cloth
 nlohmann::ordered_json to_json(const WindowReport& report, const Snapshot& snapshot,
                                const Status& status, Vec2d middle);
 
-/// A name in the folder that no file has: weft-view-0001.png and so on.
+/// The first unused name for a picture in the folder: weft-view-0001.png and so on.
 std::filesystem::path next_picture(const std::filesystem::path& folder);
 
 }  // namespace weft::viewer

@@ -28,7 +28,7 @@ void set_integrator(Scene& scene, std::string_view name) {
 
 void set_collider(Scene& scene, std::string_view name) {
   if (const auto collider = Colliders::find(name)) scene.collider = *collider;
-  // What was asked of another collider, this one may not know.
+  // The new collider may not support the self-collision that was set for another one.
   if (!Colliders::traits_of(scene.collider).self_collision)
     for (SceneCloth& cloth : scene.cloths) cloth.self_collision.reset();
 }

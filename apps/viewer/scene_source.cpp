@@ -24,7 +24,7 @@ Subject subject_of(const Scene& scene, const Simulation& simulation, const std::
   return subject;
 }
 
-/// The scene as far as it says what there is and where.
+/// Text of the surfaces of a scene and their places, by which scenes are compared.
 std::string shapes_of(Scene scene) {
   const Scene plain;
   scene.gravity = plain.gravity;
@@ -72,7 +72,7 @@ void SceneSource::grab(std::size_t cloth, int sample) {
 void SceneSource::go_on_from(const SceneSource& other) {
   SimulationState state;
   other.simulation_.save(state);
-  // What one collider knows of samples means nothing to another one.
+  // Marks of one collider mean nothing to another one.
   if (subject_->scene->collider.index() != other.subject_->scene->collider.index())
     state.marks.clear();
   simulation_.restore(state);

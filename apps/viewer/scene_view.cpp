@@ -8,7 +8,7 @@ namespace {
 
 constexpr Vec3f fabrics[] = {{0.42F, 0.05F, 0.07F}, {0.05F, 0.13F, 0.32F}, {0.50F, 0.33F, 0.06F}};
 constexpr Vec3f plaster{0.62F, 0.60F, 0.57F};
-/// Of data on a surface: bright, so that its colours are those of the scale.
+/// Base colour below data: bright, so that colours are those of the scale.
 constexpr Vec3f bright{0.85F, 0.85F, 0.85F};
 
 void add(Box3d& box, const Box3d& part) {
@@ -81,7 +81,7 @@ Box3d box_to_frame(const Snapshot& snapshot) {
     if (cloth.empty()) continue;
     const Vec3d e = cloth.extent();
     const double longest = std::max({e.x, e.y, e.z});
-    // What will hang from its pins, or fall beside the bodies.
+    // Space for cloth that will hang from its pins, or fall to the ground where there is no body.
     if (hangs(snapshot, i)) cloth.lower.y -= 0.9 * (longest - e.y);
     if (snapshot.subject->ground) {
       const bool falls = bodies.empty() && !hangs(snapshot, i);

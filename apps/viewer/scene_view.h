@@ -5,10 +5,12 @@
 
 namespace weft::viewer {
 
-/// What to draw of a snapshot; points into it, and is drawn no anew than it must be.
+/// The drawn scene of a snapshot. It points into the snapshot; revisions of surfaces change only
+/// where they must be uploaded anew.
 DrawnScene drawn_scene(const Snapshot& snapshot, const Camera& camera);
 
-/// What the camera looks at: everything where it is, and the room below cloth that hangs.
+/// The box that the camera frames: everything at its current position, and the space below hanging
+/// cloth.
 Box3d box_to_frame(const Snapshot& snapshot);
 
 }  // namespace weft::viewer

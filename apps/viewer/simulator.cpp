@@ -11,7 +11,7 @@
 namespace weft::viewer {
 namespace {
 
-/// What std::visit is given: one call for each alternative of a variant.
+/// A visitor for std::visit: one call for each alternative of a variant.
 template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
@@ -19,9 +19,9 @@ struct Overloaded : Cases... {
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-/// How long the thread sleeps when there is nothing to do.
+/// Longest sleep of the thread when there is nothing to do.
 constexpr std::chrono::seconds rest{1};
-/// How much of the measured speed each frame renews.
+/// Weight of the last frame in the averaged speed.
 constexpr double renewal = 0.1;
 
 }  // namespace
@@ -63,7 +63,7 @@ void Simulator::attempt(const std::function<void()>& action) noexcept {
   try {
     action();
   } catch (const Interrupted&) {
-    // Something else is asked for, or the window closes.
+    // Another command replaces the work, or the window closes.
   } catch (const std::exception& error) {
     complain(error.what());
   }
@@ -172,7 +172,7 @@ void Simulator::pace() {
     speed_ = speed_ > 0 ? speed_ + renewal * (std::min(speed, 1.0) - speed_) : std::min(speed, 1.0);
   }
   last_ = now;
-  // What was missed is not caught up with.
+  // Missed time is not caught up with.
   due_ = std::max(due_ + std::chrono::duration_cast<Clock::duration>(frame), now);
 }
 
@@ -192,7 +192,7 @@ void Simulator::publish() {
 }
 
 void Simulator::update(std::string_view stage, double fraction) {
-  // A frame that was begun is ended.
+  // Other commands interrupt loading only: a frame is finished unless the window closes.
   if (queue_.stopped() || (loading_ && queue_.is_overtaken())) throw Interrupted();
   if (!loading_) return;
   {

@@ -22,22 +22,22 @@ struct SimulatorOptions {
   std::function<void()> wake = [] {};
 };
 
-/// What is shown lives in a thread of its own, so that loading and stepping never make the window
-/// wait: commands go in, snapshots come out. It keeps the scene's pace, or runs as fast as it can
-/// where that is slower.
+/// Runs a source in a thread of its own, so that loading and stepping never make the window wait:
+/// commands go in, snapshots come out. It runs in real time, or as fast as it can where that is
+/// slower.
 class Simulator : private Progress {
  public:
   explicit Simulator(SimulatorOptions options);
   ~Simulator() override;
 
-  /// Any thread may ask.
+  /// Sends a command, from any thread.
   void push(Command command) { queue_.push(std::move(command)); }
   [[nodiscard]] Status status() const;
 
-  // Of one thread, the window's.
+  // For the window's thread only.
   /// @return whether there is a newer snapshot
   bool update() { return snapshots_.update(); }
-  /// The newest that `update` has found; without a subject until the first is there.
+  /// The newest snapshot that `update` has found; without a subject until the first is there.
   [[nodiscard]] const Snapshot& snapshot() const { return snapshots_.front(); }
 
  private:
@@ -74,7 +74,7 @@ class Simulator : private Progress {
   Colouring colouring_;
   bool running_ = true, stopped_by_error_ = false, changed_ = false;
   bool loading_ = false;
-  int steps_ = 0;  // to be made though paused
+  int steps_ = 0;  // to be made while paused
   double speed_ = 0;
   Clock::time_point due_{}, last_{};
   std::uint64_t snapshot_number_ = 0, subject_number_ = 0;

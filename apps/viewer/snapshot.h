@@ -12,16 +12,16 @@
 
 namespace weft::viewer {
 
-/// A surface as far as it does not move.
+/// The constant data of a surface.
 struct SubjectSurface {
   std::string name;
   BorderMates mates;
-  std::optional<NormalMap> normals;  ///< of what stands still
-  Planes3 start;                     ///< where it begins [m]
+  std::optional<NormalMap> normals;  ///< where it does not move
+  Planes3 start;                     ///< initial positions [m]
   bool moves = false;
 };
 
-/// What is shown, as far as it stays the same while it is.
+/// The constant data of what is shown.
 struct Subject {
   std::uint64_t number = 0;  ///< differs from that of every other
   std::string name;          ///< as the user calls it
@@ -29,10 +29,10 @@ struct Subject {
   std::optional<double> ground;
   std::optional<Scene> scene;  ///< where there is something to simulate
   bool plays = false;          ///< whether time passes
-  bool frames_anew = true;     ///< whether the camera shall look at it afresh
+  bool frames_anew = true;     ///< whether the camera frames it anew
 };
 
-/// Everything that the window draws at a time.
+/// Everything that the window draws at one time.
 struct Snapshot {
   std::uint64_t number = 0;  ///< differs from that of every other
   std::shared_ptr<const Subject> subject;
@@ -44,14 +44,14 @@ struct Snapshot {
   Vec3d centre_of_mass;
   Colouring colouring;
   bool running = false, held = false;
-  double speed = 0;  ///< of the scene's time against the clock; 0 while it stands still
+  double speed = 0;  ///< scene time over real time; 0 while it stands still
 };
 
-/// What the simulating thread is about, in words.
+/// Status of the simulating thread, as text.
 struct Status {
   std::string stage;    ///< of loading; empty when nothing is loaded
   double fraction = 0;  ///< of the stage
-  std::string message;  ///< the last thing worth telling
+  std::string message;  ///< the last message to the user
   std::string error;    ///< why there is nothing to see or nothing moves; empty when all is well
 };
 

@@ -11,8 +11,8 @@
 
 namespace weft::viewer {
 
-/// Where what is shown comes from: a simulation, a recorded run, a surface that stands still. Used
-/// by one thread.
+/// Source of what is shown: a simulation, a recorded run, or a surface that does not move. Used by
+/// one thread.
 class Source {
  public:
   Source() = default;
@@ -23,23 +23,23 @@ class Source {
   [[nodiscard]] const std::shared_ptr<const Subject>& subject() const { return subject_; }
   [[nodiscard]] virtual double frame_rate() const { return 60; }  ///< [1/s]
   [[nodiscard]] virtual int frame() const { return 0; }
-  /// Goes on by one frame. @return false at the end, where nothing changes  @throws SceneError when
-  /// the simulation runs away, InputError when a recording cannot be read
+  /// Advances by one frame. @return false at the end, where nothing changes  @throws SceneError
+  /// when the simulation runs away, InputError when a recording cannot be read
   virtual bool advance() { return false; }
   /// Goes back to the start.
   virtual void reset() {}
-  /// See Simulation; nothing where nothing can be held.
+  /// As of Simulation; without effect where nothing can be held.
   virtual void grab(std::size_t /*cloth*/, int /*sample*/) {}
   virtual void pull(Vec3d /*target*/) {}
   virtual void let_go() {}
-  /// Fills all of a snapshot that this knows.
+  /// Fills the parts of a snapshot that this source knows.
   virtual void show(const Colouring& colouring, Snapshot& snapshot) const = 0;
 
  protected:
   std::shared_ptr<const Subject> subject_;
 };
 
-/// What sources are made with.
+/// Parameters of sources.
 struct SourceMaker {
   int threads = 1;
   InstructionSet instructions = best_instruction_set();
@@ -51,8 +51,9 @@ struct SourceMaker {
 /// Opens whatever a name stands for: a scene (.json), the folder of a run, a geometry image, a mesh
 /// or builtin:NAME. @throws whatever loading it throws
 std::unique_ptr<Source> open_source(const std::string& name, const SourceMaker& maker);
-/// Goes on from `before` where the scenes have the same cloths and bodies, at the same places.
-/// @param before  or null  @param kept  set to whether it goes on
+/// Simulates a scene, from the state of `before` where both scenes have the same cloths and bodies,
+/// at the same places.
+/// @param before  or null  @param kept  set to whether that state was kept
 std::unique_ptr<Source> simulate_scene(const Scene& scene, const SourceMaker& maker,
                                        const Source* before, bool& kept);
 

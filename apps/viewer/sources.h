@@ -10,7 +10,7 @@ class SceneSource final : public Source {
  public:
   /// @throws as Simulation
   SceneSource(const Scene& scene, const std::string& name, const SourceMaker& maker);
-  /// Takes over where another one is, whose scene has the same shapes.
+  /// Continues from the state of another source, whose scene has the same shapes.
   void go_on_from(const SceneSource& other);
 
   [[nodiscard]] double frame_rate() const override;
@@ -30,7 +30,7 @@ class SceneSource final : public Source {
   FrameReport report_;
 };
 
-/// A run that was recorded; begins anew after its last frame.
+/// A recorded run; starts again after its last frame.
 class RunSource final : public Source {
  public:
   /// @throws InputError as open_run_folder
@@ -49,7 +49,7 @@ class RunSource final : public Source {
   std::vector<Planes3> cloths_, bodies_;
 };
 
-/// A surface: an image as it is, or a mesh that becomes one.
+/// A surface that does not move: an image, or a mesh that is converted to one.
 class StillSource final : public Source {
  public:
   /// @throws as load_surface
@@ -57,7 +57,7 @@ class StillSource final : public Source {
   void show(const Colouring& colouring, Snapshot& snapshot) const override;
 };
 
-/// Colours that only need the surface; nothing (size 0) for those that need a simulation.
+/// Colours that depend on the surface only; nothing (size 0) for those that need a simulation.
 void colour_surface(const Colouring& colouring, const BorderMates& mates, const Planes3& positions,
                     Planes3& colours);
 

@@ -7,13 +7,13 @@
 
 namespace weft::viewer {
 
-/// What the last frames cost, stage upon stage.
+/// Plot of the costs of the last frames, stacked by stage.
 class StagePlot {
  public:
-  /// One more frame; a number that was there before is not counted again.
+  /// Adds a frame; the last number again is ignored, a smaller one clears the plot.
   void add(int frame, const FrameReport& report);
   void clear() { count_ = 0; }
-  /// Draws it at the panel's place, with its key. @param height  [pixels]
+  /// Draws the plot at the panel's current position, with its key. @param height  [pixels]
   void show(float height) const;
 
  private:

@@ -22,18 +22,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Nothing happens for so long at most, so that asking to stop is heard [s].
+/// Longest wait for events, so that a request to stop is noticed [s].
 constexpr double longest_wait = 0.1;
-/// Between two looks at the clock where pictures follow each other [s].
+/// Shortest time between two pictures [s].
 constexpr double min_frame = 1.0 / 60;
-/// Pictures after the last event: what the panel does about it takes some.
+/// Pictures drawn after the last event, as the panel takes some to react.
 constexpr int settling_pictures = 3;
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// Where the mouse was; far away for what is none of its doing.
+/// Position of the mouse at a press or turn of the wheel; far away for other events.
 Vec2d place_of(const Event& event) {
   if (const auto* pressed = std::get_if<MousePressed>(&event)) return pressed->at;
   if (const auto* wheel = std::get_if<WheelTurned>(&event)) return wheel->at;
@@ -68,7 +68,7 @@ class Viewer {
   }
 
  private:
-  /// Whether all is shown that was asked for, as far as it can be.
+  /// Whether everything requested was shown, as far as it can be.
   [[nodiscard]] bool is_done() const {
     const Snapshot& snapshot = simulator_.snapshot();
     const bool is_there = !snapshot.running && snapshot.frame == options_.until;
@@ -76,7 +76,7 @@ class Viewer {
            (options_.frames > 0 && shown_ >= options_.frames);
   }
 
-  /// Waits for something to happen and shows what came of it.
+  /// Waits for events, handles them, and draws where anything changed.
   void turn() {
     const std::vector<Event> events = window_.wait(waiting());
     if (!events.empty()) unsettled_ = settling_pictures;
@@ -89,7 +89,7 @@ class Viewer {
     if (status.stage != status_.stage || status.fraction != status_.fraction ||
         status.message != status_.message || status.error != status_.error)
       unsettled_ = std::max(unsettled_, 1);
-    // The line at the bottom tells what came last.
+    // The bottom line shows the latest message.
     if (status.message != status_.message) note_.clear();
     status_ = status;
     if (detail_.wants_finer(seconds())) unsettled_ = std::max(unsettled_, 1);
@@ -189,7 +189,8 @@ class Viewer {
     return status;
   }
 
-  /// What stands in the window's own buffer. A picture that cannot be written is told of there.
+  /// Writes the window's buffer as a picture. Errors are shown in the window, or thrown for the
+  /// picture at the end.
   void save(const std::filesystem::path& path) {
     const Vec2d pixels = window_.pixels();
     const bool at_the_end = path == options_.screenshot;

@@ -32,7 +32,7 @@ std::optional<MouseButton> button_of(int button) {
 
 }  // namespace
 
-/// GLFW calls functions; they find the window by its user pointer.
+/// Callbacks of GLFW, which find the window by its user pointer.
 struct Window::Callbacks {
   static Window& self(GLFWwindow* window) {
     return *static_cast<Window*>(glfwGetWindowUserPointer(window));
@@ -40,7 +40,7 @@ struct Window::Callbacks {
   static void add(GLFWwindow* window, Event event) {
     self(window).events_.push_back(std::move(event));
   }
-  /// When that happened: asking GLFW would tell where the mouse is now.
+  /// Cursor position at the event; GLFW itself gives the current one.
   static Vec2d cursor(GLFWwindow* window) { return self(window).cursor_; }
   static void button(GLFWwindow* window, int which, int action, int /*modifiers*/) {
     const auto known = button_of(which);
@@ -71,7 +71,7 @@ Window::Window(int width, int height, const std::string& title) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  // Pictures are averaged before they come here.
+  // Pictures are antialiased before they are drawn here.
   glfwWindowHint(GLFW_SAMPLES, 0);
   handle_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (handle_ == nullptr) {

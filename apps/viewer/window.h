@@ -10,7 +10,7 @@ struct GLFWwindow;
 
 namespace weft::viewer {
 
-// What happened in the window, in order; places are in its coordinates from the upper left corner.
+// Events of the window, in order; positions are in its coordinates from the upper left corner.
 
 enum class MouseButton { left, right, middle };
 struct MousePressed {
@@ -47,8 +47,8 @@ class Window {
   Window& operator=(const Window&) = delete;
   ~Window();
 
-  /// Waits until something happens or the time is over. @param seconds  0: does not wait
-  /// @return what happened since the last call
+  /// Waits for an event, or until the time is over. @param seconds  0: does not wait
+  /// @return all events since the last call
   std::vector<Event> wait(double seconds);
   /// Ends a `wait`, from any thread.
   static void wake();
@@ -58,10 +58,10 @@ class Window {
   void set_title(const std::string& title);
 
   [[nodiscard]] GLFWwindow* handle() const { return handle_; }
-  /// In its own coordinates, and in pixels.
+  /// Size in its own coordinates, and in pixels.
   [[nodiscard]] Vec2d size() const;
   [[nodiscard]] Vec2d pixels() const;
-  /// How large text and panels shall be.
+  /// Scale of text and panels.
   [[nodiscard]] double scale() const;
 
  private:

@@ -8,8 +8,8 @@ class App;
 
 namespace weft::app {
 
-// One function a subcommand, each in a file of its name: adds its words and options to the program;
-// the context is filled when the command runs and must outlive the program's parsing.
+// One function a subcommand, each in a file of its name: adds the subcommand and its options to the
+// program; the context is filled when the command runs and must outlive the program's parsing.
 void add_convert(CLI::App& program, const Context& context);
 void add_rebuild(CLI::App& program, const Context& context);
 void add_inspect(CLI::App& program, const Context& context);

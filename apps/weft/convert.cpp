@@ -87,7 +87,7 @@ void print_summary(const Context& context, const Conversion& c) {
 Json convert_one(const ConvertArgs& args, const Context& context, const NamedMesh& named,
                  const ConvertOptions& options, const fs::path& output) {
   Conversion conversion = [&] {
-    const PromptStop stop;  // nothing of it is written yet
+    const PromptStop stop;  // nothing is written yet
     return convert_mesh(named.mesh, args.mesh, options);
   }();
   std::vector<fs::path> outputs{output};
@@ -108,8 +108,8 @@ Json convert_one(const ConvertArgs& args, const Context& context, const NamedMes
   return conversion_json(args.mesh, conversion, outputs);
 }
 
-// One image a component, numbered from 0, the largest first. One that does not convert keeps none
-// of the others from being written.
+// Writes one image a component, numbered from 0, the largest first. A component that does not
+// convert does not prevent the others.
 Json convert_all(const ConvertArgs& args, const Context& context, const NamedMesh& named,
                  ConvertOptions options) {
   Json conversions = Json::array(), failed = Json::array();
@@ -128,7 +128,7 @@ Json convert_all(const ConvertArgs& args, const Context& context, const NamedMes
   return {{"conversions", conversions}, {"failed", failed}};
 }
 
-// After the report, which tells what was written.
+// Fails where a component did not convert; called after the report, which lists what was written.
 void require_all(const ConvertArgs& args, const Context& context, const Json& report) {
   if (report["failed"].empty()) return;
   std::string numbers;

@@ -21,7 +21,7 @@ namespace weft::app {
 namespace {
 namespace fs = std::filesystem;
 
-/// What the demo has done so far.
+/// State of the demo: its report and outputs so far.
 struct Demo {
   fs::path folder;
   const Context& context;
@@ -32,7 +32,7 @@ struct Demo {
   Demo(fs::path where, const Context& with)
       : folder(std::move(where)), context(with), progress(with.quiet || with.json) {}
 
-  /// Has a file written and tells of it.
+  /// Writes a file and prints its name.
   template <class Write>
   void add(const fs::path& name, const Write& write) {
     write(folder / name);
@@ -41,8 +41,8 @@ struct Demo {
   }
 };
 
-// The figure as a geometry image: both files, its normal map, and pictures of the image and of the
-// cut.
+// Converts the figure to a geometry image: both files, its normal map, and pictures of the image
+// and of the cut.
 void show_image(Demo& demo) {
   const std::string name = "builtin:mannequin";
   ConvertOptions options;
@@ -75,7 +75,7 @@ struct DemoDrape {
   double elevation = 0.2;  // of the eye [rad]
 };
 
-// One cloth on the figure: its scene, caches, last frame and movie.
+// Drapes one cloth on the figure: its scene, caches, last frame and movie.
 void show_drape(Demo& demo, const DemoDrape& shown) {
   const std::string& name = shown.name;
   const ViewFrom view{960, 720, 0.45, shown.elevation};

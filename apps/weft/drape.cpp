@@ -19,7 +19,8 @@ struct DrapeArgs {
   RunArgs run;
 };
 
-/// Cloth keeps its size, and moves by it; bodies are scaled.
+/// Warns of an implausible cloth size. Cloth keeps its size, which affects its motion; bodies are
+/// scaled.
 void warn_of_size(const std::string& cloth, const MeshFrame& files, const Context& context) {
   if (is_image_name(cloth)) return;
   const auto remark = implausible_size(in_metres_y_up(load_mesh(cloth), files), files.unit);

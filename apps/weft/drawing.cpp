@@ -14,7 +14,7 @@ constexpr Vec3f plaster{0.62F, 0.60F, 0.57F};
 constexpr Vec3f cloth_colours[] = {
     {0.42F, 0.05F, 0.07F}, {0.05F, 0.13F, 0.32F}, {0.50F, 0.33F, 0.06F}};
 
-/// A scene points at its surfaces: this holds them while it is drawn.
+/// A frame of a run: its scene, and the surfaces that the scene points to.
 struct RunFrame {
   std::vector<Planes3> cloths, bodies;
   std::vector<NormalMap> normals;

@@ -29,13 +29,13 @@ class RunSubject : public Subject {
   Renderer renderer_;
 };
 
-/// The last frame.
+/// Draws the last frame of a run.
 Picture draw_run(const RunFolder& run, const ViewFrom& view);
 
-/// Everything that a camera has to see over all frames (of long runs, 48 of them).
+/// Outline of what a camera has to see over all frames (of long runs, 48 of them).
 Outline outline_of(const Subject& subject);
 
-/// All frames as a movie that appears whole, from one camera that sees them all.
+/// Writes all frames as a movie, which appears whole, from one camera that sees them all.
 void film_run(const RunFolder& run, const std::filesystem::path& path, const ViewFrom& view,
               Progress* progress);
 

@@ -29,7 +29,7 @@ struct FabricArgs {
               *drape_given = nullptr;
 };
 
-/// What is known of a fabric once its bending is.
+/// A fabric whose bending is known, and the drape test that gave it, if any.
 struct Fabric {
   Material material;
   std::optional<DrapeResult> drape{};
@@ -99,7 +99,7 @@ Fabric make_fabric(const FabricArgs& args, const Context& context) {
   return fabric;
 }
 
-/// With as many digits of B as are known.
+/// Rounds density and B to the digits that are known.
 Material rounded(Material material) {
   const auto three_digits = [](double value) { return std::stod(fmt::format("{:.3g}", value)); };
   material.density = std::stod(fmt::format("{:.6g}", material.density));

@@ -12,10 +12,11 @@ struct InspectArgs {
   std::string subject, against;
 };
 
-/// Prints what decides a mesh's fate, and that fate. @throws as load_mesh
+/// Prints the statistics of a mesh and whether it converts. @throws as load_mesh
 void inspect_mesh(const InspectArgs& args, const Context& context);
 
-/// Prints what a geometry image is, and how far it is from the mesh `against`, if there is one.
+/// Prints the properties of a geometry image, and its distance to the mesh `against`, if there is
+/// one.
 /// @throws as read_image, load_mesh
 void inspect_image(const InspectArgs& args, const Context& context);
 

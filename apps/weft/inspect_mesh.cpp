@@ -14,7 +14,7 @@
 namespace weft::app {
 namespace {
 
-/// Of each kind, in JSON and in text; the counts tell how many there are.
+/// Largest numbers of places listed of each kind, in JSON and in text; the counts include all.
 constexpr std::size_t max_places = 100, max_told = 8;
 
 template <class List>
@@ -149,8 +149,8 @@ void say_statistics(const Context& context, const MeshStatistics& statistics) {
                            statistics.self_intersections, statistics.intersecting_triangles));
 }
 
-/// What convert would make of a mesh: its repaired topology and the least size that holds its cut,
-/// or the error that it would end with.
+/// Outcome of converting a mesh: its repaired topology and the smallest size that holds its cut, or
+/// the error.
 struct Fate {
   Json input, min_size;
   std::string verdict;

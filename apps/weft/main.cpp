@@ -65,7 +65,7 @@ std::string command_names(const CLI::App& program) {
   return names;
 }
 
-// What a user did wrong. Without a command, the word that stands in its place is told.
+// Error message for a wrong command line. Without a command it names the word in its place.
 std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   if (!program.get_subcommands().empty()) return one_line(program, error.what());
   for (const std::string& arg : program.remaining())
@@ -76,7 +76,7 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   return one_line(program, error.what());
 }
 
-// What was printed must have arrived.
+// Checks that everything printed was written.
 int finish() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return static_cast<int>(ExitCode::done);
   return fail(ExitCode::input,

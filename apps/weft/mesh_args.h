@@ -11,13 +11,13 @@ class App;
 
 namespace weft::app {
 
-/// How the numbers of a mesh's file are meant.
+/// Unit and up axis of a mesh's file.
 struct MeshArgs {
   std::string unit = "m", up = "y";
 };
 void add_mesh_options(CLI::App& command, MeshArgs& args);
 
-/// A mesh in metres with y up, and what is worth a warning about it.
+/// A mesh in metres with y up, and warnings about it.
 struct NamedMesh {
   TriangleMesh mesh;
   std::vector<std::string> warnings;

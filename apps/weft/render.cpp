@@ -36,7 +36,7 @@ bool is_movie(const RenderArgs& args) {
 }
 
 bool is_run(const std::string& subject) {
-  std::error_code ignored;  // whoever reads it tells what is the matter
+  std::error_code ignored;  // reported when it is read
   return std::filesystem::is_directory(subject, ignored);
 }
 

@@ -11,8 +11,7 @@
 
 namespace weft::app {
 
-/// The most memory that this process has held at once so far [MB of 10^6 bytes]; nothing where the
-/// system does not tell.
+/// Peak memory of this process so far [MB of 10^6 bytes]; nothing where the system does not tell.
 std::optional<double> peak_memory_mb();
 
 using Json = nlohmann::ordered_json;
@@ -26,7 +25,7 @@ Json image_json(const GeometryImage& image);
 Json box_json(const Box3d& box);
 Json paths_json(const std::vector<std::filesystem::path>& paths);
 
-/// Fails early when a file could not be written there in the end. @throws OutputError, UsageError
+/// Checks early that a file can be written. @throws OutputError, UsageError
 void check_output(const std::filesystem::path& path,
                   std::initializer_list<std::string_view> endings);
 

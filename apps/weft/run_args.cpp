@@ -41,8 +41,8 @@ void print_summary(const Context& context, const RunReport& report) {
   for (const auto& path : report.outputs) say(context, "wrote   " + path.string());
 }
 
-// Before a large run starts, what it will take; before one that may not fit, a warning. What
-// certainly does not fit is refused.
+// Prints the memory that a large run needs, warns where it may not fit, and refuses what certainly
+// does not.
 void tell_memory(const Scene& scene, const std::string& name, const Context& context) {
   const std::uint64_t bytes = estimate_memory(scene);
   const std::optional<std::uint64_t> available = available_memory();
@@ -55,7 +55,7 @@ void tell_memory(const Scene& scene, const std::string& name, const Context& con
   }
 }
 
-/// A cloth that is put back as a whole stands still while the scene goes on.
+/// Fails where a whole cloth was put back: it stands still while the scene goes on.
 void check_whole_cloths(const RunReport& report, const std::string& name) {
   const auto fell = [](const FrameReport& frame) { return frame.whole_fell_back > 0; };
   const auto first = std::find_if(report.history.begin(), report.history.end(), fell);

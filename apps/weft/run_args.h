@@ -27,15 +27,15 @@ struct RunArgs {
 };
 void add_run_options(CLI::App& command, RunArgs& args);
 
-/// What the words say of files. @param otherwise  what is not said
+/// Unit and axes of files by the options. @param otherwise  what the options leave open
 MeshFrame frame_of(const RunArgs& args, const MeshFrame& otherwise);
 
 /// Changes the scene as the options ask.
 void apply_run_args(const RunArgs& args, Scene& scene);
 
-/// Runs the scene with the options applied and prints what it came to.
-/// @throws whatever the run throws; Error with ExitCode::check_failed when --verify finds
-/// intersections
+/// Runs the scene with the options applied and prints its report.
+/// @throws whatever the run throws; Error with ExitCode::check_failed when a check of --verify
+/// fails
 void run_and_report(Scene scene, const std::string& name, const RunArgs& args,
                     const Context& context);
 

@@ -17,13 +17,13 @@ constexpr int min_part = 32;          // [pixels]
 
 int text_scale_of(int height) { return std::max(1, (height + 100) / 240); }
 
-/// The frame itself, or the last one there is.
+/// The frame itself; the last one for -1 and for what does not move.
 int frame_of(const Subject& subject, int frame) {
   const int last = subject.frames() - 1;
   return frame < 0 || last == 0 ? last : frame;
 }
 
-/// Where a subject stands that plays at its own rate and stops at its end.
+/// Frame of a subject at a time, played at its own rate; the last one after its end.
 int frame_at_time(const Subject& subject, double seconds) {
   const double frame = std::floor(seconds * subject.frame_rate() + 0.5);
   return static_cast<int>(std::min(frame, subject.frames() - 1.0));

@@ -19,9 +19,9 @@ class Subject {
   Subject& operator=(const Subject&) = delete;
   virtual ~Subject() = default;
 
-  /// A flat picture, the same from everywhere.
+  /// Whether this is a flat picture, the same from every camera.
   [[nodiscard]] virtual bool is_flat() const { return false; }
-  /// 1 for what does not move.
+  /// Number of frames; 1 for what does not move.
   [[nodiscard]] virtual int frames() const { return 1; }
   /// [1/s]
   [[nodiscard]] virtual double frame_rate() const { return 30; }
@@ -45,8 +45,8 @@ class Shots {
   [[nodiscard]] int frames() const;
   [[nodiscard]] double frame_rate() const;
 
-  /// The same frame of all, of those that have it; the last frame of each for -1. The camera sees
-  /// this alone.
+  /// Draws one frame of all subjects, or the only one of those that do not move; the last of each
+  /// for -1. The camera frames this alone.
   Picture still(int frame);
   /// A movie: how the camera moves, and which frames it sees.
   struct Take {
@@ -57,11 +57,11 @@ class Shots {
     int frame = -1;             ///< as of `still`
     std::vector<Vec3d> points;  ///< that stay in sight
   };
-  /// Runs played at their own speeds, those that have ended standing still.
+  /// A take that plays runs at their own speeds; those that have ended stand still.
   /// @param max_rate  of the movie's pictures [1/s]
   [[nodiscard]] Take playing(double max_rate = 1000) const;
-  /// One turn of at least four seconds, 30 pictures a second. @param frame  to stand still at;
-  /// none: what moves is played
+  /// A take of one turn of at least four seconds, at most 30 pictures a second. @param frame  to
+  /// stand still at; none: what moves is played
   [[nodiscard]] Take turning(std::optional<int> frame) const;
   /// Picture i of a take.
   Picture draw(const Take& take, int i);

@@ -87,7 +87,7 @@ void Shown::show_mesh(const ShownArgs& args, const Context& context) {
   show({}, args.view);
 }
 
-// A mesh that cannot be opened is still drawn, without a cut.
+// A mesh that cannot be cut open is still drawn, without a cut.
 void Shown::show_cut(const ShownArgs& args, const Context& context, const TriangleMesh& mesh) {
   SurfaceDrawing drawing;
   try {

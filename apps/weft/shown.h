@@ -26,7 +26,7 @@ const std::vector<std::string>& shown_of_images();
 /// A mesh or an image: a flat picture (colours, mates, map), or a surface.
 class Shown : public Subject {
  public:
-  /// Converts where that is needed. @throws UsageError for words that make no sense together;
+  /// Converts where that is needed. @throws UsageError for options that do not fit together;
   /// whatever loading and converting throw
   Shown(const ShownArgs& args, const Context& context);
   [[nodiscard]] bool is_flat() const override { return flat_.width > 0; }

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Where the image halves down to the coarsest level, which the paper's sizes do not.
+/// Sizes whose image halves down to the coarsest level, as the paper's do not.
 constexpr std::array<int, 4> multigrid_sizes{17, 33, 65, 129};
 
 struct Table5Args {
@@ -66,7 +66,7 @@ std::string seconds_text(const std::optional<double>& seconds) {
   return seconds ? fmt::format("{:.5g}", *seconds) : "-";
 }
 
-/// What a row begins with: the cloth once, n_g and n_l.
+/// Beginning of a row: the cloth, in its first row only, n_g and n_l.
 std::string row_head(const Table5Row& row, bool first) {
   const std::string cloth = first ? fmt::format("{0} x {0}", row.paper.n) : "";
   return fmt::format("{:<8} {:>3} {:>3}", cloth, row.paper.global_size, row.paper.local_size);
@@ -98,7 +98,7 @@ void say_matrices(const Context& context, const Table5Row& row, bool first) {
                : ""));
 }
 
-/// One line a row. @param say_row  as say_steps
+/// Prints one line a row. @param say_row  as say_steps
 void say_rows(const Context& context, const std::vector<Table5Row>& rows, const auto& say_row) {
   int size = 0;
   for (const Table5Row& row : rows) {

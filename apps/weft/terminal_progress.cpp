@@ -14,7 +14,7 @@ namespace {
 volatile std::sig_atomic_t stop_requested = 0;   // NOLINT
 volatile std::sig_atomic_t may_end_at_once = 0;  // NOLINT
 
-// How long work that tells no progress may go on once a stop is asked for [s].
+// Time that work without progress updates may go on after a stop was requested [s].
 constexpr unsigned grace = 1;
 
 extern "C" void end_at_once(int /*signal*/) {

@@ -7,13 +7,13 @@
 
 namespace weft::app {
 
-/// From now on Ctrl-C (SIGINT) and SIGTERM ask for a stop at the next progress update; a second one
+/// Makes Ctrl-C (SIGINT) and SIGTERM ask for a stop at the next progress update; a second one
 /// kills.
 void stop_on_signals();
 
-/// While one lives, a stop that is asked for ends the program within a second even where the work
-/// tells no progress, as a large factorization does. For work that has nothing half-written. One
-/// at a time.
+/// While a PromptStop exists, a requested stop ends the program within a second, even during work
+/// without progress updates, such as a large factorization. For work that has nothing half-written.
+/// One at a time.
 class PromptStop {
  public:
   /// @throws Interrupted when a stop has been asked for
@@ -23,14 +23,14 @@ class PromptStop {
   ~PromptStop();
 };
 
-/// A bar on stderr when that is a terminal (nothing otherwise); throws Interrupted when asked to
-/// stop.
+/// A progress bar on stderr when that is a terminal (nothing otherwise); throws Interrupted when a
+/// stop was requested.
 class TerminalProgress : public Progress {
  public:
   explicit TerminalProgress(bool quiet);
   ~TerminalProgress() override;
   void update(std::string_view stage, double fraction) override;
-  /// Takes the bar away until the next update, for a line that is to stay.
+  /// Removes the bar until the next update, so that a line can be printed.
   void clear();
 
  private:

@@ -22,7 +22,7 @@ void view(viewer::ViewerOptions& options, const Context& context) {
   options.check = [&interruption] { interruption.update("view", 0); };
   const nlohmann::ordered_json report = viewer::run_viewer(options);
   print_report(context, report);
-  // Nobody may have looked at the window then.
+  // With these options nobody may have looked at the window.
   const std::string error = report.at("error");
   if ((options.frames > 0 || options.until > 0) && !error.empty())
     throw Error(ExitCode::input, "", error, "");

@@ -16,17 +16,17 @@ struct Camera {
   double vertical_angle = 0.6;  ///< field of view [rad]
 };
 
-/// The nearest camera that sees the whole box from a direction: its corners touch a frame a little
-/// inside the picture. An empty or not-finite box is taken for the unit cube around the origin.
+/// The nearest camera that sees the whole box from a given direction: the corners touch a frame a
+/// little inside the picture. An empty or not-finite box counts as the unit cube around the origin.
 /// @param azimuth, elevation  of the eye seen from the box [rad]; azimuth 0 looks from +z
 /// @param aspect              width / height
 Camera frame_box(const Box3d& box, double azimuth, double elevation, double aspect);
 
-/// The same for points: the farthest ones touch the frame. None: the unit cube.
+/// The nearest camera that sees all points, framed as by frame_box. Without points: the unit cube.
 /// @pre points are finite
 Camera frame_points(std::span<const Vec3d> points, double azimuth, double elevation, double aspect);
 
-/// How much of the half picture frame_box leaves free on the tight sides.
+/// Free margin that frame_box leaves on the tight sides, as a share of half the picture.
 inline constexpr double frame_margin = 0.06;
 
 /// The box of the finite samples; empty when there is none.
@@ -34,8 +34,8 @@ Box3d bounds(const Planes3& positions);
 /// The box of the finite vertices; empty when there is none.
 Box3d bounds(const TriangleMesh& mesh);
 
-/// The points of a set that stand out farthest to 134 sides: what a camera has to see, however many
-/// points there are. No point of the set lies more than 2 percent of the set's size beyond them.
+/// The extreme points of a point set along 134 fixed directions: a small set that stands for all
+/// points when a camera is framed. No point lies more than 2 percent of the set's size beyond them.
 class Outline {
  public:
   Outline();
@@ -46,7 +46,7 @@ class Outline {
   void add(const Outline& other);
   /// [m]; empty when nothing was added
   [[nodiscard]] std::vector<Vec3d> points() const;
-  /// The same turned all around the vertical line through the middle of their box.
+  /// The extreme points, rotated through a full turn about the vertical axis of their box.
   [[nodiscard]] std::vector<Vec3d> points_turning() const;
 
  private:

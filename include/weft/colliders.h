@@ -9,15 +9,16 @@
 
 namespace weft {
 
-/// What others have to know of a collider.
+/// Capabilities of a collider.
 struct ColliderTraits {
-  bool filters = true;         ///< takes back what passes through, so that nothing does
+  bool filters = true;         ///< filters motion, so that nothing passes through anything
   bool self_collision = true;  ///< can keep a cloth from passing through itself
   bool containers = true;      ///< can keep cloth inside of a body
   bool moving_bodies = true;   ///< can keep cloth out of bodies that move
 };
 
-/// The default: mip pyramids as bounding hierarchies, planes that nothing passes.
+/// The default collider: mip pyramids as bounding volume hierarchies, and a filter of separating
+/// planes against penetration.
 struct PyramidOptions {
   static constexpr std::string_view name = "pyramid";
   static constexpr ColliderTraits traits{};
@@ -25,8 +26,8 @@ struct PyramidOptions {
   static void visit_options(const Visit& /*visit*/) {}
 };
 
-/// The same with other broad phases, to compare with: spheres in a tree over the image [benes05], a
-/// hashed grid of space [teschner03], and depth images [govindaraju03].
+/// Colliders that replace the broad phase of PyramidOptions, for comparison: by a sphere tree over
+/// the image [benes05], a spatial hash [teschner03], or depth images [govindaraju03].
 struct SphereTreeOptions {
   static constexpr std::string_view name = "sphere_tree";
   static constexpr ColliderTraits traits{};
@@ -46,7 +47,7 @@ struct ImageSpaceOptions {
   static void visit_options(const Visit& /*visit*/) {}
 };
 
-/// The paper's angular table [zink07, section 5].
+/// The collider of the paper: an angular table of the body [zink07, section 5].
 struct PolarMapOptions {
   int size = 0;  ///< cells a side of the table; 0: the body's image size
   /// From the surface point on the particle's ray, walk over neighbouring samples to the closest
@@ -67,16 +68,16 @@ using ColliderOptions = std::variant<PyramidOptions, PolarMapOptions, SphereTree
                                      SpatialHashOptions, ImageSpaceOptions>;
 using Colliders = Methods<ColliderOptions>;
 
-/// The name in scene file and command line.
+/// The name of a collider in scene file and command line.
 inline std::string_view name_of(const ColliderOptions& options) {
   return Colliders::name_of(options);
 }
 
-/// What cloths pass through.
+/// Numbers of intersections that cloths have.
 struct IntersectionCounts {
   std::int64_t self = 0;    ///< pairs of triangles of one cloth
-  std::int64_t cloths = 0;  ///< of two cloths
-  std::int64_t bodies = 0;  ///< of a cloth and a body
+  std::int64_t cloths = 0;  ///< pairs of triangles of two cloths
+  std::int64_t bodies = 0;  ///< pairs of triangles of a cloth and a body
   std::int64_t ground = 0;  ///< triangles of cloths with a corner below the ground
   [[nodiscard]] std::int64_t total() const { return self + cloths + bodies + ground; }
 };

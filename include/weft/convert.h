@@ -19,25 +19,25 @@
 
 namespace weft {
 
-/// Asks for a size that suits the mesh, instead of a number.
+/// The value of ConvertOptions::size that asks for a size chosen from the mesh.
 inline constexpr int automatic_size = 0;
 
 struct ConvertOptions {
-  int size = 257;  ///< or automatic_size; the image tells which it was
+  int size = 257;  ///< samples a side, or automatic_size
   Parameterizer parameterizer = StretchOptions{};
   ComponentChoice component;
   int seed_triangle = -1;    ///< of the input, before repair; -1: choose
-  std::optional<Seam> seam;  ///< cut here, and elsewhere only as far as it must be for a disk
+  std::optional<Seam> seam;  ///< cut along it, and elsewhere only as far as a disk requires
   bool augment = true;
   int normal_map_size = 0;   ///< 0: none
   bool keep_uv = false;      ///< sample the mesh's own texture coordinates too
-  bool keep_places = false;  ///< tell where on the mesh each sample lies (load_surface)
+  bool keep_places = false;  ///< record where on the mesh each sample lies (load_surface)
   bool keep_source = false;  ///< keep the mesh and where its vertices lie (load_surface)
-  MeshFrame files;           ///< what the numbers of mesh files mean (load_surface)
+  MeshFrame files;           ///< unit and up axis of mesh files (load_surface)
   /// Move samples off the surface, so that the triangles between them fit it best.
   bool fit_samples = false;
-  bool measure = true;     ///< how far image and mesh are apart
-  std::uint64_t seed = 1;  ///< of the points that this is measured at
+  bool measure = true;     ///< the distance between image and mesh
+  std::uint64_t seed = 1;  ///< of the surface points that it is measured at
   int threads = 1;
   Progress* progress = nullptr;
 };
@@ -50,15 +50,15 @@ struct StageSeconds {
 
 struct MappedDisk;
 
-/// Everything that a conversion made and found.
+/// The result of convert_mesh.
 struct Conversion {
   RepairedMesh input;
-  std::vector<std::string> warnings;  ///< what was not done as asked for
+  std::vector<std::string> warnings;  ///< deviations from the options
   CutSummary cut;
-  int rounds = 0;  ///< paths that were added to the cut to better the map
+  int rounds = 0;  ///< paths added to the cut to improve the map
   MapQuality map_quality;
   std::string parameterizer;  ///< name as on the command line
-  /// The cut surface in its square, for what draws it (weft/drawing.h).
+  /// The parameterised disk, for drawing (weft/drawing.h).
   std::shared_ptr<const MappedDisk> mapped;
   GeometryImage image;
   std::optional<NormalMap> normals;
@@ -67,8 +67,8 @@ struct Conversion {
   StageSeconds seconds;
 };
 
-/// The whole way from a mesh to its geometry image. The image's mates are bit-equal and the
-/// topology of the rebuilt mesh is the input's, or it throws.
+/// Converts a mesh to a geometry image. The image's mates are bit-equal and the rebuilt mesh has
+/// the input's topology; otherwise it throws.
 /// @param name  what errors and the image's metadata call the mesh: a path or builtin:NAME
 /// The seam's vertices are those of `mesh`, before repair.
 /// @throws InputError, TopologyError as the stages, InputError when texture coordinates are to be
@@ -78,46 +78,46 @@ Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
 
 struct CutDisk;
 
-/// How a mesh would be opened for its image.
+/// A mesh cut open to a disk as for a conversion, without its map.
 struct CutPreview {
   RepairedMesh input;
-  std::shared_ptr<const CutDisk> disk;  ///< for what draws it (weft/drawing.h)
-  int min_size = 0;                     ///< least size of an image that holds the plain cut
+  std::shared_ptr<const CutDisk> disk;  ///< for drawing (weft/drawing.h)
+  int min_size = 0;                     ///< minimum size of an image that holds the plain cut
 };
 struct CutPreviewOptions {
-  bool augment = false;  ///< lengthen the cut as a conversion would, where that betters the map
-  int size = 257;        ///< of the image that it is lengthened for
+  bool augment = false;  ///< lengthen the cut where that improves the map, as a conversion does
+  int size = 257;        ///< of the image for which the cut is lengthened
   Progress* progress = nullptr;
 };
 /// @param name  what errors call the mesh  @throws InputError, TopologyError as repair_mesh
 CutPreview preview_cut(const TriangleMesh& mesh, const std::string& name,
                        const CutPreviewOptions& options = {});
 
-/// A sample of an image as a blend of vertices.
+/// A sample of an image as a barycentric combination of mesh vertices.
 struct BlendedVertex {
   std::array<int, 3> vertices{};
   std::array<double, 3> weights{1, 0, 0};
 };
 
-/// How the samples of an image follow the vertices of the mesh that it was made from.
+/// All samples of an image as combinations of the vertices of its source mesh.
 struct SampleBlends {
   int vertices = 0;                   ///< of the mesh as it was read
   std::vector<BlendedVertex> blends;  ///< [n * n]; mates are equal
 };
 
-/// The mesh that an image was made from, as its author knows it.
+/// The source mesh of an image, with its original vertices and polygons.
 struct SourceMesh {
   std::vector<Vec3d> positions;  ///< [V] as read: y up [m]
   MeshFaces faces;
-  /// [V] where each vertex lies in the square, in sample units: x along columns, y along rows. On
-  /// the cut it is the first of several places; not finite where a vertex is on no surface.
+  /// [V] positions of the vertices in the square, in sample units: x along columns, y along rows. A
+  /// vertex on the cut has the first of its positions; one outside the surface is not finite.
   std::vector<Vec2d> places;
 };
 
-/// A surface as users give it: by name (builtin:NAME, a geometry image in .exr or .png, a mesh's
-/// file), or as it is in memory. Copies share what is in memory.
+/// A surface to load: by name (builtin:NAME, a geometry image in .exr or .png, a mesh file), or
+/// from memory. Copies share the data in memory.
 struct Surface {
-  std::string name;  ///< for one in memory what errors call it
+  std::string name;  ///< of a surface in memory: its name in error messages
   std::shared_ptr<const TriangleMesh> mesh{};
   std::shared_ptr<const GeometryImage> image{};
 
@@ -135,10 +135,10 @@ struct Surface {
   friend bool operator==(const Surface&, const Surface&) = default;
 };
 
-/// A surface once loaded.
+/// A loaded surface.
 struct LoadedSurface {
   GeometryImage image;
-  std::optional<NormalMap> normals;     ///< where it came from a mesh
+  std::optional<NormalMap> normals;     ///< where the surface came from a mesh
   std::vector<std::string> notes;       ///< repairs and the like
   std::optional<SampleBlends> follows;  ///< with keep_places, where it came from a mesh
   std::optional<SourceMesh> source;     ///< with keep_source, where it came from a mesh
@@ -149,8 +149,8 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
 /// True when a name ends as geometry images do: .exr or .png.
 bool is_image_name(const std::string& name);
 
-/// True for geometry images and for built-in shapes that are images by nature: what load_surface
-/// makes without a mesh.
+/// True for surfaces that load_surface makes without a mesh: geometry images, and built-in shapes
+/// that are images by nature.
 bool is_image_surface(const Surface& surface);
 
 /// Reads a mesh from a file or builtin:NAME. @throws InputError, UsageError

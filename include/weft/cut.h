@@ -6,19 +6,19 @@
 
 namespace weft {
 
-/// Where a user wants a mesh to be cut: paths of vertices, numbered from 0 in the order of the
-/// mesh's file, whatever its format. Vertices that follow each other are joined by their edge, or
-/// by the shortest path along edges where they share none.
+/// A path of vertices along which a user wants a mesh cut. Vertices are numbered from 0 in the
+/// order of the mesh's file, whatever its format. Consecutive ones are joined by their edge, or by
+/// the shortest path along edges where they share none.
 struct SeamPath {
   int line = 0;  ///< of the seam's file
   std::vector<int> vertices;
 };
 struct Seam {
-  std::string name;  ///< what errors call it, mostly its path
+  std::string name;  ///< in error messages, mostly its path
   std::vector<SeamPath> paths;
 };
 
-/// Reads a seam: text, one path a line, numbers apart by blanks, # begins a comment.
+/// Reads a seam file: one path a line, numbers separated by blanks, # begins a comment.
 /// @throws InputError with FILE:LINE
 Seam read_seam(const std::filesystem::path& path);
 

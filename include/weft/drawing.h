@@ -32,11 +32,11 @@ struct DrawnSurface {
   const NormalMap* normals = nullptr;  ///< shading of bodies; null: made from the positions
   Vec3f colour{0.42F, 0.05F, 0.07F};   ///< linear RGB
   const Planes3* colours =
-      nullptr;  ///< [m x m], m >= 1, linear RGB that `colour` is times; or null
+      nullptr;  ///< [m x m], m >= 1, linear RGB, multiplied by `colour`; or null
   Look look = Look::fabric;
   float threads = 300;  ///< of the weave along a side of the image, for fabric; 0: none
-  /// Differs whenever what the pointers lead to does: a surface that was drawn with it before, in
-  /// the same place of the list, is not looked at again. 0: look always.
+  /// Version of the data behind the pointers. A surface with the same revision at the same index of
+  /// the list is not uploaded again. 0: always upload.
   std::uint64_t revision = 0;
 };
 
@@ -46,12 +46,12 @@ struct DrawnMesh {
   const TriangleMesh* mesh = nullptr;
   std::vector<std::array<int, 2>> marked_edges;  ///< pairs of vertices
   Vec3f colour{0.62F, 0.60F, 0.57F};             ///< linear RGB
-  std::vector<Vec3f> colours;                    ///< of each vertex instead, [V] or none
+  std::vector<Vec3f> colours;                    ///< [V] per vertex, instead of `colour`; or none
   Vec3f mark_colour{0.75F, 0.05F, 0.03F};        ///< linear RGB
   double mark_width = 2;                         ///< in pixels of a picture 480 high
 };
 
-/// Where the one light that throws sharp shadows stands, seen from the scene [rad]; azimuth 0 is
+/// Direction of the key light, which casts sharp shadows, seen from the scene [rad]; azimuth 0 is
 /// +z.
 struct KeyLight {
   double azimuth = -0.75, elevation = 0.92;
@@ -64,9 +64,9 @@ struct DrawnScene {
   Camera camera;
   std::vector<DrawnMesh> meshes;
   KeyLight light;
-  bool on_white = false;  ///< white paper behind all, instead of a backdrop
-  /// The light of the picture before is good enough, where it was of the same surfaces: for
-  /// windows, as light costs more than the rest where there is no graphics hardware.
+  bool on_white = false;  ///< white background instead of a backdrop
+  /// Reuse the light and shadows of the previous picture if it had the same surfaces: for windows,
+  /// since light costs more than all else without graphics hardware.
   bool keep_light = false;
 };
 
@@ -79,7 +79,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
   ~Renderer();
-  /// Buffers are kept between calls: drawing the same surfaces moved is cheaper than new ones.
+  /// Buffers are kept between calls: redrawing surfaces that moved is cheaper than drawing new
+  /// ones.
   Picture draw(const DrawnScene& scene);
 
  private:
@@ -90,7 +91,7 @@ class Renderer {
 /// What the colours of a drawing mean.
 struct Legend {
   std::string title;
-  std::function<Vec3f(double)> colour;  ///< of a place of the scale in [0, 1], display space
+  std::function<Vec3f(double)> colour;  ///< at a position of the scale in [0, 1], display space
   struct Mark {
     double place = 0;  ///< in [0, 1]
     std::string label;
@@ -113,7 +114,7 @@ struct DrawnCurve {
   Vec3f colour;               ///< display space
 };
 
-/// A mesh with what is shown on it. The mesh must outlive the drawing.
+/// A mesh with the colours, curves and nodes to draw on it. The mesh must outlive the drawing.
 struct SurfaceDrawing {
   const TriangleMesh* mesh = nullptr;
   std::vector<Vec3f> colours;  ///< of each vertex, display space; none: plaster
@@ -133,7 +134,7 @@ struct ViewFrom {
 /// A round tube along a curve; empty for fewer than two points.
 TriangleMesh tube(std::span<const Vec3d> points, double radius);
 
-/// Pictures of a drawing, all of the view's size, legend included.
+/// Draws pictures of a SurfaceDrawing, all of the view's size, legend included.
 class SurfacePainter {
  public:
   /// @throws Error as Renderer
@@ -150,9 +151,9 @@ class SurfacePainter {
   Renderer renderer_;
 };
 
-/// The drawing seen once, its whole mesh in the picture.
+/// One picture of a drawing that frames its whole mesh.
 Picture draw_surface(const SurfaceDrawing& drawing, const ViewFrom& view);
-/// The same on white paper, as figures show surfaces.
+/// One picture of a drawing on a white background, as in figures.
 Picture draw_on_white(SurfaceDrawing drawing, const ViewFrom& view);
 
 /// A surface with seams closed, and a number at each vertex.
@@ -163,11 +164,11 @@ struct SurfaceValues {
 
 /// The L2 stretch around each vertex, scaled as MapQuality is: 1 where lengths are kept.
 SurfaceValues stretch_on_surface(const MappedDisk& mapped);
-/// The same of the samples as a map.
+/// The L2 stretch of an image, with its samples as the map.
 SurfaceValues stretch_on_surface(const GeometryImage& image);
 
-/// How far the rebuilt surface is from a mesh: around each vertex the largest distance of the
-/// middles of triangles and edges [m].
+/// Distance of the rebuilt surface from a mesh: at each vertex the maximum over the midpoints of
+/// the triangles around it and of their edges [m].
 SurfaceValues error_on_surface(const GeometryImage& image, const TriangleMesh& mesh);
 
 /// Colours by stretch_colour, with the legend.
@@ -182,9 +183,9 @@ Picture colours_of(const GeometryImage& image, int min_side = 256);
 
 struct MapDrawing {
   int side = 1024;  ///< of the square [pixels]
+  /// Triangles coloured by stretch: blue where the map has more area than needed, red where it has
+  /// too little.
   bool stretch = true;
-  ///< triangles coloured by stretch: blue where the map has room to spare, red where it is short of
-  ///< it
   bool edges = true;  ///< of the triangles, as lines
 };
 
@@ -197,10 +198,10 @@ struct BorderBand {
   Vec3f colour;  ///< display space
 };
 
-/// Both runs of each pair of mates in the pair's colour, pairs in order of their least border
-/// position.
+/// The bands of all pairs of mates: two runs each, in the pair's colour, pairs in order of their
+/// smallest border position.
 std::vector<BorderBand> border_bands(const BorderMates& mates);
-/// The same of a mapped disk; true borders dark.
+/// The bands of a mapped disk; true borders are dark.
 std::vector<BorderBand> border_bands(const MappedDisk& mapped);
 
 /// A square picture with a frame around it that shows the bands, nodes (where bands begin and end)
@@ -210,18 +211,17 @@ Picture framed_by_mates(const Picture& square, const std::vector<BorderBand>& ba
 /// The curves of a cut on the surface, each pair of mates once, and its nodes: colours as the bands
 /// of the same disk.
 void add_cut(SurfaceDrawing& drawing, const CutDisk& cut);
-/// The same of what a conversion mapped.
+/// The curves and nodes of the cut of a mapped disk.
 void add_cut(SurfaceDrawing& drawing, const MappedDisk& mapped);
 /// The border of an image in space, coloured as its bands.
 void add_cut(SurfaceDrawing& drawing, const GeometryImage& image);
 
-/// The normals that a surface has where it moved to, from those it had: each texel's is turned and
-/// sheared as the samples around it were (by the inverse transpose of the map of their tangents and
-/// normal), so that what is finer than the samples stays on it. The grid's own normals are taken
-/// where it has no area, before or after.
-/// @param rest     [n x n] where the surface was [m], finite
-/// @param normals  [k x k] of the surface there, any size k >= 2
-/// @param moved    [n x n] where it is [m], finite
+/// Transforms the normal map of a surface that moved: each texel's normal by the inverse transpose
+/// of the map of the tangents and normal of the samples around it, so that detail finer than the
+/// samples is kept. Where the grid has no area, before or after, its own normals are used.
+/// @param rest     [n x n] positions before [m], finite
+/// @param normals  [k x k] normals before, any size k >= 2
+/// @param moved    [n x n] positions after [m], finite
 /// @throws UsageError when the grids differ in size
 NormalMap carried_normals(const Planes3& rest, const NormalMap& normals, const Planes3& moved);
 

@@ -6,7 +6,7 @@
 
 namespace weft {
 
-/// What the program ends with; a contract with those who call it.
+/// Exit codes of the program, a contract with its callers.
 enum class ExitCode {
   done = 0,
   internal = 1,

@@ -18,16 +18,16 @@ namespace weft {
 /// from above is measured.
 struct DrapeTestOptions {
   int size = 65;   ///< samples a side of the disc's image
-  int starts = 5;  ///< runs, each from another push: folds come in several numbers
+  int starts = 5;  ///< runs, each with another push, as the number of folds varies
   std::uint64_t seed = 1;
   IntegratorOptions integrator;
   double time_step = 1.0 / 240;  ///< [s]
-  double seconds = 20;           ///< of a run, at most: one ends where the disc is at rest
+  double seconds = 20;           ///< at most, on each grid of a run; ends when the disc rests
   TeamOptions team = 1;
   Progress* progress = nullptr;
 };
 
-/// How one disc came to rest.
+/// The result of one run of the drape test.
 struct DrapedDisc {
   /// (S - S_support) / (S_disc - S_support), S the area of the shadow: 0 hangs straight down, 1
   /// stays flat.
@@ -44,10 +44,10 @@ struct DrapeResult {
   [[nodiscard]] double folds() const;  ///< mean
 };
 
-/// The disc's innermost rings are pinned, up to the one from which on bending starts nearest to the
-/// support's edge; the rest is let down from level within a second, pushed by up to 5 cm/s in a few
-/// random waves around it. Air slows it until it rests, which it has to do without air as well.
-/// Nothing else touches it.
+/// Simulates the drape test of a material. The disc's innermost rings are pinned, so that bending
+/// begins at the support's edge. The disc starts level, its weight is applied gradually within a
+/// second, and initial velocities of up to 5 cm/s form a few random waves around it. Air drag slows
+/// the disc until it rests, and it must remain at rest without air. There is no collision.
 /// @throws SceneError for a material or a size that no cloth can have
 DrapeResult measure_drape(const Material& material, const DrapeTestOptions& options);
 
@@ -73,7 +73,7 @@ struct NamedMaterial {
   Material material;
 };
 
-/// All of them, in the order of the documentation.
+/// All named fabrics, in the order of the documentation.
 std::span<const NamedMaterial> named_materials();
 
 std::optional<Material> find_material(std::string_view name);

@@ -15,12 +15,12 @@ std::string read_file(const std::filesystem::path& path);
 /// The ending of a name in lower case, with its dot; empty where it has none.
 std::string ending_of(const std::filesystem::path& path);
 
-/// Makes a folder and those that it lies in; one that is there is left as it is.
+/// Makes a folder and its missing parents; an existing one is left as it is.
 /// @throws OutputError when it cannot be made, or a file has its name
 void make_folder(const std::filesystem::path& path);
 
-/// The same for what may come to nothing: folders that it made and that are still empty at its end
-/// go again.
+/// Makes a folder and its missing parents for output that may never be written: the destructor
+/// removes those of them that are still empty.
 class WantedFolder {
  public:
   /// @throws OutputError as make_folder
@@ -36,8 +36,8 @@ class WantedFolder {
 /// Waits until what was written to a file is on the disk. @throws OutputError
 void flush_to_disk(const std::filesystem::path& path);
 
-/// Whose name a file bears until it is whole: a new one for each process, or always the same, where
-/// the next process finds what one that was killed left.
+/// Temporary name of a file that is not complete: one per process, or a fixed one, under which the
+/// next process finds what a killed one left.
 enum class TemporaryName { of_this_process, of_the_file };
 std::filesystem::path temporary_path(const std::filesystem::path& path, TemporaryName name);
 
@@ -62,8 +62,8 @@ class NewFile {
   bool committed_ = false, keep_ = false;
 };
 
-/// Keeps a folder to one process that asks for it; the system frees it when the process ends,
-/// however that comes about.
+/// Lock that reserves a folder for one process. The system releases it when the process ends, even
+/// by a crash or kill.
 class FolderLock {
  public:
   /// @throws OutputError when another process holds it

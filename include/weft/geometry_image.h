@@ -33,12 +33,12 @@ class BorderMates {
 
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] const std::vector<MateInterval>& intervals() const { return intervals_; }
-  /// Classes of two samples or more, each ascending; ordered by their least sample (row * n + col).
+  /// Classes of two samples or more, each ascending; ordered by smallest sample (row * n + col).
   [[nodiscard]] int class_count() const { return static_cast<int>(starts_.size()) - 1; }
   [[nodiscard]] std::span<const int> mates(int index) const {
     return std::span(samples_).subspan(starts_[index], starts_[index + 1] - starts_[index]);
   }
-  /// The least sample of the class of `sample`, or the sample itself.
+  /// The smallest sample of the class of `sample`, or the sample itself.
   [[nodiscard]] int representative(int sample) const;
 
  private:
@@ -78,7 +78,7 @@ struct GeometryImage {
 
 /// Smallest n of a geometry image.
 inline constexpr int min_image_size = 5;
-/// Largest n that files are believed.
+/// Largest n of a geometry image.
 inline constexpr int largest_image_size = 8193;
 
 /// Unit outward normals, n x n, in the same square as the geometry image they go with; of any size.
@@ -90,13 +90,13 @@ struct NormalMap {
 /// True when all samples of every class hold the same bits.
 bool mates_bit_equal(const GeometryImage& image);
 
-/// Refuses an image that does not keep what its type says, as one that a caller put together may.
-/// @param name  what the error calls it
+/// Refuses an image that violates the invariants of GeometryImage, as one made by a caller may.
+/// @param name  of the image in the error
 /// @throws InputError for a side out of range, mates of another size, positions outside the unit
 ///         cube or not finite, a world without size, or mates that differ
 void check_image(const GeometryImage& image, std::string_view name);
 
-/// Positions in the world, mates again equal.
+/// World positions of all samples; mates are equal.
 Planes3 world_positions(const GeometryImage& image);
 
 /// The samples of a grid as a mesh: each quad split along its shorter diagonal (at the border as
@@ -111,9 +111,9 @@ struct RebuiltMesh {
 };
 RebuiltMesh rebuild_mesh(const GeometryImage& image);
 
-/// The triangulation of the grid that everything shares (rebuilding, drawing, colliding, checking),
-/// for positions that may have moved since: the triangles of `rebuild_mesh`, in the same order, as
-/// sample indices, mates not joined. Counter-clockwise in the square, u to the right and v up.
+/// The triangulation of the grid that rebuilding, drawing, collision and checks share, also after
+/// samples have moved: the triangles of `rebuild_mesh`, in the same order, as sample indices, mates
+/// not joined. Counter-clockwise in the square, u to the right and v up.
 std::vector<Triangle> grid_triangles(const GeometryImage& image);
 
 }  // namespace weft

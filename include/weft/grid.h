@@ -11,7 +11,7 @@
 
 namespace weft {
 
-/// A rows x cols plane that somebody else owns; row r starts at data + r * stride.
+/// A non-owning view of a rows x cols plane; row r starts at data + r * stride.
 template <class T>
 struct GridView {
   T* data = nullptr;
@@ -28,7 +28,7 @@ struct GridView {
 };
 
 /// A rows x cols plane of plain values. Rows are padded to whole cache lines (64 bytes) and aligned
-/// to them, so that row kernels vectorise; the padding holds zeros at first and no meaning.
+/// to them, so that row kernels vectorise; the padding starts as zeros and has no meaning.
 template <class T>
 class Grid {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -96,7 +96,7 @@ class Grid {
   std::unique_ptr<T[], Free> data_;
 };
 
-/// One vector a sample of an n x n grid, one plane a coordinate (structure of arrays).
+/// A vector for each sample of an n x n grid, one plane per coordinate (structure of arrays).
 struct Planes3 {
   Grid<float> x, y, z;
 
@@ -114,7 +114,7 @@ struct Planes3 {
   void set(int sample, Vec3f p) { set(sample / size(), sample % size(), p); }
 };
 
-/// The farthest that any sample goes between two of the same size. [m]
+/// The largest displacement of a sample between two grids of the same size. [m]
 double largest_displacement(const Planes3& from, const Planes3& to) noexcept;
 
 }  // namespace weft

@@ -13,17 +13,16 @@ namespace weft {
 /// map and source travel inside. @throws OutputError; UsageError on another ending
 void write_image(const std::filesystem::path& path, const GeometryImage& image);
 
-/// The same in memory.
+/// The same files in memory.
 std::string exr_bytes(const GeometryImage& image);
 std::string png_bytes(const GeometryImage& image);
 
-/// Reads one back, by what the file holds. Nothing in it is believed unchecked.
+/// Reads a geometry image, whose format follows from the content. All of it is checked.
 /// @throws InputError for what is not a geometry image, cut short, of a wrong size or version,
-/// mates out of
-///         range or unequal, or not finite
+///         mates out of range or unequal, or not finite
 GeometryImage read_image(const std::filesystem::path& path);
 
-/// The same from memory; `where` is what errors call it.
+/// Reads a geometry image from memory; `where` is what errors call it.
 GeometryImage parse_image(std::string_view bytes, std::string_view where);
 
 /// A normal map as an 8-bit PNG (n * 127.5 + 127.5) or float EXR, by the ending of the name, for

@@ -8,21 +8,23 @@
 
 namespace weft {
 
-/// What others have to know of an integrator.
+/// Properties of an integrator.
 struct IntegratorTraits {
-  /// Solves with contacts in view; what others pass through is pushed out at the end of the step.
+  /// Solves with contact constraints. Other integrators ignore them, and penetrations are pushed
+  /// out at the end of the step.
   bool heeds_contacts = false;
-  /// Springs leave all stretch to the limiter, which takes turns with the collider then.
+  /// Its springs are too soft to limit stretch: the strain limiter does, alternating with the
+  /// collider.
   bool soft_springs = false;
-  /// The strain limiter goes with it, so that `limiter_passes` is a key of it: with methods of the
-  /// literature that it came with, and with those whose few iterations may leave springs too long.
-  /// Implicit Euler solved to the end holds its cloth by the springs themselves.
+  /// The strain limiter may follow its solve, and `limiter_passes` is a key of it: for methods of
+  /// the literature that include a limiter, and those whose few iterations may leave springs too
+  /// long. Converged implicit Euler limits stretch by the springs themselves.
   bool has_limiter = false;
-  /// Passes of the limiter that suit it: half the samples a side, within these. Stiff springs leave
-  /// it a few samples about pins, more of them in finer images, which it has to bring up the whole
-  /// cloth's weight by: many passes, that cost little.
+  /// Range of the default number of limiter passes, half the samples a side. With stiff springs
+  /// only the few samples about pins are overstretched, more of them in finer images, but they
+  /// carry the whole cloth's weight: that takes many passes, which cost little.
   int min_passes = 0, max_passes = 0;
-  double bytes_per_sample = 0;  ///< of memory that a cloth takes
+  double bytes_per_sample = 0;  ///< memory of a cloth for each sample
   double bytes_per_pair = 0;    ///< and for every pair of samples
 };
 
@@ -37,7 +39,7 @@ struct ExplicitOptions {
 struct ImplicitOptions {
   int max_iterations = 200;
   /// Stop when the correction of an iteration falls below this times the rest spacing; a tenth
-  /// of it while something presses on the cloth.
+  /// of it under contact.
   double tolerance = 1e-4;
 
   static constexpr std::string_view name = "implicit";
@@ -85,14 +87,14 @@ struct TwoLevelOptions {
   }
 };
 /// Implicit Euler solved by descent, preconditioned by the exact filter on the image's mip pyramid.
-/// Two iterations a step, and a tolerance that only cloth near rest meets before: with four steps a
-/// frame they bring the fall of a hanging sheet within 1 cm of the converged one, whatever its
-/// size. Three swing farther from it than two at some sizes, four lie within a millimetre for 1.6
-/// times the time (docs/measured.md).
+/// The default is two iterations a step; only cloth near rest meets the tolerance earlier. With
+/// four steps a frame the fall of a hanging sheet then stays within 1 cm of the converged one at
+/// any size. Three iterations deviate more than two at some sizes; four stay within a millimetre at
+/// 1.6 times the time (docs/measured.md).
 struct MultigridOptions {
-  int max_iterations = 2;  ///< a step; four times as many while something presses on the cloth
+  int max_iterations = 2;  ///< a step; four times as many under contact
   /// Stop when the correction of an iteration falls below this times the rest spacing; a ten
-  /// thousandth of it while something presses on the cloth.
+  /// thousandth of it under contact.
   double tolerance = 1e-3;
 
   static constexpr std::string_view name = "multigrid";
@@ -129,7 +131,7 @@ using IntegratorOptions = std::variant<NewtonOptions, ImplicitOptions, ExplicitO
 
 using Integrators = Methods<IntegratorOptions>;
 
-/// The name in scene file and command line.
+/// The name of an integrator in scene file and command line.
 inline std::string_view name_of(const IntegratorOptions& options) {
   return Integrators::name_of(options);
 }

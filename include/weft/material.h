@@ -10,7 +10,7 @@ struct WarpWeft {
   double warp = 0, weft = 0;
 
   constexpr WarpWeft() = default;
-  /// Both alike, so that one number stands for a fabric without a direction.
+  /// The same value along both: one number for a fabric without a preferred direction.
   constexpr WarpWeft(double both)
       : warp(both), weft(both) {}  // NOLINT(google-explicit-constructor)
   constexpr WarpWeft(double along_rows, double along_columns)
@@ -30,9 +30,9 @@ struct Material {
   /// Stiffness of second-neighbour springs, as given: the model of [zink07], which fades as the
   /// grid is refined [N/m].
   double bend_springs = 0;
-  double damping = 2;  ///< rate at which neighbours' relative motion dies away [1/s]
-  /// Elongation of stretch springs beyond which `newton` holds them ten times as stiffly besides,
-  /// and which the limiter of other methods lets stand; 0: none.
+  double damping = 2;  ///< decay rate of the relative velocity of neighbours [1/s]
+  /// Elongation of stretch springs beyond which `newton` adds ten times their stiffness, and down
+  /// to which the limiter of other methods corrects them; 0: none.
   double strain_limit = 0;
   double thickness = 0.002;  ///< [m]
 };

@@ -14,50 +14,50 @@ namespace weft {
 /// Three vertex indices, counter-clockwise seen from outside.
 using Triangle = std::array<int, 3>;
 
-/// A triangle mesh as a plain value: nothing is promised of its topology until it was checked
+/// A triangle mesh as a plain value; its topology may be anything until it is checked
 /// (`weft/repair.h`).
 struct TriangleMesh {
   std::vector<Vec3d> positions;     ///< [V], metres
   std::vector<Triangle> triangles;  ///< [F], indices into positions
-  /// [F] texture coordinates of each triangle's corners, or empty: not every corner has them. Those
-  /// of one vertex may differ between triangles, at a seam of the texture.
+  /// [F] texture coordinates of each triangle's corners; empty unless every corner has them. One
+  /// vertex may have different ones in different triangles, at a texture seam.
   std::vector<std::array<Vec2f, 3>> corner_uv = {};
 };
 
-/// A unit of length as it is called on the command line.
+/// A unit of length with its name on the command line.
 struct LengthUnit {
   std::string_view name;
   double metres = 1;
 };
 inline constexpr std::array<LengthUnit, 4> length_units{
     {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}}};
-/// By its name; nothing for others.
+/// The unit of a name; nothing for an unknown one.
 std::optional<LengthUnit> find_length_unit(std::string_view name);
 
-/// What the coordinates of a mesh's file mean.
+/// Unit and up axis of the coordinates in a mesh file.
 struct MeshFrame {
   LengthUnit unit = length_units[0];
   bool z_up = false;  ///< z points up, y away from the viewer
   [[nodiscard]] std::string_view up() const { return z_up ? "z" : "y"; }
 };
 
-/// The same mesh in metres with y up: (x, y, z) with z up becomes (x, z, -y).
+/// Converts a mesh to metres with y up: (x, y, z) with z up becomes (x, z, -y).
 TriangleMesh in_metres_y_up(TriangleMesh mesh, const MeshFrame& frame);
 
-/// The same point in a file of that frame; the inverse, but for rounding.
+/// A point in the coordinates of a file: the inverse of in_metres_y_up, but for rounding.
 /// @param point  y up [m]
 inline Vec3d in_frame(Vec3d point, const MeshFrame& frame) {
   if (frame.z_up) point = {point.x, -point.z, point.y};
   return {point.x / frame.unit.metres, point.y / frame.unit.metres, point.z / frame.unit.metres};
 }
-/// And back.
+/// A point of a file in metres with y up.
 inline Vec3d in_metres_y_up(Vec3d point, const MeshFrame& frame) {
   point = frame.unit.metres * point;
   return frame.z_up ? Vec3d{point.x, point.z, -point.y} : point;
 }
 
-/// A sentence on a mesh whose largest side is below 5 cm or above 10 m, which no garment and no
-/// body is, with the unit that its numbers are likely in; nothing for others.
+/// A warning for a mesh whose largest side is below 5 cm or above 10 m, implausible for a garment
+/// or a body, with the likely unit of its numbers; nothing for other meshes.
 /// @param mesh  in metres by the unit `taken`
 std::optional<std::string> implausible_size(const TriangleMesh& mesh, const LengthUnit& taken);
 
@@ -99,13 +99,13 @@ MeshFile parse_obj_file(std::string_view bytes, std::string_view name);
 ///         malformed, not finite or above 1e30, or an index out of range
 TriangleMesh read_mesh(const std::filesystem::path& path);
 
-/// The same from memory; `name` is what errors call it.
+/// Reads a mesh from memory; `name` is what errors call it.
 TriangleMesh parse_obj(std::string_view bytes, std::string_view name);
 TriangleMesh parse_off(std::string_view bytes, std::string_view name);
 TriangleMesh parse_ply(std::string_view bytes, std::string_view name);
 TriangleMesh parse_stl(std::string_view bytes, std::string_view name);
-/// The triangles of the default scene where its nodes put them, of GLB and of text.
-/// @param folder  where buffers of their own are looked for; none: such files are refused
+/// Reads GLB or glTF text: the triangles of the default scene, transformed by its nodes.
+/// @param folder  where external buffers are looked for; none: files that need them are refused
 TriangleMesh parse_gltf(std::string_view bytes, std::string_view name,
                         const std::optional<std::filesystem::path>& folder = std::nullopt);
 
@@ -113,7 +113,7 @@ TriangleMesh parse_gltf(std::string_view bytes, std::string_view name,
 /// that reading them back gives the same bits. @throws OutputError; UsageError on another ending
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
-/// The same in memory.
+/// The same files in memory.
 std::string obj_text(const TriangleMesh& mesh);
 std::string ply_bytes(const TriangleMesh& mesh);
 

@@ -21,34 +21,34 @@ struct TopologyCounts {
   int genus = 0;       ///< of all components together: (2 components - boundaries - euler) / 2
 };
 
-/// For a manifold, oriented mesh.
-/// @throws TopologyError where it is none
+/// Counts the topology of a manifold, oriented mesh.
+/// @throws TopologyError for any other
 TopologyCounts count_topology(int vertex_count, std::span<const Triangle> triangles);
 
-/// From one surface to the other: the root mean square over samples of its area, the largest over
-/// these and all its vertices [m].
+/// Distances from one surface to another: the root mean square over samples of its area, the
+/// maximum over these and all its vertices [m].
 struct OneSidedDistance {
   double rms = 0, largest = 0;
 };
 
-/// A part of a mesh whose triangles hang together by edges. Vertices count once for each fan of
+/// A component of a mesh: triangles connected through edges. Vertices count once for each fan of
 /// triangles around them, as they would after splitting non-manifold ones.
 struct ComponentStatistics {
   int triangles = 0, vertices = 0, edges = 0;
   double area = 0;  ///< [m^2]
   int border_edges = 0, nonmanifold_edges = 0;
   int boundaries = 0;      ///< border loops
-  bool orientable = true;  ///< triangles can be turned so that neighbours agree
+  bool orientable = true;  ///< a consistent orientation of its triangles exists
   [[nodiscard]] bool closed() const { return border_edges == 0 && nonmanifold_edges == 0; }
   [[nodiscard]] int euler() const { return vertices - edges + triangles; }
-  /// None where that has no meaning: not orientable, or not manifold.
+  /// Nothing where the genus has no meaning: not orientable, or not manifold.
   [[nodiscard]] std::optional<int> genus() const {
     if (!orientable || nonmanifold_edges > 0) return std::nullopt;
     return (2 - boundaries - euler()) / 2;
   }
 };
 
-/// Border edges that hang together: of a manifold mesh one closed curve.
+/// A connected set of border edges: on a manifold mesh one closed curve.
 struct BorderLoopStatistics {
   int edges = 0;      ///< as many as vertices
   double length = 0;  ///< [m]
@@ -56,15 +56,15 @@ struct BorderLoopStatistics {
   int min_vertex = 0;
 };
 
-/// What decides a mesh's fate, for any mesh, broken ones too; nothing is repaired. Triangles with a
-/// repeated vertex are counted and left out of all else. Lists of places hold mesh vertices and are
-/// ascending.
+/// Measures and defects of any mesh, broken ones too; nothing is repaired. Triangles with a
+/// repeated vertex are counted and left out of all else. Lists of vertices and edges hold mesh
+/// vertices and are ascending.
 struct MeshStatistics {
   int vertices = 0, triangles = 0;
 
-  int unreferenced_vertices = 0;     ///< in no triangle
-  int coincident_vertices = 0;       ///< at the place of an earlier one: seams that are not joined
-  int not_finite_vertices = 0;       ///< taken for the origin in all that follows
+  int unreferenced_vertices = 0;  ///< in no triangle
+  int coincident_vertices = 0;    ///< at the position of an earlier one: seams that are not joined
+  int not_finite_vertices = 0;    ///< treated as the origin in all that follows
   bool texture_coordinates = false;  ///< every corner of every triangle has them
   Box3d box;                         ///< of the finite vertices
   double area = 0;                   ///< [m^2]
@@ -74,7 +74,7 @@ struct MeshStatistics {
   int duplicate_triangles = 0;  ///< with the vertices of an earlier one
   int zero_area_triangles = 0;  ///< corners on one line, exactly; not counting repeated vertices
   int slivers = 0;         ///< triangles with 4 sqrt(3) area / (sum of squared edges) below 0.01
-  double min_quality = 1;  ///< the least of that figure: 1 for an equilateral triangle
+  double min_quality = 1;  ///< the minimum of that measure: 1 for an equilateral triangle
 
   int components = 0;
   std::vector<ComponentStatistics> component_list;  ///< largest area first
@@ -92,7 +92,7 @@ struct MeshStatistics {
   int intersecting_triangles = 0;       ///< that are in such a pair
   std::vector<std::array<int, 2>> self_intersection_list;  ///< of triangles, the first 20
 };
-/// @pre indices in range
+/// Examines a mesh. @pre indices in range
 MeshStatistics examine_mesh(const TriangleMesh& mesh);
 
 /// 4 sqrt(3) area / (sum of squared edge lengths): 1 equilateral, 0 degenerate.

@@ -10,7 +10,7 @@
 namespace weft {
 
 // A method, an integrator or a collider, is a struct of its options, and all methods of a kind are
-// the alternatives of a variant. A method tells its name, its traits, and each of its options by
+// the alternatives of a variant. A method has its name, its traits, and each of its options by
 // the key that scene files have for it:
 //
 //   struct NewtonOptions {
@@ -23,12 +23,12 @@ namespace weft {
 //     }
 //   };
 //
-// Whatever lists, reads, writes or makes methods goes by these, and names none.
+// Code that lists, reads, writes or makes methods uses these members and names no method.
 
-/// Values that an option may have.
+/// Range of an option's values.
 struct OptionRange {
   double min = -HUGE_VAL, max = HUGE_VAL;
-  bool above_min = false;  ///< min itself is not one of them
+  bool above_min = false;  ///< min itself is excluded
   bool odd = false;
 };
 
@@ -38,9 +38,9 @@ struct Methods;
 template <class... Options>
 struct Methods<std::variant<Options...>> {
   using Variant = std::variant<Options...>;
-  /// In the variant's order, the default first.
+  /// The names in the variant's order, the default first.
   static std::vector<std::string_view> names() { return {Options::name...}; }
-  /// The one of that name, with default options; nothing where there is none.
+  /// The method of that name, with default options; nothing for an unknown name.
   static std::optional<Variant> find(std::string_view name) {
     std::optional<Variant> found;
     ((Options::name == name ? void(found = Options{}) : void()), ...);

@@ -31,15 +31,15 @@ inline constexpr int panel_gap = 14;
 /// The height of a line of labels, room around it included [pixels].
 int label_height(int text_scale);
 
-/// Panels side by side on white, their middles in line. Without any label there is no line for
-/// them.
+/// Panels side by side on white, centred vertically. The line for labels is left out if there are
+/// none.
 Picture in_a_row(const std::vector<Panel>& panels, int text_scale = 2);
 /// Pictures below each other on white.
 Picture in_a_column(const std::vector<Picture>& pictures);
 
-/// A movie that appears whole: frames go raw through a pipe to ffmpeg, which writes under a
-/// temporary name. Odd sizes lose their last row or column in .mp4, as its colour format wants even
-/// ones.
+/// Writes a movie file that appears only when complete: raw frames go through a pipe to ffmpeg,
+/// which writes under a temporary name. Odd sizes lose their last row or column in .mp4, whose
+/// colour format needs even ones.
 class MovieWriter {
  public:
   /// @param path  .mp4 or .gif  @param frame_rate  [1/s]
@@ -50,7 +50,7 @@ class MovieWriter {
   /// Without `finish` nothing is left behind.
   ~MovieWriter();
   /// @param picture  of the size that the writer was made for
-  /// @throws OutputError with the last line that ffmpeg said when it has given up
+  /// @throws OutputError with the last line of ffmpeg's messages when it has failed
   void add(const Picture& picture);
   /// Ends the movie and puts it in its place. @throws OutputError
   void finish();
@@ -66,9 +66,9 @@ class MovieWriter {
 Vec3f stretch_colour(double stretch);
 /// From pale yellow over red to nearly black as a share goes from 0 to 1.
 Vec3f amount_colour(double share);
-/// Colours that are told apart well, one for each curve of a cut.
+/// Clearly distinct colours, one for each curve of a cut.
 Vec3f curve_colour(int index);
-/// What the renderer takes, about: linear light.
+/// A display colour as linear light, approximately: what the renderer takes.
 Vec3f linear_light(Vec3f display);
 
 /// No-op outside the picture.

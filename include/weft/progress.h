@@ -5,7 +5,7 @@
 
 namespace weft {
 
-/// Told how far long work has come. An implementation throws Interrupted from `update` when its
+/// Receives the progress of long work. An implementation throws Interrupted from `update` when its
 /// user asked to stop: work that calls it must be safe to unwind there.
 class Progress {
  public:
@@ -18,13 +18,13 @@ class Progress {
   virtual void update(std::string_view stage, double fraction) = 0;
 };
 
-/// For callers that do not watch.
+/// Reports progress; no-op for null.
 inline void update(Progress* progress, std::string_view stage, double fraction) {
   if (progress != nullptr) progress->update(stage, fraction);
 }
 
-/// A part of a stage that reports as if it were whole: its fractions fall between two of the whole
-/// stage's, whose name is shown.
+/// Progress of a part of a stage: maps the part's fractions to a range of the whole stage's, under
+/// the stage's name.
 class PartOfProgress : public Progress {
  public:
   /// @param whole  may be null

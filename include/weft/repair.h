@@ -25,7 +25,7 @@ struct RepairOptions {
 struct RepairedMesh {
   TriangleMesh mesh;
   std::vector<int> source_vertex;    ///< [V] the input's vertex for each of the mesh's
-  std::vector<int> source_triangle;  ///< [F] the input's triangle; it may have been turned over
+  std::vector<int> source_triangle;  ///< [F] the input's triangle; its orientation may differ
   std::vector<std::string> repairs;  ///< one sentence for each kind of change, with its count
   TopologyCounts counts;             ///< of `mesh`
   int components_found = 1;          ///< before one was chosen

@@ -17,24 +17,24 @@
 
 namespace weft {
 
-/// All that --export knows, in the order of the documentation.
+/// All formats of --export, in the order of the documentation.
 std::span<const std::string_view> export_formats();
 
-/// What of a surface is written: what suits the format (the mesh that a cloth came from for OBJ,
-/// PC2, MDD and GLB, the image for the others), always the image, or always the mesh.
+/// Whose vertices are exported: by the format (the source mesh of a cloth for OBJ, PC2, MDD and
+/// GLB, the image for the others), always the image's, or always the mesh's.
 enum class WrittenOn { automatic, image, input };
-/// As on the command line: auto, image, input.
+/// The name on the command line: auto, image, input.
 std::string_view name_of(WrittenOn on);
-/// Whether a format shows the mesh where there is one. Never EXR, which is the image.
+/// Whether a format exports the source mesh where there is one. Never EXR, which is the image.
 bool is_on_input(std::string_view format, WrittenOn on);
 
-/// What passed through what in a frame that was looked at.
+/// The intersections in a frame that was checked.
 struct FrameIntersections {
-  int frame = 0;  ///< of the first frame that has as many; 0 when there are none
+  int frame = 0;  ///< the first with as many; 0 when there are none
   IntersectionCounts counts;
 };
 
-/// The largest count of a frame, and which frame that was first; 0 where none was.
+/// The largest count of all frames, and the first frame that has it; 0 without any.
 struct WorstCount {
   int frame = 0;
   std::int64_t count = 0;
@@ -43,11 +43,11 @@ struct WorstCount {
   }
 };
 
-/// What counting triangles that cross at the ends of frames does not see.
+/// Failures that are not found by counting crossing triangles at the ends of frames.
 struct Verification {
-  WorstCount passed;     ///< vertices and faces, and pairs of edges, that met within a step
-  WorstCount swallowed;  ///< points on the wrong side of a closed body that had been on the right
-  WorstCount written;    ///< pairs of triangles that cross in the meshes that are written
+  WorstCount passed;     ///< vertex-face and edge-edge pairs that met within a step
+  WorstCount swallowed;  ///< points that moved to the wrong side of a closed body
+  WorstCount written;    ///< pairs of triangles that cross in the exported meshes
   [[nodiscard]] bool good() const {
     return passed.count == 0 && swallowed.count == 0 && written.count == 0;
   }
@@ -56,18 +56,18 @@ struct Verification {
 struct RunOptions {
   std::filesystem::path folder{};  ///< where everything is written
   std::vector<std::string> exports{"obj", "pc2"};
-  WrittenOn on = WrittenOn::automatic;  ///< whose vertices are written
+  WrittenOn on = WrittenOn::automatic;  ///< whose vertices are exported
   bool unwelded = false;  ///< write every sample instead of joining mates; none of a mesh's then
-  /// Count intersections in every frame, not in the last one only, and look at every step.
+  /// Count intersections in every frame, not in the last one only, and check every step.
   bool verify = false;
   int threads = 1;
   InstructionSet instructions = best_instruction_set();
   Progress* progress = nullptr;
-  /// Told at the start, in one line each, what is better known before the run ends.
+  /// Receives warnings at the start of the run, one line each.
   std::function<void(const std::string& line)> tell{};
   /// Frames between two checkpoints; 0: none; nothing: every five seconds.
   std::optional<int> checkpoint_frames{};
-  bool resume = false;  ///< go on where the folder's checkpoint stands, if it has one
+  bool resume = false;  ///< continue from the folder's checkpoint, if it has one
   /// Where the scene is written once it is known to run; empty: nowhere.
   std::filesystem::path scene_file{};
 };
@@ -99,23 +99,22 @@ struct RunReport {
 };
 
 /// Runs a whole scene into a folder, which is made when missing: for each cloth and body its
-/// geometry image NAME.exr (at rest, unplaced) and what is exported of it; caches.json, which tells
-/// what that is; frames.csv; weft-run.json, by which open_run_folder finds it again. When the run
-/// stops early by error or interruption, what was finished is kept: files appear whole, with the
-/// frames there are, and a checkpoint of the last of them. A run that was killed goes on at its
-/// last checkpoint; either way it ends in the bits and the report (but for times) of one that never
-/// stopped.
-/// @throws UsageError for an export that is not known, or a mesh's vertices asked for where a cloth
-/// is a geometry image; OutputError; what Simulation throws;
-/// SceneError when the memory that is there can certainly not hold it; InputError for a checkpoint
-/// that is damaged, of another version or another scene; Interrupted
+/// geometry image NAME.exr (at rest, unplaced) and its exports; caches.json, which describes the
+/// exports; frames.csv; weft-run.json, which open_run_folder reads. When the run stops early by
+/// error or interruption, the finished frames are kept in complete files, with a checkpoint of the
+/// last one. A killed run resumes at its last checkpoint. Either way a resumed run gives the bits
+/// and the report (but for times) of one that never stopped.
+/// @throws UsageError for an unknown export, or a mesh's vertices asked for where a cloth is a
+///         geometry image; OutputError; what Simulation throws; SceneError when the available
+///         memory can certainly not hold it; InputError for a checkpoint that is damaged, of
+///         another version or another scene; Interrupted
 RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options);
 
 /// A run as one JSON object, the contract of `simulate --json`.
 std::string to_json(const RunReport& report);
 
-/// The largest rise of kinetic plus potential energy above the least that it was before, less the
-/// work of pins, moving bodies and wind in between. [J]
+/// The largest rise of kinetic plus potential energy above an earlier minimum, less the work of
+/// pins, moving bodies and wind in between. [J]
 double energy_gained(const RunReport& report);
 
 /// The columns of frames.csv, one line with its end.
@@ -124,28 +123,27 @@ std::string frames_csv_header();
 /// @param particles  of all cloths
 std::string frames_csv_line(int frame, const FrameReport& report, int particles);
 
-/// About how much memory a run takes at most, by the sizes in the scene: within a quarter for
-/// scenes of 257 samples a side and more. Converting a mesh first takes some hundred bytes a
-/// triangle, which is not in it. Reads the geometry images among the surfaces. @throws InputError
-/// for these
+/// Estimates the peak memory of a run from the sizes in the scene, within a quarter for scenes of
+/// 257 samples a side and more. Excludes the conversion of meshes, some hundred bytes a triangle.
+/// Reads the geometry images among the surfaces. @throws InputError for these
 /// @return bytes
 std::uint64_t estimate_memory(const Scene& scene);
 
-/// Refuses what can certainly not run.
+/// Refuses a scene that can certainly not run in the available memory.
 /// @param bytes      of the estimate
 /// @param available  see available_memory
 /// @throws SceneError when the estimate, wrong by a quarter, is still more
 void check_memory(std::uint64_t bytes, std::uint64_t available, const std::string& scene);
 
-/// Whether a run may be short of memory by the estimate: more than four fifths of what is there.
+/// Whether a run may be short of memory: the estimate exceeds four fifths of what is available.
 bool is_memory_short(std::uint64_t bytes, std::uint64_t available);
 
-/// For people: "1.3 GB", "45 MB". MB of 10^6 bytes.
+/// An amount of memory as text: "1.3 GB", "45 MB". MB of 10^6 bytes.
 std::string memory_text(std::uint64_t bytes);
 
-/// Memory that this process may still take without pushing out what others use: what the system
-/// calls available, or less where a control group's limit (a container's, a batch job's) leaves
-/// less. Nothing where the system does not tell.
+/// Memory that this process may still allocate: what the system reports as available, or less where
+/// a control group's limit (a container's, a batch job's) leaves less. Nothing where the system
+/// does not report it.
 /// @param root  of the file system, for tests
 /// @return bytes
 std::optional<std::uint64_t> available_memory(const std::filesystem::path& root = "/");

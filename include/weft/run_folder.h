@@ -14,9 +14,9 @@ struct RecordedPoints {
   std::vector<int> vertex_of;   ///< [n * n] point of the cache for each sample
   std::filesystem::path cache;  ///< PC2
   int points = 0, frames = 0;   ///< of the cache; frame 0 is the start
-  MeshFrame files;              ///< what its numbers mean
+  MeshFrame files;              ///< unit and up axis of its points
 
-  /// Where the surface is at a frame. [n x n] world [m]
+  /// Positions of the surface at a frame. [n x n] world [m]
   /// @throws InputError when the cache is cut short; UsageError when there is no such frame
   [[nodiscard]] Planes3 positions(int frame) const;
 };
@@ -30,17 +30,17 @@ struct RecordedCloth {
 struct RecordedBody {
   std::string name;
   GeometryImage image;
-  std::optional<NormalMap> normals;        ///< in the world, where it is before the start
+  std::optional<NormalMap> normals;        ///< in the world, before the start
   Planes3 positions;                       ///< before the start, world [m]
-  std::optional<RecordedPoints> recorded;  ///< where it moves
+  std::optional<RecordedPoints> recorded;  ///< of a body that moves
 
-  /// Where it is at a frame. @throws as RecordedPoints::positions
+  /// Positions of the body at a frame. @throws as RecordedPoints::positions
   [[nodiscard]] Planes3 positions_at(int frame) const {
     return recorded ? recorded->positions(frame) : positions;
   }
 };
 
-/// What run_scene left in a folder, for drawing it.
+/// The output of run_scene in a folder, for drawing.
 struct RunFolder {
   std::string scene;
   double frame_rate = 60;        ///< [1/s]
@@ -50,7 +50,8 @@ struct RunFolder {
   std::vector<RecordedBody> bodies;
 };
 
-/// @throws InputError when the folder holds no run, or its files do not fit together
+/// Opens a folder of run_scene. @throws InputError when the folder holds no run, or its files do
+/// not fit together
 RunFolder open_run_folder(const std::filesystem::path& folder);
 
 }  // namespace weft

@@ -15,14 +15,14 @@
 
 namespace weft {
 
-/// Where a surface stands: scaled, rotated about x, then y, then z [degrees], moved [m].
+/// Transform of a surface: scaled, rotated about x, then y, then z [degrees], moved [m].
 struct Placement {
   Vec3d scale{1, 1, 1};
   Vec3d rotate;
   Vec3d translate;
 };
 
-/// Where something that is moved stands at a time; in between linearly.
+/// A key of a motion, which is linear between its keys.
 struct MotionKey {
   double time = 0;  ///< [s]
   Vec3d rotate;     ///< about x, then y, then z [degrees]
@@ -45,7 +45,7 @@ struct ScenePin {
   ScenePin(Place at, std::vector<MotionKey> moves = {})  // NOLINT(google-explicit-constructor)
       : place(at), path(std::move(moves)) {}
   PinPlace place;
-  /// From the rest place, about the middle of all samples that the pin holds; ascending times.
+  /// From the rest position, about the middle of the pin's samples; ascending times.
   std::vector<MotionKey> path;
 };
 
@@ -62,10 +62,10 @@ struct SceneCloth {
   Placement placement;
   Material material;
   double friction = 0.4;
-  std::optional<bool> self_collision;  ///< none: where the collider can
+  std::optional<bool> self_collision;  ///< none: if the collider supports it
   Vec3d velocity;                      ///< at the start [m/s]
   std::vector<ScenePin> pins;
-  /// A sample that a pin holds too follows the body.
+  /// Attachments; a sample that is also pinned follows the body.
   std::vector<SceneAttachment> attach;
 };
 
@@ -75,12 +75,12 @@ struct SceneBody {
   int size = 257;
   Placement placement;
   double friction = 0.4;
-  /// From the placed body, turned about its placed origin (its placement's translate); ascending
+  /// From the placed body, rotated about its placed origin (its placement's translate); ascending
   /// times. Only one of motion and animation.
   std::vector<MotionKey> motion;
   std::string animation;  ///< a point cache (PC2, MDD) of the surface's vertices; empty: none
-  /// Eases the body from its rest place to where motion or animation begin, which start after it.
-  /// [s]
+  /// Time in which the body eases from its rest position to the start of motion or animation, which
+  /// begin after it. [s]
   double lead_in = 0;
 };
 
@@ -93,10 +93,11 @@ struct Scene {
   std::optional<double> ground = 0.0;
   std::optional<WindOptions> wind;  ///< none: no air
   IntegratorOptions integrator;
-  /// A step; none: what suits the integrator. Only for those of has_limiter.
+  /// Passes of the strain limiter a step; none: the integrator's default. Only for integrators with
+  /// has_limiter.
   std::optional<int> limiter_passes;
   ColliderOptions collider;
-  MeshFrame files;  ///< what the numbers of meshes and caches mean, read and written
+  MeshFrame files;  ///< unit and up axis of meshes and caches, read and written
   std::vector<SceneCloth> cloths;
   std::vector<SceneBody> bodies;
 };

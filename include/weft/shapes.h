@@ -7,7 +7,7 @@
 
 namespace weft {
 
-/// A built-in shape, made by our own code.
+/// A built-in shape.
 struct ShapeInfo {
   std::string_view name;
   std::string_view description;

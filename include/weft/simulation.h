@@ -17,17 +17,16 @@
 
 namespace weft {
 
-/// Keeps surfaces that were loaded, for those who make a scene's simulation again and again: what
-/// took seconds to convert is there at once the next time. Files that changed since are not looked
-/// at again.
+/// Cache of loaded surfaces, for callers that make simulations of a scene repeatedly: a conversion
+/// may take seconds. Changes of the files after loading are not noticed.
 class SurfaceCache {
  public:
-  /// As load_surface, where a surface in memory is not kept. @throws as it
+  /// As load_surface; a surface in memory is not cached. @throws as load_surface
   LoadedSurface load(const Surface& surface, const ConvertOptions& options);
   void clear() { kept_.clear(); }
 
  private:
-  /// What of the options scenes set.
+  /// The name, and the options that scenes set.
   struct Key {
     std::string name;
     int size = 0, normal_map_size = 0;
@@ -37,7 +36,7 @@ class SurfaceCache {
   std::map<Key, LoadedSurface> kept_;
 };
 
-/// What one frame cost and came to.
+/// Times and measurements of a frame.
 struct FrameReport {
   double milliseconds = 0, forces_ms = 0, solve_ms = 0, collide_ms = 0, limit_ms = 0;
   int iterations = 0;
@@ -46,19 +45,19 @@ struct FrameReport {
   double kinetic_energy = 0, potential_energy = 0;  ///< [J]
   int contacts = 0;                                 ///< with obstacles, largest of its steps
   int self_contacts = 0;                            ///< of cloth with cloth, largest of its steps
-  int stopped = 0;          ///< points that the collision filter held back, largest of its steps
-  int fell_back = 0;        ///< of these, points put back to the step's start, largest of its steps
-  int whole_fell_back = 0;  ///< cloths of which all points were, largest of its steps
+  int stopped = 0;          ///< points that the collision filter stopped, largest of its steps
+  int fell_back = 0;        ///< of these, points reset to the step's start, largest of its steps
+  int whole_fell_back = 0;  ///< cloths whose points were all reset, largest of its steps
   double work = 0;          ///< of pins, moving bodies and wind [J]
-  /// The least signed distance of a particle to an obstacle, negative inside; known up to twice the
-  /// thickness, infinite where nothing is known to be near. [m]
+  /// The minimum signed distance of a particle to an obstacle, negative on its wrong side. Bodies
+  /// count within twice the thickness; infinite when nothing counts. [m]
   double smallest_gap = HUGE_VAL;
   Vec3d centre_of_mass;  ///< all cloths together [m]
 };
 
 struct Cloth;
 
-/// A cloth of a running simulation, for those who draw or export it.
+/// A cloth of a running simulation, for drawing and export.
 struct SimulatedCloth {
   std::string name;
   GeometryImage image;  ///< the rest shape as it was loaded
@@ -67,6 +66,7 @@ struct SimulatedCloth {
   ClothState state;
   std::optional<SourceMesh> source;  ///< unplaced, where the surface came from a mesh
 };
+/// A body of a running simulation, for drawing and export.
 struct PlacedBody {
   std::string name;
   GeometryImage image;
@@ -78,55 +78,55 @@ struct PlacedBody {
   std::optional<SourceMesh> source;        ///< unplaced, where the surface came from a mesh
 };
 
-/// A closed body that a cloth begins inside of, wholly or in part, by winding numbers.
+/// A closed body that holds a cloth at the start, wholly or in part, by winding numbers.
 struct StartInside {
   std::string cloth, body;
   int samples = 0;    ///< inside, mates counted once
   int particles = 0;  ///< of the cloth
-  /// All are: the body is a container, which keeps the cloth in. What is inside in part is pushed
-  /// out.
+  /// All particles are inside: the body is a container, which keeps the cloth in. A cloth that is
+  /// inside in part is pushed out.
   bool kept_in = false;
 };
 
-/// What pins, moving bodies and wind did.
+/// The work of pins, moving bodies and wind.
 struct WorkDone {
   double net = 0;    ///< [J]
-  double gross = 0;  ///< sum of its sizes, step by step [J]
-  /// What the strain limit added while pins or bodies moved, and collisions while bodies did: the
-  /// part of their work that no spring of the cloth explains. [J]
+  double gross = 0;  ///< sum of its absolute values over all steps [J]
+  /// Energy added by the strain limit while pins or bodies moved, and by collisions while bodies
+  /// moved: the part of their work that no spring of the cloth accounts for. [J]
   double pulled = 0;
-  /// The least energy that collisions have seen so far, less net: with new work the most that cloth
-  /// may hold. [J]
+  /// The minimum over the steps so far of the energy at their start, less the work until then. With
+  /// later work it gives the energy above which cloth has gained energy from collisions. [J]
   double least = HUGE_VAL;
 };
 
-/// Into which steps substeps are split that collisions ask shorter ones for; level l: 2^l of them.
+/// Levels of the subdivision of substeps where collisions need shorter steps; level l: 2^l steps.
 struct StepLevels {
-  /// A substep is not split further than this.
+  /// The maximum level.
   static constexpr int deepest = 6;
-  int first = 0;       ///< with which the next substep begins
-  int most = deepest;  ///< to which it may go: less while shorter steps turned out to be no help
+  int first = 0;       ///< at which the next substep begins
+  int most = deepest;  ///< its maximum, lowered while shorter steps do not help
   friend bool operator==(const StepLevels&, const StepLevels&) = default;
 };
 
-/// All that the next frame depends on besides the scene: integrators carry over from one frame to
-/// the next only what contacts did, colliders which samples are inside of bodies, and which cloths
-/// may be tangled; and the length of steps that collisions asked for.
+/// The complete state between two frames, besides the scene. Integrators carry over only the forces
+/// of contacts; colliders only which samples are inside of bodies and which cloths may be tangled;
+/// the stepping only the levels of subdivision and the work done.
 struct SimulationState {
   int frame = 0;                   ///< frames done
   std::vector<ClothState> cloths;  ///< in the scene's order
-  /// Of each cloth, what the collider knows of it beyond positions: which samples are inside of
-  /// bodies, and what it may be tangled with.
+  /// Of each cloth, the collider's state beyond positions: which samples are inside of bodies, and
+  /// which cloths it may be tangled with.
   std::vector<std::vector<int>> marks{};
-  /// Of each cloth, what contacts did in the last step.
+  /// Of each cloth, the forces of its contacts in the last step.
   std::vector<std::vector<PastContact>> contacts{};
   StepLevels levels{};  ///< of the next substep
   WorkDone work{};      ///< up to this frame
 };
 
-/// Who helps a scene to life.
+/// Optional helpers of a Simulation.
 struct SimulationHelp {
-  Progress* progress = nullptr;      ///< told of loading and stepping
+  Progress* progress = nullptr;      ///< reports loading and stepping
   SurfaceCache* surfaces = nullptr;  ///< keeps what was loaded for the next simulation
 
   SimulationHelp(Progress* told = nullptr,  // NOLINT(google-explicit-constructor): most say no more
@@ -134,7 +134,7 @@ struct SimulationHelp {
       : progress(told), surfaces(surface_cache) {}
 };
 
-/// A step that stands: every sample goes straight. [m]
+/// The motion of an accepted step, in which every sample moves along a straight line. [m]
 struct StepMotion {
   struct Path {
     const Planes3 *start, *end;
@@ -142,7 +142,7 @@ struct StepMotion {
   std::span<const Path> cloths, bodies;  ///< in the scene's order
 };
 
-/// Is shown every step of a run.
+/// Observer of every accepted step of a simulation.
 class StepWatcher {
  public:
   StepWatcher() = default;
@@ -152,7 +152,7 @@ class StepWatcher {
   virtual void see(const StepMotion& step) = 0;
 };
 
-/// A scene brought to life.
+/// A running simulation of a scene.
 class Simulation {
  public:
   /// Loads every surface. @throws SceneError, InputError, TopologyError
@@ -164,26 +164,24 @@ class Simulation {
 
   /// Advances by one frame.
   /// @throws SceneError naming frame, cloth and particle when a step yields a not-finite number or
-  /// runaway
-  ///         energy, with the integrator's advice
+  ///         runaway energy, with the integrator's advice
   FrameReport advance();
 
-  /// Shows it every step from the next on; null: nobody. @param watcher  kept by pointer
+  /// Reports every step from the next one on; null: to nobody. @param watcher  kept by pointer
   void watch(StepWatcher* watcher);
 
   /// Copies the state; nothing is allocated when `state` has held it before.
   void save(SimulationState& state) const;
-  /// Goes on from a saved state of the same scene: what follows has the same bits. What was grabbed
-  /// is let go.
+  /// Continues from a saved state of the same scene with the same bits. A grabbed sample is
+  /// released.
   void restore(const SimulationState& state);
 
-  /// Holds the surface point of a sample from the next step on, as a pin that follows `pull`. One
-  /// at a time. A sample that is pinned already stays pinned when it is let go, where it was taken
-  /// to.
+  /// Grabs the surface point of a sample from the next step on, as a pin that follows `pull`. One
+  /// at a time. A sample that was pinned before stays pinned on release, at its new position.
   /// @param cloth  of cloths()  @throws SceneError for a sample outside the image
   void grab(std::size_t cloth, int sample);
-  /// Where what is grabbed shall go. It goes no faster than a hand and no farther from the samples
-  /// around it than cloth stretches, and does not enter the ground. [m]
+  /// Target position of the grabbed point. It moves no faster than a hand, no farther from the
+  /// samples around it than cloth stretches, and not into the ground. [m]
   void pull(Vec3d target);
   void let_go();
   [[nodiscard]] bool holds() const;
@@ -192,9 +190,9 @@ class Simulation {
   [[nodiscard]] const std::vector<SimulatedCloth>& cloths() const;
   [[nodiscard]] const std::vector<PlacedBody>& bodies() const;
   [[nodiscard]] const std::vector<std::string>& notes() const;  ///< repairs made while loading
-  /// In the order of cloths, then of bodies.
+  /// The closed bodies that hold cloths at the start, ordered by cloth, then by body.
   [[nodiscard]] const std::vector<StartInside>& start_insides() const;
-  /// Of all positions and velocities, 16 hexadecimal digits.
+  /// Hash of all positions and velocities, 16 hexadecimal digits.
   [[nodiscard]] std::string state_hash() const;
   [[nodiscard]] int particles() const;
   [[nodiscard]] Vec3d centre_of_mass() const;
@@ -204,9 +202,9 @@ class Simulation {
   /// The gap that a cloth keeps to itself and others: its material's thickness, or less where its
   /// samples are so near each other that folds would lock. [m]
   [[nodiscard]] double used_thickness(std::size_t cloth) const;
-  /// What the last step found to press on a cloth.
+  /// The contacts of a cloth in the last step.
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const;
-  /// Edges of cloth that passed through cloth at the start of the last step, and are being
+  /// Number of cloth edges that crossed cloth at the start of the last step and are being
   /// untangled.
   [[nodiscard]] int crossings() const;
   /// The mean of l / r - 1 over the springs along rows and columns around each sample, now.

@@ -35,7 +35,7 @@ struct Table5Row {
 struct Table5Options {
   std::span<const Figure5Row> rows = figure5();
   int frames = 60;
-  int rounds = 3;       ///< runs of each method; the least mean counts, since other work disturbs
+  int rounds = 3;       ///< runs of each method; the smallest mean counts, as other load only adds
   bool errors = false;  ///< RMS distance after all frames to a converged implicit solution
   TeamOptions team = 1;
   Progress* progress = nullptr;
@@ -43,8 +43,8 @@ struct Table5Options {
 
 /// Runs the paper's comparison: a sheet of 1 m and 0.2 kg, slightly wavy, falls freely; a step a
 /// frame of 1/60 s, no collision, ten passes of the strain limiter at 5 %. All springs have k such
-/// that h^2 k / m = 0.1 inside the sheet, which two_level bears with n_l = 5; the soft springs of
-/// its filter have the same.
+/// that h^2 k / m = 0.1 inside the sheet, at which two_level is stable with n_l = 5; the soft
+/// springs of its filter have the same k.
 std::vector<Table5Row> measure_table5(const Table5Options& options);
 
 /// Multigrid alone on the same cloth, at any size. @return mean time of a whole step [s]

@@ -6,14 +6,15 @@
 
 namespace weft {
 
-/// What the inner loops are compiled for. All give the same bits: they differ in speed alone.
+/// Instruction sets that the inner loops are compiled for. All give the same bits and differ in
+/// speed alone.
 enum class InstructionSet {
   baseline,  ///< every x86-64 processor
   avx2,
   avx512,  ///< F, VL, DQ and BW
 };
 
-/// From narrow to wide.
+/// All instruction sets, from narrow to wide.
 std::span<const InstructionSet> instruction_sets();
 /// The name on the command line: baseline, avx2, avx512.
 std::string_view name_of(InstructionSet set);
@@ -24,7 +25,7 @@ bool has_instruction_set(InstructionSet set);
 /// The widest that this processor has.
 InstructionSet best_instruction_set();
 
-/// How many threads work, and by which instruction set.
+/// Size and instruction set of a thread team.
 struct TeamOptions {
   int size = 1;  ///< threads, >= 1
   /// Of the inner loops; this processor must have it.

@@ -98,7 +98,7 @@ constexpr Vec3<To> vec_cast(Vec3<From> a) {
   return {static_cast<To>(a.x), static_cast<To>(a.y), static_cast<To>(a.z)};
 }
 
-/// Componentwise least and largest.
+/// Componentwise minimum and maximum.
 template <class T>
 constexpr Vec3<T> min(Vec3<T> a, Vec3<T> b) {
   return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};

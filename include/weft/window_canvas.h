@@ -9,8 +9,8 @@
 
 namespace weft {
 
-/// Draws into a window, with whatever OpenGL 3.3 context is current, by the renderer that draws
-/// files. To be made, used and destroyed while that context is.
+/// Draws scenes into a window by the current OpenGL 3.3 context, as Renderer draws them into
+/// pictures. To be made, used and destroyed while that context is current.
 class WindowCanvas {
  public:
   /// @throws Error when the driver refuses a shader
@@ -19,7 +19,7 @@ class WindowCanvas {
   WindowCanvas& operator=(const WindowCanvas&) = delete;
   ~WindowCanvas();
   /// @param size   of the window's framebuffer [pixels]
-  /// @param pixel  of the framebuffer's pixels, along each side, that one drawn one covers
+  /// @param pixel  side of a drawn pixel [framebuffer pixels]
   void paint(const DrawnScene& scene, std::array<int, 2> size, int pixel);
   /// Loads positions as colours, in their own box, into a texture that stays the same.
   /// @param positions  [n x n] [m]  @return the texture's name

@@ -14,7 +14,7 @@ int used_neighbours(const BendingPlanes& bending) {
   return bending.diagonals ? bending_neighbours : straight_bending_neighbours;
 }
 
-/// The columns of a row that have a neighbour there; none when its row is outside.
+/// Columns of a row whose neighbour at an offset is inside the image; empty if its row is outside.
 Range columns_with(BendingOffset to, int row, int size) {
   if (row + to.down < 0 || row + to.down >= size) return {0, 0};
   return {to.right < 0 ? -to.right : 0, to.right > 0 ? size - to.right : size};
@@ -26,8 +26,9 @@ void clear(Row3 row, int size) {
   std::fill(row.z, row.z + size, 0.0F);
 }
 
-/// Edges of negative stiffness bound nothing; an edge between second neighbours along the border is
-/// bounded by twice the two between.
+/// Adds the bounds of the border edges of one direction. Edges of negative stiffness are omitted;
+/// an edge between second neighbours along the border is bounded by twice the two edges between
+/// them.
 void add_border_bound(const BorderBending& border, SpringDirection direction, Grid<float>& bound) {
   const auto [down, right] = spring_offsets[direction];
   for (int r = 0; r + 1 < static_cast<int>(border.starts.size()); ++r)
@@ -71,7 +72,8 @@ void BendingPass::gather(const Planes3& field, Worker& worker) {
   worker.barrier();
 }
 
-/// Differences, not positions, are weighted: those of far places would round away.
+/// Weights differences instead of positions: far from the origin, sums of weighted positions would
+/// lose the differences to rounding.
 void BendingPass::curve_row(const Planes3& position, int row) {
   const Row3 u = row_of(curved_, row);
   clear(u, cloth_.size);
@@ -93,7 +95,7 @@ void BendingPass::add_row(float factor, int row, Planes3& out) const {
   const Row3 sum = row_of(out, row);
   const ConstRow3 u = row_of(curved_, row);
   for (int k = 0; k < used_neighbours(cloth_.bending); ++k) {
-    // The neighbour k of this sample has it as neighbour `back`.
+    // This sample is neighbour `back` of its neighbour k.
     const int back = k ^ 1;
     const BendingOffset to = bending_offsets[k];
     const Range with = columns_with(to, row, cloth_.size);

@@ -13,7 +13,7 @@ namespace weft {
 
 namespace {
 
-/// Whether each border edge, by the position it starts from, is joined to another.
+/// Whether each border edge is sewn to another, by the border position it starts from.
 std::vector<bool> sewn_edges(const BorderMates& mates) {
   const int count = 4 * (mates.size() - 1);
   std::vector<bool> sewn(static_cast<std::size_t>(count), false);
@@ -99,12 +99,13 @@ void RingReader::add_area(int row, int col, Surroundings& around) const {
 
 namespace {
 
-/// Of fabrics bent two ways at once; also the margin by which uneven grids stay stable.
+/// Poisson's ratio nu of fabric bent in two directions at once; also the margin by which uneven
+/// grids stay stable.
 constexpr double poisson_ratio = 0.25;
-/// Twice its area over its longest squared edge, below which a triangle is a sliver.
+/// A triangle is a sliver if twice its area over its longest squared edge is below this.
 constexpr double min_fatness = 0.05;
-/// Where a border turns less at a corner of the image, that is a corner of the image alone: the
-/// cosine of 60 degrees.
+/// Cosine of 60 degrees. A border that turns by less at a corner of the image is smooth there in
+/// the rest shape.
 constexpr double max_turn = 0.5;
 
 /// The gradient of a linear function on a triangle: sum of factor times value.
@@ -116,14 +117,14 @@ struct Gradient {
 class BorderWalk {
  public:
   explicit BorderWalk(const RestShape& shape) : shape_(shape), n_(shape.size()) {
-    // Samples in rows and columns turn the same way round as their border positions.
+    // Turning from rows to columns has the same orientation as ascending border positions.
     const Vec3d u = place(n_ - 1) - place(0), v = place(n_ * (n_ - 1)) - place(0);
     normal_ = normalized(cross(u, v));
     along_ = normalized(u);
     across_ = cross(normal_, along_);
   }
 
-  /// Both triangles on each border edge, in order.
+  /// Gradients on both triangles of each border edge, in border order; none if one is a sliver.
   [[nodiscard]] std::optional<std::vector<Gradient>> gradients() const {
     std::vector<Gradient> all;
     const int count = 4 * (n_ - 1);
@@ -146,8 +147,8 @@ class BorderWalk {
     return {dot(place(sample), along_), dot(place(sample), across_)};
   }
 
-  /// The neighbour of a border sample that lies off its border: inward, or at a corner the next
-  /// sample round it.
+  /// The apex of the triangle on a border edge at its end `position`: the inward neighbour, or at a
+  /// corner of the rest shape the other border neighbour.
   [[nodiscard]] int apex_of(int position, int other) const {
     const int sample = border_sample(n_, position), count = 4 * (n_ - 1);
     const int row = sample / n_, col = sample % n_, last = n_ - 1;
@@ -186,7 +187,7 @@ class BorderWalk {
   Vec3d normal_, along_, across_;
 };
 
-/// The matrix K of energy x . K x / 2, by pairs of samples.
+/// The matrix K of the energy x . K x / 2, by pairs of samples.
 std::map<std::pair<int, int>, double> border_matrix(const std::vector<Gradient>& gradients,
                                                     double strength) {
   std::map<std::pair<int, int>, double> matrix;

@@ -7,37 +7,37 @@
 
 namespace weft {
 
-/// A neighbour of one of a particle's samples.
+/// A grid neighbour of one of a particle's samples, with its stencil weight.
 struct Neighbour {
-  int sample = 0, place = 0;  ///< the sample of the class, and which of its planes
-  int other = 0;              ///< representative of the particle there
-  Vec3d edge{};               ///< to there, at rest [m]
-  double share = 1;           ///< 1/2 where a second sample sees the same edge
+  int sample = 0, place = 0;  ///< sample of the class; index of the weight plane
+  int other = 0;              ///< representative of the neighbouring particle
+  Vec3d edge{};               ///< rest vector to the neighbour [m]
+  double share = 1;           ///< 1/2 on seams, where a mate stores the same edge
   bool border = false;        ///< along a free border
-  double x = 0, y = 0;        ///< in the tangent plane, in mean edges
-  double wish = 0, cost = 1;  ///< the weight of the stencil asked for, what a change of it costs
+  double x = 0, y = 0;        ///< coordinates in the tangent plane, in mean edges
+  double wish = 0, cost = 1;  ///< target weight, penalty of its change
   double weight = 0;
 };
 
-/// What surrounds one particle at rest.
+/// The neighbourhood of one particle in the rest shape.
 struct Surroundings {
   std::vector<Neighbour> ring;
   Vec3d area_vector;
-  std::vector<Vec3d> rows;  ///< where rows run at each of the samples, unit length or none
-  double spacing = 0;       ///< mean straight edge [m]
+  std::vector<Vec3d> rows;  ///< row direction at each sample, unit length or 0
+  double spacing = 0;       ///< mean length of the straight edges [m]
   bool free = false;        ///< on a free border
 };
 
 /// Whether a neighbour lies along a row or column.
 inline bool straight(const Neighbour& at) { return at.place < straight_bending_neighbours; }
 
-/// Reads what surrounds particles off a rest shape.
+/// Collects the neighbourhoods of particles from a rest shape.
 class RingReader {
  public:
   /// @param shape  kept by reference
   explicit RingReader(const RestShape& shape);
 
-  /// @param samples  all of one particle
+  /// @param samples  all samples of one particle
   [[nodiscard]] Surroundings read(std::span<const int> samples) const;
 
  private:
@@ -50,17 +50,18 @@ class RingReader {
 
   const RestShape& shape_;
   int n_;
-  std::vector<bool> sewn_;  // by the border position that the edge starts from
+  std::vector<bool> sewn_;  // whether each border edge is sewn, by its first border position
 };
 
-/// What free borders add to the Laplacian's energy, so that a saddle is not free of it,
+/// The free-border term of the bending energy,
 ///   -(1 - nu) B integral of (x_uu . x_vv - x_uv . x_uv),  B = sqrt(B_warp B_weft),
-/// which for any map is an integral over the border: of x_u . d(x_v), here around the triangles
-/// that have an edge on it. With nu = 0 both together are the energy of the whole second
-/// derivative, B/2 integral of |x_uu|^2 + 2 |x_uv|^2 + |x_vv|^2, to the last term on a uniform grid
-/// [stein18]. Vanishes on affine maps.
+/// without which a saddle would have no energy. For any map it equals an integral of x_u . d(x_v)
+/// over the border, evaluated here on the triangles that have an edge on the border. With nu = 0 it
+/// and the Laplacian's energy add up to the Hessian energy,
+///   B/2 integral of |x_uu|^2 + 2 |x_uv|^2 + |x_vv|^2,
+/// exactly so on a uniform grid [stein18]. Vanishes on affine maps.
 /// @param bending  B [N m]
-/// @return empty where the rest shape has seams, or triangles on its border that are slivers
+/// @return empty if the rest shape has seams, less than 3 samples a side or slivers on its border
 BorderBending make_border_bending(const RestShape& shape, double bending);
 
 }  // namespace weft

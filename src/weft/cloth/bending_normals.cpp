@@ -14,7 +14,7 @@ namespace {
 
 constexpr float min_squared = 1e-36F;
 
-/// A corner between two straight edges that leave a sample, in the turn from rows to columns.
+/// The corner between two straight edges a and b at a sample, oriented from rows to columns.
 struct Corner {
   BendingOffset a, b;
 };
@@ -26,14 +26,14 @@ BendingOffset plus(BendingOffset o, BendingOffset p) {
   return {o.down + p.down, o.right + p.right};
 }
 
-/// The columns of a row from which both places are inside the image.
+/// Columns of a row whose neighbours at both offsets are inside the image.
 Range columns_with(BendingOffset a, BendingOffset b, int row, int size) {
   for (const BendingOffset o : {a, b})
     if (row + o.down < 0 || row + o.down >= size) return {0, 0};
   return {std::max({0, -a.right, -b.right}), size - std::max({0, a.right, b.right})};
 }
 
-/// A row of a field as it is seen from a sample: column c is c + shift there.
+/// A row of a field at a neighbour offset: the neighbour of column c is at column c + shift.
 struct CandidateRow {
   ConstRow3 at;
   int shift = 0;
@@ -80,7 +80,8 @@ void clear(Row3 row, int size) {
   for (float* values : {row.x, row.y, row.z}) std::fill(values, values + size, 0.0F);
 }
 
-/// Own parts of the sums of cross products of edges of two fields around the samples of a row.
+/// Own parts of the area vectors of a row: sums over the corners of the cross product of an edge in
+/// `first` and an edge in `second`.
 void area_row(const Planes3& first, const Planes3& second, int row, Planes3& out) {
   const Row3 sum = row_of(out, row);
   for (const auto& [a, b] : corners) {

@@ -5,21 +5,22 @@
 
 namespace weft {
 
-/// The part that the rest curvature has in bending: u = M x - r n, r = sqrt(B area) H0 along the
-/// normal n = N / |N|, N the sum of the cross products of the edges around a particle. Both n and
-/// its derivative count, dn = (1 - n n^T) dN / |N|, so forces are the gradient of an energy and
-/// keep angular momentum.
+/// The rest-curvature term of bending: u = M x - r n, r = sqrt(B area) H0 along the normal
+/// n = N / |N|, N the sum of the cross products of the edges around a particle. The derivative of n
+/// is included, dn = (1 - n n^T) dN / |N|, so the forces are the gradient of an energy and conserve
+/// angular momentum.
 class BendingNormals {
  public:
   /// @param cloth  kept by reference
   explicit BendingNormals(const Cloth& cloth);
 
-  /// u -= r n, from rows of M x that are whole. To be called by every worker when all positions are
-  /// in place, ends with a barrier. The positions are kept by reference.
+  /// u -= r n, where u holds M x summed over mates. To be called by every worker when all positions
+  /// are in place; ends with a barrier. The positions are kept by reference.
   void subtract(const Planes3& position, Planes3& u, Worker& worker);
-  /// u -= r dn, what a change of the positions of the last subtract makes of it.
+  /// u -= r dn, dn the change of the normals for a change of the positions of the last subtract.
   void subtract_change(const Planes3& change, Planes3& u, Worker& worker);
-  /// Adds factor (r dn/dx)^T u to a row, of the u that was last returned, each sample's own part.
+  /// Adds factor (r dn/dx)^T u to each sample's own part of a row, for the u of the last subtract
+  /// or subtract_change.
   void add_row(float factor, int row, Planes3& out) const;
 
  private:

@@ -17,8 +17,8 @@ namespace {
 constexpr int conditions = 5;
 using Column = std::array<double, conditions>;
 
-/// The operator L = a d^2/du^2 + b d^2/dv^2 that weights are to be, u along the rows: a and b are
-/// square roots of the two stiffnesses over the larger one.
+/// The target operator L = a d^2/du^2 + b d^2/dv^2 of the weights, u along the rows: a and b are
+/// the square roots of the two stiffnesses over the larger one.
 struct Operator {
   double stiffness = 0;  ///< the larger of warp's and weft's [N m]
   double along_rows = 1, along_columns = 1;
@@ -29,24 +29,25 @@ struct Operator {
         along_columns(std::sqrt(bending.weft / stiffness)) {}
 };
 
-/// What weights around a particle have to meet, in its tangent plane.
+/// Moments that the weights around a particle have to match, in its tangent plane.
 using Moments = Column;
 
-/// Second moments may miss by this part of what meeting them would cost where they cannot be met;
-/// the affine conditions are as good as hard.
+/// Regularisation of the conditions in the least-squares fit: the second moments are soft where
+/// they cannot be matched, the affine conditions practically hard.
 constexpr double softness = 1e-3, affine_softness = 1e-11;
-/// What a change of a weight costs that the stencil asked for leaves at zero.
+/// Penalty factors of weights whose target is zero: on diagonals, and off the border at free
+/// borders.
 constexpr double diagonal_cost = 4, across_border_cost = 100;
-/// Of the second moments: below, the straight neighbours alone make the stencil.
+/// Error of the target weights below which the stencil uses the straight neighbours alone.
 constexpr double straight_enough = 1e-4;
-/// No weights beyond those of a regular grid of this part of the mean spacing.
+/// Weights are bounded by those of a regular grid with this fraction of the mean spacing.
 constexpr double min_spacing = 0.05;
-/// A border that turns by more has a corner, where the second derivative along it means nothing:
-/// the cosine of 60 degrees.
+/// Cosine of 60 degrees. A border that turns by more has a corner, where the second derivative
+/// along it means nothing.
 constexpr double max_turn = 0.5;
 
-/// Second differences along a line want 2 / (l (l + l')), which opposite neighbours of one sample
-/// know of each other.
+/// Target weight of a neighbour for the second difference along its line, 2 / (l (l + l')), with l
+/// and l' the distances of this and the opposite neighbour in mean edges.
 double wish_between(const Surroundings& around, const Neighbour& at) {
   const double own = length(at.edge) / around.spacing;
   double other = own;
@@ -58,7 +59,7 @@ double wish_between(const Surroundings& around, const Neighbour& at) {
   return at.share * 2 / (own * (own + other));
 }
 
-/// Sets the stencil asked for: the five-point one, along free borders the second difference.
+/// Sets the target weights: the five-point stencil, along free borders the second difference.
 void set_wishes(const Operator& wanted_operator, Surroundings& around) {
   for (Neighbour& at : around.ring) {
     const bool wanted = straight(at) && (!around.free || at.border);
@@ -70,7 +71,7 @@ void set_wishes(const Operator& wanted_operator, Surroundings& around) {
   }
 }
 
-/// The direction along the border, or none at its corners.
+/// The direction along the border, or zero at its corners.
 Vec3d border_direction(const Surroundings& around) {
   std::vector<const Neighbour*> ends;
   for (const Neighbour& at : around.ring)
@@ -101,8 +102,8 @@ Frame flatten(Surroundings& around) {
   return {along, across};
 }
 
-/// The moments of L: twice its tensor. Where samples of one particle disagree about the rows their
-/// tensors are averaged. A free border bends along itself alone, by what L makes of that.
+/// The moments of L: twice its tensor, averaged over the row directions of the particle's samples.
+/// A free border has a moment only along itself.
 Moments moments_of(const Operator& wanted, const Frame& frame, const Surroundings& around) {
   double along = 0, both = 0;  // the double angle's cosine and sine, averaged
   for (const Vec3d row : around.rows) {
@@ -137,7 +138,8 @@ Column solve(std::array<Column, conditions> a, Column b) {
   return b;
 }
 
-/// The least change of the wished weights that meets the conditions.
+/// Fits the weights: the smallest change of the target weights, by penalty, that meets the
+/// conditions.
 /// @param wanted  count of conditions: 2, the affine ones alone, or all
 void fit(const Moments& moments, int wanted, Surroundings& around) {
   Column missing = moments;
@@ -162,7 +164,7 @@ void fit(const Moments& moments, int wanted, Surroundings& around) {
   }
 }
 
-/// The largest of the conditions that weights miss.
+/// The largest error of the weights in the first `count` conditions.
 template <class Weight>
 double largest_miss(const Surroundings& around, Column missing, int count, const Weight& weight) {
   double most = 0;
@@ -173,8 +175,8 @@ double largest_miss(const Surroundings& around, Column missing, int count, const
   return most;
 }
 
-/// Turns weights per mean edge into those per metre, within bounds; zero where they are no
-/// Laplacian.
+/// Converts weights per mean edge to weights per metre and bounds them; sets them to zero if they
+/// are not finite or miss the affine conditions.
 void finish(Surroundings& around, double mean_spacing) {
   constexpr double affine = 1e-5;
   double sum = 0;
@@ -202,7 +204,7 @@ void set_weights(const Operator& wanted, double mean_spacing, Surroundings& arou
   finish(around, mean_spacing);
 }
 
-/// Writes one particle's row of M and what follows from it.
+/// Writes the particles' rows of M and what derives from them: rest curvature, diagonal and flags.
 class Writer {
  public:
   Writer(int n, double bending, BendingPlanes& planes)
@@ -229,7 +231,7 @@ class Writer {
       column.emplace_back(samples.front(), -weight);
     }
     add_to_diagonal(column);
-    // What the rounding of places may make up is none.
+    // Rest curvature within the rounding of positions counts as zero.
     const double rest = dot(curvature, normalized(around.area_vector));
     if (std::abs(rest) <= 4 * std::numeric_limits<float>::epsilon() * rounding) return;
     planes_.curved = true;
@@ -242,7 +244,8 @@ class Writer {
   }
 
  private:
-  /// Weights of one particle add up before they are squared.
+  /// Adds the squares of one row of M to the diagonal. Weights of the same particle are summed
+  /// first.
   void add_to_diagonal(std::vector<std::pair<int, double>>& column) {
     std::sort(column.begin(), column.end());
     for (std::size_t i = 0; i < column.size();) {
@@ -271,7 +274,7 @@ double area_around(const RestShape& shape, std::span<const int> samples) {
   return area;
 }
 
-/// The largest coordinate: places round by its last bit.
+/// The largest coordinate, which sets the rounding error of positions.
 double reach_of(const Planes3& position) {
   double reach = 0;
   for (int s = 0; s < position.size() * position.size(); ++s) {

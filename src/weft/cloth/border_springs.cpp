@@ -17,7 +17,7 @@ void collect(const Cloth& cloth, SpringDirection direction, std::vector<BorderSp
   });
 }
 
-/// Leaves the first of springs that join the same particles with the same rest length.
+/// Keeps only the first of the springs that join the same particles with the same rest length.
 void drop_copies(std::vector<BorderSpring>& springs) {
   const auto key_less = [&](int i, int j) {
     const BorderSpring &a = springs[i], &b = springs[j];

@@ -63,7 +63,7 @@ void count_particles(Cloth& cloth) {
     }
 }
 
-/// Lifts what is too light to its floor.
+/// Computes the masses and raises those below the minimum to it.
 /// @throws SceneError when the whole cloth has no mass
 void set_masses(Cloth& cloth, const RestShape& shape) {
   const int n = cloth.size;
@@ -83,8 +83,8 @@ void set_masses(Cloth& cloth, const RestShape& shape) {
     }
 }
 
-/// A spring along the border is stored on both mates; it turns the relative motion of its ends with
-/// half the strength on each, as its stiffness does.
+/// Sets the damping of a plane's springs. A spring along the border gets half, like its stiffness:
+/// on a seam both mates store it.
 void set_damping(Cloth& cloth, SpringPlane& plane) {
   const int last = cloth.size - 1;
   for_each_spring(cloth.mates, plane, [&](int r, int c, int r2, int c2) {

@@ -23,11 +23,11 @@ struct SpringPlane {
 /// The six directions in their fixed order: two of stretch, two of shear, two of bending.
 enum SpringDirection { stretch_u, stretch_v, shear_1, shear_2, bend_u, bend_v, spring_directions };
 
-/// Samples around one, in the order of the planes of bending.
+/// Numbers of neighbours in the bending stencil, in the order of its weight planes.
 inline constexpr int bending_neighbours = 8, straight_bending_neighbours = 4;
 
 /// Edges of Dirichlet energy k |x_j - x_i|^2 / 2 between samples near a free border, k of either
-/// sign, sorted by row; each is there from both of its ends.
+/// sign, sorted by row. Each edge is stored at both of its ends.
 struct BorderBending {
   struct Edge {
     int col = 0;                       ///< of the end in this row
@@ -35,20 +35,21 @@ struct BorderBending {
     float stiffness = 0;               ///< k [N/m]
   };
   std::vector<Edge> edges;
-  std::vector<int> starts;  ///< [n + 1] where each row's begin; empty without edges
+  std::vector<int> starts;  ///< [n + 1] first edge of each row; empty without edges
 };
 
-/// Resistance to bending, sum area |L x - R|^2 / 2 with L = sqrt(B_warp) d^2/du^2 +
-/// sqrt(B_weft) d^2/dv^2 of the rest surface, as |u|^2 / 2 with u = M x - sqrt(area) R and
-/// M = sqrt(area) L: element (r, c) of a weight plane belongs to a neighbour of sample (r, c),
-/// (M x)_i = sum_j weight_j (x_j - x_i), a class of mates adding up what its samples see. L
-/// vanishes on affine maps of the rest surface; along free borders it is the
-/// second derivative along the border alone, at free corners nothing.
+/// Resistance to bending, sum area |L x - R|^2 / 2 with
+///   L = sqrt(B_warp) d^2/du^2 + sqrt(B_weft) d^2/dv^2
+/// of the rest surface, as |u|^2 / 2 with u = M x - sqrt(area) R and M = sqrt(area) L. Element (r,
+/// c) of a weight plane belongs to a neighbour of sample (r, c):
+/// (M x)_i = sum_j weight_j (x_j - x_i), summed over all samples of a class of mates. L vanishes on
+/// affine maps of the rest surface. Along free borders it is the second derivative along the border
+/// alone, at free corners zero.
 struct BendingPlanes {
   std::array<Grid<float>, bending_neighbours> weight;  ///< [n x n] each [sqrt(N/m)]
   Grid<float> rest;        ///< [n x n] sqrt(area) |R|, the same on all of a class [sqrt(N m)]
-  BorderBending border;    ///< added to it, so that free borders resist saddles
-  Grid<float> diagonal;    ///< [n x n] of M^T M and what borders add, of the class on its
+  BorderBending border;    ///< added to the energy, so that free borders resist saddles
+  Grid<float> diagonal;    ///< [n x n] of M^T M plus the border term: of the class on its
                            ///< representative, else 0 [N/m]
   bool active = false;     ///< whether any weight is not 0
   bool diagonals = false;  ///< whether any weight beyond the four straight neighbours is not 0
@@ -63,14 +64,15 @@ struct Pin {
 };
 
 /// A stretch or shear spring with an end on the border of the image, between the representatives of
-/// its ends; copies of one spring on both sides of a seam are one.
+/// its ends. The copies of a spring on both sides of a seam are stored once.
 struct BorderSpring {
   int from = 0, to = 0;   ///< samples, from < to
   float rest_length = 1;  ///< [m]
   bool stretch = false;   ///< else shear
 };
 
-/// What of a cloth does not change while it moves. Mates are one particle stored in several places.
+/// A cloth without its state: rest shape, masses, springs, bending and pins. Mates are one particle
+/// stored at several samples.
 struct Cloth {
   int size = 0;
   Material material;
@@ -88,9 +90,9 @@ struct Cloth {
   double rest_spacing = 0;  ///< mean rest length of the stretch springs [m]
 };
 
-/// No spring is shorter than this part of the mean stretch spring, no particle lighter than the
-/// next part of the mean particle: maps of real meshes have cells that round to nothing, which must
-/// not divide by it.
+/// Lower bounds of rest lengths, relative to the mean stretch spring, and of masses, relative to
+/// the mean particle. Maps of real meshes have degenerate cells, whose lengths and masses would
+/// otherwise be divisors close to zero.
 inline constexpr double min_relative_length = 1e-3, min_relative_mass = 1e-4;
 
 /// Builds the cloth whose rest shape is the given positions. A stretch or shear spring of rest
@@ -101,14 +103,14 @@ inline constexpr double min_relative_length = 1e-3, min_relative_mass = 1e-4;
 /// @throws SceneError for a material value out of range, or samples that carry no mass
 Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& material);
 
-/// Pins the class of a sample at a place. Pinning twice changes the target.
-/// @return which of the cloth's pins holds it
+/// Pins the class of a sample at a target. Pinning it again changes the target.
+/// @return index of its pin in the cloth's pins
 /// @throws SceneError for a sample outside the image
 int pin(Cloth& cloth, int sample, Vec3d target);
-/// Lets the last pin's samples move again and forgets it. @pre there is one
+/// Removes the last pin and frees its samples. @pre there is one
 void unpin_last(Cloth& cloth);
 
-/// At rest in the rest shape; velocity the same everywhere.
+/// The state in the rest shape, with the same velocity at every sample.
 ClothState rest_state(const Cloth& cloth, Vec3f velocity = {});
 
 }  // namespace weft

@@ -12,11 +12,11 @@ struct Energy {
   double kinetic = 0;
   double elastic = 0;  ///< springs and bending
   double gravity = 0;  ///< zero at the origin
-  double drift = 0;    ///< of the kinetic: what the mean velocity alone would have
+  double drift = 0;    ///< part of kinetic: that of the mean velocity
   [[nodiscard]] double total() const { return kinetic + elastic + gravity; }
-  /// What motion and shape hold, wherever the cloth is.
+  /// Kinetic and elastic energy, which do not depend on where the cloth is.
   [[nodiscard]] double own() const { return kinetic + elastic; }
-  /// What of that can come to act within the cloth: the same in every uniform flight.
+  /// own() less drift, which is the same in every frame of uniform motion.
   [[nodiscard]] double inner() const { return kinetic - drift + elastic; }
   Energy& operator+=(const Energy& other) {
     kinetic += other.kinetic;
@@ -27,9 +27,9 @@ struct Energy {
   }
 };
 
-/// Measures the energy of one cloth in every step: what kinetic_energy and potential_energy give,
-/// rows summed in fixed lanes of single precision by kernels and added in their order in double,
-/// to the same bits for any team and instruction set.
+/// Measures the energy of one cloth, as kinetic_energy and potential_energy do. Kernels sum rows in
+/// fixed lanes of single precision, and the rows are added in order in double, so any team and
+/// instruction set gives the same bits.
 class EnergyMeter {
  public:
   /// @param cloth  kept by reference, as is the team
@@ -38,8 +38,10 @@ class EnergyMeter {
   Energy measure(const ClothState& state) noexcept;
   double kinetic(const Planes3& velocity) noexcept;
   [[nodiscard]] double mass() const { return total_mass_; }  ///< [kg]
-  /// Takes energy out of a motion by slowing what differs from its mean velocity, so that momentum
-  /// stays. @param energy  [J] @return what it could take [J]
+  /// Removes kinetic energy by scaling the velocities relative to their mean, so that momentum is
+  /// kept.
+  /// @param energy  to remove [J]
+  /// @return energy removed [J]
   double take_out(double energy, Planes3& velocity) noexcept;
 
  private:

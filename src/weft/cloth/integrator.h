@@ -13,16 +13,17 @@
 
 namespace weft {
 
-/// Smaller cloths are stepped by one thread each: what others would save they would spend waiting.
+/// Cloths of fewer samples a side are stepped by one thread each: more threads would lose in
+/// barriers what they save.
 inline constexpr int min_shared_size = 97;
 
-/// What acts during one step.
+/// Time step and gravity of one step.
 struct StepInput {
   double time_step = 1.0 / 240;  ///< [s]
   Vec3f gravity{0, -9.81F, 0};   ///< [m/s^2]
 };
 
-/// How one step went.
+/// Statistics of one step.
 struct StepReport {
   int iterations = 0;  ///< of the linear solver, in all
   double residual =
@@ -30,15 +31,16 @@ struct StepReport {
   double forces_seconds = 0, solve_seconds = 0;
 };
 
-/// What solves several cloths as one system, where they press on each other.
+/// Solves several cloths in contact with each other as one system.
 class JointIntegrator {
  public:
   JointIntegrator() = default;
   JointIntegrator(const JointIntegrator&) = delete;
   JointIntegrator& operator=(const JointIntegrator&) = delete;
   virtual ~JointIntegrator() = default;
-  /// Does what iterate of each cloth's integrator does, in their stead.
-  /// @param own  contacts of each cloth @param shared  between cloths, whose planes do not move
+  /// Replaces the iterate calls of the cloths' integrators.
+  /// @param own  contacts of each cloth
+  /// @param shared  contacts between cloths, whose planes do not move
   virtual void iterate(std::span<const std::span<const Contact>> own,
                        std::span<const SharedContact> shared) noexcept = 0;
 };
@@ -46,8 +48,8 @@ class JointIntegrator {
 /// Advances one cloth by one step, in parts, so that a collider can work between them:
 ///   begin(input, state); next = iterate(contacts) (once or more, with contacts found anew);
 ///   ... next may be changed ...; end(state).
-/// Nothing here allocates once constructed, but where the set of pins changes (multigrid, desbrun)
-/// or a time step is new (multigrid); nothing throws.
+/// These do not throw. They allocate only where there are more contacts than before, where the set
+/// of pins changes or where a time step is new (multigrid).
 class Integrator {
  public:
   Integrator() = default;
@@ -55,30 +57,31 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
   virtual ~Integrator() = default;
 
-  /// Takes the state at the start of the step and computes what does not depend on contacts. May
-  /// be called again instead of end: the step starts anew, with another time step perhaps.
+  /// Starts a step from a state and computes what does not depend on contacts. A second call
+  /// instead of end restarts the step, possibly with another time step.
   virtual void begin(const StepInput& input, const ClothState& state) noexcept = 0;
-  /// The proposal as it stands.
+  /// The current proposal for the state at the end of the step.
   [[nodiscard]] virtual ClothState& proposal() noexcept = 0;
-  /// Whether begin proposes a guess, where the step leads without the cloth's own forces, and every
-  /// iterate starts from the proposal as the caller left it, the inertia staying that of the step's
-  /// start. Contacts are looked for at the guess then, and what it passed through is taken back
-  /// before the first iterate. Else the first iterate makes the first proposal.
+  /// Whether begin proposes an initial guess, the motion without the cloth's internal forces. Every
+  /// iterate then starts from the proposal as the caller left it, with the inertia of the step's
+  /// start. Contacts are detected at the guess, and its passes through surfaces are undone before
+  /// the first iterate. Otherwise the first iterate makes the first proposal.
   [[nodiscard]] virtual bool starts_at_proposal() const noexcept { return false; }
   /// Whether iterate solves for contacts and their friction, so that no response needs to follow.
   [[nodiscard]] virtual bool solves_contacts() const noexcept { return false; }
-  /// Between begin and iterate: what a cloth that meets contacts may gain in this step, as contacts
-  /// that were not there before push it off. Methods that keep no account of energy do not ask. [J]
+  /// Sets the energy that the cloth may gain in this step as new contacts push it off; called
+  /// between begin and iterate. Methods without an energy balance ignore it. [J]
   virtual void lend(double /*energy*/) noexcept {}
-  /// By how much the energy of the last proposal exceeds what its linearisation promised, where
-  /// that was too far for it; 0 where it will do, and for methods that do not look. [J]
+  /// The energy error of the last proposal's linearisation if it is too large; 0 if it is
+  /// acceptable, and for methods that do not measure it. [J]
   [[nodiscard]] virtual double missed() const noexcept { return 0; }
   /// Proposes the state at the end of the step; the caller may change it in place (limit strain,
   /// truncate, push out of bodies) before the next iterate or end.
   virtual ClothState& iterate(std::span<const Contact> contacts) noexcept = 0;
-  /// What solves the cloths of integrators of this kind together; null where the method does not.
-  /// @param all   this one among them, kept by pointer
-  /// @param team  kept by reference; that of the integrators, or, where all cloths are smaller than
+  /// Creates the solver of several integrators of this kind as one system; null if the method has
+  /// none.
+  /// @param all  this one among them, kept by pointer
+  /// @param team  kept by reference; the integrators' own, or, if all cloths are smaller than
   /// min_shared_size, any
   [[nodiscard]] virtual std::unique_ptr<JointIntegrator> join(std::span<Integrator* const> /*all*/,
                                                               ThreadTeam& /*team*/) {
@@ -87,19 +90,20 @@ class Integrator {
   /// Normal forces of the contacts of the last iterate, in their order; empty where the method
   /// does not solve for contacts. [N]
   [[nodiscard]] virtual std::span<const float> contact_forces() const noexcept { return {}; }
-  /// What contacts did at the end of the last step, with which the next goes on; of those that
-  /// several cloths share, at the first of both. Empty where the method goes on with nothing.
+  /// The contact history that the next step starts from: forces and friction at the end of the last
+  /// step. A contact between two cloths belongs to the first of both. Empty for methods without
+  /// history.
   [[nodiscard]] virtual std::span<const PastContact> past_contacts() const noexcept { return {}; }
-  /// Goes on with others.
+  /// Replaces the contact history.
   virtual void restore_past(std::span<const PastContact> /*past*/) {}
-  /// The last correction that the last iterate made to each sample, over the rest spacing, the
-  /// largest of which is its residual. @param sizes [n x n]
-  /// @return false where the method does not iterate; sizes are as they were
+  /// Writes the size of each sample's last correction in the last iterate, over the rest spacing;
+  /// the largest is the residual. @param sizes  [n x n]
+  /// @return false where the method does not iterate; sizes are then unchanged
   virtual bool last_corrections(Grid<float>& /*sizes*/) const { return false; }
-  /// Where a method starts its search along what it found before: it starts anew. What follows
-  /// depends on the state and past contacts alone then.
+  /// Drops the search direction that a method keeps from the last step, so that the next step
+  /// depends only on the state and the contact history.
   virtual void forget() noexcept {}
-  /// Makes the proposal the state; mates equal, pins where the proposal has them.
+  /// Makes the proposal the state: mates equal, pins where the proposal has them.
   virtual StepReport end(ClothState& state) noexcept = 0;
 
   /// Largest stable time step for explicit methods, or largest stable stiffness for two_level, as a
@@ -107,7 +111,7 @@ class Integrator {
   /// stable.
   [[nodiscard]] virtual std::string stability_advice(double time_step) const = 0;
 
-  /// A remark on options that are allowed but may not go well; empty where there is none.
+  /// A warning about options that are allowed but may not work well; empty if there is none.
   [[nodiscard]] virtual std::string caution() const { return {}; }
 };
 

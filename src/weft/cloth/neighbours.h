@@ -24,7 +24,7 @@ struct NeighbourRow {
   int first = 0, last = 0;
 };
 
-/// Those neighbours of a row that lie within the image, in the first so many directions.
+/// The spring neighbours of a row that lie within the image, for the first `directions` directions.
 class NeighbourRows {
  public:
   NeighbourRows(int size, int row, int directions = spring_directions) {
@@ -48,7 +48,7 @@ class NeighbourRows {
   int count_ = 0;
 };
 
-/// How many directions have springs at all: those of second neighbours come last.
+/// The number of directions that have springs; those of second neighbours come last.
 inline int used_directions(const Cloth& cloth) {
   return cloth.material.bend_springs > 0 ? spring_directions : bend_u;
 }

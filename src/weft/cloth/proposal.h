@@ -12,8 +12,8 @@ void copy_rows(const ClothState& from, ClothState& to, Worker& worker);
 /// Puts every pinned sample at its target, with the velocity that takes it there in one step.
 void set_pins(const Cloth& cloth, const ClothState& start, double time_step, ClothState& next);
 
-/// Makes a proposal the state, after whatever was done to it; mates equal. Pins are where they were
-/// left: a filter may have stopped them before their targets.
+/// Copies a proposal to the state, mates made equal. Pins keep their proposed positions: a filter
+/// may have stopped them before their targets.
 void accept(const Cloth& cloth, ClothState& next, ClothState& state, ThreadTeam& team);
 
 }  // namespace weft

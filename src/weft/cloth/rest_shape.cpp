@@ -10,7 +10,7 @@ namespace {
 
 double triangle_area(Vec3d a, Vec3d b, Vec3d c) { return 0.5 * length(cross(b - a, c - a)); }
 
-/// Of both triangles beside the shorter diagonal, the one along which images are rebuilt.
+/// The area of a cell's two triangles, cut along the shorter diagonal as images are rebuilt.
 double cell_area_at(const Planes3& p, int r, int c) {
   const auto at = [&](int row, int col) { return vec_cast<double>(p.at(row, col)); };
   const Vec3d a = at(r, c), b = at(r, c + 1), d = at(r + 1, c), e = at(r + 1, c + 1);
@@ -19,7 +19,7 @@ double cell_area_at(const Planes3& p, int r, int c) {
   return triangle_area(a, b, d) + triangle_area(b, e, d);
 }
 
-/// In the arithmetic of the forces, so that a cloth at rest feels exactly none.
+/// Spring length in the arithmetic of the forces, so that a cloth at rest has exactly none.
 float spring_length(Vec3f a, Vec3f b) {
   const Vec3f d = b - a;
   return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);

@@ -4,7 +4,7 @@
 
 namespace weft {
 
-/// What springs and masses are made from.
+/// The rest geometry from which springs and masses are computed.
 struct RestShape {
   const Planes3& position;
   const BorderMates& mates;

@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-/// Rows whose forces are under way: springs reach two rows down.
+/// Rows whose sums are incomplete, as springs reach two rows down.
 constexpr int rows_in_progress = 3;
 constexpr int lines_a_worker = rows_in_progress + 1;
 
@@ -62,7 +62,7 @@ void SpringRows::add_row(const Motion& motion, int row, Worker& worker) {
 }
 
 ConstRow3 SpringRows::row(const Motion& motion, int row, Worker& worker) {
-  // The row before was read; its lines serve the row that is now two further.
+  // The row before has been read; its line buffers are reused for the row two below this one.
   if (row > worker.share(cloth_.size).first)
     clear(lines(worker, (row - 1) % rows_in_progress), cloth_.size);
   add_row(motion, row, worker);

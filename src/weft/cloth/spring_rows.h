@@ -6,15 +6,16 @@
 
 namespace weft {
 
-/// Forces of all springs, elastic and damping, row by row from above, each spring worked out once:
-/// what it does to rows below waits in a worker's lines until they are reached. Workers repeat the
-/// springs that lead into their first rows, so every row is summed in the same order on any team.
+/// Forces of all springs, elastic and damping, row by row from above. Each spring is evaluated
+/// once: its force on a row below is kept in the worker's line buffers until that row is reached.
+/// Workers repeat the springs that lead into their first rows, so every row is summed in the same
+/// order on any team.
 class SpringRows {
  public:
   /// @param cloth  kept by reference
   SpringRows(const Cloth& cloth, const ThreadTeam& team);
 
-  /// Where the springs are and where they were when the step began.
+  /// Current positions, and positions at the start of the step.
   struct Motion {
     const Planes3 &position, &start;  ///< [n x n] [m]
     double time_step;                 ///< [s]

@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-/// The three corners of a triangle in a row of cells, as rows of samples with a shift of columns.
+/// One corner of the triangles of a row of cells: a row of samples and a shift of columns.
 struct Corner {
   ConstRow3 position, velocity;
   int shift = 0;

@@ -9,21 +9,21 @@ namespace weft {
 /// [kg/m^3] at 20 degrees and sea level
 inline constexpr double air_density = 1.204;
 
-/// The forces of wind on the triangles of a cloth, each cell cut into two along its falling
-/// diagonal. A triangle of area A and normal n sees the air pass at w, the wind's velocity less its
-/// own (the mean of its corners'), so that cloth moving with the wind feels none; with n turned to
+/// Wind forces on the triangles of a cloth, each cell cut into two along its falling diagonal. A
+/// triangle of area A and normal n has the relative wind w, the wind's velocity less its own (the
+/// mean of its corners'), so cloth that moves with the wind has no force; with n turned to
 /// w . n >= 0
 ///   force = rho/2 A (w . n) (drag w + lift (|w| n - (w . n) w / |w|)),
-/// drag along w, lift across it: none edge on, rho/2 drag A |w|^2 face on. Each corner takes a
+/// drag along w, lift across it: zero edge on, rho/2 drag A |w|^2 face on. Each corner takes a
 /// third.
 class Wind {
  public:
   /// @param cloth  kept by reference
   Wind(const WindOptions& options, const Cloth& cloth);
 
-  /// Changes velocities by what the wind does in one step, from the state before it: as an external
-  /// force beside gravity, that no filter sees. Air that would turn the motion past it round within
-  /// the step is held back to first order, so no wind makes a step unstable. Pins keep their
+  /// Adds the wind's change of velocity in one step, computed from the state before it, as an
+  /// external force beside gravity that no filter sees. Forces that would reverse the relative wind
+  /// within the step are damped to first order, so no wind makes a step unstable. Pins keep their
   /// velocity.
   void blow(double time_step, ClothState& state, ThreadTeam& team);
 

@@ -8,15 +8,16 @@ namespace weft {
 namespace {
 
 constexpr double epsilon = 0x1p-53;
-/// Bounds of rounding, in epsilons of the largest coordinate of a difference: of a corner's height
-/// over a plane at some time (a difference, a product of vectors and an interpolation: 5 + 5 + 6),
-/// and of the distance of a point that is given by its weights.
+/// Rounding error bounds, in epsilons of the largest coordinate of a difference: of a corner's
+/// height over a plane at some time (a difference, a product of vectors and an interpolation:
+/// 5 + 5 + 6), and of the distance of a point given by its weights.
 constexpr double height_error = 16, point_error = 64;
 constexpr double min_tolerance = 2 * point_error;
 
 using Weights = std::array<double, 4>;
 
-/// The differences of two primitives at one moment: the corners, in a ring, of a convex flat piece.
+/// Differences of the points of two primitives at one time: the corners, in cyclic order, of a
+/// convex planar polygon.
 struct Corners4 {
   std::array<Vec3d, 4> at{};
   int count = 0;
@@ -38,8 +39,8 @@ struct NearestPoint {
   Weights weights{};
 };
 
-/// Looks for the point of a flat piece nearest to the origin among those of its edges and insides:
-/// no case depends on another, so that a triangle without area cannot mislead.
+/// Finds the point of a planar polygon nearest to the origin. All edges and triangles are tried
+/// independently, so that a triangle without area cannot mislead.
 class NearestSearch {
  public:
   explicit NearestSearch(const Corners4& corners) : corners_(corners) {
@@ -86,7 +87,7 @@ class NearestSearch {
   NearestPoint best_;
 };
 
-/// The flat piece of differences as it moves.
+/// The moving polygon of differences of two primitives.
 class MovingFeature {
  public:
   MovingFeature(const Corners4& start, const Corners4& end) : start_(start), end_(end) {
@@ -105,8 +106,9 @@ class MovingFeature {
     return now;
   }
 
-  /// Until when all corners surely stay farther than `separation` above the plane through the
-  /// origin across `normal`. @return `time` itself when nothing can be said
+  /// Time up to which all corners certainly stay farther than `separation` above the plane through
+  /// the origin with this normal.
+  /// @return `time` itself when that cannot be shown
   [[nodiscard]] double apart_until(double time, Vec3d normal, double separation) const {
     const double size = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
     const double error = height_error * epsilon * extent_ * size;
@@ -115,7 +117,7 @@ class MovingFeature {
     for (int k = 0; k < start_.count; ++k) {
       const double first = dot(normal, start_.at[k]), last = dot(normal, end_.at[k]);
       if (last > least) continue;
-      // The goal lies a little higher, so that what the division rounds does not matter.
+      // The target height is raised by `error`, which covers the rounding of the division.
       until = std::min(until, (first - least - error) / (first - last));
     }
     const auto all_above = [&](double t) {
@@ -124,7 +126,7 @@ class MovingFeature {
           return false;
       return true;
     };
-    // Heights change evenly: what holds at both ends holds between them.
+    // Heights are linear in time: what holds at both ends holds between them.
     return until > time && all_above(time) && all_above(until) ? until : time;
   }
 
@@ -133,9 +135,9 @@ class MovingFeature {
   double extent_ = 0;
 };
 
-/// The way to the nearest point is a difference of long ways where that point is near, and may tilt
-/// the plane into the piece. Then planes that are worked out to lie along its edges and its inside
-/// serve. @return the latest time, see apart_until
+/// Fallback for near pairs, where cancellation in the nearest point may tilt its plane into the
+/// polygon: tries planes parallel to the polygon's edges and triangles instead.
+/// @return the latest time, see apart_until
 double apart_by_any_plane(const MovingFeature& piece, const Impact& impact, Vec3d displacement,
                           double separation) {
   const Corners4 now = piece.at(impact.time);
@@ -160,7 +162,7 @@ double apart_by_any_plane(const MovingFeature& piece, const Impact& impact, Vec3
 template <class Pair>
 std::optional<Impact> first_impact(const Pair& start, const Pair& end, const CcdOptions& options) {
   const MovingFeature piece(differences(start), differences(end));
-  // Of two points three coordinates each: 2 sqrt(3) < 3.5.
+  // Two points with three coordinates each: 2 sqrt(3) < 3.5.
   const double separation = options.separation + 3.5 * options.input_error;
   const double rounding = epsilon * piece.extent();
   const double enough = separation + std::max(options.tolerance, min_tolerance * rounding);

@@ -5,10 +5,11 @@
 namespace weft {
 namespace {
 
-/// Parts of the gap that is kept, and of the rest spacing.
+/// Slack of the filter in gaps between cloths and in rest spacings; the smaller one counts.
 constexpr double slack_in_gaps = 0.2, slack_in_spacings = 0.03;
 constexpr double aside_in_spacings = 1;
-/// Twice what cloth may move before pairs that came near are looked for anew.
+/// Skin of cached pairs, in gaps kept to bodies: surfaces may move by half of it before pairs are
+/// searched anew.
 constexpr double skin_in_gaps = 0.5;
 
 std::vector<Triangle> triangles_by_points(const SurfaceGrid& grid) {
@@ -76,7 +77,8 @@ void CollisionWorld::move_bodies(std::span<const Planes3* const> ends, ThreadTea
   }
 }
 
-/// What goes far in a step mostly slides past: its surface, not each of its points, is followed.
+/// Bodies that move farther than the gap mostly slide along themselves, so their approach is
+/// measured along surface normals and not by the displacements of points.
 void CollisionWorld::measure_motion(WorldBody& body, ThreadTeam& team) const {
   body.max_approach = body.max_moved;
   body.goes_far = body.max_moved > min_gap_;

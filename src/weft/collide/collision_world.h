@@ -12,35 +12,36 @@
 
 namespace weft {
 
-/// A cloth as collision knows it all through a run.
+/// Collision data of a cloth that last for the whole run.
 struct WorldCloth {
   SurfaceGrid grid;
   CollidingCloth properties;
-  int first_point = 0;                          ///< its samples are points from there on
-  std::unique_ptr<BodyContacts> body_contacts;  ///< remembers which samples are inside of bodies
+  int first_point = 0;                          ///< number of its sample 0 among all points
+  std::unique_ptr<BodyContacts> body_contacts;  ///< with the samples' inside marks
 };
 
-/// A body, and where it goes in a step.
+/// A body and its motion in a step.
 struct WorldBody {
   SurfaceGrid grid;
   std::unique_ptr<BodyQuery> query;
-  std::unique_ptr<BodyQuery> query_at_end;  ///< where it went far in some step
+  std::unique_ptr<BodyQuery> query_at_end;  ///< made once it has gone far in a step
   Planes3 start;                            ///< where the last step left it
   const Planes3* end = nullptr;             ///< of this step; start where it stands still
   double friction = 0;
-  double max_moved = 0;               ///< by any sample in this step [m]
+  double max_moved = 0;               ///< largest displacement of a sample in this step [m]
   double max_approach = 0;            ///< see ContactBody [m]
-  std::vector<Triangle> triangles{};  ///< by points
+  std::vector<Triangle> triangles{};  ///< corners as representative samples
   SurfaceMotion surface{};            ///< of this step, where it goes far
   BlockMotion blocks{};               ///< of this step, where it moves
   bool goes_far = false;              ///< in this step
   bool moved = true;                  ///< since its query was placed
   int motion = 1;                     ///< see MovingSurface::name
-  int end_placed = 0;                 ///< the motion whose end query_at_end stands at
+  int end_placed = 0;                 ///< motion at whose end query_at_end is placed
 };
 
-/// All that collides, which the stages of the contact pipeline share: the broad phase, contacts,
-/// the response, the filter, untangling. Samples of all cloths are numbered through as points.
+/// Cloths, bodies and ground of a scene with their broad phase, shared by the stages of the contact
+/// pipeline: contacts, response, filter and untangling. Samples of all cloths are numbered
+/// consecutively as points.
 class CollisionWorld {
  public:
   using MakeBroadPhase = std::unique_ptr<BroadPhase> (*)(std::span<const SurfaceGrid* const> grids,
@@ -53,28 +54,29 @@ class CollisionWorld {
   void commit();
   void rollback();
 
-  /// Takes the proposals of a step, in which bodies go where move_bodies said.
+  /// Sets the surfaces of a step: cloths by their proposals, bodies by move_bodies.
   void gather_surfaces(std::span<const MovingCloth> moving);
-  /// Fits the broad phase to them.
+  /// Fits the broad phase to the surfaces of the step.
   void refit(ThreadTeam& team);
-  /// Bodies for searches of contacts, where the step starts.
+  /// Places the bodies' queries for contact search at the start of the step, and at its end where
+  /// bodies go far.
   void place_bodies(ThreadTeam& team);
-  /// Every cloth's samples get what their representatives have.
+  /// Copies positions and velocities of representatives to their mates.
   void copy_to_mates(std::span<const MovingCloth> moving) const;
 
-  /// That is kept between two cloths, or one and itself. [m]
+  /// Gap kept between two cloths, or between a cloth and itself. [m]
   [[nodiscard]] double gap_between(std::size_t i, std::size_t j) const;
-  /// Cells of theirs that may press on each other, valid until the next search.
+  /// Candidate cell pairs of two cloths within the contact margin, valid until the next search.
   std::span<const CandidatePair> near_cells(std::size_t i, std::size_t j, ThreadTeam& team);
-  /// Of any sample of a body in this step; 0 where all stand still. [m/s]
+  /// Largest speed of a body's sample in this step; 0 where all bodies stand still. [m/s]
   [[nodiscard]] double fastest_body(double time_step) const;
   [[nodiscard]] const BodyContacts::Ground* ground() const { return ground_ ? &*ground_ : nullptr; }
   [[nodiscard]] CoherentPairs& pairs() { return *pairs_; }
-  /// How far the filter may move a point aside before the rest has to be looked at again, and in
-  /// its first rounds. [m]
+  /// Largest displacement by the filter that needs no new search of planes, and the largest allowed
+  /// in its first rounds. [m]
   [[nodiscard]] double slack() const { return slack_; }
   [[nodiscard]] double max_aside() const { return max_aside_; }
-  /// Samples of all cloths.
+  /// Number of samples of all cloths.
   [[nodiscard]] int points() const { return static_cast<int>(cloth_of_.size()); }
   [[nodiscard]] std::size_t cloth_of(int point) const { return cloth_of_[point]; }
 
@@ -92,7 +94,7 @@ class CollisionWorld {
   std::optional<BodyContacts::Ground> ground_;
   std::optional<CoherentPairs> pairs_;
   double slack_ = HUGE_VAL, max_aside_ = HUGE_VAL;
-  double min_gap_ = HUGE_VAL;  // that is kept to bodies by any cloth [m]
+  double min_gap_ = HUGE_VAL;  // smallest gap that a cloth keeps to bodies [m]
   std::vector<std::size_t> cloth_of_;
 };
 

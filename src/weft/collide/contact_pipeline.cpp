@@ -45,7 +45,7 @@ int ContactPipeline::filter_guess(std::span<const MovingCloth> cloths, double ti
 int ContactPipeline::correct(std::size_t cloth, const MovingCloth& moving,
                              std::span<const float> forces, double time_step,
                              ThreadTeam& team) noexcept {
-  // Layers are soft and stay as they were solved.
+  // Contacts between layers are soft: the response leaves them as solved.
   const std::span<const Contact> hard = finder_.hard_contacts(cloth);
   return responses_[cloth].respond(
       moving, {hard, forces.first(std::min(forces.size(), hard.size()))}, time_step, team);

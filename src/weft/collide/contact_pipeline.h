@@ -12,10 +12,10 @@
 
 namespace weft {
 
-/// The collider that keeps its promise, in stages over one world: the broad phase finds candidate
-/// pairs; contacts are found for the solve; the response pushes out what a solve left inside; the
-/// filter keeps everything on its side of planes, which nothing passes; what started crossed is
-/// untangled. Broad phases may differ.
+/// Collider in stages over one CollisionWorld: the broad phase finds candidate pairs; contacts are
+/// found for the solve; the response pushes out what the solve left inside; the filter keeps
+/// features on their sides of separating planes, so that nothing passes; cloth that starts crossed
+/// is untangled. Works with any broad phase.
 class ContactPipeline final : public Collider {
  public:
   ContactPipeline(CollisionWorld::MakeBroadPhase make_broad_phase, const Obstacles& obstacles,
@@ -65,7 +65,7 @@ class ContactPipeline final : public Collider {
   std::vector<double> row_gaps_;
 };
 
-/// The pipeline with a broad phase of that kind.
+/// Makes the pipeline with the broad phase `Pairs`.
 template <class Pairs>
 std::unique_ptr<Collider> make_pipeline(const Obstacles& obstacles,
                                         std::span<const CollidingCloth> cloths) {

@@ -11,8 +11,8 @@
 
 namespace weft {
 
-/// A triangulated grid, as it stands whenever it is looked at. Triangles whose corners coincide
-/// have no inside and meet nothing.
+/// A triangulated grid whose positions are read at every count. Triangles with coinciding corners
+/// are degenerate and meet nothing.
 struct GridTriangles {
   const Planes3* positions = nullptr;                ///< [n x n] world, mates equal [m]
   const std::vector<Triangle>* triangles = nullptr;  ///< corners as samples
@@ -24,11 +24,12 @@ struct GridTriangles {
 /// here.
 class IntersectionCheck {
  public:
-  /// Surfaces are kept by reference and looked at in every count. @pre finite positions
+  /// Surfaces are kept by reference and read at every count.
+  /// @pre finite positions
   /// @param ground  height of the ground, if there is one [m]
   IntersectionCheck(std::span<const GridTriangles> cloths, std::span<const GridTriangles> bodies,
                     std::optional<double> ground);
-  /// As everything stands now.
+  /// Counts the intersections of the current positions.
   [[nodiscard]] IntersectionCounts count();
 
  private:
@@ -38,7 +39,7 @@ class IntersectionCheck {
     explicit Surface(const GridTriangles& grid);
     void follow();
     [[nodiscard]] const CrossingSurface& crossing() const { return crossing_; }
-    /// @return triangles with a corner below it
+    /// @return number of triangles with a corner below `height`
     [[nodiscard]] std::int64_t count_below(double height);
 
    private:

@@ -9,7 +9,8 @@
 
 namespace weft {
 
-/// How a grid of samples is a surface: what joins its samples, the same at every moment.
+/// Topology of a grid of samples as a surface: its triangles and its classes of mates, the same at
+/// every time.
 class SurfaceGrid {
  public:
   SurfaceGrid() = default;
@@ -18,16 +19,17 @@ class SurfaceGrid {
 
   [[nodiscard]] int size() const { return size_; }       ///< n: samples a side
   [[nodiscard]] int cells() const { return size_ - 1; }  ///< cells a side
-  /// The sample that stands for a sample's class.
+  /// The representative of a sample's class of mates.
   [[nodiscard]] int point(int sample) const { return point_[static_cast<std::size_t>(sample)]; }
-  /// The samples of a cell's two triangles. @param half  0 or 1
+  /// The samples of one of a cell's two triangles.
+  /// @param half  0 or 1
   [[nodiscard]] std::array<int, 3> triangle(int cell, int half) const {
     return triangle_from(first_sample(cell), cell, half);
   }
   [[nodiscard]] std::array<int, 3> triangle(int row, int col, int half) const {
     return triangle_from(row * size_ + col, row * cells() + col, half);
   }
-  /// Which of a cell's corners its two triangles have.
+  /// Numbers of the corners of a cell that one of its two triangles has.
   [[nodiscard]] std::array<int, 3> triangle_corners(int cell, int half) const {
     if (falling_[static_cast<std::size_t>(cell)] != 0)
       return half == 0 ? std::array{0, 1, 2} : std::array{1, 3, 2};
@@ -39,7 +41,7 @@ class SurfaceGrid {
     return {s, s + 1, s + size_, s + size_ + 1};
   }
   [[nodiscard]] int first_sample(int cell) const { return cell / cells() * size_ + cell % cells(); }
-  /// True when two corners of a triangle are one surface point: it has no inside.
+  /// True for a degenerate triangle: two of its corners are one surface point.
   [[nodiscard]] bool folded(const std::array<int, 3>& triangle) const {
     const int a = point(triangle[0]), b = point(triangle[1]), c = point(triangle[2]);
     return a == b || b == c || c == a;
@@ -58,13 +60,13 @@ class SurfaceGrid {
   std::vector<unsigned char> falling_;  // [(n - 1)^2]
 };
 
-/// A surface during a step: every sample goes straight from start to end.
+/// A surface during a step: every sample moves on a straight line from start to end.
 struct MovingSurface {
   const SurfaceGrid* grid = nullptr;
   const Planes3* start = nullptr;  ///< [n x n] [m]
   const Planes3* end = nullptr;    ///< [n x n] [m]; the start where it stands still
-  /// What this motion of this surface is called, so that nothing is fitted to it twice; 0: it has
-  /// no name.
+  /// Identifier of this motion of this surface, so that no hierarchy is fitted to it twice; 0:
+  /// none.
   int name = 0;
 };
 

@@ -21,7 +21,7 @@ BorderWalk::BorderWalk(const MappedDisk& mapped)
       path.vertices.push_back(border[i]);
       path.knots.push_back(knot < 0 ? knot + around : knot);
     }
-    path.knots.back() = path.intervals;  // 0 where the path runs once around
+    path.knots.back() = path.intervals;  // computed as 0 where the path runs once around
     for (int k = 0; k < path.intervals; ++k)
       path_at_[(path.first + k) % around] = static_cast<int>(p);
     paths_.push_back(std::move(path));
@@ -30,7 +30,7 @@ BorderWalk::BorderWalk(const MappedDisk& mapped)
 
 BorderWalk::PathPoint BorderWalk::find(int index, int size) const {
   WEFT_ASSERT(index >= 0 && index < 4 * (size - 1));
-  // In units of 1 / (size - 1) sample intervals everything is whole.
+  // In units of 1 / (size - 1) sample intervals all positions are integers.
   const std::int64_t unit = size - 1;
   const std::int64_t place = std::int64_t{index} * (size_ - 1);
   PathPoint point;
@@ -62,7 +62,7 @@ EdgePoint BorderWalk::at(int index, int size) const {
 EdgePoint BorderWalk::on_own_side(int index, int size) const {
   const PathPoint point = find(index, size);
   if (point.path == point.own_path) return at(index, size);
-  // Mates have the same edges, in the opposite order.
+  // Mates have the same edges in opposite order.
   const std::vector<int>& vertices = paths_[point.own_path].vertices;
   const std::size_t from = vertices.size() - 1 - static_cast<std::size_t>(point.edge);
   return {vertices[from], vertices[from == 0 ? 0 : from - 1], point.fraction};

@@ -23,14 +23,14 @@ namespace weft {
 namespace {
 
 constexpr int min_suitable = 33;
-/// More samples than this for detail alone are to be asked for.
+/// Largest side chosen for detail alone; a larger one has to be requested.
 constexpr int max_for_detail = 1025;
-/// The paths that better the map later lengthen the border, and one interval a path distorts.
+/// Factor on the minimum border: paths added to the cut later lengthen the border, and paths of a
+/// single interval distort the map.
 constexpr int spare_border = 2;
 
-/// The least n = 2^k + 1 from 33 on that holds a cut well, with twice the border that its paths
-/// need at least, and samples enough for the mesh: as many as it has vertices. More than 1025 only
-/// where the cut needs them.
+/// The smallest n = 2^k + 1 from 33 on that has twice the border that the cut needs, and at least
+/// as many samples as the mesh has vertices. More than 1025 only where the cut needs it.
 int suitable_size(const CutDisk& cut, int vertex_count) {
   const int border = spare_border * (min_size(cut) - 1);
   int n = min_suitable;
@@ -65,7 +65,7 @@ std::string hash_of(const TriangleMesh& mesh) {
   return hash.text();
 }
 
-// Users count the triangles of their file, of which repair may have dropped some.
+// Seed triangles are numbered as in the input file; repair may have dropped some.
 int repaired_triangle(const RepairedMesh& input, int triangle) {
   if (triangle < 0) return triangle;
   const auto& sources = input.source_triangle;
@@ -89,13 +89,14 @@ Cut first_cut(Conversion& made, const ConvertOptions& options) {
   return std::move(along.cut);
 }
 
-// Longer cuts are judged on a coarse proxy, which slivers can mislead.
+// Extended cuts are evaluated on a coarse proxy, where slivers can mislead: a high stretch is a
+// sign of that.
 bool is_suspicious(const MappedDisk& mapped) {
   constexpr double most = 1.5;
   return mapped.parameterizer == "stretch" && mapped.quality.stretch_l2 > most;
 }
 
-// The cut with the paths that lower the stretch, or the plain one where they do not after all.
+// Maps the extended cut, or the plain one where the extension turns out to raise the stretch.
 void cut_and_map(Conversion& made, const std::string& name, const ConvertOptions& options) {
   const TriangleMesh& mesh = made.input.mesh;
   Stopwatch watch;
@@ -142,7 +143,7 @@ void require_topology(const Conversion& made, const std::string& name) {
       fmt::format("a larger size, for example {}", 2 * n - 1));
 }
 
-// Stages below know no file: what they refuse is told with the mesh's name in front.
+// The stages do not know the name of the mesh: it is put in front of their errors.
 template <class Stage>
 void named(const std::string& name, const Stage& stage) {
   try {

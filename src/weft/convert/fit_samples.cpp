@@ -10,14 +10,14 @@
 namespace weft {
 namespace {
 
-/// Surface points to a sample interval, each way.
+/// Surface points per sample interval, in each direction.
 constexpr int fineness = 3;
 
-/// What the samples are fitted to: points of a grid `fineness` times as fine as the image's.
+/// A target of the fit: a surface point on a grid `fineness` times as fine as the image's.
 struct SurfacePoint {
   Vec3d position;
   Vec3d normal;
-  double weight = 0;  ///< area that it stands for; 0 where the grid has no point [m^2]
+  double weight = 0;  ///< surface area per unit of the square, 0 where the grid has no point [m^2]
 };
 
 std::vector<SurfacePoint> surface_points(const MappedDisk& mapped) {
@@ -39,7 +39,7 @@ std::vector<SurfacePoint> surface_points(const MappedDisk& mapped) {
   return points;
 }
 
-/// [n * n] the unknown of each sample: its class' least sample, or -1 on the true border.
+/// [n * n] the unknown of each sample: the lowest sample of its mates, or -1 on the true border.
 std::vector<int> unknowns(const MappedDisk& mapped, const GeometryImage& image) {
   const int n = image.size();
   std::vector<int> unknown(static_cast<std::size_t>(n) * n);
@@ -55,14 +55,14 @@ std::vector<int> unknowns(const MappedDisk& mapped, const GeometryImage& image) 
   return unknown;
 }
 
-/// The normal equations of one choice of diagonals, never written out.
+/// The matrix-free normal equations of the fit for given diagonals.
 class Fit {
  public:
   Fit(const std::vector<SurfacePoint>& points, const std::vector<int>& unknown,
       const Grid<Diagonal>& diagonals, double along_surface)
       : points_(points), unknown_(unknown), diagonals_(diagonals), along_(along_surface) {}
 
-  /// The residuals' pull on every unknown, and the diagonal of the system.
+  /// The weighted residual of every unknown, and an isotropic diagonal for the preconditioner.
   struct Pull {
     std::vector<Vec3d> force;
     std::vector<double> stiffness;
@@ -83,7 +83,7 @@ class Fit {
     });
     return found;
   }
-  /// The system times a direction, both by unknowns.
+  /// The matrix times a direction, both by unknowns.
   [[nodiscard]] std::vector<Vec3d> multiply(const std::vector<Vec3d>& direction) const {
     std::vector<Vec3d> product(direction.size());
     for_each_point([&](const SurfacePoint& point, const std::array<int, 3>& corner,
@@ -140,7 +140,7 @@ double product(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
   return lane_sum(static_cast<int>(a.size()), [&](int i) { return dot(a[i], b[i]); });
 }
 
-/// Conjugate gradients, preconditioned by the diagonal, from the samples as they are.
+/// Conjugate gradients with a diagonal preconditioner, starting at the given samples.
 void solve(const Fit& fit, std::vector<Vec3d>& samples, const std::vector<int>& unknown,
            int iterations) {
   const std::size_t count = samples.size();
@@ -172,8 +172,8 @@ void solve(const Fit& fit, std::vector<Vec3d>& samples, const std::vector<int>& 
     if (unknown[s] >= 0) samples[s] += change[unknown[s]];
 }
 
-/// The image with these samples, in a cube that holds them all: fitted ones may lie outside the
-/// surface's box.
+/// The image with the given samples, in a cube that contains them all: fitted ones may lie outside
+/// the bounding box of the surface.
 GeometryImage with_samples(const GeometryImage& image, const std::vector<Vec3d>& samples) {
   Box3d box;
   for (const Vec3d p : samples) box.add(p);

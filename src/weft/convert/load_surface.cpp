@@ -22,7 +22,7 @@ SampleBlends blends_of(const Conversion& made, int vertices) {
       surface_places(*made.mapped, mesh.triangles, made.image.size());
   SampleBlends follows{vertices, std::vector<BlendedVertex>(places.size())};
   for (std::size_t s = 0; s < places.size(); ++s) {
-    // On the cut, mates lie in different triangles: one of them speaks for all.
+    // On the cut, mates lie in different triangles; all get the place of their representative.
     const SurfacePlace& place =
         places[static_cast<std::size_t>(made.image.mates.representative(static_cast<int>(s)))];
     const Triangle& corners = mesh.triangles[place.triangle];
@@ -33,7 +33,8 @@ SampleBlends blends_of(const Conversion& made, int vertices) {
   return follows;
 }
 
-/// Built-in shapes are in metres with y up; files are what their user says.
+/// Loads a mesh and converts it to metres with y up. Built-in shapes are so already; `files` is the
+/// frame of files.
 MeshFile load_mesh_file(const std::string& name, const MeshFrame& files) {
   if (name.starts_with(builtin_prefix)) {
     MeshFile made{make_shape(name.substr(builtin_prefix.size())), {}};
@@ -91,7 +92,7 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
   Conversion made = convert_mesh(file.mesh, name, quick);
   LoadedSurface loaded;
   if (options.keep_places) loaded.follows = blends_of(made, vertices);
-  // Of a mesh in memory only once it is known to be sound.
+  // The faces of a mesh in memory, once the conversion has checked that it is valid.
   if (options.keep_source && surface.mesh) file.faces = faces_of(file.mesh);
   if (options.keep_source)
     loaded.source = {std::move(file.mesh.positions), std::move(file.faces),

@@ -16,8 +16,8 @@ struct Span {
   }
 };
 
-// The interior samples that may lie in a span, one too many at most at either end: rounding may
-// widen the range but never loses a sample, and what is in it is tested exactly.
+// The interior samples in a span, widened by a rounding margin by one sample at most at either end:
+// none is lost, and those in the range are tested exactly.
 struct SampleRange {
   int first, last;
   SampleRange(Span span, double samples_per_unit, int size)
@@ -27,7 +27,7 @@ struct SampleRange {
   static constexpr double margin = 1e-6;
 };
 
-// Where a horizontal line meets a triangle. @pre the line meets its box
+// The section of a horizontal line with a triangle; empty where it misses the triangle by rounding.
 Span row_span(const CornerUv& corners, double v) {
   Span span;
   for (int k = 0; k < 3; ++k) {
@@ -45,8 +45,9 @@ Span row_span(const CornerUv& corners, double v) {
   return span;
 }
 
-// A point on an edge is moved by (e, e^2) for a vanishing e > 0: it then lies on one side of every
-// edge, the same for both triangles of an edge and for all those around a vertex.
+// Whether a point is to the left of an edge, by exact arithmetic. A point on the edge is displaced
+// by (e, e^2) for a vanishing e > 0: this decides its side consistently for both triangles of an
+// edge and for all those around a vertex.
 bool is_inside_edge(Vec2d a, Vec2d b, Vec2d point) {
   const int side = orientation(a, b, point);
   if (side != 0) return side > 0;
@@ -89,7 +90,7 @@ std::array<double, 3> corner_weights(const CornerUv& corners, Vec2d point) {
   std::array<double, 3> weights{std::max(0.0, cross(b, c)), std::max(0.0, cross(c, a)),
                                 std::max(0.0, cross(a, b))};
   const double sum = weights[0] + weights[1] + weights[2];
-  if (!(sum > 0)) {  // a sliver so thin that rounding ate its area: the nearest corner
+  if (!(sum > 0)) {  // a sliver whose area rounds to zero: the nearest corner
     const std::array<double, 3> d{dot(a, a), dot(b, b), dot(c, c)};
     weights.fill(0);
     weights[std::min_element(d.begin(), d.end()) - d.begin()] = 1;

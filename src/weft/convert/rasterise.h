@@ -16,12 +16,12 @@ using CornerUv = std::array<Vec2d, 3>;
 void rasterise(const DiskMesh& disk, const SquareMap& map, int size,
                const std::function<void(int row, int col, int triangle)>& visit);
 
-/// The place of sample k of `size` along a side of the map's square, in the map's units.
+/// The position of sample k of `size` along a side of the map's square, in the map's units.
 inline double sample_place(int k, int size, int map_size) {
   return static_cast<double>(k) * (map_size - 1) / (size - 1);
 }
 
-/// The weights of the corners at a point in or next to a triangle: >= 0, summing to 1.
+/// Barycentric coordinates of a point in or next to a triangle: >= 0, summing to 1.
 std::array<double, 3> corner_weights(const CornerUv& corners, Vec2d point);
 
 CornerUv corner_uv(const SquareMap& map, const Triangle& triangle);

@@ -17,8 +17,8 @@
 namespace weft {
 namespace {
 
-/// Unit normals at the vertices of a disk, weighted by the triangles' angles there and summed over
-/// all disk vertices that are one point of the surface: mates get the same bits. A vertex whose
+/// Unit normals at the vertices of a disk, weighted by the angles of the triangles there and summed
+/// over all disk vertices of one surface point, so that mates get the same bits. A vertex whose
 /// triangles have no area gets the normal (0, 1, 0). [D]
 std::vector<Vec3d> disk_vertex_normals(const DiskMesh& disk) {
   int count = 0;
@@ -59,7 +59,7 @@ BorderMates mates_of(const MappedDisk& mapped) {
   const int around = 4 * (mapped.layout.size - 1);
   for (int p = 0; p < static_cast<int>(mapped.cut.paths.size()); ++p) {
     const int mate = mapped.cut.paths[p].mate;
-    if (mate <= p) continue;  // a true border, or told already
+    if (mate <= p) continue;  // a true border, or a pair added already
     const int count = mapped.layout.intervals[p];
     intervals.push_back(
         {mapped.layout.first[p], (mapped.layout.first[mate] + count) % around, count});
@@ -80,7 +80,7 @@ Vec3f unit_normal(Vec3d sum) {
   return squared_length(sum) > 0 ? vec_cast<float>(normalized(sum)) : Vec3f{0, 1, 0};
 }
 
-// Samples that are one surface point get the bits of their representative.
+// All samples of one surface point get the bits of their representative.
 void join_mates(GeometryImage& image) {
   for (int k = 0; k < image.mates.class_count(); ++k)
     for (const int sample : image.mates.mates(k))

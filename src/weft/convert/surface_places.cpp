@@ -20,7 +20,8 @@ Weights blend(double rest, const Weights& a, double fraction, const Weights& b) 
           rest * a[2] + fraction * b[2]};
 }
 
-/// Disk vertices as weights of the corners of a surface triangle that they lie in.
+/// Expresses points of the disk in barycentric coordinates of the surface triangles that contain
+/// them.
 class PlacesOnSurface {
  public:
   PlacesOnSurface(const DiskMesh& disk, std::span<const Triangle> surface)
@@ -55,7 +56,7 @@ class PlacesOnSurface {
   std::span<const Triangle> surface_;
 };
 
-/// The triangles along the border of a disk.
+/// The triangles on the border edges of a disk.
 class BorderTriangles {
  public:
   explicit BorderTriangles(const DiskMesh& disk)
@@ -71,10 +72,10 @@ class BorderTriangles {
       }
   }
 
-  /// A triangle at a point of the border, and the weights of its corners there.
+  /// A border triangle at a point of the border, and the barycentric coordinates of the point.
   [[nodiscard]] std::pair<int, Weights> at(const EdgePoint& point) const {
     int triangle = triangle_[point.from];
-    // A path that is walked backward has its edge start at the other end.
+    // On a path walked backwards, the border edge starts at `to`.
     if (point.fraction > 0 && corner(triangle, point.to) < 0) triangle = triangle_[point.to];
     Weights weights{};
     weights[corner(triangle, point.from)] += 1 - point.fraction;
@@ -120,7 +121,7 @@ std::vector<Vec2d> vertex_places(const MappedDisk& mapped, std::span<const int> 
   const std::vector<int>& points = mapped.cut.disk.surface_vertex;
   std::vector<Vec2d> places(static_cast<std::size_t>(vertices), Vec2d{nowhere, nowhere});
   for (std::size_t d = 0; d < points.size(); ++d) {
-    // From there on they came from splitting edges.
+    // Higher indices are those of split vertices.
     if (std::cmp_greater_equal(points[d], source_vertex.size())) continue;
     Vec2d& place =
         places[static_cast<std::size_t>(source_vertex[static_cast<std::size_t>(points[d])])];

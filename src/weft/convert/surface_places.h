@@ -9,25 +9,25 @@
 
 namespace weft {
 
-/// A place on a mesh: a triangle and the weights of its corners, >= 0 and summing to 1.
+/// A point on a mesh: a triangle and its barycentric coordinates there, >= 0 and summing to 1.
 struct SurfacePlace {
   int triangle = -1;
   std::array<double, 3> weights{};
 };
 
-/// Where each of size x size samples of a map lies on the mesh that was cut open, by which anything
-/// that the mesh carries comes to the image. On the cut, mates lie at one point but in the
-/// triangles of their own sides.
+/// The points of size x size samples of a map on the mesh that was cut open, which transfer any
+/// attribute of the mesh to the image. On the cut, mates are the same point, each in a triangle on
+/// its own side.
 /// @param surface  [F] the triangles of the mesh that was cut
 /// @return [size * size], row by row
 std::vector<SurfacePlace> surface_places(const MappedDisk& mapped,
                                          std::span<const Triangle> surface, int size);
 
-/// Where the vertices of a mesh lie in the square that it was mapped to, in sample units.
-/// @param source_vertex  of each vertex of the repaired mesh, the one that it was in the input
-/// @param vertices       how many the input has
-/// @return [vertices] of several places (on the cut, or where fans were split) the first; not
-/// finite for vertices that the repaired mesh has not
+/// The positions of the vertices of a mesh in the square that it was mapped to, in sample units.
+/// @param source_vertex  input vertex of each vertex of the repaired mesh
+/// @param vertices       number of vertices of the input
+/// @return [vertices] the first of several positions (on the cut, or where fans were split); not
+/// finite for vertices that the repaired mesh does not have
 std::vector<Vec2d> vertex_places(const MappedDisk& mapped, std::span<const int> source_vertex,
                                  int vertices);
 

@@ -5,7 +5,7 @@
 
 namespace weft {
 
-/// The point of a cloth that a contact is about: sum of weights[i] * at(samples[i]).
+/// The point of a cloth that a contact constrains: sum of weights[i] * at(samples[i]).
 inline Vec3d point_of(const Contact& contact, const Planes3& planes) {
   Vec3d point;
   for (std::size_t i = 0; i < contact.samples.size(); ++i)
@@ -14,17 +14,17 @@ inline Vec3d point_of(const Contact& contact, const Planes3& planes) {
   return point;
 }
 
-/// How far that point is beyond the half-space, negative before it. [m]
+/// The depth by which that point violates the contact, negative where it does not. [m]
 inline double depth_of(const Contact& contact, const Planes3& planes) {
   return double{contact.offset} - dot(vec_cast<double>(contact.normal), point_of(contact, planes));
 }
 
-/// What is inside something when a step begins, having been put or pressed there, leaves at this
-/// speed at most, lest it be shot out. [m/s]
+/// Maximum speed at which a point that penetrates at the start of a step is pushed out, so that it
+/// is not ejected. [m/s]
 inline constexpr double max_exit_speed = 0.5;
 
-/// The offset that a step may bring about, in which nothing that was beyond the half-space when the
-/// step began is pushed out of it by more than `farthest`.
+/// The contact's offset, reduced where the point penetrates at the start of the step, so that it is
+/// pushed out by at most `farthest`. [m]
 inline double attainable_offset(const Contact& contact, const Planes3& start, double farthest) {
   const double before =
       depth_of(contact, start) - double{dot(contact.normal, contact.surface_displacement)};

@@ -30,7 +30,7 @@ void ContactUses::finish() {
     samples_.push_back(sample);
   }
   uses_.resize(added_.size());
-  // Each start serves as the place of the next use, and ends up where its neighbour began.
+  // Each start serves as the index of the next use, and ends at the start of its neighbour.
   for (const Added& added : added_) uses_[starts_[index_[added.sample]]++] = added.use;
   std::copy_backward(starts_.begin(), starts_.end() - 1, starts_.end());
   starts_[0] = 0;

@@ -5,9 +5,9 @@
 
 namespace weft {
 
-/// Which contacts use each sample of a cloth, so that what contacts do to samples is gathered in a
-/// fixed order. Filled anew for every set of contacts; nothing allocates once warmed up. The time
-/// to fill grows with the uses, and by little with the samples between the first and the last used.
+/// The contacts that use each sample of a cloth, for gathering their contributions in a fixed
+/// order. Refilled for every set of contacts, without allocation once warmed up. Filling is linear
+/// in the number of uses, plus a cheap scan from the first to the last used sample.
 class ContactUses {
  public:
   struct Use {
@@ -15,7 +15,7 @@ class ContactUses {
     float weight = 0;
   };
 
-  /// @param samples  how many there are
+  /// @param samples  of the cloth
   explicit ContactUses(int samples);
 
   // clear, add any number of times, finish; then the rest.
@@ -23,13 +23,13 @@ class ContactUses {
   void add(int sample, Use use);
   void finish();
 
-  /// Those with uses, ascending.
+  /// The samples with uses, ascending.
   [[nodiscard]] std::span<const int> samples() const { return samples_; }
-  /// Of samples()[index], in the order in which they were added.
+  /// The uses of samples()[index], in the order in which they were added.
   [[nodiscard]] std::span<const Use> of(int index) const {
     return std::span(uses_).subspan(starts_[index], starts_[index + 1] - starts_[index]);
   }
-  /// Where a used sample is among samples().
+  /// The index of a used sample in samples().
   [[nodiscard]] int index_of(int sample) const { return index_[sample]; }
 
  private:
@@ -38,7 +38,7 @@ class ContactUses {
     Use use;
   };
   std::vector<Added> added_;
-  std::vector<int> index_;  // [samples] while adding how often it is used; 0 where never
+  std::vector<int> index_;  // [samples] while adding: number of uses; then: index in samples_
   std::vector<int> samples_, starts_{0};
   std::vector<Use> uses_;
   int least_ = 0, most_ = -1;  // of the samples added

@@ -5,13 +5,13 @@
 
 namespace weft {
 
-/// Disjoint sets of the numbers 0 .. count - 1 that grow together (union-find), with a parity of
-/// each member against its set's root, for those who need one. The root is the least member.
+/// Disjoint sets of the numbers 0 .. count - 1 (union-find), with an optional parity of each member
+/// relative to its set's root. The root is the smallest member.
 class DisjointSets {
  public:
   DisjointSets() = default;
   explicit DisjointSets(int count) { reset(count); }
-  /// Each alone. Allocates only where more are wanted than ever before.
+  /// Makes each number a set of its own. Allocates only for a larger count than ever before.
   void reset(int count) {
     links_.resize(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) links_[i] = {i, 0};
@@ -24,15 +24,15 @@ class DisjointSets {
     }
     return i;
   }
-  /// Of a member against its root: 0 or 1.
+  /// The parity of a member relative to its root: 0 or 1.
   int parity(int i) {
     const int top = root(i);
     int sum = 0;
     for (; i != top; i = links_[i].parent) sum ^= links_[i].parity;
     return sum;
   }
-  /// Joins the sets of two members. @param parity  of one against the other
-  /// @return whether that agrees with what was joined before
+  /// Joins the sets of two members. @param parity  of one relative to the other
+  /// @return whether that is consistent with earlier joins
   bool join(int a, int b, int parity = 0) {
     const int first = root(a), second = root(b);
     const int between = this->parity(a) ^ this->parity(b) ^ parity;
@@ -43,7 +43,7 @@ class DisjointSets {
 
  private:
   struct Link {
-    int parent, parity;  // towards the root, and against the parent
+    int parent, parity;  // towards the root, and relative to the parent
   };
   std::vector<Link> links_;
 };

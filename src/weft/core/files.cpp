@@ -59,7 +59,7 @@ WantedFolder::WantedFolder(const fs::path& path) {
 }
 
 WantedFolder::~WantedFolder() {
-  std::error_code ignored;  // not empty
+  std::error_code ignored;  // folders that are not empty stay
   for (const fs::path& path : made_) fs::remove(path, ignored);
 }
 
@@ -109,7 +109,7 @@ void NewFile::commit() {
 
 FolderLock::FolderLock(const fs::path& folder)
     : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  // File systems that know no locks do not stop the work.
+  // A file system without locks is no reason to fail.
   if (handle_ < 0 || ::flock(handle_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(handle_);
   throw OutputError(folder.string(), "another weft is writing there",

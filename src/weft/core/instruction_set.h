@@ -4,7 +4,7 @@
 
 namespace weft {
 
-/// What was compiled for a set, of what was compiled for each.
+/// The variant for an instruction set, of variants compiled for each.
 template <class T>
 const T& choose(InstructionSet set, const T& baseline, const T& avx2, const T& avx512) {
   if (set == InstructionSet::avx512) return avx512;

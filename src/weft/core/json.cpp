@@ -28,8 +28,8 @@ int line_of(std::string_view text, std::size_t byte) {
   return 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
 }
 
-/// Where the nesting first exceeds `deepest`; npos when it never does. Before the parser sees the
-/// text, which grows with every level.
+/// The position where the nesting first exceeds `deepest`; npos when it never does. Checked before
+/// parsing, since the parser's memory grows with every level.
 std::size_t too_deep_at(std::string_view text, int deepest) {
   int depth = 0;
   bool in_text = false;
@@ -44,7 +44,7 @@ std::size_t too_deep_at(std::string_view text, int deepest) {
   return text.npos;
 }
 
-/// A text that tells how far it was read, also where the parser does not: at keys.
+/// Input iterator that records how far the text was read, since the parser does not tell at keys.
 class ReadAlong {
  public:
   // The names that the standard asks for. NOLINTBEGIN(readability-identifier-naming)
@@ -68,7 +68,7 @@ class ReadAlong {
   const char** furthest_;
 };
 
-/// As the library's own, which keeps the last of several values of a key without a word.
+/// Parses JSON and refuses repeated keys, of which the JSON library silently keeps the last.
 Json parse_with_keys_once(std::string_view text) {
   const char* at = text.data();
   std::vector<std::set<std::string>> keys;  // of the objects that are open

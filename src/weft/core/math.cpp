@@ -5,8 +5,8 @@
 namespace weft {
 namespace {
 
-// pi/2 in three parts of 33 bits and a rest, so that k * part is exact for |k| < 2^20 (Cody &
-// Waite).
+// pi/2 as two parts of 33 bits and a rest, so that k * part is exact for the first two and
+// |k| < 2^20 (Cody & Waite).
 constexpr double half_pi_1 = 0x1.921fb54400000p+0;
 constexpr double half_pi_2 = 0x1.0b4611a600000p-34;
 constexpr double half_pi_3 = 0x1.3198a2e037073p-69;
@@ -28,7 +28,7 @@ double cosine_series(double t) {
 
 struct Reduced {
   double angle;  // in [-pi/4, pi/4]
-  int quarter;   // how many quarter turns were taken away, modulo 4
+  int quarter;   // quarter turns subtracted, modulo 4
 };
 
 Reduced reduce(double angle) {

@@ -14,12 +14,12 @@ inline std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// How many letters must be put in, taken out or replaced to turn one word into the other
-/// (Levenshtein 1966).
+/// Number of letters to insert, delete or replace to turn one word into the other (Levenshtein
+/// 1966).
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate with the least edit distance to `name`, the first of several; empty when there is
-/// no candidate. For errors that say what was probably meant.
+/// The candidate with the smallest edit distance to `name`, the first of several; empty when there
+/// is no candidate. For errors that suggest what was meant.
 std::string nearest_name(std::string_view name, const std::vector<std::string_view>& candidates);
 
 }  // namespace weft

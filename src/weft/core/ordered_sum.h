@@ -31,8 +31,8 @@ class RowSums {
   template <class RowSum>
   double sum(Worker& worker, const RowSum& row_sum) {
     if (worker.alone()) return lone_sum(row_sum);
-    // Two sets of slots in turn, so that one barrier a sum is enough. Each worker counts for
-    // itself.
+    // Two sets of slots alternate, so that one barrier a sum is enough. Each worker has its own
+    // counter.
     std::vector<double>& slots = slots_[turn_of(worker)];
     const int rows = static_cast<int>(slots.size());
     const Range mine = worker.share(rows);
@@ -44,7 +44,8 @@ class RowSums {
   }
 
  private:
-  /// In the same order. Turns stay as they are, lest they differ between workers afterwards.
+  /// The sum by a lone worker, in the same order. The alternation counters stay as they are, so
+  /// that they remain equal among workers.
   template <class RowSum>
   double lone_sum(const RowSum& row_sum) const {
     double total = 0;

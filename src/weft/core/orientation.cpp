@@ -12,12 +12,12 @@ namespace weft {
 namespace {
 
 using boost::multiprecision::cpp_int;
-/// Whole numbers in a fixed room on the stack: far faster than ones that grow.
+/// Integers of fixed size on the stack: far faster than growing ones.
 using FixedInt = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
     512, 512, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
 
 constexpr double epsilon = 0x1p-53;
-/// Below it products may have lost digits by underflow, of which the error bounds know nothing.
+/// Below this value products may have lost digits by underflow, which the error bounds ignore.
 constexpr double min_trusted = 1e-200;
 
 int sign_of(double value) { return (value > 0) - (value < 0); }
@@ -33,8 +33,8 @@ struct Scaled {
   }
 };
 
-/// The sign of the determinant of the differences of points to the last one, in whole numbers: all
-/// coordinates as multiples of the least power of two among them.
+/// The sign of the determinant of the differences of points to the last one, in integer arithmetic:
+/// coordinates are multiples of the smallest power of two among them.
 template <class Int, std::size_t Dimension>
 int sign_in(const std::array<std::array<Scaled, Dimension>, Dimension + 1>& points, int least) {
   std::array<std::array<Int, Dimension>, Dimension + 1> whole;
@@ -76,7 +76,8 @@ int exact_sign(const std::array<std::array<Scaled, Dimension>, Dimension + 1>& p
 std::array<Scaled, 2> scaled(Vec2d p) { return {Scaled(p.x), Scaled(p.y)}; }
 std::array<Scaled, 3> scaled(Vec3d p) { return {Scaled(p.x), Scaled(p.y), Scaled(p.z)}; }
 
-/// Cases that meshes are full of: two equal points, or four in a plane across a coordinate axis.
+/// Coplanar cases that are frequent in meshes: two equal points, or four points in a plane
+/// perpendicular to a coordinate axis.
 bool plainly_flat(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
   if (a == b || a == c || a == d || b == c || b == d || c == d) return true;
   const auto level = [&](double Vec3d::*axis) {

@@ -7,9 +7,9 @@ namespace weft {
 /// Wall-clock time, for reports.
 class Stopwatch {
  public:
-  /// Since it was made [s].
+  /// Time since construction [s].
   [[nodiscard]] double seconds() const { return between(start_, Clock::now()); }
-  /// Since the last lap, or since it was made [s].
+  /// Time since the last lap, or since construction [s].
   double lap() {
     const Clock::time_point now = Clock::now(), before = last_;
     last_ = now;

@@ -9,9 +9,10 @@ namespace weft {
 namespace {
 
 constexpr int spins_before_yield = 2000;
-/// In one region, below which nothing is said about the machine. [s]
+/// Waiting time in a region below which the machine does not count as crowded. [s]
 constexpr double min_loss = 2e-4;
-/// Regions that the caller runs alone after a crowded one: more each time, fewer after others.
+/// Bounds of the number of regions that the caller runs alone after a crowded one: it doubles with
+/// each crowded region and halves with each parallel one that is not.
 constexpr int min_alone = 32, max_alone = 1024;
 
 using Clock = std::chrono::steady_clock;

@@ -23,20 +23,20 @@ class ThreadTeam;
 /// One member of a team inside a parallel region.
 class Worker {
  public:
-  /// Who works on something that is no other's, also inside a team's region.
+  /// A worker without a team, for work that is not shared, also inside a team's region.
   static Worker lone() { return {}; }
-  /// The part of 0 .. count - 1 that is this worker's: contiguous, fixed by rank and team size.
-  /// What is computed must not depend on it, so that any team gives the same bits.
+  /// This worker's part of 0 .. count - 1: contiguous, fixed by rank and team size. Results must
+  /// not depend on it, so that any team gives the same bits.
   [[nodiscard]] Range share(int count) const {
     const auto part = [&](int r) { return static_cast<int>(std::int64_t{count} * r / size_); };
     return {part(rank_), part(rank_ + 1)};
   }
   [[nodiscard]] int rank() const { return rank_; }
-  /// How many work on this region, which a team may decide anew for each.
+  /// Number of workers in this region; it may differ between regions.
   [[nodiscard]] int size() const { return size_; }
-  /// Whether nobody else works on this region, which a team may decide anew for each.
+  /// Whether this is the only worker in this region.
   [[nodiscard]] bool alone() const { return size_ == 1; }
-  /// Waits until every worker of the team is here.
+  /// Waits until every worker of the region has reached the barrier.
   void barrier();
 
  private:
@@ -51,9 +51,9 @@ class Worker {
 /// inside one region. `run` allocates nothing. The caller is worker 0, so a team of one starts no
 /// thread.
 ///
-/// Where other programs want the same processors, each barrier may wait for a worker that is not
-/// running. A region that lost most of its time so is followed by some that the caller runs alone;
-/// since no result depends on the team, nobody notices but the clock.
+/// On a crowded machine a barrier may wait for a worker that is not running. After a region that
+/// lost most of its time this way the caller runs some regions alone. Results do not depend on the
+/// team, so only the time differs.
 class ThreadTeam {
  public:
   explicit ThreadTeam(const TeamOptions& options);
@@ -94,10 +94,10 @@ class ThreadTeam {
   std::atomic<int> arrived_{0};
   std::atomic<std::uint64_t> phase_{0};
   std::vector<std::thread> threads_;
-  // Of the caller alone.
-  double lost_seconds_ = 0;  // waiting in this region beyond what spinning covers
+  // Used by the caller alone.
+  double lost_seconds_ = 0;  // waiting time in this region after spinning
   int alone_ = 0;            // regions yet to be run by the caller alone
-  int next_alone_ = 0;       // how many the next crowded region costs
+  int next_alone_ = 0;       // doubled by a crowded region, which sets alone_ to it; else halved
 };
 
 inline void Worker::barrier() {

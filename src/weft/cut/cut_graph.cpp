@@ -93,7 +93,7 @@ void CutGraph::extend(std::vector<int>& path) const {
 std::vector<int> CutGraph::path_through(int half_edge) const {
   std::vector<int> path{surface_.twin(half_edge)};
   extend(path);
-  // Turned round, it ends with the given half-edge and can grow at its other end.
+  // Reversed, the path ends with the given half-edge and can be extended at its other end.
   std::reverse(path.begin(), path.end());
   for (int& h : path) h = surface_.twin(h);
   if (surface_.to(path.back()) != surface_.from(path.front())) extend(path);

@@ -14,10 +14,10 @@ namespace weft {
 
 namespace {
 
-/// Fewer border vertices than this would give two edges of the disk the same ends.
+/// With fewer border vertices, two edges of the disk would have the same ends.
 constexpr int min_border = 3;
 
-/// The open half-edges in the order of the border, beginning at a node where there is one.
+/// The open half-edges in border order, starting at a node if there is one.
 std::vector<int> walk_border(const CutGraph& graph) {
   const CutSurface& surface = graph.surface();
   int start = -1;
@@ -38,8 +38,9 @@ std::vector<int> walk_border(const CutGraph& graph) {
   return border;
 }
 
-/// Gives every corner its disk vertex: corners of one surface vertex share one unless an open edge
-/// parts them. A surface vertex's first is itself, further ones come after all surface vertices.
+/// Numbers the disk vertices. Open edges divide the corners around a surface vertex into wedges;
+/// each wedge is one disk vertex. The first wedge keeps the index of the surface vertex, further
+/// ones follow after all surface vertices.
 class WedgeNumbers {
  public:
   explicit WedgeNumbers(const CutGraph& graph)
@@ -114,7 +115,7 @@ DiskMesh opened_mesh(const CutGraph& graph, const std::vector<int>& border) {
   return disk;
 }
 
-/// [3F] the border loop of the surface that a half-edge lies on, -1 inside.
+/// [3F] the border loop of a border half-edge, -1 for interior ones.
 std::vector<int> loops_of_half_edges(const CutSurface& surface) {
   std::vector<int> loop_of_vertex(surface.vertex_count(), -1);
   const auto loops = border_loops(surface.mesh().triangles, surface.edges());

@@ -11,8 +11,8 @@
 
 namespace weft {
 
-/// A mesh with its half-edges and edge lengths: what every step of cutting reads. Keeps a reference
-/// to the mesh, which must outlive it.
+/// A mesh with its half-edges and edge lengths: the input of every step of cutting. Keeps a
+/// reference to the mesh, which must outlive it.
 class CutSurface {
  public:
   /// @pre repaired mesh. @throws TopologyError as half_edges
@@ -27,18 +27,19 @@ class CutSurface {
   [[nodiscard]] int from(int half_edge) const { return from_vertex(mesh_.triangles, half_edge); }
   [[nodiscard]] int to(int half_edge) const { return to_vertex(mesh_.triangles, half_edge); }
   [[nodiscard]] double length(int half_edge) const { return length_[half_edge]; }
-  /// The end of the half-edge's edge that is not `vertex`.
+  /// The end of the half-edge other than `vertex`.
   [[nodiscard]] int other_end(int half_edge, int vertex) const {
     return from(half_edge) == vertex ? to(half_edge) : from(half_edge);
   }
-  /// One name for both half-edges of an edge: the smaller index.
+  /// Index of an edge, the same for both its half-edges: the smaller of the two.
   [[nodiscard]] int edge_name(int half_edge) const {
     const int other = twin(half_edge);
     return other >= 0 && other < half_edge ? other : half_edge;
   }
 
-  /// Calls visit(half_edge) once for every edge at a vertex, in turning order: with the half-edge
-  /// that leaves the vertex, or, for the one border edge that has none, with the one that arrives.
+  /// Calls visit(half_edge) once for every edge at a vertex, counter-clockwise: with the half-edge
+  /// that leaves the vertex, or, for the one border edge without such a half-edge, with the one
+  /// that arrives.
   template <class Visit>
   void for_each_edge(int vertex, const Visit& visit) const {
     const int start = edges_.outgoing[vertex];
@@ -57,20 +58,20 @@ class CutSurface {
   std::vector<double> length_;  // [3F]
 };
 
-/// A length and a vertex or half-edge: ordered by length, then index, so that ties have one
-/// outcome.
+/// A length and a vertex or half-edge, ordered by length, then index, so that ties are resolved the
+/// same way every time.
 using Reach = std::pair<double, int>;
-/// The nearest reach on top.
+/// Priority queue with the shortest length on top.
 using ReachQueue = std::priority_queue<Reach, std::vector<Reach>, std::greater<>>;
 
 /// Shortest paths along edges from a set of vertices.
 struct PathTree {
   std::vector<double> distance;  ///< [V] [m], HUGE_VAL where not reached
-  std::vector<int> arrival;  ///< [V] a half-edge of the edge that a vertex was reached by, or -1
-  int end = -1;              ///< the vertex at which the search stopped, -1: it ran over all
+  std::vector<int> arrival;  ///< [V] a half-edge of the last edge on the path to a vertex, or -1
+  int end = -1;  ///< the vertex at which the search stopped; -1: no vertex met the condition
 };
 
-/// Dijkstra's search; ends at the first settled vertex for which stop(vertex) holds.
+/// Dijkstra's search along edges; ends at the first settled vertex for which stop(vertex) holds.
 template <class Stop>
 PathTree search_paths(const CutSurface& surface, std::span<const int> sources, const Stop& stop) {
   PathTree tree;
@@ -104,12 +105,12 @@ PathTree search_paths(const CutSurface& surface, std::span<const int> sources, c
 /// Shortest paths to all vertices.
 PathTree paths_from(const CutSurface& surface, std::span<const int> sources);
 
-/// The half-edges of the tree's path that ends at `vertex`, from there back to a source; either
-/// half-edge of an edge may stand for it.
+/// The half-edges of the tree's path to `vertex`, from there back to a source. Each edge is given
+/// by either of its half-edges.
 std::vector<int> path_to(const CutSurface& surface, const PathTree& tree, int vertex);
 
-/// The shortest path between two vertices that are far apart: from `start` to the farthest vertex,
-/// from there to its farthest, as long as the distance grows.
+/// The shortest path between two vertices far apart, an approximate diameter: the search goes from
+/// `start` to the farthest vertex and repeats from there as long as the distance grows.
 std::vector<int> far_path(const CutSurface& surface, int start);
 
 }  // namespace weft

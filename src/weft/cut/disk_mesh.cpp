@@ -18,13 +18,13 @@ namespace {
 
 int border_size(const CutDisk& cut) { return static_cast<int>(cut.disk.border.size()); }
 
-/// How many edges after the path's first the border edge comes.
+/// Offset of a border edge from the first edge of a path, in edges along the border.
 int place_in_path(const CutDisk& cut, int path, int border_index) {
   const int offset = border_index - cut.paths[path].first;
   return offset < 0 ? offset + border_size(cut) : offset;
 }
 
-/// Splits the triangle that has the half-edge a -> b at the vertex m between them.
+/// Splits the triangle with the half-edge a -> b at a vertex m on that edge.
 void split_triangle(DiskMesh& disk, int a, int b, int m) {
   for (std::size_t i = 0; i < disk.triangles.size(); ++i)
     for (int k = 0; k < 3; ++k) {
@@ -39,13 +39,13 @@ void split_triangle(DiskMesh& disk, int a, int b, int m) {
   WEFT_ASSERT(false && "a border edge has a triangle");
 }
 
-/// A surface point that both mates of an edge get.
+/// The surface point shared by the two vertices that split an edge and its mate.
 struct SplitPoint {
   Vec3d position;
   int surface_vertex;
 };
 
-/// Puts a vertex into one border edge, its mate left alone.
+/// Splits one border edge; its mate is not changed.
 void insert_vertex(CutDisk& cut, int border_index, double fraction, SplitPoint point) {
   const int path = path_of_border_edge(cut, border_index);
   DiskMesh& disk = cut.disk;

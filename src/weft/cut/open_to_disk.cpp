@@ -13,7 +13,8 @@
 namespace weft {
 namespace {
 
-/// Another seed gains a few percent at best, so large meshes, on which it takes long, get fewer.
+/// A further seed shortens the cut by a few percent at best, so large meshes, where it is slow, get
+/// fewer.
 constexpr int max_seeds = 4;
 constexpr int triangles_for_all_seeds = 80000;
 
@@ -33,7 +34,7 @@ CutGraph open_from(const CutGraph& held, int seed_triangle, bool straightened) {
   return graph;
 }
 
-/// The shortest of the cuts from a few seeds; of equal ones the first.
+/// The shortest of the cuts from a few seeds; the first of equal ones.
 Cut shortest_cut(const CutGraph& held, bool straightened) {
   const CutSurface& surface = held.surface();
   std::optional<Cut> best;

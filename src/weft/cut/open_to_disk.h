@@ -10,32 +10,32 @@ namespace weft {
 
 class CutGraph;
 
-/// Cut edges of a mesh; opening the mesh along them (its border edges are cut anyway) leaves a
-/// disk. Sorted pairs of vertices (a < b), interior edges only, each once, in ascending order.
+/// Cut edges of a mesh: opened along them and along its border edges, the mesh is a disk. Sorted
+/// pairs of vertices (a < b), interior edges only, each once, in ascending order.
 struct Cut {
   std::vector<std::array<int, 2>> edges;
 };
 
 struct CutOptions {
-  int seed_triangle =
-      -1;  ///< where the removal of phase one begins; -1: try a few, keep the shortest cut
-  bool straighten = true;  ///< shorten every path between its nodes
+  int seed_triangle = -1;  ///< start of the triangle removal; -1: try a few, keep the shortest cut
+  bool straighten = true;  ///< shorten every path of the cut
 };
 
-/// Stage 3: the edges to open a mesh along [gu02, section 3.1]: removal of triangles in order of
-/// geodesic distance from a seed, pruning, then straightening. A closed sphere gets a path between
-/// a far pair of vertices; a disk gets no edge.
+/// Stage 3: the cut that opens a mesh to a disk [gu02, section 3.1], by removal of triangles in
+/// order of geodesic distance from a seed, pruning, then straightening. The cut of a closed sphere
+/// is a path between two vertices far apart; a disk has an empty cut.
 /// @pre repaired mesh (weft/repair.h). Deterministic.
 /// @throws TopologyError when the seed triangle does not exist
 Cut open_to_disk(const TriangleMesh& mesh, const CutOptions& options = {});
 
-/// The same for a surface of which some edges are open already; those stay.
+/// Completes the open edges of a surface to a cut that opens it to a disk, as open_to_disk. The
+/// edges already open stay open.
 /// @pre the open edges leave the surface in one piece
 /// @throws TopologyError when the seed triangle does not exist
 Cut complete_cut(const CutGraph& held, const CutOptions& options = {});
 
-/// Joins more vertices to a cut by shortest paths, keeping a disk (stage 4). A vertex already on
-/// the cut or the border changes nothing.
+/// Extends a cut by the shortest path from a vertex to it; the opened mesh stays a disk (stage 4).
+/// A vertex already on the cut or the border changes nothing.
 Cut extend_cut(const TriangleMesh& mesh, const Cut& cut, int vertex);
 
 /// The mesh opened along the cut, its border divided into paths.

@@ -43,7 +43,7 @@ namespace {
 
 using HalfEdgePath = std::vector<int>;
 
-/// Finds the edges of a seam's paths.
+/// Finds the half-edges along a seam's paths.
 class SeamFinder {
  public:
   SeamFinder(const CutSurface& surface, std::span<const int> source_vertex, const Seam& seam)
@@ -72,7 +72,7 @@ class SeamFinder {
   }
 
  private:
-  /// The mesh's vertices that are one of the seam's: several where repair split it.
+  /// The mesh's vertices with the number of the path's i-th vertex: several where repair split it.
   [[nodiscard]] const std::vector<int>& vertices_of(const SeamPath& path, std::size_t i) const {
     const auto number = static_cast<std::size_t>(path.vertices[i]);
     if (number >= copies_.size() || copies_[number].empty())
@@ -85,7 +85,7 @@ class SeamFinder {
 
   [[nodiscard]] HalfEdgePath join(const std::vector<int>& from, const std::vector<int>& to) const {
     const auto is_goal = [&](int v) { return std::find(to.begin(), to.end(), v) != to.end(); };
-    // An edge is taken though a way around may be as short.
+    // A shared edge is preferred to a path of several edges, which may be as short.
     int edge = -1;
     for (const int v : from)
       surface_.for_each_edge(v, [&](int h) {
@@ -98,14 +98,14 @@ class SeamFinder {
 
   const CutSurface& surface_;
   const Seam& seam_;
-  std::vector<std::vector<int>> copies_;  // by the seam's number
+  std::vector<std::vector<int>> copies_;  // vertices of the mesh by their number in the seam's file
 };
 
 void open_path(CutGraph& graph, const HalfEdgePath& path) {
   for (const int h : path) graph.add(h);
 }
 
-/// Names the first path after which the surface is in pieces.
+/// Throws for the first path that leaves the surface in several pieces.
 void refuse_subdivisions(const CutSurface& surface, const SeamFinder& finder, const Seam& seam) {
   CutGraph graph(surface);
   for (const SeamPath& path : seam.paths) {

@@ -15,8 +15,7 @@ double path_length(const CutSurface& surface, std::span<const int> path) {
   return total;
 }
 
-/// Finds the shortest way between the two borders of an annulus, which are those of the surface
-/// opened along a graph.
+/// Finds the shortest path between two borders of the surface opened along a graph, an annulus.
 class AnnulusSearch {
  public:
   explicit AnnulusSearch(const CutGraph& graph)
@@ -26,8 +25,8 @@ class AnnulusSearch {
         distance_(surface_.vertex_count(), HUGE_VAL),
         arrival_(surface_.vertex_count(), -1) {}
 
-  /// Half-edges from the border through `start` to the border through `end`, both open half-edges;
-  /// empty when these are one border.
+  /// The half-edges of the shortest path between the border through `start` and the border through
+  /// `end`, both open half-edges; empty when these are one border.
   std::vector<int> shortest(int start, int end) {
     std::vector<int> leaving = mark(start, 1);
     std::vector<int> path;
@@ -47,8 +46,7 @@ class AnnulusSearch {
   }
 
  private:
-  /// Marks the half-edges that leave the border's vertices into its side of the surface, and the
-  /// border's own.
+  /// Marks the border's half-edges and those that leave its vertices into the surface.
   std::vector<int> mark(int start, char side) {
     std::vector<int> marked;
     int h = start;
@@ -65,7 +63,8 @@ class AnnulusSearch {
     for (const int h : marked) side_[h] = 0;
   }
 
-  /// Dijkstra's search over the vertices that no open edge touches.
+  /// Dijkstra's search from the half-edges `leaving` over vertices off the open edges, to the
+  /// border marked `goal`.
   std::vector<int> search(std::span<const int> leaving, char goal) {
     best_ = HUGE_VAL;
     best_last_ = -1;
@@ -114,7 +113,7 @@ class AnnulusSearch {
 
   const CutGraph& graph_;
   const CutSurface& surface_;
-  std::vector<char> side_;  // [3F] of the wedge that a half-edge leaves into: 0 unknown
+  std::vector<char> side_;  // [3F] border (1 or 2) that a half-edge leaves or follows; 0: none
   std::vector<double> distance_;
   std::vector<int> arrival_, touched_;
   ReachQueue queue_;
@@ -122,7 +121,8 @@ class AnnulusSearch {
   int best_last_ = -1;
 };
 
-/// Makes paths shorter one after the other; remembers those that cannot be until another changes.
+/// Shortens paths one after the other. A path that could not be shortened is skipped until another
+/// path has changed.
 class Straightener {
  public:
   explicit Straightener(CutGraph& graph)
@@ -131,7 +131,7 @@ class Straightener {
   /// Replaces the path through an open edge by a shorter one. @return the length gained [m]
   double shorten(int half_edge) {
     const CutSurface& surface = graph_.surface();
-    // A search over again would find the same.
+    // Nothing has changed since the last search here.
     if (tried_at_[surface.edge_name(half_edge)] == changes_) return 0;
     const std::vector<int> path = graph_.path_through(half_edge);
     for (const int h : path) graph_.remove(h);
@@ -152,11 +152,11 @@ class Straightener {
  private:
   CutGraph& graph_;
   AnnulusSearch search_;
-  std::vector<int> tried_at_;  // [3F] by edge name: what changes_ was, -1 never
+  std::vector<int> tried_at_;  // [3F] by edge name: changes_ at the last search, -1: none
   int changes_ = 0;
 };
 
-/// An edge in the middle of every path, longest path first.
+/// The middle edge of every path that is not held, longest path first.
 std::vector<int> representatives(const CutGraph& graph) {
   std::vector<Reach> ranked;
   for (const std::vector<int>& path : graph.paths())

@@ -85,7 +85,7 @@ BorderMates::BorderMates(int size, std::vector<MateInterval> intervals)
     for (int k = 0; k <= interval.count; ++k)
       classes.join((interval.first + k) % around, (interval.mate + around - k) % around);
   }
-  // Of each class its least sample, which need not lie at its least position.
+  // The smallest sample of each class, which need not be at its smallest border position.
   std::vector<int> least(static_cast<std::size_t>(around), size * size);
   for (int t = 0; t < around; ++t) {
     int& sample = least[classes.root(t)];

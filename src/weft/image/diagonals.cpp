@@ -16,10 +16,9 @@ Diagonal shorter(const GeometryImage& image, int row, int col) {
 }
 
 // Sets the diagonals of the quads along the border, where joined mates could give two edges the
-// same ends. With paths laid out as they are (weft/param/border_layout.h), that is possible in
-// these places: the two quads at the tip of a cut (a leaf: its neighbours on both sides are mates),
-// and the quads around a corner of the square, whose inner sample is next to border samples of two
-// sides.
+// same ends. With the layout of weft/param/border_layout.h this is possible at two places: the two
+// quads at the tip of a cut (a leaf: its neighbours on both sides are mates), and the quads around
+// a corner of the square, whose inner sample is adjacent to border samples of two sides.
 class BorderDiagonals {
  public:
   BorderDiagonals(const GeometryImage& image, Grid<Diagonal>& diagonals)
@@ -69,7 +68,7 @@ class BorderDiagonals {
     const bool ends = along == side_ - 2;  // next to the corner t + 2
     if (is_leaf(t)) return split(t, t);
     if (is_leaf(t + 1)) return split(t, t + 1);
-    // The corner's inner sample is next to t - 2 already and may become so to t - 3.
+    // The corner's inner sample is adjacent to t - 2 already, and may become adjacent to t - 3.
     if (starts && (point(t + 1) == point(t - 2) || point(t + 1) == point(t - 3)))
       return split(t, t);
     if (ends && point(t) == point(t + 3)) return split(t, t + 1);

@@ -19,19 +19,19 @@ inline bool overlap(const Box3d& a, const Box3d& b) {
          b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
-/// A binary tree of boxes over triangles, halved along the longest side of their centres' box. The
-/// left child of a node is the next node.
+/// A bounding volume hierarchy of boxes over triangles: a binary tree, split at the median along
+/// the longest side of the box of their centres. The left child of a node is the next node.
 struct BoxTree {
   struct Node {
     Box3d box;
     int right = -1;           ///< -1 in a leaf
-    int first = 0, last = 0;  ///< the run of places below it
+    int first = 0, last = 0;  ///< the range of places below it
   };
   std::vector<Node> nodes;       ///< depth at most log2(F) + 1; none without triangles
   std::vector<int> triangle_at;  ///< [F] from place in the tree to triangle
 
   explicit BoxTree(std::span<const Corners> triangles);
-  /// Fits the boxes to triangles that have moved; what is below what stays. Allocates nothing.
+  /// Refits the boxes to triangles that have moved; the hierarchy stays. Allocates nothing.
   void fit_boxes(std::span<const Corners> triangles) noexcept;
 
  private:

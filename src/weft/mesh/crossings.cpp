@@ -10,7 +10,7 @@ namespace {
 
 using Signs = std::array<int, 3>;
 
-/// On which side of the plane of `t` the corners lie.
+/// The sides of the plane of `t` on which the corners lie.
 Signs sides(const Corners& t, const Corners& corners) {
   const auto side = [&](Vec3d p) {
     return p == t[0] || p == t[1] || p == t[2] ? 0 : orientation(t[0], t[1], t[2], p);
@@ -23,7 +23,7 @@ bool on_both_sides(const Signs& s) {
   return least < 0 && largest > 0;
 }
 
-/// Turns the corners so that the first is the only one on its side of the other triangle's plane.
+/// Rotates the corners so that the first is the only one on its side of the other triangle's plane.
 /// @return that side
 int put_lone_first(Corners& triangle, const Signs& signs) {
   int k = 0;
@@ -37,7 +37,7 @@ Vec2d project(Vec3d p, int axis) {
   return axis == 1 ? Vec2d{p.z, p.x} : Vec2d{p.x, p.y};
 }
 
-/// A triangle of the plane, turning left.
+/// A counter-clockwise triangle in the plane.
 using FlatCorners = std::array<Vec2d, 3>;
 FlatCorners flatten(const Corners& t, int axis) {
   FlatCorners flat{project(t[0], axis), project(t[1], axis), project(t[2], axis)};
@@ -45,7 +45,7 @@ FlatCorners flatten(const Corners& t, int axis) {
   return flat;
 }
 
-/// The axis along which the triangle keeps its area; 3 when it has none.
+/// An axis along which the triangle's projection has an area; 3 when there is none.
 int axis_with_area(const Corners& t) {
   for (int axis = 0; axis < 3; ++axis)
     if (orientation(project(t[0], axis), project(t[1], axis), project(t[2], axis)) != 0)
@@ -53,7 +53,7 @@ int axis_with_area(const Corners& t) {
   return 3;
 }
 
-/// An edge of `a` has all of `b` to its right, or on it.
+/// Whether an edge of `a` has all of `b` to its right, or on it.
 bool edge_separates(const FlatCorners& a, const FlatCorners& b) {
   for (int k = 0; k < 3; ++k) {
     const auto outside = [&](Vec2d p) { return orientation(a[k], a[(k + 1) % 3], p) <= 0; };
@@ -69,17 +69,19 @@ bool overlap_in_plane(const Corners& a, const Corners& b) {
   return !edge_separates(p, q) && !edge_separates(q, p);
 }
 
-/// Both triangles lie on both sides of the other's plane: each meets the line of the two planes in
-/// an interval, and the edges that end the intervals tell their order along it.
+/// Whether the intervals overlap in which two triangles meet the line of their planes; their order
+/// follows from the edges that bound them. @pre each triangle has corners on both sides of the
+/// other's plane
 bool intervals_overlap(Corners a, const Signs& of_a, Corners b, const Signs& of_b) {
   const int side_of_a = put_lone_first(a, of_a), side_of_b = put_lone_first(b, of_b);
-  // Each triangle is turned over, if need be, so that the other's first corner lies above it.
+  // Each triangle is reversed, if need be, so that the other's first corner lies above it.
   if (side_of_a < 0) std::swap(b[1], b[2]);
   if (side_of_b < 0) std::swap(a[1], a[2]);
   return orientation(a[0], a[1], b[0], b[1]) < 0 && orientation(a[0], a[2], b[2], b[0]) < 0;
 }
 
-/// Walks pairs of nodes whose boxes meet down to pairs of triangles whose boxes meet.
+/// Visits the pairs of triangles that cross, by descending through pairs of nodes with overlapping
+/// boxes.
 class PairSearch {
  public:
   using Visit = std::function<void(int s, int t)>;

@@ -24,7 +24,7 @@ bool has_no_area(const Corners& triangle);
 void for_self_crossings(std::span<const Corners> surface,
                         const std::function<void(int s, int t)>& visit);
 
-/// A surface in a tree of boxes that is kept while it moves: its order stays, its boxes are fitted.
+/// A moving surface with a tree of boxes: its hierarchy stays, its boxes are refitted.
 class CrossingSurface {
  public:
   /// @pre finite corners, here and below

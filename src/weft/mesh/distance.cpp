@@ -19,11 +19,11 @@ Vec3d random_point(const TriangleMesh& mesh, int triangle, Random& random) {
          (s * t) * mesh.positions[c];
 }
 
-/// From samples to their closest points: squared distances, each worked out from its sample alone.
+/// Squared distances from samples to their closest points, each computed from its sample alone.
 std::vector<double> squared_distances(const std::vector<Vec3d>& samples,
                                       const ClosestPointQuery& query,
                                       const DistanceOptions& options) {
-  constexpr int block = 4096;  // between two words to whoever watches
+  constexpr int block = 4096;  // samples between two reports of progress
   const int count = static_cast<int>(samples.size());
   std::vector<double> squared(samples.size());
   ThreadTeam team(options.threads);
@@ -50,8 +50,8 @@ void append_corners(const TriangleMesh& mesh, std::vector<Vec3d>& points) {
     if (is_corner[v]) points.push_back(mesh.positions[v]);
 }
 
-/// The mean is over the area's samples; the largest distance looks at every vertex too, since tips
-/// have little area and lie far off.
+/// Distances from one surface to another: the mean over area samples, the maximum over every vertex
+/// too, since tips have little area and may lie far off.
 OneSidedDistance one_sided(const TriangleMesh& from, const TriangleMesh& to,
                            const DistanceOptions& options) {
   std::vector<Vec3d> points = sample_surface(from, options.samples, options.seed);

@@ -11,7 +11,7 @@
 
 namespace weft {
 
-/// Where on a mesh the closest point lies.
+/// The closest point on a mesh.
 struct ClosestPoint {
   Vec3d position;
   int triangle = -1;
@@ -26,7 +26,7 @@ class ClosestPointQuery {
   ClosestPointQuery(ClosestPointQuery&&) noexcept;
   ClosestPointQuery& operator=(ClosestPointQuery&&) noexcept;
   ~ClosestPointQuery();
-  /// Of several triangles equally close, the first.
+  /// The closest point; of several triangles equally close, the first one's.
   /// @param hint  a triangle that may be near, for speed: the answer does not depend on it
   [[nodiscard]] ClosestPoint closest(Vec3d point, int hint = 0) const;
 
@@ -51,9 +51,9 @@ struct DistanceOptions {
   int samples = 40000;  ///< area-uniform samples on each surface
   std::uint64_t seed = 1;
   int threads = 1;
-  Progress* progress = nullptr;  ///< told every few thousand samples
+  Progress* progress = nullptr;  ///< updated every few thousand samples
 };
-/// How far two surfaces are apart, by area-uniform samples and all vertices each way.
+/// Distances between two surfaces, in both directions, by area-uniform samples and all vertices.
 SurfaceDistance surface_distance(const TriangleMesh& a, const TriangleMesh& b,
                                  const DistanceOptions& options = {});
 

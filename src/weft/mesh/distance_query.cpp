@@ -62,7 +62,7 @@ void ClosestPointQuery::Tree::try_place(Vec3d point, int place, ClosestPoint& be
   const Vec3d position = closest_on_triangle(point, a, b, c);
   const double squared = squared_length(point - position);
   const int triangle = boxes.triangle_at[place];
-  // Of triangles equally far the first one wins, so that neither the tree nor a hint shows.
+  // Of triangles equally far the first one wins: the result depends on neither tree nor hint.
   if (squared < best.squared_distance ||
       (squared == best.squared_distance && triangle < best.triangle))
     best = {position, triangle, squared};

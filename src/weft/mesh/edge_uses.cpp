@@ -15,13 +15,13 @@ std::pair<int, int> ends(std::span<const Triangle> triangles, int half_edge) {
   return std::minmax(from_vertex(triangles, half_edge), to_vertex(triangles, half_edge));
 }
 
-/// A half-edge of the edges that have one lesser vertex.
+/// A half-edge in the bundle of all edges that share their smaller vertex.
 struct Use {
   int high = 0;  ///< the larger vertex
   int half_edge = 0;
 };
 
-/// By larger vertex, then half-edge. By insertion where that is quicker: around most vertices.
+/// Sorts by larger vertex, then half-edge; by insertion where that is faster: for few uses.
 void sort_bundle(std::span<Use> uses) {
   constexpr std::size_t few = 24;
   const auto before = [](const Use& a, const Use& b) {
@@ -43,7 +43,7 @@ void sort_bundle(std::span<Use> uses) {
 
 EdgeUses edge_uses(int vertex_count, std::span<const Triangle> triangles) {
   const int count = 3 * static_cast<int>(triangles.size());
-  // A counting sort by the lesser vertex leaves buckets of a handful for the comparison sort.
+  // A counting sort by the smaller vertex leaves small buckets for the comparison sort.
   std::vector<int> bucket(vertex_count + 1, 0);
   for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) ++bucket[std::min(t[k], t[(k + 1) % 3]) + 1];

@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// Every undirected edge with the half-edges (3 t + k, as in weft/mesh/topology.h) that run along
-/// it, of any mesh: nothing is asked of its manifoldness or orientation.
+/// Every undirected edge of a mesh with its half-edges (3 t + k, as in weft/mesh/topology.h). The
+/// mesh need be neither manifold nor oriented.
 struct EdgeUses {
   std::vector<int> half_edges;  ///< [3F] edge after edge, ascending inside one edge
   std::vector<int> first;       ///< [E+1] where each edge begins in half_edges
@@ -20,7 +20,7 @@ struct EdgeUses {
   }
 };
 
-/// Edges in ascending order of their lesser, then their larger vertex.
+/// The edges of a mesh in ascending order of their smaller, then their larger vertex.
 /// @pre indices in [0, vertex_count)
 EdgeUses edge_uses(int vertex_count, std::span<const Triangle> triangles);
 

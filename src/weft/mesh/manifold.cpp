@@ -14,12 +14,12 @@ namespace weft {
 
 namespace {
 
-/// How the triangles of one edge lie to each other before any is turned.
+/// Whether the two half-edges of an edge have the same direction, before any triangle is flipped.
 bool same_direction(std::span<const Triangle> triangles, std::span<const int> uses) {
   return from_vertex(triangles, uses[0]) == from_vertex(triangles, uses[1]);
 }
 
-/// Breadth-first walk over the triangles that decides which to turn over.
+/// Breadth-first walk over the triangles that decides which to flip.
 class Orienter {
  public:
   Orienter(std::span<const Triangle> triangles, const EdgeUses& edges)
@@ -31,7 +31,7 @@ class Orienter {
       for (const int h : edges.of(e)) edge_of_[h] = e;
   }
 
-  /// Whether each triangle is to be turned over. @return the edge that forbids it, or -1
+  /// Decides for each triangle whether to flip it. @return an edge where that is impossible, or -1
   int decide() {
     for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
       if (turned_[t] != unknown) continue;
@@ -56,7 +56,7 @@ class Orienter {
       }
     return -1;
   }
-  /// Decides the triangle across the edge, or compares with what was decided.
+  /// Decides on the triangle across the edge. @return false if it was decided otherwise before
   bool settle(int edge, int triangle) {
     const std::span<const int> uses = edges_.of(edge);
     const int other = uses[0] / 3 == triangle ? uses[1] / 3 : uses[0] / 3;

@@ -9,18 +9,19 @@
 
 namespace weft {
 
-/// Turns triangles over until all that share an edge run along it in opposite directions; the
-/// orientation that most triangles of each part have stays. @pre manifold edges
-/// @return how many were turned
+/// Flips triangles until neighbours run along their shared edge in opposite directions; the
+/// orientation of the majority in each component stays. @pre manifold edges
+/// @return how many were flipped
 /// @throws TopologyError naming an edge where that is impossible
 int orient_triangles(std::span<Triangle> triangles, const EdgeUses& edges,
                      std::string_view mesh_name);
 
-/// Gives every fan of triangles around a vertex its own copy of the vertex; copies come last.
+/// The result of split_fans, which gives every fan of triangles around a vertex its own copy of the
+/// vertex; copies come last.
 struct VertexSplit {
-  std::vector<int> source_vertex;  ///< [V] the vertex that each one was before
-  int split_vertices = 0;          ///< how many had more than one fan
-  int fans = 0;                    ///< that those have together
+  std::vector<int> source_vertex;  ///< [V] the original of each vertex
+  int split_vertices = 0;          ///< number of vertices with more than one fan
+  int fans = 0;                    ///< total number of their fans
 };
 /// @pre manifold edges, consistent orientation
 VertexSplit split_fans(int vertex_count, std::span<Triangle> triangles);

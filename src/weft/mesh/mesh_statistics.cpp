@@ -15,8 +15,8 @@
 namespace weft {
 namespace {
 
-/// Gathers the statistics edge by edge. A corner of a triangle is named like the half-edge that
-/// leaves it; corners joined over the edges that they share at a vertex make a fan.
+/// Gathers the statistics edge by edge. A corner of a triangle has the index of the half-edge that
+/// leaves it; corners at a vertex that are joined through shared edges form a fan.
 class SurfaceExamination {
  public:
   SurfaceExamination(const TriangleMesh& mesh, MeshStatistics& statistics)
@@ -139,8 +139,8 @@ class SurfaceExamination {
   DisjointSets turns_, fans_;
 };
 
-/// The part of a mesh's statistics that is about how its triangles hang together: components,
-/// borders, non-manifold places, orientation.
+/// Examines the connectivity of a mesh: components, borders, non-manifold edges and vertices,
+/// orientation.
 /// @param mesh  finite; no triangle with a repeated vertex
 void examine_surface(const TriangleMesh& mesh, MeshStatistics& statistics) {
   SurfaceExamination(mesh, statistics).run();
@@ -192,7 +192,7 @@ void examine_triangles(const TriangleMesh& mesh, MeshStatistics& statistics) {
     statistics.slivers += quality < sliver_quality ? 1 : 0;
     statistics.min_quality = std::min(statistics.min_quality, quality);
     statistics.area += 0.5 * length(cross(b - a, c - a));
-    const Vec3d origin = statistics.box.lower;  // near by, so that little is lost by rounding
+    const Vec3d origin = statistics.box.lower;  // near the surface, to limit rounding errors
     volume += dot(a - origin, cross(b - origin, c - origin)) / 6;
   }
   if (statistics.closed && statistics.inconsistent_edges == 0) statistics.volume = volume;

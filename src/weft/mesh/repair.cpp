@@ -24,7 +24,7 @@ void check_values(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.triangles.size() > INT_MAX / 3 || mesh.positions.size() > INT_MAX / 3)
     throw InputError(name, "has too many vertices or triangles",
                      fmt::format("at most {} of each are wanted", INT_MAX / 3));
-  // Beyond 1e30 areas and volumes would overflow.
+  // Up to 1e30, areas and volumes stay far from overflow.
   const auto fits = [](double x) { return std::fabs(x) <= 1e30; };
   WEFT_ASSERT(mesh.corner_uv.empty() || mesh.corner_uv.size() == mesh.triangles.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -63,7 +63,7 @@ double signed_volume(const TriangleMesh& mesh) {
   return sum;
 }
 
-/// Of any triangle, as far as doubles can tell.
+/// Whether any triangle has an area, up to rounding.
 bool has_area(const TriangleMesh& mesh) {
   const auto& p = mesh.positions;
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
@@ -71,7 +71,7 @@ bool has_area(const TriangleMesh& mesh) {
   });
 }
 
-/// The repair of one mesh, step by step; each says what it did.
+/// The repair of one mesh, step by step; each step reports its changes.
 class Repair {
  public:
   Repair(const TriangleMesh& mesh, const RepairOptions& options)
@@ -109,7 +109,7 @@ class Repair {
     edges_ = edge_uses(static_cast<int>(mesh_.positions.size()), mesh_.triangles);
   }
 
-  /// Removes what `keep(index)` does not want; the order stays. @return how many were removed
+  /// Removes triangles where `keep(index)` is false; the order stays. @return how many were removed
   template <class Keep>
   std::size_t keep_triangles(const Keep& keep) {
     std::size_t kept = 0;
@@ -141,7 +141,8 @@ class Repair {
     find_edges();
   }
 
-  /// What the input leaves unreferenced, not what the choice of a component will.
+  /// Reports vertices that the input leaves unreferenced, not those that the choice of a component
+  /// will.
   void note_unreferenced() {
     const std::vector<bool> used = used_vertices();
     const auto unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
@@ -153,7 +154,7 @@ class Repair {
     result_.components_found = parts.count;
     const ComponentChoice& choice = options_.component;
     if (choice.kind == ComponentChoice::Kind::only) {
-      // Edges first: choosing a component might not help against them.
+      // Non-manifold edges first: choosing a component might not remove them.
       require_manifold_edges(mesh_.triangles, edges_, options_.name);
       if (parts.count > 1)
         throw TopologyError(options_.name, fmt::format("{} components", parts.count),
@@ -216,7 +217,8 @@ class Repair {
       for (int& v : t) v = place[v];
   }
 
-  /// A triangle that was turned over has its corners in another order than its source.
+  /// Reorders texture coordinates: the corners of a flipped triangle have another order than in its
+  /// source.
   void carry_corner_uv() {
     if (mesh_.corner_uv.empty()) return;
     std::vector<std::array<Vec2f, 3>> carried(mesh_.triangles.size());
@@ -240,14 +242,14 @@ class Repair {
   TriangleMesh mesh_;
   const std::vector<Triangle>& source_triangles_;
   const RepairOptions& options_;
-  EdgeUses edges_;  ///< of mesh_, until triangles are turned
+  EdgeUses edges_;  ///< of mesh_, until triangles are flipped
   RepairedMesh result_;
 };
 
 struct PositionHash {
   std::size_t operator()(Vec3d p) const {
     Hash hash;
-    // Adding zero makes one of the two zeros, which are equal.
+    // Adding zero turns -0 into +0, since the two compare equal.
     const std::array<double, 3> values{p.x + 0.0, p.y + 0.0, p.z + 0.0};
     hash.add(std::span<const double>(values));
     return hash.value();

@@ -18,7 +18,7 @@ std::vector<SurfaceTriangle> surface_triangles(std::span<const Vec3d> positions,
                                                std::span<const Triangle> triangles);
 
 /// The singular values of the affine map from the plane to space on one triangle [sander01]: both
-/// infinite for a triangle that has no area in the plane or is turned over. [m per unit of uv]
+/// infinite for a triangle that has no area in the plane or is inverted. [m per unit of uv]
 struct TriangleStretch {
   double largest = 0;
   double mean_square = 0;  ///< (largest^2 + smallest^2) / 2 = (a + c) / 2

@@ -13,7 +13,7 @@
 namespace weft {
 namespace {
 
-/// Numbers the sets of triangles that edges join, in order of their first triangle.
+/// Labels the components of triangles connected by edges, in order of their first triangle.
 int label_parts(const EdgeUses& edges, std::vector<int>& part_of) {
   std::vector<int> parent(part_of.size());
   std::iota(parent.begin(), parent.end(), 0);

@@ -13,8 +13,8 @@ namespace weft {
 /// @pre no triangle has a repeated vertex
 std::vector<bool> duplicate_triangles(std::span<const Triangle> triangles, const EdgeUses& edges);
 
-/// Parts of a mesh whose triangles hang together by edges, the largest area first; of equal areas
-/// the one with the least vertex first.
+/// Components of a mesh, whose triangles are connected by edges, the largest area first; of equal
+/// areas the one with the smallest vertex first.
 struct SurfaceParts {
   std::vector<int> part_of;  ///< [F]
   int count = 0;

@@ -12,8 +12,8 @@
 namespace weft {
 namespace {
 
-/// The half-edge along the border that follows a border half-edge: turns around the vertex that it
-/// points at, inside one fan, so that borders that only touch at a vertex stay apart.
+/// The next border half-edge after one: rotates about the vertex that it points at, inside one fan,
+/// so that borders that only touch at a vertex stay separate.
 int next_on_border(const HalfEdges& edges, int half_edge) {
   int h = HalfEdges::next(half_edge);
   while (edges.twin[h] >= 0) h = HalfEdges::next(edges.twin[h]);
@@ -35,7 +35,7 @@ void check_edge(std::span<const Triangle> triangles, std::span<const int> uses) 
         "a consistent orientation is wanted");
 }
 
-/// Number of sets of vertices that triangles join; vertices without triangle are not counted.
+/// Number of components of vertices connected by triangles, without unreferenced vertices.
 int count_components(std::span<const Triangle> triangles, const HalfEdges& edges) {
   std::vector<int> parent(edges.outgoing.size());
   std::iota(parent.begin(), parent.end(), 0);

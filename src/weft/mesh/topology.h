@@ -13,8 +13,8 @@ namespace weft {
 struct HalfEdges {
   /// [3F] the opposite half-edge, -1 on the border
   std::vector<int> twin;
-  /// [V] one half-edge that leaves the vertex, -1 if none; at the border the one whose twin is
-  /// missing, so that turning from it meets all triangles there
+  /// [V] one half-edge that leaves the vertex, -1 if none; at the border the one without a twin, so
+  /// that rotating from it visits all triangles of the vertex
   std::vector<int> outgoing;
 
   static int triangle_of(int half_edge) { return half_edge / 3; }
@@ -37,11 +37,11 @@ inline int to_vertex(std::span<const Triangle> triangles, int half_edge) {
 HalfEdges half_edges(int vertex_count, std::span<const Triangle> triangles);
 
 /// Every border loop as its vertices, each loop in the direction of its triangles' half-edges (the
-/// surface lies to the left); loops ordered by their least half-edge, beginning there.
+/// surface lies to the left); loops ordered by their smallest half-edge, beginning there.
 std::vector<std::vector<int>> border_loops(std::span<const Triangle> triangles,
                                            const HalfEdges& edges);
 
-/// As count_topology (weft/mesh_statistics.h), where the half-edges are there already.
+/// As count_topology (weft/mesh_statistics.h), from existing half-edges.
 TopologyCounts count_topology(std::span<const Triangle> triangles, const HalfEdges& edges);
 
 }  // namespace weft

@@ -19,7 +19,7 @@ std::optional<LengthUnit> find_length_unit(std::string_view name) {
 
 std::optional<std::string> implausible_size(const TriangleMesh& mesh, const LengthUnit& taken) {
   constexpr double least = 0.05, largest = 10;
-  // Where most garments and bodies lie, as the guess is to be worth something.
+  // The range of most garments and bodies: a wider one would make the guess of the unit useless.
   constexpr double likely_least = 0.3, likely_largest = 3;
   Box3d box;
   for (const Vec3d p : mesh.positions) box.add(p);

@@ -17,20 +17,21 @@ Vec2d flat(Vec3d p) { return {p.x, p.z}; }
 
 int sign(double x) { return (x > 0 ? 1 : 0) - (x < 0 ? 1 : 0); }
 
-/// On which side of an edge a point is, seen from above. One on its line is taken to be a hair
-/// farther along x, and far less along z, wherever it is asked for [edelsbrunner90].
+/// The side of an edge on which a point lies, seen from above. A point on its line is perturbed
+/// symbolically along x, and by far less along z, alike for all edges [edelsbrunner90].
 int side_of(Vec2d a, Vec2d b, Vec2d p) {
   const int side = orientation(a, b, p);
   if (side != 0) return side;
   return a.y != b.y ? sign(a.y - b.y) : sign(b.x - a.x);
 }
 
-/// What a triangle adds to the number at a point: +1 where it lies straight above and faces up.
+/// A triangle's contribution to the winding number of a point: +1 where it lies straight above and
+/// faces up, -1 where it faces down, else 0.
 int part_of(const Corners& t, Vec3d p) {
   const int first = side_of(flat(t[0]), flat(t[1]), flat(p));
   for (std::size_t k = 1; k < 3; ++k)
     if (side_of(flat(t[k]), flat(t[(k + 1) % 3]), flat(p)) != first) return 0;
-  // In the plane of x and z a turn to the left has a normal that points down.
+  // The normal of a triangle that is counter-clockwise in (x, z) points down.
   const bool above = orientation(t[0], t[1], t[2], p) == first;
   return above ? -first : 0;
 }

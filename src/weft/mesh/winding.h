@@ -7,12 +7,12 @@
 
 namespace weft {
 
-/// Whether a surface is closed and oriented: every edge is run along as often in one direction as
+/// Whether a surface is closed and oriented: every edge has as many half-edges in one direction as
 /// in the other. @param triangles  corners by vertex, joined where they are one point
 bool is_closed(std::span<const Triangle> triangles);
 
-/// Tells how often a closed, oriented surface winds around a point. Unlike a closest normal this
-/// needs no surface that is free of crossings.
+/// Winding numbers of a closed, oriented surface. Unlike the normal at the closest point they tell
+/// inside from outside also where the surface crosses itself.
 class WindingNumbers {
  public:
   /// @pre finite corners, here and below
@@ -21,10 +21,10 @@ class WindingNumbers {
   [[nodiscard]] std::span<Corners> triangles() { return triangles_; }
   void moved() noexcept { tree_.fit_boxes(triangles_); }
 
-  /// 1 inside of a surface whose normals point outwards, -1 of one that is turned inside out, 0
-  /// outside. Triangles straight above count, by their directions. Every decision is exact for the
-  /// doubles as they are; where the ray meets an edge it is the one beside it that is asked, the
-  /// same for all triangles. A point on the surface may count as either.
+  /// The winding number of a point: 1 inside of a surface whose normals point outwards, -1 of an
+  /// inverted one, 0 outside. Sums the signs of the triangles straight above. Every decision is
+  /// exact for the doubles as they are; a ray that meets an edge is perturbed alike for all
+  /// triangles. A point on the surface may count as either.
   [[nodiscard]] int at(Vec3d point) const;
 
  private:

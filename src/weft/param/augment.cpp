@@ -16,7 +16,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What a cut comes to at the best of a few rotations; nothing where the size cannot hold it.
+/// Trial map of a cut at the best of four rotations; one of infinite energy where the size is too
+/// small for the cut.
 TrialMap judge(const TriangleMesh& mesh, const Cut& cut, int size, Progress* progress) {
   const CutDisk opened = cut_open(mesh, cut);
   if (min_size(opened) > size) return {};
@@ -24,8 +25,9 @@ TrialMap judge(const TriangleMesh& mesh, const Cut& cut, int size, Progress* pro
   return try_rotations(opened, std::array{0, step, 2 * step, 3 * step}, {size, progress});
 }
 
-/// Where a longer cut may help, each once: where the map wanted it most at first, and the vertices
-/// far from the cut, weighed by distance alone and together with what stretch is left there.
+/// Vertices to extend the cut to, each once: that of largest stretch before the Newton steps, and
+/// those farthest from the cut, by distance alone and by distance times functions of the remaining
+/// stretch.
 std::vector<int> candidates(const TriangleMesh& mesh, const Cut& cut, const TrialMap& trial) {
   const CutSurface surface(mesh);
   const CutGraph graph(surface, cut);
@@ -58,14 +60,14 @@ std::vector<int> candidates(const TriangleMesh& mesh, const Cut& cut, const Tria
   return found;
 }
 
-/// A cut, what it takes to get there, and what it comes to.
+/// A cut, the vertices it was extended to in order, and its trial map.
 struct Plan {
   Cut cut;
   std::vector<int> targets;
   TrialMap trial;
 };
 
-/// The best of all cuts that are one path longer; nothing gained where there is none.
+/// The best cut that is one path longer; without targets where there is no candidate.
 Plan lengthen(const TriangleMesh& mesh, const Plan& plan, const AugmentOptions& options) {
   Plan best;
   const std::vector<int> goals = candidates(mesh, plan.cut, plan.trial);
@@ -81,7 +83,7 @@ Plan lengthen(const TriangleMesh& mesh, const Plan& plan, const AugmentOptions& 
   return best;
 }
 
-/// The best plan found on a mesh of moderate size.
+/// The best cut found by extending it round by round.
 Plan plan_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& options) {
   constexpr double min_gain = 0.01;
   PartOfProgress start(options.progress, "cut", 0, 0);
@@ -94,7 +96,7 @@ Plan plan_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& op
     inner.progress = &part;
     plan = lengthen(mesh, plan, inner);
     if (plan.targets.empty()) break;
-    // As long as no map is valid at all, every cut is a gain.
+    // While no map is valid, every longer cut counts as a gain.
     const bool gained =
         best.trial.energy == infinity || plan.trial.energy < best.trial.energy * (1 - min_gain);
     if (plan.trial.energy < best.trial.energy) best = plan;

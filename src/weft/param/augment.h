@@ -7,20 +7,20 @@ namespace weft {
 
 struct AugmentOptions {
   int max_rounds = 12;
-  int proxy_triangles = 1500;  ///< larger meshes are judged by one coarsened to this many
-  int size = 257;              ///< of the image that is wanted
+  int proxy_triangles = 1500;  ///< larger meshes are evaluated on a proxy of about this size
+  int size = 257;              ///< side of the image
   Progress* progress = nullptr;
 };
 struct AugmentedCut {
   Cut cut;
-  int rounds = 0;  ///< paths that were added and kept
+  int rounds = 0;  ///< number of paths added and kept
 };
-/// Stage 4: lengthens the cut as long as that helps. Every round tries several vertices (where the
-/// first map was stretched most; those far from the cut, also weighed by the stretch that is left
-/// there) at several border rotations, maps each in full on a coarse proxy and goes on with the
-/// best; ends after a round that gains less than a hundredth of the energy and keeps the best. As
-/// long as no map is valid, every round counts as a gain. Never makes a cut that the size cannot
-/// hold.
+/// Stage 4: extends the cut while that lowers the energy of the map. Every round extends it to each
+/// of several vertices (that of largest stretch before the Newton steps; those far from the cut,
+/// also weighted by the remaining stretch), maps each candidate at several border rotations, on a
+/// coarse proxy of a large mesh, and continues with the best. Ends after a round that gains less
+/// than a hundredth of the energy and keeps the best cut. While no map is valid, every round counts
+/// as a gain. The cut is never too long for the image size.
 /// @pre repaired mesh
 AugmentedCut augment_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& options);
 

@@ -13,8 +13,8 @@ namespace weft {
 
 namespace {
 
-/// The share of its path that an edge counts for at least: an edge of no length would give its
-/// triangle no area. Below what a corner is snapped by, so that no such edge is ever split.
+/// Minimum share of its path for an edge: an edge of no length would give its triangle no area.
+/// Smaller than snap_distance, so that no such edge is ever split.
 constexpr double min_share = 1e-8;
 /// Places are multiples of this, so that sums and differences with whole numbers are exact.
 constexpr double place_unit = 0x1p-32;
@@ -35,7 +35,7 @@ double sum(const std::vector<double>& values) {
   return total;
 }
 
-/// The surface points at a path's ends, the lower first.
+/// The surface points at the ends of a path, the lower index first.
 std::array<int, 2> end_nodes(const CutDisk& cut, const BorderPath& path) {
   const DiskMesh& disk = cut.disk;
   const int size = static_cast<int>(disk.border.size());
@@ -44,7 +44,7 @@ std::array<int, 2> end_nodes(const CutDisk& cut, const BorderPath& path) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Puts the curves into groups of equal keys, shortest curve first in each, and visits every group.
+/// Groups the curves by key, shortest first in each group, and visits every group.
 template <class Key, class Visit>
 void for_each_group(std::vector<BorderCurve>& curves, const Key& key, const Visit& visit) {
   std::vector<int> order(curves.size());
@@ -111,11 +111,11 @@ std::vector<double> path_places(const CutDisk& cut, int path, int intervals) {
 
 namespace {
 
-/// A border vertex this near to a corner, in sample intervals, is the corner.
+/// A border vertex this near to a corner of the square is the corner. [sample intervals]
 constexpr double snap_distance = 1e-3;
 
-/// Where corners of the square fall strictly inside a curve, as whole places along its path; those
-/// that its mate meets are counted too. Ascending, each once.
+/// Positions along a path, in whole intervals, of the corners of the square strictly inside it or
+/// its mate. Ascending, each once.
 std::vector<int> corner_places(const CutDisk& cut, const BorderLayout& layout, int path) {
   const int side = layout.size - 1;
   const int mate = cut.paths[path].mate;
@@ -134,7 +134,7 @@ std::vector<int> corner_places(const CutDisk& cut, const BorderLayout& layout, i
   return places;
 }
 
-/// The inner vertex of a path nearest to a place, when it is near enough to take it.
+/// The inner vertex of a path nearest to a position and within snap_distance of it.
 std::optional<int> vertex_at(const std::vector<double>& places, double place) {
   const int last = static_cast<int>(places.size()) - 1;
   std::optional<int> nearest;
@@ -146,7 +146,7 @@ std::optional<int> vertex_at(const std::vector<double>& places, double place) {
   return nearest;
 }
 
-/// Splits the edge in which a place of the path falls, if no vertex is there.
+/// Splits the edge of a path at a position where there is no vertex.
 void split_at(CutDisk& cut, int path, int intervals, double place) {
   const std::vector<double> places = path_places(cut, path, intervals);
   if (vertex_at(places, place)) return;

@@ -21,12 +21,12 @@ int min_total(const std::vector<BorderCurve>& curves) {
   return total;
 }
 
-/// Real shares of `total` in proportion to length, none below its least: curves that would get less
-/// are held at their least and the rest is shared again among the others.
+/// Real-valued shares of `total` in proportion to length, none below its minimum: curves that would
+/// get less are fixed at their minimum, and the rest is divided again among the others.
 std::vector<double> shares(const std::vector<BorderCurve>& curves, int total) {
   double whole = 0;
   for (const BorderCurve& curve : curves) whole += curve.length;
-  // A curve of no length still has to have a share of its own.
+  // A curve of no length needs a positive share too.
   const auto size = [&](const BorderCurve& c) { return whole > 0 ? c.length + 1e-9 * whole : 1.0; };
   std::vector<char> held(curves.size(), 0);
   std::vector<double> share(curves.size());
@@ -47,8 +47,9 @@ std::vector<double> shares(const std::vector<BorderCurve>& curves, int total) {
   return share;
 }
 
-/// Largest remainder: whole parts first, then one more each in order of what was cut off. A curve
-/// with a mate takes two units at a time, so a last single unit goes to a true border path.
+/// Largest-remainder method: the shares rounded down, then one more interval each in order of the
+/// remainders. A curve with a mate takes two intervals at a time, so a single one left at the end
+/// goes to a true border path.
 std::vector<int> apportion(const std::vector<BorderCurve>& curves, int total) {
   const std::vector<double> share = shares(curves, total);
   std::vector<int> counts(curves.size()), order(curves.size());
@@ -69,8 +70,7 @@ std::vector<int> apportion(const std::vector<BorderCurve>& curves, int total) {
   return counts;
 }
 
-/// True when rounding to multiples of `step` takes no curve further than a thirty-second from its
-/// share.
+/// Whether step * counts is within a thirty-second of every share and not below any minimum.
 bool near_enough(const std::vector<BorderCurve>& curves, const std::vector<double>& share,
                  const std::vector<int>& counts, int step) {
   constexpr double tolerance = 1.0 / 32;
@@ -82,8 +82,8 @@ bool near_enough(const std::vector<BorderCurve>& curves, const std::vector<doubl
   return true;
 }
 
-/// Counts in multiples of the largest power of two that divides the side and is near enough to the
-/// shares.
+/// Interval counts in multiples of the largest power of two that divides the side and for which
+/// near_enough holds; any counts where there is none.
 std::vector<int> aligned_counts(const std::vector<BorderCurve>& curves, int size) {
   const int total = 4 * (size - 1);
   const std::vector<double> share = shares(curves, total);

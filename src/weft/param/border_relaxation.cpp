@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-/// Along which axis a side of the square runs, and which way as border positions grow.
+/// The axis of a side of the square, and its direction with growing border positions.
 struct Side {
   int axis = 0;
   double direction = 1;
@@ -29,7 +29,7 @@ struct Finder {
   std::span<const double> t;
 
   [[nodiscard]] int size() const { return static_cast<int>(t.size()); }
-  /// The way around the border from one border vertex to the next. [sample intervals]
+  /// Distance along the border from one border vertex to the next. [sample intervals]
   [[nodiscard]] double gap(int from) const {
     const double distance = t[(from + 1) % size()] - t[from];
     return distance < 0 ? distance + 4.0 * (layout.size - 1) : distance;
@@ -52,7 +52,7 @@ struct Finder {
     Vec2d mate_place = border_point(layout.size, t[mate]);
     freedom.mate = cut.disk.border[mate];
     freedom.mate_axis = there.axis;
-    // Mates are walked in opposite directions.
+    // Mates run in opposite directions.
     freedom.sign = -here.direction * there.direction;
     freedom.offset = along(mate_place, there.axis) - freedom.sign * along(place, here.axis);
   }

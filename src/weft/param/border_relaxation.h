@@ -11,22 +11,22 @@ namespace weft {
 /// that both stay at exactly corresponding positions.
 struct BorderFreedom {
   int vertex = 0;  ///< disk vertex
-  int axis = 0;    ///< its side runs along u (0) or v (1)
+  int axis = 0;    ///< the side runs along u (0) or v (1)
   int mate = -1;   ///< disk vertex; -1: true border
   int mate_axis = 0;
   double sign = 1;    ///< along its side the mate is at offset + sign * (vertex along its side)
-  double offset = 0;  ///< a whole number, as places on a border are laid out
+  double offset = 0;  ///< a whole number
 };
 
-/// Every border vertex that is neither a node nor at a corner of the square (nor its mate), once
-/// with its mate. Vertices next to an edge of no length are left out too: a triangle there closes
-/// at the least move.
+/// The freedom of every border vertex that is neither a node nor at a corner of the square (nor its
+/// mate), once for both mates. Vertices next to an edge of no length are excluded: the smallest
+/// displacement would degenerate a triangle there.
 /// @param t  [border.size()] border positions, see border_positions
 std::vector<BorderFreedom> border_freedoms(const CutDisk& cut, const BorderLayout& layout,
                                            std::span<const double> t);
 
-/// Takes the vertex of every freedom to the nearest multiple of 2^-32 along its side, and its mate
-/// to the corresponding place, exactly.
+/// Rounds the vertex of every freedom to the nearest multiple of 2^-32 along its side, and sets its
+/// mate to the corresponding position, exactly.
 /// @param uv  [D]
 void snap_to_grid(std::span<const BorderFreedom> freedoms, std::span<Vec2d> uv);
 

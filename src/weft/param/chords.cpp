@@ -19,15 +19,15 @@ int add_midpoint(DiskMesh& disk, int a, int b, int surface_id) {
   return add_split_vertex(disk, {a, b, 0.5}, middle, surface_id);
 }
 
-/// Cuts one triangle at the midpoints of its sides; -1 where a side stays whole.
+/// Subdivides a triangle at the midpoints of its sides; -1 where a side is not split.
 void split_triangle(Triangle t, std::array<int, 3> middle, std::vector<Triangle>& out) {
   const auto count = std::count_if(middle.begin(), middle.end(), [](int m) { return m >= 0; });
   if (count == 0) {
     out.push_back(t);
     return;
   }
-  // Turned until side 0 is split, and for two of them side 1 as well, so that one pattern serves
-  // each count.
+  // Rotated until side 0 is split, and of two split sides side 1 as well, so that one pattern
+  // serves each count.
   while (middle[0] < 0 || (count == 2 && middle[1] < 0)) {
     std::rotate(t.begin(), t.begin() + 1, t.end());
     std::rotate(middle.begin(), middle.begin() + 1, middle.end());

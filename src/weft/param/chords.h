@@ -4,11 +4,11 @@
 
 namespace weft {
 
-/// Stage 6: splits, at its midpoint, every interior edge whose two ends lie on the border. Three
-/// border vertices on one side of the square would collapse their triangle; afterwards every
-/// triangle has a vertex inside or lies between two border edges and none else. The border stays as
-/// it is; new vertices come last and get surface ids of their own.
-/// @return how many edges were split
+/// Stage 6: splits every chord, an interior edge between two border vertices, at its midpoint. A
+/// triangle with three border vertices on one side of the square would have no area; afterwards
+/// every triangle has an interior vertex, unless it is the whole disk. The border does not change;
+/// new vertices come last and get surface ids of their own.
+/// @return number of edges split
 int split_chords(DiskMesh& disk);
 
 }  // namespace weft

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-/// The triangles of a disk's coarser versions as the local minimisation sees them.
+/// Gives the energy of the triangles of all coarser versions of a disk.
 class Triangles {
  public:
   /// @param uv  [D] the border given
@@ -21,8 +21,9 @@ class Triangles {
  private:
   const DiskMesh& disk_;
   double mean_area_ = 0;
-  double inverse_unit_ = 0;      ///< of inverse_weight
-  std::vector<double> quartic_;  ///< [D] area-weighted mean of the triangles around the vertex
+  double inverse_unit_ = 0;      ///< factor of inverse_weight
+  std::vector<double> quartic_;  ///< [D] area-weighted mean of the curvature weights of the
+                                 ///< triangles around the vertex
 };
 
 Triangles::Triangles(const DiskMesh& disk, std::span<const Vec2d> uv)
@@ -48,8 +49,8 @@ Triangles::Triangles(const DiskMesh& disk, std::span<const Vec2d> uv)
     quartic_[v] = around[v] > 0 ? quartic_[v] / around[v] * plane / area : 0;
 }
 
-/// The triangle's own metric and a little of one with equal sides: one without area would else be
-/// no barrier to its neighbours.
+/// The triangle's metric plus a small equilateral one: a triangle without area would not be a
+/// barrier to its neighbours otherwise.
 StarTriangle Triangles::operator()(const Triangle& t) const {
   const double least = 1e-8 * mean_area_;
   const Vec3d p = disk_.positions[t[1]] - disk_.positions[t[0]];

@@ -9,24 +9,24 @@
 
 namespace weft {
 
-/// Maps the inside of a disk into a convex border that is given, whose freedoms may move.
+/// Maps the interior of a disk into a given convex border; border vertices with a freedom may move.
 /// @return whether the map is valid
 using MapDisk = std::function<bool(const DiskMesh&, std::span<Vec2d> uv,
                                    std::span<const BorderFreedom> freedoms)>;
 
 struct CoarseToFineOptions {
-  int triangles = 5000;  ///< of the coarse disk, about, if as many as its border takes
-  double growth = 1.6;   ///< of the count of triangles from one round of sweeps to the next
-  int sweeps = 8;        ///< in a round
+  int triangles = 5000;  ///< about the size of the coarse disk; more where its border is long
+  double growth = 1.6;   ///< of the number of triangles from one round of sweeps to the next
+  int sweeps = 8;        ///< per round
   std::span<const BorderFreedom> freedoms = {};
   Progress* progress = nullptr;
 };
 
-/// Maps a coarse version of a disk, with the same border, and refines that map: vertices come back
-/// and all settle at the least L2 stretch of the triangles around them, round by round, as
-/// [sander01] do. Low frequencies of the map are found where there are few unknowns, high ones
-/// where they live, so the time is in proportion to the mesh. Where the coarse version has no valid
-/// map, a still coarser one is tried.
+/// Maps a coarse version of a disk, with the same border, and refines that map: round by round,
+/// vertices are reinserted and all vertices relaxed to minimise the stretch of the triangles around
+/// them, as in [sander01]. Low frequencies of the map converge where there are few unknowns and
+/// high ones on the finer levels, so the time is in proportion to the mesh. Where the coarse
+/// version has no valid map, a coarser one is tried.
 /// @param uv   [D] border given; on success a valid map
 /// @param map  maps the coarse disk
 /// @pre no chords

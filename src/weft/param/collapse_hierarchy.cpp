@@ -16,7 +16,7 @@ CollapseHierarchy::CollapseHierarchy(const DiskMesh& disk)
   for (const int v : disk.border) {
     border_[v] = true;
     inner_[v] = false;
-    ++valence_[v];  // the edge that arrives along the border starts elsewhere
+    ++valence_[v];  // no half-edge leaves along the border edge that arrives
   }
   for (int h = 0; h < 3 * triangle_count_; ++h) ++valence_[from(h)];
   for (int v = 0; v < vertex_count(); ++v)
@@ -36,7 +36,8 @@ bool CollapseHierarchy::can_collapse(int half_edge) {
   });
   if (chord) return false;
 
-  // The link condition: only the two triangles on the edge join neighbours of both ends.
+  // Link condition: the two ends have no common neighbours except the apexes of the edge's
+  // triangles.
   int common = 0;
   int h = outgoing_[target];
   if (twin_[h] < 0 && stamp_[to(h)] == round_) ++common;
@@ -55,7 +56,7 @@ void CollapseHierarchy::join(int half_edge, int other) {
 }
 
 void CollapseHierarchy::collapse(int half_edge) {
-  // The triangles (v, u, a) and (u, v, b) go; a and b each keep one edge of two.
+  // The triangles (v, u, a) and (u, v, b) are removed; two edges at a become one, and two at b.
   const int back = twin_[half_edge];
   const int ua = HalfEdges::next(half_edge);
   const int av = HalfEdges::previous(half_edge);

@@ -7,18 +7,18 @@
 
 namespace weft {
 
-/// A disk whose interior vertices can be taken away one by one, each by collapsing an edge onto its
-/// other end, and brought back in reverse order. Every collapse keeps the link condition, so that
-/// the mesh stays a disk, and makes no chord (an interior edge between two border vertices); the
-/// border stays as it is.
+/// A disk mesh whose interior vertices can be removed one by one by half-edge collapses and
+/// restored in reverse order. Every collapse keeps the link condition, so that the mesh stays a
+/// disk, and makes no chord (an interior edge between two border vertices); the border does not
+/// change.
 ///
-/// A disk without chords can always be taken down to a wheel, all border vertices around one inner
-/// vertex: inside an innermost cycle of three edges that is no triangle, or, where there is none,
-/// inside the border, the inner vertices hang together, and every edge between two of them can be
-/// collapsed; a single one inside three edges can go onto any of them.
+/// A disk without chords can always be reduced to a wheel: one inner vertex joined to all border
+/// vertices. Take an innermost cycle of three edges that is no triangle, or the border where there
+/// is none. The inner vertices inside it are connected, and every edge between two of them can be
+/// collapsed; a single inner vertex in a cycle of three collapses onto any of its corners.
 ///
-/// Triangles and half-edges keep their numbers. A triangle that a collapse removes keeps its
-/// corners and twins of then, which is all that it takes to bring it back.
+/// Triangles and half-edges keep their indices. A triangle removed by a collapse keeps its corners
+/// and twins of that moment, which is all that `undo` needs.
 class CollapseHierarchy {
  public:
   /// @pre disk without chords (weft/param/chords.h)
@@ -28,9 +28,9 @@ class CollapseHierarchy {
   [[nodiscard]] bool has_triangle(int triangle) const { return present_[triangle]; }
   [[nodiscard]] int triangle_count() const { return triangle_count_; }
   [[nodiscard]] int vertex_count() const { return static_cast<int>(valence_.size()); }
-  /// Whether a vertex is there and not on the border.
+  /// Whether a vertex is present and not on the border.
   [[nodiscard]] bool is_inner(int vertex) const { return inner_[vertex]; }
-  /// How many edges a vertex has.
+  /// Number of edges at a vertex.
   [[nodiscard]] int valence(int vertex) const { return valence_[vertex]; }
   [[nodiscard]] int from(int half_edge) const { return from_vertex(triangles_, half_edge); }
   [[nodiscard]] int to(int half_edge) const { return to_vertex(triangles_, half_edge); }
@@ -48,12 +48,11 @@ class CollapseHierarchy {
     } while (h >= 0 && h != first);
   }
 
-  /// Whether the vertex that a half-edge leaves can go onto the one it points at. @pre the first is
-  /// inner
+  /// Whether a half-edge can be collapsed: its start onto its end. @pre its start is inner
   [[nodiscard]] bool can_collapse(int half_edge);
   /// @pre can_collapse
   void collapse(int half_edge);
-  /// Takes the last collapse back. @return its half-edge, which leaves the vertex that came back
+  /// Undoes the last collapse. @return its half-edge, which leaves the restored vertex
   int undo();
 
  private:
@@ -64,15 +63,15 @@ class CollapseHierarchy {
   std::vector<int> twin_, outgoing_, valence_;
   std::vector<bool> present_, inner_, border_;
   std::vector<int> collapsed_;  ///< half-edges, in order
-  std::vector<int> stamp_;      ///< [V] the last round in which a vertex was met
+  std::vector<int> stamp_;      ///< [V] the last round in which a vertex was marked
   int round_ = 0;
   int triangle_count_ = 0;
 };
 
-/// The disk of the triangles that are left, its vertices in their old order.
+/// The disk mesh of the triangles present, its vertices in their order in the fine disk.
 struct CoarseDisk {
   DiskMesh disk;
-  std::vector<int> vertex;  ///< [D'] of the fine disk
+  std::vector<int> vertex;  ///< [D'] index in the fine disk
 };
 CoarseDisk coarse_disk(const CollapseHierarchy& mesh, const DiskMesh& fine);
 

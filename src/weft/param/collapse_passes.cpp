@@ -8,15 +8,15 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Twice the least that the largest inscribed circle and the sides of a triangle allow: 1 for equal
-/// sides, 0 for no area. Times the direction it faces.
+/// Unit normal of a triangle times its shape quality, 4 sqrt(3) area / (sum of the squared sides):
+/// 1 for equal sides, 0 for no area.
 Vec3d facing(Vec3d a, Vec3d b, Vec3d c) {
   const double squares = squared_length(b - a) + squared_length(c - b) + squared_length(a - c);
   constexpr double two_root_three = 3.4641016151377544;
   return squares > 0 ? two_root_three / squares * cross(b - a, c - a) : Vec3d{};
 }
 
-/// Whether triangles around the vertex that goes face another way or become slivers.
+/// Whether a collapse turns a triangle too far or makes it a sliver.
 bool spoils_shape(const DiskMesh& disk, const CollapseHierarchy& mesh, int half_edge) {
   constexpr double min_cosine = 0.5;
   constexpr double min_quality = 0.2;
@@ -47,7 +47,7 @@ class Passes {
   Passes(CollapseHierarchy& mesh, const CollapseOrder& order, int triangles)
       : mesh_(mesh), order_(order), triangles_(triangles), resting_(mesh.vertex_count(), -1) {}
 
-  /// @return how many vertices went
+  /// Runs one pass with collapses of cost up to `most`. @return how many vertices were collapsed
   int run(double most);
   [[nodiscard]] double min_refused() const { return min_refused_; }
   [[nodiscard]] bool is_done() const { return mesh_.triangle_count() <= triangles_; }
@@ -58,7 +58,7 @@ class Passes {
   CollapseHierarchy& mesh_;
   const CollapseOrder& order_;
   int triangles_;
-  std::vector<int> resting_;  ///< [V] the pass in which a vertex rests
+  std::vector<int> resting_;  ///< [V] the last pass in which a vertex is skipped
   std::vector<Candidate> candidates_;
   int pass_ = 0;
   double min_refused_ = infinity;

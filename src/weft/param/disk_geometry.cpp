@@ -9,13 +9,13 @@
 namespace weft {
 namespace {
 
-/// A quantity on the surface as its integral and area, triangle by triangle.
+/// A density on the surface: its integral over each triangle, and the area of integration.
 struct Density {
   std::vector<double> sum, area;
 };
 
-/// The square curvature: a bend by an angle over an edge of length l stands for a cylinder of that
-/// angle over the two triangles' width.
+/// Square curvature: a dihedral angle at an edge of length l is taken for a cylinder that bends by
+/// this angle over the width of the two triangles.
 Density square_curvature(const DiskMesh& disk, const HalfEdges& edges,
                          std::span<const SurfaceTriangle> surface) {
   const std::vector<Vec3d>& p = disk.positions;
@@ -38,7 +38,7 @@ Density square_curvature(const DiskMesh& disk, const HalfEdges& edges,
   return density;
 }
 
-/// Adds to every triangle what its neighbours have.
+/// Smooths: adds the integrals and areas of its neighbours to every triangle.
 void spread(Density& density, const HalfEdges& edges) {
   const Density before = density;
   for (int h = 0; h < static_cast<int>(edges.twin.size()); ++h) {
@@ -66,7 +66,7 @@ std::vector<double> curvature_weights(const DiskMesh& disk, const HalfEdges& edg
   const double whole = total(density.sum);
   const double area = total(density.area);
   std::vector<double> curvature_weight(surface.size(), everywhere);
-  // A flat surface has no curvature but for rounding.
+  // A flat surface has only rounding errors for curvature.
   if (!(whole > 1e-12)) return curvature_weight;
   for (int round = 0; round < rounds; ++round) spread(density, edges);
   for (std::size_t t = 0; t < curvature_weight.size(); ++t) {

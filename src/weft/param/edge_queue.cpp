@@ -36,8 +36,8 @@ std::vector<std::array<double, 3>> floored_lengths(std::span<const Vec3d> positi
 }
 
 std::array<double, 3> half_angle_tangents(const std::array<double, 3>& sides) {
-  // tan(A / 2) = r / (s - a) with the inradius r; the differences s - a are formed without
-  // cancellation of the sum itself.
+  // tan(A / 2) = r / (s - a) with the inradius r; the differences s - a are computed without the
+  // cancellation of subtracting from the half perimeter s.
   const std::array<double, 3> rest = {0.5 * (sides[0] + sides[2] - sides[1]),
                                       0.5 * (sides[0] + sides[1] - sides[2]),
                                       0.5 * (sides[1] + sides[2] - sides[0])};

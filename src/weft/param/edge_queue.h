@@ -11,10 +11,10 @@
 
 namespace weft {
 
-/// Edge lengths of a mesh, raised by one small amount where it takes that for every triangle to be
-/// a true one: each two sides longer than the third by at least 1e-5 of the mean edge (intrinsic
-/// mollification, [sharp20]). Zero-area triangles and coincident points then have finite angles and
-/// weights. A mesh without slivers keeps its lengths to the last bit.
+/// Edge lengths of a mesh after intrinsic mollification [sharp20]: all are raised by one small
+/// amount, so that in every triangle two sides together exceed the third by at least 1e-5 of the
+/// mean edge. Zero-area triangles and coincident points then have finite angles and weights. A mesh
+/// without slivers keeps its lengths to the last bit.
 /// @return [F][3] length of the side from corner k to the next [m], all > 0
 std::vector<std::array<double, 3>> floored_lengths(std::span<const Vec3d> positions,
                                                    std::span<const Triangle> triangles);
@@ -24,8 +24,8 @@ std::vector<std::array<double, 3>> floored_lengths(std::span<const Vec3d> positi
 /// @return at corner k, in (0, infinity)
 std::array<double, 3> half_angle_tangents(const std::array<double, 3>& sides);
 
-/// Edges in the order of their length, to an eighth of an octave of its square; first in first out
-/// among those. Takes and gives in constant time, which a heap of a million does not.
+/// Bucket queue of edges, shortest first: buckets are an eighth of an octave of the squared length
+/// wide, first in first out inside. `push` and `pop` take constant time, unlike those of a heap.
 class LengthQueue {
  public:
   using Edge = std::array<int, 2>;
@@ -38,7 +38,8 @@ class LengthQueue {
     buckets_[bucket].edges.push_back(edge);
     lowest_ = std::min(lowest_, bucket);
   }
-  /// True when nothing is left; otherwise `pop` has something to give.
+  /// Whether no edge is left. Advances to the next filled bucket, so it must be called before every
+  /// `pop`.
   [[nodiscard]] bool empty() {
     while (lowest_ < bucket_count && buckets_[lowest_].is_spent()) buckets_[lowest_++] = {};
     return lowest_ == bucket_count;
@@ -50,7 +51,8 @@ class LengthQueue {
   }
 
  private:
-  /// The bits of a positive double grow with it; these are sign, exponent and three of the rest.
+  /// The bits of a positive double, read as an integer, grow with it. A bucket index keeps sign,
+  /// exponent and three bits of the significand.
   static constexpr int dropped_bits = 49;
   static constexpr std::size_t bucket_count = std::size_t{1} << (63 - dropped_bits);
   struct Bucket {

@@ -12,7 +12,6 @@ namespace {
 
 constexpr int max_cures = 6;
 
-/// A disk whose inside is to be mapped, and what that takes.
 struct Task {
   const DiskGeometry& geometry;
   InteriorSolver& solver;
@@ -20,8 +19,8 @@ struct Task {
   const InteriorOptions& options;
 };
 
-/// Floater's map as it is; where doubles do not hold it, the neighbours' stretch divides the
-/// weights, which spreads the places where the map has collapsed.
+/// Floater's map. Where rounding makes it invalid, the weights are divided by the stretch of their
+/// ends, which spreads the regions where the map has collapsed.
 bool map_by_floater(const Task& task) {
   const auto& [geometry, solver, uv, options] = task;
   std::vector<double> weights =
@@ -41,7 +40,7 @@ NewtonOptions newton(const StretchOptions& stretch, std::span<const BorderFreedo
       .steps = stretch.newton_steps, .min_gain = 1e-4, .progress = progress, .freedoms = freedoms};
 }
 
-/// By positive weights, reweighted; then Newton steps.
+/// Reweighting of positive weights, then Newton steps.
 bool map_by_weights(const Task& task, const StretchOptions& stretch) {
   const auto& [geometry, solver, uv, options] = task;
   PartOfProgress first(options.progress, "map", 0, 0.3);
@@ -49,11 +48,11 @@ bool map_by_weights(const Task& task, const StretchOptions& stretch) {
   std::vector<double> weights = symmetric_weights(geometry.disk, geometry.edges, geometry.sides);
   ReweightingOptions reweighting{
       .iterations = stretch.iterations, .cures = max_cures, .progress = &first};
-  // A Newton step gains more than the last of these would.
+  // Newton steps gain more than the last reweightings would.
   if (stretch.newton_steps > 0) reweighting.min_gain = 0.01;
   bool found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
   if (!found) {
-    // Equal weights do not see slivers at all.
+    // Equal weights ignore the shapes of triangles, slivers included.
     weights.assign(weights.size(), 1.0);
     found = map_by_reweighting(geometry, solver, weights, uv, reweighting);
   }

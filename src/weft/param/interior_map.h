@@ -13,8 +13,8 @@ struct InteriorOptions {
   std::span<const BorderFreedom> freedoms = {};
   Progress* progress = nullptr;
 };
-/// Stages 7 and 8: maps the inside of a disk into a convex border that is given, without a flipped
-/// or degenerate triangle.
+/// Stages 7 and 8: maps the interior of a disk into a given convex border, without a flipped or
+/// degenerate triangle.
 /// @param uv  [D] positions of the border vertices given, counter-clockwise; the rest is
 /// overwritten
 /// @pre no chords (weft/param/chords.h); border positions distinct

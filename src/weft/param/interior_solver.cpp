@@ -15,11 +15,11 @@ using Entries = std::vector<Eigen::Triplet<double>>;
 
 struct InteriorSolver::System {
   std::vector<Triangle> triangles;
-  std::vector<int> interior;  ///< [D] row of an interior vertex, -1 on the border
-  std::vector<int> vertex;    ///< the vertex of a row
-  Matrix matrix;              ///< lower triangle, columns of interior vertices
-  std::vector<int> slot;      ///< [3F] where a half-edge's weight goes in the matrix' values, or -1
-  std::vector<int> diagonal;  ///< the same for each row's diagonal
+  std::vector<int> interior;    ///< [D] row of an interior vertex, -1 on the border
+  std::vector<int> vertex;      ///< the vertex of a row
+  Matrix matrix;                ///< lower triangle, columns of interior vertices
+  std::vector<int> slot;        ///< [3F] index of a half-edge's weight in the matrix' values, or -1
+  std::vector<int> diagonal;    ///< [rows] index of each row's diagonal in the matrix' values
   std::vector<double> weights;  ///< of the last symmetric factorization
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>> cholesky;
 
@@ -129,7 +129,7 @@ bool InteriorSolver::solve_general(std::span<const double> weights, std::span<Ve
   Matrix matrix(s.rows(), s.rows());
   matrix.setFromTriplets(entries.begin(), entries.end());
 
-  // Column ordering: with the symmetric one this library's factors come out ten times as full.
+  // Column ordering: with a symmetric ordering the factors of SparseLU have ten times the fill.
   Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>> lu;
   lu.setPivotThreshold(0.0);
   lu.compute(matrix);

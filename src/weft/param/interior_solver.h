@@ -9,9 +9,9 @@
 
 namespace weft {
 
-/// Places the inside of a disk so that every interior vertex is the weighted mean of its
-/// neighbours, for a border that is given. Keeps the pattern and its symbolic factorization, so
-/// that solving again with other weights or another border is cheap.
+/// Solves for interior vertices that are the weighted means of their neighbours, with a given
+/// border. Keeps the sparsity pattern and its symbolic factorization, so that solving again with
+/// other weights or another border is cheap.
 class InteriorSolver {
  public:
   InteriorSolver(const DiskMesh& disk, const HalfEdges& edges);
@@ -24,12 +24,12 @@ class InteriorSolver {
   /// @param weights  [3F] > 0, see weft/param/weights.h
   /// @return false when the factorization broke down or met a number that is not finite
   bool factorize_symmetric(std::span<const double> weights);
-  /// Places the inside by the last symmetric factorization.
+  /// Solves for the interior vertices with the last symmetric factorization.
   /// @param uv  [D] border given, interior overwritten
   void solve_symmetric(std::span<Vec2d> uv) const;
 
-  /// For weights that are not symmetric: sparse LU with diagonal pivots (the matrix is a weakly
-  /// diagonally dominant M-matrix, for which they are stable) and iterative refinement.
+  /// Solves with weights that are not symmetric: sparse LU with diagonal pivots, which are stable
+  /// as the matrix is a weakly diagonally dominant M-matrix, and iterative refinement.
   /// @return false when the factorization broke down; uv is then unchanged
   bool solve_general(std::span<const double> weights, std::span<Vec2d> uv) const;
 

@@ -9,11 +9,11 @@
 namespace weft {
 namespace {
 
-/// A smaller relative gain is not worth the trials.
+/// Steps with a smaller predicted relative decrease are not tried.
 constexpr double min_gain = 1e-8;
 
-/// Lengthens a whole step for as long as the energy falls by much: near a triangle that is all but
-/// closed Newton steps are short by far.
+/// Doubles a full step while each doubling lowers the energy by much: next to an almost degenerate
+/// triangle Newton steps are far too short.
 double longer_step_length(const VertexStar& star, Vec2d place, Vec2d step, double most) {
   constexpr double much = 0.7;
   double step_length = 1;

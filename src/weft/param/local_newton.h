@@ -8,10 +8,10 @@
 
 namespace weft {
 
-/// Moves single vertices of what is left of a disk to lower L2 stretch of the triangles around
-/// them, by Newton steps in their own one or two coordinates with the true Hessian where that is
-/// positive. A step ends before the first triangle closes and every one is checked by exact
-/// arithmetic, so a valid map stays valid.
+/// Relaxes single vertices of a coarsened disk to lower the stretch energy of the triangles around
+/// them, by Newton steps in their own one or two coordinates, with the exact Hessian where that is
+/// positive definite. A step ends before the first triangle degenerates, and its result is checked
+/// by exact arithmetic, so a valid map stays valid.
 class VertexMover {
  public:
   /// Keeps references to all of them.
@@ -23,8 +23,8 @@ class VertexMover {
 
   /// Moves an inner vertex. @return whether it moved
   bool improve(int vertex);
-  /// Moves an inner vertex into the midst of the kernel of its neighbours where that lowers the
-  /// energy: out of a crevice at once, from which Newton steps would take long to climb.
+  /// Moves an inner vertex to the centre of the kernel of its neighbours where that lowers the
+  /// energy: leaves at once a narrow corner from which Newton steps are very short.
   bool centre(int vertex);
   /// Moves a border vertex along its side, and its mate with it.
   bool improve(const BorderFreedom& freedom);

@@ -12,7 +12,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 using Cholesky = Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>>;
 
-/// A vector of unknowns: all u, all v.
+/// A vector over the unknowns, by block: u, v.
 struct Pair {
   Vector u, v;
 
@@ -27,16 +27,16 @@ struct Pair {
 
 struct NewtonSystem::Blocks {
   const DiskGeometry& geometry;
-  /// [2 D] the unknown of each vertex' u and v: -1 where fixed, first all of block u, then block v.
-  /// The unknown of a freedom is in the block of its vertex' axis, its mate's coordinate has the
-  /// same.
+  /// [2 D] index of the unknown of each vertex' u and v, -1 where fixed; those of block u come
+  /// first, then block v. A freedom's unknown is in the block of its vertex' axis; its mate's
+  /// coordinate has the same.
   std::vector<int> unknown;
-  std::vector<double> sign;    ///< [2 D] by which the coordinate follows its unknown
+  std::vector<double> sign;    ///< [2 D] derivative of the coordinate by its unknown
   std::vector<bool> freedoms;  ///< [F] whether a corner is on the border
   int rows_u = 0, rows_v = 0;
   Matrix uu, vv;  ///< lower triangles
-  Matrix vu;      ///< whole; the block uv is its transpose
-  /// [F] where the entry of local coordinates a <= b goes in `values`, or -1; a row after the other
+  Matrix vu;      ///< all entries; the block uv is its transpose
+  /// [F] index in `values` of each entry (a, b), a <= b, of the local Hessian, row by row; -1: none
   std::vector<std::array<int, 21>> slot;
   std::vector<double> values;  ///< of uu, vv and vu, one after the other
   Pair gradient;
@@ -84,8 +84,7 @@ void NewtonSystem::Blocks::number_unknowns(std::span<const BorderFreedom> border
       if (border[v]) freedoms[t] = true;
 }
 
-/// The unknowns of a triangle's u, v at corner 0, 1, 2; -1 where fixed and where an earlier one is
-/// the same.
+/// The unknowns of a triangle's u, v at corner 0, 1, 2; -1 where fixed or equal to an earlier one.
 std::array<int, 6> NewtonSystem::Blocks::unknowns_of(std::size_t t) const {
   std::array<int, 6> found{};
   for (int i = 0; i < 6; ++i) {
@@ -142,8 +141,9 @@ void NewtonSystem::Blocks::prepare_slots() {
   values.resize(uu.nonZeros() + vv.nonZeros() + vu.nonZeros());
 }
 
-/// Makes a border triangle's derivatives those by its unknowns: a coordinate that runs against its
-/// unknown changes sign, and one whose unknown came earlier is added there.
+/// Converts a border triangle's derivatives from coordinates to unknowns: that of a coordinate that
+/// runs against its unknown changes sign, and that of one which shares an earlier coordinate's
+/// unknown is added there.
 void NewtonSystem::Blocks::reduce(std::size_t t, TriangleEnergy& energy) const {
   const Triangle& corners = geometry.disk.triangles[t];
   const auto coordinate = [&](int i) { return 2 * corners[i / 2] + i % 2; };
@@ -212,8 +212,9 @@ Pair NewtonSystem::Blocks::multiply(const Pair& x) const {
   return y;
 }
 
-/// Minus the inverse of the Hessian times the gradient, to a tenth in the preconditioner's norm.
-/// Every iterate is a direction of descent, so ending early is safe.
+/// Newton step, minus the inverse of the Hessian times the gradient, to a relative residual of a
+/// tenth in the preconditioner's norm. Every iterate is a descent direction, so ending early is
+/// safe.
 Pair NewtonSystem::Blocks::conjugate_gradients() const {
   constexpr int max_iterations = 40;
   constexpr double tolerance = 0.1;

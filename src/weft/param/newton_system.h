@@ -14,8 +14,8 @@ namespace weft {
 /// symbolic factorization for all steps.
 ///
 /// Solved by conjugate gradients, preconditioned with the Cholesky factors of the two diagonal
-/// blocks (along u, along v): together they have a quarter of the fill of the whole, and a Newton
-/// step needs no more than a digit.
+/// blocks (along u, along v): these have a quarter of the fill of a whole factorization, and one
+/// digit of accuracy is enough for a Newton step.
 class NewtonSystem {
  public:
   /// Keeps a reference to the geometry, which must outlive it.
@@ -25,7 +25,7 @@ class NewtonSystem {
   ~NewtonSystem();
 
   struct Step {
-    std::vector<Vec2d> move;  ///< [D], zero where fixed; empty when the system broke down
+    std::vector<Vec2d> move;  ///< [D], zero where fixed; empty without unknowns or on a breakdown
     double slope = 0;         ///< derivative of the energy along `move`, negative
   };
   /// @param uv  [D] a valid map

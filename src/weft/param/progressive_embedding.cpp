@@ -62,7 +62,8 @@ bool Reinsertion::place(int vertex) {
   return found.has_value();
 }
 
-/// The inner vertices in so many circles around the one that a half-edge leaves, without it.
+/// The inner vertices in the first `circles` + 1 rings around the start of a half-edge, without
+/// that vertex.
 std::vector<int> Reinsertion::neighbourhood(int half_edge, int circles) const {
   std::vector<int> found;
   const int centre = mesh_.from(half_edge);

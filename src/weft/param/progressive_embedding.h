@@ -12,28 +12,28 @@
 namespace weft {
 
 struct ReinsertionOptions {
-  /// A triangle given by its vertices; its energy is what makes room.
+  /// Energy of the triangle with the given vertices, by which the map is relaxed.
   std::function<StarTriangle(const Triangle&)> triangle;
-  double growth = 1.3;  ///< of the count of triangles from one round of sweeps to the next
-  int sweeps = 2;       ///< in a round
-  std::span<const BorderFreedom> freedoms = {};  ///< border vertices that move too
+  double growth = 1.3;  ///< of the number of triangles from one round of sweeps to the next
+  int sweeps = 2;       ///< per round
+  std::span<const BorderFreedom> freedoms = {};  ///< border vertices relaxed too
   Progress* progress = nullptr;
 };
 
-/// Brings all collapsed vertices back into a valid map, each inside the kernel of its neighbours
-/// [shen19], where there always is room in real numbers; where doubles see none, the neighbourhood
-/// is first relaxed without the vertex, in ever wider circles. Between rounds all vertices are
-/// relaxed, so that room never runs out.
-/// @param uv  [D] a valid map of what is left
-/// @return whether all vertices are back; if not, the map of what is left is valid
+/// Reinserts all collapsed vertices into a valid map, each inside the kernel of its neighbours
+/// [shen19]. That kernel is never empty in exact arithmetic; where it is in doubles, the
+/// neighbourhood is first relaxed without the vertex, over more and more rings. Between rounds all
+/// vertices are relaxed, so that triangles stay well shaped.
+/// @param uv  [D] a valid map of the vertices present
+/// @return whether all vertices were reinserted; if not, the map of those present is valid
 bool bring_back(CollapseHierarchy& mesh, std::span<Vec2d> uv, const ReinsertionOptions& options);
 
-/// Maps the inside of a disk into the square without looking at the surface: the disk is taken down
-/// to a wheel (weft/param/collapse_hierarchy.h), whose hub in the midst of a convex border is a
-/// valid map; then all vertices come back one by one, each inside the kernel of its neighbours
-/// [shen19]. In between every triangle is drawn towards equal sides of one size for all, so that
-/// doubles never run out of room, whatever slivers the surface has. The source goes down only where
-/// triangles are flipped; from the wheel no start is needed.
+/// Maps the interior of a disk into a convex border independently of the surface's geometry: the
+/// disk is reduced to a wheel (weft/param/collapse_hierarchy.h), which is a valid map with its hub
+/// at the centre of the border; then all vertices are reinserted one by one, each inside the kernel
+/// of its neighbours [shen19]. In between, triangles are relaxed towards equilateral ones of one
+/// size, so that doubles suffice whatever slivers the surface has. [shen19] collapses only
+/// around flipped triangles of an initial map; the wheel needs no initial map.
 /// @param uv  [D] positions of the border vertices given, counter-clockwise on a convex polygon,
 /// all distinct, three of them not on one line; the rest is overwritten
 /// @pre no chords

@@ -41,7 +41,7 @@ class Coarsener {
   std::vector<char> triangle_alive_;
   std::vector<int> first_corner_;  ///< [V] head of the list of a vertex's corners 3 t + k; -1: none
   std::vector<int> next_corner_;   ///< [3F]; corners of dead triangles stay until the next merge
-  std::vector<std::vector<int>> feature_;  ///< neighbours along cut and border
+  std::vector<std::vector<int>> feature_;  ///< [V] neighbours along cut and border
   std::vector<int> mark_;                  ///< [V] the last round in which a vertex was marked
   int round_ = 0;
   LengthQueue queue_;
@@ -82,7 +82,7 @@ void Coarsener::push(int a, int b) {
 void Coarsener::push_all() {
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     if (!triangle_alive_[t]) continue;
-    // Inside, every edge comes twice, once each way round.
+    // An interior edge occurs twice, once in each direction.
     for (int k = 0; k < 3; ++k) {
       const int a = triangles_[t][k], b = triangles_[t][(k + 1) % 3];
       if (a < b || contains(feature_[a], b)) push(a, b);
@@ -101,7 +101,7 @@ bool Coarsener::has(int triangle, int vertex) const {
   return a == vertex || b == vertex || c == vertex;
 }
 
-/// @return the mark that the neighbours of the vertex, and itself, now have
+/// Marks a vertex and its neighbours. @return the mark
 int Coarsener::mark_neighbours(int vertex) {
   ++round_;
   for_each_around(vertex, [&](int t) {
@@ -118,7 +118,8 @@ bool Coarsener::feature_allows(int from, int to) const {
   return other != to && !contains(feature_[to], other);
 }
 
-/// The link condition: both vertices' common neighbours are those that stand across their edge.
+/// Link condition: the two vertices have no common neighbours except the apexes of their edge's
+/// triangles.
 bool Coarsener::topology_allows(int from, int to) {
   int shared = 0;
   for_each_around(from, [&](int t) { shared += has(t, to) ? 1 : 0; });
@@ -149,13 +150,13 @@ bool Coarsener::shape_allows(int from, int to) const {
     std::replace(moved.begin(), moved.end(), from, to);
     const Vec3d after = normal(moved);
     const double along = dot(before, after);
-    // The cosine of the turn is to be 0.2 or more.
+    // The cosine between the normals before and after must be at least 0.2.
     allowed = along >= 0 && along * along >= 0.04 * squared_length(before) * squared_length(after);
   });
   return allowed;
 }
 
-/// Hands the triangles of one vertex to another and forgets those that had both.
+/// Moves the triangles of one vertex to another and removes those that have both.
 void Coarsener::move_triangles(int from, int to) {
   for_each_around(from, [&](int t) {
     if (has(t, to)) {
@@ -200,7 +201,7 @@ bool Coarsener::collapse(int from, int to) {
 }
 
 void Coarsener::run(int triangles) {
-  // What was refused may be allowed once its surroundings have changed.
+  // A collapse that was rejected may be allowed once its neighbourhood has changed.
   for (int before = alive_ + 1; alive_ > triangles && alive_ < before;) {
     before = alive_;
     push_all();

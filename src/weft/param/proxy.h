@@ -13,10 +13,10 @@ struct Proxy {
   std::vector<int> source_vertex;  ///< [V'] the vertex of the fine mesh at the same place
 };
 
-/// Coarsens a mesh to about so many triangles by collapsing shortest edges onto one of their ends,
-/// as far as the topology (link condition) and the course of cut and border allow: their vertices
-/// only move along them, and nodes stay. Vertices keep their places, so each is one of the fine
-/// mesh.
+/// Coarsens a mesh to about so many triangles by collapsing short edges onto one of their ends, as
+/// far as the topology (link condition), the normals of the triangles and the course of cut and
+/// border allow: vertices of cut and border only move along these, and nodes stay. Positions do not
+/// change, so each vertex is one of the fine mesh.
 /// @pre repaired mesh
 Proxy coarsen(const TriangleMesh& mesh, const Cut& cut, int triangles);
 

@@ -20,7 +20,7 @@ namespace weft {
 
 namespace {
 
-/// Border vertices placed, all others at the origin.
+/// Positions with the border vertices placed and all others at the origin.
 std::vector<Vec2d> place_border(const CutDisk& cut, int size, std::span<const double> t) {
   std::vector<Vec2d> uv(cut.disk.positions.size());
   for (std::size_t b = 0; b < t.size(); ++b) uv[cut.disk.border[b]] = border_point(size, t[b]);
@@ -73,7 +73,7 @@ namespace {
 
 constexpr int max_triangles = 2000;
 
-/// The surface that was cut, whole again.
+/// The surface before it was cut open, and the cut on it.
 struct Surface {
   TriangleMesh mesh;
   Cut cut;
@@ -104,13 +104,14 @@ Surface closed(const CutDisk& cut) {
   return surface;
 }
 
-/// Distance around the border.
+/// Distance between two positions along the border, the shorter way around.
 double apart(double a, double b, double around) {
   const double distance = std::fmod(std::abs(a - b), around);
   return std::min(distance, around - distance);
 }
 
-/// The rotation of a disk under which its nodes lie where those of its coarser self do.
+/// Transfers a border rotation from a coarsened disk to the fine one: to the rotation that puts the
+/// nodes nearest to those of the coarse disk.
 struct Transfer {
   const CutDisk& fine;
   const CutDisk& coarse;
@@ -139,7 +140,8 @@ struct Transfer {
     return static_cast<int>(std::round(best / step)) * step;
   }
 
-  /// Where the fine disk's border meets the first node of a coarse path.
+  /// Border positions on the fine disk of a coarse path's first node, one for each of its seam
+  /// copies.
   [[nodiscard]] std::vector<double> places_of(std::size_t path,
                                               const std::vector<double>& t) const {
     const int node = coarse.disk.border[coarse.paths[path].first];

@@ -11,7 +11,7 @@
 
 namespace weft {
 
-/// Where each disk vertex lies in the square. Kept in sample units, [0, n - 1]^2, so that samples
+/// The position of each disk vertex in the square, in sample units, [0, n - 1]^2, so that samples
 /// are whole numbers and exact.
 struct SquareMap {
   int size = 0;           ///< n
@@ -23,14 +23,14 @@ MapQuality measure_map(const DiskMesh& disk, const SquareMap& map);
 struct MapOptions {
   int size = 257;
   Parameterizer parameterizer = StretchOptions{};
-  std::string name = "mesh";  ///< what errors call the input
-  int rotations = 8;          ///< how many border rotations are tried
+  std::string name = "mesh";  ///< name of the input in errors
+  int rotations = 8;          ///< number of border rotations tried
   Progress* progress = nullptr;
 };
 
-/// A cut disk with its border laid out and its inside mapped.
+/// A cut disk with its border laid out and its interior mapped.
 struct MappedDisk {
-  CutDisk cut;  ///< the input, with edges split at corners, sample nodes and chords
+  CutDisk cut;  ///< the input, with edges split at corners of the square and at chords
   BorderLayout layout;
   SquareMap map;
   MapQuality quality;
@@ -41,10 +41,11 @@ struct MappedDisk {
 /// @throws TopologyError when n is too small (naming the least n) or no valid map was found
 MappedDisk map_to_square(const CutDisk& cut, const MapOptions& options);
 
-/// The border position of the first path's first node that gives the least stretch of about `count`
-/// candidates, spread evenly over one side of the square (turning by a whole side gives the same
-/// map, turned), and of the neighbours of the best at half the spacing. Candidates are mapped in
-/// full, on a coarser mesh where the disk has more than a few thousand triangles.
+/// The border rotation (border position of the first path's first node) of lowest energy among
+/// about `count` candidates, spread evenly over one side of the square (rotating by a whole side
+/// only rotates the map), and the neighbours of the best at half the spacing. Candidates are
+/// evaluated by trial maps (weft/param/trial_map.h), on a coarser mesh where the disk has more than
+/// 2000 triangles.
 /// @pre n is large enough for the cut
 int choose_rotation(const CutDisk& cut, int size, int count);
 

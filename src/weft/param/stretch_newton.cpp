@@ -9,18 +9,18 @@
 namespace weft {
 namespace {
 
-/// The least positive s at which d + b s + c s^2 vanishes; infinity if there is none. @pre d > 0
+/// The smallest positive root s of d + b s + c s^2; infinity if there is none. @pre d > 0
 double first_root(double c, double b, double d) {
   const double discriminant = b * b - 4 * c * d;
   if (discriminant < 0 || (b >= 0 && c >= 0)) return std::numeric_limits<double>::infinity();
   const double root = std::sqrt(discriminant);
-  // 2 d / (-b + root) is the least positive root whatever the sign of c, without cancellation for b
-  // < 0.
+  // 2 d / (-b + root) is the smallest positive root whatever the sign of c, without cancellation
+  // for b < 0.
   const double divisor = root - b;
   return divisor > 0 ? 2 * d / divisor : std::numeric_limits<double>::infinity();
 }
 
-/// How far all vertices can go along their steps before the first triangle closes.
+/// The step length at which the first triangle degenerates; infinity if none does.
 double free_step_length(std::span<const Triangle> triangles, std::span<const Vec2d> uv,
                         std::span<const Vec2d> step) {
   double step_length = std::numeric_limits<double>::infinity();
@@ -35,7 +35,7 @@ double free_step_length(std::span<const Triangle> triangles, std::span<const Vec
   return step_length;
 }
 
-/// A map that is being improved.
+/// A map under minimisation.
 struct State {
   const DiskGeometry& geometry;
   std::span<const BorderFreedom> freedoms;
@@ -43,7 +43,7 @@ struct State {
   double energy = 0;
 };
 
-/// The map moved by so much of a step.
+/// The map after a step of the given length, freedoms on the grid of snap_to_grid.
 std::vector<Vec2d> moved(const State& state, const NewtonSystem::Step& step, double step_length) {
   std::vector<Vec2d> uv(state.uv.begin(), state.uv.end());
   for (std::size_t v = 0; v < uv.size(); ++v) uv[v] = uv[v] + step_length * step.move[v];
@@ -51,8 +51,9 @@ std::vector<Vec2d> moved(const State& state, const NewtonSystem::Step& step, dou
   return uv;
 }
 
-/// Moves along the step as far as the energy falls enough; if none does, stays. The projected
-/// Hessian is too stiff along valleys, so a step that can be taken whole may be taken further.
+/// Backtracking line search with sufficient decrease; without one the map is unchanged. The
+/// projected Hessian is too stiff along valleys, so the step length is doubled while the energy
+/// falls if the first trial is accepted.
 void line_search(State& state, const NewtonSystem::Step& step) {
   const double most = 0.9 * free_step_length(state.geometry.disk.triangles, state.uv, step.move);
   double step_length = std::min(1.0, most);
@@ -90,7 +91,7 @@ void minimise_by_newton(const DiskGeometry& geometry, std::span<Vec2d> uv,
     if (newton.move.empty()) return;
     const double before = state.energy;
     line_search(state, newton);
-    // A stretch goes with the root of the energy: half its relative fall.
+    // Stretch scales with the root of the energy, so its relative decrease is half as large.
     if (state.energy > before * (1 - 2 * options.min_gain)) return;
   }
 }

@@ -59,8 +59,7 @@ TrialMap try_map(const CutDisk& cut, int rotation, const TrialOptions& options) 
   std::vector<double> weights = symmetric_weights(opened.disk, geometry.edges, geometry.sides);
   PartOfProgress first(options.progress, "cut", 0, 0.3);
   PartOfProgress second(options.progress, "cut", 0.3, 1);
-  // Two steps of reweighting: the first map alone would mislead, for one nearly collapsed triangle
-  // dominates its stretch.
+  // Two reweightings: in the first map one nearly collapsed triangle can dominate the stretch.
   const bool valid =
       map_by_reweighting(geometry, solver, weights, uv, {.iterations = 2, .progress = &first});
   TrialMap trial;

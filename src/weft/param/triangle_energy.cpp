@@ -18,7 +18,7 @@ Eigen2 eigen_decompose(double xx, double xy, double yy) {
   const double half = 0.5 * (xx - yy);
   const double radius = std::sqrt(half * half + xy * xy);
   if (radius <= 1e-15 * mean) return {mean, mean, {1, 0}};
-  // Of two equal formulas the one without cancellation.
+  // The one of two equivalent formulas that has no cancellation.
   const Vec2d axis = half >= 0 ? Vec2d{half + radius, xy} : Vec2d{xy, radius - half};
   return {mean + radius, std::max(0.0, mean - radius), normalized(axis)};
 }
@@ -54,8 +54,8 @@ TriangleEnergy triangle_energy(const SurfaceTriangle& surface, Vec2d a, Vec2d b,
   for (int k = 0; k < 3; ++k) {
     energy.gradient[2 * k] = -surface.area * (gxx * hat[k].x + gxy * hat[k].y);
     energy.gradient[2 * k + 1] = -surface.area * (gxy * hat[k].x + gyy * hat[k].y);
-    // Components along the axis and across it; a corner's own turn with it is undone by the axis'
-    // columns.
+    // Components of the hat gradient in the eigenbasis; the factors of `axis` below rotate the
+    // displacement of the corner into it.
     const double along = dot(axis, hat[k]);
     const double across = cross(axis, hat[k]);
     const double x12 = scale3 * part.x * across;
@@ -89,7 +89,7 @@ void add_inverse_stretch(TriangleEnergy& energy, const SurfaceTriangle& surface,
   if (!(weight > 0) || !(surface.g22 > 0)) return;
   const double share = surface.g12 / surface.g22;
   const double rest = std::max(0.0, surface.g11 - surface.g12 * share);
-  // n = g22 |p - share q|^2 + rest |q|^2, in each coordinate alone.
+  // n = g22 |p - share q|^2 + rest |q|^2, separately in each coordinate.
   const std::array<double, 3> first = {share - 1, 1, -share};
   const std::array<double, 3> second = {-1, 0, 1};
   const auto add = [&](int row, const std::array<double, 3>& form, double factor) {
@@ -110,7 +110,7 @@ void add_inverse_stretch(TriangleEnergy& energy, const SurfaceTriangle& surface,
 
 double inverse_weight(const SurfaceTriangle& surface) {
   constexpr double share = 0.2;
-  constexpr double flattest = 0.01;  // area over square sides
+  constexpr double flattest = 0.01;  // area over the sum of the squared sides
   const auto& [g11, g12, g22, area] = surface;
   const double least = flattest * 2 * (g11 - g12 + g22);
   const double raised = std::sqrt(area * area + least * least);

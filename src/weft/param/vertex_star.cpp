@@ -25,7 +25,7 @@ void VertexStar::gather(const CollapseHierarchy& mesh, std::span<const StarTrian
     const auto& [s, quartic, inverse] = triangles[h / 3];
     const Vec2d a = uv[mesh.to(h)];
     const Vec2d b = uv[mesh.from(HalfEdges::previous(h))];
-    // The surface's metric is that on the edges from corner 0.
+    // The metric of SurfaceTriangle is given on the edges from corner 0.
     const double third_side = s.g11 - 2 * s.g12 + s.g22;
     if (h % 3 == 0) {
       corners_.push_back({a, b, s.g11, s.g12, s.g22, s.area, quartic, inverse});
@@ -119,8 +119,8 @@ std::vector<Vec2d> clip(const std::vector<Vec2d>& polygon, Vec2d a, Vec2d d) {
   return left;
 }
 
-/// The kernel relative to the ring's first point, whose neighbourhood matters most: a vertex that
-/// was collapsed onto it comes back beside it.
+/// The kernel in coordinates relative to the ring's first point, which avoids cancellation in small
+/// rings.
 std::vector<Vec2d> kernel(std::span<const Vec2d> ring) {
   Vec2d lower{}, upper{};
   for (const Vec2d p : ring) {

@@ -15,8 +15,8 @@ std::vector<double> mean_value_weights(const DiskMesh& disk, const HalfEdges& ed
   for (int t = 0; t < static_cast<int>(disk.triangles.size()); ++t) {
     const std::array<double, 3> tangents = half_angle_tangents(sides[t]);
     for (int k = 0; k < 3; ++k) {
-      // The angle at corner k lies beside the half-edge that leaves it and, across, beside the twin
-      // of the one that arrives.
+      // The angle at corner k lies beside the half-edge that leaves it and beside the twin of the
+      // half-edge that arrives.
       weights[3 * t + k] += tangents[k] / sides[t][k];
       const int arriving = (k + 2) % 3;
       const int twin = edges.twin[3 * t + arriving];
@@ -38,16 +38,15 @@ std::vector<double> symmetric_weights(const DiskMesh& disk, const HalfEdges& edg
 
 namespace {
 
-/// The one-ring of an interior vertex, flattened: neighbour l lies at the end of half_edge[l].
+/// The flattened one-ring of an interior vertex: neighbour l is the end of half_edge[l].
 struct PolarRing {
   std::vector<int> half_edge;
   std::vector<double> angle;  ///< between neighbours l and l + 1 [rad]
   std::vector<Vec2d> point;   ///< the centre is the origin
 };
 
-/// Scales the angles to a full turn. None may reach half a turn, or the centre would not lie inside
-/// the flattened ring: a spike with one or two wide triangles has their excess handed to the
-/// others.
+/// Scales the angles to a sum of 2 pi. Each is kept below pi, or the centre would not lie inside
+/// the flattened ring: at a spike with one or two wide triangles, the others get their excess.
 void scale_to_full_turn(std::vector<double>& angles) {
   constexpr double widest = 0.95 * pi;
   double total = 0;
@@ -87,8 +86,8 @@ void flatten_ring(int vertex, const HalfEdges& edges, std::span<const std::array
   }
 }
 
-/// The neighbour r such that the ray from neighbour l through the centre leaves between r and r
-/// + 1.
+/// The neighbour r such that the ray from neighbour l through the centre crosses the side from r to
+/// r + 1.
 int opposite_side(const PolarRing& ring, int l) {
   const int count = static_cast<int>(ring.angle.size());
   double turned = 0;
@@ -110,7 +109,7 @@ void add_coordinates(const PolarRing& ring, int l, std::vector<double>& weights)
   std::array<double, 3> area{};
   double total = 0;
   for (int k = 0; k < 3; ++k) {
-    // A ray that leaves exactly through a neighbour may round to a tiny negative area.
+    // The area may round to slightly below zero where the ray passes through a neighbour.
     area[k] =
         std::max(0.0, cross(ring.point[corner[(k + 1) % 3]], ring.point[corner[(k + 2) % 3]]));
     total += area[k];

@@ -36,14 +36,14 @@ std::vector<double> mean_value_weights(const DiskMesh& disk, const HalfEdges& ed
 std::vector<double> symmetric_weights(const DiskMesh& disk, const HalfEdges& edges,
                                       std::span<const std::array<double, 3>> sides);
 
-/// Stretch minimisation by reweighting [yoshizawa04], in the symmetric form: every weight w_ij is
+/// Stretch minimisation by reweighting [yoshizawa04], in a symmetric form: every weight w_ij is
 /// divided by the stretch of both its ends, w_ij / (sigma_i sigma_j), and the system solved again.
-/// The source divides by the stretch of one end only, which takes an unsymmetric factorization each
-/// time. Weights stay positive, so every iterate is an embedding as far as doubles can tell.
+/// The original divides by the stretch of one end only, which needs an unsymmetric factorization
+/// each time. Weights stay positive, so every iterate is an embedding up to rounding.
 struct ReweightingOptions {
-  int iterations = 10;     ///< at most, once a valid map is there
-  int cures = 6;           ///< how often a map that is not valid is reweighted before giving up
-  double min_gain = 1e-3;  ///< relative fall of the stretch below which the iteration ends
+  int iterations = 10;     ///< maximum, counted from the first valid map
+  int cures = 6;           ///< maximum number of reweightings of a map that is not valid
+  double min_gain = 1e-3;  ///< relative decrease of the stretch below which the iteration ends
   Progress* progress = nullptr;  ///< told of every iteration
 };
 

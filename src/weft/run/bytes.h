@@ -38,8 +38,9 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads them again. Beyond the end everything is zero and `whole` false, so that a reader asks
-/// once, before it sets memory aside and at the end.
+/// Reads values that ByteWriter wrote. Beyond the end `read` and `next` give zero, `read_floats`
+/// changes nothing, and `whole` is false, so that callers check only before they allocate and at
+/// the end.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : left_(bytes) {}

@@ -25,8 +25,8 @@ constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
 constexpr std::size_t header_bytes = hash_at + sizeof(std::uint64_t);
 constexpr std::string_view weft_version = WEFT_VERSION;
 
-/// Every field of a frame's report in the order of the file: what is forgotten here would be lost
-/// in a resumed run's tables.
+/// Visits every field of a frame report in the order of the file; a field missing here would be
+/// lost in the tables of a resumed run.
 template <class Report, class Visit>
 void each_field(Report& f, const Visit& visit) {
   visit(f.milliseconds), visit(f.forces_ms), visit(f.solve_ms), visit(f.collide_ms),
@@ -71,7 +71,7 @@ void add_cloth(const ClothState& cloth, ByteWriter& out) {
   });
 }
 
-/// Nothing for a size that the bytes do not hold.
+/// Reads a cloth; nothing for a size that the bytes do not hold.
 std::optional<ClothState> next_cloth(ByteReader& in) {
   const auto size = in.next<std::int32_t>();
   if (size < min_image_size || size > largest_image_size) return std::nullopt;
@@ -89,7 +89,7 @@ void add_marks(const std::vector<int>& marks, ByteWriter& out) {
   for (const int mark : marks) out.add(static_cast<std::int32_t>(mark));
 }
 
-/// Nothing for a count that does not fit the cloth, or a mark that none is.
+/// Reads marks; nothing for a count that does not fit the cloth, or an invalid mark.
 std::optional<std::vector<int>> next_marks(std::size_t wanted, ByteReader& in) {
   const auto count = in.next<std::uint64_t>();
   if (count != 0 && count != wanted) return std::nullopt;
@@ -102,7 +102,7 @@ std::optional<std::vector<int>> next_marks(std::size_t wanted, ByteReader& in) {
   return marks;
 }
 
-/// Every field of a past contact in the order of the file.
+/// Visits every field of a past contact in the order of the file.
 template <class Past, class Visit>
 void each_field_of_past(Past& past, const Visit& visit) {
   for (auto& sample : past.samples) visit(sample);
@@ -118,7 +118,7 @@ void add_contacts(const std::vector<PastContact>& contacts, ByteWriter& out) {
     each_field_of_past(past, [&](auto value) { out.add(value); });
 }
 
-/// Nothing for a count that the bytes do not hold.
+/// Reads past contacts; nothing for a count that the bytes do not hold.
 std::optional<std::vector<PastContact>> next_contacts(ByteReader& in) {
   const auto count = in.next<std::uint64_t>();
   if (count > in.left() / sizeof(PastContact)) return std::nullopt;
@@ -153,7 +153,7 @@ void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
     add_contacts(i < state.contacts.size() ? state.contacts[i] : std::vector<PastContact>(), out);
 }
 
-/// Nothing when the fields do not fit together, as in no file that Weft wrote.
+/// Reads a checkpoint; nothing when its fields are inconsistent, as in no file that Weft wrote.
 std::optional<Checkpoint> parse_payload(ByteReader in) {
   Checkpoint checkpoint;
   checkpoint.identity = in.next_text();
@@ -243,7 +243,7 @@ Checkpoint decode_checkpoint(std::string_view bytes, const std::string& where) {
 void write_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
   const std::string bytes = encode_checkpoint(checkpoint);
   const auto write = [&](std::ostream& out) { out << bytes; };
-  // Of the file: one that is killed while writing leaves nothing that stays.
+  // The same temporary name for every process: a later one overwrites what a killed one left.
   write_file(path, write, TemporaryName::of_the_file);
 }
 

@@ -7,12 +7,12 @@
 
 namespace weft {
 
-/// Room on a disk that is held until it is needed: where other files may fill the disk, what tells
-/// of them still finds a place. Held by a file with a temporary name.
+/// Disk space reserved by a file with a temporary name while this exists, so that reports can still
+/// be written when other files fill the disk.
 class DiskReservation {
  public:
-  /// @param path  beside which the room is; nothing appears under this name
-  /// @throws OutputError when there is not as much
+  /// @param path  beside which the temporary file lies; nothing appears under this name
+  /// @throws OutputError when there is less space
   DiskReservation(const std::filesystem::path& path, std::uintmax_t bytes);
 
  private:

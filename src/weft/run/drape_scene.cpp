@@ -11,7 +11,7 @@ namespace weft {
 namespace {
 
 constexpr double body_side = 1;          // [m]
-constexpr double cloth_over_body = 1.6;  // sides of a flat cloth over the body's
+constexpr double cloth_over_body = 1.6;  // side of a flat cloth over the body's
 constexpr double gap_above = 0.02;       // [m]
 constexpr double worn_share = 0.5;
 constexpr std::string_view builtin_prefix = "builtin:";
@@ -39,7 +39,7 @@ Box3d surface_box(const std::string& surface, const MeshFrame& files) {
   return box;
 }
 
-/// The part of a's extent that lies within b's; a flat box counts whole when it lies within.
+/// The part of interval a that lies within b; 1 for an empty interval within b.
 double shared_part(double a_lower, double a_upper, double b_lower, double b_upper) {
   const double shared = std::min(a_upper, b_upper) - std::max(a_lower, b_lower);
   if (shared < 0) return 0;
@@ -57,7 +57,7 @@ bool is_worn(const std::string& cloth, const Box3d& a, const Box3d& b) {
 
 Vec3d all_sides(double scale) { return {scale, scale, scale}; }
 
-/// Centred over the body's box, above its top.
+/// Placement of a cloth above the top of the body's box, centred.
 Placement laid_above(const Box3d& cloth, double cloth_scale, const Box3d& placed_body) {
   const Vec3d over = placed_body.centre(), own = cloth_scale * cloth.centre();
   return {all_sides(cloth_scale),

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number behind a word of a file, or the first of all without one. Nothing for "max", which is
+/// The number after a key in a file, or the first one without a key. Nothing for "max", which is
 /// how control groups write that there is no limit.
 std::optional<std::uint64_t> number_in(const fs::path& path, std::string_view key = {}) {
   std::ifstream in(path);
@@ -28,7 +28,7 @@ std::optional<std::uint64_t> number_in(const fs::path& path, std::string_view ke
   return std::nullopt;
 }
 
-/// Where the process stands among the groups: the path of "0::/path" or of "4:memory:/path".
+/// Control group of the process: the path of "0::/path" or of "4:memory:/path".
 fs::path group_of(const fs::path& root, std::string_view controller) {
   std::ifstream in(root / "proc/self/cgroup");
   for (std::string line; std::getline(in, line);) {
@@ -48,7 +48,7 @@ constexpr GroupFiles versions[] = {
     {"sys/fs/cgroup/memory", "memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
      "total_inactive_file"}};
 
-/// What a group's limit leaves; files that the system may drop from its cache count as free.
+/// Memory left below the limit of a group; cached files that the system may drop count as free.
 std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& files) {
   const auto limit = number_in(group / files.limit), used = number_in(group / files.used);
   if (!limit || !used) return std::nullopt;
@@ -75,21 +75,21 @@ std::optional<std::uint64_t> available_memory(const fs::path& root) {
 }
 namespace {
 
-// Measured as the most that a run held, by size; the test of the program compares them again.
+// Measured as the peak memory of runs, by size; the test of the program checks these again.
 constexpr double program_bytes = 10e6;
 constexpr double body_bytes_per_sample = 370;
-/// Every cloth has a polar table of every body.
+/// Polar tables, one for every pair of a cloth and a body.
 constexpr double table_bytes_per_sample = 110;
-/// The other colliders keep trees of both.
+/// Trees of the other colliders.
 constexpr double colliding_cloth_bytes_per_sample = 210, colliding_body_bytes_per_sample = 200;
-/// What intersections are counted with.
+/// Memory of the intersection count.
 constexpr double counted_cloth_bytes_per_sample = 330;
-/// Its rest and both ends of a step, and what each sample is a blend of.
+/// Of a moving body: rest, both ends of a step, and the blend of each sample.
 constexpr double moving_bytes_per_sample = 64;
 constexpr double margin = 1.25, short_share = 0.8;
 
 double animation_bytes(const std::string& path) {
-  std::error_code missing;  // is told when it is read
+  std::error_code missing;  // reported when it is read
   const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
   return missing ? 0 : static_cast<double>(bytes);
 }

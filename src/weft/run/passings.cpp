@@ -27,7 +27,7 @@ void add(Box3d& box, const Box3d& other) {
   box.add(other.upper);
 }
 
-/// Two ends of an edge of a triangle.
+/// Both ends of an edge of a triangle.
 std::array<int, 2> edge_of(const Triangle& t, std::size_t k) { return {t[k], t[(k + 1) % 3]}; }
 
 VertexFace vertex_face(Vec3d vertex, const Planes3& of_face, const Triangle& face) {
@@ -54,7 +54,7 @@ bool has(const Triangle& t, int vertex) {
 
 }  // namespace
 
-/// What a search through two trees finds.
+/// State of a traversal of two trees.
 struct PassingSurface::Pairs {
   bool same = false;
   std::int64_t count = 0;
@@ -134,7 +134,7 @@ std::int64_t PassingSurface::count_between(int s, const PassingSurface& other, i
   return count;
 }
 
-/// Goes down both trees, or one with itself, each pair of triangles once.
+/// Traverses both trees, or one with itself; each pair of triangles is tested once.
 void PassingSurface::find(int node, const PassingSurface& other, int other_node,
                           Pairs& pairs) const {
   if (!overlap(boxes_[static_cast<std::size_t>(node)],

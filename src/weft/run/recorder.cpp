@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a scene is made of may lie in the folder of an earlier run.
+/// Input files of a scene, which may lie in the folder of an earlier run.
 std::vector<fs::path> input_files(const Scene& scene) {
   std::vector<fs::path> files;
   const auto add = [&](const Surface& surface) {
@@ -110,7 +110,7 @@ void Recorder::start() {
 
 void Recorder::resume(bool finished) {
   const int frame = simulation_.frame();
-  // All are looked at before the first is cut back.
+  // All are checked before the first is truncated.
   each([&](const SurfaceRecord& record) { record.check_resumable(frame); });
   each([&](SurfaceRecord& record) { record.resume(frame, finished); });
 }

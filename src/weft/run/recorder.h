@@ -12,36 +12,35 @@
 
 namespace weft {
 
-/// Everything that a run leaves in its folder. Files that grow appear under their names at
-/// `finish`.
+/// Writes all files of a run to its folder. Files that grow get their final names at `finish`.
 class Recorder {
  public:
-  /// Writes what does not grow. @param simulation  at its start; kept by reference, as are the
-  /// others
+  /// Writes the files that do not grow.
+  /// @param simulation  at its start; kept by reference, as are the others
   /// @throws OutputError, as everything below
   Recorder(const Simulation& simulation, const Scene& scene, const RunOptions& options);
 
-  /// Begins the files that grow, with frame 0.
+  /// Starts the files that grow, with frame 0.
   void start();
-  /// Goes on with those of an earlier run, at the simulation's frame.
+  /// Continues the growing files of an earlier run, at the simulation's frame.
   /// @param finished  nothing will be added: whole files are left as they are
   /// @throws InputError when they do not hold the frames up to there
   void resume(bool finished);
   void add_frame();
   /// Waits until all frames are on the disk.
   void flush();
-  /// Puts the files that grew in their places and names everything in the report, what
-  /// `make_of_caches` will leave, too.
+  /// Finishes the files that grew, and lists all outputs in the report, including those that
+  /// `make_of_caches` will write.
   void finish(RunReport& report);
-  /// Makes the files that are made of those. They take room that may be missing: whatever tells how
-  /// to go on is better written before.
+  /// Writes the files that are converted from finished caches. They may fill the disk, so the
+  /// checkpoint should be written before.
   void make_of_caches();
 
-  /// What cloths pass through as everything stands now: each itself, the others, bodies, the
+  /// Intersections of cloths at the current positions: with themselves, the others, bodies, the
   /// ground.
   [[nodiscard]] IntersectionCounts intersections();
-  /// Pairs of triangles of what is written that cross now: cloths with all, on the meshes' own
-  /// vertices where those are written.
+  /// Pairs of triangles of the written surfaces that cross now, cloths with everything; on the
+  /// vertices of the input meshes where those are written.
   [[nodiscard]] std::int64_t written_crossings();
 
  private:
@@ -62,7 +61,7 @@ class Recorder {
   std::vector<Planes3> body_rests_;  // placed, where a mesh is written
   Records cloths_, bodies_;
   std::vector<std::filesystem::path> rests_;  // outputs that do not grow
-  std::optional<IntersectionCheck> check_;    // made where it is asked for
+  std::optional<IntersectionCheck> check_;    // made at its first use
 };
 
 }  // namespace weft

@@ -54,7 +54,7 @@ Json found_json(const FrameIntersections& found) {
   return json;
 }
 
-/// Of the frame that stretched farthest; nothing where no frame was simulated.
+/// Strain of the frame with the largest strain; nothing where no frame was simulated.
 Json worst_strain(const RunReport& report) {
   const auto worst = std::max_element(
       report.history.begin(), report.history.end(),
@@ -80,7 +80,7 @@ double blocked_share(const FrameReport& frame, int particles) {
   return particles > 0 ? static_cast<double>(frame.stopped) / particles : 0;
 }
 
-/// Of the frame where it was largest.
+/// The largest blocked share of any frame.
 double worst_blocked_share(const RunReport& report) {
   double worst = 0;
   for (const FrameReport& frame : report.history)
@@ -115,7 +115,7 @@ Json verification_json(const RunReport& report) {
           {"written", worst(report.verification->written)}};
 }
 
-/// Of energy_gained_mgl [m].
+/// The length l of energy_gained_mgl [m].
 constexpr double usual_height = 1;
 
 }  // namespace

@@ -20,12 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Work that a killed run may lose where nobody says how many frames [s].
+/// Default time between checkpoints: the work that a killed run may lose [s].
 constexpr double default_seconds_between_checkpoints = 5;
-/// At least what frames.csv and the manifests take [bytes].
+/// Upper bounds on the sizes of frames.csv and the manifests [bytes].
 constexpr std::size_t min_room = 16384, room_of_surface = 1024, room_of_frame = 256;
 
-/// Points that fall back in a frame, of all, before the run remarks on it.
+/// Part of all points that fall back in a frame, above which the run notes it.
 constexpr double max_fallen_part = 0.01;
 
 std::string listed(std::span<const std::string_view> names) {
@@ -65,10 +65,10 @@ class CheckpointClock {
 
  private:
   std::optional<int> frames_;
-  Stopwatch since_;  // the last one
+  Stopwatch since_;  // the last checkpoint
 };
 
-/// What is known before the first frame.
+/// The part of a report that is known before the first frame.
 RunReport start_report(const Simulation& simulation, const Scene& scene, const std::string& name,
                        int threads) {
   RunReport report;
@@ -97,7 +97,7 @@ void add_to_report(RunReport& report, const FrameReport& frame) {
   report.centre_of_mass.push_back(frame.centre_of_mass);
 }
 
-/// Pairs of triangles of cloths alone.
+/// Crossing pairs of triangles of cloths alone.
 std::int64_t tangled_pairs(const IntersectionCounts& counts) { return counts.self + counts.cloths; }
 
 std::string tangle_text(const IntersectionCounts& counts) {
@@ -125,7 +125,7 @@ class Run {
   }
 
   void start() {
-    // One of an earlier run would not fit to the files that begin now.
+    // A checkpoint of an earlier run would not match the files that begin now.
     std::error_code ignored;
     fs::remove(path_, ignored);
     make_recorder().start();
@@ -222,8 +222,8 @@ class Run {
     }
   }
 
-  /// Every frame with verify, else those of which cloths are known to cross, by an earlier look or
-  /// by the collider.
+  /// Counts intersections: in every frame with verify, else only while cloths are known to cross,
+  /// by an earlier count or by the collider.
   void look_at_frame() {
     const bool tangled = !report_.untangled_frame || simulation_.crossings() > 0;
     if (!options_.verify && !tangled) return;
@@ -259,7 +259,7 @@ class Run {
     };
     const auto first = std::find_if(report_.history.begin(), report_.history.end(), many);
     if (first == report_.history.end()) return;
-    // What was said of the run as a whole stays last.
+    // Notes on the run as a whole stay last.
     report_.notes.insert(
         report_.notes.begin(),
         fmt::format("frame {}: {} of {} points were put back to where their step began, since they "
@@ -284,7 +284,7 @@ class Run {
     write_point();
   }
 
-  /// For what `keep` writes when the disk is full of frames.
+  /// Reserves disk space for what `keep` writes when frames have filled the disk.
   void reserve() {
     const std::size_t surfaces = scene_.cloths.size() + scene_.bodies.size();
     const auto frames = static_cast<std::size_t>(scene_.frames);
@@ -292,7 +292,7 @@ class Run {
                          min_room + room_of_surface * surfaces + room_of_frame * frames);
   }
 
-  /// Everything so far, as files that are whole, and where to go on.
+  /// Finishes all files with the frames so far, and writes the checkpoint.
   void keep() {
     reservation_.reset();
     recorder_->finish(report_);
@@ -305,7 +305,7 @@ class Run {
     recorder_->make_of_caches();
   }
 
-  /// The first error tells what is the matter; a second of the kind would only hide it.
+  /// Keeps what still fits. A second output error would only hide the first.
   void keep_what_fits() {
     try {
       keep();
@@ -332,7 +332,7 @@ class Run {
   RunReport report_;
   std::optional<Verifier> verifier_;
   std::optional<Recorder> recorder_;
-  Checkpoint point_;  // its state is that of the last whole frame
+  Checkpoint point_;  // its state is that of the last finished frame
   int last_written_ = -1;
   std::optional<DiskReservation> reservation_;
 };

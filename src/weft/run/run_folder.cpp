@@ -48,7 +48,7 @@ constexpr std::array<std::string_view, 4> cloth_keys{"name", "image", "cache", "
 constexpr std::array<std::string_view, 8> body_keys{"name",   "image",     "normals", "scale",
                                                     "rotate", "translate", "cache",   "unwelded"};
 
-/// Where the files of a run lie and what their numbers mean.
+/// Folder of the files of a run, and their unit and axes.
 struct RecordedPlace {
   fs::path folder;
   MeshFrame files;

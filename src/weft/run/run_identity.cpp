@@ -18,7 +18,8 @@ using Json = nlohmann::json;
 
 constexpr int deepest_nesting = 32;
 
-/// As an absolute path, so that the scene's writer leaves it as it is but for the leading slash.
+/// Hash of a surface, as an absolute path, so that the scene writer keeps it except for the leading
+/// slash.
 std::string surface_name(const Planes3& placed, const BorderMates& mates) {
   Hash hash;
   for (const Grid<float>* plane : {&placed.x, &placed.y, &placed.z}) hash.add(*plane);
@@ -26,7 +27,7 @@ std::string surface_name(const Planes3& placed, const BorderMates& mates) {
   return std::string("/").append(hash.text());
 }
 
-/// The same of a file's bytes.
+/// Hash of a file's bytes, in the same form.
 std::string file_name(const std::string& path) {
   const std::string bytes = read_file(path);
   Hash hash;
@@ -34,7 +35,7 @@ std::string file_name(const std::string& path) {
   return std::string("/").append(hash.text());
 }
 
-/// Null for what is no JSON.
+/// Parsed JSON; null for what is no JSON.
 Json parsed(const std::string& text) {
   try {
     return parse_json(text, deepest_nesting);
@@ -79,7 +80,7 @@ std::string identity_difference(const std::string& found, const std::string& wan
   if (there.is_null() || here.is_null()) return "scene is none";
   const Json changes = Json::diff(there, here);
   if (changes.empty()) return {};
-  // Another method has other keys, too: the method's own name says most.
+  // Another method has other keys, too; its type says most.
   const auto names_type = [](const Json& change) {
     return change.at("path").get<std::string>().ends_with("/type");
   };

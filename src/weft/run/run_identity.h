@@ -6,9 +6,9 @@
 
 namespace weft {
 
-/// What makes a run the one that it is, as JSON: the scene with every key but the number of frames,
-/// surfaces by a hash of the samples that they became and animations by one of their bytes (so that
-/// a changed file is another scene, a moved one is not), and what is recorded.
+/// Identity of a run as JSON: the scene with every key but the number of frames, with surfaces
+/// replaced by hashes of their samples and animations by hashes of their bytes (so that a changed
+/// file is another scene, a moved one is not), and what is recorded.
 std::string run_identity(const Scene& scene, const Simulation& simulation,
                          const RunOptions& options);
 

@@ -14,11 +14,11 @@ struct RunCaches {
   bool unwelded = false;                    ///< every sample a point
   std::vector<std::string> cloths, bodies;  ///< file names; empty where there is none
 };
-/// The manifest that open_run_folder reads.
+/// Writes the manifest that open_run_folder reads.
 void write_run_manifest(const std::filesystem::path& path, const Scene& scene,
                         const RunReport& report, const RunCaches& caches);
 
-/// A body's normal map as it was loaded, beside its image: so that drawing needs no mesh.
+/// Path of a body's normal map as it was loaded, beside its image, so that drawing needs no mesh.
 std::filesystem::path normals_path(const std::filesystem::path& folder, const std::string& body);
 
 }  // namespace weft

@@ -9,17 +9,17 @@
 
 namespace weft {
 
-/// Looks at every step of a simulation and at the end of every frame, sharing nothing with its
-/// collider: what passes through what by continuous detection, what closed bodies swallow by
-/// winding numbers.
+/// Verifies every step of a simulation and the end of every frame, independently of its collider:
+/// surfaces that pass through each other by continuous detection, cloth that closed bodies swallow
+/// by winding numbers.
 class Verifier final : public StepWatcher {
  public:
   /// @param simulation  at its start; kept by reference
   Verifier(const Simulation& simulation, std::optional<double> ground);
   void see(const StepMotion& step) override { passed_ += passings_.count(step); }
-  /// Where everything stands is taken for right, as far as it is.
+  /// Notes which samples are now on the correct side of closed bodies.
   void begin() { count_swallowed(); }
-  /// At the end of a frame.
+  /// Adds the counts of a finished frame.
   void count_frame(int frame, Verification& found);
 
  private:
@@ -28,7 +28,7 @@ class Verifier final : public StepWatcher {
     std::size_t cloth = 0;
     ClosedBody body;
     bool kept_in = false;
-    std::vector<char> right;  // [n * n] whether a sample has been on the side where it belongs
+    std::vector<char> right;  // [n * n] whether a sample has been on the correct side
   };
   std::int64_t count_swallowed();
 

@@ -19,31 +19,33 @@ namespace weft {
 namespace {
 
 constexpr double disc_radius = 0.15, support_radius = 0.09;  // [m]
-/// Waves around the disc that a push is made of, and its largest speed [m/s].
+/// Angular wave numbers of the initial velocities of a disc, and their largest size [m/s].
 constexpr std::array waves{2, 3, 4, 5, 6, 7, 8};
 constexpr double push_speed = 0.05;
-/// A disc rests when its kinetic energy is below this times m g and its diameter.
+/// A disc is at rest when its kinetic energy is below this part of m g times its diameter.
 constexpr double still_energy = 1e-9;
-/// Between two looks at it [s].
+/// Time between two tests for rest [s].
 constexpr double time_between_looks = 0.25;
-/// In which a disc's weight comes on [s].
+/// Time over which gravity rises to its full value [s].
 constexpr double seconds_of_lowering = 1;
-/// How fast the air slows a disc down [1/s]. It decides how soon a disc rests, not where.
+/// Damping rate of velocities [1/s]. It affects how soon a disc comes to rest, not where.
 constexpr double air_drag = 4;
-/// Samples a side from which on discs are let down with half as many.
+/// Smallest coarse grid on which a finer disc is first let down, in samples a side.
 constexpr int min_start_size = 33;
-/// Bending lengths between which fits look; cloth measures 1 to 5 cm [m].
+/// Range of bending lengths that a fit searches; cloth has 1 to 5 cm [m].
 constexpr double softest_length = 0.005, stiffest_length = 0.1;
-/// A fit ends where it is this near, or knows B within this part.
+/// A fit ends once the drape coefficient is within `near` of the target, or the bracket of B is
+/// narrower than the relative width `bending_tolerance`.
 constexpr double near = 0.003, bending_tolerance = 0.01;
 
 double radius_of(Vec3d p) { return std::sqrt(p.x * p.x + p.z * p.z); }
 
-/// Where a disc's rings lie: evenly without and within, so that bending, which begins half a ring
-/// before the last pinned one, begins at the support's edge, whatever the number of samples.
+/// Radii of a disc's rings of samples, evenly spaced on the support and on the overhang. Bending
+/// begins half a ring outside the last pinned one, which is the support's edge, whatever the number
+/// of samples.
 struct Rings {
-  int pinned = 0;               ///< the last that is
-  double inner = 0, outer = 0;  ///< between two [m]
+  int pinned = 0;               ///< index of the last pinned ring
+  double inner = 0, outer = 0;  ///< spacing on the support, on the overhang [m]
 
   explicit Rings(int n) {
     const int all = (n - 1) / 2;
@@ -72,7 +74,7 @@ Planes3 flat_disc(int n) {
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
       const int ring = ring_of(n, r, c);
-      // The shape is 1 across.
+      // The built-in disc has diameter 1.
       const double scale = ring > 0 ? rings.radius(ring) * (n - 1) / ring : 0;
       rest.set(r, c, static_cast<float>(scale) * rest.at(r, c));
     }
@@ -89,7 +91,8 @@ Cloth pinned_disc(const Material& material, int n) {
   return cloth;
 }
 
-/// Level, with the speeds of a few random waves around it that grow towards its edge.
+/// Initial state of a disc: flat, with vertical velocities from a few random angular waves whose
+/// amplitude grows towards the edge.
 ClothState pushed_disc(const Cloth& cloth, Random& random) {
   std::array<double, waves.size()> strength{}, phase{};
   for (std::size_t i = 0; i < waves.size(); ++i) {
@@ -109,7 +112,7 @@ ClothState pushed_disc(const Cloth& cloth, Random& random) {
   return state;
 }
 
-/// A disc of half as many rings, at rest as a coarser one came to it.
+/// Initial state of a disc, interpolated from the rest state of one with half as many rings.
 ClothState refined(const Cloth& cloth, const Cloth& coarse_cloth, const ClothState& coarse) {
   ClothState state = rest_state(cloth);
   const auto moved = [&](int r, int c) {
@@ -126,8 +129,8 @@ ClothState refined(const Cloth& cloth, const Cloth& coarse_cloth, const ClothSta
   return state;
 }
 
-/// The disc is let down, not dropped: its weight comes on bit by bit. Dropped discs fall into more
-/// folds than those of real tests.
+/// Scales gravity by the elapsed part of the time over which it rises. A disc is let down, not
+/// dropped: dropped discs fall into more folds than those of real tests.
 StepInput lowered(StepInput input, double seconds, double whole_seconds) {
   if (seconds < whole_seconds)
     input.gravity = static_cast<float>(seconds / whole_seconds) * input.gravity;
@@ -140,7 +143,8 @@ void slow_down(float factor, ClothState& state) {
       for (int c = 0; c < plane->cols(); ++c) (*plane)(r, c) *= factor;
 }
 
-/// Until it rests, slowed by air, and for one look more without air.
+/// Steps a disc with air drag until it is at rest and stays so without drag until the next test,
+/// for at most `options.seconds`.
 void fall(const Cloth& cloth, const DrapeTestOptions& options, double lowering_seconds,
           Progress& progress, ClothState& state) {
   ThreadTeam team(options.team);
@@ -166,8 +170,9 @@ void fall(const Cloth& cloth, const DrapeTestOptions& options, double lowering_s
   }
 }
 
-/// Lets a disc down at about 33 samples a side, where that is quick, and goes on from where it
-/// rests with twice as many: folds slide and merge for long, and that they do on any grid.
+/// Finds the rest state of a disc from coarse to fine: lets it down on a grid of about 33 samples a
+/// side, where that is cheap, and continues on grids of twice the resolution. Folds take long to
+/// slide and merge on any grid.
 void settle(const Material& material, const Cloth& cloth, const DrapeTestOptions& options,
             Random& random, Progress& progress, ClothState& state) {
   const int coarse_size = (cloth.size + 1) / 2;
@@ -184,7 +189,7 @@ void settle(const Material& material, const Cloth& cloth, const DrapeTestOptions
   fall(cloth, options, 0, second, state);
 }
 
-/// How often a closed line rises by a fifth of its height.
+/// Number of folds of a closed line: how often its values rise by a fifth of their range.
 int count_folds(const std::vector<double>& line) {
   const auto [least, most] = std::minmax_element(line.begin(), line.end());
   const double rise = 0.2 * (*most - *least);
@@ -209,7 +214,7 @@ int count_folds(const std::vector<double>& line) {
   return folds;
 }
 
-/// How far out the disc's edge lies, once around.
+/// Distances of the disc's border samples from its axis, once around [m].
 std::vector<double> outline(const Planes3& position) {
   const int n = position.size();
   std::vector<double> radii;
@@ -240,7 +245,7 @@ void summarise(DrapeResult& result) {
   result.spread = count > 1 ? std::sqrt(squares / (count - 1)) : 0;
 }
 
-/// The bracket of a fit.
+/// The bending stiffnesses between which a fit searches.
 struct Bracket {
   double soft = 0, stiff = 0;  ///< B [N m]
 };
@@ -258,7 +263,7 @@ class Fit {
     while (bracket.stiff > (1 + bending_tolerance) * bracket.soft && miss(best) > near) {
       (last.drape.coefficient < wanted_ ? bracket.soft : bracket.stiff) = last.bending;
       last = drape(std::sqrt(bracket.soft * bracket.stiff));
-      // Where the number of folds changes the coefficient may jump over what is wanted.
+      // The coefficient may jump past the target where the number of folds changes.
       if (miss(last) < miss(best)) best = last;
     }
     return best;
@@ -267,7 +272,7 @@ class Fit {
  private:
   FittedBending drape(double bending) {
     material_.bending = bending;
-    // As many as halving the bracket takes.
+    // About as many trials as bisection of the bracket takes.
     constexpr double max_trials = 12;
     DrapeTestOptions options = options_;
     PartOfProgress part(options_.progress, "draping discs", std::min(1.0, trials_ / max_trials),

@@ -9,44 +9,46 @@
 
 namespace weft {
 
-/// The triangles of an image's surface by the samples that stand for their classes; those with a
-/// repeated corner left out.
+/// The triangles of an image with corners replaced by the representatives of their classes of
+/// mates; those with a repeated corner are left out.
 std::vector<Triangle> joined_triangles(const GeometryImage& image);
 
-/// A placed surface as what is inside of it is asked for.
+/// Inside test for a placed surface, by winding numbers.
 class ClosedBody {
  public:
-  /// @param image  its triangles; kept by reference, as are the positions [n x n] [m]
+  /// @param image      gives the triangles
+  /// @param positions  kept by reference [n x n] [m]
   ClosedBody(const GeometryImage& image, const Planes3& positions);
-  /// Whether it has an inside at all; what follows needs it.
+  /// Whether the surface is closed, as follow and mark_inside require.
   [[nodiscard]] bool closed() const { return winding_.has_value(); }
-  /// Takes the positions as they are now.
+  /// Updates the test to the current positions.
   void follow();
-  /// Of each sample of a surface, mates too, whether the body winds around it. [n * n]
+  /// Marks the samples of another surface, mates too, around which the body winds. [n * n]
   void mark_inside(const Planes3& samples, ThreadTeam& team, std::vector<char>& inside) const;
 
  private:
   void put_corners(std::span<Corners> corners) const;
 
   const Planes3* positions_;
-  std::vector<Triangle> triangles_;  // by samples that stand for their classes
+  std::vector<Triangle> triangles_;  // by representatives of classes of mates
   Box3d box_;
   std::optional<WindingNumbers> winding_;
 };
 
-/// Where a cloth begins among the bodies.
+/// Which bodies a cloth is inside of at the start of a run.
 struct StartSides {
   std::vector<StartInside> inside;
   std::vector<char> kept_in;    ///< of each body: whether it keeps the cloth in
   std::vector<int> wrong_side;  ///< of each sample: the number, from 1, of a body that pushes it
-                                ///< out; 0: of none [n * n]
+                                ///< out; 0: none [n * n]
 };
 
-/// @param containers  whether there can be any; else all that is inside is pushed out
+/// Finds the closed bodies that a cloth begins inside of, wholly or in part.
+/// @param containers  whether the collider supports containers; if not, every body pushes out
 StartSides find_start_sides(const SimulatedCloth& cloth, std::span<const PlacedBody> bodies,
                             bool containers, ThreadTeam& team);
 
-/// What is told of it, in one line.
+/// Describes such a start in one line.
 std::string start_inside_text(const StartInside& found);
 
 }  // namespace weft

@@ -13,7 +13,7 @@ Rows multiplied(const Rows& a, const Rows& b) {
   return product;
 }
 
-/// About x, then y, then z.
+/// Rotation about x, then y, then z.
 Rows rotation(Vec3d degrees) {
   const Vec3d angle = (pi / 180) * degrees;
   const double cx = cosine(angle.x), sx = sine(angle.x);

@@ -7,7 +7,7 @@
 
 namespace weft {
 
-/// The linear map and the shift of a placement.
+/// The affine map of a placement.
 struct PlacementMap {
   std::array<Vec3d, 3> rows;         ///< of rotation times scale
   std::array<Vec3d, 3> normal_rows;  ///< of rotation times 1 / scale: for normals
@@ -23,11 +23,11 @@ struct PlacementMap {
 };
 PlacementMap placement_map(const Placement& placement);
 
-/// Where the samples of an image stand in the scene; mates equal. [n x n] [m]
+/// World positions of the samples of an image; mates are equal. [n x n] [m]
 Planes3 placed_positions(const GeometryImage& image, const PlacementMap& map);
 NormalMap placed_normals(const NormalMap& normals, const PlacementMap& map);
 
-/// Of all samples. [m]
+/// Bounding box of all samples. [m]
 Box3d box_of(const Planes3& positions);
 
 }  // namespace weft

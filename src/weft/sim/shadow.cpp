@@ -11,7 +11,7 @@ namespace {
 
 constexpr int side = 2048;
 
-/// Pixels of a square around the surface; a pixel is covered when its middle is.
+/// A raster over a square around the surface; a pixel is covered when its centre is.
 class Raster {
  public:
   Raster(Vec2d lower, double width)
@@ -30,14 +30,14 @@ class Raster {
   }
 
  private:
-  /// In pixels, a pixel's middle at whole numbers.
+  /// Converts to pixel coordinates, with pixel centres at whole numbers.
   [[nodiscard]] Vec2d place(Vec2d at) const {
     return {(at.x - lower_.x) / pixel_ - 0.5, (at.y - lower_.y) / pixel_ - 0.5};
   }
   static int ceiling(double x) { return static_cast<int>(std::ceil(x)); }
   static int floor_of(double x) { return static_cast<int>(std::floor(x)); }
 
-  /// Where the line through a row's middles crosses the triangle.
+  /// Covers the pixels of a row whose centres lie in the triangle.
   void fill_row(int row, Vec2d p, Vec2d q, Vec2d r) {
     double from = side, to = -1;
     const auto cross_edge = [&](Vec2d a, Vec2d b) {

@@ -17,7 +17,7 @@
 namespace weft {
 namespace {
 
-/// Mates counted once. [kg]
+/// Mass of a cloth, mates counted once. [kg]
 double mass_of(const Cloth& cloth) {
   double mass = 0;
   for (int r = 0; r < cloth.size; ++r)
@@ -25,15 +25,18 @@ double mass_of(const Cloth& cloth) {
   return mass;
 }
 
-/// A run stops whose energy rises above where it began and the work done on it by more than both.
+/// A run stops when its energy exceeds the start energy plus the work done on it by more than this,
+/// and by more than max_unexplained_part of the energy that cloths can have come by.
 constexpr double max_unexplained = 1;  // [J]
 constexpr double max_unexplained_part = 0.05;
-/// Work is known less well where it is done in a few steps: of a pin that jumps, solves leave a
-/// good part of the forces unbalanced.
+/// Uncertainty of the measured work, as a part of it, which is added to the second bound. It is
+/// large for work done in few steps: after a jump of a pin, solves leave a good part of the forces
+/// unbalanced.
 constexpr double max_unexplained_work = 0.5;
-/// So many frames in a row.
+/// Consecutive frames beyond these bounds after which a run stops.
 constexpr int frames_that_tell = 2;
-/// And one whose springs of highest strain, one in a hundred, exceed it beyond a material's limit.
+/// A run also stops when the 99th percentile of spring strain exceeds the limit of the material by
+/// more than this.
 constexpr double max_strain = 1;
 
 }  // namespace
@@ -69,16 +72,17 @@ void Simulation::Parts::stop_torn(std::size_t index, const std::string& found) c
 }
 
 void Simulation::Parts::check_energy(const FrameReport& report, double own) {
-  // The two-level method has soft springs of its own: the fabric's say nothing about it.
+  // The two-level method has soft springs of its own: the energy of the fabric's springs says
+  // nothing about it.
   if (soft) return;
   const double now = report.kinetic_energy + report.potential_energy;
   const double gained = now - start_energy.total() - work.net - work.pulled;
-  // What it may have come by, were it all to the good.
+  // Upper bound on the kinetic and elastic energy that the cloths can have come by.
   const double fallen = std::max(0.0, start_energy.total() - (now - own));
   const double come_by = start_energy.own() + fallen + work.pulled;
   const double most = max_unexplained_part * come_by + max_unexplained_work * work.gross;
-  // What a hand pulls on may be held back by bodies; and what the filter stretches in one frame the
-  // next one lets go: only what goes on runs away.
+  // No check while a point is grabbed, as bodies may hold the cloth back against the pull. A single
+  // frame does not count: springs that the filter stretched in one frame relax in the next.
   const bool beyond = !grab.holds() && gained > std::max(max_unexplained, most);
   frames_beyond = beyond ? frames_beyond + 1 : 0;
   if (frames_beyond < frames_that_tell) return;
@@ -143,7 +147,7 @@ FrameReport Simulation::advance() {
   FrameReport report;
   Stopwatch clock;
   const int substeps = parts_->scene.substeps;
-  // A frame follows from what save keeps alone, so that a run can be resumed at any.
+  // A frame depends only on what save() stores, so that a run can be resumed at any frame.
   for (const auto& mover : parts_->movers) mover.integrator->forget();
   parts_->collider->forget();
   for (int substep = 0; substep < substeps; ++substep) {
@@ -187,7 +191,7 @@ void Simulation::restore(const SimulationState& state) {
     parts_->driven.move_to(parts_->substep_time * (parts_->frame * parts_->scene.substeps),
                            parts_->team);
     parts_->bodies_arrive();
-    // A new collider, for which this is no motion.
+    // A new collider, so that the jump of the bodies does not count as motion.
     parts_->make_collider_of_scene();
   }
   for (std::size_t i = 0; i < state.marks.size(); ++i)

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Vec3f true_border{0.25F, 0.26F, 0.28F};
 
-/// [P] the number of each path's pair, in order of the lesser path; -1 for true borders.
+/// [P] the number of each path's pair of mates, in order of the lower path; -1 for true borders.
 std::vector<int> pair_numbers(const CutDisk& cut) {
   std::vector<int> numbers(cut.paths.size(), -1);
   int count = 0;
@@ -30,12 +30,13 @@ std::vector<int> vertices_of(const CutDisk& cut, const BorderPath& path) {
   return vertices;
 }
 
-/// The pixel rectangle of one interval's band, outside the square.
+/// The pixel rectangle of a piece of border, outside the square.
 struct Strip {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// Where the border runs in a frame `margin` wide around a square of `side` pixels.
+/// The rectangle of the border positions `from` to `to`, which are on one side, in a frame `margin`
+/// wide around a square of `side` pixels.
 Strip strip_of(double from, double to, int size, int side, int margin) {
   const int n = size - 1;
   const int which = std::min(3, static_cast<int>(from / n));
@@ -99,7 +100,7 @@ Picture framed_by_mates(const Picture& square, const std::vector<BorderBand>& ba
       const int t = (band.first + k) % around;
       fill(framed, strip_of(t, t + 1, size, side, margin), band.colour);
     }
-    // Where a band begins, a gap of paper parts it from the one before.
+    // A white gap separates each band from the previous one.
     const double interval_pixels = static_cast<double>(side) / (size - 1);
     const double gap = std::min(0.4 * band.count, std::max(1.0, side / 300.0) / interval_pixels);
     fill(framed, strip_of(band.first, band.first + gap, size, side, margin), {1, 1, 1});
@@ -136,7 +137,7 @@ void add_cut(SurfaceDrawing& drawing, const GeometryImage& image) {
   for (std::size_t i = 0; i < bands.size(); ++i) {
     const BorderBand& band = bands[i];
     for (int k = 0; k < band.count; ++k) mated[(band.first + k) % around] = true;
-    if (i % 2 == 1) continue;  // the mate of the one before
+    if (i % 2 == 1) continue;  // the mate of the previous band
     DrawnCurve curve{{}, band.colour};
     for (int k = 0; k <= band.count; ++k) curve.points.push_back(point(band.first + k));
     drawing.nodes.push_back(curve.points.front());

@@ -22,9 +22,9 @@ Vec3d corner(const Box3d& box, int i) {
           (i & 4) != 0 ? box.upper.z : box.lower.z};
 }
 
-/// Along one axis of the picture: how far to each side the sight lines through the corners reach at
-/// depth 0, for an opening of `slope`. The eye at (side, depth) sees all when side - slope depth >=
-/// high and -side - slope depth >= low.
+/// Bounds on the eye along one axis of the picture, for a frustum whose half opening has the
+/// tangent `slope`: an eye at (side, depth) sees all points when side - slope depth >= high and
+/// -side - slope depth >= low.
 struct Reach {
   double high = -HUGE_VAL, low = -HUGE_VAL, slope = 1;
   void add(double side, double depth) {
@@ -57,7 +57,7 @@ Camera frame_points(std::span<const Vec3d> points, double azimuth, double elevat
     across.add(dot(p, right), dot(p, forward));
     along.add(dot(p, camera.up), dot(p, forward));
   }
-  // What is one point has no depth to stand back from.
+  // A single point has no extent: the eye keeps a distance of 1.
   const double room = box.diagonal() > 0 ? 0 : 1;
   const double depth = std::min(across.deepest_eye(), along.deepest_eye()) - room;
   camera.eye =
@@ -93,10 +93,10 @@ Box3d bounds(const TriangleMesh& mesh) {
 namespace {
 
 constexpr int spiral_count = 128;
-/// How many places of a turn stand for all.
+/// Number of angles that stand for a whole turn.
 constexpr int turn_steps = 32;
 
-/// Even over the sphere: a spiral with the golden angle.
+/// Evenly spread directions over the sphere: a golden-angle spiral.
 Vec3d spiral_side(int i) {
   const double y = 1 - 2 * (i + 0.5) / spiral_count;
   const double radius = std::sqrt(1 - y * y);

@@ -27,8 +27,8 @@ Frame frame_at(const Planes3& grid, int row, int col) {
 
 Vec3f times(const Matrix3& m, Vec3f v) { return v.x * m[0] + v.y * m[1] + v.z * m[2]; }
 
-/// The inverse transpose of the map that takes one frame to the other, times a number > 0; all
-/// zero where there is no area.
+/// The inverse transpose of the linear map from one frame to the other; all zero where a frame has
+/// no area.
 Matrix3 normal_map_of(const Frame& from, const Frame& to) {
   const Vec3f area = cross(to.u, to.v);
   const float size = dot(area, to.normal);
@@ -42,10 +42,10 @@ Matrix3 normal_map_of(const Frame& from, const Frame& to) {
           column(from.u.z, from.v.z, from.normal.z)};
 }
 
-/// A place between two samples of a row or a column.
+/// A position between two samples of a row or a column.
 struct Between {
   int first = 0, second = 0;
-  float share = 0;  // of the second
+  float share = 0;  // weight of the second
 };
 Between place_of(int texel, int texels, int samples) {
   const double at = static_cast<double>(texel) / (texels - 1) * (samples - 1);

@@ -28,7 +28,7 @@ struct Canvas {
 
 using Corners = std::array<Vec2d, 3>;
 
-/// Fills the pixels whose centres lie in the triangle, on either side.
+/// Fills the pixels whose centres lie in the triangle, of either orientation.
 void fill(Canvas& canvas, const Corners& p, Vec3f colour) {
   const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
   const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
@@ -46,7 +46,7 @@ void fill(Canvas& canvas, const Corners& p, Vec3f colour) {
     }
 }
 
-/// One pixel wide.
+/// Draws a line one pixel wide.
 void line(Canvas& canvas, Vec2d a, Vec2d b, Vec3f colour) {
   const double reach = std::max(std::abs(b.x - a.x), std::abs(b.y - a.y));
   const int steps = static_cast<int>(std::min(reach, 4.0 * canvas.side)) + 1;
@@ -75,7 +75,7 @@ Picture averaged(const Canvas& canvas) {
   return picture;
 }
 
-/// Sums over a triangle of what the stretch of the map from the square to the surface is made of.
+/// Areas and mean square stretch of one triangle of the map from the square to the surface.
 struct Patch {
   double plane_area = 0, surface_area = 0;
   double squared_stretch = 0;  ///< half the sum of the squared singular values [sander01]

@@ -6,7 +6,7 @@
 
 namespace weft {
 
-/// As draw_map of a conversion's result, for a disk whose border has no layout.
+/// Draws the map of a disk, as draw_map of a conversion's result, without need of a border layout.
 Picture draw_map(const DiskMesh& disk, const SquareMap& map, const MapDrawing& options = {});
 
 }  // namespace weft

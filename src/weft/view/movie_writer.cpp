@@ -20,7 +20,7 @@
 namespace weft {
 namespace {
 
-/// A file descriptor that is closed in the end.
+/// Owns a file descriptor.
 class Descriptor {
  public:
   explicit Descriptor(int value) : value_(value) {}
@@ -37,8 +37,8 @@ class Descriptor {
   int value_;
 };
 
-/// Where a process puts what it says: a nameless file, which takes any amount without anybody
-/// reading.
+/// Collects the messages of a process in an anonymous temporary file, which, unlike a pipe, takes
+/// any amount without a reader.
 class Transcript {
  public:
   Transcript() : file_(std::tmpfile()) {}
@@ -62,8 +62,8 @@ class Transcript {
   std::FILE* file_;
 };
 
-/// How a movie is packed, by the ending of its name. Thread counts are left to ffmpeg: they change
-/// nothing that is seen.
+/// ffmpeg options of a movie format, by file extension. The number of threads is left to ffmpeg: it
+/// has no visible effect.
 std::vector<std::string> format_options(const std::filesystem::path& path) {
   if (path.extension() == ".mp4")
     return {"-vf",       "crop=trunc(iw/2)*2:trunc(ih/2)*2",
@@ -85,7 +85,7 @@ std::vector<std::string> command(const std::filesystem::path& path, const std::s
                                  const std::string& size, double frame_rate) {
   std::vector<std::string> words{"ffmpeg",   "-y",       "-loglevel", "error",
                                  "-nostats",
-                                 "-xerror",  // or a full disk goes unnoticed
+                                 "-xerror",  // otherwise a full disk is not reported
                                  "-f",       "rawvideo", "-pix_fmt",  "rgb24",
                                  "-s",       size,       "-r",        fmt::format("{}", frame_rate),
                                  "-i",       "pipe:0"};
@@ -94,9 +94,9 @@ std::vector<std::string> command(const std::filesystem::path& path, const std::s
   return words;
 }
 
-/// Starts a program found on the PATH, in a process group of its own: an interrupt from the
-/// keyboard is for the caller to handle, who then ends the movie in order.
-/// @return its process, or -1 with errno set
+/// Starts a program found on the PATH, in a process group of its own: a keyboard interrupt then
+/// reaches only the caller, who can finish the movie properly.
+/// @return its process id, or -1 with errno set
 pid_t start(const std::vector<std::string>& words, int in, int error) {
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
@@ -127,8 +127,8 @@ std::array<int, 2> connected_pair(const std::filesystem::path& path) {
 
 }  // namespace
 
-/// The frames go through a socket, not a plain pipe: writing to it when ffmpeg is gone is an error
-/// that can be told, without a signal that would end the program.
+/// The connection to ffmpeg. Frames go through a socket, not a plain pipe: writing after ffmpeg has
+/// exited is then an error that can be reported, without a signal that would end the program.
 struct MovieWriter::Pipe {
   std::filesystem::path path;
   int width, height;
@@ -154,7 +154,7 @@ struct MovieWriter::Pipe {
     ::kill(child, SIGKILL);
     wait();
   }
-  /// Waits for ffmpeg's end. @return true when it succeeded
+  /// Waits until ffmpeg exits. @return true when it succeeded
   bool wait() {
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -162,7 +162,7 @@ struct MovieWriter::Pipe {
     child = -1;
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
-  /// Its last words, of the movie by the name that users know.
+  /// ffmpeg's last message, with the movie's name in place of the temporary file's.
   [[nodiscard]] std::string reason() const {
     std::string said = transcript.last_line();
     const std::string hidden = file.temporary().string();

@@ -15,7 +15,7 @@ void add(Planes3& planes, int row, int col, Vec3f v) {
   planes.z(row, col) += v.z;
 }
 
-/// Twice the vector area of every quad, half the cross product of its diagonals, to its four
+/// Adds twice the vector area of every quad, the cross product of its diagonals, to its four
 /// corners.
 void add_quads(const Planes3& positions, Planes3& sums) {
   const int n = positions.size();
@@ -47,7 +47,7 @@ std::vector<Vec3d> vector_areas(const TriangleMesh& mesh) {
   return areas;
 }
 
-/// A triangle that has a vertex twice is listed there twice, once for each corner.
+/// The triangles at each vertex; one that has a vertex twice is listed twice, once for each corner.
 std::vector<std::vector<int>> triangles_around(const TriangleMesh& mesh) {
   std::vector<std::vector<int>> around(mesh.positions.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -55,8 +55,8 @@ std::vector<std::vector<int>> triangles_around(const TriangleMesh& mesh) {
   return around;
 }
 
-/// The normal at a vertex seen from one of its triangles: over those that no sharp edge parts from
-/// it.
+/// The normal of a vertex in one of its triangles: area-weighted over all triangles at the vertex
+/// whose normals differ from it by less than the crease angle.
 Vec3f smooth_normal(const std::vector<int>& around, const std::vector<Vec3d>& areas, Vec3d own) {
   constexpr double cosine_of_crease = 0.643;
   Vec3d sum;

@@ -18,10 +18,11 @@ namespace weft {
 
 namespace {
 
-/// More than any screen or poster; keeps a broken header from asking for all memory.
+/// Larger than any screen or poster; limits the memory that a corrupt header can request.
 constexpr std::size_t max_pixels = std::size_t{1} << 28U;
 
-/// libpng's state of one picture; its simplified interface reports by value, without long jumps.
+/// The libpng state of one picture; the simplified interface reports errors by value, without
+/// longjmp.
 struct PngImage {
   png_image state{};
   PngImage() { state.version = PNG_IMAGE_VERSION; }
@@ -68,7 +69,7 @@ Picture read_png(const std::filesystem::path& path) {
 
 namespace {
 
-/// The colour at a place of a ramp, its stops evenly spaced over [0, 1].
+/// The colour at a position on a ramp, whose stops are evenly spaced over [0, 1].
 template <std::size_t Count>
 Vec3f on_ramp(const std::array<Vec3f, Count>& stops, double place) {
   const double at = std::clamp(place, 0.0, 1.0) * (Count - 1);
@@ -97,7 +98,7 @@ Vec3f amount_colour(double share) {
 }
 
 Vec3f curve_colour(int index) {
-  // Hues a golden section apart, in turns bright and dark.
+  // Hues a golden section apart, in three levels of brightness.
   const double turn = 2 * pi * 0.6180339887 * index;
   const double bright = 0.52 + 0.13 * (index % 3 - 1);
   const auto channel = [&](double phase) {

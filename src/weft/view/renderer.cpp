@@ -36,7 +36,7 @@ struct Renderer::Device {
 Renderer::Renderer(int width, int height) : device_(std::make_unique<Device>(width, height)) {}
 
 Renderer::~Renderer() {
-  // Freed with the right context: there may be another renderer on this thread.
+  // Resources are freed in their own context: another renderer of this thread may be current.
   if (device_) device_->context.make_current();
 }
 

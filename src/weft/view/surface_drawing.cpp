@@ -14,10 +14,10 @@ namespace {
 constexpr int tube_sides = 10;
 constexpr Vec3f node_colour{0.08F, 0.08F, 0.09F};
 constexpr Vec3f edge_colour{0.10F, 0.11F, 0.13F};
-/// Balls are this much wider than the tubes that they join.
+/// Radius of the balls at nodes relative to that of the tubes.
 constexpr double ball_share = 2.0;
 
-/// Any unit vector across `along`.
+/// Any unit vector perpendicular to `along`.
 Vec3d across(Vec3d along) {
   const Vec3d other = std::abs(along.y) < 0.7 * length(along) ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
   return normalized(cross(along, other));
@@ -55,7 +55,7 @@ TriangleMesh tube(std::span<const Vec3d> points, double radius) {
   Vec3d side = across(points[1] - points[0]);
   for (int i = 0; i < count; ++i) {
     const Vec3d along = normalized(points[std::min(i + 1, count - 1)] - points[std::max(i - 1, 0)]);
-    // The ring turns with the curve, no more than it must.
+    // Parallel transport: the ring does not twist about the curve.
     const Vec3d carried = side - dot(side, along) * along;
     side = length(carried) > 1e-9 ? normalized(carried) : across(along);
     const Vec3d up = cross(along, side);

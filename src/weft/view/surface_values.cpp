@@ -14,15 +14,16 @@
 namespace weft {
 namespace {
 
-/// Triangles of a map and where they are on the closed surface.
+/// Triangles of a map and the vertices of the closed surface that their corners belong to.
 struct MapTriangles {
   std::vector<Vec3d> positions;
   std::vector<Triangle> triangles;  ///< of `positions` and `uv`
   std::vector<Vec2d> uv;
-  std::vector<int> vertex_of;  ///< of the surface's mesh
+  std::vector<int> vertex_of;  ///< index in the surface's mesh
 };
 
-/// At each vertex of the mesh the area-weighted root mean square of its triangles.
+/// Sets the value of each vertex to the area-weighted root mean square stretch of its triangles, in
+/// units of the stretch of an area-preserving map.
 void set_stretch(const MapTriangles& map, SurfaceValues& result) {
   const std::vector<SurfaceTriangle> surface = surface_triangles(map.positions, map.triangles);
   std::vector<double> weight(result.mesh.positions.size(), 0);

@@ -11,7 +11,7 @@ namespace weft {
 namespace {
 
 constexpr int columns = 5, rows = 7, advance = 6;
-/// Letters that reach below the line stand this much lower.
+/// Letters with descenders are lowered by this many rows.
 constexpr int descent = 2;
 constexpr std::string_view descending = "gjpqy,";
 
@@ -116,8 +116,8 @@ double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
   return std::sqrt(dot(apart, apart));
 }
 
-/// How far a point is from the pen's way through the set pixels' middles: straight to neighbours in
-/// rows and columns, aslant where no such way leads there. [glyph pixels]
+/// Distance of a point from the strokes of a glyph [glyph pixels]. Strokes join the centres of set
+/// pixels: neighbours in a row or column, and diagonal ones without such a connection.
 double distance_to_pen(const Glyph& glyph, Vec2d p) {
   double nearest = HUGE_VAL;
   for (int y = 0; y < rows; ++y)
@@ -147,7 +147,7 @@ void blend_pixel(Picture& picture, std::array<int, 2> at, Vec3f colour, float sh
   set_pixel(picture, at[0], at[1], (1 - share) * below + share * colour);
 }
 
-/// Whole pixels at scale 1; above that, strokes of a round pen with smooth edges.
+/// Draws whole pixels at scale 1; above that, strokes of a round pen with smooth edges.
 void draw_glyph(Picture& picture, const Glyph& glyph, TextPlace place, Vec3f colour) {
   constexpr double half_pen = 0.42;  // [glyph pixels]
   const int scale = place.scale;

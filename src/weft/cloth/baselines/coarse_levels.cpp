@@ -12,12 +12,12 @@ namespace weft {
 namespace {
 
 constexpr int min_level_size = 3;
-// The diagonal of a level against the mean diagonal of the finest: a bilinear hat of half-width s
-// has the spring energy 4/3 k where a single sample has 2 k (a little more for its diagonals),
-// whatever s is, and 4/9 of the mass that its weights sum up.
+// The diagonal of a level over the mean diagonal of the finest: a bilinear hat of half-width s has
+// the spring energy 4/3 k where a single sample has 2 k (a little more for its diagonals), whatever
+// s is, and 4/9 of the mass that its weights sum up.
 constexpr float spring_share = 0.7F, mass_share = 4.0F / 9;
 
-/// A plane around every second row, weighed.
+/// The three rows of a fine plane that a coarse row is restricted from, with their weights.
 WeighedRows rows_around(const Grid<float>& fine, const Grid<float>* weight, int row) {
   const int r = 2 * row;
   const auto at = [&](const Grid<float>* plane, int from) {
@@ -57,8 +57,8 @@ CoarseLevels::CoarseLevels(const Cloth& cloth, InstructionSet instructions)
   }
 }
 
-/// The finest level's masses and blocks; those of pinned particles are left out of the masses
-/// alone.
+/// Takes a row of the finest level's masses and blocks. Of pinned particles only the spring blocks
+/// count on coarser levels, since their share is 0.
 void CoarseLevels::take_row(const Blocks& diagonal, int row) {
   for (int c = 0; c < cloth_.size; ++c) {
     moves_(row, c) = cloth_.inverse_mass(row, c) > 0 ? 1.0F : 0.0F;
@@ -95,7 +95,7 @@ void CoarseLevels::coarsen_row(const Level& fine, bool contacts, Level& coarse, 
   for (int i = 0; i < 6; ++i) {
     float* out = coarse.spring[i].row(row);
     kernels_.restrict_plane(n, rows_around(fine.spring[i], nullptr, row), line, out);
-    // The weights that were summed, so that a mean remains.
+    // Divided by the sum of the weights, which gives the mean.
     const float height = row == 0 || row == last ? 1.5F : 2.0F;
     for (int c = 0; c <= last; ++c) out[c] /= height * (c == 0 || c == last ? 1.5F : 2.0F);
     if (contacts)
@@ -151,7 +151,7 @@ Row3 CoarseLevels::interpolation_lines(Level& level, int row) const {
   return {line, line + coarse, line + 2 * std::ptrdiff_t{coarse}};
 }
 
-/// Residual to correction, with what the levels below found.
+/// Turns a row's residual into its correction and adds that of the coarser levels, interpolated.
 void CoarseLevels::correct_row(Level& level, const Level* below, int row) const {
   const Row3 out = row_of(level.value, row);
   kernels_.multiply_blocks(level.size(), row_of(std::as_const(level.inverse), row), out);
@@ -161,7 +161,8 @@ void CoarseLevels::correct_row(Level& level, const Level* below, int row) const 
                      interpolation_lines(level, row), out);
 }
 
-/// All levels but the first: a third of its work, not worth their barriers.
+/// Solves all levels but the first, by one worker: a third of the first one's work, not worth
+/// barriers.
 void CoarseLevels::solve_below() {
   for (std::size_t i = 1; i < levels_.size(); ++i) {
     Level& level = levels_[i];

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int min_level_size = 3;
 
-/// The bounds of springs two samples long: the sum of both.
+/// The springs of the next coarser level: each has the rest length of two springs in line.
 SpringPlane joined_springs(const SpringPlane& fine, int n) {
   SpringPlane plane{fine.down, fine.right, Grid<float>(n, n, 1), {}, {}};
   for (int r = 0; r + fine.down < n; ++r)
@@ -22,7 +22,7 @@ SpringPlane joined_springs(const SpringPlane& fine, int n) {
   return plane;
 }
 
-/// One over the number of samples that are the same particle.
+/// One over the number of copies of each particle.
 Grid<float> shares_of(const BorderMates& mates) {
   const int n = mates.size();
   Grid<float> shares(n, n, 1);
@@ -112,7 +112,7 @@ void CoarseLimit::sample(const ClothState& state) {
   }
 }
 
-/// Takes over what the level below found, and adds to it.
+/// Limits a level, starting from the interpolated corrections of the coarser one.
 void CoarseLimit::limit_level(std::size_t index, int passes, const StrainBounds& bounds,
                               Worker& worker) {
   Level& level = *levels_[index];
@@ -128,7 +128,7 @@ void CoarseLimit::limit_level(std::size_t index, int passes, const StrainBounds&
   copy_to_mates(level.cloth.mates, worker, {&x.x, &x.y, &x.z, &d.x, &d.y, &d.z});
 }
 
-/// What the levels found, for the cloth itself. Ends with a barrier.
+/// Interpolates the corrections of the finest of the levels to the cloth. Ends with a barrier.
 void CoarseLimit::interpolate_corrections(Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {

@@ -9,15 +9,15 @@
 
 namespace weft {
 
-/// Provot's limit on the coarse levels of the image's mip pyramid, to be called before
-/// limit_strain. Passes over single springs carry a correction one spring a pass; what a whole
-/// hanging cloth is too long by needs as many passes as it has samples a side, or this [mueller08].
-/// Between coarse samples runs a row or column of springs, as printed a diagonal too: their rest
-/// lengths' sum times 1 + e bounds the distance, and folds in between only shorten it, so there is
-/// no lower bound. Velocities change as limit_strain changes them.
-/// Corrections go by the masses that bilinear weights gather, and are interpolated bilinearly, so
-/// momentum is kept. Levels reach down as far as sizes halve; where mates no longer match, coarser
-/// levels are cut along the seam, and what they find is averaged over the mates.
+/// Provot's strain limit on the coarse levels of the image's mip pyramid, to be called before
+/// limit_strain. A pass over single springs carries a correction by one spring, so the excess
+/// length of a hanging cloth needs as many passes as it has samples a side, or these levels
+/// [mueller08]. Coarse samples are joined by a row or column of springs, as printed by a diagonal
+/// too: the sum of their rest lengths times 1 + e bounds the distance. There is no lower bound, as
+/// folds in between only shorten it. Velocities change as in limit_strain. Corrections go by the
+/// masses that bilinear weights gather, and are interpolated bilinearly, so momentum is kept. Sizes
+/// are halved as far as possible; where mates no longer match, coarser levels are cut along the
+/// seam, and their corrections are averaged over the mates.
 class CoarseLimit {
  public:
   /// @param cloth  kept by reference
@@ -30,7 +30,7 @@ class CoarseLimit {
 
  private:
   struct Level {
-    Cloth cloth;        ///< as far as a limiter needs it
+    Cloth cloth;        ///< only the members that a limiter needs
     ClothState state;   ///< velocity: the correction of the positions [m]
     Grid<float> moves;  ///< 1 where not pinned
     std::unique_ptr<StrainPasses> passes{};

@@ -43,8 +43,8 @@ void ConjugateGradients::invert_row(const System& system, int row) {
                          row_of(inverse_, row));
 }
 
-/// Row of out = (M + S + bending + contacts) in, each sample's own part. Bending has been curved,
-/// contacts multiplied by `in`.
+/// A row of out = (M + S + bending + contacts) in, each sample's own part. Requires the
+/// curve_change of bending and the product of the contacts for `in`.
 void ConjugateGradients::apply_row(const System& system, const Planes3& in, Planes3& out,
                                    int row) const {
   system.springs.multiply_row(in, out, row);
@@ -145,8 +145,8 @@ SolveReport ConjugateGradients::iterate(const System& system, const Stop& stop, 
   return report;
 }
 
-/// Iterations cut short leave a net impulse. With nothing held from outside the springs give none,
-/// so the uniform velocity that takes it back is part of the solution.
+/// Removes the net impulse that truncated iterations leave. Without pins and contacts the internal
+/// forces have none, so the uniform velocity that removes it is part of the solution.
 void ConjugateGradients::restore_momentum(const Planes3& r, Planes3& v, Worker& worker) {
   const auto missing = [&](const Grid<float>& plane) {
     const double impulse = sums_.sum(worker, [&](int row) {
@@ -170,7 +170,8 @@ void ConjugateGradients::restore_momentum(const Planes3& r, Planes3& v, Worker& 
 SolveReport ConjugateGradients::solve(const System& system, const Stop& stop, Planes3& rhs,
                                       Planes3& v, ThreadTeam& team) {
   SolveReport report;
-  // The first turn multiplies the old direction by zero, which must not keep what is not finite.
+  // The first update multiplies the old direction by zero, which would keep values that are not
+  // finite.
   for (Grid<float>* plane : {&direction_.x, &direction_.y, &direction_.z}) plane->fill(0);
   team.run([&](Worker& worker) {
     start(system, rhs, v, worker);

@@ -13,8 +13,7 @@ namespace weft {
 /// How a solve ended.
 struct SolveReport {
   int iterations = 0;
-  double correction =
-      0;  ///< largest change of a velocity component vector in the last iteration [m/s]
+  double correction = 0;  ///< largest change of a velocity in the last iteration [m/s]
 };
 
 /// Modified conjugate gradients [baraff98] for (M + S + bending + contacts) v = b on planes,
@@ -30,17 +29,17 @@ class ConjugateGradients {
     ContactTerms& contacts;
     const Blocks& diagonal;  ///< of M + S + bending, summed over mates
     BendingPass& bending;
-    float squared_step = 0;  ///< h^2, what bending counts by [s^2]
+    float squared_step = 0;  ///< h^2, the factor of bending [s^2]
   };
   struct Stop {
     int max_iterations = 0;
     double correction = 0;  ///< [m/s]
   };
-  /// @param rhs  [n x n] b without the mates' sums: each sample's own part; overwritten
-  /// @param v      [n x n] the guess, then the solution; mates equal [m/s]
+  /// @param rhs  [n x n] b, each sample's own part; overwritten
+  /// @param v  [n x n] the guess, then the solution; mates equal [m/s]
   SolveReport solve(const System& system, const Stop& stop, Planes3& rhs, Planes3& v,
                     ThreadTeam& team);
-  /// Where the last iteration went, up to a factor. [n x n]
+  /// The last search direction. [n x n]
   [[nodiscard]] const Planes3& direction() const { return direction_; }
 
  private:

@@ -9,13 +9,14 @@
 namespace weft {
 namespace {
 
-/// Times what the cloth's own operator holds the contact's point by. Stiffer, rounding and what few
-/// iterations leave show in the forces; softer, what is left to push out shows in the motion.
+/// Contact stiffness over the stiffness by which the cloth's own operator holds the point. If it is
+/// stiffer, forces show rounding and the error of few iterations; if softer, motion shows the
+/// remaining depth.
 constexpr double relative_stiffness = 0.125;
-/// Nearer to the half-space than this part of the rest spacing counts as touching it.
+/// A point nearer to the half-space than this fraction of the rest spacing counts as touching.
 constexpr double touching = 1e-3;
 
-/// Forces that differ by this part of them are alike.
+/// Friction limits that differ by less than this fraction count as equal.
 constexpr double same_force = 0.02;
 
 }  // namespace
@@ -71,7 +72,7 @@ bool ContactSprings::update_active(const Planes3& now, const Grid<float>& invers
   return loads_.stiff() > before;
 }
 
-/// How far a contact's point is from where it started.
+/// Displacement of a contact's point since the start of the step.
 Vec3d ContactSprings::moved(int index, const Place& place) const {
   const Contact& contact = loads_.contacts()[index];
   Vec3d displacement;
@@ -91,7 +92,7 @@ double ContactSprings::depth_at(int index, const Place& place) const {
          dot(vec_cast<double>(loads_.contacts()[index].normal), moved(index, place));
 }
 
-/// How far a contact's point slid along the obstacle.
+/// Displacement of a contact's point along the obstacle, relative to it.
 Vec3d ContactSprings::slid(int index, const Place& place) const {
   const Contact& contact = loads_.contacts()[index];
   const Vec3d n = vec_cast<double>(contact.normal);
@@ -118,7 +119,8 @@ bool ContactSprings::update_friction(int index, const Place& place) {
   const double force = force_[index] > 0 ? double{force_[index]}
                                          : std::max(0.0, depth_at(index, place)) / compliance;
   const double most = contact.friction * force, displacement = length(slid(index, place));
-  // Without friction as yet, what friction could stop sticks; with it, what hardly moves.
+  // A contact without friction so far sticks if friction could stop it; with friction, if it hardly
+  // moves.
   const bool stuck = sticks_[index] != 0;
   const double before = max_friction_[index];
   const bool sticks =
@@ -144,7 +146,7 @@ Vec3f ContactSprings::friction_at(int index, const Place& place) const {
   if (most == 0) return {};
   const Vec3d displacement = slid(index, place);
   const double k = stick_stiffness_[index], distance = length(displacement);
-  // Slipping reverses smoothly.
+  // The force of a slipping contact reverses smoothly.
   const bool spring = sticks_[index] != 0 || k * distance <= most;
   return vec_cast<float>((spring ? -k : -most / distance) * displacement);
 }

@@ -11,14 +11,14 @@
 namespace weft {
 namespace {
 
-/// Of W: 23,170 particles, an image of 152 x 152 without mates.
+/// Largest size of W: 23,170 particles, an image of 152 x 152 without mates.
 constexpr std::int64_t max_matrix_bytes = std::int64_t{1} << 31;
 constexpr double megabyte = 1e6;
 
-/// The method that the paper sets out from [desbrun99]: the accelerations of the cloth's own
-/// springs, filtered by one dense W over all particles, mates merged. A spring's damping c counts
-/// as stiffness c / h in H, as implicit Euler has it. Pinned particles stand outside of W: what
-/// pulls at them moves nothing.
+/// The method that the paper builds on [desbrun99]: the accelerations of the cloth's own springs,
+/// filtered by one dense W over all particles, mates merged. A spring's damping c counts as
+/// stiffness c / h in H, as in implicit Euler. Pinned particles are not in W: forces on them move
+/// nothing.
 class Desbrun final : public FilteredIntegrator {
  public:
   Desbrun(const Cloth& cloth, const StepInput& typical, ThreadTeam& team)

@@ -47,7 +47,7 @@ class Explicit final : public Integrator {
 
   ClothState& proposal() noexcept override { return next_; }
 
-  /// Contacts are left to what the collider does with the proposal.
+  /// Ignores contacts, which the collider resolves in the proposal.
   ClothState& iterate(std::span<const Contact> /*contacts*/) noexcept override { return next_; }
 
   StepReport end(ClothState& state) noexcept override {
@@ -61,7 +61,8 @@ class Explicit final : public Integrator {
         largest_stable_step(cloth_, team_), time_step);
   }
 
-  /// The limiter may keep springs that shake the cloth within bounds: then nothing runs away.
+  /// The strain limiter may keep unstable springs within bounds: the cloth trembles without
+  /// diverging.
   [[nodiscard]] std::string caution() const override {
     if (is_surely_stable(cloth_, typical_step_)) return {};
     if (largest_stable_step(cloth_, team_) >= typical_step_) return {};

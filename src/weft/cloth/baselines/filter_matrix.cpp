@@ -14,7 +14,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 Sparse system_of(const FilterGrid& grid) {
   const auto count = static_cast<int>(grid.mass.size());
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(std::size_t{25} * grid.mass.size());  // its own, and four of each of six springs
+  entries.reserve(std::size_t{25} * grid.mass.size());  // itself, four for each of six springs
   for (int i = 0; i < count; ++i) entries.emplace_back(i, i, grid.mass[i]);
   const int n = grid.size;
   const double squared_step = grid.time_step * grid.time_step;
@@ -37,17 +37,17 @@ Sparse system_of(const FilterGrid& grid) {
   return a;
 }
 
-/// Rows of the inverse, a few at a time, so that an entry of the factor is read once for all.
+/// Computes rows of the inverse, several at a time, so that an entry of the factor is read once for
+/// all.
 class InverseRows {
  public:
   static constexpr int together = 16;
 
   explicit InverseRows(const Sparse& a) : factor_(a), pivot_(factor_.vectorD()) {}
 
-  /// @param first  of the rows in the factor's order
-  /// @param x      [count x together] scratch; row i of it receives column place(i) of the
-  /// inverse's
-  ///               rows row_at(first), row_at(first + 1), ...
+  /// @param first  of the rows, in the factor's order
+  /// @param x  [count x together] scratch; its row place(j) receives column j of the inverse's
+  /// rows row_at(first), row_at(first + 1), ...
   void solve(int first, int rows, double* x) const {
     std::fill(x, x + std::ptrdiff_t{count()} * together, 0.0);
     for (int i = 0; i < rows; ++i) x[std::ptrdiff_t{first + i} * together + i] = 1;
@@ -55,7 +55,7 @@ class InverseRows {
     for (int k = count() - 1; k >= 0; --k) substitute(k, x);
   }
   [[nodiscard]] int count() const { return static_cast<int>(pivot_.size()); }
-  /// Where an unknown stands in the factor's order.
+  /// Position of an unknown in the factor's order.
   [[nodiscard]] int place(int unknown) const { return factor_.permutationP().indices()[unknown]; }
   [[nodiscard]] int row_at(int place) const { return factor_.permutationPinv().indices()[place]; }
 

@@ -42,8 +42,8 @@ struct FilterGrid {
   double time_step = 0;  ///< [s]
 };
 
-/// By a sparse Cholesky factorization of M - h^2 H, which a held particle pulls at like a wall, and
-/// one solve a row: rows are shared among the team.
+/// Computes W by a sparse Cholesky factorization of M - h^2 H, in which a held particle is a fixed
+/// support, and one solve a row. Rows are shared among the team.
 /// @return [particles x particles]; its padding holds zeros
 Grid<float> filter_matrix(const FilterGrid& grid, ThreadTeam& team);
 

@@ -9,7 +9,8 @@
 
 namespace weft {
 
-/// Sums over particles, each once, about a point near them: x is the way from there.
+/// Moments of a field of accelerations: sums over particles, each once, with x the vector from a
+/// point near them.
 struct Moments {
   Vec3d about;                                            ///< [m]
   double mass = 0;                                        ///< [kg]
@@ -23,8 +24,8 @@ struct RigidAcceleration {
   Vec3d centre, linear, turn;
 };
 
-/// Filters keep neither the net force nor the net torque of internal forces, both of which are
-/// zero; this is the rigid motion that takes back what they made:
+/// The rigid acceleration that restores net force and net torque after a filter. Those of internal
+/// forces are zero, which filters do not keep:
 ///   linear = -F / m,  turn = I^-1 T,  T = sum r x m a,  I = sum m (|r|^2 1 - r r^T)
 /// so that a + linear + r x turn has no net force and no net torque. (The printed formula lacks
 /// I^-1.)
@@ -50,12 +51,12 @@ class MomentSums {
   std::vector<std::array<double, moment_terms>> rows_;
 };
 
-/// Springs that pull along themselves and resist all relative velocity of their ends by c (v_j -
-/// v_i), as those of a filter do: implicit Euler adds c = h k to first order [desbrun99]. Rest
-/// lengths are the cloth's.
+/// Springs that pull along themselves and resist all relative velocity of their ends by
+/// c (v_j - v_i), like the springs of a filter: implicit Euler adds c = h k to first order
+/// [desbrun99]. Rest lengths are the cloth's.
 class ViscousSprings {
  public:
-  /// Without stiffness as yet.
+  /// All stiffnesses are 0 at first.
   /// @param cloth  kept by reference
   ViscousSprings(const Cloth& cloth, const ThreadTeam& team);
 

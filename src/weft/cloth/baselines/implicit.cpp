@@ -14,9 +14,10 @@
 namespace weft {
 namespace {
 
-/// Times the tolerance: the forces of contacts, which are stiff, show errors that positions hide.
+/// Factor of the tolerance under contact: the forces of stiff contacts show errors that positions
+/// hide.
 constexpr double contact_tolerance = 0.1;
-/// How often at most the system is solved for the contacts that hold to be found.
+/// Largest number of solves to find the active contacts.
 constexpr int max_turns = 3;
 
 /// One linearised step of implicit Euler [baraff98],
@@ -118,7 +119,7 @@ class Implicit final : public Integrator {
     return static_cast<float>(input_.time_step * input_.time_step);
   }
 
-  /// @return whether they changed
+  /// Updates the active contacts. @return whether they changed
   bool choose_contacts() {
     bool changed = false;
     team_.run([&](Worker& worker) {
@@ -128,7 +129,7 @@ class Implicit final : public Integrator {
     return changed;
   }
 
-  /// Finds the velocities at the end of the step, with the contacts that were chosen.
+  /// Solves for the velocities at the end of the step, with the active contacts.
   void solve() {
     team_.run([&](Worker& worker) {
       if (!contacts_.empty()) contacts_.aim(worker);
@@ -144,7 +145,7 @@ class Implicit final : public Integrator {
     report_.residual = solved.correction * to_residual;
   }
 
-  /// Where a row was when the step began, and what acts on it.
+  /// State of a row at the start of the step, and the forces on it.
   [[nodiscard]] StartRow start_row(int row) const {
     const Vec3f g = input_.gravity;
     return {static_cast<float>(input_.time_step),
@@ -156,13 +157,13 @@ class Implicit final : public Integrator {
             cloth_.owner.row(row)};
   }
 
-  /// The guess: v + h g, and where it leads.
+  /// The guess: v + h g and the positions that it leads to.
   void fall_row(int row) {
     kernels_.fall(cloth_.size, start_row(row), row_of(next_.velocity, row));
     move_row(row);
   }
 
-  /// Diagonal blocks of M + S, the mass once a class.
+  /// Diagonal blocks of M + S + bending, each sample's own part: the mass once a class.
   void diagonal_row(int row) {
     const float* mass = cloth_.mass.row(row);
     const float* owner = cloth_.owner.row(row);

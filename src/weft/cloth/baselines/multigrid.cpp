@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-/// The descent as an integrator.
+/// NonlinearPcg as an integrator.
 class Multigrid final : public Integrator {
  public:
   Multigrid(const MultigridOptions& options, const Cloth& cloth, const StepInput& typical,

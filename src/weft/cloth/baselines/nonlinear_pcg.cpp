@@ -11,20 +11,22 @@
 namespace weft {
 namespace {
 
-/// Of the secant: directions are as long as the filter, which is too stiff, makes them.
+/// Bound of the secant's step length: the filter is too stiff, so its directions are too short.
 constexpr double max_step_length = 4;
-/// What presses on a cloth from outside moves it out of its surface, where springs give way; the
-/// filter, which takes them for stiff in every direction, needs more iterations for it.
+/// Factor of the iterations under contact. Contact forces move a cloth out of its surface, where
+/// springs give way; the filter, which is as stiff in every direction, needs more iterations there.
 constexpr int iterations_under_contact = 4;
-/// Times the tolerance: contacts are so stiff that forces are off where positions are good enough.
+/// Factor of the tolerance under contact: contacts are so stiff that forces are still wrong where
+/// positions are good enough.
 constexpr double tolerance_under_contact = 1e-4;
-/// Residuals interpolated along secants drift away from the gradient.
+/// Iterations until the residual is computed anew: interpolated along secants it drifts away from
+/// the gradient.
 constexpr int iterations_between_restarts = 4;
 
-/// Squared, of positions in single precision, generously: what lies no farther from where it was
-/// left was not moved.
+/// Squared relative rounding of positions in single precision, generously. A smaller displacement
+/// does not count as a move by the caller.
 constexpr float rounding = 1e-12F;
-/// Filters that are kept: of a step and of its halves.
+/// Number of filters that are kept: of a step and of its halves.
 constexpr std::size_t max_filters = 7;
 
 void copy_row(ConstRow3 from, Row3 to, int n) {
@@ -212,7 +214,7 @@ void NonlinearPcg::take_residual(SolverState& solver_state, Worker& worker) {
 double NonlinearPcg::update_direction(SolverState& solver_state, Worker& worker) {
   const double slope = filter_->cycle(worker);
   double beta = solver_state.slope > 0 ? slope / solver_state.slope : 0;
-  // Residuals that grow, or a direction that leads up, are no reason to go on as before.
+  // Restarts if the residual grows or the direction leads up in energy.
   if (!(beta <= 1) || !(slope + beta * solver_state.left > 0)) beta = 0;
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {
@@ -272,7 +274,7 @@ NonlinearPcg::SolverState NonlinearPcg::descend(const MultigridOptions& options,
   while (solver_state.iterations < most) {
     const bool stale =
         solver_state.iterations > 0 && solver_state.iterations % iterations_between_restarts == 0;
-    // Under contact it has converged when contacts are found to be what they were taken for.
+    // Under contact it has converged only if an update leaves the contacts as they are.
     if ((stale || converged) && !restart(solver_state, worker) && converged) break;
     take_residual(solver_state, worker);
     advance(update_direction(solver_state, worker), solver_state, worker);

@@ -28,65 +28,66 @@ class NonlinearPcg {
 
   /// Starts a step: next() falls freely.
   void begin(const StepInput& input, const ClothState& state);
-  /// Descends, with what is beyond contacts' surfaces pushed back by springs.
+  /// Descends, with points beyond contacts' half-spaces pushed back by springs.
   /// @param contacts  of samples of the cloth
   void run(std::span<const Contact> contacts, const MultigridOptions& options);
 
-  /// Where the descent stands. The next run goes on from there, also where the caller moved
-  /// samples: a guess that was kept from passing through something is where the descent begins.
+  /// The current iterate. The next run continues from it, also where the caller moved samples: a
+  /// guess that was kept from passing through something is where the descent begins.
   [[nodiscard]] ClothState& next() { return next_; }
-  /// Normal forces of the contacts of the last run, in their order, as far as friction has not
-  /// spent them [N].
+  /// Normal forces of the contacts of the last run, in their order, less the part that friction has
+  /// used [N].
   [[nodiscard]] std::span<const float> contact_forces() const { return contacts_.forces(); }
   /// Iterations since begin.
   [[nodiscard]] int iterations() const { return iterations_; }
-  /// The last iteration's largest correction over the rest spacing.
+  /// Largest correction of the last iteration over the rest spacing.
   [[nodiscard]] double correction() const { return correction_; }
-  /// That of every sample. @param sizes [n x n]
+  /// The last correction of every sample over the rest spacing. @param sizes  [n x n]
   void last_corrections(Grid<float>& sizes) const;
 
  private:
-  /// What a descent carries from one iteration to the next; every worker has its own, all alike.
+  /// State of a descent between iterations; every worker has its own, all alike.
   struct SolverState {
-    double slope = 0;        ///< residual . W residual [N m]
+    double slope = 0;        ///< residual . filtered residual [N m]
     double left = 0;         ///< residual . direction after the step [N m]
     double step_length = 0;  ///< of the last step along its direction
     double correction = 0;
     int iterations = 0;
-    bool exact = true;  ///< whether the last residual was looked up, not interpolated
+    bool exact = true;  ///< whether the residual was computed, not interpolated
   };
   void renew_filter();
   void hold_pins();
-  /// A row of y, the first guess, and z = 0.
+  /// Computes a row of y, the first guess, and sets z = d = 0.
   void fall_row(int row);
   void place_row(float step_length, int row);
   /// z += step_length d; d = 0.
   void accept_row(float step_length, int row);
-  /// z = x - y where the caller moved a sample.
+  /// Sets z = x - y where the caller moved a sample.
   void take_moved_row(int row);
-  /// Minus the gradient at `next`: forces less inertia. Ends with a barrier.
+  /// Computes minus the gradient at `next`, forces less inertia. Ends with a barrier.
   /// @return its dot product with d [N m]
   double evaluate_gradient(Worker& worker);
   /// Ends with a barrier.
   void take_residual(SolverState& solver_state, Worker& worker);
-  /// d = what the filter makes of the residual, and of the last direction what keeps it conjugate;
-  /// next = y + z + d. Ends with a barrier. @return the slope along d [N m]
+  /// d = filtered residual + beta d, which keeps d conjugate; next = y + z + d. Ends with a
+  /// barrier.
+  /// @return the slope along d [N m]
   double update_direction(SolverState& solver_state, Worker& worker);
-  /// Goes along d to where its slope would vanish if that fell linearly.
+  /// Sets the step length along d at which the slope would vanish if it were linear.
   void advance(double slope, SolverState& solver_state, Worker& worker);
   [[nodiscard]] double largest_direction() const;
-  /// Looks up the residual where the descent stands, and forgets the direction.
-  /// @return whether contacts are taken otherwise than before
+  /// Computes the residual at the current iterate and drops the direction.
+  /// @return whether any contact changed
   bool restart(SolverState& solver_state, Worker& worker);
-  /// Looks for contacts that press where `next` is and which of them stick, and lets the filter
-  /// know. Ends with a barrier. @return whether that changed
+  /// Updates which contacts are active at `next` and which of them stick, and the filter's contact
+  /// terms. Ends with a barrier. @return whether that changed
   bool update_contacts(Worker& worker);
   SolverState descend(const MultigridOptions& options, Worker& worker);
 
   const Cloth& cloth_;
   ThreadTeam& team_;
   const KernelTable& kernels_;
-  /// Of one time step. Steps that are halved and doubled need each again and again.
+  /// The filter of one time step; kept, since halved and doubled steps come back to the same few.
   struct TimedFilter {
     double time_step;  // [s]
     std::unique_ptr<MultigridPreconditioner> filter;

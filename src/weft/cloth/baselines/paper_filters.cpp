@@ -13,7 +13,7 @@ namespace weft {
 
 namespace {
 
-/// Columns of one side are taken so many at a time.
+/// Columns of one side that are filtered at a time.
 constexpr int side_lanes = 4;
 
 FilterGrid uniform_patch(int size, double ratio) {
@@ -42,7 +42,7 @@ LocalFilter::LocalFilter(int image_size, int patch_size, double ratio, ThreadTea
   float *centred = centred_.data(), *beside = beside_.data();
   for (int place = 0; place < patch_; ++place)
     for (int row = 0; row < patch_; ++row) {
-      // Solved apart, mirror images differ by rounding.
+      // Averages mirror images, which differ by rounding.
       const auto weight = [&](int col, int to) {
         const int i = place * patch_ + col;
         const float one = w(i, row * patch_ + to);
@@ -69,7 +69,7 @@ void LocalFilter::apply_plane_row(const Grid<float>& in, Grid<float>& out, int r
   std::array<const float*, largest_patch> rows{};
   for (int k = 0; k < patch.rows; ++k) {
     rows[k] = in.row(top + k);
-    // Rows at one distance above and below have one weight.
+    // Rows at the same distance above and below have the same weight and are added first.
     if (row - top != half_ || k == half_) continue;
     float* both = lines_.row(scratch + k);
     kernels_.add_rows(size_, rows[k], in.row(top + patch_ - 1 - k), both);
@@ -86,7 +86,7 @@ void LocalFilter::apply_row(const Planes3& in, Planes3& out, int row, const Work
 
 namespace {
 
-/// The masses of particles moved to the coarse samples by bilinear weights; their sum is kept.
+/// The masses of particles, distributed to the coarse samples by bilinear weights; the sum is kept.
 /// @return [n_g^2], not yet summed over mates
 std::vector<double> restricted_masses(const Cloth& cloth, int coarse, int stride) {
   std::vector<double> masses(static_cast<std::size_t>(coarse) * coarse);

@@ -14,8 +14,8 @@ namespace weft {
 /// its centre on each sample in turn, or with its side along the border where it would reach beyond
 /// [zink07, section 4]. Each sample takes the row of W_l that belongs to its place in the patch.
 ///
-/// The patch is its own mirror image, and so are the rows of W_l: samples whose patch is centred
-/// add what lies at equal distances left and right, above and below, before they weigh it.
+/// The patch and the rows of W_l are mirror-symmetric: for samples whose patch is centred, values
+/// at equal distances left and right, above and below, are added before they are weighted.
 class LocalFilter {
  public:
   /// @param image_size  n, >= patch_size
@@ -65,7 +65,7 @@ class GlobalFilter {
   [[nodiscard]] const std::vector<double>& masses() const { return masses_; }
 
  private:
-  /// Between the values at every stride-th column.
+  /// Interpolates linearly between the values at every stride-th column.
   void interpolate_row(float* row) const;
 
   int size_, coarse_, stride_;

@@ -12,7 +12,7 @@ void clear_row(Planes3& planes, int row) {
   for (float* values : {out.x, out.y, out.z}) std::fill(values, values + planes.size(), 0.0F);
 }
 
-/// Without velocities.
+/// The springs between a row and one of its neighbour rows, without velocities.
 NeighbourSprings springs_of(const Cloth& cloth, const NeighbourRow& to, int row,
                             const Planes3& position) {
   const SpringPlane& springs = cloth.springs[to.direction];
@@ -76,7 +76,7 @@ void SpringMatrix::linearise_row(const Planes3& position, double time_step, int 
   }
 }
 
-/// Without what they multiply.
+/// The blocks of a neighbour row, without the vectors they multiply.
 NeighbourBlocks SpringMatrix::blocks_of(const NeighbourRow& to) const {
   const Direction& direction = directions_[to.direction];
   return {to.first,

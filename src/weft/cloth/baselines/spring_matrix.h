@@ -78,7 +78,7 @@ class SpringMatrix {
   /// @param cloth  kept by reference
   explicit SpringMatrix(const Cloth& cloth, InstructionSet instructions = best_instruction_set());
 
-  /// Computes the springs that start in a row. Let all rows be done before the next functions are
+  /// Computes the springs that start in a row. All rows must be done before the next functions are
   /// used.
   void linearise_row(const Planes3& position, double time_step, int row);
   /// Row `row` of out = S in. [in: m/s, out: kg m/s]

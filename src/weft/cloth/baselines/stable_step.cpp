@@ -13,7 +13,7 @@
 namespace weft {
 namespace {
 
-/// A start with a part in every mode; mates equal, pins still.
+/// A random start vector with a part in every mode; mates equal, pins 0.
 Planes3 random_motion(const Cloth& cloth) {
   Planes3 v(cloth.size);
   Random random(1);
@@ -34,7 +34,7 @@ struct Stiffness {
   BendingPass bending;
 };
 
-/// v <- M^-1 K v / |M^-1 K v| by this worker's rows. @return |M^-1 K v|
+/// One power iteration, v <- M^-1 K v / |M^-1 K v| on this worker's rows. @return |M^-1 K v|
 double iterate_power(const Cloth& cloth, Stiffness& stiffness, Planes3& v, Planes3& kv,
                      RowSums& sums, Worker& worker) {
   const Range mine = worker.share(cloth.size);
@@ -94,8 +94,8 @@ double highest_squared_frequency(const Cloth& cloth, ThreadTeam& team) {
   return result;
 }
 
-/// Twice the sum of what `coefficient` gives each direction's edges at a particle over its mass,
-/// the largest of all.
+/// The largest, over all particles, of twice the sum of `coefficient` over a particle's edges, over
+/// its mass.
 template <class Coefficient>
 double largest_sum(const Cloth& cloth, const Coefficient& coefficient) {
   Planes3 sum(cloth.size);
@@ -115,7 +115,7 @@ double largest_sum(const Cloth& cloth, const Coefficient& coefficient) {
   return bound;
 }
 
-/// Of the damping rate [1/s].
+/// A bound of the damping rate [1/s].
 double damping_bound(const Cloth& cloth) {
   return largest_sum(cloth, [&](SpringDirection d) { return cloth.springs[d].damping; });
 }

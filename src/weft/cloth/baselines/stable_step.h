@@ -11,8 +11,8 @@ namespace weft {
 /// that a run bears is somewhat smaller.
 double largest_stable_step(const Cloth& cloth, ThreadTeam& team);
 
-/// Whether Gershgorin's bound on w already tells that a step is stable, for a small part of the
-/// work. Steps of half the largest and less are hardly ever left in doubt.
+/// Whether a step is stable already by Gershgorin's bound on w, for a small part of the work. It
+/// decides nearly always for steps of half the largest and less.
 bool is_surely_stable(const Cloth& cloth, double time_step);
 
 }  // namespace weft

@@ -9,7 +9,7 @@ namespace weft {
 
 namespace {
 
-/// @param linear, squared  b and 2 a of the change
+/// The factor f of SafeVelocities. @param linear, squared  b and 2 a of the change
 double safe_part(double linear, double squared) {
   return squared > 0 ? std::clamp(-2 * linear / squared, 0.0, 1.0) : 0;
 }
@@ -42,7 +42,7 @@ double SafeVelocities::add(const Planes3& change, double scale, Planes3& velocit
   };
   const double linear = scale * product(velocity);
   const double part = safe_part(linear, scale * scale * product(change));
-  // The sums have been waited for: nobody reads velocities any more.
+  // The sums end with a barrier: no worker reads velocities any more.
   const Range mine = worker.share(n);
   for (int row = mine.first; part > 0 && row < mine.last; ++row)
     add_row(row_of(change, row), static_cast<float>(part * scale), n, row_of(velocity, row));
@@ -51,8 +51,8 @@ double SafeVelocities::add(const Planes3& change, double scale, Planes3& velocit
 
 namespace {
 
-/// Corrections lead so much farther than the limit, so that rounding and the last of the passes
-/// leave none beyond it.
+/// Fraction of the limit that corrections aim at, so that rounding and the last pass leave no
+/// spring beyond it.
 constexpr float margin = 0.985F;
 
 }  // namespace
@@ -64,7 +64,7 @@ double strain_limit_of(const LimitOptions& options, const Material& material) {
   return options.strain > 0 ? options.strain : material.strain_limit;
 }
 
-/// Corrections are gathered apart from the velocities, which then get what of them is safe.
+/// Limits positions and adds the safe part of the corrections to the velocities.
 void StrainLimit::limit_safely(int passes, const StrainBounds& bounds, ClothState& state,
                                Worker& worker) {
   if (!passes_.run(passes, {0, bounds.longest}, {state.position, correction_}, worker)) return;

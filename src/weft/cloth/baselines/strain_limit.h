@@ -8,14 +8,14 @@
 
 namespace weft {
 
-/// Adds changes to velocities so that they lend a cloth no kinetic energy K: of a change c the part
+/// Adds a change to velocities without raising a cloth's kinetic energy K: of a change c the part
 /// f c, f the largest in [0, 1] with K(v + f c) <= K(v). With K(v + f c) = K(v) + f b + f^2 a,
 ///   b = sum m v . c,  a = sum m |c|^2 / 2,  f = min(1, max(0, -b / a)),
-/// particles counted once. One factor for all keeps the momentum that c has none of. Sums in a
-/// fixed order, so any team and instruction set gives the same bits.
+/// particles counted once. As f is the same for all, changes without net momentum keep momentum.
+/// Sums are in a fixed order, so any team and instruction set gives the same bits.
 class SafeVelocities {
  public:
-  /// @param cloth  its masses are taken; kept by reference
+  /// @param cloth  whose masses are used; kept by reference
   SafeVelocities(const Cloth& cloth, const ThreadTeam& team);
 
   /// To be called by every worker when the change is in place; a worker writes its own rows.
@@ -35,18 +35,18 @@ class SafeVelocities {
 struct LimitOptions {
   int passes = 10;
   double strain = 0;  ///< largest elongation; 0: the material's, and none where that is 0 too
-  /// As the paper's method has it [zink07]: shear springs are limited too, and all of them against
-  /// shortening; velocities change by whole corrections over h. This makes energy.
+  /// As in the paper's method [zink07]: shear springs are limited too, and all of them against
+  /// shortening; velocities change by whole corrections over h, which adds energy.
   bool as_printed = false;
 };
 
-/// The largest elongation that stands; 0: there is no limit.
+/// The largest elongation that applies; 0: there is no limit.
 double strain_limit_of(const LimitOptions& options, const Material& material);
 
-/// Provot's limit [provot95]: stretch springs longer than r (1 + e), e the largest elongation, move
-/// both ends towards each other along the spring, by inverse mass, so that exactly the limit
-/// stands; velocities change by the same over h, as far as that lends the cloth no kinetic energy
-/// (see SafeVelocities). What is shorter than at rest may be: cloth buckles. Springs in a fixed
+/// Provot's limit [provot95]: a stretch spring longer than r (1 + e), e just below the largest
+/// elongation, moves both ends towards each other along the spring, by inverse mass, to exactly
+/// that length. Velocities change by the same over h, as far as that adds no kinetic energy (see
+/// SafeVelocities). Springs may be shorter than at rest: cloth buckles. They are taken in a fixed
 /// colouring, so any team gives the same bits; pins stay; mates stay equal.
 class StrainLimit {
  public:

@@ -7,9 +7,9 @@
 #include "weft/cloth/neighbours.h"
 
 // Springs are limited in eight colours: each of the four directions in two, such that no two
-// springs of a colour share a particle. Where there are mates, springs with an end on the border
-// join classes in ways that no such colouring knows, and they are few: one worker takes them in
-// their order, on the representatives, once the colours of a pass are done.
+// springs of a colour share a particle. With mates, springs that have an end on the border join
+// classes in ways that this colouring does not cover. They are few: one worker limits them in
+// order, on the representatives, after the colours of a pass.
 
 namespace weft {
 namespace {
@@ -17,8 +17,8 @@ namespace {
 /// Passes over fewer samples are left to one worker: barriers would cost more.
 constexpr int samples_worth_sharing = 4096;
 constexpr int min_block = 32, max_blocks = 64;
-/// Of the corrections as printed, from the second pass on: the first leaves single springs at their
-/// limit.
+/// Over-relaxation of the corrections as printed, from the second pass on: the first one leaves
+/// single springs at their limit.
 constexpr float over_relaxation = 1.75F;
 
 int block_size(int n) {
@@ -90,7 +90,7 @@ Range StrainPasses::columns_of(int first_block, int last_block) const {
   return {first_block * block_, std::min(cloth_.size, last_block * block_)};
 }
 
-/// Springs that start from a run of blocks.
+/// Limits the springs that start from a run of blocks.
 void StrainPasses::limit_run(LimitedRows rows, Range blocks, int row) {
   const LimitedRows whole = rows;
   const auto cut_to = [&](Range columns) {
@@ -107,7 +107,7 @@ void StrainPasses::limit_run(LimitedRows rows, Range blocks, int row) {
   }
 }
 
-/// One colour: along rows by column parity, else by row parity.
+/// Limits one colour: springs along rows by column parity, others by row parity.
 void StrainPasses::limit_colour(const Sweep& sweep, int direction, int parity) {
   const SpringPlane& springs = cloth_.springs[direction];
   const int rows = cloth_.size - 2 * first_ - springs.down;
@@ -168,7 +168,8 @@ int StrainPasses::changed_blocks() const {
   return count;
 }
 
-/// What the last pass changed may have broken what it or the blocks beside it are joined by.
+/// Activates the blocks that the last pass changed, and those beside them, whose springs may now be
+/// out of bounds.
 void StrainPasses::renew_active() {
   const int n = cloth_.size;
   for (int r = 0; r < n; ++r) {

@@ -16,17 +16,17 @@ struct StrainBounds {
   bool as_printed = false;  ///< shear springs too; corrections are over-relaxed
 };
 
-/// What corrections move, and what adds them up.
+/// The positions that corrections move, and their sum.
 struct LimitedMotion {
-  Planes3 &position, &change;  ///< [n x n] mates of a representative are left behind it
+  Planes3 &position, &change;  ///< [n x n] mates do not follow their representative
 };
 
 /// Passes over the springs that move both ends of those that are out of bounds, by inverse mass.
-/// Springs in a fixed colouring, so any team gives the same bits; pins stay.
+/// Springs are taken in a fixed colouring, so any team gives the same bits; pins stay.
 ///
-/// A stiff method leaves few springs to limit, about pins above all: after the first pass only the
-/// blocks of a row beside those that the pass before changed are looked at. As printed, corrections
-/// are also taken longer than they are from the second pass on, as in successive over-relaxation.
+/// A stiff method leaves few springs to limit, mostly around pins: after the first pass only the
+/// blocks of a row that the pass before changed, and those beside them, are visited. As printed,
+/// corrections are over-relaxed from the second pass on.
 class StrainPasses {
  public:
   /// @param cloth  size, mates, inverse masses and springs; kept by reference
@@ -50,11 +50,11 @@ class StrainPasses {
 
   const Cloth& cloth_;
   const KernelTable* kernels_;
-  int first_;  // sample of a row or column that colours begin with: the border's mates stand apart
+  int first_;  // first row and column of coloured springs: 1 with mates, else 0
   int block_;  // columns; a row has at most 64
-  // A bit a block, counted by the samples that springs start from.
-  std::vector<std::uint64_t> active_;   // [n] that are looked at
-  std::vector<std::uint64_t> changed_;  // [n] that had springs to limit
+  // One bit a block, by the samples that springs start from.
+  std::vector<std::uint64_t> active_;   // [n] blocks to visit
+  std::vector<std::uint64_t> changed_;  // [n] blocks with limited springs
 };
 
 }  // namespace weft

@@ -58,7 +58,7 @@ struct Sheet {
   Cloth cloth;
   ClothState start;
   double stiffness = 0;  ///< of every spring [N/m]
-  /// The same over the mean particle, which border particles make lighter.
+  /// As `stiffness`, for the mean particle, which border particles make lighter.
   double filter_stiffness = 0;
 };
 
@@ -103,7 +103,7 @@ Sheet make_sheet(int n) {
   return sheet;
 }
 
-/// A method, the time that a step of it takes, and where it leads.
+/// A method, the time of its step and the state that it leads to.
 struct Runner {
   const Sheet* sheet = nullptr;
   std::unique_ptr<Integrator> integrator;
@@ -137,7 +137,7 @@ double rms_distance(const ClothState& a, const ClothState& b) {
   return std::sqrt(sum / count);
 }
 
-/// What all rows of one size share.
+/// The common part of all rows of one size.
 struct Size {
   Size(int n, const Table5Options& given, ThreadTeam& with)
       : options(given), team(with), sheet(make_sheet(n)) {

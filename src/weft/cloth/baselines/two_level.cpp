@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-/// Side of the largest patch or coarse grid whose dense matrix is still made.
+/// Largest side of a patch or coarse grid whose dense matrix is made.
 constexpr int largest_dense_side = LocalFilter::largest_patch;
 constexpr int largest_default_global_size = 17;
 /// h^2 k / m up to which runs are known to stay bounded, for each sample of the patch's side.
@@ -33,11 +33,10 @@ double mean_mass(const Cloth& cloth) {
   return sum / cloth.particles;
 }
 
-/// The paper's method [zink07, section 4], with its slips mended: soft springs of its own, whose
-/// accelerations are filtered locally by W_l and globally by W_g, on top of gravity, which is not
-/// filtered. The sliding patch takes rows of W_l, which conserves neither momentum where patches
-/// lean on the border; with nothing pinned a rigid acceleration takes back the net force and
-/// torque.
+/// The paper's method [zink07, section 4], with its errors corrected: soft springs of its own,
+/// whose accelerations are filtered locally by W_l and globally by W_g, beside unfiltered gravity.
+/// The sliding patch takes rows of W_l, which conserves neither momentum where patches lie at the
+/// border; without pins a rigid acceleration removes the net force and torque.
 class TwoLevel final : public FilteredIntegrator {
  public:
   TwoLevel(const TwoLevelOptions& options, const Cloth& cloth, const StepInput& typical,
@@ -61,8 +60,8 @@ class TwoLevel final : public FilteredIntegrator {
         time_step, largest_stable_stiffness(time_step), stiffness_);
   }
 
-  /// The limiter may keep a filter that grows within bounds: then nothing runs away, the cloth
-  /// trembles.
+  /// The strain limiter may keep an unstable filter within bounds: the cloth trembles without
+  /// diverging.
   [[nodiscard]] std::string caution() const override {
     std::string text = FilteredIntegrator::caution();
     if (stiffness_ <= largest_stable_stiffness(filter_step_)) return text;
@@ -78,7 +77,7 @@ class TwoLevel final : public FilteredIntegrator {
     return filter_step_ * filter_step_ * stiffness_ / mean_mass_;
   }
 
-  /// No spring between mates.
+  /// Sets the springs of a direction; none between mates.
   void make_springs_of(int direction) {
     const int n = cloth_.size;
     const auto [down, right] = spring_offsets[direction];

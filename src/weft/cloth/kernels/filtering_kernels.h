@@ -11,15 +11,15 @@ namespace weft {
 
 enum class InstructionSet;
 
-/// One of the neighbours of the particles of a row. All pointers but those of `position` and
-/// `velocity` are shifted so that column c is what belongs to particle c.
+/// The springs between the particles of a row and one of their neighbours. All pointers but those
+/// of `position` and `velocity` are shifted so that column c belongs to particle c.
 struct ViscousRow {
   const float *rest_length, *stiffness, *viscosity;
   ConstRow3 position, velocity, other_position, other_velocity;
   int first, last;
 };
 
-/// What moves the particles of a row: a + linear + (x - centre) x turn.
+/// Accelerations of the particles of a row: a + linear + (x - centre) x turn.
 struct AcceleratedRow {
   float time_step;
   float linear[3], centre[3], turn[3];
@@ -32,15 +32,15 @@ struct DenseMatrix {
   std::ptrdiff_t stride;
 };
 
-/// What a patch weighs a row of samples by: columns whose patch is centred by their distance from
-/// its middle, [rows x (half + 1)]; the first `half` columns by column, [rows x (2 half + 1) x
-/// lanes], and the last as their mirror image.
+/// Weights of a row of samples under a patch. `centred`: for columns whose patch is centred, by the
+/// distance from its middle, [rows x (half + 1)]. `beside`: for the first `half` columns, by
+/// column, [rows x (2 half + 1) x lanes]; the last columns are their mirror image.
 struct PatchWeights {
   int half, rows, lanes;
   const float *centred, *beside;
 };
 
-/// A row whose moments are wanted.
+/// The inputs of a row's moments.
 struct MomentRow {
   const float *mass, *owner;
   ConstRow3 position, acceleration;
@@ -54,7 +54,7 @@ struct FilteringKernels {
   void (*viscous_springs)(const ViscousRow& row, Row3 force);
   /// row *= factor.
   void (*scale)(int n, const float* factor, Row3 row);
-  /// Where a step leads.
+  /// Position and velocity at the end of a step.
   void (*accelerate)(int n, const AcceleratedRow& row, Row3 position, Row3 velocity);
   /// Adds the row's moments, each in lanes of its own.
   void (*moments)(int n, const MomentRow& row, double* sums);

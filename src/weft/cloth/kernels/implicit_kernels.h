@@ -2,19 +2,19 @@
 
 #include "weft/cloth/kernels/kernel_table.h"
 
-// The inner loops of the methods that know springs by their direction, implicit and explicit. As
-// those of kernel_table.h: compiled once for every instruction set, the same bits in each.
+// The inner loops of the methods that store springs by direction, implicit and explicit. As those
+// of kernel_table.h: compiled once for every instruction set, the same bits in each.
 
 namespace weft {
 
 /// The springs between the particles first .. last - 1 of a row and one of their neighbours. All
-/// pointers but those of `position` and `velocity` are shifted so that column c is what belongs to
-/// particle c.
+/// pointers but those of `position` and `velocity` are shifted so that column c belongs to particle
+/// c.
 struct NeighbourSprings {
   int first, last;
   const float *rest_length, *stiffness, *damping;
   ConstRow3 position, other_position;  ///< [m]
-  ConstRow3 velocity, other_velocity;  ///< [m/s], of damping alone
+  ConstRow3 velocity, other_velocity;  ///< [m/s], read by damping alone
 };
 
 /// The blocks a 1 + s s^T between particles and a neighbour, shifted likewise; see SpringMatrix.
@@ -30,8 +30,8 @@ struct BlockRowOut {
   float *xx, *xy, *xz, *yy, *yz, *zz;
 };
 
-/// What of a matrix's diagonal is inverted: block + held contacts + mass on the diagonal, each by
-/// its factor.
+/// The diagonal blocks to be inverted: block + contact + mass on the diagonal, each times its
+/// factor.
 struct InvertedRow {
   BlockRow block, contact;
   const float* mass;   ///< [kg]; null: none
@@ -39,8 +39,8 @@ struct InvertedRow {
   float block_factor, contact_factor, mass_factor;
 };
 
-/// Three rows of a plane around one of them, above and below null beyond the border, and what each
-/// is weighed by; weights null: 1.
+/// Three rows of a plane with their weights. Above and below are null beyond the border; weights
+/// null: 1.
 struct WeighedRows {
   const float *above, *here, *below;
   const float *above_weight, *here_weight, *below_weight;
@@ -53,7 +53,7 @@ struct GradientStepRow {
   Row3 residual, value;        ///< r, v
 };
 
-/// Where particles are, how fast they go and what acts on them at the start of a step.
+/// Positions, velocities and forces of a row at the start of a step.
 struct StartRow {
   float time_step;   ///< [s]
   float gravity[3];  ///< [m/s^2]
@@ -77,8 +77,8 @@ struct ImplicitKernels {
 
   /// out += mass value.
   void (*add_mass)(int n, const float* mass, ConstRow3 value, Row3 out);
-  /// out = the inverses by cofactors, scaled to a trace of 1 meanwhile: cubes of masses of a
-  /// milligram would fall out of single precision.
+  /// out = the inverses by cofactors, of blocks scaled to a trace of 1, which keeps the
+  /// determinants of small masses within single precision.
   void (*invert_blocks)(int n, const InvertedRow& row, const BlockRowOut& out);
   /// value = B value.
   void (*multiply_blocks)(int n, const BlockRow& blocks, Row3 value);

@@ -5,11 +5,12 @@
 #include "weft/cloth/kernels/row_pointers.h"
 
 // Inner loops that are compiled once for every instruction set (kernels/isa/): each works on one
-// row of n samples, reads its neighbours' rows and writes nothing but what it is given to write.
-// They give the same bits in each set: no sum's order depends on the vector's width. Here stand
-// those of multigrid, bending, the strain limiter and the look for runaways; implicit and explicit
-// have theirs in implicit_kernels.h, desbrun and two_level in filtering_kernels.h. What is outside
-// these tables, such as contacts, wind, mates and the normals of curved cloth, is compiled once.
+// row of n samples, reads its neighbours' rows and writes only to its outputs. They give the same
+// bits in each set: no sum's order depends on the vector's width. This table has those of
+// multigrid, bending, the strain limiter and the check for diverging cloth; those of implicit and
+// explicit are in implicit_kernels.h, those of desbrun and two_level in filtering_kernels.h, those
+// of newton in newton_kernels.h. What is outside these tables, such as contacts, wind, mates and
+// the normals of curved cloth, is compiled once.
 
 namespace weft {
 
@@ -21,17 +22,17 @@ struct SpringRow {
   const float* damping;  ///< null: none
 };
 
-/// Where a row is and where the step began.
+/// Positions of a row now and at the start of the step.
 struct MovingRow {
   ConstRow3 position, start;  ///< [m]
 };
 
 /// A row of the operator A of a filter level, with the edges that lead up from it. Above the first
-/// row stand zeros.
+/// row these are zeros.
 struct OperatorRow {
   const float* weight;         ///< own part of M / h^2 + held [N/m]
   const float* right;          ///< edges to the right
-  const float *below, *above;  ///< edges down from this row, and from the one above
+  const float *below, *above;  ///< edges down from this row and from the one above
   const float *below_right, *above_left;
   const float *below_left, *above_right;
 };
@@ -54,7 +55,7 @@ struct BlockSweepRow {
 };
 
 /// The columns first .. last - 1 of a row that have a neighbour `shift` columns to the right in
-/// another, and what each weighs the other by.
+/// another row, and the weights that the two give each other.
 struct TransposedRow {
   int first, last, shift;
   float factor;
@@ -71,7 +72,8 @@ struct SpringRun {
   MovingRow here, there;
 };
 
-/// The same columns of two rows, and what each difference between them weighs.
+/// The columns first .. last - 1 of a row, their neighbours `shift` columns to the right in another
+/// row, and the weights of the differences.
 struct DifferenceRow {
   int first, last, shift;
   const float* weight;
@@ -86,8 +88,8 @@ struct DirectionRow {
   Row3 position;               ///< x [m]
 };
 
-/// Where y + z + step_length d leads in a step: x, and its velocity v + gained + (z + step_length
-/// d) per_step.
+/// The position x = y + z + step_length d at the end of a step, and its velocity
+/// v + gained + (z + step_length d) per_step.
 struct PlacedRow {
   float step_length, per_step;
   float gained[3];  ///< by gravity [m/s]
@@ -95,7 +97,7 @@ struct PlacedRow {
   Row3 position, velocity;
 };
 
-/// What a smoothing sweep over a row needs beside -A x.
+/// The inputs of a smoothing sweep over a row, besides -A x.
 struct SweepRow {
   float factor;
   const float* inverse;        ///< of the diagonal; 0 where nothing moves
@@ -113,7 +115,7 @@ struct LimitedRows {
   float relaxation;                       ///< of the corrections
 };
 
-/// How fast a row moves.
+/// Kinetic energy and largest speed of a row.
 struct RowMotion {
   double kinetic;         ///< [J]
   float largest_squared;  ///< speed [m^2/s^2]
@@ -146,7 +148,7 @@ struct KernelTable {
   /// @return the largest |d|^2 [m^2]
   float (*update_direction)(int n, const DirectionRow& row);
   void (*place)(int n, const PlacedRow& row);
-  /// residual += way (far - residual).
+  /// residual += step_length (far - residual).
   void (*step_residual)(int n, float step_length, ConstRow3 far, Row3 residual);
 
   /// The sum of share a . b; share null: 1.
@@ -156,7 +158,7 @@ struct KernelTable {
   void (*first_sweep)(int n, float factor, const float* inverse, ConstRow3 rhs, Row3 out);
   /// out = -A x, own part.
   void (*apply)(int n, const OperatorRow& row, const StencilRows& x, Row3 out);
-  /// out = out + share rhs where something moves, else 0. @param share  null: 1
+  /// out = out + share rhs where the particle moves, else 0. @param share  null: 1
   void (*add_rhs)(int n, const float* share, const float* inverse, ConstRow3 rhs, Row3 out);
   /// out = value + factor inverse (rhs + count out). @return share rhs . out
   double (*sweep)(int n, const SweepRow& row, Row3 out);
@@ -168,15 +170,15 @@ struct KernelTable {
   void (*block_sweep)(int n, const BlockSweepRow& row, Row3 out);
   /// The transpose of interpolation: a coarse row of three fine ones of n samples.
   void (*restrict_rows)(int n, const StencilRows& fine, Row3 lines, Row3 out);
-  /// out += the mean of two coarse rows, interpolated to n samples, where something moves.
+  /// out += the mean of two coarse rows, interpolated to n samples, where the particle moves.
   void (*interpolate)(int n, ConstRow3 a, ConstRow3 b, const float* inverse, Row3 lines, Row3 out);
 
-  /// x = (L L^T)^-1 x, all three at once; with room for a padding before and after.
+  /// x = (L L^T)^-1 x for all three coordinates at once; x has room for a padding before and after.
   void (*substitute)(const Envelope& factor, Row3 x);
 
   /// Whether any of the springs is out of its bounds.
   bool (*breaks_limit)(const LimitedRows& rows);
-  /// Moves both ends of those that are, by inverse mass.
+  /// Moves both ends of the springs out of bounds, by inverse mass.
   void (*limit)(const LimitedRows& rows);
 
   RowMotion (*motion)(int n, const float* mass, ConstRow3 position, ConstRow3 velocity);

@@ -13,16 +13,16 @@ namespace weft {
 
 enum class InstructionSet;
 
-/// The springs of one direction that start from a row, and where both their ends are: `there` is
-/// shifted, so that column c is the other end of spring c.
+/// The springs of one direction that start from a row, and the states of both their ends: `there`
+/// is shifted, so that column c is the other end of spring c.
 struct LinearisedSprings {
   const float *rest_length, *stiffness, *damping;  ///< [m], [N/m], [N s/m]
   ConstRow3 here, there;                           ///< positions [m]
   ConstRow3 speed_here, speed_there;               ///< velocities [m/s]
   ConstRow3 start_here, start_there;               ///< positions when the step began [m]
   float per_step, step;                            ///< 1 / h, h [1/s], [s]
-  float guessed_share;  ///< of the tension at the positions that is stiffness across, at least
-  float limit, limit_factor;  ///< beyond limit * rest_length stiffer by this factor; 0: never
+  float guessed_share;        ///< least transverse stiffness over the tension at the positions
+  float limit, limit_factor;  ///< stiffer by this factor beyond limit * rest_length; 0: not
 };
 
 /// A spring's part of the Hessian, t 1 + s s^T, and its force factor f: force f (x_j - x_i).
@@ -45,16 +45,16 @@ struct RowTriple {
   ConstRow3 above, here, below;
 };
 
-/// A row of a field and the one below, and what springs pass from row to row. [N]
+/// A row of a field and the one below, and the spring forces passed from row to row. [N]
 struct SpringSweep {
   ConstRow3 here, below;
   const float* mass;                    ///< over h^2 [N/m]
-  ConstRow3 carried;                    ///< what springs from the row above do to this one
-  Row3 carry;                           ///< and those of this one to the row below
+  ConstRow3 carried;                    ///< forces of the row above's springs on this row
+  Row3 carry;                           ///< forces of this row's springs on the row below
   Row3 right, below_right, below_left;  ///< scratch with a frame
 };
 
-/// Weights of bending's second difference and the rows that it reads.
+/// Weights of bending's second difference for a row.
 struct BendingRows {
   const float* weight[ring_size];  ///< right, left, below, above, then diagonals as bending_offsets
   int neighbours;                  ///< 4 or 8
@@ -68,7 +68,7 @@ struct MutableBlockRow6 {
   float* entry[6];
 };
 
-/// Diagonal blocks of a row, whole and without the springs along rows, down columns.
+/// Diagonal blocks of a row: whole, without the springs along rows, without those down columns.
 struct LineDiagonals {
   MutableBlockRow6 whole, rows, cols;
 };
@@ -104,7 +104,8 @@ struct LineBlock {
   bool along_rows;
   int first, width, length;
 };
-/// What is factored: diagonal blocks + extra * 1, and the blocks between positions p and p + 1.
+/// The matrix of a block of lines: diagonal blocks + extra * 1, and the coupling blocks between
+/// positions p and p + 1.
 struct LineMatrix {
   PlaneView diagonal[6], extra, coupling[6];
 };
@@ -112,8 +113,8 @@ struct LineMatrix {
 struct SpringLineMatrix {
   PlaneView diagonal[6], extra, coupling[4];
 };
-/// Lines of springs t 1 + s s^T, t, x, y, z, to the position after, and the blocks that hold every
-/// sample besides: positive, and nothing of the line's own springs.
+/// The matrix of a block of lines by its springs t 1 + s s^T to the next position, as t, x, y, z,
+/// and the rest of the diagonal blocks: positive definite, without the line's own springs.
 struct HeldLineMatrix {
   PlaneView held[6], spring[4];
 };
@@ -129,15 +130,15 @@ struct NewtonKernels {
                    ConstRow3 speed, ConstRow3 wanted, Row3 out);
   /// The diagonal blocks of mass / h^2 and springs.
   void (*diagonal)(int n, const SpringRing& ring, const float* mass, MutableBlockRow6 out);
-  /// And what holds lines along rows and down columns, besides their own springs.
-  /// @param extra  added to that on the diagonal
+  /// The diagonal blocks, and those without the line's own springs, along rows and down columns.
+  /// @param extra  added to the latter on the diagonal
   void (*line_diagonals)(int n, const SpringRing& ring, const float* mass, const float* extra,
                          const LineDiagonals& out);
-  /// out = (mass / h^2 + springs) x, each spring looked at once, row after row.
+  /// out = (mass / h^2 + springs) x, each spring evaluated once, row after row.
   /// @param springs  that start from the row: to the right, down, below right, below left
   void (*apply_springs)(int n, const ConstSpringHessianRow* springs, const SpringSweep& at,
                         Row3 out);
-  /// The energy of springs, and what their damping takes in a step; `step` 0: without that [J].
+  /// The energy of springs plus half of what damping dissipates in a step, if `step` is not 0 [J].
   double (*spring_energy)(int n, const LinearisedSprings& springs);
   /// u = sum of weight (x_j - x_i).
   void (*bend)(int n, const BendingRows& rows, const RowTriple& x, Row3 u);
@@ -152,10 +153,11 @@ struct NewtonKernels {
   /// -(t 1 + s s^T) times both masks. @param mask  of this end  @param other  of the other, shifted
   void (*spring_blocks)(int n, ConstSpringHessianRow spring, const float* mask, const float* other,
                         MutableBlockRow6 out);
-  /// Galerkin's product along rows: every second column of a fine row of n. Reads one column beyond
-  /// either end. @param m  coarse columns
+  /// The Galerkin product along rows: every second column of a fine row of n. Reads one column
+  /// beyond either end. @param m  coarse columns
   void (*coarsen_columns)(int m, const StencilBlocks& fine, const MutableStencilBlocks& half);
-  /// And across them: a coarse row of the three half-coarsened rows 2 q - 1, 2 q, 2 q + 1.
+  /// The Galerkin product across rows: a coarse row from the half-coarsened rows 2 q - 1, 2 q, 2 q
+  /// + 1.
   void (*coarsen_rows)(int m, const StencilBlocks* half, const MutableStencilBlocks& coarse);
 
   /// Factors a block of lines. @param factor  [length x line_factor_entries x line_lanes]

@@ -11,9 +11,9 @@
 
 namespace weft {
 
-/// The quadratic part of bending, |M x|^2 / 2, as weights of the eight neighbours, on the finest
-/// level and, with the weights of every second sample at twice the spacing, on coarser ones: there
-/// areas count four times and second differences a quarter, so M's weights a half.
+/// The quadratic bending energy |M x|^2 / 2 as stencil weights of the eight neighbours. A coarser
+/// level takes half the weights of every second sample: at twice the spacing, areas are four times
+/// as large and second differences a quarter.
 class BendingStencil {
  public:
   BendingStencil() = default;
@@ -21,13 +21,13 @@ class BendingStencil {
   [[nodiscard]] BendingStencil coarsened() const;
 
   [[nodiscard]] bool active() const { return neighbours_ > 0; }
-  /// u = M x, own part of a row, from -1 to n.
+  /// u = M x, own part of a row. @param row  from -1 to n
   void bend_row(const PaddedVectors& x, int row, const NewtonKernels& kernels, Row3 u) const;
   /// out += M^T u, own part of a row. @param u  around the row, summed over seam copies
   void unbend_row(const RowTriple& u, int row, const NewtonKernels& kernels, Row3 out) const;
   /// The diagonal of M^T M, summed over seam copies. [N/m]
   [[nodiscard]] PaddedPlane diagonal(const Seams& seams) const;
-  /// (M x)_i of a scalar field, own part.
+  /// The weight of a neighbour of sample (row, col) in M.
   [[nodiscard]] float weight(int neighbour, int row, int col) const {
     return weights_[neighbour](row, col);
   }
@@ -38,8 +38,8 @@ class BendingStencil {
   std::array<PaddedPlane, bending_neighbours> weights_;
 };
 
-/// Bending of cloth whose rest shape is curved, exactly: the gradient and the Gauss-Newton Hessian
-/// of |M x - r n(x)|^2 / 2, in which normals turn with the cloth.
+/// Bending of cloth with a curved rest shape: the exact gradient and the Gauss-Newton Hessian of
+/// |M x - r n(x)|^2 / 2, whose normals n depend on x.
 class CurvedBending {
  public:
   /// @param cloth  kept by reference
@@ -54,7 +54,8 @@ class CurvedBending {
   /// The energy at the last position, by rank 0 alone [J].
   [[nodiscard]] double energy() const { return pass_.energy(); }
 
-  /// Adds a row's own part of the gradient after set_position, of the product after change.
+  /// Adds a row's own part of the gradient after set_position, of the Hessian's product after
+  /// change.
   void add_row(int row, PaddedVectors& out);
 
  private:

@@ -84,7 +84,7 @@ void Galerkin::coarsen_rows(int fine_size, BlockLevel& coarse, const Workers& wo
                             const NewtonKernels& kernels, const FineRow& fine_row) {
   Scratch& own = scratch_[workers.alone() ? 0 : workers.rank()];
   const int m = coarse.size;
-  // The half-coarsened rows 2 q - 1, 2 q, 2 q + 1 stand in turns.
+  // Ring buffer of the half-coarsened rows 2 q - 1, 2 q, 2 q + 1.
   const auto slot = [](int fine) { return (fine + 3) % 3; };
   const auto make = [&](int fine) {
     Rows& half = own.half[slot(fine)];

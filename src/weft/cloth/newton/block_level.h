@@ -10,12 +10,12 @@
 
 namespace weft {
 
-/// What holds a sample in a line's matrix. [N/m]
+/// Diagonal entry that fixes a sample in a line's matrix. [N/m]
 inline constexpr float holding_stiffness = 1e20F;
 
-/// Bending's part of the diagonal that makes line relaxation, which leaves out the rest of its
-/// stencil, contract at the same damping as for springs: the largest eigenvalue of a biharmonic
-/// stencil is 3.2 times its diagonal, that of springs twice.
+/// Factor on the bending diagonal in the line smoother, which leaves out the rest of the bending
+/// stencil. It makes relaxation contract at the same damping as for springs: the largest eigenvalue
+/// of a biharmonic stencil is 3.2 times its diagonal, that of springs twice.
 inline constexpr float bending_share = 1.6F;
 
 /// Nine-point stencils of 3 x 3 blocks: own parts, each sample's centre and the blocks to the four
@@ -36,12 +36,12 @@ struct BlockLevel {
   PaddedPlane extra;     ///< added to diagonals for the smoother [N/m]
   BlockStencil stencil;  ///< on the finest level the centre only
   PaddedBlocks joined;   ///< the centres summed over seam copies; empty without seams
-  /// On a finest level without seams, what holds samples of lines besides their own springs.
+  /// On a finest level without seams: the lines' diagonal blocks without the line's own springs.
   PaddedBlocks held_rows, held_cols;
   LineFactor rows, cols;
   PaddedVectors rhs, value, residual;
   PaddedVectors curved;                ///< bending's u; scratch
-  std::vector<PaddedVectors> windows;  ///< three rows of that for each worker
+  std::vector<PaddedVectors> windows;  ///< three rows of u for each worker
 
   struct Shape {
     int size;
@@ -55,15 +55,16 @@ struct BlockLevel {
   }
 };
 
-/// The coarse stencils P^T A P of bilinear interpolation P, which stay nine-point stencils. Rows of
-/// blocks in between are kept a few at a time, so that each stencil is read once.
+/// Computes the coarse stencils P^T A P of bilinear interpolation P, which stay nine-point
+/// stencils. Half-coarsened rows of blocks are kept three at a time, so that each stencil is read
+/// once.
 class Galerkin {
  public:
-  /// @param size  of the finest level  @param workers  how many may call at once
+  /// @param size  of the finest level  @param workers  the largest number of callers at once
   Galerkin(int size, int workers);
 
-  /// Coarse rows of the finest level, whose blocks are springs'. Samples that do not move (mask 0)
-  /// have no part in it; the level's centres are 0 there.
+  /// Coarsens the finest level, whose blocks beside the centres are those of springs. Pinned
+  /// samples (mask 0) have no part in it; the level's centres are 0 there.
   void coarsen(const SpringHessian& springs, const BlockLevel& fine, const PaddedPlane& mask,
                BlockLevel& coarse, const Workers& workers, const NewtonKernels& kernels);
   void coarsen(const BlockLevel& fine, BlockLevel& coarse, const Workers& workers,

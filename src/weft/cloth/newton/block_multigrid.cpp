@@ -7,11 +7,11 @@
 namespace weft {
 namespace {
 
-/// Of line relaxation, whose largest eigenvalue is close to 2 for springs, along rows and columns.
+/// Damping of line relaxation, whose largest eigenvalue is close to 2 for springs.
 constexpr float damping = 0.73F;
-/// Levels of at most so many samples a side are left to one worker: barriers would cost more.
+/// Levels of at most this many samples a side are left to one worker: barriers would cost more.
 constexpr int lone_size = 33;
-/// Where the coarsest level is too large to be factored.
+/// Smoothing sweeps where the finest level is the only one, which is not factored.
 constexpr int coarsest_sweeps = 8;
 
 RowTriple rows_around(const PaddedVectors& field, int r) {
@@ -60,11 +60,11 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
       galerkin_(cloth.size, workers),
       mask_(cloth.size, cloth.size),
       free_extra_(cloth.size, cloth.size) {
-  // Second-neighbour springs are not in the stencil: the smoother knows what bounds them.
+  // Second-neighbour springs are not in the stencil: the smoother adds a bound of them.
   const auto far_stiffness = static_cast<float>(8 * cloth.material.bend_springs);
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c) {
-      // Nor are the edges along free borders, which at corners more than double the diagonal.
+      // Nor are the free-border edges of bending, which at corners more than double the diagonal.
       const float bordered =
           cloth.bending.active ? bending_share * cloth.bending.diagonal(r, c) : 0.0F;
       const float bending = std::max(levels_.front().extra(r, c), bordered);
@@ -141,7 +141,8 @@ void BlockMultigrid::add_bending(BlockLevel& level, const PaddedVectors& x, Padd
                                  const Workers& workers, const Before& before, const After& after) {
   const Range mine = workers.share(level.size);
   const BendingStencil& bending = level.bending;
-  // Seams join u between its two halves; else three rows of it at a time are enough.
+  // With seams, u is summed over copies before M^T is applied; else three rows of it at a time are
+  // enough.
   const bool whole = bending.active() && !level.seams.empty();
   if (whole) bend(level, x, workers);
   PaddedVectors& window = level.windows[workers.rank()];
@@ -199,7 +200,7 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
   const auto finish = [&](int r) {
     if (parts.contacts != nullptr && parts.contacts->row(r))
       parts.contacts->add_row(r, parts.loads, out.row(r));
-    // Copies share what all of them have: each adds its own part.
+    // Taken before the sum over seam copies: each copy adds its own part.
     if (parts.row_products != nullptr)
       parts.row_products[r] =
           kernels_->dot(whole_vectors(level.size), nullptr, x.row(r), std::as_const(out).row(r));
@@ -265,7 +266,7 @@ double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& su
           position.x(edge.other_row, edge.other_col) - position.x(r, edge.col),
           position.y(edge.other_row, edge.other_col) - position.y(r, edge.col),
           position.z(edge.other_row, edge.other_col) - position.z(r, edge.col)};
-      // Each edge is there from both of its ends.
+      // Each edge is stored at both of its ends.
       energy += 0.25 * edge.stiffness * squared_length(vec_cast<double>(displacement));
     }
     return energy;
@@ -320,7 +321,8 @@ void BlockMultigrid::smooth(std::size_t index, Direction direction, bool from_ze
               workers);
 }
 
-/// A particle belongs to the line of its first copy: on others it is held.
+/// Smooths a level with seams. A particle is solved for on the line of its first copy; on the lines
+/// of its other copies it is fixed.
 void BlockMultigrid::smooth_seamed(BlockLevel& level, const LineFactor& lines, bool from_zero,
                                    const Workers& workers) {
   const Range mine = workers.share(level.size);

@@ -13,45 +13,45 @@
 namespace weft {
 
 /// A V-cycle that preconditions the step's linear system A = M / h^2 + springs + bending +
-/// contacts. Cloth is stiff along its threads and soft across them, so points relaxed one by one
-/// converge slowly; lines along rows and along columns, solved exactly in turns, do not care how
+/// contacts. Cloth is stiff along its threads and soft across them, so point relaxation converges
+/// slowly. The convergence of line relaxation, along rows and along columns, does not depend on how
 /// stiff the threads are [trottenberg01, section 5.1]. Coarse levels are Galerkin products of 3 x 3
-/// blocks. A cycle relaxes rows, corrects on the coarser level and relaxes columns: half of a
-/// symmetric one, for conjugate gradients that make every direction conjugate to the last by its
-/// product.
+/// blocks. A cycle relaxes rows, applies the coarse correction and relaxes columns. This is not
+/// symmetric, so the conjugate gradients that it preconditions make each direction conjugate to the
+/// last one by its product.
 class BlockMultigrid {
  public:
-  /// @param cloth  kept by reference  @param workers  of the team that will call
+  /// @param cloth  kept by reference  @param workers  size of the calling team
   BlockMultigrid(const Cloth& cloth, int workers, const NewtonKernels& kernels);
 
   // To be called by every worker; each ends with a barrier.
 
   /// Fills the diagonal blocks of a row of the finest level, before set_up; no barrier.
   void fill_diagonals(const SpringHessian& springs, int row);
-  /// Adds blocks to those of a row.
+  /// Adds blocks to the diagonal blocks of a row of the finest level.
   void add_to_diagonals(const BlockRow6& blocks, int row);
-  /// Takes over linearised springs, whose diagonal blocks are filled already.
+  /// Sets up all levels for linearised springs, whose diagonal blocks are filled already.
   void set_up(SpringHessian& springs, Worker& worker);
-  /// value() = about A^-1 rhs().
+  /// One V-cycle from zero: value() approximates A^-1 rhs().
   void cycle(Worker& worker);
-  /// What only the exact operator has, not the cycle; null: none.
+  /// Terms of the exact operator that the cycle leaves out; null: none.
   struct ExactParts {
     const ContactGather* contacts = nullptr;
-    std::span<const Vec3f> loads{};   ///< of contacts: their part of the product
+    std::span<const Vec3f> loads{};   ///< of contacts, from their part of the product
     CurvedBending* curved = nullptr;  ///< instead of flat bending
-    double* row_products = nullptr;   ///< [n] where x . A x goes, what each row has of it
+    double* row_products = nullptr;   ///< [n] receives each row's part of x . A x
   };
   /// out = A x on the finest level, seam copies equal, 0 where pinned.
   void apply(const PaddedVectors& x, const ExactParts& parts, PaddedVectors& out, Worker& worker);
-  /// Adds loads of contacts, summed over seam copies, to a field, 0 where pinned.
+  /// Adds factor times the loads of contacts, summed over seam copies, to a field; 0 where pinned.
   void add_loads(const ContactGather& contacts, std::span<const Vec3f> loads, float factor,
                  PaddedVectors& field, Worker& worker);
-  /// Sums the centres over seam copies: what diagonal() of the finest level gives.
+  /// Sums the centres of the finest level over seam copies, for its diagonal().
   void join_centres(Worker& worker) { join_centres(levels_.front(), Workers(worker, false)); }
 
   /// Adds the gradient of flat bending at positions to a gradient's own part.
   void add_bending_gradient(const PaddedVectors& position, PaddedVectors& gradient, Worker& worker);
-  /// Of flat bending at positions, all workers get it [J].
+  /// Energy of flat bending at positions; all workers get it [J].
   double bending_energy(const PaddedVectors& position, RowSums& sums, const PaddedPlane& share,
                         Worker& worker);
   void clear_pins(PaddedVectors& field, Worker& worker) const {
@@ -63,11 +63,11 @@ class BlockMultigrid {
     complete(0, field, Workers(worker, false));
   }
 
-  /// To be called when particles may have been pinned or let go. @return whether any was
+  /// Updates the pins, after particles may have been pinned or released. @return whether any was
   bool renew_pins();
 
-  /// Whether rows of these blocks are added to the springs in the cycle's products, by row; the
-  /// centres hold them already.
+  /// Contact blocks that the cycle's residuals add to the product of springs, and the rows that
+  /// have any; the centres contain them already.
   struct ContactRows {
     const PaddedBlocks* blocks = nullptr;
     const char* touched = nullptr;  ///< [n]
@@ -82,9 +82,10 @@ class BlockMultigrid {
 
  private:
   enum class Direction { rows, cols };
-  /// u of flat bending, summed over seam copies.
+  /// Computes u of flat bending, summed over seam copies.
   void bend(BlockLevel& level, const PaddedVectors& x, const Workers& workers);
-  /// Adds M^T M x to a worker's rows in turn; before(row) fills one, after(row) has it whole.
+  /// Adds M^T M x to a worker's rows in turn: before(row) fills the row, after(row) gets it
+  /// complete.
   template <class Before, class After>
   void add_bending(BlockLevel& level, const PaddedVectors& x, PaddedVectors& out,
                    const Workers& workers, const Before& before, const After& after);
@@ -120,12 +121,12 @@ class BlockMultigrid {
   CoarsestSolver coarsest_;
   Galerkin galerkin_;
   PaddedPlane mask_;             // 1 where the particle moves
-  PaddedPlane free_extra_;       // the finest level's addition to diagonals without pins
+  PaddedPlane free_extra_;       // the finest level's `extra` without pins
   std::vector<int> pinned_;      // samples, all copies
-  std::vector<int> pin_starts_;  // [n + 1] where each row's begin
+  std::vector<int> pin_starts_;  // [n + 1] first pinned sample of each row, in pinned_
   std::vector<std::vector<float>> scratch_;
   std::vector<PaddedVectors> sweeps_;  // of each worker
-  std::vector<float> parted_;          // blocks of border edges while they are joined
+  std::vector<float> parted_;          // own blocks of border edges while the edges hold sums
   ContactRows contacts_;
 };
 

@@ -3,8 +3,8 @@
 
 #include "weft/cloth/newton/block_multigrid.h"
 
-// What a linearisation prepares: Galerkin products, factors of lines, and seams while lines are
-// factored.
+// Set-up after a linearisation: Galerkin products, factors of lines, and the sums of seam edges
+// while lines are factored.
 namespace weft {
 namespace {
 
@@ -32,8 +32,9 @@ void BlockMultigrid::join_centres(BlockLevel& level, const Workers& workers) {
   workers.barrier();
 }
 
-/// Lines along a seam hold what all copies of their edges hold, as their diagonals do: else a seam
-/// would be as stiff against moving along itself as its threads are.
+/// Lines along a seam couple by the sum of all copies of their edges, as their diagonals do. With
+/// one copy's part alone, the line would resist a shift along itself with the stiffness of its
+/// threads.
 void BlockMultigrid::join_edges(std::size_t index) {
   parted_.clear();
   for (const std::vector<BorderEdge>& group : levels_[index].seams.edges()) {
@@ -68,7 +69,7 @@ void BlockMultigrid::fill_diagonals(const SpringHessian& springs, int row) {
   clear_pinned_blocks(row);
 }
 
-/// What does not move has no part in coarser levels.
+/// Clears the centres of pinned samples, which have no part in coarser levels.
 void BlockMultigrid::clear_pinned_blocks(int row) {
   for (int i = pin_starts_[row]; i < pin_starts_[row + 1]; ++i)
     for (PaddedPlane& entry : levels_.front().stencil.centre.entry)
@@ -88,7 +89,8 @@ void BlockMultigrid::add_to_diagonals(const BlockRow6& blocks, int row) {
   add(level.held_cols);
 }
 
-/// Copies of a spring have one direction: the sum of t 1 + s s^T is of the same form.
+/// Replaces the copies of a spring by their sum. All have one direction, so the sum of t 1 + s s^T
+/// is of the same form.
 void BlockMultigrid::join_springs(const std::vector<BorderEdge>& group) {
   float across = 0, along = 0;
   const auto entry = [&](const BorderEdge& edge, int k) -> float& {

@@ -10,7 +10,7 @@ namespace weft {
 namespace {
 
 constexpr std::array<std::array<int, 3>, 3> entry_of{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
-/// Pivots below this part of their entry belong to nothing that moves.
+/// A pivot below this fraction of its diagonal entry belongs to an unknown that does not move.
 constexpr double min_pivot = 1e-10;
 
 }  // namespace
@@ -72,7 +72,7 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
     const double before = at(j, j);
     double pivot = before;
     for (int k = 0; k < j; ++k) pivot -= at(j, k) * at(j, k) * at(k, k);
-    // D is kept on the diagonal until all is done.
+    // The diagonal keeps D, 0 for unknowns that do not move.
     const bool moves = pivot > min_pivot * before && pivot > 0;
     for (int i = j + 1; i < unknowns_; ++i) {
       double sum = at(i, j);

@@ -6,7 +6,8 @@
 
 namespace weft {
 
-/// The coarsest level, of at most 3 x 3 samples, factored densely in double. Rank 0 alone calls.
+/// Direct solver of the coarsest level, of at most 3 x 3 samples: a dense L D L^T in double. Rank 0
+/// alone calls.
 class CoarsestSolver {
  public:
   static constexpr int max_size = 3;
@@ -24,9 +25,9 @@ class CoarsestSolver {
   }
 
   int unknowns_ = 0;
-  std::vector<int> node_;        // [n x n] which node a sample is
+  std::vector<int> node_;        // [n x n] node of each sample
   std::vector<double> bending_;  // [nodes x nodes] M^T M
-  std::vector<double> matrix_;   // L below the diagonal, 1 / D on it
+  std::vector<double> matrix_;   // L below the diagonal, D on it
   std::vector<double> value_;
 };
 

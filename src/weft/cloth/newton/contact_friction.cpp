@@ -3,18 +3,18 @@
 
 #include "weft/cloth/newton/contact_system.h"
 
-// What contacts are along their surfaces, and what they hand on to the next step.
+// Friction of contacts, and the contact history for the next step.
 namespace weft {
 namespace {
 
-/// What sticks is held along the surface by this part of what holds it along the normal: soft
-/// enough for what rounding does to positions, at a spring of 1 m and more a tenth of a micrometre,
-/// to be small beside friction.
+/// Tangential stiffness of a sticking contact, over its normal stiffness. Soft enough for the
+/// rounding of positions, a tenth of a micrometre at 1 m from the origin, to be small beside
+/// friction.
 constexpr double sticking_stiffness = 0.1;
-/// Of a contact's force in the limit of its friction; the rest is what the limit was before, as
-/// forces tremble with rounding, too.
+/// Weight of the current normal force in the friction limit, the rest being the previous limit,
+/// which smooths the jitter that rounding causes in the forces.
 constexpr double new_force_part = 0.5;
-/// Limits of friction that differ by this part of them are alike.
+/// Tangential stiffnesses that differ by less than this fraction count as equal.
 constexpr double same_grip = 0.03;
 
 }  // namespace
@@ -28,7 +28,7 @@ int ContactSystem::second_of(std::size_t index) const {
   return second;
 }
 
-/// Looks for it among those of the last step.
+/// Looks up the contact in the history of the last step.
 void ContactSystem::recall(int index) {
   const auto positive = [&](std::size_t k) { return contacts_[index].weights[k] > 0; };
   std::size_t k = 0;
@@ -38,8 +38,8 @@ void ContactSystem::recall(int index) {
     past_[index] = history->find(contacts_[index], second_of(static_cast<std::size_t>(index)));
 }
 
-/// Where positions have led the point since the step's start. Of positions, not of velocities: what
-/// rounding does to them each step would add up to creep.
+/// Displacement of the contact point since the start of the step. It is taken from positions: from
+/// velocities, the rounding of every step would add up to creep.
 Vec3d ContactSystem::displacement_of(int index, Fields position) const {
   Vec3d displacement;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -61,15 +61,16 @@ void ContactSystem::locate(int index, Fields position) {
   depth_[index] =
       attainable_offset(index) - dot(normal, start_of(index)) - dot(normal, displacement);
   Vec3d relative = displacement - vec_cast<double>(contact.surface_displacement);
-  // Friction that was there has stretched what sticks.
+  // The tangential spring starts with the extension that gives the friction of the last step.
   if (past_[index] != nullptr && work_stiffness_[index] > 0)
     relative -= 1 / (sticking_stiffness * double{work_stiffness_[index]}) *
                 vec_cast<double>(past_[index]->friction);
   slid_[index] = relative - dot(normal, relative) * normal;
 }
 
-/// What friction can hold sticks. Else it drags with its whole force where the point is, or, of a
-/// new contact, where that lets it come to: its way less what the force takes off it.
+/// Tangential stiffness of a contact. It sticks if friction can hold it. Otherwise the stiffness
+/// gives the limiting friction at the slip distance, which for a new contact is reduced by the
+/// displacement that this friction prevents.
 double ContactSystem::grip_for(int index, const Sliding& sliding) const {
   const double stiffness = sticking_stiffness * work_stiffness_[index];
   const double most = contacts_[index].friction * sliding.force;
@@ -78,19 +79,20 @@ double ContactSystem::grip_for(int index, const Sliding& sliding) const {
   return most / (sliding.distance - held);
 }
 
-/// What limits friction. @param pressed  by what it was held as the point came to that depth
+/// Normal force that limits friction.
+/// @param pressed  normal stiffness with which the point came to that depth
 double ContactSystem::limiting_force(int index, double depth, double pressed) const {
   const double now = pressed * std::max(0.0, depth), yields = lone_compliance(index);
   if (past_[index] != nullptr)
     return first_ ? double{past_[index]->force}
                   : now + (1 - new_force_part) * (double{past_[index]->force} - now);
   if (pressed > 0) return now;
-  // A new one is taken to stop its own point alone.
+  // A new contact is taken to stop its own point alone.
   return yields > 0 ? std::max(0.0, depth - lift_[index]) / yields : 0;
 }
 
-/// How much farther than it flies on a slipping point will go, if it gains speed as it did: its
-/// drag shall be right at the end of the step.
+/// Additional slip distance, beyond that of free flight, of a point that keeps its acceleration of
+/// the last step, so that its friction is right at the end of the step.
 double ContactSystem::foreseen_distance(int index, double distance) const {
   if (past_[index] == nullptr) return 0;
   const double gained = past_[index]->acceleration * input_.time_step * input_.time_step;

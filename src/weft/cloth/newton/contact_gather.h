@@ -12,31 +12,31 @@
 
 namespace weft {
 
-/// Gathers what contacts do to the samples of one cloth, in a fixed order: of each contact's load a
-/// sample gets its weight's part. A class of mates is one particle: what a contact does to one of
-/// its samples is shared out among all.
+/// Gathers the loads of contacts at the samples of one cloth, in a fixed order: a sample gets its
+/// weight times the contact's load. A class of mates is one particle: the load on one of its
+/// samples is shared evenly among all.
 class ContactGather {
  public:
   /// @param cloth  kept by reference
   explicit ContactGather(const Cloth& cloth);
 
-  // clear, add any number of times, finish; then the rest.
+  // Call clear, add any number of times and finish before the rest.
   void clear();
-  /// @param contact  its number
+  /// @param contact  its index
   void add(int sample, int contact, float weight);
   void finish();
 
-  /// What contacts are to the matrix of a step, by number.
+  /// Contacts as springs in the matrix of a step, by index.
   struct Springs {
     std::span<const Contact> contacts;
-    std::span<const float> stiffness;  ///< along the normal, 0: it does nothing [N/m] or the like
+    std::span<const float> stiffness;  ///< along the normal, 0: inactive [N/m] or the like
     std::span<const float> grip;       ///< along the surface, the same
   };
-  /// Finds out which of a worker's rows have stiff contacts; no barrier.
+  /// Marks those of a worker's rows that have active contacts; no barrier.
   void mark_rows(std::span<const float> stiffness, const Worker& worker);
-  /// Whether a row has.
+  /// Whether a row has active contacts.
   [[nodiscard]] bool row(int r) const { return rows_[static_cast<std::size_t>(r)] != 0; }
-  /// Whether any row has; after all workers marked theirs.
+  /// Whether any row has active contacts; after all workers marked theirs.
   [[nodiscard]] bool any() const;
 
   /// Adds each sample's own part of loads to a row.
@@ -48,7 +48,7 @@ class ContactGather {
 
  private:
   const Cloth& cloth_;
-  std::vector<int> class_at_;  // of border positions, -1 where a sample is alone
+  std::vector<int> class_at_;  // class of each border position, -1 where a sample has no mates
   ContactUses uses_;
   std::vector<int> row_starts_;  // [n + 1] into uses_.samples()
   std::vector<char> rows_;

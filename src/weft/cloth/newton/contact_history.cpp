@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-/// Between normals of contacts that are taken for the same: an angle of 45 degrees.
+/// Smallest cosine between the normals of contacts that count as the same: an angle of 45 degrees.
 constexpr float min_cosine = 0.7F;
 
 std::array<int, 4> samples_of(const Contact& contact) {

@@ -8,19 +8,21 @@
 
 namespace weft {
 
-/// What the contacts of a cloth did at the end of the last step, so that cloth at rest stays where
-/// it is: one that is found again goes on with the friction that it had, as the tangential springs
-/// of granular mechanics do [cundall79].
+/// Contact history of a cloth: forces and friction at the end of the last step. A contact that
+/// persists starts with the friction that it had, like the tangential springs of granular mechanics
+/// [cundall79], so that cloth at rest does not creep.
 class ContactHistory {
  public:
   /// Drops what has been added since the last step was accepted.
   void start_step() { next_.clear(); }
-  /// Adds what a contact does at the end of the step that is being solved: all but what `contact`
-  /// and `second` (the other cloth of a shared one, else -1) tell is in `done`.
+  /// Adds a contact as it is at the end of the step being solved.
+  /// @param second  the other cloth of a shared contact, else -1
+  /// @param done  its friction, force and acceleration; the rest is filled from the other arguments
   void add(const Contact& contact, int second, const PastContact& done);
-  /// What was added becomes the past.
+  /// The added contacts become the history of the last step.
   void accept();
-  /// The same samples held by something with much the same normal; null where nothing did.
+  /// The contact of the last step with the same samples and a similar normal; null if there is
+  /// none.
   [[nodiscard]] const PastContact* find(const Contact& contact, int second) const;
 
   [[nodiscard]] std::span<const PastContact> past() const { return past_; }

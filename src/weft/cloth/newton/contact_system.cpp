@@ -8,13 +8,14 @@
 namespace weft {
 namespace {
 
-/// Times what the cloth's own springs hold the contact's point by.
+/// Contact stiffness over the stiffness by which the cloth holds the contact's point.
 constexpr double relative_stiffness = 0.125;
-/// Of what its softest sample and its largest weight would yield together, that a point does at
-/// least: one that lies nearly on what is pinned would press on the rest of its triangle without
-/// end.
+/// Lower bound of a point's compliance, relative to that of its softest sample with its largest
+/// weight. Otherwise a point that lies nearly on a pinned sample would press without limit on the
+/// rest of its triangle.
 constexpr double min_yield = 0.05;
-/// What stands nearer than it should rises at this speed at most, which nobody sees. [m/s]
+/// Largest speed at which a point that is too close is lifted to its contact distance, too slow to
+/// be seen. [m/s]
 constexpr double lifting_speed = 0.02;
 
 }  // namespace
@@ -115,7 +116,7 @@ Vec3d ContactSystem::start_of(int index) const {
   return point;
 }
 
-/// How far the point gives way to a force, where samples do by the softness of each.
+/// Displacement of the contact's point per unit of force, from the compliance of each sample.
 double ContactSystem::compliance(int index, std::span<const Grid<float>* const> softness) const {
   double total = 0, softest = 0, largest = 0;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -130,7 +131,8 @@ double ContactSystem::compliance(int index, std::span<const Grid<float>* const> 
   return std::max(total, min_yield * softest * largest);
 }
 
-/// The offset that the step may bring about.
+/// The offset that the step may reach: the exit from a penetration at its start has a bounded
+/// speed.
 double ContactSystem::attainable_offset(int index) const {
   const Contact& contact = contacts_[index];
   if (contact.stiffness > 0) return contact.offset;

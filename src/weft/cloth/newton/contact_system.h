@@ -11,25 +11,26 @@
 
 namespace weft {
 
-/// Contacts and Coulomb friction of one or several cloths as part of a linearised step: a contact
-/// that presses holds its point at its half-space by a stiff spring along the normal; one that
-/// sticks holds it there too, one that slips drags on it with its coefficient times the normal
-/// force. All are linear in the step's unknown until choose() looks again, as in the lagged
-/// friction of [li20]. A contact that held in the last step begins with the friction that it had.
+/// Contacts and Coulomb friction of one or several cloths as part of a linearised step. An active
+/// contact holds its point at its half-space by a stiff spring along the normal. If it sticks, it
+/// has a tangential spring as well; if it slips, the point is dragged with the friction coefficient
+/// times the normal force. All terms are linear in the step's unknown until choose() updates them,
+/// as in the lagged friction of [li20]. A contact that persists from the last step starts with the
+/// friction that it had.
 ///
-/// What was beyond the half-space when the step began is not pushed out of it at any speed.
+/// A penetration at the start of the step is resolved at a bounded speed.
 class ContactSystem {
  public:
   /// @param cloths  kept by pointer
   explicit ContactSystem(std::span<const Cloth* const> cloths);
 
-  /// Of each cloth in their order: those that are its own, and where it was at the step's start.
+  /// One cloth's own contacts, its positions at the start of the step and its contact history.
   struct Own {
     std::span<const Contact> contacts;
     const Planes3* start = nullptr;           ///< valid until the last use [m]
-    const ContactHistory* history = nullptr;  ///< the same; of shared ones whose first it is, too
+    const ContactHistory* history = nullptr;  ///< also of shared contacts, see remember
   };
-  /// Takes the place of the contacts before.
+  /// Replaces all contacts.
   void set_contacts(std::span<const Own> own, std::span<const SharedContact> shared,
                     const StepInput& input);
   [[nodiscard]] bool empty() const { return contacts_.empty(); }
@@ -39,45 +40,47 @@ class ContactSystem {
 
   // To be called by every worker of the team; each but the first ends with a barrier.
 
-  /// What holds the samples of a cloth.
+  /// Computes the compliance of a cloth's samples.
   /// @param diagonal  the springs' diagonal blocks, summed over seam copies [N/m]
   void hold(std::size_t cloth, const PaddedBlocks& diagonal, const Worker& worker);
-  /// Where points are at the linearisation. @param position  of the cloths [m]
+  /// Computes the stiffness and depth of all contacts at the linearisation.
+  /// @param position  of the cloths [m]
   void place(Fields position, Worker& worker);
-  /// Decides which contacts press, and which stick, where a step from the linearisation leads; the
-  /// first time those that the guess meets press, with the forces and friction that they had.
-  /// @return whether any is taken otherwise than before
+  /// Decides which contacts are active and which of them stick after a step from the linearisation.
+  /// The first decision is that of the guess, with the forces and friction of the last step.
+  /// @return whether any contact changed
   bool choose(Fields step, Worker& worker);
-  /// The loads become the forces after a step [N].
+  /// Sets the loads to the contact forces after a step [N].
   void load_forces(Fields step, Worker& worker);
-  /// The loads become the contacts' part of the Hessian times a direction [N].
+  /// Sets the loads to the contacts' part of the Hessian times a direction [N].
   void load_product(Fields direction, Worker& worker);
-  /// The energy of all contacts, whose points are beyond their half-spaces after a part of a step,
-  /// and of friction as it is taken; all workers get it [J].
+  /// The energy of all contacts after a part of a step: of penetrations, and of the linear
+  /// friction; all workers get it [J].
   double energy(Fields step, float part, Worker& worker);
-  /// What obstacles do by their motion, pressing and dragging as they do after a step; all workers
-  /// get it [J].
+  /// The work of moving obstacles with the contact forces after a step; all workers get it [J].
   double work(Fields step, Worker& worker);
-  /// Computes the forces where the last step led. @param position  of the cloths then [m]
+  /// Computes the contact forces after the last step.
+  /// @param position  of the cloths then [m]
   void measure(Fields position, Worker& worker);
-  /// Adds what was measured to the history of a cloth.
+  /// Adds the measured contacts to the history of a cloth.
   void remember(std::size_t cloth, ContactHistory& history) const;
 
-  /// Of a cloth's own contacts, in the order in which they were taken [N].
+  /// Normal forces of a cloth's own contacts, in the order of set_contacts [N].
   [[nodiscard]] std::span<const float> forces(std::size_t cloth) const;
-  /// How many press.
+  /// Number of active contacts.
   [[nodiscard]] int active() const { return active_; }
-  /// Whether an obstacle presses on a cloth: what parts of cloths do to each other sums to nothing.
+  /// Whether a contact with an obstacle is active on a cloth; contacts within a cloth have no net
+  /// force.
   [[nodiscard]] bool is_held(std::size_t cloth) const { return obstructed_[cloth] != 0; }
-  /// Whether cloths press on each other.
+  /// Whether any contact between cloths is active.
   [[nodiscard]] bool is_shared() const { return shared_; }
-  /// What gathers them to the samples of a cloth.
+  /// Gathers the loads at the samples of a cloth.
   [[nodiscard]] const ContactGather& gather(std::size_t cloth) const { return gathers_[cloth]; }
   [[nodiscard]] std::span<const Vec3f> loads() const { return load_; }
   [[nodiscard]] ContactGather::Springs springs() const { return {contacts_, stiffness_, grip_}; }
 
  private:
-  /// Where a sample is.
+  /// Cloth, row and column of a sample.
   struct Place {
     int cloth = 0, row = 0, col = 0;
   };
@@ -94,9 +97,9 @@ class ContactSystem {
   [[nodiscard]] int second_of(std::size_t index) const;
   /// How a contact's point moved along its obstacle.
   struct Sliding {
-    double distance;  ///< that stretches what holds it [m]
+    double distance;  ///< slip that stretches the tangential spring [m]
     double force;     ///< along the normal [N]
-    bool is_new;      ///< whether nothing held it as it moved so
+    bool is_new;      ///< whether the contact was inactive during that motion
   };
   [[nodiscard]] double grip_for(int index, const Sliding& sliding) const;
   [[nodiscard]] double foreseen_distance(int index, double distance) const;
@@ -115,25 +118,25 @@ class ContactSystem {
   std::vector<const Cloth*> cloths_;
   std::vector<ContactGather> gathers_;            // of each cloth
   std::vector<Grid<float>> inverse_diagonals_;    // the same [m/N]
-  std::vector<const Grid<float>*> held_, loose_;  // those, and inverse masses [1/kg]
+  std::vector<const Grid<float>*> held_, loose_;  // pointers to those, and to inverse masses [1/kg]
   std::vector<const Planes3*> starts_;            // of each cloth [m]
   std::vector<const ContactHistory*> histories_;  // the same
-  std::vector<std::size_t> firsts_;               // of each cloth's own, and of shared ones
+  std::vector<std::size_t> firsts_;  // first of each cloth's own contacts, and of the shared ones
   StepInput input_;
   // Of each contact:
   std::vector<Contact> contacts_;
   std::vector<std::array<Place, 4>> places_;
-  std::vector<float> work_stiffness_;  // when it presses [N/m]
+  std::vector<float> work_stiffness_;  // normal stiffness when active [N/m]
   std::vector<float> stiffness_, grip_;
   std::vector<Vec3f> load_;
-  std::vector<double> depth_;  // at the linearisation [m]
-  std::vector<double> lift_;   // of that, what only raises the point [m]
-  std::vector<Vec3d> slid_;    // along the obstacle, relative to it, with what friction left [m]
-  std::vector<const PastContact*> past_;  // null where it is new
-  std::vector<float> force_, limiting_;   // along the normal now, and as friction knows it [N]
+  std::vector<double> depth_;             // at the linearisation [m]
+  std::vector<double> lift_;              // the part of it that only lifts the point [m]
+  std::vector<Vec3d> slid_;               // tangential, relative to the obstacle [m]
+  std::vector<const PastContact*> past_;  // null: new contact
+  std::vector<float> force_, limiting_;   // normal force now, and the one that limits friction [N]
   std::vector<Vec3f> friction_;           // [N]
   std::vector<float> acceleration_;       // see PastContact [m/s^2]
-  std::vector<double> first_slip_;        // of the point before the solve [m]
+  std::vector<double> first_slip_;        // slip distance of the guess [m]
   std::vector<double> energy_;            // or work [J]
   std::vector<char> changed_;
   int active_ = 0;

@@ -10,14 +10,14 @@
 
 namespace weft {
 
-/// The lines of an n x n grid in one direction, in blocks that are solved side by side.
+/// Factors of the lines of an n x n grid in one direction, in blocks that are solved side by side.
 class LineFactor {
  public:
-  /// @param held  whether of springs and what holds their samples besides, else of blocks
+  /// @param held  whether the matrices are HeldLineMatrix, else LineMatrix or SpringLineMatrix
   LineFactor(int size, bool along_rows, bool held);
 
   [[nodiscard]] int blocks() const { return (size_ + line_lanes - 1) / line_lanes; }
-  /// Factors a block of lines of springs, or of blocks.
+  /// Factors a block of lines.
   void factor(int block, const SpringLineMatrix& matrix, const NewtonKernels& kernels);
   void factor(int block, const LineMatrix& matrix, const NewtonKernels& kernels);
   void factor(int block, const HeldLineMatrix& matrix, const NewtonKernels& kernels);
@@ -28,7 +28,7 @@ class LineFactor {
   };
   void solve(int block, const PaddedVectors& rhs, Solve how, std::span<float> scratch,
              PaddedVectors& out, const NewtonKernels& kernels) const;
-  /// Floats of scratch that solve wants.
+  /// Floats of scratch that solve needs.
   [[nodiscard]] static std::size_t scratch_size(int size) {
     return static_cast<std::size_t>(size) * 3 * line_lanes;
   }

@@ -84,7 +84,7 @@ class Newton final : public Integrator {
   StepReport report_;
 };
 
-/// Several cloths in one system.
+/// Newton's method for several cloths in one system.
 class JointNewton final : public JointIntegrator {
  public:
   JointNewton(std::vector<Newton*> members, const NewtonOptions& options, ThreadTeam& team)

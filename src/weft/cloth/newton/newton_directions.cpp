@@ -5,7 +5,7 @@
 
 #include "weft/cloth/newton/newton_part.h"
 
-// What conjugate gradients ask of a cloth.
+// A cloth's part in the iterations of conjugate gradients.
 namespace weft {
 
 Vec3d NewtonPart::force(Worker& worker) {

@@ -4,7 +4,7 @@
 #include "weft/cloth/neighbours.h"
 #include "weft/cloth/newton/newton_part.h"
 
-// Energies of a cloth in a step, and what they take from velocities.
+// Energies of a cloth in a step, and the removal of excess energy from its velocities.
 namespace weft {
 
 double NewtonPart::bending_energy(const PaddedVectors& position, Worker& worker) {

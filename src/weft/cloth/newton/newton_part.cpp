@@ -61,12 +61,12 @@ NewtonPart::NewtonPart(const Cloth& cloth, int workers, InstructionSet instructi
   find_mass();
 }
 
-/// Takes a row of the state at the start, and flies on from it.
+/// Copies a row of the step's start and extrapolates it at its velocity.
 void NewtonPart::begin_row(const ClothState& state, bool go_on, int row) {
   const int n = cloth_.size;
   const auto h = static_cast<float>(input_.time_step);
   const ConstRow3 x = row_of(state.position, row), v = row_of(state.velocity, row);
-  // What the last step changed is where the next begins to look.
+  // The search starts along the velocity change of the last step.
   if (go_on)
     add_row(n, v, -1, row_of(std::as_const(start_).velocity, row), direction_.row(row));
   else
@@ -99,7 +99,7 @@ void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTe
     const Range mine = worker.share(cloth_.size);
     for (int r = mine.first; r < mine.last; ++r) begin_row(state, go_on, r);
   });
-  // What a run left is often where the next begins: its energy is known.
+  // A step mostly starts where the last run ended, whose potential energy is known.
   const bool known =
       same_gravity && std::find(known_rows_.begin(), known_rows_.end(), 0) == known_rows_.end();
   start_potential_ = known ? potential_ : HUGE_VAL;
@@ -117,7 +117,8 @@ void NewtonPart::find_mass() {
   if (!(mass_ > 0)) mass_ = 1;  // all is pinned
 }
 
-/// Where a filter took the guess back, its velocity is that of the way that was left.
+/// Where a filter moved the guess, its velocity becomes the remaining displacement over the time
+/// step.
 void NewtonPart::follow_guess(int row) {
   const auto h = static_cast<float>(input_.time_step), per_step = 1 / h;
   const Planes3 &x0 = start_.position, &x = next_.position;
@@ -182,7 +183,7 @@ const PaddedBlocks& NewtonPart::diagonal(Worker& worker) {
   return multigrid_.finest().diagonal();
 }
 
-/// With the contacts that press.
+/// Sets up the multigrid, with the blocks of active contacts.
 void NewtonPart::set_up(const Contacts& contacts, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {

@@ -13,44 +13,43 @@
 
 namespace weft {
 
-/// One cloth in a step by NewtonSolver: its state, its springs and bending linearised, the vectors
-/// of conjugate gradients, and what all of them are to energy. Knows nothing of contacts but what
-/// they add to its system.
+/// One cloth in a step by NewtonSolver: its state, its linearised springs and bending, the vectors
+/// of conjugate gradients and its energies. Of contacts it has only the terms in its system.
 class NewtonPart {
  public:
-  /// @param cloth  kept by reference  @param workers  the most that will call
+  /// @param cloth  kept by reference  @param workers  the largest number of callers
   NewtonPart(const Cloth& cloth, int workers, InstructionSet instructions);
   [[nodiscard]] const Cloth& cloth() const { return cloth_; }
 
-  /// Starts a step: next() flies on at its velocity, pins are where they shall go.
+  /// Starts a step: next() is extrapolated at its velocity, pins are at their targets.
   void begin(const StepInput& input, const ClothState& state, ThreadTeam& team);
-  /// Says that the step's end was taken: the next solve starts along what it changed.
+  /// Accepts the end of the step: the next solve starts along its velocity change.
   void accept() {
     has_last_ = true;
     history.accept();
   }
-  /// The next solve starts from nothing.
+  /// Drops the last velocity change: the next solve starts without a direction.
   void forget() { has_last_ = false; }
   [[nodiscard]] ClothState& next() { return next_; }
   [[nodiscard]] const Planes3& start() const { return start_.position; }
   [[nodiscard]] const StepInput& input() const { return input_; }
-  /// Of all that moves [kg].
+  /// Mass of all particles that are not pinned [kg].
   [[nodiscard]] double mass() const { return mass_; }
   /// Whether its pins move in this step.
   [[nodiscard]] bool is_pulled() const { return pulled_; }
-  /// What may be gained in this step where contacts are met [J].
+  /// Energy that may be gained from contacts in this step [J].
   double lent = 0;
-  /// See Integrator; of all cloths that were solved with it [J].
+  /// See Integrator::missed; of all cloths that were solved with this one [J].
   double missed = 0;
-  /// Of its contacts, and of shared ones whose first cloth it is.
+  /// History of its contacts, and of shared ones whose first cloth it is.
   ContactHistory history;
   /// Normal forces of its own contacts [N].
   std::vector<float> contact_forces;
-  /// What solves of this step came to: iterations of conjugate gradients, and the largest
-  /// correction of the last over the rest spacing.
+  /// Statistics of this step's solves: iterations of conjugate gradients, and the largest
+  /// correction of the last one over the rest spacing.
   int iterations = 0;
   double correction = 0;
-  /// That of every sample. @param sizes [n x n]
+  /// The last correction of every sample over the rest spacing. @param sizes  [n x n]
   void last_corrections(Grid<float>& sizes) const;
 
   // To be called by every worker; each ends with a barrier, sums are known to all.
@@ -58,22 +57,22 @@ class NewtonPart {
   void read_state(Worker& worker);
   void write_state(Worker& worker);
   void clear_step(Worker& worker);
-  /// At the state. @param guessed_share  see SpringHessian
+  /// Linearises springs and bending at the state. @param guessed_share  see SpringHessian
   void linearise(float guessed_share, Worker& worker);
   /// The diagonal blocks of springs and bending, summed over seam copies.
   const PaddedBlocks& diagonal(Worker& worker);
-  /// What contacts add to a system.
+  /// The contacts' terms in a system.
   struct Contacts {
     const ContactGather& gather;
     ContactGather::Springs springs;
     std::span<const Vec3f> loads;
-    bool press = false;  ///< whether any does
+    bool press = false;  ///< whether any is active
   };
   void set_up(const Contacts& contacts, Worker& worker);
   void add_contact_forces(const Contacts& contacts, float sign, Worker& worker);
-  /// What is left of all forces on it: inner ones sum to nothing [N].
+  /// Net residual force on the cloth, to which internal forces add nothing [N].
   Vec3d force(Worker& worker);
-  /// Moves it as a whole, and takes what that balances off the residual. [m]
+  /// Moves the cloth as a whole and subtracts the inertia of that from the residual. [m]
   void drift(Vec3d displacement, Worker& worker);
   void clear_pins(Worker& worker) { multigrid_.clear_pins(step_, worker); }
   /// state += length * step.
@@ -82,33 +81,33 @@ class NewtonPart {
 
   // Conjugate gradients.
 
-  /// @param along_last  whether the direction begins as what the last step changed
+  /// @param along_last  whether to start along the velocity change of the last step
   /// @return residual . direction [N m]
   double start_direction(bool along_last, Worker& worker);
   /// Preconditions the residual. @return product . the result [N m]
   double precondition(bool has_product, Worker& worker);
-  /// The direction becomes the preconditioned residual less a part of itself.
+  /// direction = preconditioned residual - overlap * direction.
   /// @return residual . direction [N m]
   double update_direction(double overlap, Worker& worker);
-  /// The direction's product. @return direction . product [N m]
+  /// product = A direction. @return direction . product [N m]
   double multiply(const Contacts& contacts, Worker& worker);
-  /// Goes along the direction. @return how far at most [m]
+  /// Adds length * direction to the step. @return the largest displacement of a particle [m]
   double advance(double length, Worker& worker);
 
   // Energies [J].
 
-  /// Of inertia, springs and bending at the state: what the step minimises.
+  /// Energy of inertia, springs and bending at the state, which the step minimises.
   double step_energy(Worker& worker);
-  /// Springs, bending and gravity at the state, and at the step's start.
+  /// Potential energy of springs, bending and gravity at the state, and at the step's start.
   double potential(Worker& worker);
   double start_potential(Worker& worker);
   double kinetic(Worker& worker);
   double start_kinetic(Worker& worker);
-  /// What potential() gave no longer belongs to next().
+  /// Invalidates the last value of potential(), which is not that of the current next().
   void forget_potential(Worker& worker);
-  /// Of the velocities less their mean.
+  /// Kinetic energy of the velocities relative to their mean.
   double inner_kinetic(Worker& worker);
-  /// Scales the velocities less their mean, after inner_kinetic.
+  /// Scales the velocities relative to their mean, which inner_kinetic has computed.
   void calm(double left, Worker& worker);
 
   [[nodiscard]] const PaddedVectors& position() const { return state_.position; }
@@ -135,22 +134,22 @@ class NewtonPart {
   CurvedBending curved_;
   StepInput input_;
   ClothState start_, next_;
-  PaddedState state_;                         // next_, and the start, with frames
-  Planes3 plain_;                             // its positions, for curved bending
+  PaddedState state_;                         // next_ and the start's positions, in padded planes
+  Planes3 plain_;                             // unpadded positions, for curved bending
   PaddedVectors wanted_;                      // v0 + h g [m/s]
   PaddedVectors step_, direction_, product_;  // [m], [m], [N]
   PaddedVectors& residual_;                   // [N]
   PaddedPlane share_;                         // 1 / number of copies
   Grid<float> own_mass_;                      // share of the mass [kg]
-  PaddedBlocks contact_blocks_;               // where contacts press [N/m]
-  std::vector<char> contact_rows_;            // [n] whether any
+  PaddedBlocks contact_blocks_;               // of active contacts [N/m]
+  std::vector<char> contact_rows_;            // [n] whether a row has any
   RowSums sums_;
-  std::vector<double> row_parts_;  // [n] of a second sum
-  std::vector<char> known_rows_;   // [n] whether the last potential was of the start's positions
-  std::vector<float> largest_;     // [n] squared direction of each row [m^2]
-  double potential_ = HUGE_VAL;    // of the state's positions, as it was last asked for [J]
+  std::vector<double> row_parts_;      // [n] of direction . product
+  std::vector<char> known_rows_;       // [n] whether potential_ is of the start's positions
+  std::vector<float> largest_;         // [n] squared direction of each row [m^2]
+  double potential_ = HUGE_VAL;        // the last value of potential() [J]
   double start_potential_ = HUGE_VAL;  // infinite: not known yet [J]
-  Vec3f known_gravity_;                // that it was for
+  Vec3f known_gravity_;                // gravity of the last step
   Vec3d mean_velocity_;
   double mass_ = 0;
   double last_length_ = 0;  // of the last advance along the direction

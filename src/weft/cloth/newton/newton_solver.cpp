@@ -8,16 +8,17 @@
 namespace weft {
 namespace {
 
-/// Energy that a step gains, over its kinetic energy: less is taken out of velocities, more asks
-/// for another linearisation.
+/// Energy gain of a step over its kinetic energy, up to which the gain is taken out of the
+/// velocities. A larger gain leads to another linearisation.
 constexpr double harmless_gain = 0.02;
-/// And the part of what contacts lend that asks for one.
+/// The same over the energy that contacts lend.
 constexpr double harmless_part = 0.25;
-/// How often a run linearises, and how often it halves a step that leads up.
+/// Largest number of linearisations in a run, and of halvings of a step that raises the energy.
 constexpr int max_linearisations = 4, max_halvings = 5;
-/// Of the tension at the guess that is stiffness across springs.
+/// Fraction of the tension at the guess that counts as transverse stiffness of springs, without and
+/// with contacts.
 constexpr float share_in_flight = 0.1F, share_in_contact = 1;
-/// How often a run finds out which contacts press.
+/// Largest number of solves for a linearisation, with the active contacts updated in between.
 constexpr int max_contact_rounds = 2;
 
 std::vector<const Cloth*> cloths_of(std::span<NewtonPart* const> parts) {
@@ -111,7 +112,8 @@ void NewtonSolver::add_contact_forces(float sign, Worker& worker) {
   });
 }
 
-/// @return whether contacts are taken otherwise than before
+/// Updates the active contacts and their friction, and their forces in the residual.
+/// @return whether any contact changed
 bool NewtonSolver::choose_contacts(Worker& worker) {
   if (contacts_.empty()) return false;
   add_contact_forces(-1, worker);
@@ -120,7 +122,7 @@ bool NewtonSolver::choose_contacts(Worker& worker) {
   return changed;
 }
 
-/// Goes along the direction to where the energy of the linearisation is least.
+/// Moves along the direction to the minimum of the linearised energy.
 void NewtonSolver::descend_direction(Progress& progress, Worker& worker) {
   if (contacts_.active() > 0) contacts_.load_product(directions_, worker);
   progress.curvature = total(
@@ -131,13 +133,13 @@ void NewtonSolver::descend_direction(Progress& progress, Worker& worker) {
     if (own.rank() == 0) parts_[i]->correction = farthest / parts_[i]->cloth().rest_spacing;
   });
   progress.promised += 0.5 * length * progress.slope;
-  // What this took off the energy, as a force on every particle over its weight.
+  // The energy decrease, as a force on every particle over its weight.
   progress.force = std::sqrt(length * progress.slope / mass_) /
                    (parts_.front()->input().time_step * standard_gravity);
 }
 
-/// The direction becomes the preconditioned residual, less what the last direction has of it. The
-/// slope is taken along what is left, which may be rounding alone.
+/// An iteration of conjugate gradients: the preconditioned residual, made conjugate to the last
+/// direction, is the next one. The slope is measured along the result, which may be rounding alone.
 void NewtonSolver::iterate(Progress& progress, Worker& worker) {
   const bool has_product = progress.curvature > 0;
   double overlap = total(worker, [&](std::size_t i, Worker& own) {
@@ -147,14 +149,15 @@ void NewtonSolver::iterate(Progress& progress, Worker& worker) {
   progress.slope = total(worker, [&](std::size_t i, Worker& own) {
     return parts_[i]->update_direction(overlap, own);
   });
-  // A cycle is no symmetric operator: where it points up, the way down is backwards.
+  // The cycle is not symmetric: where the slope is negative, so is the step length.
   if (!std::isfinite(progress.slope)) progress.slope = 0;
   descend_direction(progress, worker);
   ++progress.iterations;
 }
 
 void NewtonSolver::solve(const NewtonOptions& options, Progress& progress, Worker& worker) {
-  // First along what the last step changed, which cloth that moves on is likely to change again.
+  // The first direction is the velocity change of the last step, which moving cloth is likely to
+  // repeat.
   progress.curvature = 0;
   progress.slope = total(worker, [&](std::size_t i, Worker& own) {
     return parts_[i]->start_direction(progress.first, own);
@@ -205,14 +208,14 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
     if (contacts_.empty() || round + 1 == max_contact_rounds) break;
     if (!choose_contacts(worker)) break;
   }
-  // What iterations left of it, so that few of them lose no momentum.
+  // Removes the net force that the iterations left, so that few of them lose no momentum.
   drift(worker);
   each(worker, [&](std::size_t i, Worker& own) { parts_[i]->clear_pins(own); });
   move_state(1, worker);
 }
 
-/// The energy that the cloths gained, less the work of what presses on them; of pins that move it
-/// is not known: there, what the energy of the step falls short of what was promised.
+/// The energy that the cloths gained, less the work of moving obstacles. The work of moving pins is
+/// not known: with those, the shortfall of the energy decrease below that of the linearisation.
 double NewtonSolver::error_of(const Progress& progress, double known, Worker& worker) {
   if (pulled_) return energy(1, worker) - progress.before + progress.promised;
   const double now = total(worker, [&](std::size_t i, Worker& own) {
@@ -221,8 +224,8 @@ double NewtonSolver::error_of(const Progress& progress, double known, Worker& wo
   return now - known - (contacts_.active() > 0 ? contacts_.work(steps_, worker) : 0);
 }
 
-/// One linearisation does where cloth moves on as it did; where it missed by much it does not, as
-/// after an impact.
+/// One linearisation is enough for smooth motion. It is repeated where its energy error is large,
+/// as after an impact.
 void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Worker& worker) {
   const double kinetic =
       total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->start_kinetic(own); });

@@ -11,7 +11,8 @@
 
 namespace weft {
 
-/// Columns of whole vectors, so that loops have no remainder: what is 0 in the frame stays 0.
+/// The number of columns rounded up to whole vectors, so that loops have no remainder; zeros in the
+/// frame stay 0.
 inline int whole_vectors(int cols) { return (cols + 15) / 16 * 16; }
 
 /// rows x cols floats inside a frame of zeros, so that stencils need no borders: two rows above and
@@ -54,7 +55,7 @@ class PaddedPlane {
   std::unique_ptr<float[], Free> data_;
 };
 
-/// A vector a sample.
+/// A vector field, one vector a sample.
 struct PaddedVectors {
   PaddedPlane x, y, z;
 
@@ -87,7 +88,7 @@ struct PaddedBlocks {
   }
 };
 
-/// Who works on a level: all workers of a team, or one whom the others wait for.
+/// The workers of a level: all of a team, or one for whom the others wait.
 class Workers {
  public:
   Workers(Worker& worker, bool alone)  // alone: only the worker of rank 0 may call

@@ -63,7 +63,7 @@ Seams Seams::coarsened() const {
   for (int i = 0; i < class_count(); ++i)
     for (const int a : samples(i)) {
       if (fine(coarse(a)) != a) continue;
-      // A place between two nodes is joined from one side only, or seams would become one node.
+      // A copy between two nodes is joined from one side only, or seams would become one node.
       for (const int b : samples(i))
         if (fine(coarse(b)) == b || a < b) sets.join(coarse(a), coarse(b));
     }

@@ -15,15 +15,15 @@ struct BorderEdge {
   int row = 0, col = 0;
 };
 
-/// The classes of seam copies (mates) of a level: samples that are one particle. Each class is the
-/// work of one worker; callers place barriers before and after.
+/// The classes of seam copies (mates) of a level: samples that are one particle. Each class is
+/// processed by one worker; callers place barriers before and after.
 class Seams {
  public:
   Seams() = default;
   explicit Seams(const BorderMates& mates);
-  /// Of the next coarser level, whose node (r, c) stands at (2 r, 2 c) of this one, or at its last
-  /// row or column. Copies whose places fall between coarse nodes are joined to the nearer one: a
-  /// level that is only part of a preconditioner need not match exactly, but must not be cut open.
+  /// The seams of the next coarser level, whose node (r, c) is at (2 r, 2 c) of this one, or at its
+  /// last row or column. Copies between coarse nodes are joined to one of these: a level that is
+  /// only part of a preconditioner need not match exactly, but must not be cut open.
   [[nodiscard]] Seams coarsened() const;
 
   [[nodiscard]] bool empty() const { return starts_.size() <= 1; }

@@ -185,7 +185,8 @@ void SpringHessian::sweep_row(const Sweep& sweep, int row, Row3 out) const {
 
 void SpringHessian::apply_row(Sweep& sweep, int row, PaddedVectors& out) const {
   if (!sweep.started) {
-    // The row above is another's: what its springs do to this one is found again.
+    // The row above belongs to another worker: the forces of its springs on this row are computed
+    // again.
     for (const int carry : {0, 1}) clear_row(sweep.scratch.row(carry), cloth_.size);
     if (row > 0) sweep_row(sweep, row - 1, sweep.scratch.row(5));
     sweep.started = true;

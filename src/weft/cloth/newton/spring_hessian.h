@@ -8,10 +8,10 @@
 
 namespace weft {
 
-/// Beyond the material's strain limit stretch springs have this times their stiffness besides.
+/// Additional stiffness of stretch springs beyond the material's strain limit, over their own.
 inline constexpr float strain_limit_factor = 10;
 
-/// Positions and velocities of a step, with their frames. [m], [m/s]
+/// Positions and velocities of a step, and its start positions, in padded planes. [m], [m/s]
 struct PaddedState {
   PaddedVectors position, velocity, start;
   explicit PaddedState(int n) : position(n, n), velocity(n, n), start(n, n) {}
@@ -28,25 +28,26 @@ class SpringHessian {
 
   void set_time_step(double time_step);
 
-  /// Linearises the springs that start from a row. Across itself a spring is as stiff as its
-  /// tension was when the step began, or as a part of that at the positions, whichever is more: a
-  /// guess goes straight on where cloth turns, which lengthens springs that are not, and their
-  /// whole tension there holds light, stiff cloth back; without any of it impacts are linearised
-  /// too softly.
+  /// Linearises the springs that start from a row. The transverse stiffness of a spring is its
+  /// tension at the start of the step, or a part of its tension at the positions if that is more. A
+  /// guess extrapolates along straight lines, which lengthens the springs of rotating cloth: their
+  /// full tension there would hold light, stiff cloth back. Without any of it, impacts are
+  /// linearised too softly.
   /// @param guessed_share  that part
   void linearise_row(const PaddedState& state, float guessed_share, int row);
   /// The energy of the springs that start from a row [J].
   [[nodiscard]] double energy_row(const PaddedVectors& position, int row) const;
-  /// And what damping takes from them in a step, half of it: what a step minimises [J].
+  /// The same plus half of what damping dissipates in a step, which the step minimises [J].
   [[nodiscard]] double damped_energy_row(const PaddedState& state, int row) const;
-  /// The gradient of inertia and springs of a row's own part [N], where linearised.
-  /// @param wanted  velocities without inner forces [m/s]
+  /// A row's own part of the gradient of inertia and springs, as linearised [N].
+  /// @param wanted  velocities without internal forces [m/s]
   void gradient_row(const PaddedState& state, const PaddedVectors& wanted, int row,
                     PaddedVectors& out) const;
   void diagonal_row(int row, PaddedBlocks& out) const;
-  /// And what holds lines besides their own springs. @param extra  [n] added to that
+  /// The diagonal blocks of a row, and those without the line's own springs, see LineDiagonals.
+  /// @param extra  [n] added to the latter
   void line_diagonals_row(int row, const float* extra, const LineDiagonals& out) const;
-  /// Rows of a product as they are worked through.
+  /// State of a product that is computed row by row.
   struct Sweep {
     const PaddedVectors& x;
     PaddedVectors& scratch;  ///< [sweep_rows x n]
@@ -60,7 +61,7 @@ class SpringHessian {
   [[nodiscard]] const PaddedPlane& inertia() const { return inertia_; }
   /// The springs of a direction that start from a row.
   [[nodiscard]] ConstSpringHessianRow springs_row(int direction, int row) const;
-  /// The planes t, x, y, z of a direction, for those who change them for a while.
+  /// The planes t, x, y, z of a direction, for temporary changes.
   [[nodiscard]] std::array<PaddedPlane*, 4> planes(int direction);
   /// Views of t, x, y, z of a direction.
   [[nodiscard]] std::array<PlaneView, 4> views(int direction) const;

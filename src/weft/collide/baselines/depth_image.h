@@ -9,7 +9,7 @@
 
 namespace weft {
 
-/// One of the six directions along the axes of space in which one looks.
+/// One of the six view directions along the coordinate axes.
 struct ViewDirection {
   int axis = 0;  ///< 0: x, 1: y, 2: z
   bool backwards = false;
@@ -18,20 +18,21 @@ inline constexpr int view_count = 6;
 /// @param index  0 to view_count - 1
 inline ViewDirection view_direction(int index) { return {index / 2, index % 2 != 0}; }
 
-/// A depth image of boxes that belong to blocks, seen along an axis: at each pixel the nearest
-/// blocks, each with where it begins. Boxes are drawn a pixel larger than they are, so that none is
-/// missed between pixels or by rounding [govindaraju04].
+/// Layered depth image of boxes along an axis: at each pixel the nearest blocks that boxes belong
+/// to, each with the depth where it begins. Boxes are drawn a pixel larger than they are, so that
+/// none is missed between pixels or by rounding [govindaraju04].
 template <int Layers>
 class DepthImage {
  public:
   static constexpr int side = 128;  ///< pixels
 
-  /// Starts anew. @param window  what is seen; not empty
+  /// Clears the image.
+  /// @param window  what is seen; not empty
   void clear(const Box3f& window, ViewDirection view);
-  /// Boxes that do not meet the window, or are not numbers, leave nothing.
-  /// @param block  >= 0, whose box it is
+  /// Draws a box. Boxes outside the window, or with NaNs, leave nothing.
+  /// @param block  >= 0, the block that the box belongs to
   void draw(const Box3f& box, int block);
-  /// Whether a box lies before all that is drawn over its place by more than `reach` [m].
+  /// Whether a box lies by more than `reach` [m] before all blocks drawn at its pixels.
   /// @param ignored  (block) whether a block does not count; of Layers - 1 blocks at most
   template <class Ignored>
   [[nodiscard]] bool is_before_all(const Box3f& box, float reach, const Ignored& ignored) const;
@@ -82,7 +83,7 @@ void DepthImage<Layers>::clear(const Box3f& window, ViewDirection view) {
 template <int Layers>
 int DepthImage<Layers>::pixel_of(float coordinate, float first, float per_length) {
   if (per_length == 0) return 0;  // the window has no size, or no end
-  // As doubles, so that what is far does not overflow; what is no number is nowhere.
+  // In double precision, so that far coordinates do not overflow; NaNs are outside.
   const double at = (double{coordinate} - first) * per_length;
   if (!(at > -1)) return -2;
   return at < side ? static_cast<int>(at) : side + 1;
@@ -105,7 +106,7 @@ typename DepthImage<Layers>::Rectangle DepthImage<Layers>::rectangle_of(const Bo
           first(col_axis, pixels_a_col_), last(col_axis, pixels_a_col_)};
 }
 
-/// Keeps the nearest blocks in their order, each once.
+/// Inserts an entry: a pixel keeps the nearest blocks in their order, each once.
 template <int Layers>
 void DepthImage<Layers>::insert(Pixel& pixel, const Entry& entry) {
   int from = 0;

@@ -8,12 +8,12 @@
 namespace weft {
 namespace {
 
-/// Blocks have 8 cells a side.
+/// Level of the blocks: 8 cells a side.
 constexpr int block_level = 3;
-/// What is culled uncovers others: a few turns find most.
+/// Number of culling passes. Culled blocks uncover others: a few passes find most.
 constexpr int max_turns = 4;
 
-/// What both are in, and what comes that close.
+/// Common part of two boxes, widened by `reach`.
 Box3f common_part(const Box3f& a, const Box3f& b, float reach) {
   const Vec3f aside{reach, reach, reach};
   return {max(a.lower, b.lower) - aside, min(a.upper, b.upper) + aside};
@@ -43,7 +43,7 @@ void ImageSpacePairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam&
   for (std::size_t i = 0; i < surfaces.size(); ++i) fitted_to_[i] = surfaces[i].name;
 }
 
-/// Side by side, so that they share samples, or the same.
+/// Whether two blocks are the same, or neighbours that share samples.
 bool ImageSpacePairs::touch(const Blocks& of, int block, int other) {
   const int side = of.side();
   return std::abs(block / side - other / side) <= 1 && std::abs(block % side - other % side) <= 1;
@@ -191,7 +191,7 @@ void ImageSpacePairs::find_self(int surface, float reach, float slack, ThreadTea
   };
   const int side = of.side();
   shared_.collect(of.count(), team, out, [&](int block, std::vector<CandidatePair>& mine) {
-    // Neighbours, of which the images know nothing.
+    // Neighbours, which ignore each other in the images.
     for (int r = block / side; r <= std::min(side - 1, block / side + 1); ++r)
       for (int c = std::max(0, block % side - 1); c <= std::min(side - 1, block % side + 1); ++c)
         if (r * side + c >= block) pair_with(block, r * side + c, mine);

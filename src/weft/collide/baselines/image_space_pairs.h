@@ -12,10 +12,10 @@
 
 namespace weft {
 
-/// Culling in image space [govindaraju03] [govindaraju05]: blocks of 8 x 8 cells are drawn into
-/// depth images along the axes, from both sides; a block that is before everything else in one of
-/// them meets nothing and is drawn no more. Blocks that are left are paired by their boxes, then
-/// their cells. Neighbours, which always touch, are no obstacle to each other in the images.
+/// Broad phase by culling in image space [govindaraju03] [govindaraju05]: blocks of 8 x 8 cells are
+/// drawn into depth images along the axes, from both sides; a block that is before everything else
+/// in one of them meets nothing and is dropped. The remaining blocks are paired by their boxes,
+/// then by those of their cells. Neighbours, which always touch, ignore each other in the images.
 class ImageSpacePairs final : public BroadPhase {
  public:
   /// @param grids  of all surfaces, kept by the caller; the first `cloths` are cloths
@@ -28,7 +28,8 @@ class ImageSpacePairs final : public BroadPhase {
                  std::vector<CandidatePair>& out) override;
 
  private:
-  /// How many neighbours a block has, with itself, and one more that counts.
+  /// Layers of the image of a surface with itself: a block, its eight neighbours, and one more that
+  /// counts.
   static constexpr int self_layers = 10;
   using Marks = std::vector<char>;
   struct Blocks {
@@ -49,7 +50,7 @@ class ImageSpacePairs final : public BroadPhase {
   static void for_cells(const Blocks& of, int block, const Visit& visit);
   template <int Layers>
   static void draw(const Blocks& of, DepthImage<Layers>& image);
-  /// Marks those before all others in a view.
+  /// Marks the blocks that are before all others in a view.
   template <int Layers, class Ignored>
   static void mark_seen(const Blocks& of, const DepthImage<Layers>& image, float reach,
                         const Ignored& ignored, Marks& seen);

@@ -16,7 +16,7 @@ struct StruckParticle {
   Vec3d velocity;  ///< proposed [m/s]
 };
 
-/// What strikes it.
+/// Push of an obstacle on a particle.
 struct Push {
   Vec3d normal;      ///< unit, out of the obstacle
   double depth = 0;  ///< how far the particle has to move along the normal, >= 0 [m]
@@ -26,7 +26,7 @@ struct Push {
 
 /// Moves the particle out, stops its velocity into the obstacle, and takes back as much of the
 /// tangential motion of this step as friction may: at most `hold`, all of it when it was less
-/// (sticking). The velocity loses the same over the time step, never turning round.
+/// (sticking). The velocity loses the same over the time step, but is never reversed.
 void respond(const Push& push, double time_step, StruckParticle& particle) noexcept {
   const Vec3d n = push.normal;
   particle.position += push.depth * n;
@@ -44,17 +44,18 @@ void respond(const Push& push, double time_step, StruckParticle& particle) noexc
 }
 
 constexpr int no_sample = -1;
-/// Pushing out of one obstacle may push into the next (a crotch, a body on the ground): a few
-/// turns.
+/// Passes over the obstacles: pushing out of one may push into the next (a crotch, a body on the
+/// ground).
 constexpr int max_turns = 4;
-/// What is left of a push, in thicknesses, that counts as rounding.
+/// Remaining depth, in thicknesses, that counts as rounding.
 constexpr double settled = 1e-6;
-/// Farther from a contact's plane, in thicknesses, a particle is no longer pressed against it.
+/// Distance from a contact's plane, in thicknesses, beyond which a particle is no longer pressed
+/// against it.
 constexpr double left_surface = 0.1;
 
 double pair_friction(double a, double b) { return std::sqrt(a * b); }
 
-/// A body as every cloth meets it.
+/// A body with its polar map, shared by all cloths.
 struct MappedBody {
   PolarMap map;
   double friction = 0;
@@ -167,7 +168,8 @@ class Pusher {
     return contact;
   }
 
-  /// Where the solver tells forces, what counts is how far they moved the particles.
+  /// Replaces the detected depths by the displacements due to the solver's forces, where it reports
+  /// them.
   void take_forces(const MovingCloth& cloth, std::span<const float> forces, double time_step) {
     const int n = cloth.position.size();
     for (std::size_t i = 0; i < forces.size(); ++i) {
@@ -180,8 +182,8 @@ class Pusher {
         pressed_depth_[s] = pressed_depth_[mates_.mates(index)[0]];
   }
 
-  /// The solve has lifted what detect found, so it was pressed by that much: friction is owed for
-  /// it, unless the particle has left the surface.
+  /// Applies friction for the depth by which the solve has lifted a detected particle, unless it
+  /// has left the surface.
   bool hold_pressed(int sample, double time_step, StruckParticle& particle) const noexcept {
     const double pressed = detected_ ? pressed_depth_[sample] : 0;
     if (pressed <= 0) return false;
@@ -220,13 +222,13 @@ class Pusher {
   double ground_friction_;
   std::vector<Contact> slots_, contacts_;  // slots: [n * n], one a sample
   std::vector<double>
-      pressed_depth_;  // [n * n] what the solver lifts: the depth that detect saw, or as told [m]
-  bool detected_ = false;         // in this step
+      pressed_depth_;      // [n * n] lift by the solver: the detected depth, or by its forces [m]
+  bool detected_ = false;  // in this step
   std::vector<int> touched_;      // [n] per row
   std::vector<double> row_gaps_;  // [n]
 };
 
-/// The paper's: bodies stand still, cloths ignore each other and themselves.
+/// The paper's collider: bodies stand still, cloths ignore each other and themselves.
 class PushCollider final : public Collider {
  public:
   PushCollider(const PolarMapOptions& options, const Obstacles& obstacles,

@@ -7,15 +7,15 @@
 namespace weft {
 namespace {
 
-/// Deepest push of the walking method, in sides of the body's cube: what lies deeper did not get
-/// there in a step.
+/// Deepest push of the walking method, in sides of the body's cube: particles that lie deeper did
+/// not get there in a step.
 constexpr double deepest_push = 0.1;
-/// An open surface has no inside: what lies behind it this far (in sides), besides what the
-/// particle moved in the step, counts as pressed through it. Particles farther behind hang there
-/// rightly.
+/// Depth behind an open surface (in sides), besides the particle's displacement in the step, up to
+/// which it counts as pressed through. An open surface has no inside: particles farther behind hang
+/// there rightly.
 constexpr double open_depth = 0.02;
-/// Closer than this (in sides) the direction to the closest point is rounding, so the surface's
-/// normal serves.
+/// Distance (in sides) below which the direction to the closest point is rounding, so that the
+/// surface's normal serves.
 constexpr double touching = 1e-5;
 /// Rays are turned by this [rad], in no special direction, so that symmetric scenes do not send
 /// them exactly through samples, where rounding would count the surface twice or not at all.

@@ -8,7 +8,7 @@
 
 namespace weft {
 
-/// The point of an obstacle that a particle has to do with.
+/// Surface point of an obstacle from which a particle's gap is measured.
 struct SurfacePoint {
   Vec3d position;  ///< x_s [m]
   Vec3d normal;    ///< n_s, unit, out of the obstacle
@@ -22,10 +22,10 @@ class PolarMap {
  public:
   PolarMap(const Body& body, const PolarMapOptions& options);
 
+  /// Contact of a particle with the body.
   /// @param point  where the particle is [m]
   /// @param start  where it was when the step began [m]; an open surface has no inside, so it only
-  /// holds what
-  ///               can have crossed it during the step
+  /// holds what can have crossed it during the step
   /// @param reach  gap at which contact begins [m]
   /// @return the surface point when the gap is below `reach`
   [[nodiscard]] std::optional<SurfacePoint> contact(Vec3d point, Vec3d start,
@@ -36,7 +36,7 @@ class PolarMap {
   [[nodiscard]] bool inside(Vec3d point) const noexcept;
 
  private:
-  /// What the ray from the centre through a point meets.
+  /// Hits of the ray from the centre through a point.
   struct RadialHits {
     int beyond = 0;           ///< how many surfaces lie farther than the point
     int triangle = -1;        ///< of the hit nearest to the point, -1: none

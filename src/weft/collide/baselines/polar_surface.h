@@ -9,7 +9,7 @@
 
 namespace weft {
 
-/// Where on a surface a walk ended.
+/// End of a walk over a surface.
 struct ClosestOnSurface {
   Vec3d position;                      ///< [m]
   int triangle = -1;                   ///< index into GridSurface::triangles
@@ -27,7 +27,7 @@ class GridSurface {
   [[nodiscard]] Vec3d position(int sample) const { return vec_cast<double>(positions_[sample]); }
   /// True when every edge has two triangles: the surface has an inside.
   [[nodiscard]] bool closed() const { return closed_; }
-  /// Of all samples. [m]
+  /// Bounding box of all samples. [m]
   [[nodiscard]] Box3d box() const { return box_; }
 
   /// Walks downhill over neighbouring samples from `seed` (a representative) to the nearest one,

@@ -25,7 +25,7 @@ struct CellRange {
   int first_row = 0, last_row = 0, first_col = 0, last_col = 0;  // inclusive
 };
 
-/// Splits triangles until each piece spans about a cell, and tells every cell that a piece may
+/// Splits triangles until each piece spans about a cell, and visits every cell that a piece may
 /// touch.
 template <class Visit>
 class Rasterizer {
@@ -45,7 +45,7 @@ class Rasterizer {
  private:
   static constexpr int max_splits = 7;
 
-  /// Longest edge as an angle, never too small: pi where the piece reaches the centre.
+  /// Upper bound of the longest edge as an angle: pi where the piece reaches the centre.
   static double angular_span(const Corners& p) {
     const double longest = std::sqrt(std::max(
         {squared_length(p[0] - p[1]), squared_length(p[1] - p[2]), squared_length(p[2] - p[0])}));

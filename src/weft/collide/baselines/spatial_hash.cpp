@@ -9,9 +9,9 @@
 namespace weft {
 namespace {
 
-/// Cells that pass more cubes than this in a step are kept apart and compared with all others.
+/// Cells that sweep more cubes than this in a step are kept apart and compared with all others.
 constexpr double max_cubes_a_cell = 256;
-/// Places beyond it count as the last one.
+/// Integer coordinates of cubes are clamped to this.
 constexpr double largest_place = 1 << 30;
 
 int place_of(double coordinate, double side) {
@@ -93,7 +93,8 @@ void HashedCells::choose_side(const MovingSurface& surface) {
     const float length = longest_side(box(cell));
     if (std::isfinite(length)) lengths_.push_back(length);
   }
-  // What most cells pass in a step, where that is more than an edge, lest all pass many cubes.
+  // Cubes are at least as large as the median extent of the cells' boxes over the step, so that
+  // cells do not sweep many of them.
   double median = 0;
   if (!lengths_.empty()) {
     const auto middle = lengths_.begin() + static_cast<std::ptrdiff_t>(lengths_.size() / 2);
@@ -141,7 +142,7 @@ void HashedCells::for_near(const Box3f& other, float reach, const Visit& visit) 
     for (std::size_t i = starts_[in]; i < starts_[in + 1]; ++i) {
       const Entry& entry = entries_[i];
       if (entry.cube != cube || !near(entry.cell)) continue;
-      // Two boxes may share many cubes: the first of them counts.
+      // Two boxes may share many cubes: the pair is visited in the first of them.
       const CubeRange its = cubes_of(box(entry.cell), 0);
       bool first = true;
       for (std::size_t k = 0; k < 3; ++k)
@@ -172,7 +173,8 @@ void SpatialHashPairs::find(int surface_a, int surface_b, float reach, ThreadTea
                             std::vector<CandidatePair>& out) {
   const HashedCells& a = tables_[static_cast<std::size_t>(surface_a)];
   const HashedCells& b = tables_[static_cast<std::size_t>(surface_b)];
-  // The smaller look up the larger, which take fewer cubes each.
+  // Cells of the table with smaller cubes look up the one with larger cubes, as they take fewer of
+  // these each.
   const bool swapped = a.side() > b.side();
   const HashedCells &small = swapped ? b : a, &large = swapped ? a : b;
   shared_.collect(small.count(), team, out, [&](int cell, std::vector<CandidatePair>& mine) {

@@ -11,11 +11,11 @@
 
 namespace weft {
 
-/// The cells of one surface in a hashed grid of space.
+/// Spatial hash of the cells of one surface.
 class HashedCells {
  public:
   explicit HashedCells(int cells);
-  /// Takes a step's motion: the boxes of all cells, and the table.
+  /// Fits the boxes of all cells and the table to a step's motion.
   void fit(const MovingSurface& surface, ThreadTeam& team);
 
   /// The side of a cube of space [m].
@@ -30,7 +30,7 @@ class HashedCells {
   void for_near(const Box3f& other, float reach, const Visit& visit) const;
 
  private:
-  /// A cube of space by its place in the grid.
+  /// A cube of space by its integer coordinates.
   using Cube = std::array<int, 3>;
   struct CubeRange {
     Cube first, last;
@@ -57,7 +57,7 @@ class HashedCells {
   std::vector<std::size_t> starts_;  // [buckets + 1]
   std::vector<std::size_t> next_;    // [buckets]
   std::vector<Entry> entries_;       // compressed rows, cells ascending in each
-  std::vector<int> large_;           // cells that pass too many cubes to enter them
+  std::vector<int> large_;           // cells that sweep too many cubes to be entered
 };
 
 /// Spatial hashing [teschner03]: in a first pass the vertices of a surface enter a hash table, by

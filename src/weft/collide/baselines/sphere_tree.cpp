@@ -8,13 +8,13 @@
 namespace weft {
 namespace {
 
-/// What workers share are nodes of about this many cells a side.
+/// Level of the nodes whose pairs workers share as tasks: 2^3 cells a side.
 constexpr int task_level = 3;
 
 /// Against the rounding of roots and sums; radii are rounded up into floats besides.
 constexpr double inflation = 1 + 0x1p-40;
 
-/// The smallest radius in single precision that surely holds what lies at `farthest`.
+/// A radius in single precision that surely holds what lies at distance `farthest`.
 float safe_radius(double farthest) {
   return std::nextafter(static_cast<float>(farthest * inflation), HUGE_VALF);
 }
@@ -45,7 +45,7 @@ void SphereLevels::fit_cell(const MovingSurface& surface, int cell) {
   for (const Planes3* planes : {surface.start, surface.end})
     for (const int s : corners) {
       const double away = distance(sphere.centre, planes->at(s));
-      farthest = away <= farthest ? farthest : away;  // what is no number is kept
+      farthest = away <= farthest ? farthest : away;  // keeps a NaN
     }
   if (std::isfinite(farthest)) sphere.radius = safe_radius(farthest);
   levels_.front()[static_cast<std::size_t>(cell)] = sphere;

@@ -10,8 +10,8 @@
 
 namespace weft {
 
-/// Spheres around the four vertices of every cell, then around four spheres each, bottom-up over
-/// the image [benes05]. Here they hold the vertices over a whole step.
+/// Bounding sphere hierarchy over an image [benes05]: spheres around the four vertices of every
+/// cell, then around four spheres each, bottom-up. Here they hold the vertices over a whole step.
 class SphereLevels {
  public:
   explicit SphereLevels(int cells);
@@ -23,7 +23,7 @@ class SphereLevels {
   struct Sphere {
     Vec3f centre;
     float radius = -1;
-    /// Around nothing, or what is not finite: it meets nothing.
+    /// Whether the sphere is around nothing, or positions that are not finite: it meets nothing.
     [[nodiscard]] bool empty() const { return radius < 0; }
   };
   [[nodiscard]] const Sphere& at(const Node& node) const {
@@ -61,7 +61,8 @@ class SphereTreePairs final : public BroadPhase {
     float reach = 0;
     bool same = false;
   };
-  /// Splits a pair until `stop(pair)` holds or both are cells, and hands out what may meet.
+  /// Descends from a pair until `stop(pair)` holds or both are cells, and emits the pairs that may
+  /// meet.
   template <class Stop, class Emit>
   static void descend(const Search& search, const NodePair& pair, const Stop& stop,
                       const Emit& emit);

@@ -9,7 +9,7 @@
 
 namespace weft {
 
-/// Contacts begin this many gaps before the gap that is kept.
+/// Contacts are made where features come closer than this many times the gap that is kept.
 inline constexpr double contact_margin = 1.5;
 
 /// Two cells (row * (n - 1) + col) that may meet during a step; of one surface with itself a < b.
@@ -18,7 +18,7 @@ struct CandidatePair {
   friend bool operator==(const CandidatePair&, const CandidatePair&) = default;
 };
 
-/// Tells which cells of surfaces may meet. Nothing allocates once warmed up.
+/// Finds the pairs of cells of surfaces that may meet. Nothing allocates once warmed up.
 class BroadPhase {
  public:
   BroadPhase() = default;
@@ -26,20 +26,20 @@ class BroadPhase {
   BroadPhase& operator=(const BroadPhase&) = delete;
   virtual ~BroadPhase() = default;
 
-  /// Takes the surfaces' motion during a step: cloths first, then bodies, always as many and of the
-  /// same sizes.
+  /// Fits to the surfaces' motion during a step: cloths first, then bodies, always as many and of
+  /// the same sizes.
   virtual void refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) = 0;
-  /// All pairs of cells of two surfaces that come closer than `reach` at some time of the step,
-  /// each once, and perhaps some that do not; ordered by what does not depend on the team. Pairs
-  /// that are known not to come so close may be left out.
+  /// Finds all pairs of cells of two surfaces that come closer than `reach` at some time of the
+  /// step, each once, and perhaps some that do not, in an order that does not depend on the team.
+  /// Pairs that are known not to come so close may be left out.
   virtual void find(int surface_a, int surface_b, float reach, ThreadTeam& team,
                     std::vector<CandidatePair>& out) = 0;
-  /// The same of a cloth with itself: all pairs of cells that can meet in more than a common corner
-  /// or edge while every sample stays within `slack` of its path. Neighbours whose rectangle is
-  /// certainly unfolded are left out, though they may be closer than `reach`.
+  /// The same for a cloth with itself: all pairs of cells that can meet in more than a common
+  /// corner or edge while every sample stays within `slack` of its path. Neighbours in a certainly
+  /// unfolded rectangle are left out, though they may be closer than `reach`.
   virtual void find_self(int surface, float reach, float slack, ThreadTeam& team,
                          std::vector<CandidatePair>& out) = 0;
-  /// Where the nodes of a surface's mip pyramid are in the step; null where there is no pyramid.
+  /// Boxes of the nodes of a surface's mip pyramid in the step; null where there is no pyramid.
   [[nodiscard]] virtual const PathBoxLevels* boxes(int /*surface*/) const { return nullptr; }
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 using Four = std::array<float, 4>;
 
-/// What rounding may add to a gap, in parts of the farthest coordinate, generously.
+/// Generous bound of the rounding error of a gap, relative to the farthest coordinate.
 constexpr float rounding = 4e-6F;
 
 inline float least(float a, float b) { return a < b ? a : b; }
@@ -120,7 +120,7 @@ double CellGaps::max_approach() const {
 bool CellGaps::apart(double at_start, double at_end) const {
   const float start = static_cast<float>(at_start) + margin_;
   const float end = static_cast<float>(at_end) + margin_;
-  // Neighbours in one layer lie beside each other, layers above each other.
+  // The first direction separates neighbours in one layer, the normals separate layers.
   return apart_along(displacement(), start, end) || apart_along(normal_of(start_b_), start, end) ||
          apart_along(normal_of(start_a_), start, end);
 }

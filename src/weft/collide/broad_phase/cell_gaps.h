@@ -6,29 +6,30 @@
 
 namespace weft {
 
-/// The corners of two cells at both ends of a step, seen from one of them, so that single precision
-/// tells their gaps.
+/// Gaps between two cells at both ends of a step, from their corners relative to one of them, so
+/// that single precision suffices.
 class CellGaps {
  public:
   CellGaps(const MovingSurface& a, int cell_a, const MovingSurface& b, int cell_b);
-  /// Whether the way between them or the normal direction of either certainly keeps them apart, in
-  /// the same order, by more than so much at the start and at the end. [m]
+  /// Whether the direction between the cells or the normal of either certainly separates them, in
+  /// the same order, by more than these gaps at the start and at the end. [m]
   [[nodiscard]] bool apart(double at_start, double at_end) const;
-  /// How far the same ways certainly keep them apart, at the start and at the end; negative or 0
-  /// where none does. [m]
+  /// Largest gap along the same directions that certainly holds at the start and at the end;
+  /// negative or 0 where none does. [m]
   [[nodiscard]] float certain_gap() const;
-  /// A corner of the first or second cell as it is seen. [m]
+  /// Corner of the first or second cell, relative to the common origin. [m]
   [[nodiscard]] Vec3f start(bool second, int corner) const {
     return at(second ? start_b_ : start_a_, corner);
   }
   [[nodiscard]] Vec3f end(bool second, int corner) const {
     return at(second ? end_b_ : end_a_, corner);
   }
-  /// What rounding may add to a gap, generously. [m]
+  /// Generous bound of the rounding error of a gap. [m]
   [[nodiscard]] float margin() const { return margin_; }
-  /// Whether the cosine between their normals at the start is more than that, either way.
+  /// Whether the cosine between the cells' normals at the start exceeds `cosine`, in either
+  /// direction.
   [[nodiscard]] bool parallel(float cosine) const;
-  /// How far any two of their points may come nearer to each other in the step, at most. [m]
+  /// Upper bound of how much nearer any two points of the cells come in the step. [m]
   [[nodiscard]] double max_approach() const;
 
  private:

@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// Lists that several threads fill: the work is cut into a fixed number of pieces, so that the
-/// order of what is found does not depend on the team, and pieces go to workers in turn, so that a
+/// Lists filled by several threads. The work is cut into a fixed number of chunks, so that the
+/// order of what is found does not depend on the team, and chunks go to workers in turn, so that a
 /// few hard ones do not all fall to one.
 template <class List>
 class ChunkedLists {
@@ -23,7 +23,7 @@ class ChunkedLists {
       for (int i = first(count, chunk); i < first(count, chunk + 1); ++i) visit(i, list);
     }
   }
-  /// All pieces in their order.
+  /// The lists of all chunks in their order.
   [[nodiscard]] const std::vector<List>& lists() const { return lists_; }
 
  private:
@@ -35,7 +35,7 @@ class ChunkedLists {
   std::vector<List> lists_{chunks};
 };
 
-/// Appends them to one list.
+/// Appends the lists of all chunks to one list.
 template <class T>
 void append(const ChunkedLists<std::vector<T>>& from, std::vector<T>& to) {
   for (const std::vector<T>& list : from.lists()) to.insert(to.end(), list.begin(), list.end());

@@ -30,7 +30,7 @@ float CoherentPairs::distance_from(const Snapshot& snapshot, const MovingSurface
   double distance = largest_displacement(snapshot.start, *now.start);
   if (!snapshot.still || now.end != now.start)
     distance = std::max(distance, largest_displacement(end, *now.end));
-  // Less rounding.
+  // Half the skin, less rounding.
   return distance < 0.499 * double{skin_} ? static_cast<float>(distance) : HUGE_VALF;
 }
 
@@ -88,7 +88,7 @@ void CoherentPairs::order(const ChunkedLists<std::vector<Found>>& found, List& l
   std::size_t count = 0;
   for (std::size_t& end : list.ends) count += std::exchange(end, count);
   list.cells.resize(count);
-  // Each begin serves as the place of the next, and ends up as the end.
+  // Each bucket's begin serves as its write position, and ends up as its end.
   for (const std::vector<Found>& part : found.lists())
     for (const Found& one : part) list.cells[list.ends[bucket_of(one)]++] = one.cells;
 }
@@ -120,7 +120,8 @@ void CoherentPairs::find_unfolded(int surface, float slack, ThreadTeam& team) {
   found = slack;
 }
 
-/// Nearly all neighbours lie flat: how far apart they are is of no use.
+/// Sets neighbours in unfolded rectangles apart: they are most of all pairs, and their gaps are of
+/// no use.
 void CoherentPairs::set_smooth_aside(int surface, List& list) {
   const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
   const auto smooth = [&](const CandidatePair& pair) { return windows.unfolded(pair); };
@@ -129,7 +130,7 @@ void CoherentPairs::set_smooth_aside(int surface, List& list) {
   std::erase_if(list.cells, smooth);
 }
 
-/// Planes between neighbours that are unfolded would hold back what turns.
+/// Unfolded neighbours are left out also because planes between them would hinder rotation.
 std::span<const CandidatePair> CoherentPairs::find_self(int surface, float reach, float slack,
                                                         ThreadTeam& team) {
   List& list = list_of(surface, surface);

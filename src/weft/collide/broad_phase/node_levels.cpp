@@ -20,7 +20,7 @@ std::array<Coordinate, 3> coordinates(const Planes3& start, const Planes3& end) 
   return {Coordinate{&start.x, &end.x}, {&start.y, &end.y}, {&start.z, &end.z}};
 }
 
-/// least and largest of four rows' neighbours: a cell's corners at both ends of the step.
+/// Minima and maxima of one coordinate over a row of cells: their corners at both ends of the step.
 void cell_row(int cells, const Coordinate& of, int r, float* lower, float* upper) {
   const float *a = of.start->row(r), *b = of.start->row(r + 1);
   const float *c = of.end->row(r), *d = of.end->row(r + 1);

@@ -29,8 +29,9 @@ void for_children(const Node& node, const std::vector<int>& sides, const Visit& 
 }
 
 /// Calls fit_row(level, row) for all rows of the levels above the cells, each level after the one
-/// below it: shared out while a level is large. To be called by every worker once its share of the
-/// cells is done; what is fitted last is worker 0's until the next barrier.
+/// below it; large levels are shared among workers. To be called by every worker once its share of
+/// the cells is done; the levels that worker 0 fits alone are visible to the others after the next
+/// barrier.
 template <class FitRow>
 void fit_levels(const std::vector<int>& sides, Worker& worker, const FitRow& fit_row) {
   constexpr int min_shared_side = 32;  // nodes
@@ -59,17 +60,17 @@ inline float longest_side(const Box3f& box) {
   return e.x > e.y ? (e.x > e.z ? e.x : e.z) : (e.y > e.z ? e.y : e.z);
 }
 
-/// Least and largest of a vector over the cells below each node of a mip pyramid: the image is the
-/// tree, so that fitting is two passes of minima and maxima and nothing is ever built.
+/// Bounding boxes of the cells below each node of a mip pyramid. The image is the tree, so fitting
+/// takes minima and maxima only and nothing is ever built.
 class ExtentLevels {
  public:
   ExtentLevels() = default;
   explicit ExtentLevels(int cells);
 
-  /// The cells' own, for the caller to fill: least x, y, z, largest x, y, z. [cells x cells]
+  /// Boxes of the cells, for the caller to fill: least x, y, z, largest x, y, z. [cells x cells]
   [[nodiscard]] std::array<Grid<float>, 6>& finest() { return finest_; }
   [[nodiscard]] const std::array<Grid<float>, 6>& finest() const { return finest_; }
-  /// Fits all levels from it. To be called by every worker after a barrier; ends with one.
+  /// Fits all levels from finest(). To be called by every worker after a barrier; ends with one.
   void fit(Worker& worker);
 
   [[nodiscard]] const std::vector<int>& sides() const { return sides_; }
@@ -85,11 +86,11 @@ class ExtentLevels {
 
   std::vector<int> sides_;
   std::array<Grid<float>, 6> finest_;
-  std::vector<std::vector<Box3f>> boxes_;  // of each level [side * side]: one's six lie together
+  std::vector<std::vector<Box3f>> boxes_;  // of each level [side * side]
 };
 
 /// Fills the boxes of a surface's cells over a step. To be called by every worker; ends with a
-/// barrier. Positions that are not finite make boxes that meet nothing.
+/// barrier. Boxes of positions that are not finite are unspecified.
 void fill_position_extents(const Planes3& start, const Planes3& end, ExtentLevels& levels,
                            Worker& worker);
 

@@ -8,7 +8,7 @@ namespace {
 
 inline float least(float a, float b) { return a < b ? a : b; }
 inline float largest(float a, float b) { return a > b ? a : b; }
-/// One coordinate of the corners of a row of cells.
+/// Extents of one coordinate of the corners of a row of cells.
 void corner_extents(const Grid<float>& of, int row, float* lower, float* upper) {
   const int cells = of.cols() - 1;
   const float *a = of.row(row), *b = of.row(row + 1);

@@ -11,7 +11,7 @@
 
 namespace weft {
 
-/// The longest side of what a node passes in a step. [m]
+/// Longest side of the box that a node sweeps in a step. [m]
 float longest_side(const PathBox& box);
 PathBox child_box(const ChildPathBoxes& of, int child);
 
@@ -26,7 +26,7 @@ class PathBoxLevels {
   [[nodiscard]] const std::vector<int>& sides() const { return sides_; }
   [[nodiscard]] int top() const { return static_cast<int>(sides_.size()) - 1; }
   [[nodiscard]] const PathBox& root_box() const { return root_; }
-  /// Of a node above the cells.
+  /// Boxes of the children of a node above the cells.
   [[nodiscard]] const ChildPathBoxes& children(const Node& node) const {
     const auto level = static_cast<std::size_t>(node.level);
     return children_[level][static_cast<std::size_t>(node.row) * sides_[level] + node.col];
@@ -36,7 +36,7 @@ class PathBoxLevels {
   void fill_row(const MovingSurface& surface, int row);
   [[nodiscard]] PathBox box_of(const Node& node) const;
   void fit_node(const Node& node);
-  /// The same of a node of level 1 that has all four cells, faster.
+  /// Faster form of fit_node for a node of level 1 that has all four cells.
   void pack_cells(const Node& node);
   void fit_row(int level, int row);
 

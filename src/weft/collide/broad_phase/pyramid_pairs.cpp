@@ -9,18 +9,18 @@
 namespace weft {
 namespace {
 
-/// What workers share are nodes of about this many cells a side.
+/// Level of the nodes whose pairs workers share as tasks: 2^4 cells a side.
 constexpr int task_level = 4;
 
 /// Nodes of a cloth are compared with slabs from this level down.
 constexpr int max_slab_level = 2;
-/// What rounding may add to a distance along a slab, in parts of the nodes' sizes, generously.
+/// Generous bound of the rounding error of a distance along a slab, relative to the nodes' sizes.
 constexpr float slab_rounding = 1e-5F;
 
 Node child_of(const Node& node, int k) {
   return {node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2};
 }
-/// Of the pairs of a node's children with each other, as near_pairs tells them: each once.
+/// Mask of near_pairs of a node with itself that keeps each pair of children once.
 constexpr unsigned pairs_once = 0x8CEF;
 
 }  // namespace
@@ -81,7 +81,7 @@ Extent PyramidPairs::along_slab(const Search& search, const Planes3& at, const N
     const std::array x = four(at.x), y = four(at.y), z = four(at.z);
     return search.kernels->along({x.data(), y.data(), z.data(), 0, 1, 4}, origin, normal);
   }
-  // Four columns at least, a neighbour's if need be.
+  // The kernel needs four columns at least, a neighbour's if need be.
   const int col = std::min(node.col * span, n - std::max(4, span + 1));
   return search.kernels->along(
       {at.x.row(first_row) + col, at.y.row(first_row) + col, at.z.row(first_row) + col,
@@ -144,7 +144,7 @@ void PyramidPairs::share_out(const Search& search, int tasks, ThreadTeam& team,
   shared_.collect(tasks, team, out, [&](int i, std::vector<CandidatePair>& mine) {
     descend(i, [&](const NodePair& pair) {
       const int a = pair.a.row * cells_a + pair.a.col, b = pair.b.row * cells_b + pair.b.col;
-      // Of a cloth with itself the order of nodes need not be that of cells.
+      // For a cloth with itself the order of nodes need not be that of cells.
       mine.push_back(search.a == search.b && b < a ? CandidatePair{b, a} : CandidatePair{a, b});
     });
   });

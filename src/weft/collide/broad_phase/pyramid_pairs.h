@@ -11,8 +11,8 @@
 
 namespace weft {
 
-/// The mip pyramids of the images as bounding hierarchies: boxes at both ends of the step,
-/// windows that are certainly unfolded for a cloth with itself, slabs for bodies. All indices are
+/// Broad phase by the mip pyramids of the images as bounding hierarchies: boxes at both ends of the
+/// step, certainly unfolded windows for a cloth with itself, slabs for bodies. All indices are
 /// implicit; fitting takes O(N).
 class PyramidPairs final : public BroadPhase {
  public:
@@ -38,12 +38,12 @@ class PyramidPairs final : public BroadPhase {
   struct NodePair {
     Node a, b;
   };
-  /// With where they are, which no search looks up twice.
+  /// A pair of nodes with its path boxes, so that no search looks them up twice.
   struct PlacedPair {
     NodePair nodes;
     PathBox a, b;
   };
-  /// What one search is about.
+  /// Parameters of one search.
   struct Search {
     const CollideKernels* kernels;
     int a = 0, b = 0;
@@ -53,7 +53,7 @@ class PyramidPairs final : public BroadPhase {
   [[nodiscard]] bool apart_by_slab(const Search& search, const PlacedPair& pair) const;
   [[nodiscard]] Extent along_slab(const Search& search, const Planes3& at, const Node& node,
                                   const Slab& slab) const;
-  /// Splits a pair that is near until `stop(pair)` holds, and hands out what may meet.
+  /// Descends from a near pair until `stop(pair)` holds and emits the pairs that may meet.
   template <class Stop, class Emit>
   void descend(const Search& search, const PlacedPair& pair, const Stop& stop,
                const Emit& emit) const;

@@ -101,7 +101,7 @@ void UnfoldedWindows::find_unfolded(const MovingSurface& surface, float slack, T
     lines_.push_back({planes(2, side), planes(1, side)});
   team.run([&](Worker& worker) {
     fit(kernels, surface, worker);
-    // Of an edge both ends may leave their paths.
+    // Both ends of an edge may leave their paths, so edges get twice the slack.
     for (Level& level : levels_)
       find_unfolded_rows(kernels, level, 2 * slack, worker.share(level.two_unfolded.rows()),
                          lines_[static_cast<std::size_t>(worker.rank())]);

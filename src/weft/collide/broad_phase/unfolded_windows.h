@@ -11,22 +11,23 @@
 
 namespace weft {
 
-/// Tells which rectangles of a cloth's image certainly do not meet themselves during a step, by the
-/// extents that their edges along rows and along columns keep to.
+/// Finds rectangles of a cloth's image that certainly do not meet themselves during a step, from
+/// the extents of their edges along rows and along columns.
 ///
 /// Every triangle of a grid, whichever its diagonal, has one edge of each kind, so its gradient
-/// lies in these boxes, at all times of a step, since edges move on straight lines. Projected by
-/// the basis that is dual to the boxes' centres it becomes a 2 x 2 matrix near the identity. If the
-/// symmetric part of all such matrices is positive, (f(q) - f(p)) . (q - p) > 0 for every two
-/// points p and q of the rectangle, which is convex: no two points of the surface coincide. Unlike
-/// cones of normals this needs no test of contours.
+/// lies in the boxes of these extents, at all times of a step, since edges move on straight lines.
+/// Projected by the basis that is dual to the boxes' centres it becomes a 2 x 2 matrix near the
+/// identity. If the symmetric part of all such matrices is positive definite,
+/// (f(q) - f(p)) . (q - p) > 0 for every two points p and q of the rectangle, which is convex: no
+/// two points of the surface coincide. Unlike cones of normals this needs no test of contours.
 ///
-/// Judged are all windows of 2 x 2 and of 3 x 3 nodes on all levels of the mip pyramid at once, in
-/// plain rows, so that a search only looks them up.
+/// All windows of 2 x 2 and of 3 x 3 nodes on all levels of the mip pyramid are tested at once, row
+/// by row, so that a search only looks them up.
 class UnfoldedWindows {
  public:
   explicit UnfoldedWindows(int cells);
-  /// Takes a step's motion, of which any sample may yet leave its path by `slack`. [m]
+  /// Tests all windows for a step's motion, where any sample may still leave its path by `slack`.
+  /// [m]
   void find_unfolded(const MovingSurface& surface, float slack, ThreadTeam& team);
   /// Whether some window that holds two nodes of one level is certainly unfolded; false where they
   /// are too far apart for one.
@@ -43,7 +44,7 @@ class UnfoldedWindows {
         if (marks.row(r)[c] != 0) return true;
     return false;
   }
-  /// The same of two cells, on the first level that has a window for them.
+  /// The same for two cells, on the first level that has a window for them.
   [[nodiscard]] bool unfolded(const CandidatePair& pair) const;
 
  private:
@@ -54,7 +55,8 @@ class UnfoldedWindows {
     Extents nodes;
     Grid<float> two_unfolded, three_unfolded;  // 1 where the window that begins here is
   };
-  /// Rows of windows that a worker has in hand: two of 2 x 2 nodes in turn, one of 3 x 3.
+  /// Scratch rows of a worker: extents of two rows of 2 x 2 windows in turn, of one of 3 x 3
+  /// windows.
   struct Lines {
     std::array<Grid<float>, 12> twos, threes;  // [2 x side], [1 x side]
   };

@@ -12,7 +12,7 @@ void BlockMotion::measure(const SurfaceGrid& grid, const Planes3& start, const P
   end_ = &end;
   slides_ = slides;
   blocks_.clear();
-  // Up to the first samples of the next blocks: nothing lies between.
+  // Blocks include the first samples of the next ones, so that nothing lies between them.
   const int last = grid.size() - 1;
   for (int r = 0; r < last; r += block_size)
     for (int c = 0; c < last; c += block_size) {

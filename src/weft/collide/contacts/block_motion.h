@@ -8,26 +8,28 @@
 
 namespace weft {
 
-/// How the parts of a body move in a step, by blocks of its image, so that what is near one part
-/// need not care how fast another goes.
+/// Motion of a body in a step by blocks of its image, so that what is near one part does not depend
+/// on the speed of another.
 class BlockMotion {
  public:
   /// Samples a side of a block.
   static constexpr int block_size = 8;
 
-  /// How what is near a place moves: a way that it has in common, and how much closer any of it
-  /// comes, at most, to what goes along with that. [m]
+  /// Motion of the parts of a body near a place: their mean displacement, and the most that any of
+  /// them approaches a point that moves by it. [m]
   struct Near {
     Vec3d displacement;
     double approach = 0;
   };
 
-  /// All are kept by reference. @param start, end  [n x n] [m]
-  /// @param slides  its surface, where that is followed; null: each point counts by its whole way
+  /// Measures the blocks. All arguments are kept by reference.
+  /// @param start, end  [n x n] [m]
+  /// @param slides  motion of its surface, if the approach along normals counts; null: each point
+  /// counts by its whole displacement
   void measure(const SurfaceGrid& grid, const Planes3& start, const Planes3& end,
                const SurfaceMotion* slides, ThreadTeam& team);
-  /// Of all that comes within `reach` [m] of a box on its way.
-  /// @param enough  an approach that need not be known better [m]
+  /// Motion of all blocks that come within `reach` [m] of a box during the step.
+  /// @param enough  an approach below which no sharper bound is sought [m]
   [[nodiscard]] Near near(const Box3f& box, float reach, double enough) const;
 
  private:
@@ -35,10 +37,10 @@ class BlockMotion {
     Box3f swept;
     Vec3d displacement;  // mean
     double samples = 0;
-    double apart = 0;         // approach of any point to what goes that way, at most [m]
+    double apart = 0;         // largest approach of a point to one moved by `displacement` [m]
     Vec3d normal;             // mean
-    double normal_apart = 0;  // of any point, at most
-    double slant = 0;         // see SurfaceMotion::approach, the largest
+    double normal_apart = 0;  // largest deviation of a point's normal
+    double slant = 0;         // largest of a point, see SurfaceMotion::slant
     int first_row = 0, last_row = 0, first_col = 0, last_col = 0;
   };
   [[nodiscard]] Vec3d displacement_of(int sample) const {
@@ -48,7 +50,8 @@ class BlockMotion {
   void for_points(const Block& block, const Visit& visit) const;
   void measure(Block& block) const;
   [[nodiscard]] double approach_of_point(int point, Vec3d displacement) const;
-  /// At most, at once; and by every point.
+  /// Approach of a block to a point that moves by `displacement`: a quick upper bound, and the
+  /// largest over all points. [m]
   [[nodiscard]] double bound_of(const Block& block, Vec3d displacement) const;
   [[nodiscard]] double approach_of(const Block& block, Vec3d displacement) const;
 

@@ -6,13 +6,13 @@
 namespace weft {
 namespace {
 
-/// Steps as long as the present one that a look reckons with.
+/// Further steps like the present one that a search covers in advance.
 constexpr double ahead = 1;
-/// Of distances in single precision, generously.
+/// Generous bound of the relative rounding error of distances in single precision.
 constexpr double rounding = 1e-5;
-/// Farther than so many gaps nothing is remembered of how far a body was.
+/// Distances to bodies are cached up to this many gaps.
 constexpr double known_gaps = 6;
-/// Nor matters so small a part of one.
+/// Approaches of bodies below this part of a gap need no sharper bound.
 constexpr double known_well = 0.05;
 
 }  // namespace
@@ -67,9 +67,9 @@ Box3f BodyContacts::box_of_block(const Planes3& at, int block) const {
   return box;
 }
 
-/// What never comes so near a block in a step is more than twice as far away as anything is known
-/// when it does, if no sample has gone farther than that in the step; and it cannot have come
-/// within what is known since, as both went by less.
+/// Body parts that never come within `reach` of a block in a step stay more than twice the largest
+/// cached distance away from its samples, as long as none of these moves by more than that
+/// distance; so they invalidate no cached distance.
 void BodyContacts::find_near_blocks(const MovingCloth& cloth, const ContactBody& body,
                                     ThreadTeam& team) {
   Past& past = past_[body.number - 1];
@@ -88,7 +88,7 @@ void BodyContacts::find_near_blocks(const MovingCloth& cloth, const ContactBody&
 void BodyContacts::arrive(std::size_t body, int motion) {
   if (body >= past_.size()) return;
   Past& past = past_[body];
-  if (past.motion != motion)  // nobody looked at it
+  if (past.motion != motion)  // the motion was never searched
     return past.samples.assign(past.samples.size(), {});
   for (NearBlock& block : past.blocks) {
     block.carried += block.now.displacement;
@@ -96,7 +96,8 @@ void BodyContacts::arrive(std::size_t body, int motion) {
   }
 }
 
-/// How the body goes where a sample may come: near its block, unless the sample goes too far.
+/// Motion of a body where a sample may come: that near its block, or a bound for the whole body
+/// where the sample moves too far.
 BlockMotion::Near BodyContacts::near_of(const ContactBody& body, const NearBlock& block,
                                         Vec3d displacement) const {
   if (length(displacement) <= farthest_known()) return block.now;
@@ -110,7 +111,7 @@ std::optional<BodyPoint> BodyContacts::find_closest(const ContactBody& body, con
   known.seen = vec_cast<float>(start);
   const double since = length(place - known.place) + (near.travelled - known.travelled);
   if (known.distance - since > reach * (1 + rounding)) return std::nullopt;
-  // Farther than need be, so that the next steps need not look again.
+  // The search reaches farther than needed, so that the next steps can use the cached distance.
   const double least = contact_margin * kept_.gap;
   const double wider =
       std::max(reach, std::min(reach + ahead * (reach - least) + least, farthest_known()));
@@ -136,8 +137,8 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
            : contact_margin * kept_.gap + length(displacement - near.displacement) + near.approach;
   const auto found = find_closest(body, block, start, reach, past.samples[sample]);
   if (!found) return;
-  // What was outside and kept out cannot be inside now, whatever the normals of an image say that
-  // folds or crosses itself somewhere.
+  // A sample that was outside and kept out cannot be inside now, whatever the normals say of an
+  // image that folds or crosses itself somewhere.
   const bool astray = deep && body.query->behind(start, *found) != keeps_in(body);
   if (astray) marks_.inside[sample] = body.number;
   ClothPoint at;

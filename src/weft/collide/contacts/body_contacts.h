@@ -9,13 +9,13 @@
 
 namespace weft {
 
-/// Which of a cloth's samples are on the wrong side of a closed body: its number, or 0.
+/// Per sample of a cloth, the number of the closed body on whose wrong side it is, or 0.
 using InsideMarks = std::vector<int>;
 
-/// Contacts of a cloth's samples with bodies and the ground: the half-space before the point of a
-/// surface that was closest at the start of the step. Outside, a sample cannot have changed sides,
-/// so the way from there to it tells the side, also of open surfaces. Samples inside closed bodies
-/// are pushed out, gently, and back in those outside of one that keeps the cloth in.
+/// Finds contacts of a cloth's samples with bodies and the ground: half-spaces before the surface
+/// point that was closest at the start of the step. A sample outside cannot have changed sides, so
+/// the direction from that point to it is the normal, also for open surfaces. Samples inside closed
+/// bodies are pushed out gently; samples outside a body that keeps the cloth in are pushed back in.
 class BodyContacts {
  public:
   struct Ground {
@@ -29,15 +29,16 @@ class BodyContacts {
             ThreadTeam& team);
   [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
   [[nodiscard]] const InsideMarks& inside() const { return marks_.inside; }
-  /// A body moved onto this sample in the last step, so it may be inside now.
+  /// Marks a sample as doubtful: a body moved onto it in the last step, so it may be inside now.
   void doubt(int sample) { marks_.doubted[sample] = 1; }
-  /// What is known of every sample, for going on elsewhere: its mark and whether it is in doubt.
-  /// Empty before the first look.
+  /// Saves the inside mark and the doubt of every sample, for resuming a run. Empty before the
+  /// marks are known.
   void save(std::vector<int>& marks) const;
   void restore(std::span<const int> marks);
-  /// What is known of samples is kept for rollback, which returns to it.
+  /// Keeps the present marks for rollback, which returns to them.
   void commit() { kept_marks_ = marks_; }
-  /// A body stays where a motion led it. @param body  from 0
+  /// Accepts a motion: the body stays at its end.
+  /// @param body  from 0
   void arrive(std::size_t body, int motion);
   void rollback() { marks_ = kept_marks_; }
 
@@ -51,25 +52,26 @@ class BodyContacts {
   }
   void find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
                    std::vector<Contact>& out) const;
-  /// How a body moves near a block of the cloth: so far, and in the present step. [m]
+  /// Motion of a body near a block of the cloth: summed over past steps, and in the present step.
+  /// [m]
   struct NearBlock {
     Vec3d carried;
     double travelled = 0;
     BlockMotion::Near now;
   };
-  /// What is known of a sample and a body: how far it was, and from where, less what the body's
-  /// motion had carried what is near along.
+  /// Cached lower bound of the distance of a sample to a body, and the place where it was measured,
+  /// less the displacement that the body had carried the place along by.
   struct Known {
     Vec3d place;
-    Vec3f seen;            // where it was when it was last asked for [m]
-    double travelled = 0;  // by the body when it was [m]
-    float distance = 0;    // at least; 0: nothing is known [m]
-    int triangle = -1;     // that was closest
+    Vec3f seen;            // position at the last query [m]
+    double travelled = 0;  // NearBlock::travelled at that time [m]
+    float distance = 0;    // at least; 0: unknown [m]
+    int triangle = -1;     // the closest one
   };
   struct Past {
     std::vector<Known> samples;     // [n * n]
     std::vector<NearBlock> blocks;  // of the cloth
-    int motion = 0;                 // of the body, that `now` is of
+    int motion = 0;                 // of the body, to which `now` belongs
   };
   void find_near_blocks(const MovingCloth& cloth, const ContactBody& body, ThreadTeam& team);
   [[nodiscard]] Box3f box_of_block(const Planes3& at, int block) const;
@@ -77,15 +79,15 @@ class BodyContacts {
   [[nodiscard]] const NearBlock& block_of(const Past& past, int sample) const;
   [[nodiscard]] BlockMotion::Near near_of(const ContactBody& body, const NearBlock& block,
                                           Vec3d displacement) const;
-  /// How far records reach [m].
+  /// Largest distance that is cached. [m]
   [[nodiscard]] double farthest_known() const;
-  /// The closest point, if it matters; remembers what there was to be known.
+  /// The closest point of a body within `reach`, if any; updates the cached distance.
   std::optional<BodyPoint> find_closest(const ContactBody& body, const NearBlock& near, Vec3d start,
                                         double reach, Known& known) const;
 
   const SurfaceGrid& grid_;
   KeptGap kept_;
-  std::vector<char> kept_in_;  // by each body; empty: by none
+  std::vector<char> kept_in_;  // per body; empty: by none
   std::vector<Past> past_;     // of each body
   struct Marks {
     InsideMarks inside;         // [n * n]

@@ -21,7 +21,7 @@ double squared_distance(Vec3d p, const Box3f& box) {
   return x * x + y * y + z * z;
 }
 
-/// To four boxes at once, in single precision.
+/// Squared distances to four boxes at once, in single precision.
 template <class Boxes>
 std::array<float, 4> squared_distances(const std::array<float, 3>& p, const Boxes& boxes) {
   std::array<float, 4> sum{};
@@ -99,7 +99,7 @@ void BodyQuery::find_incident() {
   incident_.resize(static_cast<std::size_t>(starts_.back()));
   std::vector<int> next(starts_.begin(), starts_.end() - 1);
   for_corners([&](int point, int t) { incident_[next[point]++] = t; });
-  // Around an inner point every neighbour stands in two triangles.
+  // Around an inner point every neighbour is in two triangles.
   closed_ = true;
   std::vector<int> around;
   for (int p = 0; p < n * n && closed_; ++p) {
@@ -129,16 +129,17 @@ struct BodyQuery::Search {
     best.squared_distance = squared_reach;
     set_limit();
   }
-  /// A hair more than the best, so that of equally close ones every one is looked at.
+  /// Sets the limit slightly above the best distance, so that all of several equally close
+  /// triangles are tested.
   void set_limit() {
     const double most = (std::sqrt(best.squared_distance) + absolute_error) * (1 + rounding);
     limit = static_cast<float>(std::min(most * most * (1 + rounding), double{max_finite}));
   }
 
  private:
-  /// Several times that of single precision.
+  /// Several times the rounding of single precision.
   static constexpr double rounding = 1e-6;
-  /// What is missing is farther.
+  /// Less than the infinite distance of missing children.
   static constexpr float max_finite = 1e38F;
 };
 

@@ -19,16 +19,17 @@ struct BodyPoint {
   Vec3d position;                      ///< [m]
 };
 
-/// Closest points of one body, by its image's mip pyramid of boxes.
+/// Closest-point queries on one body, by the mip pyramid of boxes of its image.
 class BodyQuery {
  public:
   /// @param grid  kept by reference
   explicit BodyQuery(const SurfaceGrid& grid);
-  /// Takes the body's place. @param positions  [n x n] [m], kept by pointer
+  /// Fits the boxes to the body's positions.
+  /// @param positions  [n x n] [m], kept by pointer
   void place(const Planes3& positions, ThreadTeam& team);
 
-  /// Nothing where it is not closer than `reach`. Of equally close points that of the first
-  /// triangle.
+  /// The closest point of the body, or nothing where it is not closer than `reach`. Of equally
+  /// close points that of the first triangle.
   /// @param hint  a triangle that may be near, for speed: the answer does not depend on it; -1:
   /// none
   [[nodiscard]] std::optional<BodyPoint> closest(Vec3d point, double reach,
@@ -41,13 +42,13 @@ class BodyQuery {
   [[nodiscard]] Vec3d normal_at(const BodyPoint& point) const noexcept;
   /// Whether every edge has two triangles, so that the body has an inside.
   [[nodiscard]] bool closed() const { return closed_; }
-  /// Those (2 * cell + half) around a point, given by the sample that stands for its class.
+  /// Triangles (2 * cell + half) around a point, given by its representative sample.
   [[nodiscard]] std::span<const int> triangles_around(int point) const {
     return std::span(incident_).subspan(starts_[point], starts_[point + 1] - starts_[point]);
   }
 
  private:
-  /// The boxes of a node's children side by side: least x, y, z, then largest; what is missing is
+  /// Boxes of a node's children side by side: least x, y, z, then largest; a missing child is
   /// infinitely far.
   struct ChildBoxes {
     std::array<std::array<float, 4>, 3> lower, upper;

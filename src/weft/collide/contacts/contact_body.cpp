@@ -6,12 +6,13 @@
 namespace weft {
 namespace {
 
-/// Of the gap: how much of what is missing to it a step may win back, so that cloth that starts
-/// inside something is pushed out and not shot out.
+/// Largest lift in a step as a part of the gap, so that cloth that starts inside a body is pushed
+/// out slowly.
 constexpr double max_recovery = 0.25;
 
-/// How much closer a body's surface comes to a place that it slides past: what turns in place comes
-/// no closer, though each of its points dives away. Nothing where it leaves. [m]
+/// Approach of a body's surface to a place along a normal. A surface that slides or turns in place
+/// does not approach, though its points move. Nothing where the surface is out of reach at the end.
+/// [m]
 std::optional<double> approach_of(const ContactBody& body, const BodyPoint& at, Vec3d place,
                                   Vec3d normal, double reach) {
   const auto then = body.at_end->closest(place, reach);
@@ -65,7 +66,7 @@ std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& 
   put_offset(dot(normal, at.position + surface_displacement), gap, kept.gap, contact);
   contact.friction = static_cast<float>(pair_friction(kept.friction, body.friction));
   if (point.astray) {
-    // Nothing is pressed there: it is on its way back, a part of the gap in every step.
+    // No force presses there: the point is on its way back, by a part of the gap in every step.
     contact.offset += contact.lift;
     contact.lift = contact.friction = 0;
   }

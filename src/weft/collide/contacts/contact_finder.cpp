@@ -6,7 +6,8 @@
 namespace weft {
 namespace {
 
-/// Finer cloth bends round its thickness over several cells.
+/// Smallest rest spacing, in gaps, at which cells that share a corner get contacts: finer cloth
+/// bends round its thickness over several cells.
 constexpr double min_crease_in_gaps = 3;
 
 }  // namespace

@@ -11,8 +11,8 @@
 
 namespace weft {
 
-/// The stage that finds the contacts of a step's proposals: with bodies and the ground, with what
-/// of bodies is too sharp for samples, and between parts of cloth.
+/// The stage that finds the contacts of a step's proposals: of samples with bodies and the ground,
+/// of triangles with sharp points of bodies, and between parts of cloth.
 class ContactFinder {
  public:
   /// @param world  kept by reference
@@ -29,7 +29,7 @@ class ContactFinder {
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const {
     return found_[cloth].contacts;
   }
-  /// With bodies and the ground.
+  /// Contacts with bodies and the ground.
   [[nodiscard]] std::span<const Contact> hard_contacts(std::size_t cloth) const {
     return std::span(found_[cloth].contacts).first(found_[cloth].hard);
   }
@@ -38,7 +38,7 @@ class ContactFinder {
   [[nodiscard]] int self_contacts() const { return self_contacts_; }
 
  private:
-  /// Of one cloth.
+  /// Contacts of one cloth.
   struct Found {
     std::unique_ptr<CornerContacts> corners;
     std::vector<Contact> contacts{};  // hard ones first

@@ -6,11 +6,12 @@
 namespace weft {
 namespace {
 
-/// Of positions, and again of velocities.
+/// Largest number of passes over positions, and again over velocities.
 constexpr int max_passes = 8;
-/// Moving a point by less is no reason for another pass [m].
+/// Smaller displacements of points need no further pass [m].
 constexpr double settled = 1e-8;
-/// Of a position's length: what rounding may move a particle by that is held where it was.
+/// Rounding, as a part of a position's length: a sticking particle that moved by less returns to
+/// its start.
 constexpr double rounding = 2.5e-7;
 
 Vec3d along_surface(Vec3d displacement, Vec3d normal) {
@@ -38,7 +39,7 @@ int ContactResponse::respond(const MovingCloth& cloth, const PressedContacts& pr
   return count_touching();
 }
 
-/// Particles and points of contacts, as they are before the response.
+/// Collects the particles and points of contacts, before the response.
 void ContactResponse::collect(const MovingCloth& cloth, const PressedContacts& pressed,
                               double time_step) {
   const int n = cloth.position.size(), count = static_cast<int>(pressed.contacts.size());
@@ -63,7 +64,8 @@ void ContactResponse::collect(const MovingCloth& cloth, const PressedContacts& p
   }
 }
 
-/// Its particles are samples as yet. Samples of one class are one particle of added weights.
+/// Adds a contact's point, whose particles are representative samples as yet. Samples of one class
+/// are one particle of added weights.
 void ContactResponse::take_contact(int index, const Contact& contact) {
   Point& point = points_[index] = {};
   for (std::size_t i = 0; i < contact.samples.size(); ++i) {
@@ -100,7 +102,7 @@ void ContactResponse::place_point(const Contact& contact, double force_squared_s
   point.reference = start + point.surface_displacement;
   point.force_direction = force_squared_step * point.compliance;
   point.hold = point.friction * point.force_direction;
-  // Of an obstacle's contact weights sum to 1, between parts of the cloth to 0.
+  // Weights of a contact with an obstacle sum to 1, between parts of the cloth to 0.
   point.obstacle = sum > 0.5;
 }
 
@@ -142,7 +144,7 @@ void ContactResponse::count(int particle) {
 }
 
 /// Computes the impulse of a point: h^2 times a force for positions, h times one for velocities.
-/// @return the length of what it would move the point by, were it the only one
+/// @return length of the point's displacement by this impulse alone
 double ContactResponse::push_out(Point& point) const {
   point.impulse = {};
   double push_compliance = 0, hold_compliance = 0;  // of particles whose mass is divided
@@ -183,7 +185,8 @@ void ContactResponse::move(Field field, int particle) {
     moved.*field += (moved.inverse_mass * double{use.weight}) * points_[use.contact].impulse;
 }
 
-/// What neither pressed nor was pushed leaves velocities alone.
+/// Prepares a point for the velocity passes. Contacts that neither pressed nor were pushed leave
+/// velocities alone.
 void ContactResponse::turn_to_velocities(double time_step, Point& point) {
   const bool touches = point.pushed || point.force_direction > 0;
   point.reference = (1 / time_step) * point.surface_displacement;
@@ -194,7 +197,7 @@ void ContactResponse::turn_to_velocities(double time_step, Point& point) {
   point.stuck = point.sticks;
 }
 
-/// Writes a particle back, to the very place it had when all that moved it off was rounding.
+/// Writes a particle back; one that sticks and has moved by rounding alone gets exactly its start.
 void ContactResponse::write_back(const MovingCloth& cloth, int particle, double time_step) const {
   const Particle& done = particles_[particle];
   if (!(done.inverse_mass > 0)) return;

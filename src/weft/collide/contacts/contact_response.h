@@ -10,23 +10,23 @@
 
 namespace weft {
 
-/// Contacts of one cloth, and what is known of how hard they press.
+/// Contacts of one cloth and their normal forces.
 struct PressedContacts {
   std::span<const Contact> contacts;
-  std::span<const float> forces;  ///< normal, in the same order; empty: nothing is known [N]
+  std::span<const float> forces;  ///< normal forces, in the same order; empty: unknown [N]
 };
 
-/// What contacts of any number of samples do to a cloth at the end of a step, be they solved for or
-/// not: what is beyond its half-space is pushed out by inverse masses and stops moving inwards;
-/// then Coulomb's friction takes back the tangential motion that the contact's point made in the
-/// step, less the obstacle's slide. That is all of it when its length is at most
+/// Contact response at the end of a step, whether the contacts were solved for or not. A point
+/// beyond its half-space is pushed out by inverse masses and loses its inward velocity; then
+/// Coulomb friction takes back the tangential displacement of the contact's point in the step
+/// relative to the obstacle. That is all of it when its length is at most
 ///   mu (force h^2 / m + depth pushed),   1 / m = sum of w_i^2 / m_i,
-/// so that what sticks is where it was, without creep; else so much of it. Velocities lose alike.
-/// The start of the step is friction's anchor: nothing is carried over to the next step.
+/// so that sticking contacts do not creep; else this much of it. Velocities lose the same. The
+/// start of the step is friction's anchor: nothing is carried over to the next step.
 ///
-/// All contacts at once, a fixed number of times at most [tonge12: a particle's mass is divided
-/// among its contacts, which keeps momentum and converges]. Mates stay bit-equal and pins where
-/// they are. Results are the same for any team; nothing allocates once warmed up.
+/// All contacts are relaxed at once, in a bounded number of passes [tonge12: a particle's mass is
+/// divided among its contacts, which keeps momentum and converges]. Mates stay bit-equal and pins
+/// where they are. Results are the same for any team; nothing allocates once warmed up.
 class ContactResponse {
  public:
   /// @param mates  kept by reference
@@ -41,24 +41,24 @@ class ContactResponse {
     int sample = 0;  // representative
     double inverse_mass = 0;
     Vec3d start, position, velocity;
-    int pushers = 0, holders = 0;  // contacts at work on it
+    int pushers = 0, holders = 0;  // contacts that push it, or hold it by friction
   };
-  /// A contact's point, and what has been done to it.
+  /// A contact's point and its response so far.
   struct Point {
     std::array<int, 4> particles{};
     std::array<double, 4> weights{};  // those that are 0 come last
     Vec3d normal, surface_displacement;
     double friction = 0, compliance = 0;  // sum of w^2 / m [1/kg]
     double target = 0;                    // least n . value
-    double lift = 0;                      // left of the contact's
-    Vec3d reference, value;               // what friction would restore, what is
+    double lift = 0;                      // rest of the contact's lift
+    Vec3d reference, value;               // value that friction would restore, present value
     double depth = 0;                     // target - n . value
-    double force_direction = 0;           // what the force moved it by [m]
-    double hold = 0;                      // most that friction may take
-    Vec3d held;                           // what it took
+    double force_direction = 0;           // displacement by the force [m]
+    double hold = 0;                      // limit of the displacement that friction takes back
+    Vec3d held;                           // what friction has taken back
     Vec3d impulse;
     bool gains = true;                   // whether being pushed adds to hold
-    bool sticks = false, stuck = false;  // now; when positions were done
+    bool sticks = false, stuck = false;  // now; after the position passes
     bool pushed = false, obstacle = false;
 
     [[nodiscard]] bool holds() const { return hold > 0 || (gains && friction > 0 && depth > 0); }
@@ -68,11 +68,11 @@ class ContactResponse {
   void collect(const MovingCloth& cloth, const PressedContacts& pressed, double time_step);
   void take_contact(int index, const Contact& contact);
   void place_point(const Contact& contact, double force_squared_step, Point& point) const;
-  /// What passes need.
+  /// Parameters of the relaxation passes.
   struct RelaxationPasses {
     Field field;
     int first_pass = 0;  // in busy_
-    double hair = 0;     // moving no point by more counts as rest
+    double hair = 0;     // smaller displacements of points count as rest
   };
   void relax(const RelaxationPasses& relaxation, Worker& worker);
   void evaluate_depth(Field field, Point& point) const;

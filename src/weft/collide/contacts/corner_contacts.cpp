@@ -12,9 +12,9 @@ namespace {
 
 /// A triangle's samples are about this many rest spacings from a point that its inside touches.
 constexpr double aside_in_spacings = 0.5;
-/// And hold nothing farther than this many gaps from a surface.
+/// Samples farther than this many gaps from a surface have no contact with it.
 constexpr double away_in_gaps = 1.5;
-/// A point that is so much of one sample has that one's contact.
+/// Weight of one sample above which that sample's own contact serves.
 constexpr double nearly_all = 0.99;
 
 using Corners = std::array<Vec3d, 3>;
@@ -37,7 +37,7 @@ PathBox path_of(Vec3f start, Vec3f end) {
           {end.x, end.y, end.z}};
 }
 
-/// Calls visit(node) for the cells below a node whose way down near(node) marks.
+/// Calls visit(node) for the cells reached from a node by the children that near(node) marks.
 template <class Near, class Visit>
 void for_near_cells(const Node& node, const Near& near, const Visit& visit) {
   if (node.level == 0) return visit(node);
@@ -119,8 +119,8 @@ void CornerContacts::find_touches_of(const Search& search, int point,
     for (const int triangle : {2 * cell, 2 * cell + 1})
       try_triangle(search, {triangle, point}, out);
   });
-  // An edge counts where it is closest of both its triangles: otherwise the way to it may lie along
-  // the cloth, where a push would strain it.
+  // An edge counts where it is the closest part of both its triangles: otherwise the direction to
+  // it may lie along the cloth, where a push would strain it.
   const auto twin = [&](const Touch& touch) {
     return std::any_of(out.begin() + first, out.end(), [&](const Touch& t) {
       return t.edge == touch.edge && t.triangle > touch.triangle;
@@ -165,7 +165,7 @@ void CornerContacts::make_contact(const Search& search, const Touch& touch,
   const Corners start = corners_at(search.step.cloth.start, samples);
   std::array<double, 3> w =
       closest_weights(vec_cast<double>(search.body.start->at(touch.point)), start);
-  // From the sharp point to where both surfaces are closest, by turns.
+  // Alternates projections, from the sharp point towards the closest points of both surfaces.
   const double reach = std::sqrt(touch.squared_distance) + kept_.gap;
   std::optional<BodyPoint> at;
   int near = search.body.query->triangles_around(touch.point).front();

@@ -12,10 +12,10 @@
 
 namespace weft {
 
-/// Contacts of the insides of a cloth's triangles with corners and edges of bodies that are sharper
-/// than the cloth's samples are dense. What is sharp is decided once, by a body's shape; each sharp
-/// point then looks for triangles down the cloth's mip pyramid. A triangle and a body have one
-/// contact at most, between points of them that are as close as any nearby.
+/// Finds contacts between the insides of a cloth's triangles and sharp points of bodies, on corners
+/// and edges that are sharper than the cloth's samples are dense. Sharp points are chosen once,
+/// from a body's shape; in a step each descends the cloth's mip pyramid to the triangles near it. A
+/// triangle and a body have one contact at most, between locally closest points.
 class CornerContacts {
  public:
   /// @param grid  kept by reference
@@ -23,12 +23,12 @@ class CornerContacts {
   /// Learns the sharp points of the next body. @param body  placed at `shape`
   void add_body(const SurfaceGrid& grid, const BodyQuery& body, const Planes3& shape);
 
-  /// What is known of the cloth in a step.
+  /// State of the cloth in a step.
   struct Step {
     const MovingCloth& cloth;
     const InsideMarks& inside;             ///< triangles with samples inside a body are left alone
-    const PathBoxLevels* boxes = nullptr;  ///< of the cloth; null: not known yet
-    float aside = 0;                       ///< how far the cloth may be beyond them [m]
+    const PathBoxLevels* boxes = nullptr;  ///< of the cloth; null: fitted here
+    float aside = 0;                       ///< how far the cloth may be outside the boxes [m]
   };
   /// @param bodies  in the order in which they were added
   void find(const Step& step, std::span<const ContactBody> bodies, ThreadTeam& team);
@@ -43,7 +43,7 @@ class CornerContacts {
     std::array<int, 2> edge{-1, -1};  // its ends, where the closest point lies on one
     bool counts = true;
   };
-  /// With how near children of nodes are told apart.
+  /// Parameters of one search.
   struct Search {
     Step step;
     const ContactBody& body;
@@ -60,10 +60,10 @@ class CornerContacts {
   const SurfaceGrid& grid_;
   KeptGap kept_;
   double spacing_;                       // [m]
-  std::vector<char> kept_in_;            // by each body; empty: by none
+  std::vector<char> kept_in_;            // per body; empty: by none
   std::vector<std::vector<int>> sharp_;  // of each body
   bool any_sharp_ = false;
-  PathBoxLevels boxes_;  // where nobody else has them
+  PathBoxLevels boxes_;  // where the broad phase has none
   ChunkedLists<std::vector<Touch>> near_;
   std::vector<Touch> touches_;
   ChunkedLists<std::vector<Contact>> found_;

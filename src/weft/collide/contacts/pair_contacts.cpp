@@ -9,16 +9,17 @@
 namespace weft {
 namespace {
 
-/// Layers press on each other like soft springs, of this part of the stiffness that inertia has
-/// against a step: hard ones of many layers, linearised anew each step, could hardly be satisfied
-/// together, and strained the cloth by several percent. What they do not stop the filter does.
+/// Stiffness of contacts between layers relative to the inertia of their points in a step. Hard
+/// contacts of many layers, linearised anew each step, could hardly be satisfied together and
+/// strained the cloth by several percent. The filter stops what these soft ones do not.
 constexpr double softness = 100;
-/// Of the gap, what edges that cross in layers lying flat on each other keep, which samples and
-/// triangles hold apart as a rule; and the two sides of a crease, which bending does.
+/// Cosine between the normals of cells from which on layers count as lying flat on each other; and
+/// the part of the gap kept by edges of such layers, which samples and triangles hold apart as a
+/// rule, and by the two sides of a crease, which bending holds apart.
 constexpr float flat = 0.8F;
 constexpr double worn = 0.5;
-/// What is no farther apart than so many gaps along the cloth cannot lie on itself: it would have
-/// to turn within half a gap, which is bending's affair.
+/// Cells no farther apart along the cloth than this many gaps get no contact: the cloth would have
+/// to turn within half a gap to lie on itself, which bending prevents.
 constexpr double beside_in_gaps = 3;
 
 /// One side of a contact: up to three samples of a cloth with weights that sum to 1.
@@ -34,7 +35,7 @@ struct Side {
     return sum;
   }
   [[nodiscard]] Vec3d start() const { return mean(cloth->start); }
-  /// How far the point gives way to an impulse. [1/kg]
+  /// Inverse effective mass of the point. [1/kg]
   [[nodiscard]] double compliance() const {
     double sum = 0;
     const int n = cloth->start.size();
@@ -45,13 +46,13 @@ struct Side {
   [[nodiscard]] Vec3d displacement() const { return mean(cloth->position) - start(); }
 };
 
-/// What stands against one side: where, and how it moves.
+/// The half-space against one side: its offset and how it moves.
 struct Plane {
   double offset;
   Vec3d surface_displacement;
 };
 
-/// Looks at one pair of cells after the other and collects contacts.
+/// Collects the contacts of one pair of cells after the other.
 class Finder {
  public:
   Finder(const ClothPair& pair, const PairLists& lists) : pair_(pair), lists_(lists) {}
@@ -74,7 +75,7 @@ class Finder {
   }
 
  private:
-  /// Cells that share a corner fold onto each other at the crease only.
+  /// Whether two cells share a corner: they fold onto each other at the crease only.
   static bool adjacent(const CandidateCell& a, const CandidateCell& b) {
     if (a.next_to(b)) return true;
     if (!a.is_border() || !b.is_border()) return false;
@@ -84,7 +85,8 @@ class Finder {
     });
   }
 
-  /// Whether the way from one to the other along a row and a column is shorter than that, at rest.
+  /// Whether the distance between two cells along a row and a column at rest is at most
+  /// beside_in_gaps.
   [[nodiscard]] bool beside(const CandidateCell& a, const CandidateCell& b) const {
     if (pair_.rest == nullptr) return false;
     const double limit = beside_in_gaps * pair_.gap;
@@ -106,7 +108,7 @@ class Finder {
 
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }
 
-  /// What starts farther apart makes no contact.
+  /// Distance at the start beyond which there is no contact. [m]
   [[nodiscard]] float near(const CellGaps& gaps) const {
     return static_cast<float>(contact_margin * gap_ + gaps.max_approach()) + gaps.margin();
   }
@@ -134,8 +136,8 @@ class Finder {
         closest_weights(vec_cast<double>(cloth(swapped).start.at(sample)),
                         {vec_cast<double>(at.at(triangle[0])), vec_cast<double>(at.at(triangle[1])),
                          vec_cast<double>(at.at(triangle[2]))});
-    // Before an edge or a corner the way to it may lie along the cloth, where a push would strain
-    // it: that is left to edges and to the filter.
+    // Where an edge or a corner is closest the direction to it may lie along the cloth, where a
+    // push would strain it: that is left to edges and to the filter.
     if (std::any_of(weights.begin(), weights.end(), [](double w) { return !(w > 0); })) return;
     add({&cloth(swapped), {sample, sample, sample}, {1, 0, 0}},
         {&cloth(!swapped), triangle, weights}, swapped);
@@ -211,7 +213,7 @@ class Finder {
     }
   }
 
-  /// With both sides in it.
+  /// Contact with both sides in it.
   [[nodiscard]] Contact joint(const Side& own, const Side& other, Vec3d normal) const {
     Contact contact;
     contact.weights = {};

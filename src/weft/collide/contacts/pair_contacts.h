@@ -11,33 +11,35 @@
 
 namespace weft {
 
-/// What a pair of surfaces is to contacts: both are cloths, perhaps one and the same.
+/// A pair of cloths, or a cloth with itself, for contact search.
 struct ClothPair {
   const SurfaceGrid *grid_a = nullptr, *grid_b = nullptr;
   const MovingCloth *a = nullptr, *b = nullptr;
   int number_a = 0, number_b = 0;       ///< of the cloths; equal: one and the same
-  const Planes3* rest = nullptr;        ///< of one and the same, see CollidingCloth [m]
+  const Planes3* rest = nullptr;        ///< of a cloth with itself, see CollidingCloth [m]
   double gap = 0;                       ///< that is kept [m]
   double friction = 0;                  ///< of the pair
   double time_step = 0;                 ///< [s]
-  bool creases = false;                 ///< whether cells that share a corner press, too
+  bool creases = false;                 ///< whether cells that share a corner get contacts
   const TangleMarks* tangle = nullptr;  ///< where they cross; else null
   [[nodiscard]] bool same() const { return number_a == number_b; }
 };
 
-/// Where contacts of a pair go.
+/// Output lists for the contacts of a pair.
 struct PairLists {
   std::vector<Contact>&of_a, &of_b;
-  std::vector<SharedContact>* shared = nullptr;  ///< null: each cloth gets its own side
+  std::vector<SharedContact>* shared = nullptr;  ///< null: each cloth gets a half-space
 };
 
-/// Contacts between parts of cloths that come closer than their gap during a step: samples and
-/// triangles, and edges that cross at an angle, as they were closest at the start of the step. Each
-/// belongs to one pair of cells: a sample to the cell that it begins, and so does an edge.
+/// Finds contacts between parts of cloths that come closer than the contact margin during a step:
+/// of samples with triangles, and of edges that cross at an angle, between their closest points at
+/// the start of the step. Each belongs to one pair of cells: samples and edges belong to the cell
+/// that they begin.
 class PairContacts {
  public:
-  /// Contacts of a cloth with itself go to `of_a` with both sides in them; of two cloths they are
-  /// shared, or each gets its own side, against a plane that moves as both do on the mean.
+  /// Appends contacts. Those of a cloth with itself go to `of_a` with both sides in them; those of
+  /// two cloths are shared, or each cloth gets a half-space that moves with the mean motion of both
+  /// sides.
   void find(const ClothPair& pair, std::span<const CandidatePair> cells, ThreadTeam& team,
             const PairLists& lists);
 

@@ -8,11 +8,11 @@
 
 namespace weft {
 
-/// One of two cells between which contacts are looked for.
+/// One of the two cells of a contact search.
 struct CandidateCell {
   const SurfaceGrid* grid;
   int cell;
-  bool second;  ///< of the two
+  bool second;  ///< whether it is the second of the two
   std::array<int, 4> samples;
 
   CandidateCell(const SurfaceGrid& of, int number, bool is_second)
@@ -42,10 +42,10 @@ struct CandidateCell {
   }
 };
 
-/// A triangle as it is seen in single precision, for what need not be looked at closely.
+/// A triangle in single precision, for tests that spare the exact one.
 struct CandidateTriangle {
   Vec3f origin, first, second, across;
-  float area;  ///< twice
+  float area;  ///< twice its area
 
   CandidateTriangle(const CellGaps& gaps, bool of_second, const std::array<int, 3>& corners)
       : origin(gaps.start(of_second, corners[0])),
@@ -53,7 +53,8 @@ struct CandidateTriangle {
         second(gaps.start(of_second, corners[2]) - origin),
         across(cross(first, second)),
         area(std::sqrt(squared_length(across))) {}
-  /// Whether a point can lie above the inside and as near as that, rounding aside.
+  /// Whether a point may lie above or below the inside of the triangle within `near`, rounding
+  /// allowed for. [m]
   [[nodiscard]] bool may_hold(Vec3f point, float near) const {
     constexpr float hair = 1e-3F;
     const Vec3f from = point - origin;
@@ -64,7 +65,7 @@ struct CandidateTriangle {
   }
 };
 
-/// An edge of a cell in the same way.
+/// An edge of a cell in single precision, for tests that spare the exact one.
 struct CandidateEdge {
   std::array<int, 2> samples{};
   Vec3f origin, along;
@@ -74,8 +75,8 @@ struct CandidateEdge {
     const Vec3f p = gaps.start(cell.second, corners[0]), q = gaps.start(cell.second, corners[1]);
     return {{cell.samples[corners[0]], cell.samples[corners[1]]}, p, q - p};
   }
-  /// Whether two edges can be closest to each other inside of both and as near as that, rounding
-  /// aside.
+  /// Whether the closest points of two edges may lie inside both and within `near`, rounding
+  /// allowed for. [m]
   [[nodiscard]] bool may_cross(const CandidateEdge& other, float near) const {
     constexpr float hair = 1e-3F;
     const Vec3f from = origin - other.origin;

@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-/// Ways across which the surface is looked for, both forth and back.
+/// Number of tangential directions in which the surface is probed, each forth and back.
 constexpr int ways = 4;
 
 /// Any unit vector across a unit vector.
@@ -43,7 +43,7 @@ class Judge {
       for (const int s : grid_.triangle(triangle / 2, triangle % 2))
         if (grid_.point(s) != point) visit(grid_.point(s));
   }
-  /// There a neighbour stands in one triangle only.
+  /// Whether a point is on the rim, where a neighbour is in one triangle only.
   [[nodiscard]] bool on_rim(int point) const {
     if (body_.closed()) return false;
     bool rim = false;
@@ -57,8 +57,8 @@ class Judge {
   [[nodiscard]] bool stands_out(int point, Vec3d n) const {
     return may_fall_back(point, n) && away_on_both_sides(point, n);
   }
-  /// Whether the neighbours, taken for points of a cone or of a sphere, leave it open that the
-  /// surface falls back far enough: most of a body is told apart so.
+  /// Quick test whether the surface may fall back far enough, with the neighbours taken for points
+  /// of a cone or of a sphere: it rules most points of a body out.
   [[nodiscard]] bool may_fall_back(int point, Vec3d n) const {
     double most = 0;
     for_neighbours(point, [&](int neighbour) {

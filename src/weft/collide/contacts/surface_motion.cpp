@@ -42,7 +42,7 @@ void SurfaceMotion::measure(const Planes3& start, const Planes3& end,
       point.normal = 0.5 * (from + to);
       point.approach = std::abs(dot(point.normal, point.displacement));
       point.turn = length(to - from);
-      // The more they lean, the shorter the sum of their areas.
+      // The more the triangles tilt, the shorter the sum of their area vectors.
       const double lost = sums_[s].size > 0 ? 1 - length(sums_[s].from) / sums_[s].size : 0;
       point.slant = 2 * std::sqrt(2 * std::max(0.0, lost));
     }

@@ -9,25 +9,28 @@
 
 namespace weft {
 
-/// How the points of a body's surface move in a step, as what is before it sees them. Normals are
-/// means of the triangles around a point by their areas: slivers, as images have some, count
-/// little.
+/// Motion of a body's surface in a step along its normals, as obstacles before it meet it. Normals
+/// are means over the triangles around a point, weighted by area: slivers, as images have some,
+/// count little.
 class SurfaceMotion {
  public:
-  /// @param start, end  [n x n] [m]  @param triangles  by samples that stand for their classes
+  /// Measures all points.
+  /// @param start, end  [n x n] [m]
+  /// @param triangles  corners as representative samples
   void measure(const Planes3& start, const Planes3& end, std::span<const Triangle> triangles,
                ThreadTeam& team);
-  /// How far a point comes closer to what is before it, or leaves: its way along the mean of its
-  /// normals at both ends. What slides along itself, as a ball that turns in place, does not. [m]
+  /// Approach of a point: the absolute value of its displacement along the mean of its normals at
+  /// both ends. A surface that slides along itself, as a ball that turns in place, has none. [m]
   [[nodiscard]] double approach(int sample) const { return points_[sample].approach; }
-  /// The same to what goes along by `way`, and what the slant of the triangles around may add as
-  /// they slide past it.
+  /// Approach of a point to one that moves by `displacement`, with what the slant of the triangles
+  /// around it may add as they slide past. [m]
   [[nodiscard]] double approach(int sample, Vec3d displacement) const;
-  /// How much its normal turns: nearly the angle, as long as it is small. [rad]
+  /// Rotation of a point's normal in the step: nearly the angle, as long as it is small. [rad]
   [[nodiscard]] double turn(int sample) const { return points_[sample].turn; }
-  /// The mean of its normals at both ends, and not unit.
+  /// Mean of a point's normals at both ends, not unit.
   [[nodiscard]] Vec3d normal(int sample) const { return points_[sample].normal; }
-  /// How much the triangles around lean to its normal: the part of a slide that they may approach.
+  /// Slant of the triangles around a point against its normal: the part of a sliding displacement
+  /// by which they may approach.
   [[nodiscard]] double slant(int sample) const { return points_[sample].slant; }
 
  private:
@@ -38,7 +41,7 @@ class SurfaceMotion {
   struct Point {
     Vec3d displacement, normal;  // the mean of both ends'
     double approach = 0, turn = 0;
-    double slant = 0;  // sine of what triangles lean to it, twice their root mean square
+    double slant = 0;  // sine of the triangles' tilt against it, twice the root mean square
   };
   std::vector<Areas> triangles_;  // twice the area along the normal
   std::vector<Areas> sums_;       // [n * n]

@@ -23,7 +23,7 @@ MovingFeature moving_feature(const PlaneSide& side, const Samples& samples, int 
   return feature;
 }
 
-/// Corners of a cell, by number.
+/// Numbers of a triangle's corners in its cell.
 using CellCorners = std::array<int, 3>;
 
 class Finder {
@@ -35,7 +35,7 @@ class Finder {
     if (search_.new_points != nullptr && !is_new(search_.a, cells.a) && !is_new(search_.b, cells.b))
       return;
     const CellGaps gaps(search_.a.surface, cells.a, search_.b.surface, cells.b);
-    // Whatever their points do within the slack: spares looking at their triangles.
+    // Cells that stay apart within the slack need no test of their triangles.
     if (gaps.apart(0, (search_.b.body ? 1 : 2) * search_.options.slack)) return;
     const SurfaceGrid &a = *search_.a.surface.grid, &b = *search_.b.surface.grid;
     samples_a_ = a.corners(cells.a);
@@ -64,7 +64,7 @@ class Finder {
     });
   }
 
-  /// A triangle of a cell, or the edge of it that is left without its first corner.
+  /// A triangle of a cell, or the edge opposite its first corner (`first` is 1).
   struct Part {
     const PlaneSide* side;
     bool second;  // of the two cells
@@ -83,7 +83,8 @@ class Finder {
     if (shared > 1) return;
     const Part part_a{&search_.a, false, a}, part_b{&search_.b, true, b};
     if (shared == 0) return look_at(gaps, part_a, part_b);
-    // Two triangles whose first corner is one point: the far edge of one with the other as a whole.
+    // Both triangles have their shared point first: each one's opposite edge with the other as a
+    // whole.
     look_at(gaps, {part_a.side, false, a, 1}, part_b);
     look_at(gaps, {part_b.side, true, b, 1}, part_a);
   }
@@ -97,8 +98,8 @@ class Finder {
     return moving_feature(*part.side, {samples[1], samples[2], 0}, 2);
   }
 
-  /// Whether the way between their middles certainly keeps the two apart, as neighbours in a layer
-  /// nearly always lie; told in single precision.
+  /// Whether the direction between their centroids certainly separates two parts, as it nearly
+  /// always does for neighbours in a layer; tested in single precision.
   [[nodiscard]] bool beside(const CellGaps& gaps, const Part& a, const Part& b) const {
     const auto start = [&](const Part& part, std::size_t k) {
       return gaps.start(part.second, part.corners[k]);
@@ -117,7 +118,7 @@ class Finder {
     if (of.first == 1) return 0.5F * (at(of, 1) + at(of, 2));
     return (1.0F / 3) * (at(of, 0) + at(of, 1) + at(of, 2));
   }
-  /// How far a part lies beyond another along a direction, times its length.
+  /// Gap of part a beyond part b along a direction, times the direction's length.
   template <class At>
   static float gap_along(Vec3f displacement, const Part& a, const Part& b, const At& at) {
     float least = dot(displacement, at(a, a.first)), most = dot(displacement, at(b, b.first));
@@ -128,7 +129,7 @@ class Finder {
     return least - most;
   }
 
-  /// @return how many points two triangles share; the (last) one comes first in both
+  /// @return how many points two triangles share, 2 for more; a single one comes first in both
   int bring_shared_first(CellCorners& a, CellCorners& b) const {
     int shared = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -141,7 +142,8 @@ class Finder {
     return shared;
   }
 
-  /// Of layers that come through each other: what keeps them apart would keep them there.
+  /// Whether two triangles belong to layers that cross: a plane between them would keep them
+  /// crossed.
   [[nodiscard]] bool entangled(const Samples& a, const Samples& b) const {
     return search_.tangle != nullptr &&
            TangleMarks::entangled(search_.tangle->of(0, *search_.a.surface.grid, a),
@@ -161,7 +163,7 @@ class Finder {
 
   const PlaneSearch& search_;
   std::vector<SeparatingPlane>& out_;
-  // Of the corners of the two cells that are looked at:
+  // Corners of the current pair of cells:
   std::array<int, 4> samples_a_{}, samples_b_{}, points_a_{}, points_b_{};
 };
 

@@ -6,8 +6,8 @@
 namespace weft {
 namespace {
 
-/// What one side's slowing and the other's hastening sum up to at a common speed: momentum that is
-/// gained less momentum that is lost, and the mass that takes part.
+/// Momentum balance of both sides at a common speed: momentum gained less momentum lost, and the
+/// mass of the points that change speed.
 struct Balance {
   double momentum = 0, mass = 0;
 };
@@ -24,7 +24,8 @@ Balance balance_at(const ImpactSides& sides, double speed) {
   return balance;
 }
 
-/// Where the balance, which grows with the speed and is linear between the points' own, vanishes.
+/// Common speed at which the balance vanishes. The balance grows with the speed and is linear
+/// between the points' own speeds.
 double free_speed(const ImpactSides& sides, double lowest, double highest) {
   double below = lowest, above = highest;
   for (int k = 0; k < sides.count_a + sides.count_b; ++k) {
@@ -41,7 +42,8 @@ double free_speed(const ImpactSides& sides, double lowest, double highest) {
 
 void strike(ImpactSides& sides) noexcept {
   double slowest = HUGE_VAL, fastest = sides.count_b > 0 ? -HUGE_VAL : sides.body_speed;
-  // Nothing of side a goes beyond what is held of it, nothing of side b before it.
+  // Held points of side a bound the common speed from above; those of side b, or a body, from
+  // below.
   double held_a = HUGE_VAL, held_b = sides.count_b > 0 ? -HUGE_VAL : sides.body_speed;
   for (int k = 0; k < sides.count_a + sides.count_b; ++k) {
     const auto [speed, inverse_mass] = sides.points[k];

@@ -4,10 +4,10 @@
 
 namespace weft {
 
-/// One point of a side of an impact, along the normal from side b to side a.
+/// One point of an impact; speeds are along the normal from side b to side a.
 struct ImpactPoint {
   double speed = 0;         ///< [m/s]
-  double inverse_mass = 0;  ///< 0: held, goes as it does [1/kg]
+  double inverse_mass = 0;  ///< 0: held, keeps its speed [1/kg]
 };
 
 /// Both sides of an impact. Side b without points is a body.
@@ -17,10 +17,10 @@ struct ImpactSides {
   double body_speed = 0;  ///< of side b where it is a body [m/s]
 };
 
-/// Lets the sides strike each other without bouncing: whatever of side a goes slower along the
-/// normal, and of side b faster, than one common speed goes at that. It is the one at which side a
-/// gains the momentum that side b loses; before a body, and before what is held, it is theirs.
-/// Nothing happens between sides that do not approach each other.
+/// Inelastic impact of two sides. Points of side a that are slower along the normal than a common
+/// speed, and points of side b that are faster, take that speed. It is the speed at which side a
+/// gains the momentum that side b loses; against a body or held points it is theirs. Sides that do
+/// not approach each other keep their speeds.
 void strike(ImpactSides& sides) noexcept;
 
 }  // namespace weft

@@ -9,7 +9,7 @@ namespace {
 /// Rounding of single precision, relative to the size of positions, generously.
 constexpr double rounding = 1e-6;
 
-/// The sample for which something is largest, the first of several.
+/// The sample with the largest measure, the first of several.
 template <class Measure>
 int largest(int count, const Measure& measure) {
   int best = 0;
@@ -22,7 +22,7 @@ int largest(int count, const Measure& measure) {
   return best;
 }
 
-/// Three axes by three samples: towards the second, in their plane, across it.
+/// Orthonormal frame of three samples: towards the second, in their plane, normal to it.
 std::array<Vec3d, 3> frame(const Planes3& at, const std::array<int, 3>& samples) {
   const auto p = [&](std::size_t k) { return vec_cast<double>(at.at(samples[k])); };
   const Vec3d along = normalized(p(1) - p(0));
@@ -67,13 +67,13 @@ double fading(double distance, double near, double far) {
   return t * t * (3 - 2 * t);
 }
 
-/// Mean of shifts, the nearer things counting more.
+/// Weighted mean of the shifts of nearby obstacles; nearer ones count more.
 class Shift {
  public:
-  /// @param reach  where it begins to count [m]
+  /// @param reach  distance from which on it does not count [m]
   void add(double distance, double reach, Vec3d shift) {
     if (distance >= reach) return;
-    constexpr double nearest = 1e-5;  // lest it be infinite [m]
+    constexpr double nearest = 1e-5;  // keeps the weight finite [m]
     const double closeness = 1 / (nearest + distance) - 1 / (nearest + reach);
     const double weight = closeness * closeness;
     sum_ += weight * shift;

@@ -10,7 +10,7 @@
 
 namespace weft {
 
-/// A turn and a shift.
+/// A rigid motion: a rotation, then a translation.
 struct RigidMotion {
   std::array<Vec3d, 3> rows;  ///< of the rotation
   Vec3d shift;                ///< [m]
@@ -19,23 +19,25 @@ struct RigidMotion {
   }
 };
 
-/// The rigid motion that takes a surface from start to end, or nothing where none takes all its
-/// samples there but for rounding. @param start, end  of one size [m]
+/// The rigid motion that maps a surface's start positions to its end positions, or nothing where
+/// none does up to rounding.
+/// @param start, end  of one size [m]
 [[nodiscard]] std::optional<RigidMotion> rigid_motion(const Planes3& start, const Planes3& end);
 
-/// What refuges are looked for among.
+/// Obstacles around a cloth and the ranges within which they shift safe positions.
 struct SafePositionSurroundings {
   std::span<const ContactBody> bodies;
   const BodyContacts::Ground* ground = nullptr;  ///< none: null
-  double carried = 0;   ///< so far from a body all goes wholly along with it [m]
-  double reached = 0;   ///< so far from a body nothing goes along; more than `carried` [m]
-  bool slides = false;  ///< along bodies nothing goes with them, only towards and away from them
-  double held = 0;      ///< so far what stands still holds back what goes along [m]
+  double carried = 0;   ///< distance to a body up to which points follow it fully [m]
+  double reached = 0;   ///< distance from which on none follow it; more than `carried` [m]
+  bool slides = false;  ///< points follow bodies along normals only, not along the surface
+  double held = 0;      ///< range in which resting obstacles reduce the shift [m]
 };
 
-/// Finds where a cloth is free at the end of a step whatever else happens in it: where it started,
-/// carried along with the bodies that move close to it. The shift changes slowly from place to
-/// place, so that what did not meet at the start does not meet there either.
+/// Finds safe positions of a cloth: where its points do not meet anything at the end of a step,
+/// whatever the others do. A safe position is the point's start, shifted along with the bodies that
+/// move close to it. The shift changes slowly in space, so that what did not meet at the start does
+/// not meet there either.
 class SafePositions {
  public:
   /// @param start   [n x n] [m]
@@ -44,7 +46,7 @@ class SafePositions {
             Planes3& safe_position, ThreadTeam& team);
 
  private:
-  /// A body in motion, for what is near it.
+  /// A body with its motion, which points near it follow.
   struct Carrier {
     const ContactBody* body = nullptr;
     std::optional<RigidMotion> rigid;

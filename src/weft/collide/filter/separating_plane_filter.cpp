@@ -6,10 +6,11 @@
 namespace weft {
 namespace {
 
-/// Turns over all planes of a point; where they meet at sharp angles more would be needed, and the
-/// point is stopped instead.
+/// Largest number of projection sweeps over the planes of a point. Where planes meet at sharp
+/// angles more would be needed, and the point is stopped instead.
 constexpr int max_turns = 12;
-/// Put this much farther than a plane asks for, in its margins, so that rounding keeps to it.
+/// Points are projected this much farther than a plane prescribes, relative to 1 + |offset| and
+/// within the plane's margin, against rounding.
 constexpr double overshoot = 0.5e-6;
 
 }  // namespace
@@ -95,7 +96,7 @@ bool SeparatingPlaneFilter::stop(int involved, std::span<const SeparatingPlane> 
     if (at_end > 0 && at_end > at_safe_position)
       share = std::min(share, -at_safe_position / (at_end - at_safe_position));
   }
-  // A little less, lest rounding puts it beyond.
+  // A little less, so that rounding does not put it beyond a plane.
   const Vec3f rounded = vec_cast<float>(safe_position + (0.9 * std::max(0.0, share)) * distance);
   point.end =
       share > 0 && satisfies_all(involved, planes, point, rounded) ? rounded : point.safe_position;
@@ -146,7 +147,7 @@ void SeparatingPlaneFilter::update_planes(std::span<SeparatingPlane> planes, con
       held_[i] = 1;
       changed = make_still(planes, i) || changed;
     }
-    // Whoever a plane that has changed holds is placed anew.
+    // Points of planes that have changed are placed anew.
     for (int i = 0; i < points; ++i) {
       if (anew_[i] == 0) continue;
       anew_[i] = 0;

@@ -11,42 +11,42 @@ namespace weft {
 
 /// A point of a cloth during a step, for the filter.
 struct FilteredPoint {
-  Vec3f start;  ///< [m]
-  Vec3f
-      safe_position;  ///< where it is free at the end whatever the others do, see SafePositions [m]
-  Vec3f end;          ///< [m]; may be changed
+  Vec3f start;          ///< [m]
+  Vec3f safe_position;  ///< see SafePositions [m]
+  Vec3f end;            ///< [m]; may be changed
 };
 
-/// Moves the ends of points so that each lies on its sides of all its planes. A point is put onto
-/// the planes that it is beyond, if they are not too far; where that does not do, it stays on its
-/// way from its refuge to its end as far as its planes let it [chen25], and these planes, which
-/// from then on stand between refuges, hold back what is on their other side too. So
-/// every plane is heeded in the end, unless a body moves onto a point that has nowhere to go.
+/// Moves the ends of points so that each lies on its side of all its planes. A point beyond planes
+/// is projected onto them, if they are not too far; where that fails, it is stopped on its path
+/// from its safe position to its end, as far as its planes let it [chen25]. The planes of stopped
+/// points are then placed between safe positions, so that they hold back their other side too. All
+/// planes are satisfied in the end, unless a body moves onto a point that has no free place.
 class SeparatingPlaneFilter {
  public:
   struct Result {
-    int aside = 0;    ///< points that were moved aside within the slack
-    int far = 0;      ///< points that were moved farther
-    int stopped = 0;  ///< points that were held back on their way
-    int lost = 0;     ///< points that could not be kept on their sides
+    int aside = 0;    ///< points that were projected within the slack
+    int far = 0;      ///< points that were projected farther
+    int stopped = 0;  ///< points that were held back on their paths
+    int lost = 0;     ///< points that still violate a plane
   };
   /// Numbers of the points that the last hold stopped or lost, ascending.
   [[nodiscard]] std::span<const int> stopped() const { return stopped_; }
-  /// Those that it lost, ascending.
+  /// Numbers of the points that the last hold lost, ascending.
   [[nodiscard]] std::span<const int> lost() const { return lost_; }
-  /// Numbers of the planes that points it moved had been beyond.
+  /// Numbers of the planes that moved points had violated with their proposed ends.
   [[nodiscard]] std::span<const int> struck() const { return struck_; }
-  /// How far points may be moved aside.
+  /// Limits of the displacement by projection onto planes.
   struct Aside {
-    double slack = 0;     ///< what planes reckon with [m]
-    double farthest = 0;  ///< at least the slack; what moves farther has to be looked at again [m]
+    double slack = 0;     ///< displacement that planes allow for [m]
+    double farthest = 0;  ///< at least the slack; displacements beyond that need a new search [m]
   };
-  /// Whether all ends are on their sides already: hold would change nothing.
+  /// Whether all ends satisfy their planes already: hold would change nothing.
   template <class At>
   bool all_satisfied(std::span<const SeparatingPlane> planes, int count, const At& at,
                      ThreadTeam& team);
-  /// @param planes  changed: those that had to stay still get their still offsets
-  /// @param count   points in all; planes name them by number
+  /// Moves the ends of all points to their sides of the planes.
+  /// @param planes  changed: those of stopped points get their `still` levels
+  /// @param count   number of points; planes refer to them by number
   /// @param at      the FilteredPoint of a number; put(point, end) changes the end
   template <class At, class Put>
   Result hold(std::span<SeparatingPlane> planes, int count, const Aside& aside, const At& at,
@@ -56,7 +56,7 @@ class SeparatingPlaneFilter {
   struct Side {
     int plane = 0;
     int sign = 1;          ///< +1: side a
-    bool halfway = false;  ///< what a plane that turns asks for in the middle of the step
+    bool halfway = false;  ///< limit of a turning plane, see SeparatingPlane::halfway
   };
   enum class Fate : char { free, aside, far, stopped, lost };
 
@@ -64,20 +64,20 @@ class SeparatingPlaneFilter {
   [[nodiscard]] std::span<const Side> sides(int involved) const {
     return std::span(sides_).subspan(starts_[involved], starts_[involved + 1] - starts_[involved]);
   }
-  /// What a plane asks of the end of a point.
+  /// Half-space that a plane prescribes for the end of a point.
   struct Limit {
     Vec3d normal;
     double offset = 0;
-    /// How far on the wrong side; <= 0: not at all. [m]
+    /// Distance of an end beyond the plane; <= 0: it satisfies the plane. [m]
     [[nodiscard]] double beyond(Vec3d end) const { return offset - dot(normal, end); }
   };
   [[nodiscard]] static Limit limit_of(const SeparatingPlane& plane, const Side& side, Vec3f start);
   [[nodiscard]] bool satisfies_all(int involved, std::span<const SeparatingPlane> planes,
                                    const FilteredPoint& point, Vec3f place) const;
-  /// @return how far aside a place was found, infinity: nowhere [m]
+  /// @return displacement of the end by projection, infinity: no valid end was found [m]
   double put_aside(int involved, std::span<const SeparatingPlane> planes, double farthest,
                    FilteredPoint& point) const;
-  /// @return whether its planes let it stay on its way at all
+  /// @return whether the new end satisfies all planes
   bool stop(int involved, std::span<const SeparatingPlane> planes, FilteredPoint& point) const;
   Fate place(int involved, std::span<const SeparatingPlane> planes, const Aside& aside,
              const FilteredPoint& point, Vec3f& end) const;
@@ -86,18 +86,18 @@ class SeparatingPlaneFilter {
   Result count_fates();
   void find_struck(std::span<const SeparatingPlane> planes);
 
-  std::vector<int> involved_;  // points that planes name, ascending
-  std::vector<int> index_;     // [count] of a point among them, -1: none
+  std::vector<int> involved_;  // points of any plane, ascending
+  std::vector<int> index_;     // [count] index of a point in involved_, -1: none
   std::vector<int> starts_, next_;
   std::vector<Side> sides_;            // compressed rows over involved_
   std::vector<FilteredPoint> points_;  // of involved_
   std::vector<Vec3f> ends_;            // results
   std::vector<Fate> fates_;
-  std::vector<char> still_;  // of planes
-  std::vector<char> held_;   // of involved points: to be stopped
+  std::vector<char> still_;  // per plane: has its still levels
+  std::vector<char> held_;   // per involved point: to be stopped
   std::vector<int> stopped_, lost_, struck_;
-  std::vector<char> is_struck_;  // of planes
-  std::vector<char> anew_;       // of involved points: to be placed anew
+  std::vector<char> is_struck_;  // per plane
+  std::vector<char> anew_;       // per involved point: to be placed anew
 };
 
 template <class At>

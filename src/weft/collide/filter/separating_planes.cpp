@@ -6,11 +6,12 @@
 namespace weft {
 namespace {
 
-/// Rounding of positions in single precision, relative to their size, times a few: kept free on
-/// either side of a plane.
+/// Margin kept free on either side of a plane: a few times the rounding of positions in single
+/// precision, relative to their size.
 constexpr double rounding = 1e-6;
-/// Of the gap at the start, between cloths on either side of the plane, before a body on one: what
-/// is no wider than the margins may hardly shrink, lest it vanish within a few steps.
+/// Largest margins relative to the gap at the start: between cloths on either side of the plane,
+/// before a body on one. A gap no wider than the margins may hardly shrink, so that it does not
+/// vanish within a few steps.
 constexpr double max_margin = 0.4999, max_margin_before_body = 0.9998;
 
 /// A plane that would have to turn farther stays as it is.
@@ -40,7 +41,7 @@ Vec3d face_normal(const MovingFeature& of) {
   return normalized(cross(of.start[1] - of.start[0], of.start[2] - of.start[0]));
 }
 
-/// Whether a face's own direction, either way, keeps the two apart by the gaps that are wanted.
+/// Whether a face's normal, in either direction, separates two features by the gap that is wanted.
 bool certain_along_face(const MovingFeature& face, const MovingFeature& a, const MovingFeature& b,
                         double wanted) {
   if (face.count < 3) return false;
@@ -55,7 +56,8 @@ Vec3d middle_of(const std::array<Vec3d, 3>& corners, int count) {
   return (1.0 / count) * sum;
 }
 
-/// The same of a body's face that slides past: along the direction that it has where it comes by.
+/// The same for a body's face that slides past: along its normal interpolated to the time at which
+/// it passes the feature.
 bool certain_where_passed(const MovingFeature& a, const MovingFeature& body, double wanted) {
   if (body.count < 3 || body.start == body.end) return false;
   const Vec3d from = middle_of(body.start, body.count), to = middle_of(body.end, body.count);
@@ -76,7 +78,7 @@ void put_points(const MovingFeature& a, const MovingFeature& b, SeparatingPlane&
   std::copy_n(b.points.begin(), plane.count_b, plane.points.begin() + plane.count_a);
 }
 
-/// How far two features reach towards each other along a direction. [m]
+/// Extents of two features towards each other along a direction. [m]
 struct Reaches {
   double a, b;
   [[nodiscard]] double middle() const { return 0.5 * (a + b); }
@@ -85,14 +87,14 @@ Reaches reaches(Vec3d n, const MovingFeature& a, const MovingFeature& b, Feature
   return {min_along(n, a.*places, a.count), max_along(n, b.*places, b.count)};
 }
 
-/// What is kept free on either side of a plane between features that are so near.
+/// Margin on either side of a plane between features with these extents. [m]
 double margin_for(const MovingFeature& b, Reaches near) {
   const double size = std::max(std::abs(near.a), std::abs(near.b));
   const double most = b.body ? max_margin_before_body : max_margin;
   return std::min(rounding * (1 + size), most * std::max(0.0, near.a - near.b));
 }
 
-/// Where a plane stands: in the middle between two cloths, at the body's surface before one.
+/// Levels of a plane: in the middle between two cloths, at the surface before a body.
 PlaneLevels levels_between(const MovingFeature& b, Reaches reached, double margin) {
   const double at = b.body ? reached.b : reached.middle();
   return {at + margin, at - margin};
@@ -106,7 +108,8 @@ void put_levels(const MovingFeature& a, const MovingFeature& b, SeparatingPlane&
   plane.still = b.body ? plane.at_end : levels_between(b, safe_positions, margin);
 }
 
-/// How far two features reach halfway along a plane that turns, on their ways to their refuges.
+/// Extents of twice the middle Bernstein coefficients along a plane that turns, of two features
+/// that move to their safe positions.
 Reaches halfway_reaches(const SeparatingPlane& plane, const MovingFeature& a,
                         const MovingFeature& b) {
   const auto along = [&](const MovingFeature& of, int k) {
@@ -118,8 +121,9 @@ Reaches halfway_reaches(const SeparatingPlane& plane, const MovingFeature& a,
   return found;
 }
 
-/// Turns it as the way between the features turns from the start to their refuges, between which it
-/// then stands: where it turns there is no room to be shared anew.
+/// Turns a plane as the direction between the closest points turns from the start to the safe
+/// positions, and places it between these. It is not fitted to the proposed ends: where planes turn
+/// there is no room to be shared anew.
 void turn(const MovingFeature& a, const MovingFeature& b, SeparatingPlane& plane) {
   const ClosestPair closest =
       closest_points({a.safe_position, a.count}, {b.safe_position, b.count});

@@ -9,47 +9,49 @@
 
 namespace weft {
 
-/// Side a stays at or beyond one, side b at or before the other. [m]
+/// Levels of a plane along its normal: side a stays at or above `a`, side b at or below `b`. [m]
 struct PlaneLevels {
   double a = 0, b = 0;
   friend bool operator==(const PlaneLevels&, const PlaneLevels&) = default;
 };
 
 /// A plane between two features that do not meet at the start of a step. Features are convex and
-/// every corner goes straight, so two that lie on their sides of one plane at both ends of the step
-/// never meet in between; the plane may move meanwhile.
+/// every corner moves on a straight line, so two that lie on their sides of one plane at both ends
+/// of the step never meet in between; the plane may move meanwhile.
 struct SeparatingPlane {
-  Vec3d normal;        ///< unit, towards side a; at the start
-  Vec3d turned;        ///< the same at the end
+  Vec3d normal;        ///< at the start; unit, towards side a
+  Vec3d turned;        ///< the normal at the end
   PlaneLevels at_end;  ///< along `turned`
-  PlaneLevels still;   ///< the same for a plane between the refuges: what stays there keeps to it
+  PlaneLevels still;   ///< levels between the safe positions; before a body as at_end
   bool turns = false;
-  /// How far a point is along a plane that turns is a quadratic function of time: its start, its
-  /// end and this between, twice the middle Bernstein coefficient, keep it on its side.
+  /// Levels of twice the middle Bernstein coefficient, for a plane that turns. The distance of a
+  /// point along such a plane is a quadratic function of time; start, end and this coefficient keep
+  /// it on its side.
   PlaneLevels halfway;
   double body_displacement = 0;  ///< how far a body on side b moves along it during the step [m]
   std::array<int, 6> points{};   ///< of all cloths: side a's, then side b's; bodies have none here
   int count_a = 0, count_b = 0;
 };
 
-/// A convex feature of a surface in motion.
+/// A convex feature of a moving surface: an edge or a triangle.
 struct MovingFeature {
   std::array<Vec3d, 3> start, end;
-  std::array<Vec3d, 3> safe_position;  ///< where it is free at the end whatever the others do
+  std::array<Vec3d, 3> safe_position;  ///< see SafePositions
   std::array<int, 3> points{};         ///< numbers among all cloths' samples; unused for bodies
   int count = 3;
   bool body = false;
 };
 
 struct PlaneOptions {
-  double slack = 0;   ///< how far points may yet be moved aside [m]
-  bool turn = false;  ///< planes turn as the refuges have turned against the start
+  double slack = 0;   ///< how far points may still be projected [m]
+  bool turn = false;  ///< planes turn from the start to the safe positions
 };
 
 enum class Separation { certain, plane, meeting };
 
-/// Looks for a plane between two features: `certain` where they keep apart whatever their points do
-/// within the slack, `plane` where `out` is needed for it, `meeting` where they touch at the start.
+/// Finds the separating plane of two features: `certain` where they keep apart whatever their
+/// points do within the slack, `plane` where `out` has to keep them apart, `meeting` where they
+/// touch at the start.
 Separation separate(const MovingFeature& a, const MovingFeature& b, const PlaneOptions& options,
                     SeparatingPlane& out);
 

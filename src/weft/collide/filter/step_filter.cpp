@@ -7,23 +7,24 @@
 namespace weft {
 namespace {
 
-/// Points that were held back or moved far may lead others astray, so all is looked at again. In
-/// the first rounds points may be moved far aside, which leaves them their motion along what they
-/// meet; in the next ones they are held back on their way.
+/// Points that were stopped or moved far may now meet others, so planes are searched again. The
+/// first rounds allow long projections, which leave points their motion along what they meet; the
+/// next ones stop points on their paths.
 constexpr int rounds_aside = 4, rounds_on_the_way = 6;
-/// Then whoever is stopped falls back with all around it, in squares that double from round
-/// to round; at last the cloths do as a whole.
+/// Number of rounds in all. After the rounds above stopped points fall back together with a square
+/// of samples around them, which doubles from round to round; in the last round whole cloths do.
 constexpr int max_rounds = 14;
-/// Safe positions go along with bodies that moved onto points; how far around them doubles, too:
-/// twice this many rest spacings at first, the nearest part of them wholly.
+/// Safe positions follow bodies that moved onto points. The spread of that motion, in rest
+/// spacings, doubles from round to round, starting with twice min_spread; within carried_in_spreads
+/// of it points follow fully.
 constexpr double min_spread = 4, max_spread = 64, carried_in_spreads = 0.25;
-/// Up to this one they leave cloth its way along bodies.
+/// Up to this spread points follow bodies along normals only and may slide along them.
 constexpr double max_sliding_spread = 16;
-/// What stands still holds them back, so near.
+/// Range in which resting obstacles reduce the shift of safe positions.
 constexpr double held_in_spacings = 4;
-/// Paths that stay farther apart than this part of the slack do not cross, nor do they by rounding.
+/// Paths that stay farther apart than this part of the slack do not cross, even by rounding.
 constexpr double touching = 0.01;
-/// Before the ground, against rounding [m].
+/// Margin above the ground against rounding [m].
 constexpr double ground_margin = 2e-6;
 
 enum Fate : char { free_point, moved_point, stopped_point, fallen_point };
@@ -128,8 +129,8 @@ FilteredPoint StepFilter::point_at(std::span<const MovingCloth> moving, int poin
           moving[cloth].position.at(sample)};
 }
 
-/// Whether all points may go where they go: planes are needed only between what touches on its way,
-/// as long as none of them moves a point.
+/// Whether all proposed ends may stay. Only features whose paths nearly touch need planes for this,
+/// as long as no plane moves a point.
 bool StepFilter::all_pass(std::span<const MovingCloth> moving, ThreadTeam& team) {
   world_.refit(team);
   planes_.clear();
@@ -204,7 +205,7 @@ void StepFilter::put_velocities(const SeparatingPlane& plane, const ImpactSides&
   }
 }
 
-/// One after the other in the planes' order, which is the same for any team.
+/// Impacts are applied one after another in the planes' order, which is the same for any team.
 void StepFilter::strike_all(std::span<const MovingCloth> moving, double time_step) {
   for (const int p : plane_filter_.struck()) {
     ImpactSides sides = sides_of(planes_[p], moving);
@@ -262,7 +263,7 @@ void StepFilter::begin(std::span<const MovingCloth> moving) {
 FilterCounts StepFilter::run(std::span<const MovingCloth> moving, double time_step, Pass pass,
                              ThreadTeam& team) {
   begin(moving);
-  // What was held back in a frame will be again.
+  // Once the quick test fails in a frame it is skipped: points will be held back again.
   bool& may_pass = may_pass_[static_cast<std::size_t>(pass)];
   may_pass = may_pass && all_pass(moving, team);
   if (may_pass) {

@@ -13,18 +13,18 @@
 
 namespace weft {
 
-/// The stage that has the last word on positions: planes between all that came near in a step, on
-/// whose sides everything has to end, found anew until nothing moves any more. What it cannot free
-/// so goes back to safe positions.
+/// The last stage that changes positions in a step: finds separating planes between all features
+/// that came near and moves points to their sides, in rounds until no point moves. Points that
+/// cannot be freed so go back to safe positions.
 class StepFilter {
  public:
   /// @param world, untangler  kept by reference
   StepFilter(CollisionWorld& world, const Untangler& untangler);
 
-  /// What a pass over a step's proposals is for.
+  /// Purpose of a pass over a step's proposals.
   enum class Pass {
-    guess,  ///< a solve starts there: nothing is remembered, velocities stay
-    end     ///< the step ends there: what is stopped strikes what stopped it
+    guess,  ///< start of a solve: marks and velocities stay
+    end     ///< end of the step: impacts change velocities
   };
   FilterCounts run(std::span<const MovingCloth> moving, double time_step, Pass pass,
                    ThreadTeam& team);
@@ -34,24 +34,26 @@ class StepFilter {
   void forget() { may_pass_ = may_pass_then_ = {true, true}; }
 
  private:
-  /// Of one cloth, during a run.
+  /// State of one cloth during a run.
   struct Filtered {
     std::vector<char> new_cells{};           // of a round, see PlaneSide
     Planes3 carried{};                       // safe positions among moving bodies
-    const Planes3* safe_position = nullptr;  // the start while that will do
+    const Planes3* safe_position = nullptr;  // the start, or `carried`
   };
   void begin(std::span<const MovingCloth> moving);
   bool all_pass(std::span<const MovingCloth> moving, ThreadTeam& team);
-  /// Finds planes and holds points by them once. @return whether nothing is left to do
+  /// One round: finds planes and moves points by them.
+  /// @return whether nothing is left to do
   bool do_round(std::span<const MovingCloth> moving, double time_step, Pass pass, int round,
                 ThreadTeam& team);
 
   [[nodiscard]] PlaneSide side_of(std::size_t surface) const;
   [[nodiscard]] FilteredPoint point_at(std::span<const MovingCloth> moving, int point) const;
   void put_end(const MovingCloth& cloth, int point, Vec3f end);
-  /// Those of the last round stay where the ends of all their points did; unless all are wanted.
+  /// Finds the planes of a round. Unless all are wanted, planes of the last round are kept where
+  /// the ends of all their points are unchanged.
   void find_planes(bool all, ThreadTeam& team);
-  /// Between what comes closer than that. [m]
+  /// Adds planes between features that come closer than `farthest`. [m]
   void add_planes(bool all, double farthest, ThreadTeam& team);
   void add_ground_planes(std::span<const MovingCloth> moving);
   void drop_old_planes();
@@ -59,7 +61,7 @@ class StepFilter {
 
   SeparatingPlaneFilter::Result hold(std::span<const MovingCloth> moving, double farthest,
                                      ThreadTeam& team);
-  /// Lets both sides of the planes that points were held back by strike each other.
+  /// Applies inelastic impacts to both sides of the planes that held points back.
   void strike_all(std::span<const MovingCloth> moving, double time_step);
   [[nodiscard]] ImpactSides sides_of(const SeparatingPlane& plane,
                                      std::span<const MovingCloth> moving) const;
@@ -67,17 +69,19 @@ class StepFilter {
                       std::span<const MovingCloth> moving) const;
   /// @param spread  how far the bodies' motion reaches, in rest spacings
   void carry_safe_positions(std::span<const MovingCloth> moving, double spread, ThreadTeam& team);
-  /// Puts the points that were stopped, and those around them, at their safe positions; or all.
+  /// Puts stopped points, and those within `around` samples of them, at their safe positions; or
+  /// all points.
   void fall_back_to_safe_positions(std::span<const MovingCloth> moving, int around, bool all);
   [[nodiscard]] FilterCounts count_fates() const;
 
   CollisionWorld& world_;
   const Untangler& untangler_;
   std::vector<Filtered> cloths_;
-  /// Of each pass, whether all might pass yet in this frame; and at the step's start.
+  /// Per pass, whether no run has had to move points yet in this frame; and the same at the step's
+  /// start.
   std::array<bool, 2> may_pass_{true, true}, may_pass_then_{true, true};
   std::vector<SeparatingPlane> planes_;
-  std::size_t ground_planes_ = 0;  // where those begin in planes_
+  std::size_t ground_planes_ = 0;  // index of the first ground plane in planes_
   std::vector<char> fates_;        // [points] of one run: free, moved, stopped, fell back
   std::vector<char> new_points_;   // [points] of a round, see PlaneSearch
   bool carried_ = false;           // safe positions go along with bodies in this run

@@ -7,19 +7,20 @@
 namespace weft {
 namespace {
 
-/// Which side of a plane a point is on; on it counts as above, so that all edges of a corner agree.
+/// Side of a plane that a point is on; a point in the plane counts as above it, so that all edges
+/// of a corner agree.
 int side_of_plane(const std::array<Vec3d, 3>& plane, Vec3d point) {
   return orientation(plane[0], plane[1], plane[2], point) < 0 ? -1 : 1;
 }
 
-/// A sample and where it is.
+/// A sample and its position.
 struct Corner {
   int sample;
   Vec3d at;
 };
 
-/// How a line turns round another. Lines that meet count as turning left when both are read from
-/// their lower samples, so that of two triangles that share an edge one is hit.
+/// Orientation of one line around another, 1 or -1. Lines that meet count as turning left when both
+/// are read from their lower samples, so that of two triangles that share an edge one is hit.
 int turn(const Corner& p, const Corner& q, Corner a, Corner b) {
   int sign = 1;
   if (a.sample > b.sample) {

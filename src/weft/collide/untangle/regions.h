@@ -9,17 +9,17 @@
 
 namespace weft {
 
-/// An edge by its samples, ascending, which stand for their classes.
+/// An edge by its representative samples, ascending.
 using CutEdge = std::array<int, 2>;
 
-/// The parts that a sheet falls into where edges are cut.
+/// Connected regions of a sheet whose edges are partly cut.
 class Regions {
  public:
-  /// @param cut  ascending; an edge that is there twice is whole
+  /// @param cut  ascending; an edge that is there twice is not cut
   void find(const SurfaceGrid& grid, std::span<const CutEdge> cut);
-  /// The part that a sample (which stands for its class) is in, by its least sample.
+  /// Region of a representative sample, named by the region's least sample.
   [[nodiscard]] int of(int sample) const { return roots_[sample]; }
-  /// How many samples a part has.
+  /// Number of representative samples in a region.
   [[nodiscard]] int size(int region) const { return sizes_[region]; }
 
  private:

@@ -19,7 +19,7 @@ void SmoothMove::want(int sample, Vec3d move, double weight) {
   wanted.weight += weight;
 }
 
-/// Means, of weight 1 at most; all samples of a class alike.
+/// Turns sums into means of weight 1 at most, equal for all samples of a class.
 void SmoothMove::gather_classes(const SurfaceGrid& grid) {
   std::vector<Wanted>& finest = moves_.front();
   for (Wanted& wanted : finest) {
@@ -31,7 +31,7 @@ void SmoothMove::gather_classes(const SurfaceGrid& grid) {
     if (grid.point(s) != s) finest[s] = finest[grid.point(s)];
 }
 
-/// Every other sample, with those around it.
+/// Restriction to every second sample: weighted means of the samples around it.
 void SmoothMove::pull(std::size_t level) {
   const int fine = sides_[level - 1], coarse = sides_[level];
   for (int r = 0; r < coarse; ++r)
@@ -52,7 +52,7 @@ void SmoothMove::pull(std::size_t level) {
     }
 }
 
-/// Bilinear, as much of it as a sample does not know.
+/// Prolongation: bilinear interpolation supplies what a sample's weight lacks to 1.
 void SmoothMove::push(std::size_t level) {
   const int fine = sides_[level - 1], coarse = sides_[level];
   for (int r = 0; r < fine; ++r)

@@ -7,18 +7,18 @@
 
 namespace weft {
 
-/// Continues moves that are wanted at some samples over the rest of an image, so that what is
-/// around goes along: pulled up the mip pyramid as weighted means and pushed down again into what
-/// knows nothing [gortler96]. From some 2^levels samples away nothing moves.
+/// Extends displacements of some samples smoothly over the rest of an image by pull-push on its mip
+/// pyramid [gortler96]: weighted means upwards, interpolation downwards into samples without a
+/// displacement. Samples more than some 2^levels away do not move.
 class SmoothMove {
  public:
-  /// Begins anew, with nothing wanted.
+  /// Starts anew without displacements.
   void clear(const SurfaceGrid& grid, int levels);
-  /// Wants a move of a sample (which stands for its class), by so much weight.
+  /// Adds a displacement [m] of a representative sample, with a weight.
   void want(int sample, Vec3d move, double weight);
-  /// To be called once all is wanted.
+  /// Computes the displacements of all samples; to be called once all wanted ones are added.
   void spread(const SurfaceGrid& grid);
-  /// Of a sample that stands for its class. [m]
+  /// Displacement of a representative sample. [m]
   [[nodiscard]] Vec3d at(int sample) const { return moves_.front()[sample].move; }
 
  private:

@@ -6,26 +6,29 @@
 namespace weft {
 namespace {
 
-/// How fast layers are moved, in rest spacings a second; and in a step at most.
+/// Speed of layers in rest spacings a second; and their largest displacement in a step, in rest
+/// spacings.
 constexpr double spacings_a_second = 30, max_spacings = 0.25;
-/// Samples around a contour that its move reaches, as a power of 2; and that are held from going
-/// deeper.
+/// Levels of SmoothMove around a contour: of the push that takes layers apart, and of the hold that
+/// keeps them from going deeper. The reach in samples is a power of 2.
 constexpr int push_levels = 5, hold_levels = 3;
-/// How far beyond each other layers are brought, in gaps.
+/// Distance in gaps to which layers are moved beyond each other.
 constexpr double margin_in_gaps = 0.5;
-/// A layer's way along the other's normal, below which depth says nothing.
+/// Component of a direction along the other layer's normal below which the depth of a crossing is
+/// not used.
 constexpr double min_slope = 0.05;
-/// Of a contour by a move, lest single edges that hardly pass through decide.
+/// Largest change of a contour's length per displacement at a node, so that single edges that
+/// hardly pass through do not decide.
 constexpr double max_shortening = 4;
-/// Samples of one cloth that lie on another, by which, and by what part more of them on one side
-/// than on the other, it is told where a cloth belongs.
+/// Evidence needed to tell which side of another cloth a cloth belongs on: number of its samples
+/// that lie on the other, and the excess of one side as a part of them.
 constexpr int min_lying = 30;
 constexpr double clear_majority = 0.2;
-/// How much a move weighs that follows the contour from node to node: little, so that what is
-/// wanted around counts more and the layers move as wholes.
+/// Weight of displacements that only shorten a contour: small, so that the values around count more
+/// and the layers move as wholes.
 constexpr double light = 0.1;
 
-/// Of a sum whose terms' squares have this sum: where they scatter, it says nothing.
+/// Confidence in a sum, given the sum of its terms' squares: near 0 where the terms scatter.
 double trust(double sum, double squares) {
   return sum != 0 ? sum * sum / (sum * sum + squares) : 0;
 }
@@ -66,8 +69,8 @@ void Untangler::find_regions(const StandingPair& standing, const Pair& pair) {
   }
 }
 
-/// The part that a crossing cuts off its edge's sheet, if it does, should come back through the
-/// triangle. And whatever it cuts off, some move shortens the contour.
+/// Adds the votes of a crossing. If it cuts a region off its edge's sheet, that region should come
+/// back through the triangle; and in any case some displacement shortens the contour.
 void Untangler::vote(const StandingPair& standing, const ContourNode& node,
                      Verdict& verdict) const {
   const Frame frame = frame_of(standing, node);
@@ -105,7 +108,8 @@ void Untangler::choose_directions(const StandingPair& standing, const Pair& pair
         verdict.settled[layer] = sign(verdict.turns[layer]);
     verdict.shorter.y *= trust(verdict.shorter.y, verdict.scatter.y);
     verdict.shorter.z *= trust(verdict.shorter.z, verdict.scatter.z);
-    // Where both layers would have to go the same way, the one that has less to move goes.
+    // Where both layers would have to move the same way, only the one with the smaller region
+    // moves.
     if (verdict.alike * verdict.settled[0] * verdict.settled[1] > 0)
       verdict.settled[verdict.sizes[0] <= verdict.sizes[1] ? 1 : 0] = 0;
   }
@@ -139,8 +143,8 @@ void Untangler::add_lying(double side) {
     if (!verdict.is_settled()) verdict.settled[verdict.first_side] = sign(side);
 }
 
-/// The first layer's way against the second. The gradient of the contour's length where nothing
-/// else is known.
+/// Direction of the first layer relative to the second; the one that shortens the contour where
+/// nothing else is known.
 Vec3d Untangler::direction(const StandingPair& standing, const ContourNode& node) const {
   const Verdict& verdict = verdicts_[node.contour];
   const Frame frame = frame_of(standing, node);

@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::array<const char*, 3> channel_names{"R", "G", "B"};
 
-// OpenEXR writes a file's last table in a destructor, which swallows a full disk: so into memory
-// first.
+// Output to memory: OpenEXR writes a file's last table in a destructor, where the error of a full
+// disk would be lost.
 class MemoryOutput : public Imf::OStream {
  public:
   MemoryOutput() : Imf::OStream("memory") {}

@@ -12,7 +12,7 @@ namespace weft {
 /// @param text  kept as string attribute `metadata_key`; none when empty
 std::string encode_exr(const Planes3& planes, const std::string& text);
 
-/// What an EXR file holds of a geometry image.
+/// The samples and the metadata text of a geometry image in an EXR file.
 struct DecodedImage {
   Planes3 planes;
   std::string text;

@@ -18,7 +18,7 @@ constexpr std::uint32_t long_names_flag = 0x400;
 constexpr std::size_t bytes_per_sample = 12;
 constexpr int max_channels = 8;
 
-// The rest of a header, little-endian, read from its front.
+// Reads a little-endian header from its front.
 class HeaderReader {
  public:
   HeaderReader(std::string_view bytes, std::string_view where) : rest_(bytes), where_(where) {}
@@ -63,8 +63,8 @@ void check_window(std::string_view value, std::size_t file_size, std::string_vie
   require_enough_bytes(right + 1, bytes_per_sample, file_size, where);
 }
 
-// Those that lose nothing come first in OpenEXR's list: none, RLE, ZIPS, ZIP, PIZ. The others would
-// part mates, and unpack to sizes that have no bound.
+// The lossless methods come first in OpenEXR's list: none, RLE, ZIPS, ZIP, PIZ. The others would
+// make mates differ, and their ratio of compression has no bound.
 void check_compression(std::string_view value, std::string_view where) {
   constexpr char last_lossless = 4;
   if (value.size() != 1 || value[0] < 0 || value[0] > last_lossless)
@@ -72,7 +72,7 @@ void check_compression(std::string_view value, std::string_view where) {
                      "a geometry image without loss");
 }
 
-// OpenEXR sets lines of all channels aside, wanted or not.
+// OpenEXR allocates lines for all channels, used or not.
 void check_channel_list(std::string_view value, std::string_view where) {
   constexpr std::size_t description = 16;  // type, linearity, sampling
   HeaderReader reader(value, where);
@@ -83,7 +83,7 @@ void check_channel_list(std::string_view value, std::string_view where) {
   if (!reader.at_end()) reader.fail("a damaged EXR file: a channel list of a wrong size");
 }
 
-// A small picture inside the header.
+// The preview is a small picture inside the header.
 void check_preview(std::string_view value, std::string_view where) {
   HeaderReader reader(value, where);
   const std::uint64_t width = reader.number();
@@ -93,7 +93,7 @@ void check_preview(std::string_view value, std::string_view where) {
     reader.fail("a damaged EXR file: a preview of a wrong size");
 }
 
-// Attributes of one size, in bytes.
+// Attribute types of fixed size [bytes].
 constexpr std::array<std::pair<std::string_view, std::size_t>, 23> sizes_of_types{
     {{"box2f", 16},      {"box2i", 16},  {"chromaticities", 32},
      {"compression", 1}, {"double", 8},  {"envmap", 1},
@@ -104,9 +104,9 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 23> sizes_of_type
      {"v2i", 8},         {"v3d", 24},    {"v3f", 12},
      {"v3i", 12},        {"tiledesc", 9}}};
 
-// OpenEXR reads an attribute by its type, and does not look at the size that is told for it: where
-// the two differ it goes on reading elsewhere than this walk. So types whose size cannot be checked
-// here are refused.
+// OpenEXR reads an attribute by its type and ignores the size in the header: where the two differ
+// it continues at another position than this reader. So types whose size cannot be checked here are
+// refused.
 void check_attribute(std::string_view type, std::string_view value, std::string_view where) {
   if (type == "string") return;
   if (type == "chlist") return check_channel_list(value, where);
@@ -121,7 +121,7 @@ void check_attribute(std::string_view type, std::string_view value, std::string_
 
 void check_exr_header(std::string_view bytes, std::string_view where) {
   HeaderReader reader(bytes, where);
-  reader.number();  // the magic number that told the format
+  reader.number();  // the magic number, already checked
   if ((reader.number() & ~long_names_flag) != version_number)
     reader.fail("an EXR picture of tiles, layers of depth or several parts");
   std::set<std::string_view> names;

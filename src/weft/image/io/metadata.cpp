@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int deepest_nesting = 4;
-// Deflate shrinks by 1032 at most, the other compressions without loss by less.
+// Deflate compresses by a factor of 1032 at most, the other lossless methods by less.
 constexpr std::size_t max_compression = 1032;
 
 std::string checksum(const Json& without_checksum, const Planes3& cube) {

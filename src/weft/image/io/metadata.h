@@ -9,9 +9,9 @@
 
 namespace weft {
 
-/// Under this name the metadata travel in a file: an EXR string attribute, a PNG iTXt keyword.
+/// Key of the metadata in a file: an EXR string attribute, a PNG iTXt keyword.
 inline constexpr const char* metadata_key = "weft";
-/// What this library writes and reads.
+/// Version of the metadata that this library writes and reads.
 inline constexpr int metadata_version = 1;
 
 /// All of a geometry image but its samples, as one line of JSON: version, size, mates as
@@ -19,7 +19,7 @@ inline constexpr int metadata_version = 1;
 /// source_hash, and a checksum over these and over the samples.
 std::string metadata_text(const GeometryImage& image);
 
-/// Puts samples and metadata together again and checks all of it: size and version, world map,
+/// Assembles an image from samples and metadata and checks all of it: size and version, world map,
 /// mates in range and bit-equal, samples in [0, 1], the checksum where there is one (other programs
 /// may leave it out).
 /// @param where  what errors call the file
@@ -29,8 +29,8 @@ GeometryImage assemble_image(Planes3 cube, std::string_view text, std::string_vi
 /// @throws InputError when a picture has no size that a geometry image may have
 void require_image_size(std::int64_t width, std::int64_t height, std::string_view where);
 
-/// Refuses a file too small to hold the picture that it tells of, before memory is set aside for
-/// it.
+/// Refuses a file too small to hold a picture of the size in its header, before memory is
+/// allocated.
 /// @throws InputError
 void require_enough_bytes(int side, std::size_t bytes_per_sample, std::size_t file_size,
                           std::string_view where);

@@ -18,9 +18,8 @@ constexpr png_alloc_size_t min_chunk_memory = 4096;
 constexpr png_uint_32 max_texts = 32;
 constexpr std::size_t bytes_per_sample = 6;
 
-// libpng reports errors by a jump over its own frames. It may only pass over functions that hold
-// nothing to destroy, so every call into libpng goes through `guarded`, whose step is such a
-// function.
+// libpng reports errors by longjmp, which must not skip destructors: every call into libpng that
+// can fail goes through `guarded`, whose step holds nothing to destroy.
 struct Failure {
   char message[160] = "";
 };
@@ -111,7 +110,7 @@ class Reader {
       throw std::bad_alloc();
     }
     png_set_read_fn(png_, &rest_, take);
-    // Otherwise memory is set aside for whatever length a chunk tells, with a warning at most.
+    // Otherwise libpng allocates memory for any length in a chunk, with a warning at most.
     png_set_benign_errors(png_, 0);
     png_set_chunk_malloc_max(png_, std::max<png_alloc_size_t>(bytes.size(), min_chunk_memory));
     png_set_chunk_cache_max(png_, max_texts + 1);  // libpng keeps one back for itself

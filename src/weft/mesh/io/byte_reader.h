@@ -7,7 +7,7 @@
 
 namespace weft {
 
-/// An unsigned integer from the first bytes of a file's piece, whatever this machine's byte order.
+/// An unsigned integer from the first bytes of a view, whatever this machine's byte order.
 /// @pre bytes holds at least sizeof(Unsigned)
 template <class Unsigned>
 Unsigned load_integer(std::string_view bytes, bool big_endian) {
@@ -21,7 +21,7 @@ Unsigned load_integer(std::string_view bytes, bool big_endian) {
   return value;
 }
 
-/// IEEE 754 single and double precision, the same way.
+/// IEEE 754 numbers of single and double precision, read like load_integer.
 inline float load_float(std::string_view bytes, bool big_endian) {
   return __builtin_bit_cast(float, load_integer<std::uint32_t>(bytes, big_endian));
 }

@@ -13,7 +13,7 @@ namespace {
 
 enum class Component { int8 = 5120, uint8, int16, uint16, uint32 = 5125, float32 };
 
-/// Bytes of a component; 0 for what is none.
+/// Bytes of a component; 0 for an unknown type.
 std::size_t size_of(Component component) {
   switch (component) {
     case Component::int8:
@@ -29,7 +29,7 @@ std::size_t size_of(Component component) {
   return 0;
 }
 
-/// Where an accessor's elements lie.
+/// The layout of an accessor's elements.
 struct Elements {
   std::string_view bytes;
   std::size_t count = 0, stride = 0;
@@ -131,7 +131,7 @@ std::vector<int> read_gltf_indices(const GltfObject& root, GltfBuffers& buffers,
                                    std::size_t vertices) {
   const GltfObject accessor = accessor_of(root, index);
   Elements elements = elements_of(root, buffers, accessor, 1);
-  elements.normalized = false;  // means nothing for vertex numbers
+  elements.normalized = false;  // has no meaning for vertex numbers
   if (elements.component != Component::uint8 && elements.component != Component::uint16 &&
       elements.component != Component::uint32)
     accessor.fail("holds vertex numbers of a wrong type", "5121, 5123 or 5125 is wanted");

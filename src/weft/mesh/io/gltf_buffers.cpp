@@ -26,7 +26,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   return load_integer<std::uint32_t>(bytes.substr(at), false);
 }
 
-/// The first chunk of what is left of a container, which is taken off it.
+/// Removes the first chunk from the rest of a container. @return its kind and data
 std::pair<std::uint32_t, std::string_view> take_chunk(std::string_view& rest,
                                                       std::string_view name) {
   const std::size_t room = rest.size() < chunk_head ? 0 : rest.size() - chunk_head;
@@ -45,7 +45,7 @@ int base64_digit(char c) {
   return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-/// Nothing when the text is no base64.
+/// Decodes base64; nothing for any other text.
 std::optional<std::string> from_base64(std::string_view text) {
   while (text.ends_with('=')) text.remove_suffix(1);
   std::string bytes;
@@ -70,7 +70,7 @@ int hexadecimal_digit(char c) {
   return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/// A URI's %20 and the like as characters.
+/// Decodes the percent escapes of a URI.
 std::string without_escapes(std::string_view uri) {
   std::string plain;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -87,7 +87,7 @@ std::string without_escapes(std::string_view uri) {
   return plain;
 }
 
-/// Whether a name stays in the folder that it is looked for in.
+/// Whether the name of a file stays inside its folder.
 bool is_below(const std::string& name) {
   const fs::path path(name);
   if (name.empty() || name.find(':') != name.npos || name.find('\0') != name.npos ||

@@ -16,7 +16,7 @@ struct GltfParts {
   std::optional<std::string_view> binary;
 };
 
-/// Takes a file apart: a GLB container by its chunks, anything else as text.
+/// Splits a glTF file into its parts: a GLB container by its chunks, anything else as text.
 /// @throws InputError for a container of another version, cut short, or of wrong lengths
 GltfParts split_gltf(std::string_view bytes, std::string_view name);
 

@@ -5,7 +5,7 @@
 namespace weft {
 namespace {
 
-/// `inner` first, then `outer`.
+/// The composition of two maps: `inner` first, then `outer`.
 Placing after(const Placing& outer, const Placing& inner) {
   return {{outer.direction(inner.axes[0]), outer.direction(inner.axes[1]),
            outer.direction(inner.axes[2])},

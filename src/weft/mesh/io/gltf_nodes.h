@@ -17,7 +17,7 @@ struct Placing {
     return d.x * axes[0] + d.y * axes[1] + d.z * axes[2];
   }
   [[nodiscard]] Vec3d point(Vec3d p) const { return direction(p) + offset; }
-  /// Whether it turns the inside out.
+  /// Whether the map reverses orientation.
   [[nodiscard]] bool mirrors() const { return dot(axes[0], cross(axes[1], axes[2])) < 0; }
 };
 
@@ -27,9 +27,9 @@ struct PlacedMesh {
   Placing placing;
 };
 
-/// The meshes of the default scene: that which the file names, else its first, else every node that
-/// is no other's child; in the order of the nodes, parents first. A file without nodes shows every
-/// mesh once, as it is. Skins and morph targets are left out: the shape at rest.
+/// The meshes of the default scene: the one that the file names, else its first, else all root
+/// nodes; in the order of the nodes, parents first. A file without nodes shows every mesh once, as
+/// it is. Skins and morph targets are ignored: the result is the shape at rest.
 /// @throws InputError for a node out of range or reached twice, or a matrix that is not affine
 std::vector<PlacedMesh> placed_meshes(const GltfObject& root);
 

@@ -10,9 +10,8 @@
 
 namespace weft {
 
-/// An object of a glTF file's JSON and where it stands there. Whatever has a wrong type or lies out
-/// of range is an InputError with that place: nothing is passed over, or part of a mesh would go
-/// missing unseen.
+/// An object of a glTF file's JSON with its path in the file. A value of a wrong type or out of
+/// range throws an InputError with that path: ignoring it could lose a part of a mesh unnoticed.
 class GltfObject {
  public:
   /// @param name   what errors call the file, kept as a view
@@ -24,16 +23,16 @@ class GltfObject {
   /// A whole number in [least, most]; nothing when the key is absent.
   [[nodiscard]] std::optional<std::int64_t> integer(std::string_view key, std::int64_t least,
                                                     std::int64_t most) const;
-  /// The same for a key that must be there.
+  /// A whole number in [least, most] under a required key.
   [[nodiscard]] std::int64_t wanted(std::string_view key, std::int64_t least,
                                     std::int64_t most) const;
-  /// The number of an element of one of the file's lists, of `count` elements.
+  /// An index into one of the file's lists, of `count` elements; nothing when the key is absent.
   [[nodiscard]] std::optional<int> index(std::string_view key, std::size_t count) const;
   [[nodiscard]] bool boolean(std::string_view key) const;  ///< false when absent
   [[nodiscard]] std::optional<std::string> text(std::string_view key) const;
   /// Finite numbers, `count` of them; empty when the key is absent.
   [[nodiscard]] std::vector<double> numbers(std::string_view key, std::size_t count) const;
-  /// Numbers of elements of another list of `count`; empty when the key is absent.
+  /// Indices into another list, of `count` elements; empty when the key is absent.
   [[nodiscard]] std::vector<int> indices(std::string_view key, std::size_t count) const;
   [[nodiscard]] std::vector<std::string> texts(std::string_view key) const;
   /// An object under a key; nothing when it is absent.

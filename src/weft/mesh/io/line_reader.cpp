@@ -12,7 +12,7 @@ namespace weft {
 
 namespace {
 
-// from_chars knows no leading plus, files do.
+// from_chars accepts no leading plus, which files may have.
 std::string_view without_plus(std::string_view field) {
   return field.size() > 1 && field[0] == '+' && field[1] != '-' ? field.substr(1) : field;
 }

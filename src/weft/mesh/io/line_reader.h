@@ -15,8 +15,8 @@ std::optional<double> to_number(std::string_view field);
 /// The whole field as a decimal integer; nothing when it is not one or does not fit.
 std::optional<std::int64_t> to_integer(std::string_view field);
 
-/// What is wrong with a coordinate, in words, or empty: it must be finite and at most 1e30 in size,
-/// so that areas and volumes computed from it stay finite.
+/// Describes the fault of a coordinate, or empty: it must be finite and at most 1e30 in size, so
+/// that areas and volumes computed from it stay finite.
 std::string_view coordinate_fault(double value);
 
 /// Walks the lines of a text file and the blank-separated fields of a line, and throws InputErrors

@@ -11,7 +11,7 @@ bool is_obj(const std::filesystem::path& path) {
   return ending == ".obj";
 }
 
-/// Texture coordinates by first occurrence, each once a vertex.
+/// Texture coordinates in order of first occurrence, without repetition at a vertex.
 class TexturePool {
  public:
   TexturePool(std::size_t vertices, std::vector<Vec2f>& texture)
@@ -24,14 +24,14 @@ class TexturePool {
       link = &next_[static_cast<std::size_t>(*link)];
     }
     const int added = static_cast<int>(texture_.size());
-    *link = added;  // before next_ may move
+    *link = added;  // before next_ may reallocate
     next_.push_back(-1);
     texture_.push_back(uv);
     return added;
   }
 
  private:
-  std::vector<int> first_, next_;  // lists of each vertex's, by index
+  std::vector<int> first_, next_;  // linked lists of each vertex's texture indices
   std::vector<Vec2f>& texture_;
 };
 

@@ -33,7 +33,7 @@ TriangleMesh parse_by_ending(std::string_view bytes, const std::filesystem::path
 }  // namespace
 
 TriangleMesh read_mesh(const std::filesystem::path& path) {
-  // What is missing or a folder is told before what has a wrong ending.
+  // A missing file or a folder is reported before a wrong ending.
   const std::string bytes = read_file(path);
   return parse_by_ending(bytes, path);
 }

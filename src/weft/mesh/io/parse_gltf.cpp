@@ -21,7 +21,8 @@ namespace weft {
 namespace {
 
 constexpr int deepest_nesting = 64;
-/// Nodes may show one mesh many times; beyond this, the result stays below the size of the file.
+/// Limit of vertices and triangles for files that show meshes many times; larger files have their
+/// size in bytes as the limit.
 constexpr std::size_t max_shown_freely = 4'000'000;
 
 enum Mode { triangles_mode = 4, strip_mode = 5, fan_mode = 6 };
@@ -34,7 +35,7 @@ nlohmann::json parse_text(std::string_view text, std::string_view name) {
   }
 }
 
-/// What a file says that a reader must know to understand it.
+/// Refuses a file that requires an extension which changes the geometry, but for quantization.
 void check_extensions(const GltfObject& root) {
   // These change how a surface looks, not where it is.
   constexpr std::array<std::string_view, 4> looks{"KHR_materials_", "KHR_texture_", "KHR_lights_",
@@ -72,7 +73,7 @@ std::vector<Triangle> triangles_of(const GltfObject& primitive, int mode,
     const int a = corners[mode == fan_mode ? 0 : i];
     const int b = corners[turned ? i + 2 : i + 1];
     const int c = corners[turned ? i + 1 : i + 2];
-    // A strip goes on elsewhere by way of triangles without area.
+    // Strips use degenerate triangles as jumps.
     if (mode == triangles_mode || (a != b && b != c && c != a)) triangles.push_back({a, b, c});
   }
   return triangles;
@@ -111,7 +112,7 @@ class Gatherer {
       mesh_.triangles.push_back({a + base, b + base, c + base});
   }
 
-  /// Where a primitive has none, the mesh ends up with fewer than corners, and forgets them all.
+  /// Adds texture coordinates. If a primitive has none, keep_whole_texture drops those of the mesh.
   void add_texture(const GltfObject& attributes, const std::vector<Triangle>& triangles,
                    std::size_t vertices) {
     const std::optional<int> index = attributes.index("TEXCOORD_0", root_.count("accessors"));
@@ -129,7 +130,8 @@ class Gatherer {
     return corners;
   }
 
-  /// First vertex and count of an accessor's positions, which the primitives of a mesh may share.
+  /// Adds an accessor's positions, which the primitives of a mesh may share.
+  /// @return first vertex and count
   std::pair<int, int> place_positions(const GltfObject& primitive, int accessor,
                                       const Placing& placing) {
     if (const auto known = bases_.find(accessor); known != bases_.end()) return known->second;

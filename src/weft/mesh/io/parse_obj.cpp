@@ -12,14 +12,14 @@
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
 
-// tinyobjloader splits the face lines. It accepts whatever it meets (cut lines, words as zeros,
-// indices out of range), does not round decimals correctly, and knows no lines, so every vertex and
-// face line is checked here first, and the positions are read here.
+// tinyobjloader splits the face lines. It accepts invalid input (cut lines, words as zeros, indices
+// out of range), does not round decimals correctly, and reports no line numbers. So every vertex
+// and face line is checked here first, and the positions are read here.
 
 namespace weft {
 namespace {
 
-/// A face corner that names a vertex which had not come yet.
+/// A face corner that refers to a vertex of a later line.
 struct ForwardReference {
   std::int64_t index = 0;
   int line = 0;
@@ -37,12 +37,13 @@ void scan_vertex(LineReader& reader, ObjScan& scan) {
   const double y = reader.coordinate();
   const double z = reader.coordinate();
   scan.positions.push_back({x, y, z});
-  // What follows is a weight or a colour, which are not kept.
+  // A weight or a colour may follow and is dropped.
   for (std::string_view field = reader.next_field(); !field.empty(); field = reader.next_field())
     if (!to_number(field)) reader.fail(in_quotes(field) + " is not a number", "v x y z is wanted");
 }
 
-/// Nothing is refused here: the surface does not depend on it, and exporters write what they like.
+/// Reads a line of texture coordinates. Nothing is refused: the surface does not depend on them,
+/// and exporters differ in what they write.
 void scan_texture(LineReader& reader, ObjScan& scan) {
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   const double u = to_number(reader.next_field()).value_or(missing);
@@ -51,7 +52,7 @@ void scan_texture(LineReader& reader, ObjScan& scan) {
 }
 
 /// Checks one corner: v, v/t, v//n or v/t/n.
-/// @return which of the parts are there, as bits; all corners of a face have the same
+/// @return the parts that are present, as bits; all corners of a face have the same
 int scan_corner(LineReader& reader, std::string_view corner, ObjScan& scan) {
   int form = 0;
   std::string_view rest = corner;
@@ -109,9 +110,8 @@ ObjScan scan_obj(std::string_view bytes, std::string_view name) {
   return scan;
 }
 
-/// Long lines may go on in the next one behind a backslash, which tinyobjloader does not know. The
-/// line ends that are taken out come back behind the whole line, so that the lines keep their
-/// numbers.
+/// Joins lines that end in a backslash with their next lines, which tinyobjloader does not support.
+/// As many empty lines follow the joined line as were joined, so that line numbers stay.
 std::string join_continued_lines(std::string_view bytes) {
   std::string joined;
   joined.reserve(bytes.size());
@@ -136,7 +136,7 @@ std::string join_continued_lines(std::string_view bytes) {
   return joined;
 }
 
-/// Gathers what tinyobjloader calls back with.
+/// Receives the faces from tinyobjloader's callbacks.
 struct FaceSink {
   TriangleMesh* mesh = nullptr;
   MeshFaces* faces = nullptr;  ///< may be null
@@ -151,7 +151,7 @@ struct FaceSink {
     polygon_texture.clear();
     polygon_uv.clear();
     for (const tinyobj::index_t& corner : corners) {
-      // No checked index is zero: what reads as zero begins a comment behind the face.
+      // No checked index is zero: a zero is the start of a comment behind the face.
       if (corner.vertex_index == 0) break;
       polygon.push_back(corner.vertex_index > 0 ? corner.vertex_index - 1
                                                 : vertices + corner.vertex_index);
@@ -166,13 +166,13 @@ struct FaceSink {
                                   polygon_texture.end());
   }
 
-  /// From 0; -1 where the corner has none, index 0, or one that does not exist.
+  /// A texture index from 0; -1 where the corner has none, index 0, or one that does not exist.
   [[nodiscard]] int texture_index(int index) const {
     const std::int64_t place = index > 0 ? std::int64_t{index} - 1 : std::int64_t{texture} + index;
     const bool exists = index != 0 && place >= 0 && std::cmp_less(place, all_texture.size());
     return exists ? static_cast<int>(place) : -1;
   }
-  /// Not finite where there is none.
+  /// The texture coordinates of an index; not finite for -1.
   [[nodiscard]] Vec2f texture_of(int index) const {
     constexpr float missing = std::numeric_limits<float>::quiet_NaN();
     return index >= 0 ? all_texture[static_cast<std::size_t>(index)] : Vec2f{missing, missing};
@@ -196,7 +196,8 @@ void load_faces(const std::string& text, std::span<const Vec2f> texture, Triangl
   tinyobj::LoadObjWithCallback(stream, callback, &sink);
 }
 
-/// Lines that are not u and v count in the order of all, but nothing may use them.
+/// Moves texture coordinates to the faces. Malformed lines count in the numbering, but no corner
+/// may use them.
 void keep_texture(std::vector<Vec2f> texture, MeshFaces& faces) {
   const auto usable = [&](int index) {
     const Vec2f uv = index < 0 ? Vec2f{} : texture[static_cast<std::size_t>(index)];
@@ -213,7 +214,7 @@ void keep_texture(std::vector<Vec2f> texture, MeshFaces& faces) {
   faces.texture = std::move(texture);
 }
 
-/// @param faces  where polygons and texture indices go as they are written; null: nowhere
+/// @param faces  receives polygons and texture indices as they are in the file; may be null
 TriangleMesh parse(std::string_view bytes, std::string_view name, MeshFaces* faces) {
   require_text(bytes, name, "an OBJ text file");
   const std::string text = join_continued_lines(without_mark(bytes));

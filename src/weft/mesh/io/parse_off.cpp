@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-/// The first line: OFF, before it letters for texture (ST), colour (C) or normal (N) of each
+/// Reads the first line: OFF, after letters for texture (ST), colour (C) or normal (N) of each
 /// vertex.
 void read_keyword(LineReader& reader) {
   if (!reader.next_filled_line()) reader.fail("no line with content", "an OFF mesh is wanted");
@@ -30,8 +30,8 @@ Counts read_counts(LineReader& reader) {
   Counts counts;
   counts.vertices = reader.integer("the vertex count", 1, max_elements);
   counts.faces = reader.integer("the face count", 1, max_elements);
-  // No line takes fewer than two bytes: this keeps a false count from allocating, and leaves it to
-  // the lines that follow to tell what is missing.
+  // A line takes at least two bytes: this keeps a false count from allocating. Smaller differences
+  // are found when lines are missing.
   const std::size_t left = reader.remaining().size();
   if (2 * (counts.vertices + counts.faces) > static_cast<std::int64_t>(left) + 1)
     reader.fail(fmt::format("{} vertices and {} faces cannot fit into the {} bytes that follow",

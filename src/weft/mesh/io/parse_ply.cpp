@@ -14,7 +14,7 @@
 namespace weft {
 namespace {
 
-/// A list's values; at most as many as the file holds, whatever its count says.
+/// Reads a list's values; a false count ends in an error at the end of the file.
 void read_list(PlyValues& values, const PlyProperty& property, std::vector<double>& list) {
   const double count = values.next(property.count_type);
   if (count < 0) values.fail("a list of negative length", "a count is wanted");
@@ -49,7 +49,7 @@ void check_layout(const PlyHeader& header, std::string_view name) {
                      "one list vertex_indices is wanted");
 }
 
-/// 0 for u, 1 for v, -1 for what is no texture coordinate; programs differ in what they write.
+/// 0 for u, 1 for v, -1 for a property that is no texture coordinate; programs use several names.
 int texture_axis(std::string_view name) {
   constexpr std::array<std::array<std::string_view, 4>, 2> names{
       {{"u", "s", "texture_u", "texture_s"}, {"v", "t", "texture_v", "texture_t"}}};
@@ -58,7 +58,7 @@ int texture_axis(std::string_view name) {
   return -1;
 }
 
-/// A file's mesh, and what its vertices have beside a position.
+/// A file's mesh and the texture coordinates of its vertices.
 struct PlyMesh {
   TriangleMesh mesh;
   std::vector<Vec2f> texture;  ///< [V] or empty
@@ -93,7 +93,7 @@ void read_vertex(PlyValues& values, const PlyElement& element, PlyMesh& read) {
   read.texture.push_back({static_cast<float>(uv[0]), static_cast<float>(uv[1])});
 }
 
-/// Spreads the vertices' texture coordinates to the corners.
+/// Copies the vertices' texture coordinates to the corners.
 TriangleMesh textured(PlyMesh read, bool has_texture) {
   if (!has_texture) return std::move(read.mesh);
   for (const auto& [a, b, c] : read.mesh.triangles)
@@ -117,7 +117,7 @@ void add_face(const PlyValues& values, std::span<const double> list, std::int64_
   add_polygon(mesh, polygon);
 }
 
-/// A face, or an item of an element that has no part in the surface and is stepped over.
+/// Reads a face, or skips an item of an element that is not part of the surface.
 void read_other(PlyValues& values, const PlyElement& element, std::int64_t vertices,
                 TriangleMesh& mesh) {
   std::vector<double> list;

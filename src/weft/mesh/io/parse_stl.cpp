@@ -88,7 +88,8 @@ TriangleMesh read_binary(std::string_view bytes, std::string_view name) {
   return mesh;
 }
 
-/// Many binary files begin with "solid", so only the size tells.
+/// Whether a file looks like text. Many binary files begin with "solid", so the size of a binary
+/// file is checked first.
 bool looks_like_text(std::string_view bytes) {
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
   return start != bytes.npos && lower_case(bytes.substr(start, 5)) == "solid" &&

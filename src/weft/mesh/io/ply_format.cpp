@@ -72,7 +72,7 @@ PlyProperty read_property(LineReader& reader) {
   return property;
 }
 
-/// Fewest bytes that one item can take.
+/// Minimum number of bytes of an item.
 std::int64_t min_size(const PlyElement& element, PlyFormat format) {
   std::int64_t size = 0;
   for (const PlyProperty& property : element.properties) {
@@ -82,7 +82,7 @@ std::int64_t min_size(const PlyElement& element, PlyFormat format) {
   return size;
 }
 
-/// Keeps a false count from allocating or looping.
+/// Refuses counts that exceed the file's size, before they cause allocations or long loops.
 void check_counts(const LineReader& reader, const PlyHeader& header) {
   // The last line of a text file may lack its end.
   const auto left = static_cast<std::int64_t>(reader.remaining().size()) + 1;

@@ -16,7 +16,7 @@ enum class PlyType { none, int8, uint8, int16, uint16, int32, uint32, float32, f
 int size_of(PlyType type);
 inline bool is_integer(PlyType type) { return type < PlyType::float32; }
 
-/// One value, or with a list a count and then so many values.
+/// A property: one value, or for a list a count and then so many values.
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::none;
@@ -24,14 +24,14 @@ struct PlyProperty {
   [[nodiscard]] bool is_list() const { return count_type != PlyType::none; }
 };
 
-/// `count` items one after the other, each with all the properties in order.
+/// An element: `count` items one after the other, each with all the properties in order.
 struct PlyElement {
   std::string name;
   std::int64_t count = 0;
   std::vector<PlyProperty> properties;
 };
 
-/// What the head of a PLY file says (Turk 1994).
+/// The header of a PLY file (Turk 1994).
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
@@ -44,7 +44,7 @@ PlyHeader read_ply_header(LineReader& reader);
 /// The values behind the header in order, text or binary; one line an item where the file is text.
 class PlyValues {
  public:
-  /// @param reader  behind the header; used on while this lives
+  /// @param reader  behind the header; used as long as this lives
   /// @param name    what errors call the file, kept as a view
   PlyValues(LineReader& reader, PlyFormat format, std::string_view name)
       : reader_(&reader), format_(format), name_(name), bytes_(reader.remaining()) {}

@@ -19,12 +19,12 @@ constexpr std::string_view pc2_signature{"POINTCACHE2\0", 12};
 constexpr std::size_t pc2_header = 32, mdd_header = 8;
 constexpr std::size_t word = 4, point_size = 3 * word;
 
-/// What a header says that the rest of the file holds.
+/// The counts of points and samples in a header.
 struct Counts {
   std::uint64_t points, samples;
 };
 
-/// Before anything is allocated: counts are believed only as far as there are bytes for them.
+/// Checks a header's counts against the length of the file, before anything is allocated.
 /// @param bytes_per_sample  besides its points
 void check_length(std::string_view bytes, std::string_view name, Counts counts, std::size_t header,
                   std::size_t bytes_per_sample) {

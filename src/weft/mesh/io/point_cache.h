@@ -9,10 +9,10 @@
 
 namespace weft {
 
-/// Vertices that move: the positions of all of them at ascending times.
+/// A point cache: the positions of all vertices of a moving mesh at ascending times.
 struct PointCache {
   int points = 0;
-  bool times_in_frames = false;  ///< whose length the file does not tell; otherwise seconds
+  bool times_in_frames = false;  ///< whose length is not in the file; otherwise seconds
   std::vector<double> times;     ///< [samples] from the first sample's, which is 0
   std::vector<Vec3f> positions;  ///< [samples * points], sample by sample, in the mesh's unit
 
@@ -23,14 +23,14 @@ struct PointCache {
   }
 };
 
-/// Reads PC2 or MDD by the ending of the name. Where the first sample lies in its own program's
-/// time is not asked: playing begins with it.
+/// Reads PC2 or MDD by the ending of the name. The start time in the file is ignored: the first
+/// sample has time 0.
 /// @throws InputError for what is missing, not whole, longer than it says, not finite or above
 /// 1e30, without points or samples, or with times that do not ascend
 PointCache read_point_cache(const std::filesystem::path& path);
 
-/// The same from memory; `name` is what errors call it. PC2 is little-endian and counts frames, MDD
-/// is big-endian and tells seconds.
+/// Reads a point cache from memory; `name` is what errors call it. PC2 is little-endian with times
+/// in frames, MDD is big-endian with times in seconds.
 PointCache parse_pc2(std::string_view bytes, std::string_view name);
 PointCache parse_mdd(std::string_view bytes, std::string_view name);
 

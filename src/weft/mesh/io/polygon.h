@@ -8,14 +8,14 @@
 
 namespace weft {
 
-/// Most triangles and vertices of a mesh: half-edges are counted in int.
+/// Maximum number of triangles and of vertices of a mesh: half-edges are counted in int.
 inline constexpr std::int64_t max_elements = 700'000'000;
 
 /// Appends a polygon as a fan of triangles from its first corner. @pre at least three corners
 void add_polygon(TriangleMesh& mesh, std::span<const int> corners);
-/// The same with a texture coordinate for each corner. @pre as many of both
+/// Appends a polygon with a texture coordinate for each corner. @pre as many of both
 void add_polygon(TriangleMesh& mesh, std::span<const int> corners, std::span<const Vec2f> uv);
-/// Forgets the texture coordinates unless every corner of the mesh has finite ones.
+/// Drops the texture coordinates unless every corner of the mesh has finite ones.
 void keep_whole_texture(TriangleMesh& mesh);
 
 /// @throws InputError when there is no vertex, no triangle, or too many of either

@@ -115,8 +115,8 @@ bool EditableMesh::can_collapse(int a, int b) const {
   std::vector<int> common;
   std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
                         std::back_inserter(common));
-  // Common neighbours but those across the edge are links of a loop that would vanish; so would a
-  // lone triangle or tetrahedron.
+  // Common neighbours other than those across the edge form loops that would vanish with it; so
+  // would a lone triangle or tetrahedron.
   const std::size_t min_neighbours = shared == 2 ? 8 : 5;
   return static_cast<int>(common.size()) == shared && of_a.size() + of_b.size() >= min_neighbours;
 }
@@ -145,7 +145,7 @@ bool EditableMesh::flip_if_better(int a, int b) {
   };
   const double before = std::min(quality(left), quality(right));
   if (std::min(quality_of(first), quality_of(second)) <= before + 1e-6) return false;
-  // Both new triangles must face the way that the pair faces.
+  // The normals of both new triangles must agree with the mean normal of the old ones.
   const Vec3d facing = normalized(area_normal(left) + area_normal(right));
   constexpr double min_cosine = 0.5;
   for (const Triangle& t : {first, second})

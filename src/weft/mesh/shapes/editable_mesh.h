@@ -9,14 +9,13 @@
 
 namespace weft {
 
-/// A manifold mesh, closed or with borders, under local edits that keep it one of the same
-/// topology.
+/// A manifold mesh, closed or with borders, under local edits that preserve its topology.
 class EditableMesh {
  public:
   explicit EditableMesh(TriangleMesh mesh);
 
   [[nodiscard]] int vertex_count() const { return static_cast<int>(positions_.size()); }
-  /// Slots; some hold no triangle any more.
+  /// Number of triangle slots; some hold no triangle any more.
   [[nodiscard]] int slot_count() const { return static_cast<int>(triangles_.size()); }
   [[nodiscard]] bool is_alive(int slot) const { return triangles_[slot][0] >= 0; }
   [[nodiscard]] const Triangle& triangle(int slot) const { return triangles_[slot]; }
@@ -24,7 +23,7 @@ class EditableMesh {
   void move(int vertex, Vec3d to) { positions_[vertex] = to; }
   /// Slots of the triangles around a vertex, none for one that was merged away.
   [[nodiscard]] std::span<const int> around(int vertex) const { return around_[vertex]; }
-  /// Ascending.
+  /// The one-ring of a vertex, ascending.
   [[nodiscard]] std::vector<int> neighbours(int vertex) const;
   /// The two neighbours of a vertex along its border; none inside.
   [[nodiscard]] std::optional<std::array<int, 2>> border_neighbours(int vertex) const;
@@ -41,12 +40,11 @@ class EditableMesh {
   [[nodiscard]] bool can_collapse(int a, int b) const;
   /// Merges b into a. @pre can_collapse
   void collapse(int a, int b, Vec3d to);
-  /// Turns the edge from a to b between its two triangles into the edge between their other
-  /// corners, when that makes the worse of the two better and creases nothing. @return whether it
-  /// did
+  /// Flips the edge from a to b if that improves the worse of its two triangles and makes no
+  /// crease. @return whether it did
   bool flip_if_better(int a, int b);
 
-  /// Without the unused vertices and slots.
+  /// The mesh without the unused vertices and slots.
   [[nodiscard]] TriangleMesh compact() const;
 
  private:

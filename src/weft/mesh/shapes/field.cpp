@@ -101,7 +101,7 @@ Vec3d project_to_curve(const Field& first, const Field& second, Vec3d point) {
     const double f = first(point), g = second(point);
     if (std::abs(f) < close_enough && std::abs(g) < close_enough) break;
     const Vec3d df = gradient(first, point), dg = gradient(second, point);
-    // The least step that brings both to zero lies in the plane of the two gradients.
+    // The shortest step that brings both to zero lies in the plane of the two gradients.
     const double ff = squared_length(df), fg = dot(df, dg), gg = squared_length(dg);
     const double determinant = ff * gg - fg * fg;
     if (determinant <= 1e-6 * ff * gg) break;

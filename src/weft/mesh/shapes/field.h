@@ -20,21 +20,21 @@ struct RoundCone {
 /// Exact signed distance. @pre |radius_a - radius_b| < |b - a|
 double distance_to(const RoundCone& cone, Vec3d point);
 
-/// With axes along the coordinates [m].
+/// An ellipsoid with axes along the coordinates [m].
 struct Ellipsoid {
   Vec3d centre, radii;
 };
 /// Signed distance to first order: exact on the surface with unit gradient there.
 double distance_to(const Ellipsoid& ellipsoid, Vec3d point);
 
-/// The lesser of two fields where they differ by more than `blend`, and smoothly less in between
-/// (by at most blend / 4): the union of two shapes with a fillet. Once continuously differentiable.
+/// Smooth minimum of two fields: exact where they differ by more than `blend`, else smaller by at
+/// most blend / 4; the union of two shapes with a fillet. Once continuously differentiable.
 double smooth_min(double a, double b, double blend);
-/// The greater, smoothly more: the intersection of two shapes with a rounded edge.
+/// Smooth maximum of two fields: the intersection of two shapes with a rounded edge.
 double smooth_max(double a, double b, double blend);
 
-/// A chain of round cones through these points, along a smooth curve (Catmull-Rom), as a union:
-/// with the radii changing smoothly too, a limb without rings at its joints.
+/// A limb: the union of round cones along a Catmull-Rom curve through joints. The radii change
+/// smoothly too, so that no rings show at the joints.
 struct Limb {
   struct Joint {
     Vec3d centre;
@@ -46,10 +46,10 @@ struct Limb {
 };
 double distance_to(const Limb& limb, Vec3d point);
 
-/// The least distance to a box's points, 0 inside.
+/// Distance to a box, 0 inside.
 double distance_to(const Box3d& box, Vec3d point);
 
-/// By central differences.
+/// Gradient of a field by central differences.
 Vec3d gradient(const Field& field, Vec3d point);
 
 /// Moves a nearby point onto the surface field = 0 along the gradient.

@@ -113,7 +113,7 @@ Vec3d folded(Vec3d point) {
   return {std::sqrt(point.x * point.x + rounding * rounding), point.y, point.z};
 }
 
-/// Ends where the legs have taken over, and inside the head.
+/// The trunk, which ends inside the legs and inside the head.
 double trunk(Vec3d point) {
   constexpr double crotch = 0.80, skull = 1.62, rounding = 0.04;
   const double beyond = std::fmax(crotch - point.y, point.y - skull);
@@ -130,8 +130,8 @@ double with_head(double field, Vec3d point) {
   return joined(field, ear, half);
 }
 
-/// What is blended into a field at a place further than `blend` outside what it already holds does
-/// not change it, so a group of parts within a box need not be looked at from afar.
+/// Whether parts within a box cannot change a field at a point: a smooth minimum has no effect
+/// where its values differ by more than the blend.
 bool out_of_reach(const Box3d& box, double field, Vec3d point) {
   constexpr double largest_blend = 0.05;
   return distance_to(box, point) > std::fmax(field, 0) + largest_blend;
@@ -177,7 +177,8 @@ UpperArm mannequin_upper_arm() { return {shoulder, elbow}; }
 
 namespace {
 
-/// Shrinks the wanted edge length from `coarse` to `fine` within `reach` of a place.
+/// The wanted edge length near a place: `fine` within its reach, linear up to `coarse` at twice
+/// the reach.
 double finer_near(double coarse, double fine, double distance_over_reach) {
   const double t = std::fmin(1.0, std::fmax(0.0, distance_over_reach - 1));
   return fine + (coarse - fine) * t;

@@ -46,7 +46,7 @@ namespace {
 
 constexpr int rows = 14, cols = 228;  // around the tube, along it
 
-/// A place on the middle line and two directions across it.
+/// A point on the middle line, its tangent and a direction across it.
 struct Frame {
   Vec3d centre, tangent, side;
 };
@@ -77,8 +77,8 @@ Vec3d across(Vec3d direction, Vec3d tangent) {
   return normalized(direction - dot(direction, tangent) * tangent);
 }
 
-/// Frames that turn about the curve as little as can be; the turn by which the last would miss the
-/// first is spread over all.
+/// Rotation-minimising frames along the curve; the angle by which the last would miss the first is
+/// spread over all.
 std::vector<Frame> frames() {
   std::vector<Frame> list;
   Vec3d side{0, 1, 0};

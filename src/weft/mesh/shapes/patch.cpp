@@ -43,7 +43,7 @@ class Clipper {
     return entry->second;
   }
 
-  /// Walks round the triangle, and makes a fan of what remains: a triangle or a quad.
+  /// Clips a triangle and adds the remaining triangle or quad as a fan.
   void add_clipped(const Triangle& t) {
     std::vector<int> outline;
     for (int k = 0; k < 3; ++k) {

@@ -17,7 +17,7 @@ constexpr int corners = 8;
 constexpr std::array<std::array<int, 4>, 6> tetrahedra{
     {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
 
-/// Even orders of a tetrahedron's corners that begin with the corners inside: one, or two.
+/// Even permutations of a tetrahedron's corners that begin with the corners inside: one, or two.
 constexpr std::array<std::array<int, 4>, 4> one_first{
     {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}}};
 constexpr std::array<std::array<int, 4>, 6> two_first{

@@ -63,7 +63,7 @@ class Remesher {
   const RemeshOptions& options_;
 };
 
-/// Visits every edge once, also those that the visit makes.
+/// Visits every edge once, including edges that the visit adds.
 template <class Visit>
 void Remesher::for_each_edge(const Visit& visit) {
   for (int slot = 0; slot < mesh_.slot_count(); ++slot)
@@ -78,7 +78,7 @@ void Remesher::split_long_edges() {
     if (relative_length(a, b) <= too_long) return;
     const Vec3d half_way = middle(a, b);
     const Vec3d at = projected(half_way, mesh_.triangles_at_edge(a, b) == 1);
-    // A point that the projection carries far off would leave both halves as long as before.
+    // A point that the projection moves far would leave both halves as long as before.
     const bool is_near = length(at - half_way) < 0.8 * length(mesh_.position(a) - half_way);
     mesh_.split(a, b, is_near ? at : half_way);
   });
@@ -90,8 +90,8 @@ void Remesher::merge_short_edges() {
   });
 }
 
-/// True when a triangle that is to replace another faces the way of that one, or of the field: some
-/// tiny triangles face nowhere to begin with.
+/// True when the normal of a new triangle agrees with that of the one it replaces, or else with the
+/// field's gradient, since the normals of tiny triangles may be meaningless.
 bool Remesher::faces_outwards(Vec3d a, Vec3d b, Vec3d c, int replaced) const {
   constexpr double min_cosine = 0.5;
   const Vec3d normal = normalized(cross(b - a, c - a));
@@ -100,8 +100,8 @@ bool Remesher::faces_outwards(Vec3d a, Vec3d b, Vec3d c, int replaced) const {
   return dot(normal, normalized(outward)) > min_cosine;
 }
 
-/// True when the triangles around a vertex, but for those that hold `ignored`, keep facing their
-/// way and do not fall below a quality once it moves.
+/// True when a move of a vertex flips no triangle around it and lowers no quality to below
+/// `min_quality`; triangles that hold `ignored` do not count.
 bool Remesher::may_move(int vertex, Vec3d to, int ignored, double min_quality) const {
   for (const int slot : mesh_.around(vertex)) {
     const Triangle& t = mesh_.triangle(slot);
@@ -115,9 +115,10 @@ bool Remesher::may_move(int vertex, Vec3d to, int ignored, double min_quality) c
   return true;
 }
 
-/// Merges b into a at a place, unless that would harm what is around them.
+/// Merges b into a at a position, unless that would spoil the edges and triangles around them.
 bool Remesher::merge_at(int a, int b, Vec3d to) {
-  // A tiny edge must go, though its neighbours become long or, being tiny too, slivers for a while.
+  // A tiny edge is merged even if its neighbours become long or, being tiny too, slivers for a
+  // while.
   constexpr double tiny = 0.4;
   const bool is_tiny = relative_length(a, b) < tiny;
   for (const int v : {a, b})
@@ -143,7 +144,7 @@ void Remesher::flip_edges() {
   for_each_edge([&](int a, int b) { mesh_.flip_if_better(a, b); });
 }
 
-/// The centre of the triangles around a vertex, each weighted so that sizes follow the wanted
+/// The centroid of the triangles around a vertex, weighted so that their sizes follow the wanted
 /// length.
 Vec3d Remesher::centre_of_neighbourhood(int vertex) const {
   Vec3d sum;

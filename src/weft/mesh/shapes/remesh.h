@@ -12,10 +12,10 @@ struct RemeshOptions {
   int passes = 8;
 };
 
-/// Makes triangles even: splits long edges, merges short ones, flips, and slides vertices along the
-/// surface, with every vertex on it all the time. The topology stays. After Botsch and Kobbelt
-/// 2004, with a length that varies over space as in Dunyach et al. 2013; flips go by triangle
-/// quality rather than by valence.
+/// Remeshes a surface with even triangles: splits long edges, merges short ones, flips edges, and
+/// relaxes vertices, which are projected to the surface. The topology stays. After Botsch and
+/// Kobbelt 2004, with a length that varies over space as in Dunyach et al. 2013; flips depend on
+/// triangle quality rather than valence.
 TriangleMesh remesh(TriangleMesh mesh, const RemeshOptions& options);
 
 }  // namespace weft

@@ -66,7 +66,7 @@ Placed add_points(TriangleMesh& mesh, const Ring& ring) {
   return placed;
 }
 
-/// Whether the middle of a's edge i comes before that of b's edge j, in whole numbers.
+/// Whether the middle of a's edge i comes before that of b's edge j, in integer arithmetic.
 bool comes_first(const Placed& a, int i, const Placed& b, int j) {
   return (2 * i + 1) * b.count <= (2 * j + 1) * a.count;
 }
@@ -128,7 +128,7 @@ TriangleMesh rod_mesh() {
   add_rings(rings, rings.back(), {half, rod_radius}, edge);
   add_rings(rings, rings.back(), {half, 0}, edge);
   TriangleMesh mesh = ring_mesh(rings);
-  // From up to along x: the axes change places in a circle, which turns and does not mirror.
+  // From y to x by a cyclic permutation of the axes, which rotates and does not mirror.
   for (Vec3d& p : mesh.positions) p = {p.y, p.z, p.x};
   return mesh;
 }

@@ -9,11 +9,11 @@ namespace weft {
 
 /// A horizontal cut through an upright form: an ellipse around x = 0 [m].
 struct Section {
-  double height, half_width, front, back;  ///< front and back: largest and least z
+  double height, half_width, front, back;  ///< front and back: largest and smallest z
 };
 
 /// The field of a form with elliptic sections, smooth in between (cubic Hermite, slopes by
-/// differences); beyond the first and last height the end sections go on.
+/// differences); beyond the first and last height the end sections continue.
 /// @param sections  heights ascending, at least two
 double distance_to_sections(std::span<const Section> sections, Vec3d point);
 
@@ -23,8 +23,8 @@ struct Ring {
   int count = 1;                  ///< 1: a point on the axis; otherwise >= 3
 };
 
-/// A surface of revolution through rings that follow each other, the first at its lower pole: what
-/// lies between two rings is filled with triangles that advance on both evenly, so that rings of
+/// A surface of revolution through consecutive rings, the first at its lower pole: the strip
+/// between two rings is filled with triangles that advance on both evenly, so that rings of
 /// different counts fit. A pole of one point closes the surface. Faces outward when the rings run
 /// upward on the outside.
 /// @pre no two neighbours of count 1

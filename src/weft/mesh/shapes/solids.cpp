@@ -21,7 +21,8 @@ const int across = static_cast<int>(std::lround(box_size.x / cell)),
           up = static_cast<int>(std::lround(box_size.y / cell)),
           deep = static_cast<int>(std::lround(box_size.z / cell));
 
-/// In cells from the box's lowest corner: whole numbers, so that neighbours meet bit for bit.
+/// A side of the box in cells from its lowest corner: integers, so that the vertices of adjacent
+/// sides are bit-equal.
 struct Side {
   Vec3d corner, along_u, along_v;  ///< along_u x along_v points outward
   int cols, rows;

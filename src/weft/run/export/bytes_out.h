@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little,
               "formats are little-endian and written as they lie in memory");
 static_assert(sizeof(Vec3f) == 12);
 
-/// Values as they lie in memory.
+/// Appends values as they lie in memory.
 template <class T>
 void append_raw(std::string& bytes, std::span<const T> values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
@@ -30,7 +30,7 @@ void write_raw(std::ostream& out, std::span<const T> values) {
             static_cast<std::streamsize>(values.size_bytes()));
 }
 
-/// The bytes of a 32-bit value, the most significant first.
+/// Appends the bytes of a 32-bit value, the most significant first.
 template <class T>
 void append_big_endian(std::string& bytes, T value) {
   static_assert(sizeof(T) == 4);

@@ -36,7 +36,8 @@ struct ListedFile {
   std::string surface, path, format;
 };
 
-/// What a manifest lists; nothing where it is none. Names with folders in them are not a run's.
+/// Files that a manifest lists; none where it is no manifest. Names with folders in them are not a
+/// run's.
 std::vector<ListedFile> listed_files(const fs::path& path) {
   std::vector<ListedFile> files;
   try {
@@ -57,7 +58,7 @@ std::vector<ListedFile> listed_files(const fs::path& path) {
   return files;
 }
 
-/// A file, or a folder of frames unless something else is in it.
+/// Removes a file, or a folder of frames unless something else is in it.
 void remove_listed(const fs::path& folder, const ListedFile& file) {
   const fs::path path = folder / file.path;
   std::error_code ignored;

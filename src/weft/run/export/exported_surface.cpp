@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-/// Some unit vector across another.
+/// Some unit vector orthogonal to another.
 Vec3d any_across(Vec3d normal) {
   const Vec3d axis = std::abs(normal.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
   return normalized(cross(normal, axis));
@@ -18,13 +18,14 @@ Vec3d any_across(Vec3d normal) {
 
 }  // namespace
 
-/// The samples and their normals at one moment.
+/// Positions and normals of the samples in one frame.
 class BoundVertices::Surface {
  public:
   Surface(const SurfacePoints& grid, const std::vector<Triangle>& welded, const Planes3& samples)
       : grid_(grid), samples_(samples), normals_(point_normals(grid.gather(samples), welded)) {}
 
-  /// Normals between samples are blended, so that offsets do not jump where triangles meet.
+  /// Local frame at a bond. Normals are interpolated between samples, so that offsets do not jump
+  /// where triangles meet.
   [[nodiscard]] Frame at(const Bond& bond) const {
     Frame frame;
     Vec3d normal;

@@ -12,32 +12,31 @@
 
 namespace weft {
 
-/// The vertices of a mesh, bound to the surface of the image that was made from it: each follows
-/// its place in a triangle of the grid, and what lay between that place and the vertex at rest
-/// turns along with the surface. So the rest shape comes back as it was, and detail that is finer
-/// than the image stays.
+/// Vertices of an input mesh, bound to the surface of its image. Each follows a point in a triangle
+/// of the grid, and its offset from that point at rest rotates with the surface. So the rest shape
+/// is reproduced, and detail finer than the image is kept.
 class BoundVertices {
  public:
   struct Rest {
     const Planes3* samples = nullptr;  ///< [n x n] of the image, placed [m]
-    std::span<const Vec2d> places;     ///< [V] in sample units; not finite: stays where it is
+    std::span<const Vec2d> places;     ///< [V] in sample units; not finite: does not move
     std::span<const Vec3d> vertices;   ///< [V] of the mesh, placed [m]
   };
   /// @param grid  of the image, welded; must outlive this
   BoundVertices(const GeometryImage& image, const SurfacePoints& grid, const Rest& rest);
 
-  /// Where the vertices are when the samples have moved. [V] [m]
+  /// Positions of the vertices for given samples. [V] [m]
   [[nodiscard]] std::vector<Vec3d> follow(const Planes3& samples) const;
   [[nodiscard]] int size() const { return static_cast<int>(bonds_.size()); }
 
  private:
-  /// Of one vertex.
+  /// Binding of one vertex.
   struct Bond {
-    std::array<int, 3> samples{-1, -1, -1};  ///< of its triangle; -1: bound to nothing
+    std::array<int, 3> samples{-1, -1, -1};  ///< of its triangle; -1: not bound
     std::array<double, 3> weights{};
     std::array<int, 2> along{};  ///< samples one column apart in that triangle
-    Vec3d offset;                ///< in the frame of `Surface`, or the place of what is not bound
-    Vec3d rounding;              ///< what is lost of the place at rest, added again
+    Vec3d offset;                ///< in the frame of `Surface`; not bound: the position [m]
+    Vec3d rounding;              ///< error of the rest position, added again [m]
   };
   struct Frame {
     Vec3d origin, tangent, bitangent, normal;
@@ -53,11 +52,11 @@ class BoundVertices {
   std::vector<Bond> bonds_;       // [V]
 };
 
-/// What of a surface is written: the samples of its image, or the vertices of the mesh that the
-/// image was made from. The same vertices in the same order for every format and frame.
+/// The vertices of a surface that are written: the samples of its image, or the vertices of its
+/// input mesh. They are the same, in the same order, for every format and frame.
 class ExportedSurface {
  public:
-  /// The samples. @param grid  must outlive this
+  /// Exports the samples. @param grid  must outlive this
   ExportedSurface(const SurfacePoints& grid, const MeshFrame& files);
 
   struct Source {
@@ -66,17 +65,17 @@ class ExportedSurface {
     const Planes3* rest = nullptr;  ///< placed samples [m]
     PlacementMap placement;
   };
-  /// The mesh's vertices. @param grid  welded; it and the mesh must outlive this
+  /// Exports the vertices of the mesh. @param grid  welded; it and the mesh must outlive this
   ExportedSurface(const SurfacePoints& grid, const Source& source, const MeshFrame& files);
 
   [[nodiscard]] bool on_input() const { return bound_.has_value(); }
   [[nodiscard]] int vertices() const;
-  /// Polygons and texture coordinates; made anew by every call where they are the samples'.
+  /// Polygons and texture coordinates; computed by every call where the samples are exported.
   [[nodiscard]] MeshFaces faces() const;
-  /// Where the vertices are when the samples are there, in the unit and axes of files. [vertices]
+  /// Positions of the vertices for given samples, in the unit and axes of files. [vertices]
   /// @param samples  [n x n] world [m]
   [[nodiscard]] std::vector<Vec3f> points(const Planes3& samples) const;
-  /// What the numbers of files mean.
+  /// Unit and axes of files.
   [[nodiscard]] const MeshFrame& frame() const { return files_; }
 
  private:

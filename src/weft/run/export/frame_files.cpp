@@ -33,7 +33,7 @@ std::span<const Vec3f> span_of(const std::vector<Vec3f>& values) { return values
 
 PlyFrames::PlyFrames(const ExportedSurface& surface) {
   const MeshFaces faces = surface.faces();
-  // Readers know counts of one byte best.
+  // Counts of one byte are the most widely supported.
   const bool small = std::all_of(faces.sizes.begin(), faces.sizes.end(),
                                  [](int size) { return size <= max_of_a_byte; });
   triangles_ = fans_of(faces).triangles;
@@ -128,7 +128,7 @@ std::string exr_frame(const MotionFrame& frame) {
 }
 namespace {
 
-/// A whole OBJ in memory would take more than the cloth itself: it is written in pieces.
+/// Text is written in pieces, as a whole OBJ in memory would take more than the cloth itself.
 constexpr std::size_t min_piece = 1U << 16U;
 
 class Text {
@@ -149,7 +149,7 @@ class Text {
   fmt::memory_buffer text_;
 };
 
-/// All corners of a face have the same parts: texture where all have one.
+/// Writes a face, with texture indices only where all its corners have one.
 void write_face(Text& text, std::span<const int> corners, std::span<const int> texture) {
   const bool textured = !texture.empty() && std::all_of(texture.begin(), texture.end(),
                                                         [](int index) { return index >= 0; });
@@ -186,7 +186,7 @@ void write_obj(const std::filesystem::path& path, const ExportedSurface& surface
     for (const Vec3f p : points) text.add("v {} {} {}\n", p.x, p.y, p.z);
     for (const Vec2f uv : faces.texture) text.add("vt {} {}\n", uv.x, uv.y);
     for (const Vec3f n : normals) text.add("vn {:.5g} {:.5g} {:.5g}\n", n.x, n.y, n.z);
-    // Programs that make their own normals shade smoothly, too.
+    // Smooth shading also in programs that compute their own normals.
     text.add("s 1\n");
     write_faces(text, faces);
     text.flush();

@@ -33,7 +33,7 @@ class VtpFrames {
   std::vector<Triangle> triangles_;
 };
 
-/// What ParaView opens: which file is shown when.
+/// Text of a PVD file, which ParaView opens: the time of each frame's file.
 /// @param folder  of the frames, beside the file
 std::string pvd_text(const std::string& folder, const std::vector<std::string>& files,
                      double frame_rate);

@@ -12,7 +12,8 @@ namespace weft {
 void remove_frames(const std::filesystem::path& place, const std::string& name,
                    const std::string& format, int from);
 
-/// A file for each frame, in a folder of their own: DIR/NAME_ply/NAME_0000.ply. Each appears whole.
+/// Writes a file for each frame, in a folder of their own: DIR/NAME_ply/NAME_0000.ply. Each appears
+/// whole.
 class FrameSequence : public MotionWriter {
  public:
   struct Options {
@@ -20,7 +21,8 @@ class FrameSequence : public MotionWriter {
     std::string name;              ///< of the surface
     std::string format;            ///< the ending, without dot
     std::function<std::string(const MotionFrame&)> encode;
-    /// A file DIR/NAME.ENDING over all, made of the frames' names at the end; no ending: none.
+    /// Ending of an index file DIR/NAME.ENDING, made of the names of all frames at the end; empty:
+    /// none.
     std::string index_ending;
     std::function<std::string(const std::vector<std::string>&)> index;
   };

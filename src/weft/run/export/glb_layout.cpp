@@ -12,13 +12,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of the specification: component types and what a view is bound to.
+// Constants of the specification: component types and targets of buffer views.
 constexpr int float_type = 5126, index_type = 5125, vertex_target = 34962, index_target = 34963;
 constexpr std::uint64_t vector_bytes = 12;
 
 Json list(Vec3f v) { return {v.x, v.y, v.z}; }
 
-/// Numbers of files become metres with y up.
+/// The node of the mesh, which transforms the unit and axes of files to metres with y up.
 Json node_json(const FinishedMotion& motion) {
   const MeshFrame& frame = motion.surface->frame();
   Json node{{"name", motion.name}, {"mesh", 0}};
@@ -29,7 +29,8 @@ Json node_json(const FinishedMotion& motion) {
   return node;
 }
 
-/// A vertex keeps the first texture coordinate that it is met with; each other one makes a copy.
+/// Splits vertices at texture seams: a vertex keeps its first texture coordinate; each other one
+/// makes a copy.
 class TexturedCopies {
  public:
   explicit TexturedCopies(GlbMesh& mesh)
@@ -90,10 +91,10 @@ Extremes extremes(const std::vector<Vec3f>& points) {
   return found;
 }
 
-/// The accessors, which everything names by number.
+/// The accessors, referred to by index.
 struct GlbParts {
   Json accessors = Json::array();
-  /// @return its number
+  /// @return its index
   int add(int view, int type, std::size_t count, const char* shape) {
     accessors.push_back(
         {{"bufferView", view}, {"componentType", type}, {"count", count}, {"type", shape}});
@@ -133,7 +134,7 @@ int GlbLayout::add_view(std::uint64_t bytes) {
 
 namespace {
 
-/// What `json` lists of the animation, if there is one.
+/// The animation of the weights of morph targets.
 Json animation_json(const std::string& name, int times, int weights) {
   return {{{"name", name},
            {"samplers", {{{"input", times}, {"output", weights}, {"interpolation", "LINEAR"}}}},

@@ -10,16 +10,16 @@
 
 namespace weft {
 
-/// A surface as glTF has it: one texture coordinate a vertex.
+/// A surface in the form of glTF: one texture coordinate per vertex.
 struct GlbMesh {
-  std::vector<int> source;  ///< [W] the surface's vertex of each; the first are all of those, in
+  std::vector<int> source;  ///< [W] the surface's vertex of each; starts with all of those, in
                             ///< order
   std::vector<Vec2f> uv;    ///< [W] v runs downwards; or empty
   std::vector<Triangle> triangles;
 };
 GlbMesh glb_mesh(const ExportedSurface& surface);
 
-/// Least and largest coordinates, which readers are told.
+/// Smallest and largest coordinates, which the format requires.
 struct Extremes {
   Vec3f least, most;
 };
@@ -27,8 +27,8 @@ Extremes extremes(const std::vector<Vec3f>& points);
 
 struct GlbParts;
 
-/// Where everything lies in the binary part, one after the other: positions, normals, uv,
-/// triangles, then positions and normals of each target, times and weights.
+/// Layout of the binary part, in this order: positions, normals, uv, triangles, then positions and
+/// normals of each target, times and weights.
 class GlbLayout {
  public:
   GlbLayout(const GlbMesh& mesh, const FinishedMotion& motion);

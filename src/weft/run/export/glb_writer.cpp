@@ -63,7 +63,7 @@ class Writer {
     write_raw(out, std::span<const Vec3f>(all));
   }
 
-  /// At its own time each target has weight 1 and all others none.
+  /// Writes times and weights: at the time of a frame its own target has weight 1, all others 0.
   void write_animation(std::ostream& out) const {
     const auto frames = static_cast<std::size_t>(motion_.frames);
     std::vector<float> row;

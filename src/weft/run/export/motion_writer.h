@@ -9,7 +9,7 @@
 
 namespace weft {
 
-/// One moment of a surface that is written.
+/// One frame of a surface to be written.
 class MotionFrame {
  public:
   /// All by reference. @param samples  of the image, world [m]
@@ -28,8 +28,8 @@ class MotionFrame {
   std::vector<Vec3f> points_;
 };
 
-/// Writes the motion of one surface in one format, frame by frame. What is finished appears whole;
-/// what a killed run left is where `resume` finds it.
+/// Writes the motion of one surface in one format, frame by frame. Finished files appear whole;
+/// `resume` continues what a killed run left.
 class MotionWriter {
  public:
   MotionWriter() = default;
@@ -37,28 +37,29 @@ class MotionWriter {
   MotionWriter& operator=(const MotionWriter&) = delete;
   virtual ~MotionWriter() = default;
 
-  /// Begins, before frame 0 is added. @throws OutputError, as everything that writes
+  /// Starts the output, before frame 0 is added. @throws OutputError, as everything that writes
   virtual void start() = 0;
+  /// Checks that `resume` is possible.
   /// @throws InputError unless there are all frames up to `last`, that one with the same bits
   virtual void check_resumable(const MotionFrame& last) const = 0;
-  /// Goes on behind a frame. @param finished  nothing will be added
+  /// Continues after a frame. @param finished  nothing will be added
   virtual void resume(const MotionFrame& last, bool finished) = 0;
   virtual void add(const MotionFrame& frame) = 0;
   /// Waits until all frames are on the disk.
   virtual void flush() = 0;
-  /// Puts everything in its place, with the frames that there are.
+  /// Finishes the files with the frames added so far.
   virtual void finish() = 0;
-  /// What `finish` leaves.
+  /// Paths of the files that `finish` leaves.
   [[nodiscard]] virtual std::vector<std::filesystem::path> outputs() const = 0;
 };
 
-/// A motion that is over, for formats whose files cannot grow frame by frame.
+/// A complete motion, for formats whose files cannot grow frame by frame.
 struct FinishedMotion {
   std::string name;  ///< of the surface
   const ExportedSurface* surface = nullptr;
   int frames = 1;
   double frame_rate = 60;  ///< [1/s]
-  /// The points of a frame, any of them at any time. [vertices]
+  /// The points of a frame; frames may be read in any order. [vertices]
   std::function<std::vector<Vec3f>(int frame)> points;
 };
 
@@ -66,9 +67,9 @@ struct FinishedMotion {
 void write_mdd(const std::filesystem::path& path, const FinishedMotion& motion);
 
 /// Binary glTF 2.0: positions, normals and texture coordinates at frame 0, a morph target for each
-/// later frame, and the animation of their weights, linear between frames. Vertices at seams of the
-/// texture are there once for each of their coordinates: the mesh's own vertices come first, in
-/// their order. Unit and axes are those of the node, so that the scene is in metres, y up.
+/// later frame, and the animation of their weights, linear between frames. Vertices at texture
+/// seams are repeated for each further coordinate, after the mesh's own vertices in their order.
+/// The node has unit and axes, so that the scene is in metres, y up.
 /// @throws OutputError, also above 4 GB, which the format cannot hold
 void write_glb(const std::filesystem::path& path, const FinishedMotion& motion);
 

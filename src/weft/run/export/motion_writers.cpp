@@ -51,7 +51,7 @@ class Pc2Motion : public MotionWriter {
   std::unique_ptr<Pc2Writer> writer_;  // none where the file is whole
 };
 
-/// A file that is made of the point cache of the same vertices, once that is finished.
+/// Converts the point cache of the same vertices, once that is finished.
 class MadeOfCache : public MotionWriter {
  public:
   using Write = void (*)(const fs::path&, const FinishedMotion&);

@@ -12,10 +12,10 @@
 
 namespace weft {
 
-/// Formats whose files are made of a point cache when the motion is over.
+/// Whether files of a format are converted from a point cache after the run.
 bool is_made_of_cache(std::string_view format);
 
-/// Where a surface's motion goes.
+/// Destination of a surface's motion.
 struct MotionPlace {
   std::filesystem::path folder;  ///< DIR
   std::string name;              ///< of the surface
@@ -27,7 +27,7 @@ struct MotionPlace {
 std::unique_ptr<MotionWriter> make_motion_writer(std::string_view format, const MotionPlace& place,
                                                  const ExportedSurface& surface);
 
-/// Writes one moment as DIR/NAME.FORMAT, where the format can hold it.
+/// Writes a single frame as DIR/NAME.FORMAT, where the format can hold it.
 /// @return its path, or nothing for caches and images  @throws OutputError
 std::optional<std::filesystem::path> write_still(std::string_view format, const MotionPlace& place,
                                                  const MotionFrame& frame);

@@ -44,9 +44,9 @@ fs::path unfinished(const fs::path& path) {
   return temporary_path(path, TemporaryName::of_the_file);
 }
 
-/// Of a file that was left: how many frames its header names (0 until it is finished).
+/// State of a file of an earlier writer: `frames` of its header is 0 until it is finished.
 struct Left {
-  bool holds = false;  ///< the frames that are asked for, the last of them equal
+  bool holds = false;  ///< whether the wanted frames are there, the last of them equal
   int frames = 0;
 };
 
@@ -134,7 +134,7 @@ void Pc2Writer::add(std::span<const Vec3f> points) {
   const auto bytes = std::as_bytes(points);
   out_.write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));
-  // Whole frames are never left in a buffer that a full disk would not take.
+  // Flushed, so that whole frames never stay in a buffer that a full disk would not take.
   if (!out_.flush()) fail();
   ++frames_;
 }

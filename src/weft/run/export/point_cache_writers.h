@@ -11,22 +11,22 @@
 
 namespace weft {
 
-/// A point cache (PC2) that appears whole, with the frames there are: version 1, one sample a frame
-/// from frame 0, little-endian floats x y z a point.
+/// Writes a point cache (PC2), which appears whole, with the frames added so far: version 1, one
+/// sample a frame from frame 0, little-endian floats x y z a point.
 class Pc2Writer {
  public:
   /// @param name  of_the_file: a process that is killed leaves what it wrote, for `resume`
   /// @throws OutputError when the place cannot be written
   Pc2Writer(const std::filesystem::path& path, int points,
             TemporaryName name = TemporaryName::of_this_process);
-  /// Goes on behind `frames` frames that an earlier writer left, unfinished or finished; what it
-  /// wrote after them is dropped. A finished file stays as it is until this one is.
+  /// Continues after `frames` frames of an earlier writer, unfinished or finished; later frames are
+  /// dropped. A finished file stays as it is until this one is finished.
   /// @param last  the last of those frames, by which a file of another run is told apart
   /// @throws InputError when neither holds those frames; OutputError
   static Pc2Writer resume(const std::filesystem::path& path, int frames,
                           std::span<const Vec3f> last);
 
-  /// Whether `resume` would refuse. @throws InputError
+  /// Throws where `resume` would refuse. @throws InputError
   static void check_resumable(const std::filesystem::path& path, int frames,
                               std::span<const Vec3f> last);
 
@@ -34,7 +34,7 @@ class Pc2Writer {
   void add(std::span<const Vec3f> points);
   /// Waits until all frames are on the disk. @throws OutputError
   void flush();
-  /// Sets the count of frames and puts the file in its place, with the whole frames that there was
+  /// Writes the frame count and renames the file to its path, with the whole frames that there was
   /// room for. @throws OutputError
   void finish();
   [[nodiscard]] int frames() const { return frames_; }

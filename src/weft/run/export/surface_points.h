@@ -10,8 +10,8 @@
 
 namespace weft {
 
-/// Which samples of a grid become vertices of exported files, and how they are joined: the same for
-/// every format and frame, so that meshes and caches go together.
+/// Vertices and triangles of exported files, by samples of the grid: the same for every format and
+/// frame, so that meshes and caches go together.
 struct SurfacePoints {
   int size = 0;                     ///< n
   std::vector<int> sample_of;       ///< [V] the sample of each vertex

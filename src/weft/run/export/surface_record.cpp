@@ -18,7 +18,7 @@ SurfaceRecord::SurfaceRecord(const Subject& subject, const ExportOptions& option
 }
 
 MotionPlace SurfaceRecord::place(bool on_input) const {
-  // NAME.pc2 goes with NAME.obj.
+  // NAME.pc2 has the vertices of NAME.obj.
   const bool beside = !on_input && on_input_.has_value();
   return {options_.folder, subject_.name,
           options_.folder / (subject_.name + (beside ? ".image.pc2" : ".pc2")),
@@ -37,7 +37,7 @@ void SurfaceRecord::add_writers() {
   bool input_cache = false, image_cache = false;
   for (const std::string& format : options_.formats) {
     if (!cached(format)) continue;
-    image_cache = true;  // of which runs are drawn, too
+    image_cache = true;  // runs are drawn from it, too
     input_cache = input_cache || shows_input(format);
   }
   if (input_cache) add_writer("pc2", true);
@@ -63,7 +63,7 @@ void SurfaceRecord::write_still_files() {
 template <class Visit>
 void SurfaceRecord::each_frame(int frame, const Visit& visit) const {
   for (const bool on_input : {true, false}) {
-    std::optional<MotionFrame> now;  // the same for all that show it
+    std::optional<MotionFrame> now;  // shared by all writers of these vertices
     for (const Writer& writer : writers_) {
       if (writer.on_input != on_input) continue;
       if (!now) now.emplace(frame, *subject_.now, surface(on_input));

@@ -19,7 +19,7 @@ struct ExportOptions {
   MeshFrame files;         ///< unit and axes of what is written
 };
 
-/// What was written of a surface, for those who look for it.
+/// A written file of a surface.
 struct WrittenFile {
   std::filesystem::path path;
   std::string format;
@@ -33,8 +33,8 @@ class SurfaceRecord {
   struct Subject {
     std::string name;
     const GeometryImage* image = nullptr;
-    const Planes3* now = nullptr;        ///< where the samples are, at every frame [m]
-    const Planes3* rest = nullptr;       ///< placed, where the mesh's vertices are at rest [m]
+    const Planes3* now = nullptr;        ///< current positions of the samples [m]
+    const Planes3* rest = nullptr;       ///< placed samples at rest, as is the mesh [m]
     const SourceMesh* source = nullptr;  ///< null: the image came from no mesh
     PlacementMap placement;
     bool moves = true;
@@ -44,18 +44,19 @@ class SurfaceRecord {
   SurfaceRecord(const SurfaceRecord&) = delete;
   SurfaceRecord& operator=(const SurfaceRecord&) = delete;
 
-  /// Writes what does not grow, as the surface stands. @throws OutputError, as all that follows
+  /// Writes the files that do not grow, at the current positions. @throws OutputError, as all that
+  /// follows
   void write_still_files();
-  /// Begins the files that grow, with frame 0.
+  /// Starts the files that grow, with frame 0.
   void start();
   /// @throws InputError unless the files hold the frames up to `frame`
   void check_resumable(int frame) const;
   void resume(int frame, bool finished);
   void add(int frame);
   void flush();
-  /// Puts the files that grew in their places.
+  /// Finishes the files that grew.
   void finish();
-  /// Makes those that are made of them.
+  /// Writes the files that are converted from finished caches.
   void make_of_caches();
 
   [[nodiscard]] std::vector<std::filesystem::path> outputs() const;
@@ -91,7 +92,7 @@ class SurfaceRecord {
   ExportedSurface on_image_;
   std::optional<ExportedSurface> on_input_;
   std::string image_cache_;
-  std::vector<Writer> writers_;  // caches first: others are made of them
+  std::vector<Writer> writers_;  // caches first: others are converted from them
   std::vector<WrittenFile> still_;
 };
 

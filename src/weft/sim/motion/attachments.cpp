@@ -20,7 +20,7 @@ Corners corners_of(const Planes3& positions, const Triangle& triangle) {
   return corners;
 }
 
-/// Unit axes that turn with a triangle: along its first edge, across it, and its normal.
+/// Orthonormal axes of a triangle: along its first edge, across it, and its normal.
 std::array<Vec3d, 3> axes_of(const Corners& t) {
   const Vec3d along = normalized(t[1] - t[0]);
   const Vec3d normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
@@ -31,7 +31,7 @@ Vec3d blend(const std::array<double, 3>& weights, const Corners& t) {
   return weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
 }
 
-/// Of a point in the triangle's plane.
+/// Barycentric coordinates of a point in the plane of a triangle.
 std::array<double, 3> weights_at(Vec3d point, const Corners& t) {
   const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
   const double area = dot(normal, normal);
@@ -40,7 +40,7 @@ std::array<double, 3> weights_at(Vec3d point, const Corners& t) {
   return {1 - second - third, second, third};
 }
 
-/// The nearest triangle of a body, of those that have an area: others have no axes.
+/// Finds the nearest triangle of a body, among those that have an area: others have no axes.
 class Ties {
  public:
   explicit Ties(const TiedSurface& surface) : positions_(*surface.positions) {

@@ -12,15 +12,15 @@
 
 namespace weft {
 
-/// A surface that cloth is tied to, as it stands where the run begins.
+/// A surface that cloth is tied to, at the start of the run.
 struct TiedSurface {
   std::string name;
   const Planes3* positions = nullptr;  ///< [n x n] world [m]
   std::vector<Triangle> triangles;     ///< corners as samples
 };
 
-/// A pin that keeps its place beside the triangle of a body that was nearest at the start: beside
-/// the closest point, in axes that turn with the triangle.
+/// A pin fixed relative to the triangle of a body that is nearest at the start: at an offset from
+/// the closest point, in axes that rotate with the triangle.
 struct TiedPin {
   int pin = 0;          ///< of the cloth
   int body = 0;         ///< of the scene
@@ -29,8 +29,8 @@ struct TiedPin {
   Vec3d offset;  ///< from the closest point, in the triangle's axes [m]
 };
 
-/// Pins what a cloth's `attach` names, from what pins held before. A sample named twice is tied by
-/// the last.
+/// Pins the places of a cloth's `attach` list, and removes them from `motions`. A sample named
+/// twice is tied by the last.
 /// @param bodies   the scene's, in its order
 /// @throws SceneError when a region holds no sample, or no body has the name
 std::vector<TiedPin> tie_places(Cloth& cloth, std::span<const SceneAttachment> places,
@@ -38,7 +38,7 @@ std::vector<TiedPin> tie_places(Cloth& cloth, std::span<const SceneAttachment> p
                                 std::vector<PinMotion>& motions);
 
 /// Sets the targets of tied pins.
-/// @param bodies  where each body is [n x n] world [m]; null where it stands still
+/// @param bodies  positions of each body [n x n] world [m]; null where it does not move
 void move_tied(std::span<const TiedPin> tied, std::span<const Planes3* const> bodies, Cloth& cloth);
 
 }  // namespace weft

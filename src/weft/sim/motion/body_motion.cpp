@@ -62,7 +62,8 @@ std::vector<BlendedVertex> one_vertex_each(const std::vector<int>& vertices) {
   return blends;
 }
 
-/// An image's animation has a point for each sample, or mates joined as runs export them.
+/// An animation of an image has one point per sample, or one per class of mates, as runs export
+/// them.
 std::vector<BlendedVertex> blends_of_image(const GeometryImage& image, const SceneBody& body,
                                            int points) {
   const int samples = image.size() * image.size();

@@ -8,21 +8,22 @@
 namespace weft {
 namespace {
 
-/// Of a hand [m/s].
+/// Largest speed of the grabbed point [m/s].
 constexpr double max_speed = 3;
-/// From the samples beside it, in rest lengths: the strain limit lets cloth stretch a little.
+/// Largest distance from the neighbouring samples, in rest lengths: the strain limit lets cloth
+/// stretch a little.
 constexpr double max_stretch = 1.08;
 
-/// As far towards b as `most` from a.
+/// Moves a towards b, by at most `most`.
 Vec3d towards(Vec3d a, Vec3d b, double most) {
   const double distance = length(b - a);
   return distance > most ? a + (most / distance) * (b - a) : b;
 }
 
-/// A place near the next one that tears at none of the samples beside a pin, seen from all of its
-/// copies. They are taken along as far as they go the same way by themselves; where the cloth is
-/// taut and springs back, the hand gives way no more than it must.
-/// @param way  from here to the next place [m]
+/// Next position of a pin, limited so that it overstretches no spring to the neighbours of its
+/// copies. Neighbours are extrapolated by their velocity along the displacement; so the pin gives
+/// way no more than it must where the cloth is taut and springs back.
+/// @param displacement  of the pin in the step [m]
 Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, double time_step,
                    Vec3d displacement) {
   const int n = held.model->size;

@@ -9,13 +9,13 @@ namespace weft {
 struct Cloth;
 struct SimulatedCloth;
 
-/// A surface point of a cloth that somebody holds and pulls at: a pin that moves.
+/// A surface point of a cloth held by the user: a pin that follows a target.
 class Grab {
  public:
   /// @throws SceneError for a sample outside the image
   void take(std::size_t cloth, int sample, SimulatedCloth& held);
   void pull(Vec3d target) { wanted_ = target; }
-  /// Takes the pin to where it stands at the end of a step.
+  /// Sets the target of the pin at the end of a step.
   /// @param time_step  [s]  @param ground  its height [m]
   void move(double time_step, std::optional<double> ground, SimulatedCloth& held) const;
   void let_go(Cloth& held);
@@ -25,7 +25,7 @@ class Grab {
  private:
   std::size_t cloth_ = 0;
   int pin_ = -1;        // of the cloth; -1: nothing is held
-  bool added_ = false;  // whether the pin is there for this alone
+  bool added_ = false;  // whether the pin was added for this grab
   Vec3d wanted_;        // [m]
 };
 

@@ -31,7 +31,7 @@ struct Pinner {
   }
 
   void operator()(const RegionPin& at) const {
-    // A sample on the region's edge is within, also when its place rounds.
+    // A sample on the region's edge is inside, despite rounding.
     constexpr double hair = 1e-9;
     const double steps = cloth.size - 1;
     const int first_row = static_cast<int>(std::ceil(at.lower.y * steps - hair));
@@ -50,7 +50,7 @@ struct Pinner {
   }
 };
 
-/// Whose rest places are the targets still.
+/// The motion of pins whose targets are still their rest positions.
 PinMotion motion_of(const Cloth& cloth, const ScenePin& place, std::vector<int> held) {
   PinMotion motion;
   motion.path = place.path;

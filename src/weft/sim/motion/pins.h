@@ -16,24 +16,25 @@ struct PinMotion {
   std::vector<Vec3d> rest;  ///< [pins] rest places [m]
 };
 
-/// Pins a cloth where its rest shape is. A sample that several places name is held by the last.
+/// Pins places of a cloth at their rest positions. A sample that several places name is held by the
+/// last.
 /// @return the places that have a path
 /// @throws SceneError when a region holds no sample
 std::vector<PinMotion> pin_places(Cloth& cloth, std::span<const ScenePin> places);
 
-/// Sets the targets of pins that move to where they are at a time.
+/// Sets the targets of moving pins at a time.
 void move_pins(std::span<const PinMotion> motions, double seconds, Cloth& cloth);
 
-/// The fastest that any of these pins goes [m/s].
+/// Largest speed of any of these pins [m/s].
 double fastest_pin(std::span<const PinMotion> motions);
 
-/// Pins the samples of one place where the cloth's rest shape is.
-/// @return which of the cloth's pins hold them, ascending  @throws SceneError as pin_places
+/// Pins the samples of one place at their rest positions.
+/// @return indices of the cloth's pins that hold them, ascending  @throws SceneError as pin_places
 std::vector<int> pin_place(Cloth& cloth, const PinPlace& place);
-/// Takes pins from the motions: something else moves them from now on.
+/// Removes pins from the motions, as something else moves them from now on.
 void let_go(std::span<const int> held, std::vector<PinMotion>& motions);
 
-/// The sample nearest to a point of the square.
+/// The sample nearest to a point of the unit square.
 int sample_at(int size, Vec2d uv);
 
 }  // namespace weft

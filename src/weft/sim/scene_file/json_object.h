@@ -22,7 +22,7 @@ struct NumberRange {
 inline constexpr NumberRange positive{0, HUGE_VAL, true};
 inline constexpr NumberRange not_negative{0, HUGE_VAL, false};
 
-/// Where a value stands, for errors: file and key path such as cloths[0].material.
+/// Location of a value, for errors: file and key path such as cloths[0].material.
 struct JsonPlace {
   std::string file, path;
   [[nodiscard]] JsonPlace key(std::string_view name) const;

@@ -47,7 +47,7 @@ void check_version(const JsonObject& root) {
     root.place().key("version").fail("unknown version", "1 is wanted");
 }
 
-/// Still air is none unless its coefficients are given.
+/// Reads the wind; a velocity of zero is no wind unless coefficients are given.
 std::optional<WindOptions> read_wind(const JsonObject& root) {
   const nlohmann::json* value = root.find("wind");
   if (value == nullptr) return std::nullopt;
@@ -79,10 +79,10 @@ std::string in_small_letters(std::string name) {
   return name;
 }
 
-/// Files are named by cloths and bodies: no two may share a name, on systems that take capital
-/// letters for small ones neither.
+/// Checks that names of cloths and bodies differ, as files are named by them, even on file systems
+/// that ignore case.
 void check_names(const Scene& scene, const JsonPlace& place) {
-  std::map<std::string, std::string> seen;  // by its letters made small
+  std::map<std::string, std::string> seen;  // by lower-case name
   const auto check = [&](const std::string& name, std::string_view list, std::size_t index) {
     const auto [other, is_new] = seen.emplace(in_small_letters(name), name);
     if (is_new) return;
@@ -95,7 +95,7 @@ void check_names(const Scene& scene, const JsonPlace& place) {
   };
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) check(scene.cloths[i].name, "cloths", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) check(scene.bodies[i].name, "bodies", i);
-  // The samples' cache lies beside that of the mesh, a body's normal map beside its image.
+  // A cloth's sample cache lies beside that of its mesh, a body's normal map beside its image.
   for (std::size_t i = 0; i < scene.cloths.size(); ++i)
     check(scene.cloths[i].name + ".image", "cloths", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
@@ -104,7 +104,7 @@ void check_names(const Scene& scene, const JsonPlace& place) {
     check(scene.bodies[i].name + ".normals", "bodies", i);
 }
 
-/// Where a cloth is tied to what is not there.
+/// Checks that the bodies that cloths are tied to exist.
 void check_attachments(const Scene& scene, const JsonPlace& place) {
   std::vector<std::string_view> names;
   for (const SceneBody& body : scene.bodies) names.push_back(body.name);

@@ -14,7 +14,7 @@ inline constexpr std::array<std::string_view, 13> scene{
     "integrator", "collider", "unit",       "up",       "cloths", "bodies"};
 inline constexpr std::array<std::string_view, 3> wind{"velocity", "drag", "lift"};
 inline constexpr std::string_view limiter_passes = "limiter_passes";
-/// Of an integrator or a collider, see weft/methods.h.
+/// Keys of an integrator or a collider, see weft/methods.h.
 template <class Options>
 std::vector<std::string_view> of_method() {
   std::vector<std::string_view> keys{"type"};

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int max_passes = 10'000;
 
-/// The `type` of a method, looked at before its other keys, which depend on it.
+/// The `type` of a method, read before its other keys, which depend on it.
 std::string type_of(const nlohmann::json& value, const JsonPlace& place,
                     std::string_view fallback) {
   if (!value.is_object()) place.fail("no object", "an object with a \"type\" is wanted");

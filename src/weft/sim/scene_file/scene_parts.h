@@ -10,7 +10,7 @@ namespace weft {
 IntegratorOptions read_integrator(const nlohmann::json& value, const JsonPlace& place,
                                   std::optional<int>& limiter_passes);
 ColliderOptions read_collider(const nlohmann::json& value, const JsonPlace& place);
-/// What "unit" and "up" of an object say.
+/// Reads the keys "unit" and "up" of an object.
 MeshFrame read_frame(const JsonObject& object);
 Material read_material(const nlohmann::json& value, const JsonPlace& place);
 /// Keys at ascending times; empty where the object has none.

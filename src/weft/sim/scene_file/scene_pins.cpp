@@ -57,7 +57,7 @@ SceneAttachment read_attachment(const nlohmann::json& value, const JsonPlace& pl
   return {body, read_pin_place(object)};
 }
 
-/// Of what `read` makes of each; empty where the key is absent.
+/// Reads each element of a list; empty where the key is absent.
 template <class Part>
 std::vector<Part> read_places(const JsonObject& object, std::string_view key,
                               Part (*read)(const nlohmann::json&, const JsonPlace&)) {

@@ -19,7 +19,7 @@ std::string resolved(const std::string& surface, const fs::path& folder) {
   return fs::absolute(folder / surface).lexically_normal().string();
 }
 
-/// A number for all three axes, or three.
+/// Reads a scale: a number for all three axes, or three.
 Vec3d read_scale(const JsonObject& object) {
   const nlohmann::json* value = object.find("scale");
   const JsonPlace place = object.place().key("scale");
@@ -48,7 +48,7 @@ std::string read_surface(const JsonObject& object, std::string_view fallback,
   return resolved(surface, folder);
 }
 
-/// Empty where there is none.
+/// Path of the animation; empty where there is none.
 std::string read_animation(const JsonObject& object, const fs::path& folder) {
   if (!object.has("animation")) return {};
   const std::string name = object.text("animation", "");

@@ -17,7 +17,8 @@ using Json = nlohmann::ordered_json;
 Json to_json(Vec3d v) { return {v.x, v.y, v.z}; }
 Json to_json(Vec2d v) { return {v.x, v.y}; }
 
-/// Relative to the scene's folder, so that the folder can be moved together with what it holds.
+/// Path of a surface relative to the scene's folder, so that the folder can be moved with its
+/// files.
 std::string surface_text(const Surface& surface, const fs::path& folder) {
   if (surface.in_memory())
     throw UsageError("scene", fmt::format("the surface '{}' is in memory alone", surface.name),

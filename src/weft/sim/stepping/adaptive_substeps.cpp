@@ -30,7 +30,7 @@ void ClothReach::place(const ClothState& cloth, double seconds, double padding) 
   for (int row = 0; row + 1 < n; row += block_size)
     for (int col = 0; col + 1 < n; col += block_size) {
       Box3d box;
-      // Up to the first samples of the next blocks: none lies between.
+      // Includes the first samples of the next blocks, so that no gap is left between blocks.
       for (int r = row; r <= std::min(n - 1, row + block_size); ++r)
         for (int c = col; c <= std::min(n - 1, col + block_size); ++c) {
           const Vec3d at = vec_cast<double>(cloth.position.at(r, c));
@@ -90,7 +90,7 @@ void StepWalk::accept(StepVerdict verdict) {
   done_ += whole >> level_;
   calm_ = calm_ && verdict == StepVerdict::calm;
   if (verdict == StepVerdict::forced) {
-    // Halving has not helped: the rest goes as it is.
+    // Halving has not helped: the rest of the substep is halved no further.
     forced_ = true;
     most_ = level_;
   }

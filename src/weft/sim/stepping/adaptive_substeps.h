@@ -12,22 +12,23 @@
 
 namespace weft {
 
-/// Bodies come at most this part of the least gap closer in a step where cloth is near, so that
-/// cloth is pushed before it is passed: faster ones take more steps.
+/// Largest approach of a body to nearby cloth in a step, as a part of the smallest gap, so that
+/// cloth is pushed before it is passed; faster bodies take more steps.
 inline constexpr double max_approach_in_gaps = 0.75;
-/// And turn by so little that their normals at both ends tell how close they come. [rad]
+/// Largest rotation of a body's normals in a step, for which the normals at both ends tell the
+/// approach. [rad]
 inline constexpr double max_turn = 0.35;
-/// Of a substep.
+/// Largest number of steps in a substep.
 inline constexpr int max_pieces = 64;
 
-/// Where cloth may be during a substep.
+/// Bounding boxes of the region that a cloth may reach during a substep.
 class ClothReach {
  public:
   ClothReach() = default;
   /// @param size  n: samples a side of the largest cloth to come
   explicit ClothReach(int size);
-  /// What a cloth sweeps as it flies on, and somewhat more, as a whole and block by block of its
-  /// image. @param padding  [m]
+  /// Sets the boxes, of the whole cloth and of blocks of its image, around positions and positions
+  /// extrapolated by the velocities. @param padding  added on all sides [m]
   void place(const ClothState& cloth, double seconds, double padding) noexcept;
   [[nodiscard]] const Box3d& whole() const { return whole_; }
   [[nodiscard]] bool meets(const Box3d& box) const noexcept;
@@ -37,60 +38,60 @@ class ClothReach {
   std::vector<Box3d> blocks_;
 };
 
-/// A body's surface in a substep.
+/// Motion of the surface of a body in a substep.
 struct BodyStep {
   const Planes3 &start, &end;           ///< [n x n] [m]
-  std::span<const Triangle> triangles;  ///< by samples that stand for their classes
+  std::span<const Triangle> triangles;  ///< by representatives of classes of mates
 };
 
-/// Into how many pieces, of equal length, a body asks a substep to be split: so that wherever its
-/// way comes near cloth it comes no more than `max_approach_in_step` closer, or leaves no farther,
-/// along its normals. What slides past cloth asks for nothing but not to turn too far at once.
-/// @param motion  a place to work in
+/// Number of steps of equal length that a moving body requires of a substep: wherever its path is
+/// near cloth, it approaches or recedes by at most `max_approach_in_step` along its normals in a
+/// step, and its normals rotate by at most max_turn. Sliding past cloth requires no more.
+/// @param motion  scratch space
 double wanted_subdivisions(const BodyStep& body, const ClothReach& cloth,
                            double max_approach_in_step, SurfaceMotion& motion,
                            ThreadTeam& team) noexcept;
 
-/// The least power of 2 that is no less, up to max_pieces.
+/// Rounds up to a power of 2, at most max_pieces.
 int whole_subdivisions(double wanted) noexcept;
 
-/// Whether a walk can begin with them.
+/// Whether levels are consistent, so that a StepWalk can begin with them.
 constexpr bool is_valid(const StepLevels& levels) {
   return levels.first >= 0 && levels.first <= levels.most && levels.most >= 1 &&
          levels.most <= StepLevels::deepest;
 }
 
-/// How a step was found that had been tried.
+/// Verdict on a trial step.
 enum class StepVerdict {
   calm,    ///< far from being refused
-  near,    ///< not refused
-  forced,  ///< would have been refused if it might be halved
+  near,    ///< accepted, but not calm
+  forced,  ///< accepted only because it may not be halved
 };
 
-/// The way through a substep in steps of changing levels: a step that is refused is done as two
-/// halves; what is done in calm steps goes on in longer ones, no longer than the first.
+/// Divides a substep into steps of changing levels, of length 2^-level: a refused step is replaced
+/// by two halves; after calm steps the length doubles, up to that of the first step.
 class StepWalk {
  public:
-  /// @param least  level that what moves asks for
+  /// @param least  smallest level, as moving bodies require
   StepWalk(int least, const StepLevels& levels);
 
   [[nodiscard]] bool done() const { return done_ == whole; }
   [[nodiscard]] int subdivisions() const { return 1 << level_; }
-  /// Steps of the present length that come before this one.
+  /// Number of steps of the current length before this one.
   [[nodiscard]] int index() const { return done_ >> (StepLevels::deepest - level_); }
   [[nodiscard]] bool may_halve() const { return level_ < most_; }
-  /// Whether the step is shorter than what moves asks for.
+  /// Whether the step is shorter than moving bodies require.
   [[nodiscard]] bool is_shortened() const { return level_ > least_; }
   void halve();
   void accept(StepVerdict verdict);
-  /// Levels for the next substep: it begins where this one ended, one level longer if that was
-  /// calm.
+  /// Levels of the next substep: it begins at the last level of this one where steps were halved,
+  /// and one level lower where all steps were calm.
   [[nodiscard]] StepLevels next(const StepLevels& levels) const;
 
  private:
   static constexpr int whole = 1 << StepLevels::deepest;
   int least_, first_, level_, most_;
-  int done_ = 0;  // in the shortest steps
+  int done_ = 0;  // in units of the shortest step
   bool calm_ = true, forced_ = false, halved_ = false;
 };
 

@@ -9,37 +9,38 @@
 
 namespace weft {
 
-/// A step of a cloth that was done.
+/// States of a cloth at both ends of a step.
 struct DoneStep {
   const ClothState &start, &end;
   double time_step = 0;  ///< [s]
 };
 
-/// Contacts with bodies and the ground, and what each pressed with where a solve told; else empty.
+/// Contacts with bodies and the ground, and their normal forces; no forces where no solve gave any.
 struct PressingObstacles {
   std::span<const Contact> contacts;
   std::span<const float> forces;  ///< [N]
 };
 
-/// The work that pins and moving bodies do on a cloth in a step: what they press with times how far
-/// they go. What they press with is what a particle's change of momentum leaves unexplained by the
-/// cloth's own forces, as they are at the step's end, and gravity:
-///   W = sum over held and touched particles of (m (v1 - v0) / h - f(x1) - m g) . way
-/// On a touched particle other layers press, too. So a body's normal force is what the solve says,
-/// or that reaction where it is more, never a pull, and along its surface no more than friction.
+/// Work that pins and moving bodies do on a cloth in a step: reaction force times displacement. The
+/// reaction is the part of a particle's change of momentum that gravity and the cloth's own forces,
+/// as they are at the step's end, do not explain:
+///   W = sum over pinned and touched particles of (m (v1 - v0) / h - f(x1) - m g) . displacement
+/// Other layers may press on a touched particle, too. The normal force of a body is therefore the
+/// solved one, or the normal part of the reaction where that is larger, and never a pull; the
+/// tangential force is limited by friction.
 class DrivenWork {
  public:
   /// @param cloth  kept by reference, as is the team
   DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team);
 
-  /// @return of all pins and bodies [J]
+  /// @return work of all pins and bodies [J]
   double measure(const DoneStep& step, const PressingObstacles& obstacles) noexcept;
 
  private:
-  /// A particle that something moves.
+  /// A particle moved by a pin or bodies.
   struct Driven {
-    Vec3d displacement, normal;  // summed by weight [m]
-    double pressing = 0;         // the same [N]
+    Vec3d displacement, normal;  // weighted sums over contacts [m]
+    double pressing = 0;         // normal force, weighted sum [N]
     double friction = 0;
     double weight = 0;
     bool pinned = false;
@@ -55,9 +56,9 @@ class DrivenWork {
   ThreadTeam& team_;
   SpringRows springs_;
   BendingPass bending_;
-  Planes3 force_;               // [n x n] of the cloth itself, summed over mates [N]
-  std::vector<Driven> driven_;  // [n * n], in use where samples_ says
-  std::vector<int> samples_;    // representatives that are driven
+  Planes3 force_;               // [n x n] the cloth's own, summed over mates [N]
+  std::vector<Driven> driven_;  // [n * n] valid for samples_
+  std::vector<int> samples_;    // representatives moved by pins or bodies
 };
 
 }  // namespace weft

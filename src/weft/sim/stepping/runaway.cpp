@@ -9,7 +9,7 @@ namespace weft {
 namespace {
 
 constexpr double generous = 100;
-/// What a cloth without gravity and speed may still do. [J/kg]
+/// Energy per mass allowed even to a cloth without gravity and speed. [J/kg]
 constexpr double min_energy = 0.5;
 
 double squared_speed(const ClothState& state, int sample) {
@@ -21,7 +21,8 @@ struct Motion {
   int fastest_sample = 0;
 };
 
-/// Samples that are mates count once each: a bound needs no better.
+/// Sums and the largest squared speed over all samples. Every copy of a mate counts, which is
+/// accurate enough for a bound.
 Motion motion_of(const Cloth& cloth, const ClothState& state) {
   Motion motion;
   for (int s = 0; s < cloth.size * cloth.size; ++s) {
@@ -55,7 +56,7 @@ double RunawayCheck::max_energy(double seconds) const {
   return generous * (min_energy + start_energy_ + gravity_ * fallen);
 }
 
-/// One particle of many carries little energy: it is judged by its speed.
+/// A single particle carries little of the total energy, so its speed is bounded separately.
 bool RunawayCheck::suspect(const Cloth& cloth, const ClothState& state, double bound,
                            ThreadTeam& team) {
   const KernelTable& kernels = kernels_for(team.instructions());

@@ -1,4 +1,5 @@
-// What collisions may do to the energy of cloths in a step, and what is done about the rest.
+// Energy balance of a step with collisions: refuses steps that add too much energy, and removes
+// what accepted ones add beyond a bound.
 #include <algorithm>
 #include <cmath>
 
@@ -9,18 +10,19 @@
 namespace weft {
 namespace {
 
-/// A step is refused in which points fall back to its start, or whose filter or response adds more
-/// than this part of the energy within cloths, and so much of their mass besides [J/kg]; or whose
-/// solve missed by as much, by the energy that they started with.
+/// A step is refused when points fall back to its start, or when response and filter add more
+/// energy than max_added_part of the inner energy of the solved cloths plus max_added [J/kg] times
+/// their mass. The linearisation error of the solve has the same limit, by the inner energy at the
+/// step's start.
 constexpr double max_added_part = 0.3, max_added = 0.01;
-/// Missed solves have a substep done in so many pieces at most: in crushed cloth, whose contacts
-/// want to part at once, shorter steps are more violent ones.
+/// Linearisation errors split a substep into at most this many steps: in crushed cloth, whose
+/// contacts want to separate at once, shorter steps are more violent.
 constexpr double max_pieces_for_solves = 8;
-/// One that adds less than this part of that is calm.
+/// A step that adds less than this part of the limit is calm.
 constexpr double calm_part = 0.2;
 
-/// What contacts and the springs that the filter stretched may lend a cloth, over what its weight
-/// does over its own length: the next solves let it go. Taken out of the motion at once, it would
+/// Energy that contacts and springs stretched by the filter may lend a cloth, as a part of m g
+/// times its side length; the next solves release it. Removed from the motion at once, it would
 /// stop whatever moves in a pile.
 constexpr double lent_part = 0.003;
 
@@ -29,7 +31,7 @@ double lent_energy(double mass, double density) {
   return lent_part * mass * standard_gravity * std::sqrt(mass / density);
 }
 
-/// [J]
+/// Largest energy that a step may add. [J]
 double limit_for(const Energy& within, double mass) {
   return max_added_part * within.inner() + max_added * mass;
 }
@@ -85,14 +87,14 @@ void Simulation::Parts::assess_step(bool may_refuse, Tried& tried) {
   tried.verdict = bad                         ? StepVerdict::forced
                   : fault < calm_part * limit ? StepVerdict::calm
                                               : StepVerdict::near;
-  // Bodies push by the filter, too.
+  // Bodies do work by way of the filter, too.
   if (driven.any_moves()) tried.pushed = std::max(0.0, added);
   if (tried.refused) return;
   const double excess = std::min(gained, end.total() - tried.work - max_energy);
   if (excess > 0) take_excess(excess);
 }
 
-/// Of each cloth by its share in what all gained.
+/// Removes energy from the motion of each cloth in proportion to what it gained.
 void Simulation::Parts::take_excess(double excess) {
   double gained = 0;
   const auto own = [](const Mover& mover) {
@@ -102,7 +104,7 @@ void Simulation::Parts::take_excess(double excess) {
   for (Mover& mover : movers)
     if (own(mover) > 0)
       mover.meter.take_out(excess * (own(mover) / gained), mover.integrator->proposal().velocity);
-  // What is left is measured, not reckoned: a run that goes on from here does so too.
+  // The remaining energy is measured anew, not computed, as a resumed run would do.
   known_energy = false;
 }
 

@@ -27,10 +27,10 @@ namespace weft {
 /// The gap that a cloth keeps to obstacles. [m]
 double gap_of(const Cloth& cloth);
 
-/// Between parts of cloth. [m]
+/// The gap that a cloth keeps to itself and to other cloths. [m]
 double self_gap_of(const Cloth& cloth);
 
-/// What moves one cloth.
+/// The integrator, limiters and meters of one cloth, with their results of the current step.
 struct Mover {
   std::unique_ptr<Integrator> integrator;
   std::optional<Wind> wind;
@@ -39,12 +39,11 @@ struct Mover {
   CoarseLimit coarse_limit;
   EnergyMeter meter;
   DrivenWork driven_work;
-  /// Of this step: where it started, after the wind; as it was solved, its strain limited; where it
-  /// ends.
+  /// Energies of this step: at its start, after the wind; after solve and strain limit; at its end.
   Energy start, solved, end;
-  Planes3 calm_velocity;  // before the wind blew [m/s]
-  Planes3 guess;          // where this step's contacts were found first [m]
-  // Of this step: what the wind did, and what the strain limit did while something pulled. [J]
+  Planes3 calm_velocity;  // velocities before the wind [m/s]
+  Planes3 guess;          // filtered positions before the solve [m]
+  // Of this step: work of the wind, energy added by the strain limit while something pulled. [J]
   double wind_work = 0, pulled_work = 0;
 };
 
@@ -65,87 +64,93 @@ struct Simulation::Parts {
   Cloth make(const SceneCloth& wanted, const Planes3& rest, const BorderMates& mates) const;
   void load_cloths();
   void load_bodies();
-  /// Ties cloths to bodies, which stand where they begin.
+  /// Ties cloths to bodies, at the initial positions of both.
   void tie_cloths();
   void make_movers();
-  /// On which side of closed bodies cloths begin, which stand where they begin, too.
+  /// Finds the closed bodies that cloths begin inside of, at the initial positions of both.
   void find_insides();
-  /// With the bodies where they are.
+  /// Creates the collider, with the bodies at their current positions.
   void make_collider_of_scene();
   void note_too_fast();
   /// The speed that wind, bodies and moving pins may lend a cloth [m/s].
   [[nodiscard]] double drive_of(std::size_t index) const;
-  /// Begins a step that ends at a time: bodies and pins go there.
+  /// Begins a step that ends at `seconds`: sets the end positions of bodies, pins and the grab.
   void move_driven(double seconds);
-  /// Ends the step: bodies are where it took them.
+  /// Ends the step: bodies take their end positions.
   void bodies_arrive();
-  /// Advances by one substep, in as many steps as fast bodies and collisions ask for.
+  /// Advances by one substep, in as many steps as fast bodies and collisions require.
   /// @param number  from 0
   void substep(int number, FrameReport& report);
-  /// A power of 2: of a substep that ends at a time.
+  /// Number of steps, a power of 2, that moving bodies require of a substep ending at `seconds`.
   [[nodiscard]] int subdivisions_until(double seconds);
-  /// What became of a step that was tried.
+  /// Outcome of a trial step.
   struct Tried {
     bool refused = false;
     StepVerdict verdict = StepVerdict::calm;
     int contacts = 0;  // particles in contact
     FilterCounts filtered;
-    double work = 0;    // of pins and bodies [J]
-    double pushed = 0;  // what response and filter added while bodies moved [J]
+    double work = 0;    // done by pins and bodies [J]
+    double pushed = 0;  // energy added by response and filter while bodies moved [J]
   };
-  /// Tries to advance all cloths; a step that is not refused stands.
+  /// Computes a trial step of all cloths, to be finished or refused by the caller.
   /// @param seconds  at the end of the step
   Tried try_step(double seconds, bool may_refuse, FrameReport& report);
-  /// Proposes the end of the step, with the contacts that were found.
+  /// Computes the proposals of all cloths, with contact detection at the guesses and, where solves
+  /// go far, again.
   void solve_all(FrameReport& report);
-  /// Takes back what guesses passed through. @return whether there is anything to collide with
+  /// Detects contacts at the guesses, and filters the guesses. @return whether anything is near
+  /// that the filter must act on
   bool free_guesses();
   void iterate_all();
-  /// All cloths as one system, where they press on each other.
+  /// Solves all cloths as one system, where they press on each other.
   void iterate_together();
-  /// Whether guesses may pass through what stands next to cloth.
+  /// Whether guesses go far enough to pass through something next to cloth.
   [[nodiscard]] bool guesses_go_far() const;
-  /// Whether solves led where other contacts may be.
+  /// Whether solves moved cloth far enough from its guess to meet other contacts.
   [[nodiscard]] bool solves_go_far() const;
-  /// Tells integrators what cloths may gain in the step, by what they had least. @pre wind blew
+  /// Computes max_energy from the smallest energy so far, and tells integrators what they may add
+  /// in the step. @pre the wind has been applied
   void lend();
-  /// What the step did after it was solved, by energy. @pre the filter is done
+  /// Accepts or refuses the step by the energy that response and filter added, and removes any
+  /// excess energy of an accepted step. @pre the filter is done
   void assess_step(bool may_refuse, Tried& tried);
   void take_excess(double excess);
-  /// Whether solves missed the energy that they were to end with by so much that the step is too
-  /// long for them.
+  /// Whether the linearisation errors of the solves exceed the energy limit: the step is too long.
   [[nodiscard]] bool solve_is_lost();
   void finish_step(const Tried& tried, FrameReport& report);
   void refuse_step();
-  /// To whoever watches; that takes no time of the frame's.
+  /// Shows the step to the watcher, whose time does not count as the frame's.
   void show_step(FrameReport& report) const;
-  /// Before the filter: what that stops would look calm. @return whether motion is sane
+  /// Checks proposals before the filter, which would hide runaway motion. @return whether motion is
+  /// sane
   bool check_for_runaway(double seconds, bool may_refuse);
   /// Begins a cloth's step, up to its first proposal.
   void propose(std::size_t index);
-  /// Whether pins or bodies move in this step, which pull at cloth by its strain limit too.
+  /// Whether pins or bodies move in this step and the strain limit transmits part of their pull.
   [[nodiscard]] bool is_pulled(std::size_t index) const;
-  /// Pushes out what the solve left in obstacles, where it does not heed them all.
+  /// Pushes out points that the solve left inside obstacles; not needed where it solves for
+  /// contacts and left none deep.
   /// @return particles in contact
   int respond(std::size_t index);
-  /// Limits strain and pushes out. @return particles in contact
+  /// Limits strain and pushes points out of obstacles. @return particles in contact
   int correct(std::size_t index, ClothState& next, FrameReport& report);
-  /// Every cloth at its proposal, for the collider.
+  /// Gathers the start and proposal of every cloth for the collider.
   void gather_moving();
   void finish(std::size_t index, FrameReport& report);
   [[noreturn]] void stop_unstable(std::size_t index, BadParticle particle) const;
   void measure(FrameReport& report);
-  /// Stops a run whose energy nothing explains, or whose cloth is torn.
+  /// Stop a run whose energy rose without explanation, or whose springs are strained too far.
   void check_energy(const FrameReport& report, double own);
   void check_strain(std::size_t index, const StrainSummary& strain) const;
   [[noreturn]] void stop_torn(std::size_t index, const std::string& found) const;
   [[nodiscard]] std::string advice_for(std::size_t index) const;
   [[nodiscard]] Vec3d centre() const;
-  /// Only implicit methods heed contacts; the others are pushed out at the end of the step.
+  /// Whether the integrator takes contacts into account; if not, cloth is only pushed out at the
+  /// end of the step.
   [[nodiscard]] bool heeds_contacts() const {
     return Integrators::traits_of(scene.integrator).heeds_contacts;
   }
-  /// Who steps the cloths: all of them alike, as they may be solved together.
+  /// The thread team of the solvers, the same for all cloths, as they may be solved together.
   [[nodiscard]] ThreadTeam& solvers() {
     for (const SimulatedCloth& cloth : cloths)
       if (cloth.model->size >= min_shared_size) return team;
@@ -159,7 +164,7 @@ struct Simulation::Parts {
   ThreadTeam team, lone_team;
   double substep_time;              // [s]
   double time_step;                 // of the step: a substep or a piece of one [s]
-  double max_approach_in_step = 0;  // that bodies may come closer in a step [m]
+  double max_approach_in_step = 0;  // of a body towards cloth [m]
   ClothReach reach;                 // of one cloth in a substep
   SurfaceMotion body_motion;        // of one body in a substep
   bool soft;                        // springs that leave all stretch to the limiter
@@ -180,16 +185,16 @@ struct Simulation::Parts {
   Grab grab;
   int frame = 0;
   StepWatcher* watcher = nullptr;
-  int frames_beyond = 0;  // in a row, with more energy than is explained
+  int frames_beyond = 0;  // consecutive frames with unexplained energy
   StepLevels levels;
   WorkDone work;
-  double max_energy = HUGE_VAL;  // that cloths may have at the end of the step without work [J]
+  double max_energy = HUGE_VAL;  // of cloths at the end of the step, before its work [J]
   Energy start_energy;           // before the first frame
-  /// Strain, in steps that collisions shortened: what the limiter moves does not shrink with the
-  /// step, and leads cloth through itself again.
+  /// Whether strain is left unlimited, as in steps that collisions shortened: displacements of the
+  /// limiter do not shrink with the step, and would move cloth through itself again.
   bool unlimited = false;
-  bool watched = false;       // the step's energy: there is something to collide with
-  bool known_energy = false;  // movers' start energies are those of the states
+  bool watched = false;       // the step's energy is checked: something is near cloth
+  bool known_energy = false;  // start energies of movers are up to date
 };
 
 }  // namespace weft

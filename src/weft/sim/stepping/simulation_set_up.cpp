@@ -1,4 +1,4 @@
-// How a simulation comes to be: surfaces, ties, what moves them and keeps them apart.
+// Construction of a simulation: surfaces, attachments, movers and the collider.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -24,15 +24,15 @@ LoadedSurface SurfaceCache::load(const Surface& surface, const ConvertOptions& o
 namespace {
 
 constexpr int body_normal_map_size = 257;
-/// Between two samples the bend of a body would show that is not sharp enough to be a corner: the
-/// gap that is kept grows from the fabric's thickness to this part of the cloth's rest spacing, but
-/// to no more than a few thicknesses, lest coarse cloths float.
+/// The gap grows from the thickness of the fabric to this part of the cloth's rest spacing, so that
+/// the gentle curvature of a body does not show through between two samples, but to no more than a
+/// few thicknesses, or coarse cloths would float.
 constexpr double gap_in_spacings = 1.0 / 3, max_gap_in_thicknesses = 3;
 
-/// Between parts of cloth a gap of more than this part of the rest spacing would lock folds.
+/// Largest gap between parts of cloth, in rest spacings; a larger one would lock folds.
 constexpr double max_self_gap_in_spacings = 0.25;
 
-/// Of the ground, which scenes do not name a coefficient for.
+/// Friction coefficient of the ground, which scenes do not set.
 constexpr double ground_friction = 0.5;
 
 }  // namespace
@@ -58,7 +58,7 @@ LoadedSurface Simulation::Parts::load(const Surface& surface, ConvertOptions opt
       return surface_cache != nullptr ? surface_cache->load(surface, options)
                                       : load_surface(surface, options);
     } catch (const UsageError& error) {
-      // What a command line gets wrong by itself, a scene names in its file.
+      // An error of the command line elsewhere; here the surface is named in a scene file.
       throw SceneError(name, fmt::format("'{}': {}", what, error.what()), "");
     }
   };

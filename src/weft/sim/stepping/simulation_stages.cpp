@@ -10,12 +10,12 @@
 namespace weft {
 namespace {
 
-/// The limiter pulls cloth into bodies, the collider stretches it again. The two-level method's
-/// springs are so soft that the limiter carries the cloth: there both take turns, the collider
-/// last.
+/// Rounds of strain limiter and collision response for the two-level method. Its springs are so
+/// soft that the limiter carries the cloth and pulls it into bodies, and the response stretches it
+/// again; so both alternate, the response last.
 constexpr int rounds_of_soft_springs = 4;
-/// What the two-level method is limited at where the material says nothing: its springs are none of
-/// the material's. [zink07]
+/// Strain limit of the two-level method where the material has none: its springs are not those of
+/// the material. [zink07]
 constexpr double strain_of_soft_springs = 0.05;
 
 /// Whether the limiter works as the paper prints it, where a method has the choice.
@@ -39,16 +39,16 @@ LimitOptions limit_for(const Scene& scene, const Cloth& cloth) {
   limit.as_printed = is_as_printed(scene.integrator);
   return limit;
 }
-/// Of the limiter on each coarse level.
+/// Passes of the limiter on each coarse level.
 constexpr int coarse_passes = 2;
 
-/// What a solve with contacts leaves deeper in an obstacle than this part of the thickness, as
-/// where an impact went on beyond its last look, is pushed out.
+/// Depth in an obstacle, as a part of the thickness, beyond which a point is pushed out even after
+/// a solve with contacts, as after an impact that went on beyond the last detection.
 constexpr double harmless_depth = 0.75;
 
-/// In parts of the least gap: a solve that led less far from where its contacts were found has met
-/// what there is to meet, as those begin half a gap before they press; a guess that goes less far
-/// passes through nothing that is not closer.
+/// Displacements, as parts of the smallest gap. A solve that moved less than same_place from the
+/// filtered guess needs no second detection: contacts are found from half a gap before they press.
+/// A guess that moves less than next_to_start passes through nothing that is not closer.
 constexpr double same_place = 0.25, next_to_start = 0.05;
 
 }  // namespace
@@ -122,8 +122,8 @@ int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport&
     const bool pulled = is_pulled(index);
     const double before = pulled ? mover.meter.measure(next).total() : 0;
     clock.lap_ms();
-    // What it moves changes velocities as in a whole substep: the same way in a short step would be
-    // a shot.
+    // Displacements of the limiter change velocities as over a whole substep: over a short step the
+    // same displacement would add an excessive velocity.
     mover.limit.limit(limiter, substep_time, next, solvers());
     report.limit_ms += clock.lap_ms();
     if (watched || pulled) mover.solved = mover.meter.measure(next);
@@ -207,7 +207,7 @@ bool Simulation::Parts::free_guesses() {
   if (!heeds_contacts() && !filters) return false;
   collider->detect(moving, time_step, team);
   if (!filters || !heeds_contacts() || !collider->anything_near()) return false;
-  // Contacts stay: they are those of the step's start, and of a longer way.
+  // Contacts are kept: they were detected from the step's start, along the longer unfiltered path.
   if (movers.front().integrator->starts_at_proposal() && guesses_go_far())
     collider->filter_guess(moving, time_step, team);
   for (std::size_t i = 0; i < cloths.size(); ++i) movers[i].guess = moving[i].position;

@@ -1,11 +1,15 @@
-// How a simulation advances.
+// Time stepping of a simulation.
 //
-// Each step: guesses where cloths go by themselves; what they passed through is taken back, so that
-// the solve starts where nothing crosses (springs know no orientation: started beyond a crossing,
-// they come to rest there, and the filter would stretch them back); contacts are looked for there
-// and again where the solve led; strain is limited, friction takes hold; the filter has the last
-// word. A step that the filter had to put back so far that springs hold much more energy for it, is
-// refused: all is as before it, and two halves take its place.
+// Each step:
+// 1. Integrators guess positions without the cloth's own forces.
+// 2. Contacts are detected, and the collider filters the guesses, so that the solve starts without
+//    crossings. Springs know no orientation: solved from beyond a crossing, cloth comes to rest
+//    there, and the filter would stretch it back.
+// 3. Integrators solve; where that moved cloth far, contacts are detected and solved for again.
+// 4. Strain is limited, and points are pushed out of obstacles, with friction.
+// 5. The collider filters the proposals, which is the last change of positions.
+// A step to which the filter adds much energy, or that fails otherwise, is refused: the state
+// before it is restored, and two steps of half the length replace it.
 #include <algorithm>
 #include <cmath>
 
@@ -102,7 +106,7 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
     done += movers[i].wind_work;
     work.pulled += movers[i].pulled_work;
   }
-  // What it ends with the next one starts with.
+  // The end energies of this step are the start energies of the next.
   known_energy = known_energy && watched;
   for (Mover& mover : movers) mover.start = mover.end;
   work.net += done;

@@ -7,7 +7,7 @@
 
 namespace weft::gl {
 
-/// A colour and a depth buffer to draw to.
+/// A framebuffer with colour and depth.
 struct Canvas {
   Framebuffer target;
   Renderbuffer colour, depth;
@@ -17,7 +17,7 @@ struct Canvas {
 /// @throws Error when the driver cannot draw pictures of this size
 Canvas make_canvas(int count, std::array<int, 2> size);
 
-/// What a framebuffer holds, top row first. @param name  0: the window's own
+/// Reads the pixels of a framebuffer, top row first. @param name  0: the window's own
 /// @param size  width and height [pixels]
 Picture read_picture(GLuint name, std::array<int, 2> size);
 

@@ -4,7 +4,7 @@
 
 namespace weft::gl {
 
-/// Head of every shader; the count of sky sides is that of lights.h.
+/// Head of every shader; sky_sides is that of lights.h.
 inline constexpr std::string_view shader_head = R"(#version 330 core
 const int sky_sides = 18;
 // A point of the square in a texture whose outermost texels' centres are the square's border.
@@ -26,8 +26,8 @@ void main() {
 }
 )";
 
-/// Depth only: of a packed plane of positions (a grid's rows, or a mesh's vertices folded into
-/// rows).
+/// Vertex shader for depth maps, from a packed plane of positions (the rows of a grid, or the
+/// vertices of a mesh folded into rows).
 inline constexpr std::string_view depth_vertex = R"(
 uniform sampler2D positions;
 uniform int columns;
@@ -41,8 +41,8 @@ inline constexpr std::string_view depth_fragment = R"(
 void main() {}
 )";
 
-/// How much of the key light a point sees: percentage-closer soft shadows [fernando05] with points
-/// on a spiral, which in pictures turns from pixel to pixel by the noise.
+/// Visibility of the key light at a point: percentage-closer soft shadows [fernando05] with taps on
+/// a spiral, which is rotated from pixel to pixel by the noise in pictures.
 inline constexpr std::string_view key_shadow = R"(
 uniform sampler2D key_depth;
 uniform sampler2DShadow key_compare;
@@ -106,10 +106,10 @@ float key_visibility(vec3 p, vec3 n, float turn, bool asked) {
 }
 )";
 
-/// Light in image space: for every sample, what reaches its two sides from each part of the sky
-/// that nothing hides, and from the ground (RGB), and how much it sees of the key light (A). The
-/// image is its own light map. Of the ground (FLOOR), A only tells where shadow may fall (0): its
-/// pixels find it for themselves.
+/// Skylight in image space: for every sample, the light on its two sides from every visible sky
+/// direction and from the ground (RGB), and the visibility of the key light (A). The image is its
+/// own light map. For the ground (FLOOR), A only tells where shadow may fall (0): its pixels
+/// compute it anew.
 inline constexpr std::string_view skylight_fragment = R"(
 uniform sampler2D positions, normals;
 uniform sampler2DArrayShadow sky_depth;
@@ -153,7 +153,7 @@ void main() {
 }
 )";
 
-/// Backdrop, and the curve from light to what a screen shows.
+/// Backdrop, and the tone curve from light to display values.
 inline constexpr std::string_view screen_tools = R"(
 uniform vec2 picture_size;
 vec3 backdrop() {

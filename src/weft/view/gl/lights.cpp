@@ -11,7 +11,8 @@ Vec3d direction_of(double azimuth, double elevation) {
   return {sine(azimuth) * cosine(elevation), sine(elevation), cosine(azimuth) * cosine(elevation)};
 }
 
-/// Even directions over the sphere above the haze: a spiral with the golden angle.
+/// Evenly spread directions over the upper hemisphere but for a band at the horizon: a golden-angle
+/// spiral.
 Vec3d sky_direction(int i) {
   constexpr double lowest = 0.06;
   const double y = lowest + (1 - lowest) * (i + 0.5) / sky_sides;

@@ -11,8 +11,7 @@
 
 namespace weft::gl {
 
-/// A name that OpenGL gave out and that one value owns; 0 is none. Freed by `Free`, with the
-/// context current.
+/// Owns an OpenGL object name; 0 is none. Freed by `Free`, with the context current.
 template <void (*Free)(GLuint)>
 class Handle {
  public:
@@ -52,7 +51,7 @@ Framebuffer make_framebuffer();
 VertexArray make_vertex_array();
 Buffer make_buffer();
 
-/// A plane of texels, clamped at its edges and filtered linearly.
+/// A 2D texture, clamped at its edges and filtered linearly.
 class Texture {
  public:
   Texture() = default;
@@ -70,12 +69,12 @@ class Texture {
   int width_ = 0, height_ = 0;
 };
 
-/// Layers of depth, drawn one by one and compared when sampled.
+/// An array texture of depth maps, rendered layer by layer and sampled with comparison.
 class DepthLayers {
  public:
   DepthLayers(int size, int layers);
   [[nodiscard]] int size() const { return size_; }
-  /// Makes the layer the target of drawing and clears it.
+  /// Makes the layer the render target and clears it.
   void begin(int layer) const;
   void bind(int unit) const;
 

@@ -13,11 +13,11 @@ namespace {
 
 constexpr int key_size = 1024;
 constexpr int sky_size = 256;
-/// Quads a side that grids are drawn with into depth maps, about: each is a few texels.
+/// Approximate number of quads a side of grids in depth maps: each covers a few texels.
 constexpr int key_quads = 128, sky_quads = 42;
-/// And into pictures at least.
+/// Minimum number of quads a side of grids in pictures.
 constexpr int min_quads = 128;
-/// Offsets along the normal, in radii of the scene: beyond the size of a texel of the depth maps.
+/// Offsets along the normal, in radii of the scene: larger than a texel of the depth maps.
 constexpr double key_offset = 0.006;
 constexpr double sky_offset = 0.016;
 /// Texture units; 0 and 1 are the surface's positions and normals.
@@ -61,7 +61,7 @@ Box3d bounds(std::span<const SurfaceBuffers> surfaces) {
   return box;
 }
 
-/// Light of the sky and of the key on things that nothing hides.
+/// Sets the light of the key and of the open sky, both unshadowed.
 void set_light_colours(const Program& program, const Lights& lights) {
   program.set("key_direction", vec_cast<float>(lights.key.back));
   program.set("key_light", key_colour);
@@ -148,7 +148,7 @@ void ScenePainter::load(const DrawnScene& scene) {
 }
 
 void ScenePainter::load_floor(double ground) {
-  // The shadow of the ball around the scene lies below it, away from the light.
+  // The shadow of the scene's bounding sphere lies below it, away from the light.
   const double height = std::max(0.0, lights_.centre.y - ground);
   const Vec3d towards = lights_.key.back;
   const double away = height / std::max(0.2, towards.y);

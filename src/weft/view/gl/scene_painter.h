@@ -9,15 +9,15 @@
 
 namespace weft::gl {
 
-/// Where a scene is painted to.
+/// The framebuffer that a scene is painted to.
 struct Target {
   GLuint framebuffer = 0;  ///< with colour and depth
   int width = 0, height = 0;
 };
 
 /// Paints scenes with whatever OpenGL 3.3 context is current: the one renderer behind files and
-/// windows. Passes: depth maps of the key light and of the sky's sides; the skylight of every
-/// surface, in its own image; the picture.
+/// windows. Passes: depth maps of the key light and of the sky directions; light maps of all
+/// surfaces; the picture.
 class ScenePainter {
  public:
   /// @throws Error when the driver refuses a shader
@@ -27,11 +27,11 @@ class ScenePainter {
  private:
   void load(const DrawnScene& scene);
   void renew_light(const DrawnScene& scene);
-  /// The part of the ground that shadows may fall on.
+  /// Loads the part of the ground that shadows may fall on.
   void load_floor(double ground);
   void draw_key_depth();
   void draw_sky_depth();
-  /// @param blur  of the sky's shadows, in widths of the scene
+  /// @param blur  radius of the sky's shadows, in widths of the scene
   void draw_skylight(const SurfaceBuffers& surface, const Program& program, float blur);
   void draw_picture(const DrawnScene& scene, const Target& target);
   void draw_surfaces(const DrawnScene& scene, const Matrix& to_clip, const Target& target);
@@ -45,15 +45,15 @@ class ScenePainter {
   Framebuffer key_target_;
   DepthLayers sky_depth_;
   Sampler compare_, plain_;
-  VertexArray nothing_;  // for triangles made from the vertex number alone
+  VertexArray nothing_;  // for vertices made from their index alone
   VertexArray edge_array_;
   Buffer edge_ends_;
   Lights lights_;
-  std::vector<SurfaceBuffers> surfaces_;  // those of the scene, then its meshes
+  std::vector<SurfaceBuffers> surfaces_;  // surfaces of the scene, then its meshes
   SurfaceBuffers floor_;
-  KeyLight key_light_;                   // that the light was made for,
-  std::optional<double> ground_height_;  // as the height of the ground
-  bool is_light_old_ = true;             // something moved since
+  KeyLight key_light_;                   // light of the current light maps
+  std::optional<double> ground_height_;  // ground height of the current light maps
+  bool is_light_old_ = true;             // a change since the light maps were drawn
 };
 
 }  // namespace weft::gl

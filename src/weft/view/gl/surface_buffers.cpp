@@ -9,7 +9,7 @@
 namespace weft::gl {
 namespace {
 
-/// Samples along a side of the light map of a grid, whatever its own: soft light needs no more.
+/// Side of the light map of a grid of any size: soft light needs no more.
 constexpr int light_samples = 129;
 constexpr int mesh_columns = 1024;
 constexpr int ground_side = 65;
@@ -25,7 +25,7 @@ std::vector<Vec3f> packed(const Planes3& planes) {
   return texels;
 }
 
-/// Rows (or columns) of a grid that a coarser one keeps: every `step`, and always the last.
+/// Rows (or columns) of a grid that are drawn: every `step`, and always the last.
 std::vector<int> kept_lines(int side, int step) {
   std::vector<int> lines;
   for (int i = 0; i + 1 < side; i += step) lines.push_back(i);
@@ -33,7 +33,7 @@ std::vector<int> kept_lines(int side, int step) {
   return lines;
 }
 
-/// Two triangles a quad, the diagonals in turn; the front is where du x dv points.
+/// Two triangles a quad, with alternating diagonals; front faces are in the direction of du x dv.
 std::vector<GLuint> quad_triangles(int side, int step) {
   const std::vector<int> lines = kept_lines(side, step);
   const int quads = static_cast<int>(lines.size()) - 1;
@@ -54,7 +54,7 @@ std::vector<GLuint> quad_triangles(int side, int step) {
   return indices;
 }
 
-/// The same mesh without triangles whose indices do not exist; vertices that are not finite are 0.
+/// The mesh without triangles of invalid indices; vertices that are not finite are 0.
 TriangleMesh usable(const TriangleMesh& mesh) {
   TriangleMesh whole;
   whole.positions = mesh.positions;
@@ -72,7 +72,7 @@ void fit(Texture& texture, GLenum format, int width, int height) {
     texture = Texture(format, width, height);
 }
 
-/// Fills the last row up.
+/// Uploads texels folded into rows of mesh_columns, the last row padded.
 void upload_folded(Texture& texture, std::vector<Vec3f> texels) {
   const int rows =
       std::max<int>(1, (static_cast<int>(texels.size()) + mesh_columns - 1) / mesh_columns);

@@ -4,11 +4,10 @@
 
 namespace weft::gl {
 
-/// The geometry image drawn as it is: a vertex is a number, its place in the grid is read off it.
-/// Of a grid, normals and light are read for every pixel, of a mesh (MESH) at the vertices; shadows
-/// are found anew for every pixel of a mesh, whose vertices may be far apart, and at the edges of
-/// shadows on a grid. Two programs, because
-/// software drivers walk both ways of every branch.
+/// Vertex shader of surfaces: a vertex is only an index, from which its place in the grid follows.
+/// On a grid, normals and light are read per pixel, on a mesh (MESH) at the vertices. Shadows are
+/// computed per pixel on a mesh, whose vertices may be far apart, and at the edges of shadows on a
+/// grid. Two programs, because software drivers execute both sides of every branch.
 inline constexpr std::string_view surface_vertex = R"(
 uniform sampler2D positions, normals, colours, sky_front, sky_back;
 uniform int columns, rows;
@@ -35,9 +34,9 @@ void main() {
 }
 )";
 
-/// Fabric: wrapped diffuse, sheen of upright fibres [estevez17], a plain weave along the image's
-/// own coordinates that fades before it could alias. Body: diffuse with a broad highlight
-/// [walter07].
+/// Shading of fabric: wrapped diffuse, sheen of upright fibres [estevez17], and a plain weave along
+/// the image's own coordinates that fades before it aliases. Of bodies: diffuse with a broad
+/// highlight [walter07].
 inline constexpr std::string_view surface_fragment = R"(
 uniform bool fabric;
 uniform vec3 eye, key_direction, key_light;
@@ -127,8 +126,8 @@ out vec4 result;
 void main() { result = dithered(shown(backdrop())); }
 )";
 
-/// The ground shows the backdrop, less the light that things keep from it: it has no end to be
-/// seen.
+/// The ground shows the backdrop darkened by shadow, which fades outwards, so that no edge of the
+/// ground is visible.
 inline constexpr std::string_view ground_fragment = R"(
 uniform sampler2D sky_front;
 uniform vec3 key_direction, key_light, open_sky;
@@ -146,7 +145,7 @@ void main() {
 }
 )";
 
-/// Edges as strips of a width in pixels, both ends lengthened by half of it so that they join.
+/// Edges as strips of a width in pixels, extended by half of it at both ends so that they join.
 inline constexpr std::string_view edge_vertex = R"(
 uniform sampler2D positions;
 uniform int columns;

@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-/// 192 rows: some 0.1 ms to factor.
+/// Largest level that is factored: 192 rows, which take some 0.1 ms.
 constexpr int max_particles = 64;
 constexpr double held = 1e30;
 
@@ -33,7 +33,7 @@ BlockFactor::BlockFactor(const FilterLevel& level) {
 }
 
 void BlockFactor::add_edge(int i, int j, double k) {
-  // An edge between mates joins a particle to itself and holds nothing.
+  // An edge between mates joins a particle to itself and adds nothing.
   if (i == j) return;
   for (int a = 0; a < 3; ++a) {
     entry(3 * i + a, 3 * i + a) += k;

@@ -6,8 +6,8 @@
 
 namespace weft {
 
-/// The direct solver of a coarsest level with contacts, which join its coordinates: Cholesky's
-/// factors of the whole matrix, for levels of few particles.
+/// Direct solver of a coarsest level with contacts, which couple the coordinates: a dense Cholesky
+/// factor, for levels of few particles.
 class BlockFactor {
  public:
   BlockFactor() = default;

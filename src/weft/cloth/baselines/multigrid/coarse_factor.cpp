@@ -25,7 +25,7 @@ void for_each_edge(const FilterLevel& level, const Use& use) {
   }
 }
 
-/// On the diagonal of a particle that is held: whatever pulls at it moves it by nothing.
+/// Diagonal entry that fixes a held particle.
 constexpr double held = 1e30;
 
 }  // namespace
@@ -90,7 +90,7 @@ void CoarseFactor::assemble(const FilterLevel& level) {
   for_each_edge(level, [&](int s, int t, float k) {
     const int low = std::min(unknown_of_[s], unknown_of_[t]);
     const int high = std::max(unknown_of_[s], unknown_of_[t]);
-    // An edge between mates joins a particle to itself and holds nothing.
+    // An edge between mates joins a particle to itself and adds nothing.
     if (low == high) return;
     entry(low, low) += double{k};
     entry(high, high) += double{k};

@@ -8,9 +8,9 @@
 
 namespace weft {
 
-/// The direct solver of the coarsest level: Cholesky's factors within the envelope of A, which
-/// they do not leave [george81]. Rows go by image rows with mates as one unknown, so an n x n sheet
-/// takes about n^3 entries, a seam adds one long row for each of its particles.
+/// Direct solver of the coarsest level: a Cholesky factor within the envelope of A, to which its
+/// fill-in is confined [george81]. Unknowns are ordered by image rows with mates as one unknown, so
+/// an n x n sheet takes about n^3 entries, and a seam adds one long row for each of its particles.
 class CoarseFactor {
  public:
   CoarseFactor() = default;
@@ -26,7 +26,7 @@ class CoarseFactor {
   void solve(FilterLevel& level, const KernelTable& kernels);
 
  private:
-  /// Where a row's entries are: columns `first` .. the diagonal, from `start` in the factor.
+  /// The entries of a row: columns `first` .. the diagonal, from `start` in the factor.
   struct Row {
     std::size_t start = 0;
     int first = 0;

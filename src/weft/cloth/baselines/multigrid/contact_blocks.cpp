@@ -57,7 +57,7 @@ void ContactBlocks::clear_row(int row) {
 void ContactBlocks::touch_row(int row) {
   rows_[row] = 1;
   const float *xx = own_[0].row(row), *yy = own_[3].row(row), *zz = own_[5].row(row);
-  // Mates have the blocks of their class, see join_mates: all of a border is taken as touched.
+  // Mates have the blocks of their class, see join_mates, so the whole border counts as touched.
   const bool border = row == 0 || row + 1 == size_;
   for (int run = 0; run < runs_; ++run) {
     char found = border || run == 0 || run + 1 == runs_ ? 1 : 0;

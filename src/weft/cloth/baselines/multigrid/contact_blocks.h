@@ -10,10 +10,10 @@
 
 namespace weft {
 
-/// What contacts add to a level's operator: a symmetric 3 x 3 block for every sample, a sum
-/// of k n n^T on the finest level, on coarser ones what restriction gathers of it. They hold along
-/// normals and leave sliding free. Columns without contact stay with the scalar operator, in runs
-/// of a few: blocks are six planes to read where that has one.
+/// Contact terms of a level's operator: a symmetric 3 x 3 block for every sample, on the finest
+/// level the sum of k n n^T + grip (1 - n n^T) over its contacts, see ContactGather::add_blocks, on
+/// coarser ones the restriction of these. Runs of columns without contact keep the scalar operator,
+/// which reads one plane where blocks are six.
 class ContactBlocks {
  public:
   ContactBlocks() = default;
@@ -22,10 +22,10 @@ class ContactBlocks {
   /// Whether a row has contacts.
   [[nodiscard]] bool row(int r) const { return rows_[static_cast<std::size_t>(r)] != 0; }
 
-  // Renewing goes row by row, by any team: each of these in turn, with barriers between.
+  // To be called row by row, by any team, in this order and with barriers between.
   void take_row(const ContactLoads& contacts, int row);
   void restrict_row(const ContactBlocks& fine, int row, float* line);
-  /// (D + C)^-1 of the row's samples, which for samples with mates is wrong until join_mates.
+  /// Computes (D + C)^-1 of the row's samples; for samples with mates it is wrong until join_mates.
   /// @param inverse_diagonal  [n] D^-1, 0 where held
   void invert_row(int row, const float* inverse_diagonal);
   void join_mates(const BorderMates& mates, const Grid<float>& inverse_diagonal, Range classes);
@@ -60,7 +60,7 @@ class ContactBlocks {
   [[nodiscard]] bool touched(int row, int run) const {
     return touched_[static_cast<std::size_t>(row) * runs_ + run] != 0;
   }
-  /// Finds out which runs of a row have contacts.
+  /// Marks the runs of a row that have contacts.
   void touch_row(int row);
 
   int size_ = 0, runs_ = 0;

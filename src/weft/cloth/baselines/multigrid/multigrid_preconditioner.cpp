@@ -10,19 +10,19 @@
 namespace weft {
 namespace {
 
-/// Of Jacobi's sweeps. The upper part of the spectrum of D^-1 A reaches to about 1.9 (Gershgorin's
-/// bound without what shear takes off it); what is below 0.3 the next level sees, even beside
-/// points where many corners meet.
+/// Damping factors of the Jacobi sweeps. The upper part of the spectrum of D^-1 A reaches to about
+/// 1.9 (Gershgorin's bound without what shear takes off it); what is below 0.3 is left to the next
+/// level, even beside points where many corners meet.
 std::vector<float> sweep_factors(int sweeps) {
   if (sweeps == 1) return {0.85F};
   constexpr float middle = 0.5F * (1.9F + 0.3F), half = 0.5F * (1.9F - 0.3F), root = 0.70710678F;
   return {1 / (middle + half * root), 1 / (middle - half * root)};
 }
-/// Where a coarsest level is too large to be factored: so many sweeps.
+/// Sweeps on a coarsest level that is too large to be factored.
 constexpr int coarsest_sweeps = 24;
-/// Levels of at most so many samples a side are left to one worker: barriers would cost more.
+/// Levels of at most this many samples a side are left to one worker: barriers would cost more.
 constexpr int lone_size = 33;
-/// Three of a stencil, one that is worked on.
+/// Line buffers: three of a stencil, one of scratch.
 constexpr int lines_a_worker = 4;
 
 /// A row from a column on.
@@ -31,7 +31,7 @@ Row3 from(Row3 row, int col) { return {row.x + col, row.y + col, row.z + col}; }
 
 }  // namespace
 
-/// Who works on a level: all, or one whom the others wait for.
+/// The workers of a level: all of the team, or one for whom the others wait.
 struct MultigridPreconditioner::Workers {
   Worker& worker;
   bool alone;
@@ -147,7 +147,7 @@ void MultigridPreconditioner::apply_row(const FilterLevel& level, int row, const
   });
 }
 
-/// The residual of a first sweep from zero, which is never stored: three lines hold it.
+/// Computes the residual after one sweep from zero, which is never stored: three lines hold it.
 void MultigridPreconditioner::lone_sweep_residual(FilterLevel& level, const Workers& workers) {
   const int n = level.size();
   const Range mine = workers.share(n);
@@ -167,7 +167,7 @@ void MultigridPreconditioner::lone_sweep_residual(FilterLevel& level, const Work
   workers.barrier();
 }
 
-/// Leaves the iterate in `value`, as the way up wants it.
+/// Computes the residual after two sweeps and leaves the iterate in `value`, where up() expects it.
 void MultigridPreconditioner::two_sweeps_residual(FilterLevel& level, const Workers& workers) {
   const int n = level.size();
   const Range mine = workers.share(n);
@@ -218,7 +218,7 @@ void MultigridPreconditioner::up(const FilterLevel& coarse, FilterLevel& fine,
   if (!coarse.matched) workers.average(fine.mates, fine.value);
 }
 
-/// @return right . result of the row
+/// @return rhs . result of the row
 double MultigridPreconditioner::sweep_row(FilterLevel& level, int row, float factor) {
   const Row3 out = row_of(level.result, row);
   apply_row(level, row, level.stencil_rows(row), out);
@@ -234,7 +234,7 @@ double MultigridPreconditioner::sweep_row(FilterLevel& level, int row, float fac
   return kernels_->sweep(level.size(), sweep, out);
 }
 
-/// The same with blocks in place of a diagonal where contacts touch.
+/// Sweeps a row with contacts: with blocks in place of the diagonal where contacts touch.
 double MultigridPreconditioner::contact_sweep_row(const FilterLevel& level, int row,
                                                   const SweepRow& sweep, Row3 out) const {
   level.contacts.for_runs(row, [&](Range columns, bool touched) {
@@ -252,7 +252,8 @@ double MultigridPreconditioner::contact_sweep_row(const FilterLevel& level, int 
   return kernels_->dot(level.size(), sweep.share, sweep.rhs, {out.x, out.y, out.z});
 }
 
-/// Every sample takes what its own part makes of its class, and the mean is what the class makes.
+/// A sweep over a level. Every sample is updated as if its own part, times the number of mates,
+/// were that of its class; the mean over the mates is then the update of the class.
 void MultigridPreconditioner::level_sweep(FilterLevel& level, float factor,
                                           const Workers& workers) {
   const Range mine = workers.share(level.size());
@@ -281,7 +282,7 @@ void MultigridPreconditioner::solve_coarsest(FilterLevel& level, const Workers& 
     return workers.barrier();
   }
   if (!touching_ && factor_.fits()) {
-    // The coordinates go together, since what one of them takes is spent waiting.
+    // One worker solves for all coordinates at once, as a solve is bound by latency.
     const Range mine = workers.share(1);
     if (mine.last > mine.first) factor_.solve(level, *kernels_);
     return workers.barrier();
@@ -295,7 +296,7 @@ void MultigridPreconditioner::solve_coarsest(FilterLevel& level, const Workers& 
   }
 }
 
-/// Level `index` and all below it. A lone worker's helpers wait at the end.
+/// Cycles over level `index` and all below it. The other workers wait for a lone worker at the end.
 void MultigridPreconditioner::below(std::size_t index, Worker& worker) {
   FilterLevel& level = levels_[index];
   const bool lone = index > 0 && level.size() <= lone_size;

@@ -15,12 +15,12 @@ namespace weft {
 /// [zink07, section 4; brandt77]. A bounds the Hessian of implicit Euler's energy from above, so
 /// x - A^-1 gradient never rises in energy.
 ///
-/// Jacobi's sweeps, damped by Chebyshev's roots, come before the coarse correction and in the
-/// opposite order after it. With one of each, of which the first starts from zero and needs no
+/// The smoother is Jacobi's, damped by Chebyshev's roots, in the opposite order after the coarse
+/// correction. With one sweep before and after, of which the first starts from zero and needs no
 /// neighbours, a cycle on a uniform sheet leaves 0.26 of the error, with two of each 0.15 for twice
-/// the work: one does where few iterations are made. The coarsest level, of at most 5 samples a
-/// side or the size that no longer halves, is solved directly. A cycle is a symmetric operator and
-/// may precondition conjugate gradients.
+/// the work: one is enough for few iterations. The coarsest level, of at most 5 samples a side or
+/// the size that no longer halves, is solved directly. A cycle is a symmetric operator and may
+/// precondition conjugate gradients.
 class MultigridPreconditioner {
  public:
   struct Options {
@@ -30,16 +30,16 @@ class MultigridPreconditioner {
   /// @param team  that will call cycle
   MultigridPreconditioner(const Cloth& cloth, const Options& options, const ThreadTeam& team);
 
-  /// To be called when particles have been pinned or let go.
+  /// Updates the operator after particles have been pinned or released.
   void renew_pins(const Cloth& cloth);
   [[nodiscard]] bool knows_pins(const Cloth& cloth) const;
 
-  /// Takes over the contacts, or that there are none any more. To be called by every worker of the
-  /// team; ends with a barrier.
+  /// Updates the contacts' terms on all levels. To be called by every worker of the team; ends with
+  /// a barrier.
   void renew_contacts(const ContactLoads& contacts, Worker& worker);
 
-  /// One V-cycle from zero: value() = about A^-1 right(). To be called by every worker of the team;
-  /// ends with a barrier. @return right . value [N m]
+  /// One V-cycle from zero: value() approximates A^-1 rhs(). To be called by every worker of the
+  /// team; ends with a barrier. @return rhs . value [N m]
   double cycle(Worker& worker);
 
   /// The right side, mates equal [N]; to be filled before a cycle.
@@ -75,7 +75,7 @@ class MultigridPreconditioner {
   Grid<float> moves_;
   std::vector<int> pinned_;   // samples
   CoarseFactor factor_;       // of the coarsest level
-  BlockFactor block_factor_;  // of the same with contacts
+  BlockFactor block_factor_;  // of the coarsest level with contacts
   bool touching_ = false;     // whether there are contacts
   const KernelTable* kernels_;
   Grid<float> lines_;  // scratch of every worker

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-// Below, a direct solve costs less than the barriers of smoothing.
+// A direct solve costs less than the barriers of smoothing on levels of at most this size.
 constexpr int coarsest_size = 5;
 
 FilterLevel empty_level(const BorderMates& mates) {
@@ -38,8 +38,9 @@ float at(const Grid<float>& plane, int row, int col) {
 
 using Edges = std::array<Grid<float>, 4>;
 
-/// What fine edges along a line add up to on one coarse edge, when both bound the same linear
-/// field: a fine edge sees half of its difference. Across the line weights are 1/2 1 1/2.
+/// Conductance of a coarse edge along a line from the fine edges around it, so that both levels
+/// bound the energy of a linear field alike: a fine edge sees half of a coarse edge's difference.
+/// Across the line weights are 1/2 1 1/2.
 float line_edge(const Grid<float>& fine, SpringOffset offset, int row, int col) {
   const auto [down, right] = offset;
   float sum = 0;
@@ -102,7 +103,7 @@ void set_diagonals(FilterLevel& level) {
     }
 }
 
-/// Held particles weigh on coarser levels what holds them on this one.
+/// The weights that are restricted to the next level: those of held particles include the diagonal.
 Grid<float> weight_below(const FilterLevel& level, const Grid<float>* moves) {
   Grid<float> weight = level.own_weight;
   if (moves == nullptr) return weight;
@@ -112,7 +113,7 @@ Grid<float> weight_below(const FilterLevel& level, const Grid<float>* moves) {
   return weight;
 }
 
-/// What a spring and its damping resist a move by, in any direction.
+/// Upper bound, in any direction, of the stiffness of springs and their damping over h.
 Grid<float> conductance(const SpringPlane& springs, double time_step) {
   Grid<float> result = springs.stiffness;
   const auto per_step = static_cast<float>(1 / time_step);

@@ -10,7 +10,7 @@
 namespace weft {
 
 /// One level of the filter's pyramid: A = M / h^2 + held + sum k (edge Laplacian), a scalar
-/// operator that acts on each coordinate alike. Like forces, its rows are stored as each sample's
+/// operator that acts alike on each coordinate. Like forces, its rows are stored as each sample's
 /// own part; a particle's row is the sum over its mates.
 struct FilterLevel {
   BorderMates mates;

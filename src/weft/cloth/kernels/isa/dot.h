@@ -5,7 +5,7 @@
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// Sums go in this many lanes whatever the vector's width, so that they round alike.
+/// Sums have this many lanes whatever the vector's width, so that they round alike.
 constexpr int lanes = 16;
 
 inline __attribute__((always_inline)) float product(const float* share, ConstRow3 a, ConstRow3 b,

@@ -4,8 +4,8 @@
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// One coordinate of -A x at column c, with the neighbours on the sides that there are.
-/// Differences, since the weight of a particle drowns in the sum of its springs' stiffness.
+/// One coordinate of -A x at column c, with the neighbours on the sides that exist. Computed from
+/// differences: a particle's own weight would be lost in the rounding of its springs' stiffness.
 template <bool Left, bool Right>
 inline __attribute__((always_inline)) float minus_ax(const OperatorRow& a, int c,
                                                      const float* above, const float* here,

@@ -3,7 +3,7 @@
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// A spring shorter than its root [m] has no direction and pulls nowhere.
+/// Lower bound of a spring's squared length, which keeps its force finite. [m^2]
 constexpr float min_squared_length = 1e-30F;
 
 }  // namespace
@@ -56,10 +56,10 @@ void scale(int n, const float* factor, Row3 row) {
 }
 namespace {
 
-/// Sums go in this many lanes whatever the vector's width, so that they round alike.
+/// Sums have this many lanes whatever the vector's width, so that they round alike.
 constexpr int lanes = 16;
 
-/// Adds the columns first .. first + count - 1, each to its lane.
+/// Adds the columns first .. first + count - 1, each to its own lane.
 inline __attribute__((always_inline)) void add_columns(const MomentRow& row, int first, int count,
                                                        float (*s)[lanes]) {
   const ConstRow3 position = row.position, a = row.acceleration;
@@ -102,15 +102,13 @@ void moments(int n, const MomentRow& row, double* sums) {
 }
 namespace {
 
-/// Sums go in this many lanes whatever the vector's width, so that they round alike.
-
 inline float folded(float* sums) {
   for (int half = lanes / 2; half > 0; half /= 2)
     for (int i = 0; i < half; ++i) sums[i] += sums[i + half];
   return sums[0];
 }
 
-/// `Together` rows, so that the vectors are read once for all.
+/// Multiplies `Together` rows of the matrix at once, so that the vectors are read once for all.
 template <int Together>
 inline __attribute__((always_inline)) void rows_times(const float* matrix, std::ptrdiff_t stride,
                                                       ConstRow3 v, int first, Row3 out) {

@@ -1,11 +1,11 @@
 #include "weft/cloth/kernels/isa/implicit_rows.h"
 
-// Springs as seen from one of their ends, and implicit Euler's matrix of them.
-// What a step begins with, and where it leads.
+// Springs as seen from one of their ends and their matrix in implicit Euler, and the start and end
+// of a step.
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// A spring shorter than its root [m] has no direction and pulls nowhere.
+/// Lower bound of a spring's squared length, which keeps its force finite. [m^2]
 constexpr float min_squared_length = 1e-30F;
 
 inline __attribute__((always_inline)) float bounded(float squared) {

@@ -1,8 +1,8 @@
 #include "weft/cloth/kernels/isa/newton_rows.h"
 
 // Block tridiagonal systems of neighbouring lines, side by side in lanes. Factors of blocks are
-// computed in double and stored in float: light, stiff cloth leaves the Schur complements a small
-// difference of large blocks. Of springs that difference is known.
+// computed in double and stored in float: in light, stiff cloth the Schur complements are small
+// differences of large blocks. For springs the differences have a closed form without cancellation.
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
@@ -27,7 +27,7 @@ inline void transpose(Four* m) {
   m[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-/// Element j of line i becomes tile[j][i]. Beyond the last line stands something finite.
+/// Element j of line i becomes tile[j][i]. Lanes beyond the last line get finite values.
 template <int lanes>
 inline void read_tile(const PlaneView& plane, const LineBlock& block, int position, int count,
                       float (*tile)[lanes]) {
@@ -132,7 +132,7 @@ struct Elimination {
   }
 };
 
-/// Reads coupling blocks as they are.
+/// Coupling blocks, read from planes.
 template <int lanes>
 struct BlockCoupling {
   const PlaneView* planes;
@@ -147,7 +147,7 @@ struct BlockCoupling {
   }
 };
 
-/// Makes them of springs.
+/// Coupling blocks, computed from springs.
 template <int lanes>
 struct SpringCoupling {
   const PlaneView* planes;
@@ -182,7 +182,7 @@ void factor(const LineBlock& block, const PlaneView* diagonal, const PlaneView& 
     read_tile<lanes>(extra, block, position, count, tile[6]);
     coupling.read(block, position, count);
     for (int j = 0; j < count; ++j) {
-      // Lanes without a line solve for nothing.
+      // Keeps the systems of lanes without a line regular.
       for (int i = block.width; i < lanes; ++i) tile[6][j][i] = 1;
       for (int k = 0; k < 6; ++k) {
         const bool on_diagonal = k == 0 || k == 3 || k == 5;
@@ -205,13 +205,14 @@ void factor(const LineBlock& block, const PlaneView* diagonal, const PlaneView& 
   }
 }
 
-/// Springs in series, in single precision without cancellation: with Q what holds a sample but for
-/// the spring K = t 1 + s s^T after it, which passes on P = K - K (Q + K)^-1 K.
+/// The elimination of springs in series, in single precision without cancellation. With Q the
+/// diagonal block of a sample without the spring K = t 1 + s s^T to the next one,
+/// P = K - K (Q + K)^-1 K is added to the next sample's block.
 template <int lanes>
 struct Series {
   alignas(64) float passed[6][lanes] = {};  // P
 
-  /// out = (Q + K)^-1 and K. @param held  Q without what the spring before passes on
+  /// out = (Q + K)^-1 and K. @param held  Q without the P of the spring before
   void advance(const float (*held)[chunk][lanes], const float (*spring)[chunk][lanes], int j,
                float* out) {
 #pragma omp simd
@@ -267,7 +268,7 @@ void factor_series(const LineBlock& block, const HeldLineMatrix& matrix, float* 
     for (int k = 0; k < 4; ++k)
       read_tile<lanes>(matrix.spring[k], block, position, count, spring[k]);
     for (int j = 0; j < count; ++j) {
-      // Lanes without a line solve for nothing.
+      // Keeps the systems of lanes without a line regular.
       for (int i = block.width; i < lanes; ++i) held[0][j][i] = held[3][j][i] = held[5][j][i] = 1;
       state.advance(
           held, spring, j,
@@ -289,7 +290,7 @@ inline void multiply(const float* blocks, const float (*v)[lanes], float (*out)[
   }
 }
 
-/// What a sample's neighbours on its line do to it: of blocks B v, of springs -(t v + s (s . v)).
+/// The product of a coupling block and a vector: B v for blocks, -(t v + s (s . v)) for springs.
 struct BlockPull {
   static constexpr int entries = line_factor_entries;
   template <int lanes>

@@ -5,9 +5,9 @@
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// Below this a spring has no direction. [m^2]
+/// Lower bound of a spring's squared length, which keeps its direction finite. [m^2]
 constexpr float min_squared_length = 1e-24F;
-/// Of the lanes in which energies are summed, whatever the vector's width.
+/// Number of lanes in which energies are summed, whatever the vector's width.
 constexpr int lanes = 16;
 
 inline float larger(float a, float b) { return a > b ? a : b; }
@@ -39,7 +39,7 @@ inline void pull(const ConstSpringHessianRow& spring, int c, float dx, float dy,
   gz -= f * dz;
 }
 
-/// sum += t + s s^T
+/// t += the spring's t; sum += s s^T
 inline void stiffen(const ConstSpringHessianRow& spring, int c, float& t, Sum6& sum) {
   const float x = spring.x[c], y = spring.y[c], z = spring.z[c];
   t += spring.t[c];

@@ -4,14 +4,14 @@
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// Springs of no length have no direction: their pull is bounded instead of infinite. [m^2]
+/// Lower bound of a spring's squared length, which keeps its force finite. [m^2]
 constexpr float min_squared_length = 1e-24F;
 
 struct Vector {
   float x, y, z;
 };
 
-/// Force of a spring over its vector d [N/m]; e is how that changed in the step [m].
+/// Force of a spring over its vector d [N/m]; e is the change of d in the step [m].
 template <bool Damped>
 inline __attribute__((always_inline)) float pull(const Vector& d, const Vector& e, float k,
                                                  float rest, float damping) {

@@ -1,20 +1,20 @@
 #include "weft/cloth/kernels/isa/filtering_rows.h"
 
-// A patch is first weighed down its columns, for every distance from the middle one at a time, and
-// what comes of that is then added along the row: rows are read once for several distances, and
-// only the second pass is off the vectors' grid.
+// A patch is applied in two passes: a weighted sum down its columns for every distance from the
+// middle one, then a sum of these along the row. Rows are read once for several distances, and only
+// the second pass is unaligned.
 
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
 /// Rows of a Grid are padded to a multiple of this.
 constexpr int width = 16;
-/// Distances that are weighed together, as many as the registers bear.
+/// Distances that are summed together, as many as there are registers for.
 constexpr int max_distances = 6;
 
 inline int padded(int n) { return (n + width - 1) / width * width; }
 
-/// lines[l] = the rows weighed for distance first + l, l < count.
+/// lines[first + l] = the weighted sum of the rows for distance first + l, l < Count.
 template <int Count>
 inline void weigh_columns(int n, const float* const* rows, const PatchWeights& patch, int first,
                           float* lines, std::ptrdiff_t stride) {
@@ -72,7 +72,8 @@ inline __attribute__((always_inline)) void add_block(int half, const float* line
   for (int i = 0; i < Columns; ++i) out[c + i] = sum[i];
 }
 
-/// The last block laps over the one before, which gives the same sums again.
+/// Sums along a row in blocks of columns. The last block overlaps the one before and repeats its
+/// sums.
 template <int Columns>
 inline void add_blocks(int n, int half, const float* lines, std::ptrdiff_t stride, float* out) {
   const int last = n - half;
@@ -94,7 +95,7 @@ template <int Columns>
 inline __attribute__((always_inline)) void beside(int n, const float* const* rows,
                                                   const PatchWeights& patch, int column,
                                                   float* out) {
-  // Two sums each: one alone would wait for itself.
+  // Two sums each, which do not wait for each other's additions.
   float left[2][Columns] = {}, right[2][Columns] = {};
   const int side = 2 * patch.half + 1;
   const float* w = patch.beside + column;

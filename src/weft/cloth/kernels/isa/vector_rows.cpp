@@ -68,7 +68,7 @@ void step_residual(int n, float step_length, ConstRow3 far, Row3 residual) {
 }
 namespace {
 
-/// Largest finite float; what compares as greater, or not at all, is not finite.
+/// Largest finite float. A value that compares as greater, or not at all, is not finite.
 constexpr float most = 3.40282347e38F;
 
 inline __attribute__((always_inline)) int not_finite(float value) {

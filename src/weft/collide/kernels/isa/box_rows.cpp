@@ -8,8 +8,8 @@ struct Axis {
   float lower_start, upper_start, lower_end, upper_end;
 };
 
-/// Gaps along an axis to four boxes: the larger of those in either order, each the less of both
-/// ends'.
+/// Raises the gaps to four boxes to those along one axis: in either order the smaller gap of both
+/// ends of the step, of both orders the larger one.
 inline void widen(const Axis& a, const ChildPathBoxes& b, int axis, float* gap) {
 #pragma omp simd
   for (int k = 0; k < 4; ++k) {
@@ -21,7 +21,7 @@ inline void widen(const Axis& a, const ChildPathBoxes& b, int axis, float* gap) 
   }
 }
 
-/// Four samples of one row.
+/// Widens extents by four samples of one row.
 inline void widen_along(const SampleBlock& samples, long first, const float* origin,
                         const float* direction, float* lower, float* upper) {
   const float *x = samples.x + first, *y = samples.y + first, *z = samples.z + first;

@@ -5,7 +5,7 @@
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// Left of the positive determinant, against rounding.
+/// Margin by which the determinant has to be positive, against rounding.
 constexpr float min_definite = 0.01F;
 constexpr int planes = 12;
 
@@ -14,7 +14,7 @@ inline float centre(float lower, float upper) { return 0.5F * (lower + upper); }
 inline float half(float lower, float upper, float slack) { return 0.5F * (upper - lower) + slack; }
 inline bool is_lower(int plane) { return plane % 6 < 3; }
 
-/// Least and largest of to - from of four rows.
+/// Minima and maxima of to - from over four rows.
 void differences(int n, const float* const (&from)[4], const float* const (&to)[4],
                  float* __restrict lower, float* __restrict upper) {
   const float *a = from[0], *b = from[1], *c = from[2], *d = from[3];
@@ -83,14 +83,14 @@ void find_unfolded(int n, const float* const* of, float slack, float* __restrict
     const float vv = vx * vx + vy * vy + vz * vz;
     const float uv = ux * vx + uy * vy + uz * vz;
     const float determinant = uu * vv - uv * uv;
-    // Where there is none, infinities and what is not a number fail every comparison below.
+    // If the determinant is 0, infinities and NaNs fail every comparison below.
     const float p = vv / determinant, q = uv / determinant, r = uu / determinant;
     const float px = p * ux - q * vx, py = p * uy - q * vy, pz = p * uz - q * vz;
     const float rx = r * vx - q * ux, ry = r * vy - q * uy, rz = r * vz - q * uz;
     const float first = 1 - (absolute(px) * ux_off + absolute(py) * uy_off + absolute(pz) * uz_off);
     const float second =
         1 - (absolute(rx) * vx_off + absolute(ry) * vy_off + absolute(rz) * vz_off);
-    // Scaled alike, so that long and short sides count alike.
+    // Both directions are scaled to equal length, so that long and short sides count alike.
     const float scale = std::sqrt(uu / vv);
     const float mixed =
         0.5F * (scale * (absolute(px) * vx_off + absolute(py) * vy_off + absolute(pz) * vz_off) +
