@@ -3,7 +3,7 @@
 add_library(weft_flags INTERFACE)
 target_compile_features(weft_flags INTERFACE cxx_std_20)
 target_compile_options(weft_flags INTERFACE
-  -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd)
+  -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd -pthread)
 target_include_directories(weft_flags INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>"

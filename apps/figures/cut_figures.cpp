@@ -61,9 +61,9 @@ void draw_augmented(const std::filesystem::path& path) {
     options.augment = augment;
     options.measure = false;
     const Conversion made = convert_mesh(mesh, "builtin:mannequin", options);
-    const SurfaceValues stretch = stretch_on_surface(*made.mapped);
+    const SurfaceValues stretch = stretch_on_surface(*made.charts[0].mapped);
     SurfaceDrawing drawing = draw_stretch(stretch);
-    add_cut(drawing, *made.mapped);
+    add_cut(drawing, *made.charts[0].mapped);
     panels.push_back(
         {draw_on_white(drawing, {360, 480, 0.5, 0.15}),
          fmt::format("{}: L2 {:.2f}",

@@ -90,7 +90,8 @@ void draw_rebuilt(const std::filesystem::path& path) {
 void draw_pair(const std::filesystem::path& folder) {
   const Conversion made = convert_figure(257);
   write_png(folder / "mannequin-colours.png", colours_of(made.image, 257));
-  write_png(folder / "mannequin-map.png", draw_map(*made.mapped, {.side = 257, .edges = false}));
+  write_png(folder / "mannequin-map.png",
+            draw_map(*made.charts[0].mapped, {.side = 257, .edges = false}));
 }
 
 }  // namespace

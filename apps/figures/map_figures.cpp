@@ -25,9 +25,10 @@ void draw_border(const std::filesystem::path& path) {
   SurfaceDrawing drawing;
   drawing.mesh = &made.input.mesh;
   drawing.curve_radius = 0.006;
-  add_cut(drawing, *made.mapped);
-  const Picture square = framed_by_mates(draw_map(*made.mapped, {.side = side, .stretch = false}),
-                                         border_bands(*made.mapped), options.size);
+  add_cut(drawing, *made.charts[0].mapped);
+  const Picture square =
+      framed_by_mates(draw_map(*made.charts[0].mapped, {.side = side, .stretch = false}),
+                      border_bands(*made.charts[0].mapped), options.size);
   write_png(path, in_a_row({{draw_on_white(drawing, {400, square.height, 0.35, 0.85}),
                              "paths and nodes of the cut"},
                             {square, "around the square"}}));
@@ -99,9 +100,9 @@ void draw_parameterizers(const std::filesystem::path& path) {
     options.measure = false;
     if (floater) options.parameterizer = FloaterOptions{};
     const Conversion made = convert("mannequin", options);
-    Picture square = draw_map(*made.mapped, {.side = side, .edges = false});
-    square = framed_by_mates(square, border_bands(*made.mapped), options.size);
-    const SurfaceValues stretch = stretch_on_surface(*made.mapped);
+    Picture square = draw_map(*made.charts[0].mapped, {.side = side, .edges = false});
+    square = framed_by_mates(square, border_bands(*made.charts[0].mapped), options.size);
+    const SurfaceValues stretch = stretch_on_surface(*made.charts[0].mapped);
     SurfaceDrawing drawing = draw_stretch(stretch);
     drawing.legend.reset();
     squares.push_back({square, fmt::format("{}: L2 {:.2f}", floater ? "floater" : "stretch",

@@ -106,16 +106,16 @@ void draw_way(const std::filesystem::path& path) {
     const Conversion made = convert_figure(options);
     SurfaceDrawing drawing;
     drawing.mesh = &made.input.mesh;
-    add_cut(drawing, *made.mapped);
+    add_cut(drawing, *made.charts[0].mapped);
     cuts.push_back({draw_on_white(drawing, view), augment ? "(c) improved cut" : "(a) first cut"});
-    maps.push_back({draw_map(*made.mapped, {.side = side, .edges = false}),
+    maps.push_back({draw_map(*made.charts[0].mapped, {.side = side, .edges = false}),
                     augment ? "(d) floater" : "(b) floater"});
   }
   ConvertOptions options;
   options.size = side;
   options.normal_map_size = 513;
   const Conversion made = convert_figure(options);
-  maps.push_back({draw_map(*made.mapped, {.side = side, .edges = false}), "(e) stretch"});
+  maps.push_back({draw_map(*made.charts[0].mapped, {.side = side, .edges = false}), "(e) stretch"});
   images.push_back({colours_of(made.image, side), "(f) image"});
   images.push_back({normal_colours(*made.normals, side), "(g) normal map"});
   Portrait portrait(made.input.mesh, view.width, view.height);

@@ -20,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ConvertArgs {
-  std::string mesh, output, parameterizer = "stretch", component, size = "257";
+  std::string mesh, output, parameterizer = "stretch", component, size = "257", charts = "auto";
   MeshArgs frame;
-  int normal_map = 0, seed_triangle = -1;
+  int normal_map = 0, seed_triangle = -1, samples = 0;
   bool keep_uv = false, fit = false;
   std::string seam;
 };
@@ -47,9 +47,22 @@ int size_of(const std::string& arg) {
   return size;
 }
 
+/// The side of a square of so many samples that coarser levels fit into.
+int side_of(int samples) {
+  int side = min_image_size;
+  while (side + 4 <= largest_image_size && (side + 4) * (side + 4) <= samples) side += 4;
+  return side;
+}
+
+ChartChoice charts_of(const std::string& arg) {
+  if (arg == "1") return ChartChoice::one;
+  return arg == "pieces" ? ChartChoice::pieces : ChartChoice::automatic;
+}
+
 ConvertOptions options_of(const ConvertArgs& args, const Context& context, Progress& progress) {
   ConvertOptions options;
-  options.size = size_of(args.size);
+  options.size = args.samples > 0 ? side_of(args.samples) : size_of(args.size);
+  options.charts = charts_of(args.charts);
   if (args.parameterizer == "floater") options.parameterizer = FloaterOptions{};
   options.seed_triangle = args.seed_triangle;
   options.normal_map_size = args.normal_map;
@@ -70,14 +83,16 @@ fs::path beside(const fs::path& path, const std::string& suffix) {
 void print_summary(const Context& context, const Conversion& c) {
   const TopologyCounts& in = c.input.counts;
   for (const std::string& repair : c.input.repairs) note(context, repair);
-  say(context, fmt::format("mesh    {} vertices, {} triangles, genus {}, {} borders", in.vertices,
-                           in.triangles, in.genus, in.boundaries));
+  say(context, fmt::format("mesh    {} vertices, {} triangles, {}, {} borders", in.vertices,
+                           in.triangles, genus_text(genus_json(in)), in.boundaries));
   say(context,
       fmt::format("map     {} flipped, {} degenerate, stretch {:.3f} (L2), {:.1f} (largest)",
                   c.map_quality.flipped, c.map_quality.degenerate, c.map_quality.stretch_l2,
                   c.map_quality.stretch_linf));
-  say(context, fmt::format("image   {0} x {0}, PSNR {1:.1f} dB, Hausdorff {2:.2f} %",
-                           c.image.size(), c.quality.psnr_db, c.quality.hausdorff_percent));
+  const std::string charts =
+      c.charts.size() == 1 ? "" : fmt::format(" in {} charts", c.charts.size());
+  say(context, fmt::format("image   {0} x {0}{1}, PSNR {2:.1f} dB, Hausdorff {3:.2f} %",
+                           c.image.size(), charts, c.quality.psnr_db, c.quality.hausdorff_percent));
   say(context, fmt::format("time    {:.2f} s, of which measuring {:.2f} s", c.seconds.total,
                            c.seconds.measure));
   if (const std::optional<double> memory = peak_memory_mb())
@@ -192,6 +207,16 @@ void add_convert(CLI::App& program, const Context& context) {
       ->add_option("--size", args->size,
                    "Samples a side, 2^k + 1 suits the solvers; auto: by the mesh")
       ->capture_default_str();
+  command
+      ->add_option("--samples", args->samples,
+                   "Samples in all, instead of those of a side; of all charts together")
+      ->check(CLI::Range(min_image_size * min_image_size, largest_image_size * largest_image_size))
+      ->excludes("--size");
+  command
+      ->add_option("--charts", args->charts,
+                   "1: refuse several pieces; auto, pieces: a chart for each piece")
+      ->check(CLI::IsMember({"1", "auto", "pieces"}))
+      ->capture_default_str();
   add_mesh_options(*command, args->frame);
   command->add_option("--parameterizer", args->parameterizer, "How the inside is mapped")
       ->check(CLI::IsMember({"floater", "stretch"}))
@@ -206,8 +231,9 @@ void add_convert(CLI::App& program, const Context& context) {
                     "Move the samples so that the surface between them is nearer to the mesh");
   command->add_flag("--keep-uv", args->keep_uv,
                     "Write the mesh's texture coordinates beside the image, as NAME-uv.exr");
-  command->add_option("--component", args->component,
-                      "Of several: a number (largest is 0), largest, or all");
+  command->add_option(
+      "--component", args->component,
+      "Of several pieces one: a number (largest is 0), largest; all: an image each");
   command
       ->add_option("--seed-triangle", args->seed_triangle,
                    "Where the cut begins; chosen when not given")

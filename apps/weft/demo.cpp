@@ -58,7 +58,7 @@ void show_image(Demo& demo) {
   demo.add("mannequin-colours.png",
            [&](const fs::path& path) { write_png(path, colours_of(conversion.image, 512)); });
   demo.add("mannequin-map.png", [&](const fs::path& path) {
-    write_png(path, draw_map(*conversion.mapped, {.side = 512}));
+    write_png(path, draw_map(*conversion.charts[0].mapped, {.side = 512}));
   });
   demo.report["convert"] = conversion_json(name, conversion, {});
   say(demo.context,

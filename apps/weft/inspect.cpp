@@ -68,11 +68,10 @@ void say_image(const Context& context, const GeometryImage& image,
   say(context, fmt::format("image   {0} x {0} of {1}, {2} bytes", image.size(), image.source,
                            found["bytes"].get<std::uintmax_t>()));
   say(context, fmt::format("box     {:.4g} x {:.4g} x {:.4g} m", extent.x, extent.y, extent.z));
-  say(context,
-      fmt::format("surface genus {}, {} border(s); mates {}, {} classes, the largest of {}",
-                  found["genus"].get<int>(), found["boundaries"].get<int>(),
-                  mates_bit_equal(image) ? "bit-equal" : "NOT equal", image.mates.class_count(),
-                  statistics.largest_mate_class));
+  say(context, fmt::format("surface {}, {} border(s); mates {}, {} classes, the largest of {}",
+                           genus_text(found["genus"]), found["boundaries"].get<int>(),
+                           mates_bit_equal(image) ? "bit-equal" : "NOT equal",
+                           image.mates.class_count(), statistics.largest_mate_class));
   say(context, fmt::format("map     stretch {:.3f} (L2), {:.1f} (largest, at row {}, column {})",
                            statistics.stretch_l2, statistics.stretch_linf, statistics.worst_quad[0],
                            statistics.worst_quad[1]));

@@ -160,9 +160,9 @@ Fate fate_of(const std::string& name, const TriangleMesh& mesh, const MeshStatis
   try {
     const CutPreview cut = preview_cut(mesh, name);
     const RepairedMesh& repaired = cut.input;
-    std::string verdict =
-        fmt::format("converts: genus {}, {} border(s); size {} or more", repaired.counts.genus,
-                    repaired.counts.boundaries, cut.min_size);
+    std::string verdict = fmt::format("converts: {}, {} border(s); size {} or more",
+                                      genus_text(genus_json(repaired.counts)),
+                                      repaired.counts.boundaries, cut.min_size);
     for (const std::string& repair : repaired.repairs) verdict += "; " + repair;
     return {input_json(name, repaired), cut.min_size, verdict};
   } catch (const Error& error) {

@@ -39,10 +39,27 @@ Json map_json(const Conversion& conversion) {
           {"flipped", q.flipped},
           {"degenerate", q.degenerate},
           {"stretch_l2", q.stretch_l2},
-          {"stretch_linf", q.stretch_linf}};
+          {"stretch_linf", q.stretch_linf},
+          {"area_ratio", conversion.quality.area_ratio},
+          {"reversed_area", conversion.quality.reversed_area}};
+}
+
+Json charts_json(const GeometryImage& image) {
+  Json list = Json::array();
+  for (const Chart& chart : image.mates.charts())
+    list.push_back({{"name", chart.name},
+                    {"rows", chart.rows},
+                    {"cols", chart.cols},
+                    {"row", chart.row},
+                    {"col", chart.col}});
+  return list;
 }
 
 }  // namespace
+
+Json genus_json(const TopologyCounts& counts) {
+  return counts.genus >= 0 ? Json(counts.genus) : Json(nullptr);
+}
 
 Json box_json(const Box3d& box) {
   if (box.empty()) return nullptr;
@@ -55,6 +72,10 @@ Json paths_json(const std::vector<std::filesystem::path>& paths) {
   return list;
 }
 
+std::string genus_text(const Json& genus) {
+  return genus.is_null() ? "no genus" : "genus " + std::to_string(genus.get<int>());
+}
+
 Json input_json(const std::string& path, const RepairedMesh& input) {
   const TopologyCounts& c = input.counts;
   return {{"path", path},
@@ -62,7 +83,7 @@ Json input_json(const std::string& path, const RepairedMesh& input) {
           {"triangles", c.triangles},
           {"components", input.components_found},
           {"boundaries", c.boundaries},
-          {"genus", c.genus},
+          {"genus", genus_json(c)},
           {"euler", c.euler},
           {"repairs", input.repairs}};
 }
@@ -77,6 +98,7 @@ Json conversion_json(const std::string& path, const Conversion& conversion,
             {"nodes", conversion.cut.nodes},
             {"length", conversion.cut.length},
             {"rounds", conversion.rounds}}},
+          {"charts", charts_json(conversion.image)},
           {"map", map_json(conversion)},
           {"image",
            {{"size", conversion.image.size()},
@@ -84,7 +106,8 @@ Json conversion_json(const std::string& path, const Conversion& conversion,
             {"euler", q.euler},
             {"boundaries", q.boundaries},
             {"psnr_db", q.psnr_db},
-            {"hausdorff_percent", q.hausdorff_percent}}},
+            {"hausdorff_percent", q.hausdorff_percent},
+            {"coarsest_level", coarsest_level(conversion.image)}}},
           {"seconds", seconds_json(conversion.seconds)},
           {"peak_memory_mb", memory ? Json(*memory) : Json()},
           {"warnings", conversion.warnings},
@@ -94,17 +117,21 @@ Json conversion_json(const std::string& path, const Conversion& conversion,
 Json image_json(const GeometryImage& image) {
   const RebuiltMesh rebuilt = rebuild_mesh(image);
   const auto vertices = static_cast<int>(rebuilt.mesh.positions.size());
-  const TopologyCounts counts = count_topology(vertices, rebuilt.mesh.triangles);
+  const TopologyCounts counts = image.mates.keep_manifold()
+                                    ? count_topology(vertices, rebuilt.mesh.triangles)
+                                    : count_complex(vertices, rebuilt.mesh.triangles);
   return {{"size", image.size()},
+          {"charts", charts_json(image)},
           {"source", image.source},
           {"source_hash", image.source_hash},
           {"mates_bit_equal", mates_bit_equal(image)},
+          {"coarsest_level", coarsest_level(image)},
           {"mate_classes", image.mates.class_count()},
           {"vertices", counts.vertices},
           {"triangles", counts.triangles},
           {"euler", counts.euler},
           {"boundaries", counts.boundaries},
-          {"genus", counts.genus}};
+          {"genus", genus_json(counts)}};
 }
 
 void check_output(const std::filesystem::path& path,

@@ -17,6 +17,11 @@ std::optional<double> peak_memory_mb();
 using Json = nlohmann::ordered_json;
 
 /// The parts of the commands' JSON, named as documented in docs/commands.
+/// The genus, null of what is no oriented manifold.
+Json genus_json(const TopologyCounts& counts);
+/// "genus 1", or that there is none. @param genus  as reports hold it: a number or null
+std::string genus_text(const Json& genus);
+
 Json input_json(const std::string& path, const RepairedMesh& input);
 Json conversion_json(const std::string& path, const Conversion& conversion,
                      const std::vector<std::filesystem::path>& outputs);

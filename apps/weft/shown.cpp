@@ -87,19 +87,13 @@ void Shown::show_mesh(const ShownArgs& args, const Context& context) {
   show({}, args.view);
 }
 
-// A mesh that cannot be cut open is still drawn, without a cut.
 void Shown::show_cut(const ShownArgs& args, const Context& context, const TriangleMesh& mesh) {
+  TerminalProgress progress(context.quiet || context.json);
+  CutPreview cut = preview_cut(mesh, args.subject,
+                               {.augment = true, .size = size_of(args), .progress = &progress});
+  surface_.mesh = std::move(cut.input.mesh);
   SurfaceDrawing drawing;
-  try {
-    TerminalProgress progress(context.quiet || context.json);
-    CutPreview cut = preview_cut(mesh, args.subject,
-                                 {.augment = true, .size = size_of(args), .progress = &progress});
-    surface_.mesh = std::move(cut.input.mesh);
-    add_cut(drawing, *cut.disk);
-  } catch (const TopologyError& error) {
-    note(context, std::string("drawn without a cut: ") + error.what());
-    surface_.mesh = mesh;
-  }
+  for (const auto& disk : cut.disks) add_cut(drawing, *disk);
   drawing.show_edges = static_cast<int>(surface_.mesh.triangles.size()) <= max_edges_shown;
   show(drawing, args.view);
 }
@@ -110,29 +104,33 @@ void Shown::show_conversion(const ShownArgs& args, const Context& context,
   ConvertOptions options;
   options.size = size_of(args);
   if (args.parameterizer == "floater") options.parameterizer = FloaterOptions{};
+  // Maps are drawn one at a time.
+  if (args.show == "map" || args.show == "stretch") options.charts = ChartChoice::one;
   options.measure = false;
   options.threads = context.threads;
   options.progress = &progress;
   const Conversion made = convert_mesh(mesh, args.subject, options);
   if (args.show == "error") return show_error(made.image, made.input.mesh);
   if (args.show == "stretch") {
-    surface_ = stretch_on_surface(*made.mapped);
+    surface_ = stretch_on_surface(*made.charts[0].mapped);
     SurfaceDrawing drawing = draw_stretch(surface_);
-    add_cut(drawing, *made.mapped);
+    add_cut(drawing, *made.charts[0].mapped);
     return show(drawing, args.view);
   }
   if (args.show != "map") return show_image(args, made.image);
   MapDrawing drawing;
   drawing.side = flat_side(args.view);
   drawing.edges = static_cast<int>(made.input.mesh.triangles.size()) <= max_edges_shown;
-  flat_ = framed_by_mates(draw_map(*made.mapped, drawing), border_bands(*made.mapped),
-                          made.image.size());
+  flat_ = framed_by_mates(draw_map(*made.charts[0].mapped, drawing),
+                          border_bands(*made.charts[0].mapped), made.image.size());
   add_legend(flat_, stretch_legend("stretch"));
 }
 
 void Shown::show_image(const ShownArgs& args, const GeometryImage& image) {
   if (args.show == "colours") {
     flat_ = colours_of(image);
+  } else if (args.show == "mates" && !image.has_one_chart()) {
+    flat_ = marked_by_mates(colours_of(image, flat_side(args.view)), image.mates);
   } else if (args.show == "mates") {
     flat_ = framed_by_mates(colours_of(image, flat_side(args.view)), border_bands(image.mates),
                             image.size());

@@ -15,6 +15,7 @@ struct ColliderTraits {
   bool self_collision = true;  ///< can keep a cloth from passing through itself
   bool containers = true;      ///< can keep cloth inside of a body
   bool moving_bodies = true;   ///< can keep cloth out of bodies that move
+  bool several_charts = true;  ///< takes bodies whose image has several charts
 };
 
 /// The default collider: mip pyramids as bounding volume hierarchies, and a filter of separating
@@ -30,19 +31,19 @@ struct PyramidOptions {
 /// the image [benes05], a spatial hash [teschner03], or depth images [govindaraju03].
 struct SphereTreeOptions {
   static constexpr std::string_view name = "sphere_tree";
-  static constexpr ColliderTraits traits{};
+  static constexpr ColliderTraits traits{.several_charts = false};
   template <class Visit>
   static void visit_options(const Visit& /*visit*/) {}
 };
 struct SpatialHashOptions {
   static constexpr std::string_view name = "spatial_hash";
-  static constexpr ColliderTraits traits{};
+  static constexpr ColliderTraits traits{.several_charts = false};
   template <class Visit>
   static void visit_options(const Visit& /*visit*/) {}
 };
 struct ImageSpaceOptions {
   static constexpr std::string_view name = "image_space";
-  static constexpr ColliderTraits traits{};
+  static constexpr ColliderTraits traits{.several_charts = false};
   template <class Visit>
   static void visit_options(const Visit& /*visit*/) {}
 };
@@ -56,8 +57,11 @@ struct PolarMapOptions {
   bool walk = true;
 
   static constexpr std::string_view name = "polar_map";
-  static constexpr ColliderTraits traits{
-      .filters = false, .self_collision = false, .containers = false, .moving_bodies = false};
+  static constexpr ColliderTraits traits{.filters = false,
+                                         .self_collision = false,
+                                         .containers = false,
+                                         .moving_bodies = false,
+                                         .several_charts = false};
   template <class Visit>
   static void visit_options(const Visit& visit) {
     visit("size", &PolarMapOptions::size, OptionRange{0, 8193});

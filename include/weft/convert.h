@@ -22,12 +22,20 @@ namespace weft {
 /// The value of ConvertOptions::size that asks for a size chosen from the mesh.
 inline constexpr int automatic_size = 0;
 
+/// Of how many charts an image may be.
+enum class ChartChoice {
+  automatic,  ///< one where that will do, else as few as make the mesh possible
+  pieces,     ///< one for each connected piece
+  one         ///< a mesh of several pieces is refused
+};
+
 struct ConvertOptions {
-  int size = 257;  ///< samples a side, or automatic_size
+  ChartChoice charts = ChartChoice::automatic;
+  int size = 257;  ///< or automatic_size; the image tells which it was
   Parameterizer parameterizer = StretchOptions{};
-  ComponentChoice component;
-  int seed_triangle = -1;    ///< of the input, before repair; -1: choose
-  std::optional<Seam> seam;  ///< cut along it, and elsewhere only as far as a disk requires
+  ComponentChoice component;  ///< `only`: of several components all, unless `charts` is `one`
+  int seed_triangle = -1;     ///< of the input, before repair; -1: choose
+  std::optional<Seam> seam;   ///< cut here, and elsewhere only as far as it must be for a disk
   bool augment = true;
   int normal_map_size = 0;   ///< 0: none
   bool keep_uv = false;      ///< sample the mesh's own texture coordinates too
@@ -49,6 +57,14 @@ struct StageSeconds {
 };
 
 struct MappedDisk;
+struct Piece;
+
+/// A chart of an image, with the piece of the mesh that it was made from.
+struct ConvertedChart {
+  std::shared_ptr<const MappedDisk> mapped;  ///< for what draws it (weft/drawing.h)
+  Chart place;
+  std::shared_ptr<const Piece> piece{};
+};
 
 /// The result of convert_mesh.
 struct Conversion {
@@ -57,9 +73,8 @@ struct Conversion {
   CutSummary cut;
   int rounds = 0;  ///< paths added to the cut to improve the map
   MapQuality map_quality;
-  std::string parameterizer;  ///< name as on the command line
-  /// The parameterised disk, for drawing (weft/drawing.h).
-  std::shared_ptr<const MappedDisk> mapped;
+  std::string parameterizer;           ///< name as on the command line
+  std::vector<ConvertedChart> charts;  ///< the largest area first
   GeometryImage image;
   std::optional<NormalMap> normals;
   std::optional<Planes3> texture;  ///< with keep_uv: x = u, y = v; mates differ along seams of it
@@ -81,12 +96,13 @@ struct CutDisk;
 /// A mesh cut open to a disk as for a conversion, without its map.
 struct CutPreview {
   RepairedMesh input;
-  std::shared_ptr<const CutDisk> disk;  ///< for drawing (weft/drawing.h)
-  int min_size = 0;                     ///< minimum size of an image that holds the plain cut
+  /// Of each piece of the mesh, the largest first, for what draws it (weft/drawing.h).
+  std::vector<std::shared_ptr<const CutDisk>> disks;
+  int min_size = 0;  ///< least size of an image that holds the plain cuts
 };
 struct CutPreviewOptions {
-  bool augment = false;  ///< lengthen the cut where that improves the map, as a conversion does
-  int size = 257;        ///< of the image for which the cut is lengthened
+  bool augment = false;  ///< lengthen the cut as a conversion would, where that betters the map
+  int size = 257;        ///< of the image that it is lengthened for, where that is one chart
   Progress* progress = nullptr;
 };
 /// @param name  what errors call the mesh  @throws InputError, TopologyError as repair_mesh

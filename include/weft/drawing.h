@@ -208,6 +208,10 @@ std::vector<BorderBand> border_bands(const MappedDisk& mapped);
 /// as ticks. @param size  n of the bands' border positions
 Picture framed_by_mates(const Picture& square, const std::vector<BorderBand>& bands, int size);
 
+/// The picture of an image of several charts, whose mates' samples have the colours of their bands.
+/// @param picture  a whole number of pixels a sample
+Picture marked_by_mates(const Picture& picture, const BorderMates& mates);
+
 /// The curves of a cut on the surface, each pair of mates once, and its nodes: colours as the bands
 /// of the same disk.
 void add_cut(SurfaceDrawing& drawing, const CutDisk& cut);

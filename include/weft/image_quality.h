@@ -16,6 +16,8 @@ struct ImageQuality {
   int euler = 0, boundaries = 0;  ///< of the rebuilt mesh
   double psnr_db = 0;             ///< 20 log10(box diagonal / larger one-sided RMS distance)
   double hausdorff_percent = 0;   ///< larger one-sided maximum, in percent of the diagonal
+  double area_ratio = 1;  ///< area of the rebuilt mesh over that of the mesh: folds make it larger
+  double reversed_area = 0;  ///< part of the rebuilt area that faces the other way than the mesh
   OneSidedDistance from_mesh, from_image;  ///< what both are made of [m]
 };
 /// Upper bound of psnr_db and its value for equal surfaces, so that reports hold a finite number.

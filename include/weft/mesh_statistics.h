@@ -18,12 +18,16 @@ struct TopologyCounts {
   int components = 0;  ///< joined through shared vertices
   int boundaries = 0;  ///< border loops
   int euler = 0;       ///< V - E + F
-  int genus = 0;       ///< of all components together: (2 components - boundaries - euler) / 2
+  int genus = 0;       ///< of all components together: (2 components - boundaries - euler) / 2; -1
+                       ///< of what is no oriented manifold
 };
 
 /// Counts the topology of a manifold, oriented mesh.
 /// @throws TopologyError for any other
 TopologyCounts count_topology(int vertex_count, std::span<const Triangle> triangles);
+/// For triangles that hang together in any way: edges of more than two triangles count once,
+/// borders are the connected parts that edges of one triangle make. The genus is -1: there is none.
+TopologyCounts count_complex(int vertex_count, std::span<const Triangle> triangles);
 
 /// Distances from one surface to another: the root mean square over samples of its area, the
 /// maximum over these and all its vertices [m].

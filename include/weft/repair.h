@@ -10,8 +10,8 @@ namespace weft {
 
 /// Which of several components to keep.
 struct ComponentChoice {
-  enum class Kind { only, largest, index };
-  Kind kind = Kind::only;  ///< `only`: more than one is an error
+  enum class Kind { only, largest, index, all };
+  Kind kind = Kind::only;  ///< `only`: more than one is an error; `all`: each becomes a chart
   int index = 0;           ///< for Kind::index, largest area first
 };
 
@@ -21,19 +21,23 @@ struct RepairOptions {
 };
 
 /// A mesh fit for the stages that follow: finite, indexed, manifold, consistently oriented, one
-/// component, no unreferenced vertex, no triangle with a repeated vertex.
+/// component or all, no unreferenced vertex, no triangle with a repeated vertex.
 struct RepairedMesh {
   TriangleMesh mesh;
   std::vector<int> source_vertex;    ///< [V] the input's vertex for each of the mesh's
   std::vector<int> source_triangle;  ///< [F] the input's triangle; its orientation may differ
   std::vector<std::string> repairs;  ///< one sentence for each kind of change, with its count
-  TopologyCounts counts;             ///< of `mesh`
-  int components_found = 1;          ///< before one was chosen
+  TopologyCounts counts;             ///< of `mesh`, parted vertices joined
+  /// [V] where the surface had to be parted, at edges of more than two triangles and where it
+  /// cannot be oriented: vertices of the same number are one point of it. Empty elsewhere.
+  std::vector<int> joined;
+  int components_found = 1;  ///< before one was chosen
 };
 
 /// Stage 1 of the conversion: checks, and repairs what can be repaired without changing the
 /// surface. Drops triangles with a repeated index and unreferenced vertices, orients consistently
-/// (breadth first), splits non-manifold vertices into fans, and picks the component.
+/// (breadth first), splits non-manifold vertices into fans, and picks the component. Of all
+/// components those without any area are dropped.
 /// @throws InputError     empty mesh, not-finite coordinates, index out of range, no area at all
 /// @throws TopologyError  non-manifold edges (count, the first one's vertices), a component that
 ///                        cannot be oriented (an edge named), several components (how many)

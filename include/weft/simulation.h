@@ -31,6 +31,7 @@ class SurfaceCache {
     std::string name;
     int size = 0, normal_map_size = 0;
     bool keep_places = false;
+    ChartChoice charts{};
     friend auto operator<=>(const Key&, const Key&) = default;
   };
   std::map<Key, LoadedSurface> kept_;

@@ -1,10 +1,14 @@
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/convert_options.h"
 #include "tests/support/errors.h"
 #include "tests/support/random_mesh.h"
 #include "weft/convert.h"
@@ -12,6 +16,7 @@
 #include "weft/cut/open_to_disk.h"
 #include "weft/error.h"
 #include "weft/mesh.h"
+#include "weft/mesh_statistics.h"
 #include "weft/param/border_layout.h"
 
 // Set WEFT_RANDOM_SEEDS="FIRST COUNT" to try other seeds than 1 .. 500 (one alone: "77 1"), and
@@ -19,6 +24,10 @@
 
 namespace weft {
 namespace {
+
+using test::single_chart;
+using test::sized;
+using test::unmeasured;
 
 constexpr int meshes_a_test = 50;
 constexpr int tests = 10;
@@ -104,10 +113,79 @@ TEST_P(RandomMeshes, BrokenOnesEndInTheirError) {
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const test::BrokenMesh broken = test::random_broken_mesh(seed);
     const std::string said =
-        test::message_of<Error>([&] { convert_mesh(broken.mesh, "broken", {}); });
+        test::message_of<Error>([&] { convert_mesh(broken.mesh, "broken", single_chart()); });
     EXPECT_TRUE(said.starts_with("broken: ")) << command(seed, 0, broken.made_of) << ": " << said;
     EXPECT_NE(said.find(broken.error), std::string::npos)
         << command(seed, 0, broken.made_of) << ": " << said << ", without: " << broken.error;
+  }
+}
+
+/// Two to five random meshes beside each other.
+test::RandomMesh random_pieces(std::uint64_t seed) {
+  Random random(seed * 77);
+  test::RandomMesh all;
+  const int count = 2 + random.index(4);
+  for (int k = 0; k < count; ++k) {
+    const test::RandomMesh piece =
+        test::random_mesh(seed + 1000 * (static_cast<std::uint64_t>(k) + 1));
+    const auto first = static_cast<int>(all.mesh.positions.size());
+    for (const Vec3d p : piece.mesh.positions)
+      all.mesh.positions.push_back(p + Vec3d{3.0 * k, 0, 0});
+    for (const auto& [a, b, c] : piece.mesh.triangles)
+      all.mesh.triangles.push_back({first + a, first + b, first + c});
+    all.made_of += (k > 0 ? " + " : "") + piece.made_of;
+  }
+  return all;
+}
+
+/// Genus and borders of every component, sorted.
+std::vector<std::array<int, 2>> components_of(const TriangleMesh& mesh) {
+  std::vector<std::array<int, 2>> found;
+  for (const ComponentStatistics& one : examine_mesh(mesh).component_list)
+    found.push_back({one.genus().value_or(-1), one.boundaries});
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST_P(RandomMeshes, SeveralPiecesBecomeAsManyCharts) {
+  const auto [first, count] = seeds_of(GetParam());
+  for (std::uint64_t seed = first; seed < first + std::uint64_t(count) / 5; ++seed) {
+    const test::RandomMesh made = random_pieces(seed);
+    try {
+      const Conversion found = convert_mesh(made.mesh, "random", unmeasured(129));
+      EXPECT_EQ(found.map_quality.flipped + found.map_quality.degenerate, 0);
+      EXPECT_TRUE(found.quality.mates_bit_equal);
+      EXPECT_EQ(found.image.mates.charts().size(), std::size_t(found.input.counts.components));
+      EXPECT_EQ(components_of(rebuild_mesh(found.image).mesh), components_of(found.input.mesh))
+          << command(seed, 129, made.made_of);
+    } catch (const Error& error) {
+      ADD_FAILURE() << error.what() << ": " << command(seed, 129, made.made_of);
+      keep(made.mesh, seed, 129);
+    }
+  }
+}
+
+/// Moebius bands and Klein bottles, edges of five triangles, several pieces.
+bool is_a_surface(const test::BrokenMesh& broken) {
+  return broken.error == "not orientable" || broken.error == "non-manifold edge" ||
+         broken.error == "2 components";
+}
+
+TEST_P(RandomMeshes, WhatIsNoManifoldIsPartedAndJoinedAgain) {
+  const auto [first, count] = seeds_of(GetParam());
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const test::BrokenMesh broken = test::random_broken_mesh(seed);
+    if (!is_a_surface(broken)) continue;
+    try {
+      const Conversion made = convert_mesh(broken.mesh, "broken", unmeasured(129));
+      EXPECT_EQ(made.map_quality.flipped + made.map_quality.degenerate, 0);
+      EXPECT_TRUE(made.quality.mates_bit_equal);
+      EXPECT_EQ(made.quality.euler, made.input.counts.euler);
+      EXPECT_EQ(made.quality.boundaries, made.input.counts.boundaries);
+    } catch (const Error& error) {
+      ADD_FAILURE() << error.what() << ": " << command(seed, 129, broken.made_of);
+      keep(broken.mesh, seed, 129);
+    }
   }
 }
 

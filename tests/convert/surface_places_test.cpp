@@ -50,7 +50,8 @@ TEST_P(Places, AreWhereTheSamplesAre) {
   const Conversion made = convert_mesh(mesh(), GetParam(), quick(65));
   const TriangleMesh& surface = made.input.mesh;
   for (const int size : {65, 97}) {
-    const std::vector<SurfacePlace> places = surface_places(*made.mapped, surface.triangles, size);
+    const std::vector<SurfacePlace> places =
+        surface_places(*made.charts[0].mapped, surface.triangles, size);
     for (int sample = 0; sample < size * size; ++sample) {
       const SurfacePlace& place = places[sample];
       Vec3d p;

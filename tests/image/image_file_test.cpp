@@ -157,8 +157,8 @@ TEST(ImageFile, NormalsBecomeColours) {
 }
 
 TEST(ImageMetadata, WrongVersionIsNamed) {
-  EXPECT_EQ(refusal_of_metadata([](auto& json) { json["version"] = 2; }),
-            "file: geometry image of version 2; version 1");
+  EXPECT_EQ(refusal_of_metadata([](auto& json) { json["version"] = 3; }),
+            "file: geometry image of version 3; version 1 or 2");
 }
 
 TEST(ImageMetadata, EachMissingFieldIsNamed) {

@@ -5,11 +5,13 @@ namespace weft {
 SurfaceGrid::SurfaceGrid(int size, const BorderMates& mates, const Grid<Diagonal>& diagonals)
     : size_(size),
       point_(static_cast<std::size_t>(size) * size),
-      falling_(static_cast<std::size_t>(size - 1) * (size - 1), 0) {
+      diagonal_(static_cast<std::size_t>(size - 1) * (size - 1), Diagonal::rising) {
   for (int s = 0; s < size * size; ++s) point_[s] = mates.size() > 0 ? mates.representative(s) : s;
   for (int r = 0; r < diagonals.rows(); ++r)
-    for (int c = 0; c < diagonals.cols(); ++c)
-      falling_[r * (size - 1) + c] = diagonals(r, c) == Diagonal::falling ? 1 : 0;
+    for (int c = 0; c < diagonals.cols(); ++c) {
+      diagonal_[r * (size - 1) + c] = diagonals(r, c);
+      has_missing_ = has_missing_ || diagonals(r, c) == Diagonal::none;
+    }
 }
 
 }  // namespace weft

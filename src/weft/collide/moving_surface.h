@@ -29,9 +29,15 @@ class SurfaceGrid {
   [[nodiscard]] std::array<int, 3> triangle(int row, int col, int half) const {
     return triangle_from(row * size_ + col, row * cells() + col, half);
   }
-  /// Numbers of the corners of a cell that one of its two triangles has.
+  /// Whether a cell lies in no chart: its triangles are folded, and nothing is near it.
+  [[nodiscard]] bool missing(int cell) const {
+    return diagonal_[static_cast<std::size_t>(cell)] == Diagonal::none;
+  }
+  /// Whether any cell does.
+  [[nodiscard]] bool has_missing() const { return has_missing_; }
+  /// Which of a cell's corners its two triangles have.
   [[nodiscard]] std::array<int, 3> triangle_corners(int cell, int half) const {
-    if (falling_[static_cast<std::size_t>(cell)] != 0)
+    if (diagonal_[static_cast<std::size_t>(cell)] == Diagonal::falling)
       return half == 0 ? std::array{0, 1, 2} : std::array{1, 3, 2};
     return half == 0 ? std::array{0, 1, 3} : std::array{0, 3, 2};
   }
@@ -50,14 +56,16 @@ class SurfaceGrid {
  private:
   [[nodiscard]] std::array<int, 3> triangle_from(int first, int cell, int half) const {
     const int a = first, b = a + 1, d = a + size_, c = d + 1;
-    if (falling_[static_cast<std::size_t>(cell)] != 0)
-      return half == 0 ? std::array{a, b, d} : std::array{b, c, d};
+    const Diagonal diagonal = diagonal_[static_cast<std::size_t>(cell)];
+    if (diagonal == Diagonal::none) return {a, a, a};
+    if (diagonal == Diagonal::falling) return half == 0 ? std::array{a, b, d} : std::array{b, c, d};
     return half == 0 ? std::array{a, b, c} : std::array{a, c, d};
   }
 
   int size_ = 0;
-  std::vector<int> point_;              // [n * n]
-  std::vector<unsigned char> falling_;  // [(n - 1)^2]
+  bool has_missing_ = false;
+  std::vector<int> point_;          // [n * n]
+  std::vector<Diagonal> diagonal_;  // [(n - 1)^2]
 };
 
 /// A surface during a step: every sample moves on a straight line from start to end.

@@ -1,44 +1,21 @@
 #include "weft/convert.h"
 
-#include <algorithm>
-#include <filesystem>
-
 #include <fmt/format.h>
 
-#include "weft/convert/fit_samples.h"
-#include "weft/convert/sample.h"
-#include "weft/core/hash.h"
+#include "weft/convert/chart_packing.h"
+#include "weft/convert/image_conversion.h"
+#include "weft/convert/pieces.h"
 #include "weft/core/stopwatch.h"
 #include "weft/cut/disk_mesh.h"
 #include "weft/cut/open_to_disk.h"
-#include "weft/cut/seam.h"
 #include "weft/error.h"
 #include "weft/geometry_image.h"
 #include "weft/image_quality.h"
 #include "weft/param/augment.h"
 #include "weft/param/border_layout.h"
-#include "weft/param/square_map.h"
 
 namespace weft {
 namespace {
-
-constexpr int min_suitable = 33;
-/// Largest side chosen for detail alone; a larger one has to be requested.
-constexpr int max_for_detail = 1025;
-/// Factor on the minimum border: paths added to the cut later lengthen the border, and paths of a
-/// single interval distort the map.
-constexpr int spare_border = 2;
-
-/// The smallest n = 2^k + 1 from 33 on that has twice the border that the cut needs, and at least
-/// as many samples as the mesh has vertices. More than 1025 only where the cut needs it.
-int suitable_size(const CutDisk& cut, int vertex_count) {
-  const int border = spare_border * (min_size(cut) - 1);
-  int n = min_suitable;
-  const auto larger = [&] { return n = 2 * n - 1; };
-  while (n < max_for_detail && n * n < vertex_count) larger();
-  while (n - 1 < border && 2 * n - 1 <= largest_image_size) larger();
-  return n;
-}
 
 void check_size(int size) {
   if (size == automatic_size) return;
@@ -52,83 +29,6 @@ void check_texture(const TriangleMesh& mesh, const std::string& name) {
     throw InputError(
         name, "not every corner of its faces has texture coordinates",
         "an OBJ with vt, a PLY with s and t or u and v, or a glTF with TEXCOORD_0 is wanted");
-}
-
-std::string source_name(const std::string& name) {
-  return name.starts_with("builtin:") ? name : std::filesystem::path(name).filename().string();
-}
-
-std::string hash_of(const TriangleMesh& mesh) {
-  Hash hash;
-  hash.add(std::span<const Vec3d>(mesh.positions));
-  hash.add(std::span<const Triangle>(mesh.triangles));
-  return hash.text();
-}
-
-// Seed triangles are numbered as in the input file; repair may have dropped some.
-int repaired_triangle(const RepairedMesh& input, int triangle) {
-  if (triangle < 0) return triangle;
-  const auto& sources = input.source_triangle;
-  const auto found = std::find(sources.begin(), sources.end(), triangle);
-  if (found == sources.end())
-    throw TopologyError("seed triangle",
-                        fmt::format("{} is not in the surface that is converted", triangle),
-                        "a triangle of it, counted from 0 in the order of its file, is wanted");
-  return static_cast<int>(found - sources.begin());
-}
-
-Cut first_cut(Conversion& made, const ConvertOptions& options) {
-  const TriangleMesh& mesh = made.input.mesh;
-  const CutOptions cut{.seed_triangle = repaired_triangle(made.input, options.seed_triangle)};
-  if (!options.seam) return open_to_disk(mesh, cut);
-  SeamCut along = cut_along_seam(mesh, made.input.source_vertex, *options.seam, cut);
-  if (along.added_edges > 0)
-    made.warnings.push_back(fmt::format(
-        "{}: the seam does not open the mesh to a disk, {} edge{} were added to the cut",
-        options.seam->name, along.added_edges, along.added_edges == 1 ? "" : "s"));
-  return std::move(along.cut);
-}
-
-// Extended cuts are evaluated on a coarse proxy, where slivers can mislead: a high stretch is a
-// sign of that.
-bool is_suspicious(const MappedDisk& mapped) {
-  constexpr double most = 1.5;
-  return mapped.parameterizer == "stretch" && mapped.quality.stretch_l2 > most;
-}
-
-// Maps the extended cut, or the plain one where the extension turns out to raise the stretch.
-void cut_and_map(Conversion& made, const std::string& name, const ConvertOptions& options) {
-  const TriangleMesh& mesh = made.input.mesh;
-  Stopwatch watch;
-  update(options.progress, "cut", 0);
-  const Cut cut = first_cut(made, options);
-  const int size = options.size != automatic_size
-                       ? options.size
-                       : suitable_size(cut_open(mesh, cut), made.input.counts.vertices);
-  AugmentedCut augmented{cut, 0};
-  if (options.augment && !options.seam)
-    augmented = augment_cut(mesh, cut, {.size = size, .progress = options.progress});
-  made.seconds.cut = watch.lap();
-
-  MapOptions map;
-  map.size = size;
-  map.parameterizer = options.parameterizer;
-  map.name = name;
-  map.progress = options.progress;
-  MappedDisk mapped = map_to_square(cut_open(mesh, augmented.cut), map);
-  if (augmented.rounds > 0 && is_suspicious(mapped)) {
-    MappedDisk plain = map_to_square(cut_open(mesh, cut), map);
-    if (plain.quality.stretch_l2 < mapped.quality.stretch_l2) {
-      mapped = std::move(plain);
-      augmented = {cut, 0};
-    }
-  }
-  made.cut = summarise(cut_open(mesh, augmented.cut));
-  made.rounds = augmented.rounds;
-  made.map_quality = mapped.quality;
-  made.parameterizer = mapped.parameterizer;
-  made.mapped = std::make_shared<MappedDisk>(std::move(mapped));
-  made.seconds.map = watch.lap();
 }
 
 void require_topology(const Conversion& made, const std::string& name) {
@@ -154,20 +54,25 @@ void named(const std::string& name, const Stage& stage) {
   }
 }
 
-void sample(Conversion& made, const std::string& name, const ConvertOptions& options) {
-  Stopwatch watch;
-  update(options.progress, "sample", 0);
-  made.image = sample_image(*made.mapped);
-  if (options.fit_samples)
-    made.image = fit_samples(*made.mapped, made.image, {.progress = options.progress});
-  made.image.source = source_name(name);
-  made.image.source_hash = hash_of(made.input.mesh);
-  if (options.normal_map_size > 0)
-    made.normals = sample_normals(*made.mapped, options.normal_map_size);
-  if (options.keep_uv) made.texture = sample_texture(*made.mapped, made.input.mesh);
-  made.quality = measure_topology(made.image);
-  require_topology(made, name);
-  made.seconds.sample = watch.lap();
+/// A map may be valid and the image of little use: thin triangles of it fold where samples miss
+/// them.
+void warn_of_folds(Conversion& made) {
+  constexpr double max_stretch = 5, max_area_ratio = 1.05, max_reversed = 0.02;
+  const ImageQuality& q = made.quality;
+  const double stretch = made.map_quality.stretch_l2;
+  if (stretch <= max_stretch && q.area_ratio <= max_area_ratio && q.reversed_area <= max_reversed)
+    return;
+  made.warnings.push_back(fmt::format(
+      "the image is poor: stretch {:.3g} (L2), {:.3g} times the mesh's area, {:.2g} % of "
+      "it facing the wrong way; a larger size may help",
+      stretch, q.area_ratio, 100 * q.reversed_area));
+}
+
+ComponentChoice components_of(const ConvertOptions& options) {
+  const bool many = options.charts != ChartChoice::one;
+  if (options.component.kind == ComponentChoice::Kind::only && many)
+    return {ComponentChoice::Kind::all, 0};
+  return options.component;
 }
 
 }  // namespace
@@ -180,17 +85,19 @@ Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
   Stopwatch watch;
   Conversion made;
   update(options.progress, "repair", 0);
-  made.input = repair_mesh(mesh, {.name = name, .component = options.component});
+  made.input = repair_mesh(mesh, {.name = name, .component = components_of(options)});
   made.seconds.load = watch.lap();
   named(name, [&] {
-    cut_and_map(made, name, options);
-    sample(made, name, options);
+    ImageConversion(made, name, options).run();
+    made.quality = measure_topology(made.image);
+    require_topology(made, name);
   });
   watch.lap();
   if (options.measure) {
     update(options.progress, "measure", 0);
     made.quality = measure_image(made.image, made.input.mesh,
                                  {options.threads, options.seed, options.progress});
+    warn_of_folds(made);
     made.seconds.measure = watch.lap();
   }
   const StageSeconds& s = made.seconds;
@@ -201,16 +108,21 @@ Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
 CutPreview preview_cut(const TriangleMesh& mesh, const std::string& name,
                        const CutPreviewOptions& options) {
   CutPreview made;
-  made.input = repair_mesh(mesh, {name, {}});
-  Cut cut = open_to_disk(made.input.mesh);
-  CutDisk disk = cut_open(made.input.mesh, cut);
-  made.min_size = min_size(disk);
-  if (options.augment)
-    disk = cut_open(
-        made.input.mesh,
-        augment_cut(made.input.mesh, cut, {.size = options.size, .progress = options.progress})
-            .cut);
-  made.disk = std::make_shared<CutDisk>(std::move(disk));
+  made.input = repair_mesh(mesh, {name, {ComponentChoice::Kind::all, 0}});
+  std::vector<ChartShare> shares;
+  for (const Piece& piece : pieces_of(made.input.mesh)) {
+    const Cut cut = open_to_disk(piece.mesh);
+    CutDisk disk = cut_open(piece.mesh, cut);
+    shares.push_back({min_size(disk), 1});
+    if (options.augment)
+      disk = cut_open(
+          piece.mesh,
+          augment_cut(piece.mesh, cut, {.size = options.size, .progress = options.progress}).cut);
+    made.disks.push_back(std::make_shared<CutDisk>(std::move(disk)));
+  }
+  made.min_size = shares[0].min_side;
+  if (shares.size() > 1)
+    while (!pack_charts(shares, made.min_size)) ++made.min_size;
   return made;
 }
 

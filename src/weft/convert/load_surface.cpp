@@ -1,8 +1,10 @@
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "weft/convert.h"
+#include "weft/convert/pieces.h"
 #include "weft/convert/surface_places.h"
 #include "weft/error.h"
 #include "weft/files.h"
@@ -18,8 +20,17 @@ constexpr std::string_view builtin_prefix = "builtin:";
 
 SampleBlends blends_of(const Conversion& made, int vertices) {
   const TriangleMesh& mesh = made.input.mesh;
-  const std::vector<SurfacePlace> places =
-      surface_places(*made.mapped, mesh.triangles, made.image.size());
+  const int n = made.image.size();
+  std::vector<SurfacePlace> places(static_cast<std::size_t>(n) * n);
+  for (const ConvertedChart& chart : made.charts) {
+    const std::vector<SurfacePlace> own =
+        surface_places(*chart.mapped, chart.piece->mesh.triangles, chart.place.rows);
+    for (int s = 0; s < chart.place.rows * chart.place.cols; ++s) {
+      const int row = chart.place.row + s / chart.place.cols;
+      const int col = chart.place.col + s % chart.place.cols;
+      places[row * n + col] = {chart.piece->triangle[own[s].triangle], own[s].weights};
+    }
+  }
   SampleBlends follows{vertices, std::vector<BlendedVertex>(places.size())};
   for (std::size_t s = 0; s < places.size(); ++s) {
     // On the cut, mates lie in different triangles; all get the place of their representative.
@@ -33,8 +44,21 @@ SampleBlends blends_of(const Conversion& made, int vertices) {
   return follows;
 }
 
-/// Loads a mesh and converts it to metres with y up. Built-in shapes are so already; `files` is the
-/// frame of files.
+/// Where the vertices of the file lie in the image.
+std::vector<Vec2d> places_of(const Conversion& made, int vertices) {
+  std::vector<Vec2d> places(static_cast<std::size_t>(vertices), {NAN, NAN});
+  for (const ConvertedChart& chart : made.charts) {
+    std::vector<int> source;
+    for (const int v : chart.piece->vertex) source.push_back(made.input.source_vertex[v]);
+    const std::vector<Vec2d> own = vertex_places(*chart.mapped, source, vertices);
+    for (std::size_t v = 0; v < own.size(); ++v)
+      if (std::isfinite(own[v].x) && !std::isfinite(places[v].x))
+        places[v] = own[v] + Vec2d{double(chart.place.col), double(chart.place.row)};
+  }
+  return places;
+}
+
+/// Built-in shapes are in metres with y up; files are what their user says.
 MeshFile load_mesh_file(const std::string& name, const MeshFrame& files) {
   if (name.starts_with(builtin_prefix)) {
     MeshFile made{make_shape(name.substr(builtin_prefix.size())), {}};
@@ -96,7 +120,7 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
   if (options.keep_source && surface.mesh) file.faces = faces_of(file.mesh);
   if (options.keep_source)
     loaded.source = {std::move(file.mesh.positions), std::move(file.faces),
-                     vertex_places(*made.mapped, made.input.source_vertex, vertices)};
+                     places_of(made, vertices)};
   loaded.image = std::move(made.image);
   loaded.normals = std::move(made.normals);
   loaded.notes = std::move(made.input.repairs);

@@ -40,20 +40,6 @@ std::vector<Vec3d> disk_vertex_normals(const DiskMesh& disk) {
   return normals;
 }
 
-WorldMap unit_cube_map(const DiskMesh& disk) {
-  Box3d box;
-  for (const Vec3d p : disk.positions) box.add(p);
-  const Vec3d extent = box.extent();
-  const double side = std::max({extent.x, extent.y, extent.z});
-  return {box.lower, side > 0 ? side : 1.0};
-}
-
-Vec3f to_cube(const WorldMap& world, Vec3d position) {
-  const auto clamped = [](double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); };
-  const Vec3d p = position - world.lower;
-  return {clamped(p.x / world.scale), clamped(p.y / world.scale), clamped(p.z / world.scale)};
-}
-
 BorderMates mates_of(const MappedDisk& mapped) {
   std::vector<MateInterval> intervals;
   const int around = 4 * (mapped.layout.size - 1);
@@ -80,13 +66,6 @@ Vec3f unit_normal(Vec3d sum) {
   return squared_length(sum) > 0 ? vec_cast<float>(normalized(sum)) : Vec3f{0, 1, 0};
 }
 
-// All samples of one surface point get the bits of their representative.
-void join_mates(GeometryImage& image) {
-  for (int k = 0; k < image.mates.class_count(); ++k)
-    for (const int sample : image.mates.mates(k))
-      image.cube.set(sample, image.cube.at(image.mates.mates(k)[0]));
-}
-
 void require_cover(const Grid<int>& times) {
   int bad = 0;
   for (int row = 1; row < times.rows() - 1; ++row)
@@ -99,13 +78,33 @@ void require_cover(const Grid<int>& times) {
 
 }  // namespace
 
+WorldMap unit_cube_map(std::span<const Vec3d> positions) {
+  Box3d box;
+  for (const Vec3d p : positions) box.add(p);
+  const Vec3d extent = box.extent();
+  const double side = std::max({extent.x, extent.y, extent.z});
+  return {box.lower, side > 0 ? side : 1.0};
+}
+
+Vec3f to_cube(const WorldMap& world, Vec3d position) {
+  const auto clamped = [](double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); };
+  const Vec3d p = position - world.lower;
+  return {clamped(p.x / world.scale), clamped(p.y / world.scale), clamped(p.z / world.scale)};
+}
+
+void join_mates(GeometryImage& image) {
+  for (int k = 0; k < image.mates.class_count(); ++k)
+    for (const int sample : image.mates.mates(k))
+      image.cube.set(sample, image.cube.at(image.mates.mates(k)[0]));
+}
+
 GeometryImage sample_image(const MappedDisk& mapped) {
   const DiskMesh& disk = mapped.cut.disk;
   const int n = mapped.map.size;
   GeometryImage image;
   image.cube = Planes3(n);
   image.mates = mates_of(mapped);
-  image.world = unit_cube_map(disk);
+  image.world = unit_cube_map(disk.positions);
   const BorderWalk border(mapped);
   for (int t = 0; t < 4 * (n - 1); ++t) {
     const EdgePoint point = border.at(t, n);

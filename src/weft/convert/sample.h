@@ -1,13 +1,22 @@
 #pragma once
 
+#include <span>
+
 #include "weft/geometry_image.h"
 #include "weft/param/square_map.h"
 
 namespace weft {
 
-/// Stage 9: samples a mapped surface at the n x n integer points of the square. Interior samples
-/// come from the triangle that covers them, by exact orientation and a top-left rule; border
-/// samples are computed once per pair of mated paths and written to both.
+/// The similarity to the cube that holds positions, its lower corner at theirs.
+WorldMap unit_cube_map(std::span<const Vec3d> positions);
+/// A position in that cube, in [0, 1]^3 whatever rounding does.
+Vec3f to_cube(const WorldMap& world, Vec3d position);
+/// Gives samples that are one surface point the bits of their representative.
+void join_mates(GeometryImage& image);
+
+/// Stage 9: samples a mapped surface at the n x n whole points of the square. Interior samples come
+/// from the triangle that covers them, by exact orientation and a top-left rule; border samples are
+/// computed once a path and written to both mates.
 /// @post mates_bit_equal
 /// @throws TopologyError when an interior sample is not covered exactly once: the map is not valid
 GeometryImage sample_image(const MappedDisk& mapped);

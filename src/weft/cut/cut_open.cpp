@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -17,14 +18,20 @@ namespace {
 /// With fewer border vertices, two edges of the disk would have the same ends.
 constexpr int min_border = 3;
 
+/// Whether a path of the border begins at a vertex of it.
+bool is_node(const CutGraph& graph, const FixedBorder& fixed, int vertex) {
+  return graph.valence(vertex) != 2 ||
+         std::binary_search(fixed.nodes.begin(), fixed.nodes.end(), vertex);
+}
+
 /// The open half-edges in border order, starting at a node if there is one.
-std::vector<int> walk_border(const CutGraph& graph) {
+std::vector<int> walk_border(const CutGraph& graph, const FixedBorder& fixed) {
   const CutSurface& surface = graph.surface();
   int start = -1;
   for (int h = 0; h < surface.half_edge_count(); ++h) {
     if (!graph.contains(h)) continue;
     if (start < 0) start = h;
-    if (graph.valence(surface.from(h)) == 2) continue;
+    if (!is_node(graph, fixed, surface.from(h))) continue;
     start = h;
     break;
   }
@@ -127,17 +134,30 @@ std::vector<int> loops_of_half_edges(const CutSurface& surface) {
   return loop_of;
 }
 
-std::vector<BorderPath> divide(const CutGraph& graph, const std::vector<int>& border) {
+/// The curve that a path follows, by its first edge.
+void set_curve(const FixedBorder& fixed, int from, int to, BorderPath& path) {
+  const FixedBorder::Edge wanted{from, to, INT_MIN, false};
+  const auto found = std::lower_bound(fixed.edges.begin(), fixed.edges.end(), wanted);
+  if (found == fixed.edges.end() || found->from != from || found->to != to) return;
+  path.curve = found->curve;
+  path.forward = found->forward;
+  if (!fixed.intervals.empty()) path.intervals = fixed.intervals[path.curve];
+}
+
+std::vector<BorderPath> divide(const CutGraph& graph, const std::vector<int>& border,
+                               const FixedBorder& fixed) {
   const CutSurface& surface = graph.surface();
   const std::vector<int> loop_of = loops_of_half_edges(surface);
   std::vector<int> path_of(surface.half_edge_count(), -1);
   std::vector<BorderPath> paths;
   for (std::size_t i = 0; i < border.size(); ++i) {
-    if (i == 0 || graph.valence(surface.from(border[i])) != 2)
-      paths.push_back({.first = static_cast<int>(i),
-                       .edges = 0,
-                       .mate = -1,
-                       .border_loop = loop_of[border[i]]});
+    const int from = surface.from(border[i]);
+    if (i == 0 || is_node(graph, fixed, from)) {
+      BorderPath& path = paths.emplace_back();
+      path.first = static_cast<int>(i);
+      path.border_loop = loop_of[border[i]];
+      if (surface.twin(border[i]) < 0) set_curve(fixed, from, surface.to(border[i]), path);
+    }
     ++paths.back().edges;
     path_of[border[i]] = static_cast<int>(paths.size()) - 1;
   }
@@ -150,13 +170,13 @@ std::vector<BorderPath> divide(const CutGraph& graph, const std::vector<int>& bo
 
 }  // namespace
 
-CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut) {
+CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut, const FixedBorder& fixed) {
   const CutSurface surface(mesh);
   const CutGraph graph(surface, cut);
-  const std::vector<int> border = walk_border(graph);
+  const std::vector<int> border = walk_border(graph, fixed);
   CutDisk opened;
   opened.disk = opened_mesh(graph, border);
-  opened.paths = divide(graph, border);
+  opened.paths = divide(graph, border, fixed);
   while (static_cast<int>(opened.disk.border.size()) < min_border)
     split_border_edge(opened, 0, 0.5);
   return opened;

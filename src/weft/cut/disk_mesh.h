@@ -38,6 +38,9 @@ struct BorderPath {
   int edges = 0;  ///< number of border edges, >= 1; a run may wrap around the end of `border`
   int mate =
       -1;  ///< index of the path along the same curve in the opposite direction; -1: true border
+  int curve = -1;        ///< of a true border: the curve that it shares with others, -1: none
+  bool forward = true;   ///< whether the path runs along that curve's own direction
+  int intervals = 0;     ///< the number of sample intervals that it has to have; 0: free
   int border_loop = -1;  ///< for a true border: which border loop of the surface, counted from 0
 };
 

@@ -16,6 +16,20 @@ struct Cut {
   std::vector<std::array<int, 2>> edges;
 };
 
+/// Parts of a mesh's border that belong to curves which several borders share.
+struct FixedBorder {
+  struct Edge {
+    int from = 0, to = 0;  ///< vertices of the mesh, as its border runs
+    int curve = -1;
+    bool forward = true;  ///< whether the border runs along the curve's own direction
+    friend auto operator<=>(const Edge&, const Edge&) = default;
+  };
+  std::vector<Edge> edges;  ///< ascending
+  std::vector<int> nodes;   ///< ascending: where curves end; paths of the border begin there
+  std::vector<int> intervals;  ///< [curves] sample intervals that each has to have; empty: free
+  [[nodiscard]] bool empty() const { return edges.empty(); }
+};
+
 struct CutOptions {
   int seed_triangle = -1;  ///< start of the triangle removal; -1: try a few, keep the shortest cut
   bool straighten = true;  ///< shorten every path of the cut
@@ -40,7 +54,8 @@ Cut extend_cut(const TriangleMesh& mesh, const Cut& cut, int vertex);
 
 /// The mesh opened along the cut, its border divided into paths.
 /// @throws TopologyError when the opened mesh is not one disk
-CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut);
+/// @param fixed  curves along its border, which become paths of their own
+CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut, const FixedBorder& fixed = {});
 
 CutSummary summarise(const CutDisk& cut);
 

@@ -1,6 +1,7 @@
 #include "weft/image/diagonals.h"
 
 #include <algorithm>
+#include <array>
 
 #include "weft/core/assert.h"
 
@@ -21,23 +22,39 @@ Diagonal shorter(const GeometryImage& image, int row, int col) {
 // a corner of the square, whose inner sample is adjacent to border samples of two sides.
 class BorderDiagonals {
  public:
-  BorderDiagonals(const GeometryImage& image, Grid<Diagonal>& diagonals)
-      : image_(image), n_(image.size()), side_(n_ - 1), diagonals_(diagonals) {}
+  BorderDiagonals(const BorderMates& mates, int chart, Grid<Diagonal>& diagonals)
+      : mates_(mates),
+        n_(mates.size()),
+        chart_(mates.charts()[chart]),
+        first_(mates.first_position(chart)),
+        around_(chart_.border_length()),
+        diagonals_(diagonals) {}
 
   void set_all() {
-    for (int t = 0; t < 4 * side_; ++t) {
-      const int along = t % side_;
-      if (along == 0) {
-        set_corner(t);
-      } else if (along < side_ - 1) {
-        set_side(t);
-      }
+    for (const int corner : corners()) set_corner(corner);
+    for (int t = 0; t < around_; ++t) {
+      const auto [begin, end] = side_of(t);
+      if (t > begin && t + 1 < end) set_side(t, t == begin + 1, t + 2 == end);
     }
   }
 
  private:
-  [[nodiscard]] int sample(int t) const { return border_sample(n_, (t + 4 * side_) % (4 * side_)); }
-  [[nodiscard]] int point(int t) const { return image_.mates.representative(sample(t)); }
+  /// The border positions of the corners.
+  [[nodiscard]] std::array<int, 4> corners() const {
+    const int right = chart_.cols - 1, down = chart_.rows - 1;
+    return {0, right, right + down, 2 * right + down};
+  }
+  /// Where the side begins and ends that a border position lies on.
+  [[nodiscard]] std::array<int, 2> side_of(int t) const {
+    const std::array<int, 4> begins = corners();
+    const int side =
+        static_cast<int>(std::upper_bound(begins.begin(), begins.end(), t) - begins.begin());
+    return {begins[side - 1], side < 4 ? begins[side] : around_};
+  }
+  [[nodiscard]] int sample(int t) const {
+    return mates_.sample_at(first_ + (t + around_) % around_);
+  }
+  [[nodiscard]] int point(int t) const { return mates_.representative(sample(t)); }
   [[nodiscard]] bool is_leaf(int t) const { return point(t - 1) == point(t + 1); }
 
   // Splits the quad on the border edge from t to t + 1 by the diagonal that ends at border position
@@ -61,11 +78,8 @@ class BorderDiagonals {
   // mates as corners and are left out.
   void set_corner(int t) { split(t, is_leaf(t) ? t + 1 : t); }
 
-  // The other quads: along the side, t .. t + 1.
-  void set_side(int t) {
-    const int along = t % side_;
-    const bool starts = along == 1;        // next to the corner t - 1
-    const bool ends = along == side_ - 2;  // next to the corner t + 2
+  // The other quads: along the side, t .. t + 1. @param starts, ends  next to a corner
+  void set_side(int t, bool starts, bool ends) {
     if (is_leaf(t)) return split(t, t);
     if (is_leaf(t + 1)) return split(t, t + 1);
     // The corner's inner sample is adjacent to t - 2 already, and may become adjacent to t - 3.
@@ -74,8 +88,10 @@ class BorderDiagonals {
     if (ends && point(t) == point(t + 3)) return split(t, t + 1);
   }
 
-  const GeometryImage& image_;
-  int n_, side_;
+  const BorderMates& mates_;
+  int n_;
+  Chart chart_;
+  int first_, around_;
   Grid<Diagonal>& diagonals_;
 };
 
@@ -84,10 +100,16 @@ class BorderDiagonals {
 Grid<Diagonal> choose_diagonals(const GeometryImage& image) {
   const int n = image.size();
   WEFT_ASSERT(n >= min_image_size);
-  Grid<Diagonal> diagonals(n - 1, n - 1);
-  for (int row = 0; row < n - 1; ++row)
-    for (int col = 0; col < n - 1; ++col) diagonals(row, col) = shorter(image, row, col);
-  BorderDiagonals(image, diagonals).set_all();
+  Grid<Diagonal> diagonals(n - 1, n - 1, Diagonal::none);
+  const BorderMates unjoined(n, {});
+  const BorderMates& mates = image.mates.size() > 0 ? image.mates : unjoined;
+  for (int k = 0; k < static_cast<int>(mates.charts().size()); ++k) {
+    const Chart& chart = mates.charts()[k];
+    for (int row = chart.row; row < chart.row + chart.rows - 1; ++row)
+      for (int col = chart.col; col < chart.col + chart.cols - 1; ++col)
+        diagonals(row, col) = shorter(image, row, col);
+    BorderDiagonals(mates, k, diagonals).set_all();
+  }
   return diagonals;
 }
 

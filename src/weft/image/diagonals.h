@@ -4,14 +4,14 @@
 
 namespace weft {
 
-/// The diagonal that splits a quad of the grid: `rising` joins (row, col) and (row + 1, col + 1),
-/// `falling` the other two corners.
-enum class Diagonal : unsigned char { rising, falling };
+/// Which way a quad of the grid is split: `rising` joins (row, col) and (row + 1, col + 1),
+/// `falling` the other two corners. `none`: the quad is in no chart, there is no surface.
+enum class Diagonal : unsigned char { rising, falling, none };
 
-/// A diagonal for each quad, [(n - 1) x (n - 1)] by the quad's smaller row and column: the shorter
-/// one in space (of equal ones rising where row + col is even), but at the border the one that
-/// keeps the topology once mates are joined, that is, under which no two edges join the same two
-/// points.
+/// A diagonal for each quad, [(n - 1) x (n - 1)] by the quad's least row and column: the shorter
+/// one in space (of equal ones rising where row + col is even), but at the border of a chart the
+/// one that keeps the topology once mates are joined, that is, under which no two edges join the
+/// same two points.
 Grid<Diagonal> choose_diagonals(const GeometryImage& image);
 
 }  // namespace weft

@@ -15,11 +15,46 @@ namespace weft {
 namespace {
 
 void set_topology(ImageQuality& quality, const GeometryImage& image, const TriangleMesh& rebuilt) {
-  const TopologyCounts counts =
-      count_topology(static_cast<int>(rebuilt.positions.size()), rebuilt.triangles);
+  const auto vertices = static_cast<int>(rebuilt.positions.size());
+  const TopologyCounts counts = image.mates.keep_manifold()
+                                    ? count_topology(vertices, rebuilt.triangles)
+                                    : count_complex(vertices, rebuilt.triangles);
   quality.mates_bit_equal = mates_bit_equal(image);
   quality.euler = counts.euler;
   quality.boundaries = counts.boundaries;
+}
+
+Vec3d area_vector(const TriangleMesh& mesh, int triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const Vec3d p = mesh.positions[a];
+  return 0.5 * cross(mesh.positions[b] - p, mesh.positions[c] - p);
+}
+
+double area_of(const TriangleMesh& mesh) {
+  double area = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    area += length(area_vector(mesh, t));
+  return area;
+}
+
+/// Part of a surface's area that faces the other way than the triangle of another one closest to
+/// it, by the centres of its triangles, or of evenly spread ones of many.
+double reversed_part(const TriangleMesh& surface, const TriangleMesh& mesh) {
+  constexpr int max_probes = 40000;
+  const auto count = static_cast<int>(surface.triangles.size());
+  const int step = (count + max_probes - 1) / max_probes;
+  const ClosestPointQuery query(mesh);
+  double area = 0, reversed = 0;
+  int hint = 0;
+  for (int t = 0; t < count; t += step) {
+    const auto& [a, b, c] = surface.triangles[t];
+    const auto& p = surface.positions;
+    hint = query.closest((1.0 / 3) * (p[a] + p[b] + p[c]), hint).triangle;
+    const Vec3d own = area_vector(surface, t);
+    area += length(own);
+    if (dot(own, area_vector(mesh, hint)) < 0) reversed += length(own);
+  }
+  return area > 0 ? reversed / area : 0;
 }
 
 double diagonal(const TriangleMesh& mesh) {
@@ -50,6 +85,9 @@ ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
   quality.psnr_db = distance.rms > 0 ? 20 * std::log10(size / distance.rms) : best_psnr_db;
   quality.psnr_db = std::min(quality.psnr_db, best_psnr_db);
   quality.hausdorff_percent = size > 0 ? 100 * distance.hausdorff / size : 0;
+  const double area = area_of(mesh);
+  quality.area_ratio = area > 0 ? area_of(rebuilt) / area : 1;
+  quality.reversed_area = reversed_part(rebuilt, mesh);
   return quality;
 }
 
@@ -85,9 +123,13 @@ ImageStatistics examine_image(const GeometryImage& image) {
   const std::vector<SurfaceTriangle> surface = surface_triangles(samples.positions, triangles);
   ImageStatistics statistics;
   for (const Vec3d p : samples.positions) statistics.box.add(p);
-  for (int k = 0; k < image.mates.class_count(); ++k)
+  for (int k = 0; k < image.mates.class_count(); ++k) {
+    const std::span<const int> mates = image.mates.mates(k);
+    const auto count = std::count_if(mates.begin(), mates.end(),
+                                     [&](int sample) { return !image.mates.is_hole(sample); });
     statistics.largest_mate_class =
-        std::max(statistics.largest_mate_class, static_cast<int>(image.mates.mates(k).size()));
+        std::max(statistics.largest_mate_class, static_cast<int>(count));
+  }
   const Stretch stretch = measure_stretch(surface, triangles, samples.uv);
   statistics.stretch_l2 = stretch.l2;
   statistics.stretch_linf = stretch.linf;

@@ -11,6 +11,15 @@ bool has_repeated_point(const GeometryImage& image, const Triangle& t) {
   return a == b || b == c || c == a;
 }
 
+/// A corner of a chart whose quad is folded is in no triangle: it goes with its neighbours.
+void join_folded_corners(const BorderMates& mates, int chart, std::vector<int>& vertex_of) {
+  const int first = mates.first_position(chart), around = mates.first_position(chart + 1) - first;
+  for (int t = 0; t < around; ++t) {
+    int& vertex = vertex_of[mates.sample_at(first + t)];
+    if (vertex < 0) vertex = vertex_of[mates.sample_at(first + (t + 1) % around)];
+  }
+}
+
 }  // namespace
 
 std::vector<Triangle> grid_triangles(const GeometryImage& image) {
@@ -27,12 +36,17 @@ std::vector<Triangle> grid_triangles(const GeometryImage& image) {
       const int b = a + 1;
       const int c = a + n + 1;
       const int d = a + n;
-      if (diagonals(row, col) == Diagonal::rising) {
-        add({a, b, c});
-        add({a, c, d});
-      } else {
-        add({a, b, d});
-        add({b, c, d});
+      switch (diagonals(row, col)) {
+        case Diagonal::rising:
+          add({a, b, c});
+          add({a, c, d});
+          break;
+        case Diagonal::falling:
+          add({a, b, d});
+          add({b, c, d});
+          break;
+        case Diagonal::none:
+          break;
       }
     }
   return triangles;
@@ -56,15 +70,10 @@ RebuiltMesh rebuild_mesh(const GeometryImage& image) {
   }
   for (Triangle& t : rebuilt.mesh.triangles)
     for (int& corner : t) corner = rebuilt.vertex_of[corner];
-  for (int sample = 0; sample < n * n; ++sample) {
-    const int point = image.mates.representative(sample);
-    if (used[point]) {
-      rebuilt.vertex_of[sample] = rebuilt.vertex_of[point];
-    } else {  // a corner of the square whose quad is folded
-      const int next = border_sample(n, (border_position(n, sample) + 1) % (4 * (n - 1)));
-      rebuilt.vertex_of[sample] = rebuilt.vertex_of[image.mates.representative(next)];
-    }
-  }
+  for (int sample = 0; sample < n * n; ++sample)
+    rebuilt.vertex_of[sample] = rebuilt.vertex_of[image.mates.representative(sample)];
+  for (int k = 0; k < static_cast<int>(image.mates.charts().size()); ++k)
+    join_folded_corners(image.mates, k, rebuilt.vertex_of);
   return rebuilt;
 }
 

@@ -1,12 +1,15 @@
 #include "weft/mesh/manifold.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "weft/core/disjoint_sets.h"
 #include "weft/error.h"
 #include "weft/mesh/topology.h"
 
@@ -41,6 +44,11 @@ class Orienter {
     }
     return -1;
   }
+  /// The same, going on where an edge forbids it. @param parted  [E] such edges are set
+  void decide_all(std::vector<bool>& parted) {
+    parted_ = &parted;
+    decide();
+  }
   [[nodiscard]] bool turned(int triangle) const { return turned_[triangle] == yes; }
 
  private:
@@ -52,7 +60,9 @@ class Orienter {
     for (std::size_t i = 0; i < queue_.size(); ++i)
       for (int k = 0; k < 3; ++k) {
         const int edge = edge_of_[3 * queue_[i] + k];
-        if (edges_.of(edge).size() == 2 && !settle(edge, queue_[i])) return edge;
+        if (edges_.of(edge).size() != 2 || settle(edge, queue_[i])) continue;
+        if (parted_ == nullptr) return edge;
+        (*parted_)[edge] = true;
       }
     return -1;
   }
@@ -79,7 +89,18 @@ class Orienter {
   std::vector<int> edge_of_;
   std::vector<signed char> turned_;
   std::vector<int> queue_;
+  std::vector<bool>* parted_ = nullptr;
 };
+
+int flip_turned(std::span<Triangle> triangles, const Orienter& orienter) {
+  int count = 0;
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
+    if (!orienter.turned(t)) continue;
+    std::swap(triangles[t][1], triangles[t][2]);
+    ++count;
+  }
+  return count;
+}
 
 }  // namespace
 
@@ -92,13 +113,16 @@ int orient_triangles(std::span<Triangle> triangles, const EdgeUses& edges,
                         fmt::format("the surface is not orientable, as seen at the edge between {}",
                                     edge_name(triangles, edges, edge)),
                         "an orientable surface is wanted");
-  int count = 0;
-  for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
-    if (!orienter.turned(t)) continue;
-    std::swap(triangles[t][1], triangles[t][2]);
-    ++count;
-  }
-  return count;
+  return flip_turned(triangles, orienter);
+}
+
+int orient_parts(std::span<Triangle> triangles, const EdgeUses& edges, std::vector<bool>& parted) {
+  parted.assign(static_cast<std::size_t>(edges.edge_count()), false);
+  Orienter orienter(triangles, edges);
+  orienter.decide_all(parted);
+  for (int e = 0; e < edges.edge_count(); ++e)
+    if (edges.of(e).size() > 2) parted[e] = true;
+  return flip_turned(triangles, orienter);
 }
 
 namespace {
@@ -142,6 +166,113 @@ VertexSplit split_fans(int vertex_count, std::span<Triangle> triangles) {
     }
   }
   return split;
+}
+
+PartedVertices part_vertices(int vertex_count, std::span<Triangle> triangles, const EdgeUses& edges,
+                             const std::vector<bool>& parted) {
+  const int corners = 3 * static_cast<int>(triangles.size());
+  DisjointSets fans(corners);
+  for (int e = 0; e < edges.edge_count(); ++e) {
+    const std::span<const int> along = edges.of(e);
+    if (parted[e] || along.size() != 2) continue;
+    fans.join(along[0], HalfEdges::next(along[1]));
+    fans.join(HalfEdges::next(along[0]), along[1]);
+  }
+  PartedVertices result;
+  result.source_vertex.resize(vertex_count);
+  std::iota(result.source_vertex.begin(), result.source_vertex.end(), 0);
+  std::vector<int> number(static_cast<std::size_t>(corners), -1);
+  std::vector<bool> used(static_cast<std::size_t>(vertex_count), false);
+  for (int corner = 0; corner < corners; ++corner) {
+    int& vertex = number[fans.root(corner)];
+    if (vertex >= 0) continue;
+    const int source = from_vertex(triangles, corner);
+    vertex = used[source] ? static_cast<int>(result.source_vertex.size()) : source;
+    if (used[source]) result.source_vertex.push_back(source);
+    used[source] = true;
+  }
+  DisjointSets joined(static_cast<int>(result.source_vertex.size()));
+  const auto vertex_at = [&](int corner) { return number[fans.root(corner)]; };
+  for (int e = 0; e < edges.edge_count(); ++e) {
+    if (!parted[e]) continue;
+    const int one = edges.of(e)[0];
+    for (const int other : edges.of(e).subspan(1)) {
+      const bool opposed = from_vertex(triangles, one) != from_vertex(triangles, other);
+      const int ahead = HalfEdges::next(other);
+      joined.join(vertex_at(one), vertex_at(opposed ? ahead : other));
+      joined.join(vertex_at(HalfEdges::next(one)), vertex_at(opposed ? other : ahead));
+    }
+  }
+  for (int v = 0; v < static_cast<int>(result.source_vertex.size()); ++v)
+    result.joined.push_back(joined.root(v));
+  for (int corner = 0; corner < corners; ++corner)
+    triangles[corner / 3][corner % 3] = vertex_at(corner);
+  return result;
+}
+
+namespace {
+
+/// The vertices of a half-edge in the parted mesh, the lesser first.
+std::array<int, 2> ends_of(std::span<const Triangle> triangles, int half_edge) {
+  const int a = from_vertex(triangles, half_edge), b = to_vertex(triangles, half_edge);
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// [E] whether two triangles still share a parted edge.
+std::vector<bool> closed_slits(std::span<const Triangle> parted_triangles, const EdgeUses& edges,
+                               const std::vector<bool>& parted) {
+  std::vector<bool> closed(parted.size(), false);
+  for (int e = 0; e < edges.edge_count(); ++e) {
+    if (!parted[e]) continue;
+    std::vector<std::array<int, 2>> ends;
+    for (const int h : edges.of(e)) ends.push_back(ends_of(parted_triangles, h));
+    std::sort(ends.begin(), ends.end());
+    closed[e] = std::adjacent_find(ends.begin(), ends.end()) != ends.end();
+  }
+  return closed;
+}
+
+}  // namespace
+
+void lengthen_slits(const TriangleMesh& mesh, const EdgeUses& edges, std::vector<bool>& parted) {
+  for (;;) {
+    std::vector<Triangle> triangles = mesh.triangles;
+    part_vertices(static_cast<int>(mesh.positions.size()), triangles, edges, parted);
+    const std::vector<bool> closed = closed_slits(triangles, edges, parted);
+    // Of each vertex at the end of one, where it comes from, and the best way on found so far.
+    struct WayOn {
+      int from = -1, edge = -1;
+      double straightness = -2;
+    };
+    std::unordered_map<int, WayOn> ways;
+    for (int e = 0; e < edges.edge_count(); ++e)
+      if (closed[e]) {
+        const int h = edges.of(e)[0];
+        ways[to_vertex(mesh.triangles, h)].from = from_vertex(mesh.triangles, h);
+      }
+    if (ways.empty()) return;
+    for (int e = 0; e < edges.edge_count(); ++e) {
+      if (parted[e] || edges.of(e).size() != 2) continue;
+      const int h = edges.of(e)[0];
+      const int a = from_vertex(mesh.triangles, h), b = to_vertex(mesh.triangles, h);
+      for (const auto& [at, other] : {std::array{a, b}, std::array{b, a}}) {
+        const auto found = ways.find(at);
+        if (found == ways.end()) continue;
+        const auto& p = mesh.positions;
+        const double straightness =
+            dot(normalized(p[at] - p[found->second.from]), normalized(p[other] - p[at]));
+        if (straightness > found->second.straightness)
+          found->second = {found->second.from, e, straightness};
+      }
+    }
+    bool longer = false;
+    for (const auto& [at, way] : ways) {
+      if (way.edge < 0) continue;
+      parted[way.edge] = true;
+      longer = true;
+    }
+    if (!longer) return;
+  }
 }
 
 }  // namespace weft

@@ -16,6 +16,13 @@ namespace weft {
 int orient_triangles(std::span<Triangle> triangles, const EdgeUses& edges,
                      std::string_view mesh_name);
 
+/// The same for surfaces that cannot be oriented, and edges of any number of triangles: where
+/// neighbours still run along their edge in one direction, the surface is to be parted there.
+/// @param parted  [E] set to whether the surface is parted at an edge: those of more than two
+///                triangles, and those
+/// @return how many triangles were flipped
+int orient_parts(std::span<Triangle> triangles, const EdgeUses& edges, std::vector<bool>& parted);
+
 /// The result of split_fans, which gives every fan of triangles around a vertex its own copy of the
 /// vertex; copies come last.
 struct VertexSplit {
@@ -25,5 +32,23 @@ struct VertexSplit {
 };
 /// @pre manifold edges, consistent orientation
 VertexSplit split_fans(int vertex_count, std::span<Triangle> triangles);
+
+/// A surface parted at edges.
+struct PartedVertices {
+  std::vector<int> source_vertex;  ///< [V] the original of each vertex; copies come last
+  /// [V] vertices of the same number are one point of the surface, joined by a parted edge.
+  std::vector<int> joined;
+};
+/// Gives every fan of triangles around a vertex its own copy of the vertex, where a fan ends at
+/// parted edges. @param edges  of the triangles as they are  @param parted  [E]
+/// @pre edges that are not parted have one triangle, or two of consistent orientation
+/// @post edges that stay whole because both ends do are not parted after all, see lengthen_slits
+PartedVertices part_vertices(int vertex_count, std::span<Triangle> triangles, const EdgeUses& edges,
+                             const std::vector<bool>& parted);
+
+/// A parted edge inside of a piece, both ends of which are inside too, opens nothing: parts an edge
+/// beside each such one as well, the one that goes on most straightly.
+/// @param parted  [E] of the same edges
+void lengthen_slits(const TriangleMesh& mesh, const EdgeUses& edges, std::vector<bool>& parted);
 
 }  // namespace weft

@@ -51,24 +51,60 @@ std::string vertices(std::size_t count) {
 
 bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// Six times the volume that the triangles enclose, positive when they face outward.
-double signed_volume(const TriangleMesh& mesh) {
-  const Vec3d origin = mesh.positions[mesh.triangles[0][0]];
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3d a = mesh.positions[t[0]] - origin;
-    const Vec3d b = mesh.positions[t[1]] - origin;
-    sum += dot(mesh.positions[t[2]] - origin, cross(a, b));
-  }
-  return sum;
+bool has_area(const TriangleMesh& mesh, const Triangle& t) {
+  const auto& p = mesh.positions;
+  return squared_length(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]])) > 0;
 }
 
 /// Whether any triangle has an area, up to rounding.
 bool has_area(const TriangleMesh& mesh) {
-  const auto& p = mesh.positions;
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-    return squared_length(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]])) > 0;
-  });
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                     [&](const Triangle& t) { return has_area(mesh, t); });
+}
+
+struct PartShape {
+  bool closed = true;
+  int first_vertex = -1;
+  double volume = 0;  ///< six times what it encloses, positive when its triangles face outward
+  Box3d box;
+};
+
+std::vector<PartShape> part_shapes(const TriangleMesh& mesh, const EdgeUses& edges,
+                                   const SurfaceParts& parts) {
+  std::vector<PartShape> shapes(static_cast<std::size_t>(parts.count));
+  for (int e = 0; e < edges.edge_count(); ++e)
+    if (edges.of(e).size() != 2) shapes[parts.part_of[edges.of(e)[0] / 3]].closed = false;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    PartShape& shape = shapes[parts.part_of[t]];
+    const Triangle& corners = mesh.triangles[t];
+    if (shape.first_vertex < 0) shape.first_vertex = corners[0];
+    const Vec3d origin = mesh.positions[shape.first_vertex];
+    const Vec3d a = mesh.positions[corners[0]] - origin, b = mesh.positions[corners[1]] - origin;
+    shape.volume += dot(mesh.positions[corners[2]] - origin, cross(a, b));
+    for (const int v : corners) shape.box.add(mesh.positions[v]);
+  }
+  return shapes;
+}
+
+bool contains(const Box3d& outer, const Box3d& inner) {
+  return outer.lower.x <= inner.lower.x && outer.lower.y <= inner.lower.y &&
+         outer.lower.z <= inner.lower.z && outer.upper.x >= inner.upper.x &&
+         outer.upper.y >= inner.upper.y && outer.upper.z >= inner.upper.z;
+}
+
+/// [parts] whether a closed part has its inside outside. One that lies in the box of a closed part
+/// which faces outward may be the wall of a hollow in it, and stays as it is.
+std::vector<bool> inside_out_parts(const TriangleMesh& mesh, const EdgeUses& edges,
+                                   const SurfaceParts& parts) {
+  const std::vector<PartShape> shapes = part_shapes(mesh, edges, parts);
+  std::vector<bool> inside_out(shapes.size(), false);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (!shapes[i].closed || shapes[i].volume >= 0) continue;
+    inside_out[i] = std::none_of(shapes.begin(), shapes.end(), [&](const PartShape& other) {
+      return other.closed && other.volume > 0 && contains(other.box, shapes[i].box);
+    });
+  }
+  return inside_out;
 }
 
 /// The repair of one mesh, step by step; each step reports its changes.
@@ -95,10 +131,13 @@ class Repair {
     if (!has_area(mesh_))
       throw InputError(options_.name, "no triangle has an area", "a surface is wanted");
     orient();
-    split_vertices();
+    if (is_parted_)
+      part();
+    else
+      split_vertices();
     drop_unused_vertices();
     carry_corner_uv();
-    result_.counts = count_topology(static_cast<int>(mesh_.positions.size()), mesh_.triangles);
+    result_.counts = counts();
     result_.mesh = std::move(mesh_);
     return std::move(result_);
   }
@@ -153,6 +192,7 @@ class Repair {
     const SurfaceParts parts = surface_parts(mesh_, edges_);
     result_.components_found = parts.count;
     const ComponentChoice& choice = options_.component;
+    if (choice.kind == ComponentChoice::Kind::all) return drop_flat_parts(parts);
     if (choice.kind == ComponentChoice::Kind::only) {
       // Non-manifold edges first: choosing a component might not remove them.
       require_manifold_edges(mesh_.triangles, edges_, options_.name);
@@ -178,15 +218,71 @@ class Repair {
     find_edges();
   }
 
+  /// Nothing can be sampled of a component that has no area; where none has one, that is an error.
+  void drop_flat_parts(const SurfaceParts& parts) {
+    std::vector<bool> has_area(static_cast<std::size_t>(parts.count), false);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (weft::has_area(mesh_, mesh_.triangles[t])) has_area[parts.part_of[t]] = true;
+    const auto flat = static_cast<std::size_t>(std::count(has_area.begin(), has_area.end(), false));
+    if (flat == 0 || flat == has_area.size()) return;
+    keep_triangles([&](std::size_t t) { return has_area[parts.part_of[t]]; });
+    report(fmt::format("dropped {} without area", counted(flat, "component")));
+    find_edges();
+  }
+
   void orient() {
-    const int turned = orient_triangles(mesh_.triangles, edges_, options_.name);
+    int turned = 0;
+    if (options_.component.kind == ComponentChoice::Kind::all) {
+      turned = orient_parts(mesh_.triangles, edges_, parted_);
+      is_parted_ = std::find(parted_.begin(), parted_.end(), true) != parted_.end();
+    } else {
+      turned = orient_triangles(mesh_.triangles, edges_, options_.name);
+    }
     if (turned > 0) report(fmt::format("oriented {}", counted(turned, "triangle")));
-    bool closed = true;
-    for (int e = 0; e < edges_.edge_count(); ++e) closed &= edges_.of(e).size() == 2;
-    if (!closed || signed_volume(mesh_) >= 0) return;
-    for (Triangle& t : mesh_.triangles) std::swap(t[1], t[2]);
-    report(fmt::format("turned the closed surface outward, {}",
-                       counted(mesh_.triangles.size(), "triangle")));
+    const SurfaceParts parts = surface_parts(mesh_, edges_);
+    const std::vector<bool> inside_out = inside_out_parts(mesh_, edges_, parts);
+    std::size_t turned_outward = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!inside_out[parts.part_of[t]]) continue;
+      std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+      ++turned_outward;
+    }
+    if (turned_outward > 0)
+      report(fmt::format("turned the closed surface outward, {}",
+                         counted(turned_outward, "triangle")));
+  }
+
+  void part() {
+    std::size_t branching = 0, unoriented = 0;
+    for (int e = 0; e < edges_.edge_count(); ++e) {
+      branching += parted_[e] && edges_.of(e).size() > 2 ? 1 : 0;
+      unoriented += parted_[e] && edges_.of(e).size() == 2 ? 1 : 0;
+    }
+    if (branching > 0)
+      report(fmt::format("parted at {} of more than two triangles", counted(branching, "edge")));
+    if (unoriented > 0)
+      report(fmt::format("parted at {} where the surface cannot be oriented",
+                         counted(unoriented, "edge")));
+    find_edges();  // the same edges in the same order, of triangles as they lie now
+    lengthen_slits(mesh_, edges_, parted_);
+    PartedVertices made =
+        part_vertices(static_cast<int>(mesh_.positions.size()), mesh_.triangles, edges_, parted_);
+    for (std::size_t v = mesh_.positions.size(); v < made.source_vertex.size(); ++v) {
+      const int source = made.source_vertex[v];
+      mesh_.positions.push_back(mesh_.positions[source]);
+      result_.source_vertex.push_back(result_.source_vertex[source]);
+    }
+    result_.joined = std::move(made.joined);
+  }
+
+  [[nodiscard]] TopologyCounts counts() const {
+    const auto vertices = static_cast<int>(mesh_.positions.size());
+    if (result_.joined.empty()) return count_topology(vertices, mesh_.triangles);
+    std::vector<Triangle> joined = mesh_.triangles;
+    for (Triangle& t : joined)
+      for (int& v : t) v = result_.joined[v];
+    return count_complex(*std::max_element(result_.joined.begin(), result_.joined.end()) + 1,
+                         joined);
   }
 
   void split_vertices() {
@@ -209,8 +305,10 @@ class Repair {
       if (!used[v]) continue;
       mesh_.positions[kept] = mesh_.positions[v];
       result_.source_vertex[kept] = result_.source_vertex[v];
+      if (!result_.joined.empty()) result_.joined[kept] = result_.joined[v];
       place[v] = kept++;
     }
+    if (!result_.joined.empty()) result_.joined.resize(kept);
     mesh_.positions.resize(kept);
     result_.source_vertex.resize(kept);
     for (Triangle& t : mesh_.triangles)
@@ -242,6 +340,8 @@ class Repair {
   TriangleMesh mesh_;
   const std::vector<Triangle>& source_triangles_;
   const RepairOptions& options_;
+  std::vector<bool> parted_;  ///< [E] where the surface is parted
+  bool is_parted_ = false;
   EdgeUses edges_;  ///< of mesh_, until triangles are flipped
   RepairedMesh result_;
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "weft/core/assert.h"
+#include "weft/core/disjoint_sets.h"
 #include "weft/error.h"
 #include "weft/mesh/edge_uses.h"
 
@@ -109,6 +110,34 @@ TopologyCounts count_topology(std::span<const Triangle> triangles, const HalfEdg
   counts.boundaries = static_cast<int>(border_loops(triangles, edges).size());
   counts.euler = counts.vertices - counts.edges + counts.triangles;
   counts.genus = (2 * counts.components - counts.boundaries - counts.euler) / 2;
+  return counts;
+}
+
+TopologyCounts count_complex(int vertex_count, std::span<const Triangle> triangles) {
+  const EdgeUses edges = edge_uses(vertex_count, triangles);
+  TopologyCounts counts;
+  DisjointSets parts(vertex_count), borders(vertex_count);
+  std::vector<char> used(static_cast<std::size_t>(vertex_count), 0);
+  constexpr char in_triangle = 1, on_border = 2;
+  for (const Triangle& t : triangles)
+    for (const int v : t) used[v] = in_triangle;
+  for (int e = 0; e < edges.edge_count(); ++e) {
+    const int h = edges.of(e)[0];
+    const int a = from_vertex(triangles, h), b = to_vertex(triangles, h);
+    parts.join(a, b);
+    if (edges.of(e).size() > 1) continue;
+    borders.join(a, b);
+    used[a] = used[b] = on_border;
+  }
+  for (int v = 0; v < vertex_count; ++v) {
+    counts.vertices += used[v] != 0 ? 1 : 0;
+    counts.components += used[v] != 0 && parts.root(v) == v ? 1 : 0;
+    counts.boundaries += used[v] == on_border && borders.root(v) == v ? 1 : 0;
+  }
+  counts.edges = edges.edge_count();
+  counts.triangles = static_cast<int>(triangles.size());
+  counts.euler = counts.vertices - counts.edges + counts.triangles;
+  counts.genus = -1;
   return counts;
 }
 

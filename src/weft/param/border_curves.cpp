@@ -87,9 +87,18 @@ std::vector<BorderCurve> border_curves(const CutDisk& cut) {
     curves.push_back({.path = p,
                       .weight = path.mate >= 0 ? 2 : 1,
                       .length = sum(edge_lengths(cut, path)),
-                      .least = 1});
+                      .least = 1,
+                      .fixed = path.intervals});
   }
   set_least(cut, curves);
+  // Other charts may join ends of paths that are apart here.
+  constexpr int min_beside_shared = 3;
+  const bool shares = std::any_of(cut.paths.begin(), cut.paths.end(),
+                                  [](const BorderPath& path) { return path.curve >= 0; });
+  for (BorderCurve& curve : curves)
+    curve.least = curve.fixed > 0 ? curve.fixed
+                  : shares        ? std::max(curve.least, min_beside_shared)
+                                  : curve.least;
   return curves;
 }
 

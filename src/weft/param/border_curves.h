@@ -12,6 +12,7 @@ struct BorderCurve {
   int weight = 1;     ///< number of times the curve runs along the border: 1, or 2 with a mate
   double length = 0;  ///< [m]
   int least = 1;      ///< minimum number of sample intervals that keeps the topology
+  int fixed = 0;      ///< the number of intervals that it has to have; 0: free
 };
 
 /// The curves of a cut in the order of their paths, with their minimum intervals: 3 in all on every

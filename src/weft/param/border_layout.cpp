@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -29,6 +30,7 @@ std::vector<double> shares(const std::vector<BorderCurve>& curves, int total) {
   // A curve of no length needs a positive share too.
   const auto size = [&](const BorderCurve& c) { return whole > 0 ? c.length + 1e-9 * whole : 1.0; };
   std::vector<char> held(curves.size(), 0);
+  for (std::size_t i = 0; i < curves.size(); ++i) held[i] = curves[i].fixed > 0 ? 1 : 0;
   std::vector<double> share(curves.size());
   for (bool changed = true; changed;) {
     changed = false;
@@ -52,12 +54,12 @@ std::vector<double> shares(const std::vector<BorderCurve>& curves, int total) {
 /// goes to a true border path.
 std::vector<int> apportion(const std::vector<BorderCurve>& curves, int total) {
   const std::vector<double> share = shares(curves, total);
-  std::vector<int> counts(curves.size()), order(curves.size());
+  std::vector<int> counts(curves.size()), order;
   int left = total;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     counts[i] = std::max(curves[i].least, static_cast<int>(std::floor(share[i])));
     left -= curves[i].weight * counts[i];
-    order[i] = static_cast<int>(i);
+    if (curves[i].fixed == 0) order.push_back(static_cast<int>(i));
   }
   const auto rank = [&](int i) { return std::tuple(counts[i] - share[i], -curves[i].length, i); };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) < rank(b); });
@@ -76,10 +78,20 @@ bool near_enough(const std::vector<BorderCurve>& curves, const std::vector<doubl
   constexpr double tolerance = 1.0 / 32;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const int intervals = step * counts[i];
+    if (curves[i].fixed > 0) continue;
     if (intervals < curves[i].least) return false;
     if (std::abs(intervals - share[i]) > tolerance * share[i]) return false;
   }
   return true;
+}
+
+/// The curves with their fixed numbers of intervals counted in steps of several, where that can be.
+std::optional<std::vector<BorderCurve>> with_fixed_in(std::vector<BorderCurve> curves, int step) {
+  for (BorderCurve& curve : curves) {
+    if (curve.fixed % step != 0) return std::nullopt;
+    if (curve.fixed > 0) curve.least = curve.fixed = curve.fixed / step;
+  }
+  return curves;
 }
 
 /// Interval counts in multiples of the largest power of two that divides the side and for which
@@ -90,8 +102,9 @@ std::vector<int> aligned_counts(const std::vector<BorderCurve>& curves, int size
   int step = 1;
   while ((size - 1) % (2 * step) == 0) step *= 2;
   for (; step > 1; step /= 2) {
-    if (min_total(curves) > total / step) continue;
-    std::vector<int> counts = apportion(curves, total / step);
+    const std::optional<std::vector<BorderCurve>> in_steps = with_fixed_in(curves, step);
+    if (!in_steps || min_total(*in_steps) > total / step) continue;
+    std::vector<int> counts = apportion(*in_steps, total / step);
     if (!near_enough(curves, share, counts, step)) continue;
     for (int& count : counts) count *= step;
     return counts;
@@ -122,6 +135,11 @@ int min_size(const CutDisk& cut) {
   return std::max(min_side, (total + 3) / 4 + 1);
 }
 
+bool has_free_path(const CutDisk& cut) {
+  return std::any_of(cut.paths.begin(), cut.paths.end(),
+                     [](const BorderPath& path) { return path.intervals == 0; });
+}
+
 BorderLayout lay_out_border(const CutDisk& cut, const LayoutOptions& options) {
   const int least = min_size(cut);
   if (options.size < least)
@@ -131,6 +149,11 @@ BorderLayout lay_out_border(const CutDisk& cut, const LayoutOptions& options) {
                         fmt::format("size {} or more", least));
   const int total = 4 * (options.size - 1);
   const std::vector<BorderCurve> curves = border_curves(cut);
+  if (!has_free_path(cut) && min_total(curves) != total)
+    throw TopologyError("",
+                        fmt::format("{} border intervals are fixed, a side of {} has {}",
+                                    min_total(curves), options.size, total),
+                        "a border whose intervals fit");
   const std::vector<int> counts =
       options.align ? aligned_counts(curves, options.size) : apportion(curves, total);
   BorderLayout layout;

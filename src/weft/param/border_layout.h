@@ -40,6 +40,10 @@ BorderLayout lay_out_border(const CutDisk& cut, const LayoutOptions& options);
 /// The least n for which lay_out_border succeeds.
 int min_size(const CutDisk& cut);
 
+/// Whether any path's number of intervals is not fixed. Where none is, only one size fits: that of
+/// min_size, and only if their sum is a multiple of 4.
+bool has_free_path(const CutDisk& cut);
+
 /// Splits the border edges that contain a corner of the square, and their mates, so that every
 /// corner is a border vertex. Mates stay mates; path and border indices are updated.
 void split_at_corners(CutDisk& cut, const BorderLayout& layout);

@@ -66,6 +66,8 @@ std::vector<BorderFreedom> border_freedoms(const CutDisk& cut, const BorderLayou
   std::vector<BorderFreedom> freedoms;
   for (const BorderCurve& curve : border_curves(cut)) {
     const BorderPath& path = cut.paths[curve.path];
+    // Other charts sample it by arc length, too.
+    if (path.intervals > 0) continue;
     for (int j = 1; j < path.edges; ++j) {
       const int border = (path.first + j) % finder.size();
       if (!finder.moves(border)) continue;

@@ -66,19 +66,33 @@ void fill(Picture& picture, const Strip& strip, Vec3f colour) {
 
 std::vector<BorderBand> border_bands(const BorderMates& mates) {
   std::vector<MateInterval> pairs = mates.intervals();
-  const int around = 4 * (mates.size() - 1);
+  const auto other_first = [&](const MateInterval& pair) {
+    return mates.along_border(pair.mate, pair.turned ? 0 : -pair.count);
+  };
   const auto least = [&](const MateInterval& pair) {
-    return std::min(pair.first % around, (pair.mate - pair.count + around) % around);
+    return std::min(pair.first, other_first(pair));
   };
   std::sort(pairs.begin(), pairs.end(),
             [&](const MateInterval& a, const MateInterval& b) { return least(a) < least(b); });
   std::vector<BorderBand> bands;
   for (int i = 0; i < static_cast<int>(pairs.size()); ++i) {
-    const auto& [first, mate, count] = pairs[i];
-    bands.push_back({first % around, count, curve_colour(i)});
-    bands.push_back({(mate - count + around) % around, count, curve_colour(i)});
+    bands.push_back({pairs[i].first, pairs[i].count, curve_colour(i)});
+    bands.push_back({other_first(pairs[i]), pairs[i].count, curve_colour(i)});
   }
   return bands;
+}
+
+Picture marked_by_mates(const Picture& picture, const BorderMates& mates) {
+  Picture marked = picture;
+  const int n = mates.size(), scale = picture.width / n;
+  for (const BorderBand& band : border_bands(mates))
+    for (int k = 0; k <= band.count; ++k) {
+      const int sample = mates.sample_at(mates.along_border(band.first, k));
+      for (int y = 0; y < scale; ++y)
+        for (int x = 0; x < scale; ++x)
+          set_pixel(marked, scale * (sample % n) + x, scale * (sample / n) + y, band.colour);
+    }
+  return marked;
 }
 
 std::vector<BorderBand> border_bands(const MappedDisk& mapped) {
@@ -127,25 +141,26 @@ void add_cut(SurfaceDrawing& drawing, const CutDisk& cut) {
 void add_cut(SurfaceDrawing& drawing, const MappedDisk& mapped) { add_cut(drawing, mapped.cut); }
 
 void add_cut(SurfaceDrawing& drawing, const GeometryImage& image) {
-  const int n = image.size(), around = 4 * (n - 1);
-  std::vector<bool> mated(around, false);
-  const auto point = [&](int t) {
-    const int sample = border_sample(n, t % around);
+  const int n = image.size();
+  const BorderMates& mates = image.mates;
+  std::vector<bool> mated(static_cast<std::size_t>(mates.border_length()), false);
+  const auto point = [&](int from, int steps) {
+    const int sample = mates.sample_at(mates.along_border(from, steps));
     return image.world_position(sample / n, sample % n);
   };
-  const std::vector<BorderBand> bands = border_bands(image.mates);
+  const std::vector<BorderBand> bands = border_bands(mates);
   for (std::size_t i = 0; i < bands.size(); ++i) {
     const BorderBand& band = bands[i];
-    for (int k = 0; k < band.count; ++k) mated[(band.first + k) % around] = true;
-    if (i % 2 == 1) continue;  // the mate of the previous band
+    for (int k = 0; k < band.count; ++k) mated[mates.along_border(band.first, k)] = true;
+    if (i % 2 == 1) continue;  // the mate of the one before
     DrawnCurve curve{{}, band.colour};
-    for (int k = 0; k <= band.count; ++k) curve.points.push_back(point(band.first + k));
+    for (int k = 0; k <= band.count; ++k) curve.points.push_back(point(band.first, k));
     drawing.nodes.push_back(curve.points.front());
     drawing.nodes.push_back(curve.points.back());
     drawing.curves.push_back(curve);
   }
-  for (int t = 0; t < around; ++t)
-    if (!mated[t]) drawing.curves.push_back({{point(t), point(t + 1)}, true_border});
+  for (int t = 0; t < mates.border_length(); ++t)
+    if (!mated[t]) drawing.curves.push_back({{point(t, 0), point(t, 1)}, true_border});
 }
 
 }  // namespace weft

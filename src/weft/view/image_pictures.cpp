@@ -104,7 +104,8 @@ Picture colours_of(const GeometryImage& image, int min_side) {
   picture.rgb.reserve(std::size_t{3} * picture.width * picture.height);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      const Vec3f p = image.cube.at(y / scale, x / scale);
+      const int row = y / scale, col = x / scale;
+      const Vec3f p = image.mates.is_hole(row * n + col) ? Vec3f{1, 1, 1} : image.cube.at(row, col);
       for (const float channel : {p.x, p.y, p.z}) picture.rgb.push_back(byte_of(channel));
     }
   return picture;

@@ -71,6 +71,14 @@ void PathBoxLevels::fill_row(const MovingSurface& surface, int row) {
     const std::size_t at = k < 3 ? k : k + 3;
     corner_extents(*planes[k], row, cells_[at].row(row), cells_[at + 3].row(row));
   }
+  if (surface.grid != nullptr && surface.grid->has_missing()) hide_missing(*surface.grid, row);
+}
+
+void PathBoxLevels::hide_missing(const SurfaceGrid& grid, int row) {
+  for (int c = 0; c < grid.cells(); ++c) {
+    if (!grid.missing(row * grid.cells() + c)) continue;
+    for (std::size_t k = 0; k < 12; ++k) cells_[k](row, c) = k / 3 % 2 == 0 ? far : -far;
+  }
 }
 
 PathBox PathBoxLevels::box_of(const Node& node) const {

@@ -34,6 +34,8 @@ class PathBoxLevels {
 
  private:
   void fill_row(const MovingSurface& surface, int row);
+  /// Boxes of cells that lie in no chart meet nothing.
+  void hide_missing(const SurfaceGrid& grid, int row);
   [[nodiscard]] PathBox box_of(const Node& node) const;
   void fit_node(const Node& node);
   /// Faster form of fit_node for a node of level 1 that has all four cells.

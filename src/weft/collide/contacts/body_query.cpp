@@ -43,6 +43,15 @@ double angle_between(Vec3d a, Vec3d b) {
   return lengths > 0 ? arc_cosine(std::clamp(dot(a, b) / lengths, -1.0, 1.0)) : 0;
 }
 
+/// Boxes of cells that lie in no chart are near to nothing.
+void hide_missing(const SurfaceGrid& grid, ExtentLevels& boxes, const Worker& worker) {
+  const Range mine = worker.share(grid.cells());
+  for (int r = mine.first; r < mine.last; ++r)
+    for (int c = 0; c < grid.cells(); ++c)
+      for (std::size_t k = 0; k < 6 && grid.missing(r * grid.cells() + c); ++k)
+        boxes.finest()[k](r, c) = k < 3 ? HUGE_VALF : -HUGE_VALF;
+}
+
 }  // namespace
 
 BodyQuery::BodyQuery(const SurfaceGrid& grid) : grid_(&grid), boxes_(grid.cells()) {
@@ -55,6 +64,10 @@ void BodyQuery::place(const Planes3& positions, ThreadTeam& team) {
   positions_ = &positions;
   team.run([&](Worker& worker) {
     fill_position_extents(positions, positions, boxes_, worker);
+    if (grid_->has_missing()) {
+      hide_missing(*grid_, boxes_, worker);
+      worker.barrier();
+    }
     boxes_.fit(worker);
     for (int level = 1; level <= boxes_.top(); ++level) {
       const Range mine = worker.share(boxes_.sides()[level]);

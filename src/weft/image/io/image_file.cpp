@@ -75,12 +75,12 @@ Planes3 planes_of(const PngPicture& picture) {
 }  // namespace
 
 std::string exr_bytes(const GeometryImage& image) {
-  return encode_exr(image.cube, metadata_text(image));
+  return encode_exr(stored_samples(image), metadata_text(image));
 }
 
 std::string png_bytes(const GeometryImage& image) {
   const Planes3 whole =
-      changed(image.cube, [](float value) { return std::round(value * full_scale); });
+      changed(stored_samples(image), [](float value) { return std::round(value * full_scale); });
   PngPicture picture = picture_of(whole, 16);
   GeometryImage rounded = image;  // the checksum is over the samples as they will be read
   rounded.cube = changed(whole, [](float value) { return value / full_scale; });

@@ -16,7 +16,9 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int deepest_nesting = 4;
-// Deflate compresses by a factor of 1032 at most, the other lossless methods by less.
+// More would not fit into the largest image.
+constexpr std::size_t max_charts = std::size_t{1} << 20U;
+// Deflate shrinks by 1032 at most, the other compressions without loss by less.
 constexpr std::size_t max_compression = 1032;
 
 std::string checksum(const Json& without_checksum, const Planes3& cube) {
@@ -74,15 +76,37 @@ class Fields {
   Json json_;
 };
 
-void check_header(const Fields& fields, int size) {
+/// @return the version
+int check_header(const Fields& fields, int size) {
   const int version = fields.integer(fields.at("version"), "version");
-  if (version != metadata_version)
+  if (version != single_chart_version && version != charts_version)
     fields.fail(fmt::format("geometry image of version {}", version),
-                fmt::format("version {}", metadata_version));
+                fmt::format("version {} or {}", single_chart_version, charts_version));
   const int told = fields.integer(fields.at("size"), "size");
   if (told != size)
     fields.fail(fmt::format("{} x {} samples with metadata for {} x {}", size, size, told, told),
                 "a picture that was not resized");
+  return version;
+}
+
+std::vector<Chart> read_charts(const Fields& fields) {
+  const Json& list = fields.at("charts");
+  if (!list.is_array() || list.empty() || list.size() > max_charts)
+    fields.fail("metadata with bad \"charts\"", "a list of rectangles");
+  std::vector<Chart> charts;
+  for (const Json& item : list) {
+    const auto number = [&](const char* key) {
+      const auto found = item.find(key);
+      if (found == item.end()) fields.fail("metadata with bad \"charts\"", "row, col, rows, cols");
+      return fields.integer(*found, "charts");
+    };
+    const auto name = item.is_object() ? item.find("name") : item.end();
+    if (!item.is_object() || name == item.end() || !name->is_string())
+      fields.fail("metadata with bad \"charts\"", "objects that have a name");
+    charts.push_back(
+        {name->get<std::string>(), number("row"), number("col"), number("rows"), number("cols")});
+  }
+  return charts;
 }
 
 WorldMap read_world(const Fields& fields) {
@@ -97,18 +121,23 @@ WorldMap read_world(const Fields& fields) {
   return world;
 }
 
-BorderMates read_mates(const Fields& fields, int size, std::string_view where) {
+BorderMates read_mates(const Fields& fields, int size, int version, std::string_view where) {
   const Json& list = fields.at("mates");
   if (!list.is_array())
     fields.fail("metadata with bad \"mates\"", "a list of [first, mate, count]");
   std::vector<MateInterval> intervals;
   for (const Json& run : list) {
-    if (!run.is_array() || run.size() != 3)
+    const bool may_turn = version >= charts_version && run.size() == 4;
+    if (!run.is_array() || (run.size() != 3 && !may_turn))
       fields.fail("metadata with bad \"mates\"", "a list of [first, mate, count]");
     intervals.push_back({fields.integer(run[0], "mates"), fields.integer(run[1], "mates"),
-                         fields.integer(run[2], "mates")});
+                         fields.integer(run[2], "mates"),
+                         may_turn && fields.integer(run[3], "mates") != 0});
   }
+  std::vector<Chart> charts;
+  if (version >= charts_version) charts = read_charts(fields);
   try {
+    if (version >= charts_version) return {size, std::move(charts), std::move(intervals)};
     return {size, std::move(intervals)};
   } catch (const InputError& error) {
     throw InputError(where, error.what(), "");
@@ -146,32 +175,63 @@ void check_checksum(const Fields& fields, const Planes3& cube) {
     fields.fail("samples or metadata that do not match their checksum", "a file as weft wrote it");
 }
 
+Json charts_json(const std::vector<Chart>& charts) {
+  Json list = Json::array();
+  for (const Chart& chart : charts)
+    list.push_back({{"name", chart.name},
+                    {"row", chart.row},
+                    {"col", chart.col},
+                    {"rows", chart.rows},
+                    {"cols", chart.cols}});
+  return list;
+}
+
+/// Samples of no chart follow the one that stands for them.
+void fill_holes(GeometryImage& image) {
+  for (int s = 0; s < image.size() * image.size() && !image.has_one_chart(); ++s)
+    if (image.mates.is_hole(s)) image.cube.set(s, image.cube.at(image.mates.representative(s)));
+}
+
 }  // namespace
+
+Planes3 stored_samples(const GeometryImage& image) {
+  Planes3 stored = image.cube;
+  for (int s = 0; s < image.size() * image.size() && !image.has_one_chart(); ++s)
+    if (image.mates.is_hole(s)) stored.set(s, {});
+  return stored;
+}
 
 std::string metadata_text(const GeometryImage& image) {
   Json mates = Json::array();
-  for (const MateInterval& run : image.mates.intervals())
+  for (const MateInterval& run : image.mates.intervals()) {
     mates.push_back({run.first, run.mate, run.count});
+    if (run.turned) mates.back().push_back(1);
+  }
   const Vec3d lower = image.world.lower;
-  Json json{{"version", metadata_version},     {"size", image.size()},
-            {"mates", std::move(mates)},       {"lower", {lower.x, lower.y, lower.z}},
-            {"scale", image.world.scale},      {"source", image.source},
+  Json json{{"version", image.has_one_chart() ? single_chart_version : charts_version},
+            {"size", image.size()},
+            {"mates", std::move(mates)},
+            {"lower", {lower.x, lower.y, lower.z}},
+            {"scale", image.world.scale},
+            {"source", image.source},
             {"source_hash", image.source_hash}};
-  json["checksum"] = checksum(json, image.cube);
+  if (!image.has_one_chart()) json["charts"] = charts_json(image.mates.charts());
+  json["checksum"] = checksum(json, stored_samples(image));
   return json_text(json);
 }
 
 GeometryImage assemble_image(Planes3 cube, std::string_view text, std::string_view where) {
   const Fields fields(text, where);
-  check_header(fields, cube.size());
+  const int version = check_header(fields, cube.size());
   GeometryImage image;
   image.world = read_world(fields);
-  image.mates = read_mates(fields, cube.size(), where);
+  image.mates = read_mates(fields, cube.size(), version, where);
   image.source = fields.text("source");
   image.source_hash = read_source_hash(fields);
   check_samples(fields, cube);
   check_checksum(fields, cube);
   image.cube = std::move(cube);
+  fill_holes(image);
   if (!mates_bit_equal(image))
     fields.fail("border mates with different positions", "an image whose samples were not edited");
   return image;

@@ -11,15 +11,19 @@ namespace weft {
 
 /// Key of the metadata in a file: an EXR string attribute, a PNG iTXt keyword.
 inline constexpr const char* metadata_key = "weft";
-/// Version of the metadata that this library writes and reads.
-inline constexpr int metadata_version = 1;
+/// What this library writes and reads: images of one chart have version 1, those of several 2.
+inline constexpr int single_chart_version = 1, charts_version = 2;
 
 /// All of a geometry image but its samples, as one line of JSON: version, size, mates as
-/// [first, mate, count], lower and scale (digits that give the same doubles back), source,
-/// source_hash, and a checksum over these and over the samples.
+/// [first, mate, count], of turned runs [first, mate, count, 1], of version 2 charts as
+/// {name, row, col, rows, cols}, lower and scale (digits that give the same doubles back), source,
+/// source_hash, and a checksum over these and over the samples as they are stored.
 std::string metadata_text(const GeometryImage& image);
 
-/// Assembles an image from samples and metadata and checks all of it: size and version, world map,
+/// The samples as files hold them: those of no chart are black.
+Planes3 stored_samples(const GeometryImage& image);
+
+/// Puts samples and metadata together again and checks all of it: size and version, world map,
 /// mates in range and bit-equal, samples in [0, 1], the checksum where there is one (other programs
 /// may leave it out).
 /// @param where  what errors call the file

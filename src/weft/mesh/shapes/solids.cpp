@@ -122,12 +122,12 @@ constexpr double border = hole + strut;           // from the centre of an outer
 
 /// Distance in the plane of the plate from its outline with holes, negative on it.
 double outline(double x, double z) {
-  const double right = std::abs(x), up = std::abs(z);
+  const double right = std::abs(x), upward = std::abs(z);
   const double to_col = right - std::min(half_cols, std::round(right / pitch)) * pitch;
-  const double to_row = up - (std::min(1.0, std::floor(up / pitch)) + 0.5) * pitch;
+  const double to_row = upward - (std::min(1.0, std::floor(upward / pitch)) + 0.5) * pitch;
   const double from_hole = hole - std::sqrt(to_col * to_col + to_row * to_row);
   const double beyond_x = std::max(0.0, right - half_cols * pitch);
-  const double beyond_z = std::max(0.0, up - half_rows * pitch);
+  const double beyond_z = std::max(0.0, upward - half_rows * pitch);
   const double from_edge = std::sqrt(beyond_x * beyond_x + beyond_z * beyond_z) - border;
   return std::max(from_hole, from_edge);
 }

@@ -16,7 +16,8 @@ namespace weft {
 
 LoadedSurface SurfaceCache::load(const Surface& surface, const ConvertOptions& options) {
   if (surface.in_memory()) return load_surface(surface, options);
-  const Key key{surface.name, options.size, options.normal_map_size, options.keep_places};
+  const Key key{surface.name, options.size, options.normal_map_size, options.keep_places,
+                options.charts};
   const auto found = kept_.find(key);
   if (found != kept_.end()) return found->second;
   return kept_.emplace(key, load_surface(surface, options)).first->second;
@@ -79,9 +80,15 @@ Cloth Simulation::Parts::make(const SceneCloth& wanted, const Planes3& rest,
 void Simulation::Parts::load_cloths() {
   for (const SceneCloth& wanted : scene.cloths) {
     ConvertOptions options;
+    options.charts = ChartChoice::one;
     options.size = wanted.size;
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
+    if (!loaded.image.has_one_chart())
+      throw SceneError(name,
+                       fmt::format("cloth '{}' is an image of {} charts", wanted.name,
+                                   loaded.image.mates.charts().size()),
+                       "a cloth of one chart is wanted");
     const Planes3 rest = placed_positions(loaded.image, placement_map(wanted.placement));
     Cloth cloth = make(wanted, rest, loaded.image.mates);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
@@ -100,6 +107,11 @@ void Simulation::Parts::load_bodies() {
     options.keep_places = !wanted.animation.empty();
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
+    if (!loaded.image.has_one_chart() && !Colliders::traits_of(scene.collider).several_charts)
+      throw SceneError(name,
+                       fmt::format("body '{}' is an image of {} charts", wanted.name,
+                                   loaded.image.mates.charts().size()),
+                       "the collider pyramid is wanted, or a body of one chart");
     BodyMotion motion(wanted, loaded, {scene.frame_rate, scene.files});
     const PlacementMap map = placement_map(wanted.placement);
     PlacedBody body;

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "weft/convert.h"
+#include "weft/convert/pieces.h"
+#include "weft/cut/open_to_disk.h"
+
+namespace weft {
+
+/// A piece of a mesh on its way to a chart. The stages are called in the order in which they stand.
+class ChartConversion {
+ public:
+  /// Cuts the piece open to a disk. All are kept by reference.
+  /// @param input  the repaired mesh that the piece is of
+  ChartConversion(const Piece& piece, const RepairedMesh& input, const std::string& name,
+                  const ConvertOptions& options);
+
+  /// The least side of an image that holds the cut as it is.
+  [[nodiscard]] int min_side() const { return min_side_; }
+  [[nodiscard]] const Cut& lengthened_cut() const { return lengthened_; }
+  /// The least n = 2^k + 1 from 33 on that holds the cut well, with twice the border that its paths
+  /// need at least, and samples enough for the piece: as many as it has vertices. More than 1025
+  /// only where the cut needs them.
+  [[nodiscard]] int suitable_side() const;
+
+  /// Lengthens the cut where that betters the map to a square of `side` samples a side.
+  void lengthen_cut(int side);
+  /// What the borders of other charts share with this one's. @param border  kept by reference; its
+  /// intervals may change until `map`
+  void share(const FixedBorder& border);
+  /// The curves that the border shares, once for every path along them.
+  [[nodiscard]] const std::vector<int>& shared_curves() const { return shared_curves_; }
+  /// The least number of intervals of all other paths together; 0: there is no other path.
+  [[nodiscard]] int min_free_intervals() const { return min_free_intervals_; }
+  /// Of all paths around the chart [m].
+  [[nodiscard]] double border_length() const { return border_length_; }
+  /// Maps the disk to that square. @throws TopologyError as map_to_square
+  void map(int side);
+  /// @throws TopologyError as sample_image
+  void sample();
+
+  [[nodiscard]] const std::shared_ptr<const MappedDisk>& mapped() const { return mapped_; }
+  [[nodiscard]] const GeometryImage& image() const { return image_; }
+  [[nodiscard]] const CutSummary& cut() const { return cut_summary_; }
+  [[nodiscard]] int rounds() const { return rounds_; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  [[nodiscard]] Cut first_cut();
+  [[nodiscard]] CutDisk opened(const Cut& cut) const;
+  [[nodiscard]] MappedDisk mapped_along(const Cut& cut, int side) const;
+
+  const Piece& piece_;
+  const RepairedMesh& input_;
+  const std::string& name_;
+  const ConvertOptions& options_;
+  Cut cut_, lengthened_;
+  const FixedBorder* border_ = nullptr;
+  std::vector<int> shared_curves_;
+  int min_side_ = 0, min_free_intervals_ = 0, rounds_ = 0;
+  double border_length_ = 0;
+  CutSummary cut_summary_;
+  std::shared_ptr<const MappedDisk> mapped_;
+  GeometryImage image_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace weft

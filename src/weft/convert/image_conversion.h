@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "weft/convert.h"
+#include "weft/convert/chart_conversion.h"
+#include "weft/convert/chart_placement.h"
+#include "weft/convert/pieces.h"
+#include "weft/convert/seam_curves.h"
+
+namespace weft {
+
+/// The conversion of a repaired mesh, piece by piece, to one image.
+class ImageConversion {
+ public:
+  /// Keeps references. @param made  its input is the repaired mesh
+  /// @throws TopologyError when several pieces are to be cut by hand
+  ImageConversion(Conversion& made, const std::string& name, const ConvertOptions& options);
+
+  /// Fills the rest of `made`, but for what is measured. @throws TopologyError as the stages
+  void run();
+
+ private:
+  [[nodiscard]] int side(std::size_t chart) const { return places_.charts[chart].rows; }
+  void tell(std::string_view stage) const { update(options_.progress, stage, 0); }
+  void cut();
+  void share_borders();
+  void gather();
+  [[nodiscard]] GeometryImage joined_image() const;
+  [[nodiscard]] std::vector<MateInterval> seams() const;
+  void sample_normal_map();
+  void sample_textures();
+
+  Conversion& made_;
+  const std::string& name_;
+  const ConvertOptions& options_;
+  std::vector<Piece> pieces_;
+  std::vector<ChartConversion> charts_;
+  SeamCurves curves_;
+  Placement places_;
+};
+
+}  // namespace weft

@@ -1,0 +1,248 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/convert_options.h"
+#include "tests/support/errors.h"
+#include "weft/convert.h"
+#include "weft/convert/chart_packing.h"
+#include "weft/error.h"
+#include "weft/image_file.h"
+#include "weft/mesh_statistics.h"
+#include "weft/shapes.h"
+
+namespace weft {
+namespace {
+
+using test::single_chart;
+using test::sized;
+using test::unmeasured;
+
+TriangleMesh beside(const std::vector<TriangleMesh>& meshes, double distance = 3) {
+  TriangleMesh all;
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    const auto first = static_cast<int>(all.positions.size());
+    for (const Vec3d p : meshes[k].positions)
+      all.positions.push_back(p + Vec3d{distance * static_cast<double>(k), 0, 0});
+    for (const auto& [a, b, c] : meshes[k].triangles)
+      all.triangles.push_back({first + a, first + b, first + c});
+  }
+  return all;
+}
+
+bool overlap(const Chart& a, const Chart& b) {
+  return a.row < b.row + b.rows && b.row < a.row + a.rows && a.col < b.col + b.cols &&
+         b.col < a.col + a.cols;
+}
+
+TEST(ChartPacking, ChartsAreApartAlignedAndAsLargeAsTheyCanBe) {
+  for (const int size : {33, 65, 257, 1000})
+    for (const int count : {1, 2, 5, 17, 40}) {
+      std::vector<ChartShare> shares;
+      for (int k = 0; k < count; ++k) shares.push_back({5, 1.0 / (1 + k % 7)});
+      const std::optional<std::vector<Chart>> packed = pack_charts(shares, size);
+      if (!packed) {
+        EXPECT_EQ(size, 33) << count << " charts of 8 x 8 fit into " << size;
+        continue;
+      }
+      double samples = 0;
+      for (int i = 0; i < count; ++i) {
+        const Chart& chart = (*packed)[i];
+        EXPECT_EQ(chart.row % 4 + chart.col % 4, 0);
+        EXPECT_EQ((chart.rows - 1) % 4 + (chart.cols - 1) % 4, 0);
+        EXPECT_LE(std::max(chart.row + chart.rows, chart.col + chart.cols), size);
+        for (int j = 0; j < i; ++j) EXPECT_FALSE(overlap(chart, (*packed)[j]));
+        samples += static_cast<double>(chart.rows) * chart.cols;
+      }
+      // Two equal squares cover half of a larger one at most.
+      if (size >= 257) {
+        EXPECT_GT(samples, 0.45 * size * size) << count << " in " << size;
+      }
+    }
+}
+
+TEST(ChartPacking, WhatDoesNotFitIsTold) {
+  EXPECT_FALSE(pack_charts(std::vector<ChartShare>(30, {5, 1}), 33));
+  EXPECT_FALSE(pack_charts(std::vector<ChartShare>{{40, 1}}, 33));
+  EXPECT_TRUE(pack_charts(std::vector<ChartShare>{{33, 1}}, 33));
+}
+
+TEST(Charts, EveryPieceKeepsItsTopology) {
+  const TriangleMesh mesh =
+      beside({make_shape("sphere"), make_shape("torus"), make_shape("tshirt"), make_shape("knot")});
+  const Conversion made = convert_mesh(mesh, "four", sized(257));
+  EXPECT_EQ(made.image.size(), 257);
+  EXPECT_EQ(made.charts.size(), 4U);
+  EXPECT_TRUE(made.quality.mates_bit_equal);
+  EXPECT_EQ(made.quality.euler, 2 + 0 - 2 + 0);
+  EXPECT_EQ(made.quality.boundaries, 4);
+  EXPECT_GT(made.quality.psnr_db, 70);
+  EXPECT_EQ(made.map_quality.flipped + made.map_quality.degenerate, 0);
+}
+
+TEST(Charts, TheSameBitsEveryTime) {
+  const TriangleMesh mesh = beside({make_shape("sphere"), make_shape("torus")});
+  const ConvertOptions options = unmeasured(65);
+  EXPECT_EQ(exr_bytes(convert_mesh(mesh, "two", options).image),
+            exr_bytes(convert_mesh(mesh, "two", options).image));
+}
+
+TEST(Charts, OnePieceIsConvertedAsAlone) {
+  ConvertOptions options = unmeasured(65);
+  const std::string automatic = exr_bytes(convert_mesh(make_shape("torus"), "t", options).image);
+  options.charts = ChartChoice::one;
+  EXPECT_EQ(exr_bytes(convert_mesh(make_shape("torus"), "t", options).image), automatic);
+}
+
+TEST(Charts, SeveralPiecesAreRefusedWhereOneChartIsAsked) {
+  const TriangleMesh mesh = beside({make_shape("sphere"), make_shape("torus")});
+  const std::string said =
+      test::message_of<TopologyError>([&] { convert_mesh(mesh, "two", single_chart()); });
+  EXPECT_NE(said.find("2 components"), std::string::npos) << said;
+}
+
+TEST(Charts, TooManyPiecesForTheSizeMakeTheImageGrow) {
+  const TriangleMesh mesh = beside(std::vector<TriangleMesh>(20, make_shape("box")));
+  const Conversion made = convert_mesh(mesh, "cubes", unmeasured(33));
+  EXPECT_GT(made.image.size(), 33);
+  ASSERT_EQ(made.warnings.size(), 1U);
+  EXPECT_NE(made.warnings[0].find("20 pieces"), std::string::npos);
+}
+
+TEST(Charts, AHollowKeepsItsInnerWall) {
+  TriangleMesh mesh = make_shape("sphere");
+  const auto outer = static_cast<int>(mesh.positions.size());
+  for (int v = 0; v < outer; ++v) mesh.positions.push_back(0.5 * mesh.positions[v]);
+  const std::vector<Triangle> triangles = mesh.triangles;
+  for (const auto& [a, b, c] : triangles)
+    mesh.triangles.push_back({outer + a, outer + c, outer + b});
+  const Conversion made = convert_mesh(mesh, "hollow", unmeasured(129));
+  double volume = 0, whole = 0;
+  const TriangleMesh again = rebuild_mesh(made.image).mesh;
+  for (const auto& [a, b, c] : again.triangles)
+    volume += dot(again.positions[a], cross(again.positions[b], again.positions[c]));
+  const TriangleMesh ball = make_shape("sphere");
+  for (const auto& [a, b, c] : ball.triangles)
+    whole += dot(ball.positions[a], cross(ball.positions[b], ball.positions[c]));
+  EXPECT_NEAR(volume / whole, 7.0 / 8, 0.01) << "the ball less its hollow";
+}
+
+TEST(Charts, PiecesWithoutAreaAreDroppedAndTold) {
+  TriangleMesh mesh = make_shape("box");
+  const auto first = static_cast<int>(mesh.positions.size());
+  for (int k = 0; k < 3; ++k) mesh.positions.push_back({5, 5, 5});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  const Conversion made = convert_mesh(mesh, "cube", unmeasured(33));
+  EXPECT_EQ(made.charts.size(), 1U);
+  EXPECT_NE(std::find(made.input.repairs.begin(), made.input.repairs.end(),
+                      "dropped 1 component without area"),
+            made.input.repairs.end());
+}
+
+TEST(Charts, SurfacesFollowTheVerticesOfAllPieces) {
+  const TriangleMesh mesh = beside({make_shape("box"), make_shape("sphere")});
+  ConvertOptions options = sized(65);
+  options.keep_places = options.keep_source = true;
+  const LoadedSurface loaded = load_surface(Surface(mesh, "two"), options);
+  ASSERT_TRUE(loaded.follows && loaded.source);
+  for (int s = 0; s < 65 * 65; ++s) {
+    Vec3d place;
+    const BlendedVertex& blend = loaded.follows->blends[s];
+    for (int k = 0; k < 3; ++k) place += blend.weights[k] * mesh.positions[blend.vertices[k]];
+    EXPECT_LT(length(place - loaded.image.world_position(s / 65, s % 65)), 1e-5);
+  }
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec2d place = loaded.source->places[v];
+    ASSERT_TRUE(std::isfinite(place.x));
+    const int row = static_cast<int>(place.y), col = static_cast<int>(place.x);
+    EXPECT_FALSE(loaded.image.mates.is_hole(row * 65 + col)) << "vertex " << v;
+  }
+}
+
+/// Three pages that meet in a spine.
+TriangleMesh book(int pages) {
+  TriangleMesh mesh;
+  constexpr int rows = 10, cols = 5;
+  for (int k = 0; k < pages; ++k)
+    for (int i = 0; i <= rows; ++i)
+      for (int j = 0; j <= cols; ++j) {
+        const double angle = 2 * 3.14159265358979 * k / pages, out = 0.2 * j;
+        mesh.positions.push_back({out * std::cos(angle), 0.1 * i, out * std::sin(angle)});
+      }
+  const auto at = [](int k, int i, int j) {
+    return (j == 0 ? 0 : k) * (rows + 1) * (cols + 1) + i * (cols + 1) + j;
+  };
+  for (int k = 0; k < pages; ++k)
+    for (int i = 0; i < rows; ++i)
+      for (int j = 0; j < cols; ++j) {
+        mesh.triangles.push_back({at(k, i, j), at(k, i, j + 1), at(k, i + 1, j + 1)});
+        mesh.triangles.push_back({at(k, i, j), at(k, i + 1, j + 1), at(k, i + 1, j)});
+      }
+  return mesh;
+}
+
+TEST(SeamCharts, ABookKeepsItsSpine) {
+  for (const int pages : {3, 4, 5}) {
+    const Conversion made = convert_mesh(book(pages), "book", sized(129));
+    EXPECT_EQ(made.image.mates.charts().size(), std::size_t(pages));
+    EXPECT_EQ(made.quality.euler, 1);
+    EXPECT_EQ(made.quality.boundaries, 1);
+    EXPECT_TRUE(made.quality.mates_bit_equal);
+    EXPECT_GT(made.quality.psnr_db, 90);
+    const MeshStatistics again = examine_mesh(rebuild_mesh(made.image).mesh);
+    EXPECT_EQ(again.components, 1);
+    EXPECT_GT(again.nonmanifold_edges, 0);
+    double spine = 0;
+    const TriangleMesh mesh = rebuild_mesh(made.image).mesh;
+    for (const auto& [a, b] : again.nonmanifold_edge_list)
+      spine += length(mesh.positions[a] - mesh.positions[b]);
+    EXPECT_NEAR(spine, 1, 1e-5) << pages;
+  }
+}
+
+TEST(SeamCharts, AMoebiusBandStaysOne) {
+  TriangleMesh mesh;
+  constexpr int around = 40, across = 4;
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j <= across; ++j) {
+      const double angle = 2 * 3.14159265358979 * i / around, s = 0.15 * (j - 0.5 * across);
+      const double r = 1 + s * std::cos(angle / 2);
+      mesh.positions.push_back({r * std::cos(angle), s * std::sin(angle / 2), r * std::sin(angle)});
+    }
+  const auto at = [](int i, int j) { return i == around ? across - j : i * (across + 1) + j; };
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+    }
+  const Conversion made = convert_mesh(mesh, "band", sized(129));
+  EXPECT_EQ(made.quality.euler, 0);
+  EXPECT_EQ(made.quality.boundaries, 1);
+  EXPECT_GT(made.quality.psnr_db, 75);
+  const MeshStatistics again = examine_mesh(rebuild_mesh(made.image).mesh);
+  EXPECT_FALSE(again.orientable);
+  EXPECT_EQ(again.nonmanifold_edges, 0);
+  const GeometryImage read = parse_image(exr_bytes(made.image), "file");
+  EXPECT_EQ(exr_bytes(read), exr_bytes(made.image)) << "files keep turned seams";
+  const std::string said =
+      test::message_of<TopologyError>([&] { convert_mesh(mesh, "band", single_chart()); });
+  EXPECT_NE(said.find("not orientable"), std::string::npos) << said;
+}
+
+TEST(SeamCharts, ASlitOfOneEdgeIsMadeLonger) {
+  // A fin on one edge within a surface: both ends of the edge are inside.
+  TriangleMesh mesh = make_shape("sphere");
+  const auto [a, b, c] = mesh.triangles[100];
+  mesh.positions.push_back(1.5 * mesh.positions[a]);
+  mesh.triangles.push_back({a, b, static_cast<int>(mesh.positions.size()) - 1});
+  const Conversion made = convert_mesh(mesh, "fin", unmeasured(129));
+  EXPECT_EQ(made.charts.size(), 2U);
+  EXPECT_EQ(made.quality.euler, 2);
+  EXPECT_EQ(made.quality.boundaries, 1);
+}
+
+}  // namespace
+}  // namespace weft
