@@ -70,6 +70,31 @@ TEST(Renderer, ShadowsOfClothOnABodyAndOnTheGroundLookAsTheyDid) {
   expect_golden("shadows", Renderer(width, height).draw(scene));
 }
 
+TEST(Renderer, BetweenTheChartsOfASurfaceThereIsNothing) {
+  // Two upright squares, seen from the front, 1 m apart.
+  const BorderMates charts(17, {{"left", 0, 0, 9, 8}, {"right", 0, 9, 9, 8}}, {});
+  Planes3 grid(17);
+  for (int s = 0; s < 17 * 17; ++s) {
+    const int point = charts.representative(s), row = point / 17, col = point % 17;
+    const float left =
+        col < 9 ? -1.5F + static_cast<float>(col) / 7 : 0.5F + static_cast<float>(col - 9) / 7;
+    grid.set(s, {left, static_cast<float>(row) / 8, 0});
+  }
+  DrawnScene scene;
+  const Camera camera = frame_box({{-1.5, 0, 0}, {1.5, 1, 0}}, 0, 0, 4.0 / 3);
+  scene.camera = camera;
+  const Picture empty = Renderer(width, height).draw(scene);
+  scene.surfaces.push_back(body_of(grid));
+  scene.surfaces[0].mates = &charts;
+  const Picture drawn = Renderer(width, height).draw(scene);
+  const auto differs_at = [&](int x) {
+    return length(mean_colour(drawn, x, height / 2, 4) - mean_colour(empty, x, height / 2, 4)) > 5;
+  };
+  EXPECT_FALSE(differs_at(width / 2 - 2));
+  EXPECT_TRUE(differs_at(width / 4));
+  EXPECT_TRUE(differs_at(3 * width / 4));
+}
+
 TEST(Renderer, AWeaveTooFineToBeSeenIsLeftOut) {
   const Planes3 sheet = wavy_sheet(65, 0.4F);
   DrawnSurface fabric;

@@ -24,8 +24,8 @@ struct FixedBorder {
     bool forward = true;  ///< whether the border runs along the curve's own direction
     friend auto operator<=>(const Edge&, const Edge&) = default;
   };
-  std::vector<Edge> edges;  ///< ascending
-  std::vector<int> nodes;   ///< ascending: where curves end; paths of the border begin there
+  std::vector<Edge> edges;     ///< ascending
+  std::vector<int> nodes;      ///< ascending: where curves end; paths of the border begin there
   std::vector<int> intervals;  ///< [curves] sample intervals that each has to have; empty: free
   [[nodiscard]] bool empty() const { return edges.empty(); }
 };

@@ -17,10 +17,9 @@ void add(Planes3& planes, int row, int col, Vec3f v) {
 
 /// Adds twice the vector area of every quad, the cross product of its diagonals, to its four
 /// corners.
-void add_quads(const Planes3& positions, Planes3& sums) {
-  const int n = positions.size();
-  for (int r = 0; r + 1 < n; ++r)
-    for (int c = 0; c + 1 < n; ++c) {
+void add_quads(const Planes3& positions, const Chart& chart, Planes3& sums) {
+  for (int r = chart.row; r + 1 < chart.row + chart.rows; ++r)
+    for (int c = chart.col; c + 1 < chart.col + chart.cols; ++c) {
       const Vec3f area = cross(positions.at(r + 1, c + 1) - positions.at(r, c),
                                positions.at(r + 1, c) - positions.at(r, c + 1));
       add(sums, r, c, area);
@@ -70,8 +69,11 @@ Vec3f smooth_normal(const std::vector<int>& around, const std::vector<Vec3d>& ar
 Planes3 grid_normals(const Planes3& positions, const BorderMates* mates) {
   const int n = positions.size();
   Planes3 normals(n);
-  add_quads(positions, normals);
-  if (mates != nullptr && mates->size() == n)
+  const bool joins = mates != nullptr && mates->size() == n;
+  if (!joins) add_quads(positions, {"", 0, 0, n, n}, normals);
+  if (joins)
+    for (const Chart& chart : mates->charts()) add_quads(positions, chart, normals);
+  if (joins)
     for (int i = 0; i < mates->class_count(); ++i) join(normals, mates->mates(i));
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) normals.set(r, c, normalized(normals.at(r, c)));

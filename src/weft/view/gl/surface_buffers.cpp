@@ -25,24 +25,22 @@ std::vector<Vec3f> packed(const Planes3& planes) {
   return texels;
 }
 
-/// Rows (or columns) of a grid that are drawn: every `step`, and always the last.
-std::vector<int> kept_lines(int side, int step) {
+/// Rows (or columns) of a chart that are drawn: every `step`, and always the last.
+std::vector<int> kept_lines(int first, int count, int step) {
   std::vector<int> lines;
-  for (int i = 0; i + 1 < side; i += step) lines.push_back(i);
-  lines.push_back(side - 1);
+  for (int i = 0; i + 1 < count; i += step) lines.push_back(first + i);
+  lines.push_back(first + count - 1);
   return lines;
 }
 
 /// Two triangles a quad, with alternating diagonals; front faces are in the direction of du x dv.
-std::vector<GLuint> quad_triangles(int side, int step) {
-  const std::vector<int> lines = kept_lines(side, step);
-  const int quads = static_cast<int>(lines.size()) - 1;
-  std::vector<GLuint> indices;
-  indices.reserve(static_cast<std::size_t>(quads) * quads * 6);
-  for (int i = 0; i < quads; ++i)
-    for (int j = 0; j < quads; ++j) {
-      const auto sample = [&](int row, int col) {
-        return static_cast<GLuint>(lines[row] * side + lines[col]);
+void add_quad_triangles(const Chart& chart, int side, int step, std::vector<GLuint>& indices) {
+  const std::vector<int> rows = kept_lines(chart.row, chart.rows, step);
+  const std::vector<int> cols = kept_lines(chart.col, chart.cols, step);
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+    for (std::size_t j = 0; j + 1 < cols.size(); ++j) {
+      const auto sample = [&](std::size_t row, std::size_t col) {
+        return static_cast<GLuint>(rows[row] * side + cols[col]);
       };
       const GLuint a = sample(i, j), b = sample(i, j + 1), c = sample(i + 1, j + 1),
                    d = sample(i + 1, j);
@@ -51,6 +49,12 @@ std::vector<GLuint> quad_triangles(int side, int step) {
       else
         indices.insert(indices.end(), {a, b, d, b, c, d});
     }
+}
+
+std::vector<GLuint> quad_triangles(const std::vector<Chart>& charts, int side, int step) {
+  std::vector<GLuint> indices;
+  indices.reserve(static_cast<std::size_t>(side / step + 1) * (side / step + 1) * 6);
+  for (const Chart& chart : charts) add_quad_triangles(chart, side, step, indices);
   return indices;
 }
 
@@ -65,6 +69,13 @@ TriangleMesh usable(const TriangleMesh& mesh) {
     if (std::all_of(t.begin(), t.end(), [&](int v) { return v >= 0 && v < vertices; }))
       whole.triangles.push_back(t);
   return whole;
+}
+
+/// The charts of a surface, or one that is all of it.
+std::vector<Chart> charts_of(const DrawnSurface& surface) {
+  const int side = surface.positions->size();
+  if (surface.mates != nullptr && surface.mates->size() == side) return surface.mates->charts();
+  return {{"", 0, 0, side, side}};
 }
 
 void fit(Texture& texture, GLenum format, int width, int height) {
@@ -122,20 +133,24 @@ bool SurfaceBuffers::load(const DrawnSurface& surface) {
   fit(colours_, GL_RGB32F, colours, colours);
   colours_.upload(surface.colours != nullptr ? packed(*surface.colours) : white);
   const Planes3 positions = without_holes(*surface.positions);
-  upload_grid(positions, surface.normals != nullptr ? without_holes(surface.normals->normal)
-                                                    : grid_normals(positions, surface.mates));
+  upload_grid(positions,
+              surface.normals != nullptr ? without_holes(surface.normals->normal)
+                                         : grid_normals(positions, surface.mates),
+              charts_of(surface));
   make_sky_target(light_samples, light_samples);
   return true;
 }
 
-void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normals) {
+void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normals,
+                                 std::vector<Chart> charts) {
   const int side = positions.size();
   fit(positions_, GL_RGB32F, side, side);
   fit(normals_, GL_RGB32F, normals.size(), normals.size());
   positions_.upload(packed(positions));
   normals_.upload(packed(normals));
-  if (grid_side_ != side) triangles_.clear();
+  if (grid_side_ != side || charts_ != charts) triangles_.clear();
   grid_side_ = side;
+  charts_ = std::move(charts);
 }
 
 void SurfaceBuffers::load(const DrawnMesh& drawn) {
@@ -168,7 +183,7 @@ void SurfaceBuffers::load_ground(Vec3d centre, double half_side) {
       positions.set(r, c, vec_cast<float>(centre + half_side * across));
       normals.set(r, c, {0, 1, 0});
     }
-  upload_grid(positions, normals);
+  upload_grid(positions, normals, {{"", 0, 0, ground_side, ground_side}});
   make_sky_target(ground_side, ground_side);
 }
 
@@ -188,7 +203,7 @@ void SurfaceBuffers::make_sky_target(int width, int height) {
 void SurfaceBuffers::draw(int step) {
   const int lines = is_grid() ? std::clamp(step, 1, std::max(1, (grid_side_ - 1) / 4)) : 1;
   const auto [list, is_new] = triangles_.try_emplace(lines);
-  if (is_new) list->second.upload(quad_triangles(grid_side_, lines));
+  if (is_new) list->second.upload(quad_triangles(charts_, grid_side_, lines));
   list->second.draw_triangles();
 }
 
