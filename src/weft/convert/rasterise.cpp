@@ -21,9 +21,10 @@ struct Span {
 struct SampleRange {
   int first, last;
   SampleRange(Span span, double samples_per_unit, int size)
-      : first(static_cast<int>(std::max(1.0, std::ceil(span.low * samples_per_unit - margin)))),
+      : first(static_cast<int>(
+            std::clamp(std::ceil(span.low * samples_per_unit - margin), 1.0, size - 1.0))),
         last(static_cast<int>(
-            std::min(size - 2.0, std::floor(span.high * samples_per_unit + margin)))) {}
+            std::clamp(std::floor(span.high * samples_per_unit + margin), 0.0, size - 2.0))) {}
   static constexpr double margin = 1e-6;
 };
 

@@ -37,8 +37,10 @@ BorderMates coarser_mates(const GeometryImage& image, int step) {
 }  // namespace
 
 std::optional<GeometryImage> coarser_image(const GeometryImage& image, int level) {
+  constexpr int deepest = 12;
+  if (level < 0 || level > deepest) return std::nullopt;
   const int step = 1 << level;
-  if (level < 0 || (image.size() - 1) / step + 1 < min_image_size) return std::nullopt;
+  if ((image.size() - 1) / step + 1 < min_image_size) return std::nullopt;
   if (image.mates.size() == 0 || !are_aligned(image.mates, step)) return std::nullopt;
   GeometryImage coarse;
   coarse.world = image.world;
@@ -58,8 +60,7 @@ std::optional<GeometryImage> coarser_image(const GeometryImage& image, int level
 
 int coarsest_level(const GeometryImage& image) {
   int level = 0;
-  constexpr int deepest = 12;
-  for (int k = 1; k <= deepest; ++k)
+  for (int k = 1; (image.size() - 1) >> k >= min_image_size - 1; ++k)
     if (coarser_image(image, k)) level = k;
   return level;
 }

@@ -53,6 +53,36 @@ std::vector<PartSize> measure_parts(const TriangleMesh& mesh, const SurfaceParts
   return sizes;
 }
 
+struct PartShape {
+  bool closed = true;
+  int first_vertex = -1;
+  double volume = 0;  ///< six times what it encloses, positive when its triangles face outward
+  Box3d box;
+};
+
+std::vector<PartShape> part_shapes(const TriangleMesh& mesh, const EdgeUses& edges,
+                                   const SurfaceParts& parts) {
+  std::vector<PartShape> shapes(static_cast<std::size_t>(parts.count));
+  for (int e = 0; e < edges.edge_count(); ++e)
+    if (edges.of(e).size() != 2) shapes[parts.part_of[edges.of(e)[0] / 3]].closed = false;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    PartShape& shape = shapes[parts.part_of[t]];
+    const Triangle& corners = mesh.triangles[t];
+    if (shape.first_vertex < 0) shape.first_vertex = corners[0];
+    const Vec3d origin = mesh.positions[shape.first_vertex];
+    const Vec3d a = mesh.positions[corners[0]] - origin, b = mesh.positions[corners[1]] - origin;
+    shape.volume += dot(mesh.positions[corners[2]] - origin, cross(a, b));
+    for (const int v : corners) shape.box.add(mesh.positions[v]);
+  }
+  return shapes;
+}
+
+bool contains(const Box3d& outer, const Box3d& inner) {
+  return outer.lower.x <= inner.lower.x && outer.lower.y <= inner.lower.y &&
+         outer.lower.z <= inner.lower.z && outer.upper.x >= inner.upper.x &&
+         outer.upper.y >= inner.upper.y && outer.upper.z >= inner.upper.z;
+}
+
 }  // namespace
 
 std::vector<bool> duplicate_triangles(std::span<const Triangle> triangles, const EdgeUses& edges) {
@@ -97,6 +127,19 @@ void require_manifold_edges(std::span<const Triangle> triangles, const EdgeUses&
                                   count, count == 1 ? "" : "s", edge_name(triangles, edges, first),
                                   edges.of(first).size()),
                       "at most two triangles at an edge are wanted");
+}
+
+std::vector<bool> inside_out_parts(const TriangleMesh& mesh, const EdgeUses& edges,
+                                   const SurfaceParts& parts) {
+  const std::vector<PartShape> shapes = part_shapes(mesh, edges, parts);
+  std::vector<bool> inside_out(shapes.size(), false);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (!shapes[i].closed || shapes[i].volume >= 0) continue;
+    inside_out[i] = std::none_of(shapes.begin(), shapes.end(), [&](const PartShape& other) {
+      return other.closed && other.volume > 0 && contains(other.box, shapes[i].box);
+    });
+  }
+  return inside_out;
 }
 
 }  // namespace weft

@@ -21,6 +21,12 @@ struct SurfaceParts {
 };
 SurfaceParts surface_parts(const TriangleMesh& mesh, const EdgeUses& edges);
 
+/// [parts] whether a closed part is inside out. One that lies in the box of a closed part which
+/// faces outward may be the wall of a hollow in it, and counts as right.
+/// @param edges  also of the mesh before triangles were flipped
+std::vector<bool> inside_out_parts(const TriangleMesh& mesh, const EdgeUses& edges,
+                                   const SurfaceParts& parts);
+
 /// @param mesh_name  what the error calls the mesh
 /// @throws TopologyError with the number of edges that have more than two triangles, and the
 ///         vertices of the first
