@@ -21,7 +21,8 @@ def row_of(path, size):
         return [path.name, error.replace(str(path), path.name)] + [""] * (len(COLUMNS) - 2)
     given, mapped, image, seconds = (report[key] for key in ("input", "map", "image", "seconds"))
     kept = (given["euler"], given["boundaries"]) == (image["euler"], image["boundaries"])
-    return [path.name, given["triangles"], given["genus"], given["boundaries"], mapped["flipped"],
+    genus = "none" if given["genus"] is None else given["genus"]
+    return [path.name, given["triangles"], genus, given["boundaries"], mapped["flipped"],
             mapped["degenerate"], "equal" if image["mates_bit_equal"] else "NOT EQUAL", "kept" if kept else "LOST",
             f"{mapped['stretch_l2']:.3f}", f"{image['psnr_db']:.1f}", f"{image['hausdorff_percent']:.2f}",
             f"{seconds['total']:.2f}", f"{seconds['measure']:.2f}"]
