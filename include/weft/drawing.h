@@ -28,7 +28,8 @@ enum class Look { fabric, body };
 /// Samples that are not finite are drawn at the sample before them.
 struct DrawnSurface {
   const Planes3* positions = nullptr;  ///< [n x n] world [m], n >= 2
-  const BorderMates* mates = nullptr;  ///< so that normals are smooth across seams
+  const BorderMates* mates =
+      nullptr;  ///< so that normals are smooth across seams, and nothing lies between charts
   const NormalMap* normals = nullptr;  ///< shading of bodies; null: made from the positions
   Vec3f colour{0.42F, 0.05F, 0.07F};   ///< linear RGB
   const Planes3* colours =

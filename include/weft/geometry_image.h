@@ -50,8 +50,9 @@ class BorderMates {
   BorderMates(int size, std::vector<MateInterval> intervals);
   /// Several charts. Border edges may be in several runs: the surface's edges have as many
   /// triangles then.
-  /// @throws InputError when a chart is not in the image, or narrower than min_image_size, or two
-  ///         charts have less than one sample between them; as above, but for overlapping runs
+  /// @throws InputError when a chart is not in the image, narrower than min_image_size, or overlaps
+  ///         another; when a position or count is out of range, or the runs together are longer
+  ///         than all borders
   BorderMates(int size, std::vector<Chart> charts, std::vector<MateInterval> intervals);
 
   [[nodiscard]] int size() const { return size_; }

@@ -31,6 +31,9 @@ struct RepairedMesh {
   /// [V] where the surface had to be parted, at edges of more than two triangles and where it
   /// cannot be oriented: vertices of the same number are one point of it. Empty elsewhere.
   std::vector<int> joined;
+  /// [vertices of the input] the first vertex at the position of each, where welding them closed
+  /// borders; empty elsewhere. Of these only first ones are in `source_vertex`.
+  std::vector<int> welded;
   int components_found = 1;  ///< before one was chosen
 };
 
@@ -38,6 +41,9 @@ struct RepairedMesh {
 /// surface. Drops triangles with a repeated index and unreferenced vertices, orients consistently
 /// (breadth first), splits non-manifold vertices into fans, and picks the component. Of all
 /// components those without any area are dropped.
+/// Where all components are wanted, those without area are dropped, and vertices at exactly equal
+/// positions are welded first, if that closes borders and makes no more edges of more than two
+/// triangles.
 /// @throws InputError     empty mesh, not-finite coordinates, index out of range, no area at all
 /// @throws TopologyError  non-manifold edges (count, the first one's vertices), a component that
 ///                        cannot be oriented (an edge named), several components (how many)

@@ -133,7 +133,7 @@ TEST(Charts, AHollowKeepsItsInnerWall) {
 TEST(Charts, PiecesWithoutAreaAreDroppedAndTold) {
   TriangleMesh mesh = make_shape("box");
   const auto first = static_cast<int>(mesh.positions.size());
-  for (int k = 0; k < 3; ++k) mesh.positions.push_back({5, 5, 5});
+  for (const double x : {5.0, 6.0, 7.0}) mesh.positions.push_back({x, 5, 5});
   mesh.triangles.push_back({first, first + 1, first + 2});
   const Conversion made = convert_mesh(mesh, "cube", unmeasured(33));
   EXPECT_EQ(made.charts.size(), 1U);
@@ -160,6 +160,24 @@ TEST(Charts, SurfacesFollowTheVerticesOfAllPieces) {
     const int row = static_cast<int>(place.y), col = static_cast<int>(place.x);
     EXPECT_FALSE(loaded.image.mates.is_hole(row * 65 + col)) << "vertex " << v;
   }
+}
+
+TEST(Charts, AWeldedMeshFollowsAllOfItsVertices) {
+  const TriangleMesh ball = make_shape("sphere");
+  TriangleMesh soup;
+  for (const Triangle& t : ball.triangles) {
+    const int first = static_cast<int>(soup.positions.size());
+    for (const int v : t) soup.positions.push_back(ball.positions[v]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  ConvertOptions options = sized(33);
+  options.keep_source = true;
+  const LoadedSurface loaded = load_surface(Surface(soup, "soup"), options);
+  EXPECT_TRUE(loaded.image.has_one_chart());
+  ASSERT_TRUE(loaded.source);
+  ASSERT_EQ(loaded.source->places.size(), soup.positions.size());
+  for (std::size_t v = 0; v < soup.positions.size(); ++v)
+    EXPECT_TRUE(std::isfinite(loaded.source->places[v].x)) << "vertex " << v;
 }
 
 /// Three pages that meet in a spine.

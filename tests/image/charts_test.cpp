@@ -83,6 +83,9 @@ TEST(Charts, WhatIsNoRectangleInTheImageIsRefused) {
   EXPECT_NE(refusal(13, two, {{0, 45, 3}}).find("0 .. 43"), std::string::npos);
   EXPECT_NE(refusal(13, two, {{0, 20, 21}}).find("1 .. 20"), std::string::npos)
       << "longer than the first chart's border";
+  EXPECT_NE(refusal(13, two, {{0, 20, 20}, {0, 20, 20}, {0, 20, 5}}).find("more than 44"),
+            std::string::npos)
+      << "joined again and again";
 }
 
 TEST(Charts, AreSeparatePiecesWithoutSeams) {

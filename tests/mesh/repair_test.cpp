@@ -246,6 +246,64 @@ TEST(Repair, WeldJoinsEqualPositionsInOrderOfFirstOccurrence) {
   EXPECT_EQ(welded.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 2, 3}}));
 }
 
+/// Every corner of every triangle its own vertex, as files without indices have them.
+TriangleMesh soup_of(const TriangleMesh& mesh) {
+  TriangleMesh soup;
+  for (const Triangle& t : mesh.triangles) {
+    const int first = static_cast<int>(soup.positions.size());
+    for (const int v : t) soup.positions.push_back(mesh.positions[v]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+const ComponentChoice all{ComponentChoice::Kind::all};
+
+TEST(Repair, ASoupOfTrianglesIsWelded) {
+  const TriangleMesh torus = test::torus(5, 7);
+  const RepairedMesh result = repaired(soup_of(torus), all);
+  EXPECT_EQ(result.mesh.positions.size(), torus.positions.size());
+  EXPECT_EQ(result.counts.genus, 1);
+  EXPECT_EQ(result.components_found, 1);
+  EXPECT_EQ(result.repairs,
+            Sentences{"welded 175 vertices to others at the same position, which closes 210 "
+                      "border edges"});
+}
+
+TEST(Repair, WeldedVerticesKnowTheFirstAtTheirPosition) {
+  const TriangleMesh soup = soup_of(test::tetrahedron());
+  const RepairedMesh result = repaired(soup, all);
+  ASSERT_EQ(result.welded.size(), soup.positions.size());
+  for (std::size_t v = 0; v < soup.positions.size(); ++v) {
+    EXPECT_EQ(soup.positions[result.welded[v]], soup.positions[v]);
+    EXPECT_LE(result.welded[v], static_cast<int>(v));
+  }
+}
+
+TEST(Repair, WeldingKeepsTheTextureCoordinatesOfCorners) {
+  TriangleMesh soup = soup_of(test::tetrahedron());
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    soup.corner_uv.push_back({Vec2f{float(t), 0}, Vec2f{float(t), 1}, Vec2f{float(t), 2}});
+  const RepairedMesh result = repaired(soup, all);
+  ASSERT_EQ(result.mesh.corner_uv.size(), soup.triangles.size());
+  for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Vec2f uv = result.mesh.corner_uv[t][k];
+      const Vec3d there = soup.positions[soup.triangles[std::size_t(uv.x)][std::size_t(uv.y)]];
+      EXPECT_EQ(result.mesh.positions[result.mesh.triangles[t][k]], there);
+    }
+}
+
+TEST(Repair, PiecesThatTouchWithoutClosingBordersAreNotWelded) {
+  const TriangleMesh one = test::tetrahedron();
+  TriangleMesh other = one;  // shares one vertex's position with the first
+  const Vec3d moved = one.positions[0] - one.positions[1];
+  for (Vec3d& p : other.positions) p = p + moved;
+  const RepairedMesh result = repaired(test::together(one, other), all);
+  EXPECT_TRUE(result.welded.empty());
+  EXPECT_EQ(result.components_found, 2);
+}
+
 TEST(Repair, RefusesWhatHasNoAreaAtAll) {
   TriangleMesh line;
   line.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};

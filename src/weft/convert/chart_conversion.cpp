@@ -1,7 +1,5 @@
 #include "weft/convert/chart_conversion.h"
 
-#include <algorithm>
-#include <numeric>
 #include <span>
 
 #include <fmt/format.h>

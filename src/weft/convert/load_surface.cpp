@@ -55,6 +55,9 @@ std::vector<Vec2d> places_of(const Conversion& made, int vertices) {
       if (std::isfinite(own[v].x) && !std::isfinite(places[v].x))
         places[v] = own[v] + Vec2d{double(chart.place.col), double(chart.place.row)};
   }
+  if (const std::vector<int>& welded = made.input.welded; !welded.empty())
+    for (std::size_t v = 0; v < places.size(); ++v)
+      if (!std::isfinite(places[v].x)) places[v] = places[welded[v]];
   return places;
 }
 

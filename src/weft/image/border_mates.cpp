@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <numeric>
+#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
@@ -128,8 +128,14 @@ void BorderMates::join(bool overlapping) {
     keep_manifold_ = keep_manifold_ && !taken[edge] && !interval.turned;
     taken[edge] = true;
   };
+  // A border of m charts is joined by m - 1 runs: more than all borders together is no use.
+  std::int64_t joined = 0;
   for (MateInterval& interval : intervals_) {
     check(interval, overlapping);
+    joined += interval.count;
+    if (joined > positions)
+      throw InputError("", fmt::format("runs of mates of more than {} intervals", positions),
+                       "each border edge joined once");
     const int back = interval.turned ? 1 : -1;
     interval.first = along_border(interval.first, 0);
     interval.mate = along_border(interval.mate, 0);

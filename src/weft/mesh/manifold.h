@@ -42,7 +42,7 @@ struct PartedVertices {
 /// Gives every fan of triangles around a vertex its own copy of the vertex, where a fan ends at
 /// parted edges. @param edges  of the triangles as they are  @param parted  [E]
 /// @pre edges that are not parted have one triangle, or two of consistent orientation
-/// @post edges that stay whole because both ends do are not parted after all, see lengthen_slits
+/// @post a parted edge both ends of which lie inside of one fan stays whole; see lengthen_slits
 PartedVertices part_vertices(int vertex_count, std::span<Triangle> triangles, const EdgeUses& edges,
                              const std::vector<bool>& parted);
 

@@ -62,6 +62,40 @@ bool has_area(const TriangleMesh& mesh) {
                      [&](const Triangle& t) { return has_area(mesh, t); });
 }
 
+struct EdgeKinds {
+  std::size_t border = 0, branching = 0;  ///< of one triangle, of more than two
+};
+
+EdgeKinds count_edges(const EdgeUses& edges) {
+  EdgeKinds kinds;
+  for (int e = 0; e < edges.edge_count(); ++e) {
+    kinds.border += edges.of(e).size() == 1 ? 1 : 0;
+    kinds.branching += edges.of(e).size() > 2 ? 1 : 0;
+  }
+  return kinds;
+}
+
+struct PositionHash {
+  std::size_t operator()(Vec3d p) const {
+    Hash hash;
+    // Adding zero makes one of the two zeros, which are equal.
+    const std::array<double, 3> values{p.x + 0.0, p.y + 0.0, p.z + 0.0};
+    hash.add(std::span<const double>(values));
+    return hash.value();
+  }
+};
+
+/// [V] the first vertex at the position of each.
+std::vector<int> first_at_position(std::span<const Vec3d> positions) {
+  std::unordered_map<Vec3d, int, PositionHash> first;
+  first.reserve(positions.size());
+  std::vector<int> result;
+  result.reserve(positions.size());
+  for (const Vec3d p : positions)
+    result.push_back(first.try_emplace(p, static_cast<int>(result.size())).first->second);
+  return result;
+}
+
 /// The repair of one mesh, step by step; each step reports its changes.
 class Repair {
  public:
@@ -82,6 +116,7 @@ class Repair {
   RepairedMesh run() {
     drop_triangles();
     note_unreferenced();
+    if (options_.component.kind == ComponentChoice::Kind::all) weld();
     choose_component();
     if (!has_area(mesh_))
       throw InputError(options_.name, "no triangle has an area", "a surface is wanted");
@@ -141,6 +176,29 @@ class Repair {
     const std::vector<bool> used = used_vertices();
     const auto unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
     if (unused > 0) report(fmt::format("dropped {} without triangles", vertices(unused)));
+  }
+
+  /// Texture seams and files without indices leave a surface in parts that belong together.
+  void weld() {
+    std::vector<int> first = first_at_position(mesh_.positions);
+    std::vector<Triangle> triangles = mesh_.triangles;
+    for (Triangle& t : triangles)
+      for (int& v : t) v = first[v];
+    std::erase_if(triangles, repeats_a_vertex);
+    const EdgeUses edges = edge_uses(static_cast<int>(mesh_.positions.size()), triangles);
+    const EdgeKinds before = count_edges(edges_), after = count_edges(edges);
+    if (after.border >= before.border || after.branching > before.branching) return;
+    std::size_t joined = 0;
+    const std::vector<bool> used = used_vertices();
+    for (std::size_t v = 0; v < first.size(); ++v)
+      joined += used[v] && first[v] != static_cast<int>(v) ? 1 : 0;
+    for (Triangle& t : mesh_.triangles)
+      for (int& v : t) v = first[v];
+    keep_triangles([&](std::size_t t) { return !repeats_a_vertex(mesh_.triangles[t]); });
+    result_.welded = std::move(first);
+    report(fmt::format("welded {} to others at the same position, which closes {}",
+                       vertices(joined), counted(before.border - after.border, "border edge")));
+    find_edges();
   }
 
   void choose_component() {
@@ -279,12 +337,15 @@ class Repair {
       const int source = result_.source_triangle[t];
       for (int k = 0; k < 3; ++k)
         for (int j = 0; j < 3; ++j)
-          if (source_triangles_[source][j] == result_.source_vertex[mesh_.triangles[t][k]])
+          if (welded(source_triangles_[source][j]) == result_.source_vertex[mesh_.triangles[t][k]])
             carried[t][k] = mesh_.corner_uv[source][j];
     }
     mesh_.corner_uv = std::move(carried);
   }
 
+  [[nodiscard]] int welded(int vertex) const {
+    return result_.welded.empty() ? vertex : result_.welded[vertex];
+  }
   [[nodiscard]] std::vector<bool> used_vertices() const {
     std::vector<bool> used(mesh_.positions.size(), false);
     for (const Triangle& t : mesh_.triangles)
@@ -301,16 +362,6 @@ class Repair {
   RepairedMesh result_;
 };
 
-struct PositionHash {
-  std::size_t operator()(Vec3d p) const {
-    Hash hash;
-    // Adding zero turns -0 into +0, since the two compare equal.
-    const std::array<double, 3> values{p.x + 0.0, p.y + 0.0, p.z + 0.0};
-    hash.add(std::span<const double>(values));
-    return hash.value();
-  }
-};
-
 }  // namespace
 
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
@@ -322,20 +373,16 @@ int count_components(const TriangleMesh& mesh, const std::string& name) {
 }
 
 TriangleMesh weld_exact(const TriangleMesh& mesh) {
-  TriangleMesh welded;
-  welded.triangles = mesh.triangles;
-  welded.corner_uv = mesh.corner_uv;
-  std::unordered_map<Vec3d, int, PositionHash> first;
-  first.reserve(mesh.positions.size());
-  std::vector<int> joined;
-  joined.reserve(mesh.positions.size());
-  for (const Vec3d p : mesh.positions) {
-    const auto [entry, is_new] = first.try_emplace(p, static_cast<int>(welded.positions.size()));
-    if (is_new) welded.positions.push_back(p);
-    joined.push_back(entry->second);
+  const std::vector<int> first = first_at_position(mesh.positions);
+  TriangleMesh welded{{}, mesh.triangles, mesh.corner_uv};
+  std::vector<int> number(first.size());
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    const bool is_first = first[v] == static_cast<int>(v);
+    number[v] = is_first ? static_cast<int>(welded.positions.size()) : number[first[v]];
+    if (is_first) welded.positions.push_back(mesh.positions[v]);
   }
   for (Triangle& t : welded.triangles)
-    for (int& v : t) v = joined[v];
+    for (int& v : t) v = number[v];
   return welded;
 }
 

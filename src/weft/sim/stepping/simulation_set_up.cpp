@@ -88,7 +88,7 @@ void Simulation::Parts::load_cloths() {
       throw SceneError(name,
                        fmt::format("cloth '{}' is an image of {} charts", wanted.name,
                                    loaded.image.mates.charts().size()),
-                       "a cloth of one chart is wanted");
+                       "one oriented chart that fills its image is wanted");
     const Planes3 rest = placed_positions(loaded.image, placement_map(wanted.placement));
     Cloth cloth = make(wanted, rest, loaded.image.mates);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
