@@ -23,6 +23,8 @@ def obj_files():
     yield "forward", faces + vertices
     yield "continued", vertices + "f 1 \\\n 3 \\\n 2\n" + "v 1 1 \\\r\n 0 1.0\r\nf 1 2 5 3\r\n"
     yield "words", "# a comment\nmtllib a.mtl\no thing\ng part\nusemtl red\ns off\n" + vertices + faces + "l 1 2\np 1\n"
+    for order in ("le", "be"):
+        yield f"utf16_{order}", ("\ufeff# \u00e4\n" + vertices + faces).encode(f"utf-16-{order}")
     yield "numbers", "v 1e-3 +2 .5\nv -1.5E2 0x1 3\nv nan inf -inf\nv 1e400 1e-400 0\nf 1 2 3\n"
 
 
@@ -32,6 +34,7 @@ def off_files():
     yield "plain", f"OFF\n4 4 6\n{vertices}{faces}"
     yield "one_line", f"OFF 4 4 0\n{vertices}{faces}"
     yield "colours", "COFF # comment\n3 1\n0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n0 1 0 0 0 255 255\n\n3 0 1 2 0.5 0.5 0.5\n"
+    yield "broken_lines", "COFF\n3\n1\n0\n0 0\n0 255\n1\n0\n0\n0 1 0\n3 0 # more\n1\n2 255 0 0\n"
     yield "polygon", "OFF\n5 1 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n"
     yield "false_count", "OFF\n4000000000 4000000000 0\n0 0 0\n"
 
@@ -39,6 +42,10 @@ def off_files():
 def ply_header(form, vertices, faces, extra=""):
     return (f"ply\nformat {form} 1.0\ncomment ours\nelement vertex {vertices}\nproperty float x\nproperty float y\n"
             f"property float z\n{extra}element face {faces}\nproperty list uchar int vertex_indices\nend_header\n").encode()
+
+
+def strips_header(form):
+    return ply_header(form, 4, 1).replace(b"face", b"tristrips").replace(b"uchar", b"int")
 
 
 def ply_files():
@@ -51,6 +58,13 @@ def ply_files():
     extra = "property uchar red\nproperty list uint short weights\nelement other 2\nproperty double q\n"
     body = b"".join(struct.pack("<3fBI2h", *p, 7, 2, 1, 2) for p in POINTS) + struct.pack("<2d", 1, 2)
     yield "extra", ply_header("binary_little_endian", 4, 1, extra) + body + struct.pack("<B4i", 4, 0, 1, 2, 3)
+    yield "strips_text", strips_header("ascii") + (text.split("3 0", 1)[0] + "10 0 1 2 3 -1 3 2 2 1 -1\n").encode()
+    for name, mark in (("little", "<"), ("big", ">")):
+        body = b"".join(struct.pack(mark + "3f", *p) for p in POINTS)
+        body += struct.pack(mark + "11i", 10, 0, 1, 2, 3, -1, 3, 2, 2, 1, -1)
+        yield f"strips_{name}", strips_header(f"binary_{name}_endian") + body
+    stray = ply_header("ascii", 4, 4, "\nrevision 3 \r\n").replace(b"format", b"comment\nformat")
+    yield "stray_lines", b"\xef\xbb\xbf" + stray + text.encode()
     yield "false_count", ply_header("binary_little_endian", 4000000000, 4) + b"\0" * 12
 
 

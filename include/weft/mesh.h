@@ -94,7 +94,8 @@ MeshFile read_mesh_file(const std::filesystem::path& path);
 MeshFile parse_obj_file(std::string_view bytes, std::string_view name);
 
 /// Reads OBJ, OFF, PLY, STL, GLB or glTF by the ending of the name; polygons are split into fans of
-/// triangles; STL and glTF vertices at equal positions are joined.
+/// triangles; STL and glTF vertices at equal positions are joined. Text is UTF-8 or, after its
+/// byte-order mark, UTF-16.
 /// @throws InputError with FILE:LINE where the format has lines, for what is missing, cut short,
 ///         malformed, not finite or above 1e30, or an index out of range
 TriangleMesh read_mesh(const std::filesystem::path& path);

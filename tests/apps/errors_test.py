@@ -13,6 +13,8 @@ ENTRY = re.compile(r"^```text\n\$ (.*)\n(weft: .*)\n```", re.M)
 MESHES = {
     "index.obj": "v 0 0 0\nv 1 0 0\nf 1 2 9\n",
     "nan.obj": "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    "points.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n",
+    "old.gltf": '{"asset": {"version": "1.0"}, "meshes": {}}',
     "two.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 4 5 6\n",
     "fan.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 2 1 5\n",
     "large.obj": "v 0 0 0\nv 170 0 0\nv 0 0 170\nf 1 3 2\n",

@@ -45,6 +45,18 @@ TEST(ParseSeam, PathsComeALineEachWithComments) {
   EXPECT_EQ(seam.paths[1].line, 4);
 }
 
+TEST(ParseSeam, ByteOrderMarksDoNotMatter) {
+  const std::string utf16(
+      "\xff\xfe"
+      "0\0 \0"
+      "7\0\n\0",
+      10);
+  for (const std::string& text : {std::string("\xef\xbb\xbf"
+                                              "0 7\n"),
+                                  utf16})
+    EXPECT_EQ(parse_seam(text, "seam.txt").paths[0].vertices, (std::vector<int>{0, 7}));
+}
+
 TEST(ParseSeam, WhatIsNoPathIsRefusedWithItsLine) {
   EXPECT_EQ(refusal("# nothing\n"), "seam.txt: has no path; a line of vertex numbers is wanted");
   EXPECT_EQ(refusal("0 1\n7\n"),

@@ -36,15 +36,22 @@ std::vector<Sample> samples() {
   binary_ply.replace(binary_ply.find("ascii"), 5, "binary_little_endian");
   binary_ply += std::string(24, '\0') + std::string("\0\0\x80\x3f", 4) + std::string(8, '\0') +
                 std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+  std::string strips = ply;
+  strips.replace(strips.find("element face"), 12, "element tristrips");
+  strips.replace(strips.size() - 8, 8, "7 0 1 2 -1 2 1 0\n");
+  std::string wide_obj = "\xff\xfe";
+  for (const char c : obj) wide_obj += {c, '\0'};
   const std::string stl =
       "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
       "endfacet\nendsolid\n";
   std::string binary_stl(84 + 50, '\0');
   binary_stl[80] = 1;
   return {{"a.obj", parse_obj, obj},
+          {"b.obj", parse_obj, wide_obj},
           {"a.off", parse_off, off},
           {"a.ply", parse_ply, ply},
           {"b.ply", parse_ply, binary_ply},
+          {"c.ply", parse_ply, strips},
           {"a.stl", parse_stl, stl},
           {"b.stl", parse_stl, binary_stl},
           {"b.glb", parse_glb, test::CreasedPair{}.bytes()}};

@@ -125,7 +125,10 @@ TEST(ReadObj, WhatIsNoMeshIsRefusedInOneLine) {
   EXPECT_EQ(refusal(""), "a.obj: is empty; an OBJ text file is wanted");
   EXPECT_EQ(refusal("Dear reader,\nthis is a letter.\n"),
             "a.obj: has no vertex lines (v x y z); an OBJ mesh is wanted");
-  EXPECT_EQ(refusal(square), "a.obj: has 4 vertices but no faces; a surface is wanted");
+  EXPECT_EQ(refusal(square + "p 1 2 3 4\n"),
+            "a.obj: holds points only: 4 vertices and no faces; a surface of triangles is wanted");
+  EXPECT_EQ(refusal(square + "l 1 2\nl 3 4\n"),
+            "a.obj: holds lines only: 4 vertices and no faces; a surface of triangles is wanted");
   EXPECT_NE(refusal("\x89PNG\r\n" + std::string(8, '\0')).find("binary"), std::string::npos);
 }
 

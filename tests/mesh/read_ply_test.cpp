@@ -90,7 +90,7 @@ TEST(ReadPly, BadHeadersAreRefusedWithTheirLine) {
   expect("ply\nelement vertex 4000000000\n", "a.ply:2: the number of 'vertex' is '4000000000'");
   expect("ply\nelement vertex 1\nproperty half x\n", "a.ply:3: property type 'half'");
   expect("ply\nelement vertex 1\nproperty list float int x\n", "a.ply:3: a list whose length");
-  expect("ply\nsurprise\n", "a.ply:2: header line 'surprise'");
+  expect("ply\nsurprise\n", "a.ply:2: the file ends inside the header");
   expect("ply\nelement vertex 5\nend_header\n", "a.ply:3: element 'vertex' has no properties");
   expect("ply\nformat ascii 1.0\nend_header\n", "a.ply: has no element vertex");
   expect("ply\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n",
@@ -141,7 +141,95 @@ TEST(ReadPly, BinaryErrorsNameTheItem) {
 
 TEST(ReadPly, CloudOfPointsIsNoSurface) {
   EXPECT_EQ(refusal(header("ascii", 2, 0) + "0 0 0 0\n1 1 1 1\n"),
-            "a.ply: has 2 vertices but no faces; a surface is wanted");
+            "a.ply: holds points only: 2 vertices and no faces; a surface of triangles is wanted");
+}
+
+TEST(ReadPly, EdgesAloneAreNoSurface) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+      "property float z\nelement edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n"
+      "0 0 0\n1 1 1\n0 1\n";
+  EXPECT_EQ(refusal(text),
+            "a.ply: holds lines only: 2 vertices and no faces; a surface of triangles is wanted");
+}
+
+TEST(ReadPly, StrayHeaderLinesAreSteppedOver) {
+  const std::string text =
+      "ply \r\ncomment before the format\r\nformat ascii 1.0  \r\n\r\nmodified by a program\r\n"
+      "element vertex 3 \r\nproperty float x\t\r\nproperty float y\r\n  \r\nproperty float z\r\n"
+      "material 7\r\nelement face 1\r\n# a remark\r\nproperty list uchar int vertex_indices\r\n"
+      "end_header \r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n";
+  EXPECT_EQ(parse(text).triangles, (Triangles{{0, 1, 2}}));
+  std::string bytes = binary_square<float>(false);
+  bytes.insert(bytes.find("element face"), "\nrevision 3\r\n \n");
+  EXPECT_EQ(parse(bytes).triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(ReadPly, HeaderLinesThatMayChangeTheLayoutAreRefused) {
+  for (const std::string line :
+       {"Element vertex 3", "PROPERTY float x", "propert float x", "prop list uchar int seen"}) {
+    const std::string keyword = line.substr(0, line.find(' '));
+    EXPECT_EQ(refusal("ply\nformat ascii 1.0\n" + line + "\nend_header\n"),
+              "a.ply:3: header line '" + keyword + "'; element, property or end_header is wanted");
+  }
+}
+
+/// Five vertices in two strips, apart by -1. The second begins with a degenerate triangle.
+const std::vector<int> two_strips{0, 1, 2, 3, -1, 2, 2, 4, 3, -1};
+const Triangles two_strips_triangles{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}};
+
+std::string strips_header(const std::string& format) {
+  return "ply\nformat " + format +
+         " 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+         "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+}
+
+std::string text_strips(const std::string& list) {
+  return strips_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n" + list + "\n";
+}
+
+std::string binary_strips(bool big) {
+  std::string bytes = strips_header(big ? "binary_big_endian" : "binary_little_endian");
+  for (const float x : {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0}) put(bytes, x, big);
+  put(bytes, static_cast<std::int32_t>(two_strips.size()), big);
+  for (const int v : two_strips) put(bytes, std::int32_t{v}, big);
+  return bytes;
+}
+
+TEST(ReadPly, StripsBecomeTrianglesThatFaceOneWay) {
+  std::string list = std::to_string(two_strips.size());
+  for (const int v : two_strips) list += " " + std::to_string(v);
+  const TriangleMesh mesh = parse(text_strips(list));
+  EXPECT_EQ(mesh.triangles, two_strips_triangles);
+  for (const auto& [a, b, c] : mesh.triangles)
+    EXPECT_GT(cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]).z,
+              0);
+  for (const bool big : {false, true}) {
+    EXPECT_EQ(parse(binary_strips(big)).positions, mesh.positions);
+    EXPECT_EQ(parse(binary_strips(big)).triangles, mesh.triangles);
+  }
+}
+
+TEST(ReadPly, StripsMayLackTheLastMarkAndBeTooShortForATriangle) {
+  EXPECT_EQ(parse(text_strips("3 2 1 0")).triangles, (Triangles{{2, 1, 0}}));
+  EXPECT_EQ(parse(text_strips("9 -1 0 1 -1 2 -1 0 1 2")).triangles, (Triangles{{0, 1, 2}}));
+  EXPECT_NE(refusal(text_strips("3 0 0 1")).find("no faces"), std::string::npos);
+}
+
+TEST(ReadPly, BadStripsAreRefused) {
+  const auto expect = [](const std::string& list, const std::string& wanted) {
+    EXPECT_EQ(refusal(text_strips(list)).substr(0, wanted.size()), wanted);
+  };
+  expect("3 0 1 5", "a.ply:15: a face uses vertex 5 of 5");
+  expect("3 0 1 -2", "a.ply:15: a face uses vertex -2 of 5");
+  expect("2000000000 0 1 2", "a.ply:15: the line ends before all properties");
+  const std::string whole = binary_strips(true);
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_FALSE(refusal(whole.substr(0, size)).empty()) << "cut after " << size << " bytes";
+  std::string other = text_strips("3 0 1 2");
+  other.replace(other.find("vertex_indices"), 14, "corners");
+  EXPECT_EQ(refusal(other),
+            "a.ply: its strips have 0 lists of vertices; one list vertex_indices is wanted");
 }
 
 TEST(ReadPly, TextureCoordinatesOfVerticesComeUnderAllTheirNames) {

@@ -11,13 +11,16 @@
 #include "weft/files.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
+#include "weft/mesh/io/text_encoding.h"
 
 namespace weft {
 
 Seam parse_seam(std::string_view bytes, std::string_view name) {
-  require_text(bytes, name, "a text file of vertex paths");
+  std::string decoded;
+  const std::string_view text = plain_text(bytes, decoded);
+  require_text(text, name, "a text file of vertex paths");
   Seam seam{std::string(name), {}};
-  LineReader reader(without_mark(bytes), name);
+  LineReader reader(text, name);
   while (reader.next_filled_line()) {
     SeamPath path{reader.line_number(), {}};
     for (std::string_view field = reader.next_field(); !field.empty();

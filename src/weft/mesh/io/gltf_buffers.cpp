@@ -107,6 +107,7 @@ GltfParts split_gltf(std::string_view bytes, std::string_view name) {
     throw InputError(
         name, fmt::format("is {} bytes long, which is not the length it tells", bytes.size()),
         "a whole GLB file is wanted");
+  if (number_at(bytes, 4) == 1) throw InputError(name, "is glTF 1.0", "glTF 2.0 is wanted");
   if (number_at(bytes, 4) != 2)
     throw InputError(name, fmt::format("a GLB file of version {}", number_at(bytes, 4)),
                      "version 2 is wanted");

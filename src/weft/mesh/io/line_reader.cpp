@@ -55,11 +55,14 @@ bool LineReader::next_line() {
 }
 
 bool LineReader::next_filled_line() {
-  while (next_line()) {
-    const std::size_t start = line_.find_first_not_of(" \t");
-    if (start != line_.npos && line_[start] != '#') return true;
-  }
+  while (next_line())
+    if (has_field()) return true;
   return false;
+}
+
+bool LineReader::has_field() const {
+  const std::size_t start = line_.find_first_not_of(" \t");
+  return start != line_.npos && line_[start] != '#';
 }
 
 std::string_view LineReader::next_field() {

@@ -31,6 +31,8 @@ class LineReader {
   bool next_line();
   /// Goes to the next line that has a field; false when there is none.
   bool next_filled_line();
+  /// Whether the line has a further field.
+  [[nodiscard]] bool has_field() const;
   /// The next field of the line; empty at its end.
   std::string_view next_field();
   /// Everything behind the current line and its end.

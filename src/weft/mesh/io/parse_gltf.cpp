@@ -25,7 +25,7 @@ constexpr int deepest_nesting = 64;
 /// size in bytes as the limit.
 constexpr std::size_t max_shown_freely = 4'000'000;
 
-enum Mode { triangles_mode = 4, strip_mode = 5, fan_mode = 6 };
+enum Mode { points_mode = 0, triangles_mode = 4, strip_mode = 5, fan_mode = 6 };
 
 nlohmann::json parse_text(std::string_view text, std::string_view name) {
   try {
@@ -37,9 +37,10 @@ nlohmann::json parse_text(std::string_view text, std::string_view name) {
 
 /// Refuses a file that requires an extension which changes the geometry, but for quantization.
 void check_extensions(const GltfObject& root) {
-  // These change how a surface looks, not where it is.
-  constexpr std::array<std::string_view, 4> looks{"KHR_materials_", "KHR_texture_", "KHR_lights_",
-                                                  "EXT_texture_"};
+  // These change how a surface looks or tell who made it, not where it is.
+  constexpr std::array<std::string_view, 7> looks{"KHR_materials_", "KHR_texture_", "KHR_lights_",
+                                                  "KHR_xmp",        "EXT_texture_", "MSFT_texture_",
+                                                  "EXT_lights_"};
   for (const std::string& extension : root.texts("extensionsRequired")) {
     const bool harmless = extension == "KHR_mesh_quantization" ||
                           std::any_of(looks.begin(), looks.end(), [&](std::string_view prefix) {
@@ -55,6 +56,7 @@ void check_version(const GltfObject& root) {
   const std::optional<GltfObject> asset = root.object("asset");
   if (!asset) root.fail("has no asset", "a glTF 2.0 mesh is wanted");
   const std::string version = asset->text("version").value_or("");
+  if (version.starts_with("1.")) root.fail("is glTF 1.0", "glTF 2.0 is wanted");
   if (!version.starts_with("2."))
     asset->fail(fmt::format("tells version '{}'", version), "glTF 2.0 is wanted");
 }
@@ -68,12 +70,12 @@ std::vector<Triangle> triangles_of(const GltfObject& primitive, int mode,
   std::vector<Triangle> triangles;
   const std::size_t step = mode == triangles_mode ? 3 : 1;
   triangles.reserve(count / step);
+  if (mode == strip_mode) {
+    add_strip(triangles, corners);
+    return triangles;
+  }
   for (std::size_t i = 0; i + 2 < count; i += step) {
-    const bool turned = mode == strip_mode && i % 2 == 1;
-    const int a = corners[mode == fan_mode ? 0 : i];
-    const int b = corners[turned ? i + 2 : i + 1];
-    const int c = corners[turned ? i + 1 : i + 2];
-    // Strips use degenerate triangles as jumps.
+    const int a = corners[mode == fan_mode ? 0 : i], b = corners[i + 1], c = corners[i + 2];
     if (mode == triangles_mode || (a != b && b != c && c != a)) triangles.push_back({a, b, c});
   }
   return triangles;
@@ -91,12 +93,19 @@ class Gatherer {
       add_primitive(object.element("primitives", i), placed.placing);
   }
 
-  TriangleMesh take() { return std::move(mesh_); }
+  TriangleMesh take() {
+    if (mesh_.triangles.empty() && (points_ || lines_))
+      root_.fail(fmt::format("holds {} only", lines_ ? "lines" : "points"), surface_wanted);
+    return std::move(mesh_);
+  }
 
  private:
   void add_primitive(const GltfObject& primitive, const Placing& placing) {
     const auto mode = static_cast<int>(primitive.integer("mode", 0, 6).value_or(triangles_mode));
-    if (mode < triangles_mode) return;  // points and lines have no surface
+    if (mode < triangles_mode) {  // points and lines have no surface
+      (mode == points_mode ? points_ : lines_) = true;
+      return;
+    }
     const std::optional<GltfObject> attributes = primitive.object("attributes");
     const std::optional<int> position =
         attributes ? attributes->index("POSITION", root_.count("accessors")) : std::nullopt;
@@ -159,6 +168,7 @@ class Gatherer {
   GltfBuffers& buffers_;
   std::size_t most_;
   TriangleMesh mesh_;
+  bool points_ = false, lines_ = false;       ///< whether such were left out
   std::map<int, std::pair<int, int>> bases_;  ///< by accessor, of the mesh that is being added
 };
 

@@ -11,6 +11,7 @@
 #include "weft/mesh.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
+#include "weft/mesh/io/text_encoding.h"
 
 // tinyobjloader splits the face lines. It accepts invalid input (cut lines, words as zeros, indices
 // out of range), does not round decimals correctly, and reports no line numbers. So every vertex
@@ -30,6 +31,7 @@ struct ObjScan {
   std::vector<Vec2f> texture;  ///< not finite where a line is not u and v
   std::vector<ForwardReference> forward;
   std::size_t faces = 0;
+  bool lines = false;
 };
 
 void scan_vertex(LineReader& reader, ObjScan& scan) {
@@ -100,6 +102,7 @@ ObjScan scan_obj(std::string_view bytes, std::string_view name) {
     if (keyword == "v") scan_vertex(reader, scan);
     if (keyword == "vt") scan_texture(reader, scan);
     if (keyword == "f") scan_face(reader, scan);
+    if (keyword == "l") scan.lines = true;
   }
   for (const ForwardReference& reference : scan.forward)
     if (reference.index > static_cast<std::int64_t>(scan.positions.size()))
@@ -216,8 +219,10 @@ void keep_texture(std::vector<Vec2f> texture, MeshFaces& faces) {
 
 /// @param faces  receives polygons and texture indices as they are in the file; may be null
 TriangleMesh parse(std::string_view bytes, std::string_view name, MeshFaces* faces) {
-  require_text(bytes, name, "an OBJ text file");
-  const std::string text = join_continued_lines(without_mark(bytes));
+  std::string decoded;
+  const std::string_view plain = plain_text(bytes, decoded);
+  require_text(plain, name, "an OBJ text file");
+  const std::string text = join_continued_lines(plain);
   ObjScan scan = scan_obj(text, name);
   if (scan.positions.empty())
     throw InputError(name, "has no vertex lines (v x y z)", "an OBJ mesh is wanted");
@@ -226,7 +231,7 @@ TriangleMesh parse(std::string_view bytes, std::string_view name, MeshFaces* fac
   load_faces(text, scan.texture, mesh, faces);
   if (faces != nullptr) keep_texture(std::move(scan.texture), *faces);
   keep_whole_texture(mesh);
-  require_surface(mesh, name);
+  require_surface(mesh, name, scan.lines);
   return mesh;
 }
 

@@ -10,6 +10,7 @@
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/ply_format.h"
 #include "weft/mesh/io/polygon.h"
+#include "weft/mesh/io/text_encoding.h"
 
 namespace weft {
 namespace {
@@ -33,6 +34,22 @@ bool is_face_list(const PlyProperty& property) {
          (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
+/// The elements that may hold the surface: polygons, and strips of triangles as of Stanford's
+/// scans.
+constexpr std::string_view faces = "face", strips = "tristrips";
+
+void check_lists(const PlyHeader& header, std::string_view kind, std::string_view name) {
+  const PlyElement* element = find_element(header, kind);
+  if (element == nullptr) return;
+  const auto found =
+      std::count_if(element->properties.begin(), element->properties.end(), is_face_list);
+  if (found != 1)
+    throw InputError(
+        name,
+        fmt::format("its {} have {} lists of vertices", kind == faces ? "faces" : "strips", found),
+        "one list vertex_indices is wanted");
+}
+
 void check_layout(const PlyHeader& header, std::string_view name) {
   const PlyElement* vertex = find_element(header, "vertex");
   if (vertex == nullptr) throw InputError(name, "has no element vertex", "a mesh is wanted");
@@ -40,13 +57,8 @@ void check_layout(const PlyHeader& header, std::string_view name) {
   for (const PlyProperty& p : vertex->properties)
     found += !p.is_list() && (p.name == "x" || p.name == "y" || p.name == "z") ? 1 : 0;
   if (found != 3) throw InputError(name, "its vertices lack x, y or z", "all three are wanted");
-  const PlyElement* face = find_element(header, "face");
-  if (face == nullptr) return;
-  found = 0;
-  for (const PlyProperty& p : face->properties) found += is_face_list(p) ? 1 : 0;
-  if (found != 1)
-    throw InputError(name, fmt::format("its faces have {} lists of vertices", found),
-                     "one list vertex_indices is wanted");
+  check_lists(header, faces, name);
+  check_lists(header, strips, name);
 }
 
 /// 0 for u, 1 for v, -1 for a property that is no texture coordinate; programs use several names.
@@ -102,22 +114,41 @@ TriangleMesh textured(PlyMesh read, bool has_texture) {
   return std::move(read.mesh);
 }
 
+/// Checks the index of a face's corner.
+int vertex_of(const PlyValues& values, double index, std::int64_t vertices) {
+  if (!(index >= 0 && index < static_cast<double>(vertices) && index == std::floor(index)))
+    values.fail(fmt::format("a face uses vertex {} of {}", index, vertices),
+                "an existing vertex, counted from 0, is wanted");
+  return static_cast<int>(index);
+}
+
 void add_face(const PlyValues& values, std::span<const double> list, std::int64_t vertices,
               TriangleMesh& mesh) {
   if (list.size() < 3)
     values.fail(fmt::format("a face with {} corners", list.size()), "at least 3 are wanted");
   std::vector<int> polygon;
   polygon.reserve(list.size());
-  for (const double index : list) {
-    if (!(index >= 0 && index < static_cast<double>(vertices) && index == std::floor(index)))
-      values.fail(fmt::format("a face uses vertex {} of {}", index, vertices),
-                  "an existing vertex, counted from 0, is wanted");
-    polygon.push_back(static_cast<int>(index));
-  }
+  for (const double index : list) polygon.push_back(vertex_of(values, index, vertices));
   add_polygon(mesh, polygon);
 }
 
-/// Reads a face, or skips an item of an element that is not part of the surface.
+/// Adds the strips of one list, apart by -1; each turns its second triangle over, wherever it
+/// begins.
+void add_strips(const PlyValues& values, std::span<const double> list, std::int64_t vertices,
+                TriangleMesh& mesh) {
+  std::vector<int> strip;
+  for (const double index : list) {
+    if (index != -1) {
+      strip.push_back(vertex_of(values, index, vertices));
+      continue;
+    }
+    add_strip(mesh.triangles, strip);
+    strip.clear();
+  }
+  add_strip(mesh.triangles, strip);
+}
+
+/// Reads a face or strips, or skips an item of an element that is not part of the surface.
 void read_other(PlyValues& values, const PlyElement& element, std::int64_t vertices,
                 TriangleMesh& mesh) {
   std::vector<double> list;
@@ -127,7 +158,9 @@ void read_other(PlyValues& values, const PlyElement& element, std::int64_t verti
       continue;
     }
     read_list(values, property, list);
-    if (element.name == "face" && is_face_list(property)) add_face(values, list, vertices, mesh);
+    if (!is_face_list(property)) continue;
+    if (element.name == faces) add_face(values, list, vertices, mesh);
+    if (element.name == strips) add_strips(values, list, vertices, mesh);
   }
 }
 
@@ -135,7 +168,8 @@ void read_other(PlyValues& values, const PlyElement& element, std::int64_t verti
 
 TriangleMesh parse_ply(std::string_view bytes, std::string_view name) {
   if (bytes.empty()) throw InputError(name, "is empty", "a PLY mesh is wanted");
-  LineReader reader(bytes, name);
+  std::string decoded;
+  LineReader reader(plain_text(bytes, decoded), name);
   const PlyHeader header = read_ply_header(reader);
   check_layout(header, name);
   const PlyElement& vertex = *find_element(header, "vertex");
@@ -152,7 +186,8 @@ TriangleMesh parse_ply(std::string_view bytes, std::string_view name) {
       values.end_item();
     }
   values.expect_end();
-  require_surface(read.mesh, name);
+  const PlyElement* edge = find_element(header, "edge");
+  require_surface(read.mesh, name, edge != nullptr && edge->count > 0);
   return textured(std::move(read), has_texture(vertex));
 }
 

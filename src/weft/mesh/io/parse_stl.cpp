@@ -9,6 +9,7 @@
 #include "weft/mesh/io/byte_reader.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
+#include "weft/mesh/io/text_encoding.h"
 #include "weft/repair.h"
 
 namespace weft {
@@ -101,10 +102,11 @@ bool looks_like_text(std::string_view bytes) {
 TriangleMesh parse_stl(std::string_view bytes, std::string_view name) {
   if (bytes.empty()) throw InputError(name, "is empty", "an STL mesh is wanted");
   TriangleMesh mesh;
+  std::string decoded;
   if (bytes.size() >= header_size && bytes.size() == binary_size(bytes)) {
     mesh = read_binary(bytes, name);
-  } else if (looks_like_text(without_mark(bytes))) {
-    mesh = TextFacets(without_mark(bytes), name).read();
+  } else if (const std::string_view text = plain_text(bytes, decoded); looks_like_text(text)) {
+    mesh = TextFacets(text, name).read();
   } else {
     const std::string found =
         bytes.size() < header_size || bytes.find('\0') == bytes.npos

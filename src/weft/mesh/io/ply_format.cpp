@@ -1,5 +1,6 @@
 #include "weft/mesh/io/ply_format.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/core/names.h"
 #include "weft/error.h"
 #include "weft/mesh/io/byte_reader.h"
 #include "weft/mesh/io/line_reader.h"
@@ -16,7 +18,8 @@ namespace weft {
 
 namespace {
 
-PlyType read_type(LineReader& reader) {
+/// The type of a name; none for any other word.
+PlyType type_of(std::string_view field) {
   constexpr std::array<std::pair<std::string_view, PlyType>, 16> names{{
       {"char", PlyType::int8},
       {"int8", PlyType::int8},
@@ -35,10 +38,17 @@ PlyType read_type(LineReader& reader) {
       {"double", PlyType::float64},
       {"float64", PlyType::float64},
   }};
-  const std::string_view field = reader.next_field();
   for (const auto& [name, type] : names)
     if (name == field) return type;
-  reader.fail("property type " + in_quotes(field), "a type from char to double is wanted");
+  return PlyType::none;
+}
+
+PlyType read_type(LineReader& reader) {
+  const std::string_view field = reader.next_field();
+  const PlyType type = type_of(field);
+  if (type == PlyType::none)
+    reader.fail("property type " + in_quotes(field), "a type from char to double is wanted");
+  return type;
 }
 
 PlyFormat read_format(LineReader& reader) {
@@ -98,6 +108,17 @@ void check_counts(const LineReader& reader, const PlyHeader& header) {
   }
 }
 
+/// Steps over a line of another program. One that reads like a property, or like a keyword in
+/// capitals, is refused: without it all that follows would be taken for something else.
+void skip_unknown(LineReader& reader, std::string_view keyword) {
+  constexpr std::array<std::string_view, 4> known{"element", "property", "format", "end_header"};
+  const std::string_view second = reader.next_field();
+  const bool layout = second == "list" || type_of(second) != PlyType::none ||
+                      std::find(known.begin(), known.end(), lower_case(keyword)) != known.end();
+  if (layout)
+    reader.fail("header line " + in_quotes(keyword), "element, property or end_header is wanted");
+}
+
 /// @return false after end_header
 bool read_header_line(LineReader& reader, PlyHeader& header) {
   const std::string_view keyword = reader.next_field();
@@ -110,7 +131,7 @@ bool read_header_line(LineReader& reader, PlyHeader& header) {
     if (header.elements.empty()) reader.fail("a property before any element", "element is wanted");
     header.elements.back().properties.push_back(read_property(reader));
   } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
-    reader.fail("header line " + in_quotes(keyword), "element, property or end_header is wanted");
+    skip_unknown(reader, keyword);
   }
   return true;
 }
