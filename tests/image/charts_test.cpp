@@ -88,6 +88,11 @@ TEST(Charts, WhatIsNoRectangleInTheImageIsRefused) {
       << "joined again and again";
 }
 
+TEST(Charts, ARunMayBeLongerThanTheBorderOfAChartThatItIsNotOn) {
+  EXPECT_EQ(refusal(13, two, {{20, 20, 24}}), "") << "the first chart's border has 20 intervals";
+  EXPECT_NE(refusal(13, two, {{20, 20, 25}}).find("1 .. 24"), std::string::npos);
+}
+
 TEST(Charts, AreSeparatePiecesWithoutSeams) {
   const TopologyCounts counts = counts_of(flat_charts(13, two, {}));
   EXPECT_EQ(counts.components, 2);

@@ -98,7 +98,7 @@ void BorderMates::place_charts() {
 void BorderMates::check(const MateInterval& interval, bool overlapping) const {
   const int positions = border_length();
   const auto is_position = [&](int t) { return t >= 0 && t <= positions; };
-  int most = charts_[0].border_length();
+  int most = positions;
   for (const int position : {interval.first, interval.mate}) {
     const auto above =
         std::upper_bound(first_position_.begin(), first_position_.end() - 1, position);
