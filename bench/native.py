@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs a benchmark program of the release build and puts what it prints into docs/measured.md.
 
-Usage: bench/native.py kernels | error_129 | error_65 [--write]
+Usage: bench/native.py kernels | error_129 | error_65 | charts [--write]
 """
 import argparse
 import subprocess
@@ -11,7 +11,8 @@ import program
 
 COMMANDS = {"kernels": ("weft_bench_kernels",),
             "error_129": ("weft_bench_error", "--size", "129", "-o", "docs/figures/error_over_time.png"),
-            "error_65": ("weft_bench_error", "--size", "65")}
+            "error_65": ("weft_bench_error", "--size", "65"),
+            "charts": ("weft_bench_charts",)}
 
 
 def main():

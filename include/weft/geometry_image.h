@@ -64,6 +64,8 @@ class BorderMates {
   [[nodiscard]] std::span<const int> mates(int index) const {
     return std::span(samples_).subspan(starts_[index], starts_[index + 1] - starts_[index]);
   }
+  /// mates(index) without holes: one sample or more.
+  [[nodiscard]] std::span<const int> copies(int index) const;
   /// The sample that stands for the class of `sample`, the first of it; the sample itself where it
   /// has none. Never a hole.
   [[nodiscard]] int representative(int sample) const;
@@ -82,6 +84,17 @@ class BorderMates {
   [[nodiscard]] const std::vector<int>& chart_of() const { return chart_of_; }
   [[nodiscard]] bool is_hole(int sample) const {
     return !chart_of_.empty() && chart_of_[static_cast<std::size_t>(sample)] < 0;
+  }
+  /// Whether two samples lie in the same chart. @pre both are in the image
+  [[nodiscard]] bool same_chart(int a, int b) const {
+    return chart_of_.empty() || (!is_hole(a) && chart_of_[static_cast<std::size_t>(a)] ==
+                                                    chart_of_[static_cast<std::size_t>(b)]);
+  }
+  /// Whether the cell from (row, col) to (row + 1, col + 1) lies in a chart; false outside of the
+  /// image.
+  [[nodiscard]] bool has_cell(int row, int col) const {
+    return row >= 0 && col >= 0 && row + 1 < size_ && col + 1 < size_ &&
+           same_chart(row * size_ + col, (row + 1) * size_ + col + 1);
   }
 
  private:

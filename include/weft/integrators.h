@@ -24,6 +24,7 @@ struct IntegratorTraits {
   /// only the few samples about pins are overstretched, more of them in finer images, but they
   /// carry the whole cloth's weight: that takes many passes, which cost little.
   int min_passes = 0, max_passes = 0;
+  bool several_charts = false;  ///< takes cloths whose image has several charts
   double bytes_per_sample = 0;  ///< memory of a cloth for each sample
   double bytes_per_pair = 0;    ///< and for every pair of samples
 };
@@ -119,7 +120,8 @@ struct NewtonOptions {
   double tolerance = 0.1;
 
   static constexpr std::string_view name = "newton";
-  static constexpr IntegratorTraits traits{.heeds_contacts = true, .bytes_per_sample = 1150};
+  static constexpr IntegratorTraits traits{
+      .heeds_contacts = true, .several_charts = true, .bytes_per_sample = 1150};
   template <class Visit>
   static void visit_options(const Visit& visit) {
     visit("max_iterations", &NewtonOptions::max_iterations, OptionRange{1, 1'000'000});

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/cloth/newton_system.h"
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/integrator.h"
 #include "weft/cloth/measure.h"
-#include "weft/cloth/newton/block_multigrid.h"
 #include "weft/cloth/newton/line_factor.h"
 #include "weft/cloth/newton/newton_solver.h"
 #include "weft/cloth/newton/seams.h"
@@ -18,7 +18,6 @@ namespace {
 
 using namespace testing;
 
-constexpr double step = 1.0 / 240;
 constexpr Vec3d gravity{0, -9.81, 0};
 
 /// The sides of a square a b a' b' c d c' d' in eighths: a closed surface of genus 2.
@@ -31,12 +30,6 @@ BorderMates double_torus_mates(int n) {
            {5 * half, 8 * half, half}}};
 }
 
-/// True cotton, light and stiff cloth, and one with warp and weft.
-const Material cotton{.density = 0.15, .stretch = 20000, .shear = 100, .bending = 1.2e-5};
-const Material hard{.density = 0.02, .stretch = 100000, .shear = 20, .bending = 1e-5, .damping = 0};
-const Material woven{
-    .density = 0.1, .stretch = {30000, 9000}, .shear = 60, .bending = {2e-5, 4e-6}, .damping = 1};
-
 void hang(Cloth& cloth) {
   for (const int s : {0, cloth.size - 1}) pin(cloth, s, vec_cast<double>(cloth.rest.at(s)));
 }
@@ -44,103 +37,6 @@ void hang(Cloth& cloth) {
 double energy_of(const Cloth& cloth, const ClothState& state) {
   return kinetic_energy(cloth, state) + potential_energy(cloth, state, gravity);
 }
-
-/// A linear system as a step meets it: springs linearised at a shaken state.
-struct System {
-  explicit System(const Cloth& of, double shaken = 0.2)
-      : cloth(of), springs(of, kernels), multigrid(of, 1, kernels), state(of.size) {
-    Planes3 at = of.rest;
-    shake(of, shaken * of.rest_spacing, at);
-    for (int r = 0; r < of.size; ++r)
-      for (int c = 0; c < of.size; ++c) {
-        const Vec3f p = at.at(r, c);
-        state.position.x(r, c) = state.start.x(r, c) = p.x;
-        state.position.y(r, c) = state.start.y(r, c) = p.y;
-        state.position.z(r, c) = state.start.z(r, c) = p.z;
-      }
-    springs.set_time_step(step);
-    team.run([&](Worker& worker) {
-      for (int r = 0; r < of.size; ++r) springs.linearise_row(state, 0.1F, r);
-      for (int r = 0; r < of.size; ++r) multigrid.fill_diagonals(springs, r);
-      multigrid.set_up(springs, worker);
-    });
-  }
-  PaddedVectors random_field(int seed) const {
-    Random random(static_cast<std::uint64_t>(seed));
-    Planes3 planes(cloth.size);
-    shake(cloth, 1, planes, seed);
-    PaddedVectors field(cloth.size, cloth.size);
-    for (int r = 0; r < cloth.size; ++r)
-      for (int c = 0; c < cloth.size; ++c) {
-        if (cloth.inverse_mass(r, c) == 0) continue;
-        field.x(r, c) = planes.x(r, c);
-        field.y(r, c) = planes.y(r, c);
-        field.z(r, c) = planes.z(r, c);
-      }
-    return field;
-  }
-  double dot(const PaddedVectors& a, const PaddedVectors& b) const {
-    double sum = 0;
-    for (int r = 0; r < cloth.size; ++r)
-      for (int c = 0; c < cloth.size; ++c)
-        if (cloth.owner(r, c) > 0)
-          sum += double{a.x(r, c)} * b.x(r, c) + double{a.y(r, c)} * b.y(r, c) +
-                 double{a.z(r, c)} * b.z(r, c);
-    return sum;
-  }
-  void times(const PaddedVectors& x, PaddedVectors& out) {
-    team.run([&](Worker& worker) { multigrid.apply(x, {}, out, worker); });
-  }
-  const PaddedVectors& cycle(const PaddedVectors& rhs) {
-    for (int r = 0; r < cloth.size; ++r)
-      for (int c = 0; c < cloth.size; ++c) {
-        multigrid.rhs().x(r, c) = rhs.x(r, c);
-        multigrid.rhs().y(r, c) = rhs.y(r, c);
-        multigrid.rhs().z(r, c) = rhs.z(r, c);
-      }
-    team.run([&](Worker& worker) { multigrid.cycle(worker); });
-    return multigrid.value();
-  }
-  /// Iterations of preconditioned conjugate gradients to a hundredth of the error's energy norm.
-  int iterations_to_a_hundredth() {
-    const int n = cloth.size;
-    const PaddedVectors solution = random_field(5);
-    PaddedVectors residual(n, n), direction(n, n), product(n, n), error = random_field(5);
-    times(solution, residual);
-    const double first = dot(solution, residual);
-    double curvature = 0;
-    for (int i = 1; i < 60; ++i) {
-      const PaddedVectors& z = cycle(residual);
-      const double slope = dot(residual, z);
-      const double overlap = curvature > 0 ? dot(product, z) / curvature : 0;
-      blend(1, z, static_cast<float>(-overlap), direction);
-      times(direction, product);
-      curvature = dot(direction, product);
-      const auto length = static_cast<float>(slope / curvature);
-      blend(-length, product, 1, residual);
-      blend(-length, direction, 1, error);
-      times(error, product);
-      if (dot(error, product) < 1e-4 * first) return i;
-    }
-    return 60;
-  }
-  /// b = p a + q b
-  void blend(float p, const PaddedVectors& a, float q, PaddedVectors& b) const {
-    for (int r = 0; r < cloth.size; ++r)
-      for (int c = 0; c < cloth.size; ++c) {
-        b.x(r, c) = p * a.x(r, c) + q * b.x(r, c);
-        b.y(r, c) = p * a.y(r, c) + q * b.y(r, c);
-        b.z(r, c) = p * a.z(r, c) + q * b.z(r, c);
-      }
-  }
-
-  const Cloth& cloth;
-  ThreadTeam team{1};
-  const NewtonKernels& kernels = newton_kernels_for(team.instructions());
-  SpringHessian springs;
-  BlockMultigrid multigrid;
-  PaddedState state;
-};
 
 TEST(Newton, AtRestNothingMovesWhateverTheIterations) {
   for (Cloth cloth : {sheet_cloth(33, cotton), torus_cloth(33, cotton), sheet_cloth(30, hard)})
@@ -295,7 +191,8 @@ TEST(Newton, SeamsCostFewIterations) {
 TEST(Newton, CoarseSeamsJoinEverySampleOnce) {
   // An odd seam: its copies fall between coarse nodes.
   const BorderMates odd(17, {{1, 64 - 4, 9}});
-  Seams seams(odd);
+  LevelLayout layout(odd);
+  Seams seams(odd, layout);
   for (int level = 0; level < 3; ++level) {
     std::vector<int> seen(static_cast<std::size_t>(seams.size()) * seams.size());
     std::size_t largest = 0;
@@ -305,7 +202,9 @@ TEST(Newton, CoarseSeamsJoinEverySampleOnce) {
     }
     EXPECT_LE(largest, 4U) << "level " << level;
     EXPECT_GT(seams.class_count(), 0);
-    seams = seams.coarsened();
+    LevelLayout coarse = layout.coarsened();
+    seams = seams.coarsened(layout, coarse);
+    layout = std::move(coarse);
   }
 }
 

@@ -1,9 +1,10 @@
-// Bodies of several charts: what consists of several pieces is one body.
+// Bodies and cloths of several charts.
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "tests/cloth/cut_sheet.h"
 #include "tests/support/convert_options.h"
 #include "tests/support/errors.h"
 #include "weft/collide/intersections.h"
@@ -93,15 +94,76 @@ TEST(ChartBodies, CollidersThatCannotTakeThemSaySo) {
   }
 }
 
-TEST(ChartBodies, ClothOfSeveralPiecesIsRefusedInOneLine) {
-  Scene scene = sheet_over({balls(2), "balls"});
+/// The image of a sheet cut into charts, 1 m wide.
+GeometryImage image_of(const testing::CutSheet& sheet) {
+  GeometryImage image;
+  image.mates = sheet.mates;
+  image.world.lower = {-0.5, 0, -0.5};
+  image.cube = sheet.rest;
+  for (int s = 0; s < sheet.rest.size() * sheet.rest.size(); ++s)
+    image.cube.set(s, sheet.rest.at(s) + Vec3f{0.5F, 0, 0.5F});
+  return image;
+}
+
+/// A sheet in charts in place of the square that lies over balls.
+Scene charts_over_balls(const GeometryImage& image, int count) {
+  Scene scene = sheet_over({balls(count), "balls"});
+  scene.cloths[0].surface = Surface(image, "cut");
+  return scene;
+}
+
+TEST(ChartCloths, ACutSheetLiesAsTheUncutOneDoes) {
+  Scene whole = sheet_over({balls(1), "ball"});
+  whole.cloths[0].size = 49;
+  const Scene cut = charts_over_balls(image_of({49, testing::pinwheel(49)}), 1);
+  Simulation uncut(whole, "uncut", 1), charts(cut, "charts", 1);
+  EXPECT_EQ(charts.cloths()[0].image.mates.charts().size(), 5U);
+  for (int frame = 0; frame < 40; ++frame) {
+    const FrameReport here = charts.advance(), there = uncut.advance();
+    EXPECT_GT(here.smallest_gap, 0) << "frame " << frame;
+    // Folds about the ball are chaotic: a sample moved by a micrometre moves the centre as far.
+    EXPECT_NEAR(length(here.centre_of_mass - there.centre_of_mass), 0, frame < 10 ? 1e-4 : 0.01)
+        << "frame " << frame;
+  }
+}
+
+TEST(ChartCloths, TheSameBitsOnEveryTeam) {
+  std::string first;
+  for (const int threads : {1, 2, 3}) {
+    Simulation simulation(charts_over_balls(image_of({49, testing::quarters(49)}), 2), "charts",
+                          threads);
+    for (int frame = 0; frame < 12; ++frame) simulation.advance();
+    if (threads == 1) first = simulation.state_hash();
+    EXPECT_EQ(simulation.state_hash(), first) << threads << " threads";
+  }
+}
+
+TEST(ChartCloths, AMeshOfSeveralPiecesIsOneCloth) {
+  Scene scene = sheet_over({balls(1), "ball"});
   scene.cloths[0].surface = Surface(balls(2), "two");
-  const std::string mesh = test::message_of<Error>([&] { Simulation(scene, "scene.json", 1); });
-  EXPECT_NE(mesh.find("2 components"), std::string::npos) << mesh;
-  const GeometryImage image = convert_mesh(balls(2), "two", unmeasured(65)).image;
-  scene.cloths[0].surface = Surface(image, "two");
-  const std::string charts = test::message_of<Error>([&] { Simulation(scene, "scene.json", 1); });
-  EXPECT_NE(charts.find("2 charts"), std::string::npos) << charts;
+  scene.cloths[0].size = 65;
+  scene.cloths[0].placement.translate = {0, 0.5, 0};
+  Simulation simulation(scene, "charts", 1);
+  EXPECT_EQ(simulation.cloths()[0].image.mates.charts().size(), 2U);
+  for (int frame = 0; frame < 20; ++frame)
+    EXPECT_GT(simulation.advance().smallest_gap, 0) << "frame " << frame;
+}
+
+std::string refusal_of(const Scene& scene) {
+  return test::message_of<Error>([&] { Simulation(scene, "scene.json", 1); });
+}
+
+TEST(ChartCloths, WhatCannotTakeThemSaysSo) {
+  const Scene sound = charts_over_balls(image_of({33, testing::quarters(33)}), 1);
+  Scene scene = sound;
+  scene.integrator = ImplicitOptions{};
+  EXPECT_NE(refusal_of(scene).find("the integrator newton"), std::string::npos);
+  scene = sound;
+  scene.collider = SpatialHashOptions{};
+  EXPECT_NE(refusal_of(scene).find("the collider pyramid"), std::string::npos);
+  scene = sound;
+  scene.cloths[0].pins = {ImagePin{{0.5, 0.5}}};
+  EXPECT_NE(refusal_of(scene).find("between the charts"), std::string::npos);
 }
 
 }  // namespace

@@ -31,26 +31,37 @@ struct Surroundings {
 /// Whether a neighbour lies along a row or column.
 inline bool straight(const Neighbour& at) { return at.place < straight_bending_neighbours; }
 
+/// Which border edges of the charts are sewn to others.
+class SewnEdges {
+ public:
+  explicit SewnEdges(const BorderMates& mates);
+  /// @param a, b  two samples beside each other on a border
+  [[nodiscard]] bool sewn(int a, int b) const;
+
+ private:
+  std::vector<bool> sewn_;  // [2 n n] the edges from each sample down, and to the right
+};
+
 /// Collects the neighbourhoods of particles from a rest shape.
 class RingReader {
  public:
   /// @param shape  kept by reference
   explicit RingReader(const RestShape& shape);
 
-  /// @param samples  all samples of one particle
+  /// @param samples  all samples of one particle, without holes
   [[nodiscard]] Surroundings read(std::span<const int> samples) const;
 
  private:
   [[nodiscard]] Vec3d place(int sample) const;
-  [[nodiscard]] bool inside(int row, int col) const;
+  [[nodiscard]] bool inside(int sample, int row, int col) const;
   void add_sample(int sample, Surroundings& around) const;
-  void mark_border(int sample, int there, Neighbour& at) const;
+  void mark_border(int sample, Neighbour& at) const;
   [[nodiscard]] Vec3d row_direction(int row, int col) const;
   void add_area(int row, int col, Surroundings& around) const;
 
   const RestShape& shape_;
   int n_;
-  std::vector<bool> sewn_;  // whether each border edge is sewn, by its first border position
+  SewnEdges sewn_;
 };
 
 /// The free-border term of the bending energy,
@@ -61,7 +72,7 @@ class RingReader {
 ///   B/2 integral of |x_uu|^2 + 2 |x_uv|^2 + |x_vv|^2,
 /// exactly so on a uniform grid [stein18]. Vanishes on affine maps.
 /// @param bending  B [N m]
-/// @return empty if the rest shape has seams, less than 3 samples a side or slivers on its border
+/// @return empty without a free border, or with slivers on it
 BorderBending make_border_bending(const RestShape& shape, double bending);
 
 }  // namespace weft

@@ -26,11 +26,12 @@ BendingOffset plus(BendingOffset o, BendingOffset p) {
   return {o.down + p.down, o.right + p.right};
 }
 
-/// Columns of a row whose neighbours at both offsets are inside the image.
-Range columns_with(BendingOffset a, BendingOffset b, int row, int size) {
+/// Columns of a part of a row whose neighbours at both offsets are in the same chart.
+Range columns_with(BendingOffset a, BendingOffset b, int row, const ChartRow& part) {
   for (const BendingOffset o : {a, b})
-    if (row + o.down < 0 || row + o.down >= size) return {0, 0};
-  return {std::max({0, -a.right, -b.right}), size - std::max({0, a.right, b.right})};
+    if (row + o.down < part.rows.first || row + o.down >= part.rows.last) return {0, 0};
+  return {part.columns.first + std::max({0, -a.right, -b.right}),
+          part.columns.last - std::max({0, a.right, b.right})};
 }
 
 /// A row of a field at a neighbour offset: the neighbour of column c is at column c + shift.
@@ -80,23 +81,26 @@ void clear(Row3 row, int size) {
   for (float* values : {row.x, row.y, row.z}) std::fill(values, values + size, 0.0F);
 }
 
-/// Own parts of the area vectors of a row: sums over the corners of the cross product of an edge in
-/// `first` and an edge in `second`.
-void area_row(const Planes3& first, const Planes3& second, int row, Planes3& out) {
-  const Row3 sum = row_of(out, row);
-  for (const auto& [a, b] : corners) {
-    const Range columns = columns_with(a, b, row, out.size());
-    if (columns.first >= columns.last) continue;
-    add_cross(columns, 1, Edge{seen(first, row), seen(first, row, a)},
-              Edge{seen(second, row), seen(second, row, b)}, sum);
-  }
-}
-
 }  // namespace
 
 BendingNormals::BendingNormals(const Cloth& cloth) : cloth_(cloth) {
   if (!cloth.bending.curved) return;
+  rows_ = ChartRows(cloth.mates);
   for (Planes3* planes : {&area_, &turn_, &project_}) *planes = Planes3(cloth.size);
+}
+
+/// Own parts of the area vectors of a row: sums over the corners of the cross product of an edge in
+/// `first` and an edge in `second`.
+void BendingNormals::area_row(const Planes3& first, const Planes3& second, int row,
+                              Planes3& out) const {
+  const Row3 sum = row_of(out, row);
+  for (const ChartRow& part : rows_.row(row))
+    for (const auto& [a, b] : corners) {
+      const Range columns = columns_with(a, b, row, part);
+      if (columns.first >= columns.last) continue;
+      add_cross(columns, 1, Edge{seen(first, row), seen(first, row, a)},
+                Edge{seen(second, row), seen(second, row, b)}, sum);
+    }
 }
 
 void BendingNormals::share_areas(Planes3& areas, Worker& worker) const {
@@ -184,22 +188,25 @@ void BendingNormals::project_row(int row, const Planes3& u) {
 
 /// For one corner of a sample i with edges a and b, q . d(a x b) is da . (b x q) - db . (a x q).
 void BendingNormals::add_row(float factor, int row, Planes3& out) const {
+  for (const ChartRow& part : rows_.row(row)) add_row_part(factor, row, part, out);
+}
+
+void BendingNormals::add_row_part(float factor, int row, const ChartRow& part, Planes3& out) const {
   const Planes3& x = *position_;
-  const int n = cloth_.size;
   const Row3 sum = row_of(out, row);
   for (const auto& [a, b] : corners) {
     // As the corner's own sample: -(b - a) x q.
-    Range columns = columns_with(a, b, row, n);
+    Range columns = columns_with(a, b, row, part);
     if (columns.first < columns.last)
       add_cross(columns, -factor, {seen(x, row, a), seen(x, row, b)}, seen(project_, row), sum);
     // As the end of a: b x q, seen from there.
     const BendingOffset from_a = minus(a), from_b = minus(b);
-    columns = columns_with(from_a, plus(from_a, b), row, n);
+    columns = columns_with(from_a, plus(from_a, b), row, part);
     if (columns.first < columns.last)
       add_cross(columns, factor, {seen(x, row, from_a), seen(x, row, plus(from_a, b))},
                 seen(project_, row, from_a), sum);
     // As the end of b: -(a x q).
-    columns = columns_with(from_b, plus(from_b, a), row, n);
+    columns = columns_with(from_b, plus(from_b, a), row, part);
     if (columns.first < columns.last)
       add_cross(columns, -factor, {seen(x, row, from_b), seen(x, row, plus(from_b, a))},
                 seen(project_, row, from_b), sum);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "weft/cloth/chart_rows.h"
 #include "weft/cloth/cloth.h"
 #include "weft/core/thread_team.h"
 
@@ -24,6 +25,8 @@ class BendingNormals {
   void add_row(float factor, int row, Planes3& out) const;
 
  private:
+  void area_row(const Planes3& first, const Planes3& second, int row, Planes3& out) const;
+  void add_row_part(float factor, int row, const ChartRow& part, Planes3& out) const;
   void share_areas(Planes3& areas, Worker& worker) const;
   void subtract_row(int row, Planes3& u);
   void subtract_change_row(int row, Planes3& u);
@@ -34,6 +37,7 @@ class BendingNormals {
   Planes3 area_;     // N of the positions [m^2]
   Planes3 turn_;     // dN [m^2]
   Planes3 project_;  // r / |N| (1 - n n^T) u
+  ChartRows rows_;
 };
 
 }  // namespace weft

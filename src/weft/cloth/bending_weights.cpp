@@ -307,7 +307,7 @@ BendingPlanes make_bending(const RestShape& shape, const Material& material) {
   };
   std::vector<bool> has_mates(static_cast<std::size_t>(n) * n, false);
   for (int index = 0; index < shape.mates.class_count(); ++index) {
-    add(shape.mates.mates(index));
+    add(shape.mates.copies(index));
     for (const int s : shape.mates.mates(index)) has_mates[static_cast<std::size_t>(s)] = true;
   }
   for (int s = 0; s < n * n; ++s)

@@ -3,13 +3,11 @@
 namespace weft {
 namespace {
 
-bool on_border(int n, int r, int c) { return r == 0 || c == 0 || r == n - 1 || c == n - 1; }
-
 void collect(const Cloth& cloth, SpringDirection direction, std::vector<BorderSpring>& springs) {
   const int n = cloth.size;
   const bool stretch = direction == stretch_u || direction == stretch_v;
   for_each_spring(cloth.mates, cloth.springs[direction], [&](int r, int c, int r2, int c2) {
-    if (!on_border(n, r, c) && !on_border(n, r2, c2)) return;
+    if (!on_border(cloth.mates, r, c) && !on_border(cloth.mates, r2, c2)) return;
     const int a = cloth.mates.representative(r * n + c);
     const int b = cloth.mates.representative(r2 * n + c2);
     const float rest = cloth.springs[direction].rest_length(r, c);

@@ -8,6 +8,7 @@
 #include "weft/cloth/bending_weights.h"
 #include "weft/cloth/border_springs.h"
 #include "weft/cloth/neighbours.h"
+#include "weft/cloth/newton/level_layout.h"
 #include "weft/cloth/rest_shape.h"
 #include "weft/error.h"
 
@@ -49,6 +50,9 @@ void check_rest(const Planes3& rest, const BorderMates& mates) {
                          fmt::format("a position that is not finite at row {}, col {}", r, c),
                          "finite rest positions");
     }
+  if (mates.charts().size() > 1 && !LevelLayout(mates).has_gaps())
+    throw SceneError("cloth", "charts that lie side by side",
+                     fmt::format("{} samples between all charts", LevelLayout::gap));
 }
 
 /// Marks the representatives and counts them.
@@ -79,17 +83,18 @@ void set_masses(Cloth& cloth, const RestShape& shape) {
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
       cloth.mass(r, c) = std::max(cloth.mass(r, c), least);
-      cloth.inverse_mass(r, c) = 1 / cloth.mass(r, c);
+      cloth.inverse_mass(r, c) = cloth.mates.is_hole(r * n + c) ? 0 : 1 / cloth.mass(r, c);
     }
 }
 
 /// Sets the damping of a plane's springs. A spring along the border gets half, like its stiffness:
 /// on a seam both mates store it.
 void set_damping(Cloth& cloth, SpringPlane& plane) {
-  const int last = cloth.size - 1;
+  const bool straight = plane.down == 0 || plane.right == 0;
+  const SpringDirection direction = plane.down == 0 ? stretch_u : stretch_v;
   for_each_spring(cloth.mates, plane, [&](int r, int c, int r2, int c2) {
     const double a = cloth.mass(r, c), b = cloth.mass(r2, c2);
-    const bool along = (r == r2 && (r == 0 || r == last)) || (c == c2 && (c == 0 || c == last));
+    const bool along = straight && along_border(cloth.mates, direction, r, c);
     const double share = along ? 0.5 : 1.0;
     plane.damping(r, c) = static_cast<float>(share * cloth.material.damping * a * b / (a + b));
   });
@@ -143,7 +148,8 @@ int pin(Cloth& cloth, int sample, Vec3d target) {
 void unpin_last(Cloth& cloth) {
   const int n = cloth.size;
   for (const int copy : cloth.pins.back().copies)
-    cloth.inverse_mass(copy / n, copy % n) = 1 / cloth.mass(copy / n, copy % n);
+    if (!cloth.mates.is_hole(copy))
+      cloth.inverse_mass(copy / n, copy % n) = 1 / cloth.mass(copy / n, copy % n);
   cloth.pins.pop_back();
 }
 

@@ -72,14 +72,15 @@ struct BorderSpring {
 };
 
 /// A cloth without its state: rest shape, masses, springs, bending and pins. Mates are one particle
-/// stored at several samples.
+/// stored at several samples. Samples of no chart (holes) follow the particle whose mates they are,
+/// and have no springs.
 struct Cloth {
   int size = 0;
   Material material;
   BorderMates mates;
   Planes3 rest;              ///< [n x n] rest positions [m]
   Grid<float> mass;          ///< [n x n] of the particle: summed over its class [kg], > 0
-  Grid<float> inverse_mass;  ///< [n x n] 0 where pinned
+  Grid<float> inverse_mass;  ///< [n x n] 0 where pinned, and where no chart is
   Grid<float> owner;         ///< [n x n] 1 on representatives, 0 on their mates
   std::array<SpringPlane, spring_directions> springs;
   BendingPlanes bending;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "weft/cloth/bending.h"
+#include "weft/cloth/border_springs.h"
 
 namespace weft {
 namespace {
@@ -21,10 +22,13 @@ std::vector<float> stretch_strains(const Cloth& cloth, const Planes3& p) {
   const auto add = [&](int from, int to, double rest) {
     strains.push_back(static_cast<float>(std::abs(spring_length(p, from, to) / rest - 1)));
   };
+  const bool one_chart = cloth.mates.chart_of().empty();
+  const auto inside = [&](int r, int c) { return one_chart || !on_border(cloth.mates, r, c); };
   for (const SpringPlane* plane : {&cloth.springs[stretch_u], &cloth.springs[stretch_v]})
     for (int r = 1; r + plane->down < n - 1; ++r)
       for (int c = 1; c + plane->right < n - 1; ++c)
-        add(r * n + c, (r + plane->down) * n + c + plane->right, plane->rest_length(r, c));
+        if (inside(r, c) && inside(r + plane->down, c + plane->right))
+          add(r * n + c, (r + plane->down) * n + c + plane->right, plane->rest_length(r, c));
   for (const BorderSpring& spring : cloth.border_springs)
     if (spring.stretch) add(spring.from, spring.to, spring.rest_length);
   return strains;

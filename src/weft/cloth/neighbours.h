@@ -56,6 +56,7 @@ inline int used_directions(const Cloth& cloth) {
 inline ConstRow3 shifted(ConstRow3 row, int shift) {
   return {row.x + shift, row.y + shift, row.z + shift};
 }
+inline Row3 shifted(Row3 row, int shift) { return {row.x + shift, row.y + shift, row.z + shift}; }
 inline ConstRow3 row_of(const Planes3& planes, int r) {
   return {planes.x.row(r), planes.y.row(r), planes.z.row(r)};
 }

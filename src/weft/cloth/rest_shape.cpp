@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/cloth/border_springs.h"
 #include "weft/cloth/neighbours.h"
 
 namespace weft {
@@ -25,7 +26,7 @@ float spring_length(Vec3f a, Vec3f b) {
   return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
 }
 
-double mean_spacing_of(const Planes3& p) {
+double mean_spacing_of(const Planes3& p, const BorderMates& mates) {
   const int n = p.size();
   double sum = 0;
   long count = 0;
@@ -35,8 +36,11 @@ double mean_spacing_of(const Planes3& p) {
   };
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
-      if (c + 1 < n) add(spring_length(p.at(r, c), p.at(r, c + 1)));
-      if (r + 1 < n) add(spring_length(p.at(r, c), p.at(r + 1, c)));
+      const int here = r * n + c;
+      if (c + 1 < n && mates.same_chart(here, here + 1))
+        add(spring_length(p.at(r, c), p.at(r, c + 1)));
+      if (r + 1 < n && mates.same_chart(here, here + n))
+        add(spring_length(p.at(r, c), p.at(r + 1, c)));
     }
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
@@ -67,7 +71,6 @@ struct SpringPlace {
 
 double stiffness_of(const RestShape& shape, const Material& material, SpringDirection direction,
                     const SpringPlace& at) {
-  const int last = shape.size() - 1;
   const double squared = at.rest_length * at.rest_length;
   switch (direction) {
     case stretch_u:
@@ -78,9 +81,9 @@ double stiffness_of(const RestShape& shape, const Material& material, SpringDire
     case shear_2:
       return material.shear * strip_area(shape, direction, at.row, at.col) / squared;
     case bend_u:
-      return material.bend_springs * (at.row == 0 || at.row == last ? 0.5 : 1.0);
     default:
-      return material.bend_springs * (at.col == 0 || at.col == last ? 0.5 : 1.0);
+      return material.bend_springs *
+             (along_border(shape.mates, direction, at.row, at.col) ? 0.5 : 1.0);
   }
 }
 
@@ -90,9 +93,10 @@ RestShape::RestShape(const Planes3& rest, const BorderMates& border)
     : position(rest),
       mates(border),
       cell_area(rest.size() - 1, rest.size() - 1),
-      mean_spacing(mean_spacing_of(rest)) {
+      mean_spacing(mean_spacing_of(rest, border)) {
   for (int r = 0; r + 1 < size(); ++r)
-    for (int c = 0; c + 1 < size(); ++c) cell_area(r, c) = cell_area_at(rest, r, c);
+    for (int c = 0; c + 1 < size(); ++c)
+      if (mates.has_cell(r, c)) cell_area(r, c) = cell_area_at(rest, r, c);
 }
 
 SpringPlane make_springs(const RestShape& shape, const Material& material,
@@ -104,6 +108,7 @@ SpringPlane make_springs(const RestShape& shape, const Material& material,
   for (int r = 0; r + down < n; ++r)
     for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c) {
       const int from = r * n + c, to = (r + down) * n + c + right;
+      if (!shape.mates.same_chart(from, to)) continue;
       if (shape.mates.representative(from) == shape.mates.representative(to)) continue;
       const float rest =
           std::max(least, spring_length(shape.position.at(from), shape.position.at(to)));

@@ -55,8 +55,6 @@ void push_row(const Air& air, const Corner& a, const Corner& b, const Corner& c,
   }
 }
 
-Row3 shifted(Row3 row, int by) { return {row.x + by, row.y + by, row.z + by}; }
-
 }  // namespace
 
 Wind::Wind(const WindOptions& options, const Cloth& cloth)
@@ -66,7 +64,8 @@ Wind::Wind(const WindOptions& options, const Cloth& cloth)
       cloth_(cloth),
       upper_(cloth.size + 1),
       lower_(cloth.size + 1),
-      force_(cloth.size) {}
+      force_(cloth.size),
+      rows_(cloth.mates) {}
 
 void Wind::blow(double time_step, ClothState& state, ThreadTeam& team) {
   const auto h = static_cast<float>(time_step);
@@ -83,16 +82,20 @@ void Wind::blow(double time_step, ClothState& state, ThreadTeam& team) {
 }
 
 void Wind::push_triangles_row(float time_step, const ClothState& state, int row) {
-  const auto corner = [&](int down, int right) {
-    return Corner{row_of(state.position, row + down), row_of(state.velocity, row + down), right};
-  };
   const auto held_back = static_cast<float>(time_step / cloth_.material.density);
   const Air air{velocity_, drag_, lift_, held_back};
-  const int cells = cloth_.size - 1;
-  push_row(air, corner(0, 0), corner(0, 1), corner(1, 1), cells,
-           shifted(row_of(upper_, row + 1), 1));
-  push_row(air, corner(0, 0), corner(1, 1), corner(1, 0), cells,
-           shifted(row_of(lower_, row + 1), 1));
+  for (const auto& [columns, rows, chart] : rows_.row(row)) {
+    if (row + 1 == rows.last) continue;
+    const int first = columns.first, cells = columns.last - first - 1;
+    const auto corner = [&](int down, int right) {
+      return Corner{row_of(state.position, row + down), row_of(state.velocity, row + down),
+                    first + right};
+    };
+    push_row(air, corner(0, 0), corner(0, 1), corner(1, 1), cells,
+             shifted(row_of(upper_, row + 1), first + 1));
+    push_row(air, corner(0, 0), corner(1, 1), corner(1, 0), cells,
+             shifted(row_of(lower_, row + 1), first + 1));
+  }
 }
 
 void Wind::gather_row(int row) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "weft/cloth/chart_rows.h"
 #include "weft/cloth/cloth.h"
 #include "weft/core/thread_team.h"
 #include "weft/material.h"
@@ -38,6 +39,7 @@ class Wind {
   // A third of the force on both triangles of cell (r, c) at (r + 1, c + 1), zeros around. [N]
   Planes3 upper_, lower_;
   Planes3 force_;  // [n x n] own parts, then sums over mates [N]
+  ChartRows rows_;
 };
 
 }  // namespace weft

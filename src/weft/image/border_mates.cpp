@@ -194,6 +194,14 @@ void BorderMates::collect_classes() {
   }
 }
 
+std::span<const int> BorderMates::copies(int index) const {
+  const std::span<const int> all = mates(index);
+  if (chart_of_.empty()) return all;
+  const auto first_hole =
+      std::partition_point(all.begin(), all.end(), [&](int s) { return !is_hole(s); });
+  return all.first(static_cast<std::size_t>(first_hole - all.begin()));
+}
+
 int BorderMates::along_border(int position, int steps) const {
   const auto above = std::upper_bound(first_position_.begin(), first_position_.end() - 1, position);
   const int begin = *(above - 1);

@@ -26,17 +26,21 @@ BendingStencil::BendingStencil(const BendingPlanes& bending) {
   }
 }
 
-BendingStencil BendingStencil::coarsened() const {
-  BendingStencil coarse;
-  if (!active()) return coarse;
-  const int n = weights_[0].rows(), m = n / 2 + 1;
-  coarse.neighbours_ = neighbours_;
+BendingStencil BendingStencil::coarsened(const LevelLayout& fine, const LevelLayout& coarse) const {
+  BendingStencil result;
+  if (!active()) return result;
+  result.neighbours_ = neighbours_;
   for (int k = 0; k < neighbours_; ++k) {
-    coarse.weights_[k] = PaddedPlane(m, m);
-    for (int r = 0; 2 * r < n; ++r)
-      for (int c = 0; 2 * c < n; ++c) coarse.weights_[k](r, c) = 0.5F * weights_[k](2 * r, 2 * c);
+    result.weights_[k] = PaddedPlane(coarse.size, coarse.size);
+    for (std::size_t i = 0; i < fine.charts.size(); ++i) {
+      const Chart &from = fine.charts[i], &to = coarse.charts[i];
+      for (int r = 0; 2 * r < from.rows; ++r)
+        for (int c = 0; 2 * c < from.cols; ++c)
+          result.weights_[k](to.row + r, to.col + c) =
+              0.5F * weights_[k](from.row + 2 * r, from.col + 2 * c);
+    }
   }
-  return coarse;
+  return result;
 }
 
 void BendingStencil::bend_row(const PaddedVectors& x, int row, const NewtonKernels& kernels,

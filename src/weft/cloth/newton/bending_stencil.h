@@ -18,7 +18,7 @@ class BendingStencil {
  public:
   BendingStencil() = default;
   explicit BendingStencil(const BendingPlanes& bending);
-  [[nodiscard]] BendingStencil coarsened() const;
+  [[nodiscard]] BendingStencil coarsened(const LevelLayout& fine, const LevelLayout& coarse) const;
 
   [[nodiscard]] bool active() const { return neighbours_ > 0; }
   /// u = M x, own part of a row. @param row  from -1 to n

@@ -30,6 +30,7 @@ struct BlockStencil {
 
 /// A level of the multigrid preconditioner.
 struct BlockLevel {
+  LevelLayout layout;
   int size = 0;
   Seams seams;
   BendingStencil bending;
@@ -44,11 +45,11 @@ struct BlockLevel {
   std::vector<PaddedVectors> windows;  ///< three rows of u for each worker
 
   struct Shape {
-    int size;
+    LevelLayout layout;
     bool finest;
     int workers;
   };
-  BlockLevel(const Shape& shape, Seams seam_classes, BendingStencil stiffness);
+  BlockLevel(Shape shape, Seams seam_classes, BendingStencil stiffness);
   /// The diagonal blocks that lines are factored with.
   [[nodiscard]] const PaddedBlocks& diagonal() const {
     return seams.empty() ? stencil.centre : joined;
@@ -84,8 +85,11 @@ class Galerkin {
     Rows half[3];
   };
   template <class FineRow>
-  void coarsen_rows(int fine_size, BlockLevel& coarse, const Workers& workers,
+  void coarsen_rows(const BlockLevel& fine, BlockLevel& coarse, const Workers& workers,
                     const NewtonKernels& kernels, const FineRow& fine_row);
+  template <class FineRow>
+  void coarsen_chart(std::size_t chart, const BlockLevel& fine, BlockLevel& coarse, Range rows,
+                     Scratch& own, const NewtonKernels& kernels, const FineRow& fine_row);
 
   std::vector<Scratch> scratch_;  // of each worker
 };

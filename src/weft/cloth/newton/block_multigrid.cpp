@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "weft/cloth/neighbours.h"
+
 namespace weft {
 namespace {
 
@@ -11,11 +13,12 @@ namespace {
 constexpr float damping = 0.73F;
 /// Levels of at most this many samples a side are left to one worker: barriers would cost more.
 constexpr int lone_size = 33;
-/// Smoothing sweeps where the finest level is the only one, which is not factored.
+/// Smoothing sweeps on a coarsest level that is not solved directly.
 constexpr int coarsest_sweeps = 8;
 
-RowTriple rows_around(const PaddedVectors& field, int r) {
-  return {field.row(r - 1), field.row(r), field.row(r + 1)};
+RowTriple rows_around(const PaddedVectors& field, int r, int first_col = 0) {
+  return {shifted(field.row(r - 1), first_col), shifted(field.row(r), first_col),
+          shifted(field.row(r + 1), first_col)};
 }
 
 BlockRow6 row_of(const PaddedBlocks& blocks, int r, int shift = 0) {
@@ -38,14 +41,18 @@ BlockStencilRow stencil_row(const BlockStencil& s, int r) {
 
 std::vector<BlockLevel> make_levels(const Cloth& cloth, int workers) {
   std::vector<BlockLevel> levels;
-  int n = cloth.size;
-  levels.emplace_back(BlockLevel::Shape{n, true, workers}, Seams(cloth.mates),
+  LevelLayout layout(cloth.mates);
+  levels.emplace_back(BlockLevel::Shape{layout, true, workers}, Seams(cloth.mates, layout),
                       BendingStencil(cloth.bending));
-  while (n > CoarsestSolver::max_size) {
+  // Many charts are coarsened further, to fewer unknowns of the direct solver.
+  const int least = layout.charts.size() > 1 ? 2 : CoarsestSolver::max_size;
+  while (layout.largest_side() > least) {
     const BlockLevel& fine = levels.back();
-    n = n / 2 + 1;
-    levels.emplace_back(BlockLevel::Shape{n, false, workers}, fine.seams.coarsened(),
-                        fine.bending.coarsened());
+    LevelLayout coarse = layout.coarsened();
+    levels.emplace_back(BlockLevel::Shape{coarse, false, workers},
+                        fine.seams.coarsened(layout, coarse),
+                        fine.bending.coarsened(layout, coarse));
+    layout = std::move(coarse);
   }
   return levels;
 }
@@ -348,8 +355,12 @@ void BlockMultigrid::restrict_residual(BlockLevel& fine, BlockLevel& coarse,
   }
   const Range mine = workers.share(coarse.size);
   for (int q = mine.first; q < mine.last; ++q)
-    kernels_->restrict_row(fine.size, coarse.size, rows_around(fine.residual, 2 * q),
-                           scratch(workers).data(), coarse.rhs.row(q));
+    for (const ChartRow& part : coarse.layout.rows.row(q)) {
+      const Chart &from = fine.layout.charts[part.chart], &to = coarse.layout.charts[part.chart];
+      const RowTriple rows = rows_around(fine.residual, from.row + 2 * (q - to.row), from.col);
+      kernels_->restrict_row(from.cols, to.cols, rows, scratch(workers).data(),
+                             shifted(coarse.rhs.row(q), to.col));
+    }
   workers.barrier();
   if (coarse.seams.empty()) return;
   coarse.seams.sum(workers, {&coarse.rhs.x, &coarse.rhs.y, &coarse.rhs.z});
@@ -361,8 +372,13 @@ void BlockMultigrid::prolong(const BlockLevel& coarse, std::size_t fine_index,
   BlockLevel& fine = levels_[fine_index];
   const Range mine = workers.share(fine.size);
   for (int r = mine.first; r < mine.last; ++r) {
-    kernels_->prolong_row(fine.size, coarse.value.row(r / 2), coarse.value.row((r + 1) / 2),
-                          scratch(workers).data(), fine.value.row(r));
+    for (const ChartRow& part : fine.layout.rows.row(r)) {
+      const Chart &from = coarse.layout.charts[part.chart], &to = fine.layout.charts[part.chart];
+      const int row = r - to.row;
+      kernels_->prolong_row(to.cols, shifted(coarse.value.row(from.row + row / 2), from.col),
+                            shifted(coarse.value.row(from.row + (row + 1) / 2), from.col),
+                            scratch(workers).data(), shifted(fine.value.row(r), to.col));
+    }
     if (fine_index == 0) clear_pins_of_row(r, fine.value);
   }
   workers.barrier();
@@ -372,7 +388,7 @@ void BlockMultigrid::prolong(const BlockLevel& coarse, std::size_t fine_index,
 }
 
 void BlockMultigrid::cycle_coarsest(std::size_t index, const Workers& workers) {
-  if (levels_.size() > 1) {
+  if (coarsest_.active()) {
     if (workers.alone() || workers.rank() == 0) coarsest_.solve(levels_[index]);
     workers.barrier();
     return;

@@ -185,7 +185,7 @@ void BlockMultigrid::set_up(SpringHessian& springs, Worker& worker) {
     worker.barrier();
     if (worker.rank() == 0) part_edges(i);
   }
-  if (worker.rank() == 0 && levels_.size() > 1) coarsest_.factor(levels_.back());
+  if (worker.rank() == 0 && coarsest_.active()) coarsest_.factor(levels_.back());
   worker.barrier();
 }
 

@@ -20,17 +20,20 @@ CoarsestSolver::CoarsestSolver(const BlockLevel& level) {
   node_.resize(samples, -1);
   for (int i = 0; i < level.seams.class_count(); ++i)
     for (const int s : level.seams.samples(i)) node_[s] = level.seams.samples(i).front();
+  const std::vector<int> chart_of = level.layout.chart_of();
   int nodes = 0;
   for (int s = 0; s < samples; ++s)
-    node_[s] = node_[s] < 0 || node_[s] == s ? nodes++ : node_[node_[s]];
+    if (chart_of[s] >= 0) node_[s] = node_[s] < 0 || node_[s] == s ? nodes++ : node_[node_[s]];
+  if (nodes > max_nodes) return;
   unknowns_ = 3 * nodes;
   matrix_.resize(static_cast<std::size_t>(unknowns_) * unknowns_);
   value_.resize(unknowns_);
+  first_.resize(unknowns_);
   std::vector<double> curve(static_cast<std::size_t>(nodes) * nodes);  // M
   for (int s = 0; s < samples; ++s)
-    for (int k = 0; k < level.bending.neighbours(); ++k) {
+    for (int k = 0; k < level.bending.neighbours() && node_[s] >= 0; ++k) {
       const int r = s / n + bending_offsets[k].down, c = s % n + bending_offsets[k].right;
-      if (r < 0 || r >= n || c < 0 || c >= n) continue;
+      if (r < 0 || r >= n || c < 0 || c >= n || node_[r * n + c] < 0) continue;
       const double w = level.bending.weight(k, s / n, s % n);
       curve[node_[s] * nodes + node_[r * n + c]] += w;
       curve[node_[s] * nodes + node_[s]] -= w;
@@ -59,24 +62,32 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
                                                  &level.stencil.below_left};
   for (int s = 0; s < n * n; ++s) {
     const int r = s / n, c = s % n;
+    if (node_[s] < 0) continue;
     add_block(node_[s], node_[s], level.stencil.centre, r, c);
     for (int d = 0; d < 4; ++d) {
       const auto [down, right] = spring_offsets[d];
       if (r + down >= n || c + right >= n || c + right < 0) continue;
       const int other = node_[(r + down) * n + c + right];
+      if (other < 0) continue;
       add_block(node_[s], other, *after[d], r, c);
       add_block(other, node_[s], *after[d], r, c);
     }
   }
+  for (int i = 0; i < unknowns_; ++i) {
+    first_[i] = 0;
+    while (first_[i] < i && at(i, first_[i]) == 0) ++first_[i];
+  }
   for (int j = 0; j < unknowns_; ++j) {
     const double before = at(j, j);
     double pivot = before;
-    for (int k = 0; k < j; ++k) pivot -= at(j, k) * at(j, k) * at(k, k);
+    for (int k = first_[j]; k < j; ++k) pivot -= at(j, k) * at(j, k) * at(k, k);
     // The diagonal keeps D, 0 for unknowns that do not move.
     const bool moves = pivot > min_pivot * before && pivot > 0;
     for (int i = j + 1; i < unknowns_; ++i) {
+      if (first_[i] > j) continue;
       double sum = at(i, j);
-      for (int k = 0; k < j; ++k) sum -= at(i, k) * at(j, k) * at(k, k);
+      for (int k = std::max(first_[i], first_[j]); k < j; ++k)
+        sum -= at(i, k) * at(j, k) * at(k, k);
       at(i, j) = moves ? sum / pivot : 0;
     }
     at(j, j) = moves ? pivot : 0;
@@ -87,16 +98,16 @@ void CoarsestSolver::solve(BlockLevel& level) noexcept {
   const int n = level.size;
   const std::array<const PaddedPlane*, 3> rhs{&level.rhs.x, &level.rhs.y, &level.rhs.z};
   for (int s = 0; s < n * n; ++s)
-    for (int k = 0; k < 3; ++k) value_[3 * node_[s] + k] = (*rhs[k])(s / n, s % n);
+    for (int k = 0; k < 3 && node_[s] >= 0; ++k) value_[3 * node_[s] + k] = (*rhs[k])(s / n, s % n);
   for (int i = 0; i < unknowns_; ++i)
-    for (int k = 0; k < i; ++k) value_[i] -= at(i, k) * value_[k];
+    for (int k = first_[i]; k < i; ++k) value_[i] -= at(i, k) * value_[k];
   for (int i = unknowns_ - 1; i >= 0; --i) {
     value_[i] = at(i, i) > 0 ? value_[i] / at(i, i) : 0;
     for (int k = i + 1; k < unknowns_; ++k) value_[i] -= at(k, i) * value_[k];
   }
   const std::array<PaddedPlane*, 3> value{&level.value.x, &level.value.y, &level.value.z};
   for (int s = 0; s < n * n; ++s)
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3 && node_[s] >= 0; ++k)
       (*value[k])(s / n, s % n) = static_cast<float>(value_[3 * node_[s] + k]);
 }
 

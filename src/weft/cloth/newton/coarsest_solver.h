@@ -6,13 +6,17 @@
 
 namespace weft {
 
-/// Direct solver of the coarsest level, of at most 3 x 3 samples: a dense L D L^T in double. Rank 0
-/// alone calls.
+/// Direct solver of the coarsest level, of charts of at most 3 x 3 samples: an L D L^T in double,
+/// dense but for the zeros before the first entry of each row. Rank 0 alone calls.
 class CoarsestSolver {
  public:
   static constexpr int max_size = 3;
+  /// Particles beyond which solving directly would cost more than the levels above.
+  static constexpr int max_nodes = 64;
   CoarsestSolver() = default;
+  /// Not active where the level has more nodes.
   explicit CoarsestSolver(const BlockLevel& level);
+  [[nodiscard]] bool active() const { return unknowns_ > 0; }
 
   void factor(const BlockLevel& level) noexcept;
   /// level.value = A^-1 level.rhs, seam copies equal.
@@ -25,7 +29,8 @@ class CoarsestSolver {
   }
 
   int unknowns_ = 0;
-  std::vector<int> node_;        // [n x n] node of each sample
+  std::vector<int> node_;        // [n x n] node of each sample, -1 in no chart
+  std::vector<int> first_;       // [unknowns] first column of each row that is not 0
   std::vector<double> bending_;  // [nodes x nodes] M^T M
   std::vector<double> matrix_;   // L below the diagonal, D on it
   std::vector<double> value_;

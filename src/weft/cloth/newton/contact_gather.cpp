@@ -16,13 +16,13 @@ float sum_of_weights(const Contact& contact) {
 
 ContactGather::ContactGather(const Cloth& cloth)
     : cloth_(cloth),
-      class_at_(static_cast<std::size_t>(4) * (cloth.size - 1), -1),
+      class_at_(static_cast<std::size_t>(cloth.size) * cloth.size, -1),
       uses_(cloth.size * cloth.size),
       row_starts_(static_cast<std::size_t>(cloth.size) + 1),
       rows_(static_cast<std::size_t>(cloth.size)) {
   for (int index = 0; index < cloth.mates.class_count(); ++index)
     for (const int sample : cloth.mates.mates(index))
-      class_at_[border_position(cloth.size, sample)] = index;
+      class_at_[static_cast<std::size_t>(sample)] = index;
 }
 
 void ContactGather::clear() {
@@ -31,10 +31,9 @@ void ContactGather::clear() {
 }
 
 void ContactGather::add(int sample, int contact, float weight) {
-  const int position = border_position(cloth_.size, sample);
-  const int index = position < 0 ? -1 : class_at_[position];
+  const int index = class_at_[static_cast<std::size_t>(sample)];
   if (index < 0) return uses_.add(sample, {contact, weight});
-  const std::span<const int> samples = cloth_.mates.mates(index);
+  const std::span<const int> samples = cloth_.mates.copies(index);
   for (const int s : samples) uses_.add(s, {contact, weight / static_cast<float>(samples.size())});
 }
 

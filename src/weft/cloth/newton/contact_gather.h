@@ -48,7 +48,7 @@ class ContactGather {
 
  private:
   const Cloth& cloth_;
-  std::vector<int> class_at_;  // class of each border position, -1 where a sample has no mates
+  std::vector<int> class_at_;  // [n n] class of each sample, -1 where it has no mates
   ContactUses uses_;
   std::vector<int> row_starts_;  // [n + 1] into uses_.samples()
   std::vector<char> rows_;

@@ -52,7 +52,9 @@ NewtonPart::NewtonPart(const Cloth& cloth, int workers, InstructionSet instructi
       row_parts_(static_cast<std::size_t>(cloth.size)),
       known_rows_(static_cast<std::size_t>(cloth.size)),
       largest_(static_cast<std::size_t>(cloth.size)) {
-  for (int r = 0; r < cloth.size; ++r) std::fill_n(share_.row(r), cloth.size, 1.0F);
+  for (int r = 0; r < cloth.size; ++r)
+    for (int c = 0; c < cloth.size; ++c)
+      share_(r, c) = cloth.mates.is_hole(r * cloth.size + c) ? 0.0F : 1.0F;
   Worker alone = Worker::lone();
   multigrid_.seams().share(Workers(alone, true), {&share_});
   multigrid_.set_contacts({&contact_blocks_, contact_rows_.data()});

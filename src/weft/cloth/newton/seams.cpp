@@ -13,23 +13,24 @@ float& at(PaddedPlane& plane, int n, int sample) { return plane(sample / n, samp
 
 }  // namespace
 
-Seams::Seams(const BorderMates& mates) : size_(mates.size()) {
+Seams::Seams(const BorderMates& mates, const LevelLayout& layout) : size_(mates.size()) {
   std::vector<std::vector<int>> classes;
   for (int i = 0; i < mates.class_count(); ++i)
-    classes.emplace_back(mates.mates(i).begin(), mates.mates(i).end());
-  set_classes(std::move(classes));
+    if (const std::span<const int> copies = mates.copies(i); copies.size() > 1)
+      classes.emplace_back(copies.begin(), copies.end());
+  set_classes(std::move(classes), layout);
 }
 
-void Seams::set_classes(std::vector<std::vector<int>> classes) {
+void Seams::set_classes(std::vector<std::vector<int>> classes, const LevelLayout& layout) {
   for (const std::vector<int>& members : classes) {
     samples_.insert(samples_.end(), members.begin(), members.end());
     starts_.push_back(static_cast<int>(samples_.size()));
     inverse_count_.push_back(1 / static_cast<float>(members.size()));
   }
-  find_edges();
+  find_edges(layout);
 }
 
-void Seams::find_edges() {
+void Seams::find_edges(const LevelLayout& layout) {
   const int n = size_;
   std::map<int, int> first_copy;
   for (int i = 0; i < class_count(); ++i)
@@ -44,28 +45,41 @@ void Seams::find_edges() {
     const int a = particle(s), b = particle(edge.along_row ? s + 1 : s + n);
     if (a != b) groups[std::minmax(a, b)].push_back(edge);
   };
-  for (int i = 0; i + 1 < n; ++i)
-    for (const int border : {0, n - 1}) {
-      add({true, border, i});
-      add({false, i, border});
-    }
+  for (const Chart& chart : layout.charts)
+    for (int i = 0; i + 1 < std::max(chart.rows, chart.cols); ++i)
+      for (const bool last : {false, true}) {
+        if (i + 1 < chart.cols) add({true, chart.row + (last ? chart.rows - 1 : 0), chart.col + i});
+        if (i + 1 < chart.rows)
+          add({false, chart.row + i, chart.col + (last ? chart.cols - 1 : 0)});
+      }
   for (auto& [ends, group] : groups)
     if (group.size() > 1) edges_.push_back(std::move(group));
 }
 
-Seams Seams::coarsened() const {
-  const int n = size_, m = n / 2 + 1;
-  const auto coarse_of = [&](int x) { return x == n - 1 ? m - 1 : x / 2; };
-  const auto fine_of = [&](int x) { return std::min(2 * x, n - 1); };
-  const auto coarse = [&](int s) { return coarse_of(s / n) * m + coarse_of(s % n); };
-  const auto fine = [&](int s) { return fine_of(s / m) * n + fine_of(s % m); };
+Seams Seams::coarsened(const LevelLayout& fine, const LevelLayout& coarse) const {
+  const int n = fine.size, m = coarse.size;
+  const std::vector<int> chart_of = fine.chart_of();
+  // The coarse node of a sample, and whether it lies there.
+  const auto node_of = [&](int s) {
+    const auto k = static_cast<std::size_t>(chart_of[static_cast<std::size_t>(s)]);
+    const Chart &from = fine.charts[k], &to = coarse.charts[k];
+    const auto node = [](int x, int count, int nodes) {
+      return x == count - 1 ? nodes - 1 : x / 2;
+    };
+    const int r = s / n - from.row, c = s % n - from.col;
+    const int row = node(r, from.rows, to.rows), col = node(c, from.cols, to.cols);
+    const bool there =
+        std::min(2 * row, from.rows - 1) == r && std::min(2 * col, from.cols - 1) == c;
+    return std::pair((to.row + row) * m + to.col + col, there);
+  };
   DisjointSets sets(m * m);
   for (int i = 0; i < class_count(); ++i)
     for (const int a : samples(i)) {
-      if (fine(coarse(a)) != a) continue;
+      const auto [node, there] = node_of(a);
+      if (!there) continue;
       // A copy between two nodes is joined from one side only, or seams would become one node.
       for (const int b : samples(i))
-        if (fine(coarse(b)) == b || a < b) sets.join(coarse(a), coarse(b));
+        if (const auto [other, is_node] = node_of(b); is_node || a < b) sets.join(node, other);
     }
   std::vector<std::vector<int>> members(static_cast<std::size_t>(m) * m), classes;
   for (int s = 0; s < m * m; ++s) members[sets.root(s)].push_back(s);
@@ -73,7 +87,7 @@ Seams Seams::coarsened() const {
     if (one.size() > 1) classes.push_back(std::move(one));
   Seams result;
   result.size_ = m;
-  result.set_classes(std::move(classes));
+  result.set_classes(std::move(classes), coarse);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "weft/cloth/newton/level_layout.h"
 #include "weft/cloth/newton/padded_planes.h"
 #include "weft/geometry_image.h"
 
@@ -20,11 +21,12 @@ struct BorderEdge {
 class Seams {
  public:
   Seams() = default;
-  explicit Seams(const BorderMates& mates);
-  /// The seams of the next coarser level, whose node (r, c) is at (2 r, 2 c) of this one, or at its
-  /// last row or column. Copies between coarse nodes are joined to one of these: a level that is
-  /// only part of a preconditioner need not match exactly, but must not be cut open.
-  [[nodiscard]] Seams coarsened() const;
+  /// @param layout  of the charts of the mates
+  Seams(const BorderMates& mates, const LevelLayout& layout);
+  /// The seams of the next coarser level. Copies between coarse nodes are joined to one of these: a
+  /// level that is only part of a preconditioner need not match exactly, but must not be cut open.
+  /// @param fine, coarse  layouts of this level and the next
+  [[nodiscard]] Seams coarsened(const LevelLayout& fine, const LevelLayout& coarse) const;
 
   [[nodiscard]] bool empty() const { return starts_.size() <= 1; }
   [[nodiscard]] int size() const { return size_; }
@@ -47,8 +49,8 @@ class Seams {
   void share(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
 
  private:
-  void set_classes(std::vector<std::vector<int>> classes);
-  void find_edges();
+  void set_classes(std::vector<std::vector<int>> classes, const LevelLayout& layout);
+  void find_edges(const LevelLayout& layout);
 
   int size_ = 0;
   std::vector<int> starts_{0}, samples_;

@@ -37,11 +37,11 @@ void SpringHessian::set_time_step(double time_step) {
       inertia_(r, c) = cloth_.mass(r, c) / (h * h);
     }
   for (int i = 0; i < cloth_.mates.class_count(); ++i) {
-    const std::span<const int> samples = cloth_.mates.mates(i);
-    const float share = 1 / static_cast<float>(samples.size());
-    for (const int s : samples) {
-      momentum_(s / cloth_.size, s % cloth_.size) *= share;
-      inertia_(s / cloth_.size, s % cloth_.size) *= share;
+    const float share = 1 / static_cast<float>(cloth_.mates.copies(i).size());
+    for (const int s : cloth_.mates.mates(i)) {
+      const float part = cloth_.mates.is_hole(s) ? 0 : share;
+      momentum_(s / cloth_.size, s % cloth_.size) *= part;
+      inertia_(s / cloth_.size, s % cloth_.size) *= part;
     }
   }
 }
@@ -103,9 +103,10 @@ double SpringHessian::damped_energy_row(const PaddedState& state, int row) const
   return energy;
 }
 
-ConstSpringHessianRow SpringHessian::springs_row(int direction, int row) const {
+ConstSpringHessianRow SpringHessian::springs_row(int direction, int row, int first_col) const {
   const Direction& from = springs_[direction];
-  return {from.t.row(row), from.x.row(row), from.y.row(row), from.z.row(row), from.f.row(row)};
+  return {from.t.row(row) + first_col, from.x.row(row) + first_col, from.y.row(row) + first_col,
+          from.z.row(row) + first_col, from.f.row(row) + first_col};
 }
 
 std::array<PaddedPlane*, 4> SpringHessian::planes(int direction) {

@@ -60,7 +60,7 @@ class SpringHessian {
   /// Own part of M / h^2 [N/m].
   [[nodiscard]] const PaddedPlane& inertia() const { return inertia_; }
   /// The springs of a direction that start from a row.
-  [[nodiscard]] ConstSpringHessianRow springs_row(int direction, int row) const;
+  [[nodiscard]] ConstSpringHessianRow springs_row(int direction, int row, int first_col = 0) const;
   /// The planes t, x, y, z of a direction, for temporary changes.
   [[nodiscard]] std::array<PaddedPlane*, 4> planes(int direction);
   /// Views of t, x, y, z of a direction.

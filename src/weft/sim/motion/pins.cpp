@@ -15,7 +15,13 @@ struct Pinner {
   Cloth& cloth;
   std::vector<int>& held;  // pins of the cloth
 
-  void operator()(const ImagePin& at) const { hold(sample_at(cloth.size, at.uv)); }
+  void operator()(const ImagePin& at) const {
+    const int sample = sample_at(cloth.size, at.uv);
+    if (cloth.mates.is_hole(sample))
+      throw SceneError("pins", "a place between the charts of the image",
+                       "a place in one of them, or the point of the surface that is nearest");
+    hold(sample);
+  }
 
   void operator()(const NearestPin& at) const {
     int nearest = 0;
@@ -38,11 +44,13 @@ struct Pinner {
     const int last_row = static_cast<int>(std::floor(at.upper.y * steps + hair));
     const int first_col = static_cast<int>(std::ceil(at.lower.x * steps - hair));
     const int last_col = static_cast<int>(std::floor(at.upper.x * steps + hair));
-    if (first_row > last_row || first_col > last_col)
+    const std::size_t before = held.size();
+    for (int r = first_row; r <= last_row; ++r)
+      for (int c = first_col; c <= last_col; ++c)
+        if (!cloth.mates.is_hole(r * cloth.size + c)) hold(r * cloth.size + c);
+    if (held.size() == before)
       throw SceneError("pins", "a region that holds no sample",
                        "a larger region or a larger cloth size is wanted");
-    for (int r = first_row; r <= last_row; ++r)
-      for (int c = first_col; c <= last_col; ++c) hold(r * cloth.size + c);
   }
 
   void hold(int sample) const {

@@ -36,7 +36,7 @@ struct Mover {
   std::optional<Wind> wind;
   RunawayCheck runaway;
   StrainLimit limit;
-  CoarseLimit coarse_limit;
+  std::optional<CoarseLimit> coarse_limit;  ///< of soft springs
   EnergyMeter meter;
   DrivenWork driven_work;
   /// Energies of this step: at its start, after the wind; after solve and strain limit; at its end.
@@ -61,6 +61,8 @@ struct Simulation::Parts {
         soft(Integrators::traits_of(scene.integrator).soft_springs) {}
 
   LoadedSurface load(const Surface& surface, ConvertOptions options, const std::string& what);
+  void check_collider(const char* kind, const BorderMates& mates, const std::string& what) const;
+  void check_charts(const BorderMates& mates, const std::string& what) const;
   Cloth make(const SceneCloth& wanted, const Planes3& rest, const BorderMates& mates) const;
   void load_cloths();
   void load_bodies();

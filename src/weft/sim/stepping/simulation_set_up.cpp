@@ -77,18 +77,34 @@ Cloth Simulation::Parts::make(const SceneCloth& wanted, const Planes3& rest,
   }
 }
 
+void Simulation::Parts::check_collider(const char* kind, const BorderMates& mates,
+                                       const std::string& what) const {
+  if (!Colliders::traits_of(scene.collider).several_charts)
+    throw SceneError(
+        name, fmt::format("{} '{}' is an image of {} charts", kind, what, mates.charts().size()),
+        fmt::format("the collider pyramid is wanted, or a {} of one chart", kind));
+}
+
+void Simulation::Parts::check_charts(const BorderMates& mates, const std::string& what) const {
+  if (!mates.keep_manifold())
+    throw SceneError(
+        name,
+        fmt::format("cloth '{}' has edges of more than two triangles, or one side only", what),
+        "an oriented surface, two triangles at most on every edge, is wanted");
+  if (!mates.chart_of().empty() && !Integrators::traits_of(scene.integrator).several_charts)
+    throw SceneError(
+        name, fmt::format("cloth '{}' is an image of {} charts", what, mates.charts().size()),
+        "the integrator newton is wanted, or a cloth of one chart");
+  if (!mates.chart_of().empty()) check_collider("cloth", mates, what);
+}
+
 void Simulation::Parts::load_cloths() {
   for (const SceneCloth& wanted : scene.cloths) {
     ConvertOptions options;
-    options.charts = ChartChoice::one;
     options.size = wanted.size;
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
-    if (!loaded.image.has_one_chart())
-      throw SceneError(name,
-                       fmt::format("cloth '{}' is an image of {} charts", wanted.name,
-                                   loaded.image.mates.charts().size()),
-                       "one oriented chart that fills its image is wanted");
+    check_charts(loaded.image.mates, wanted.name);
     const Planes3 rest = placed_positions(loaded.image, placement_map(wanted.placement));
     Cloth cloth = make(wanted, rest, loaded.image.mates);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
@@ -107,11 +123,7 @@ void Simulation::Parts::load_bodies() {
     options.keep_places = !wanted.animation.empty();
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
-    if (!loaded.image.has_one_chart() && !Colliders::traits_of(scene.collider).several_charts)
-      throw SceneError(name,
-                       fmt::format("body '{}' is an image of {} charts", wanted.name,
-                                   loaded.image.mates.charts().size()),
-                       "the collider pyramid is wanted, or a body of one chart");
+    if (!loaded.image.has_one_chart()) check_collider("body", loaded.image.mates, wanted.name);
     BodyMotion motion(wanted, loaded, {scene.frame_rate, scene.files});
     const PlacementMap map = placement_map(wanted.placement);
     PlacedBody body;
@@ -193,7 +205,8 @@ void Simulation::Parts::make_movers() {
         {make_integrator(scene.integrator, *cloth.model, typical, solvers()),
          scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, *cloth.model) : std::nullopt,
          RunawayCheck(*cloth.model, cloth.state, scene.gravity, drive_of(i)),
-         StrainLimit(*cloth.model, solvers()), CoarseLimit(*cloth.model, solvers()),
+         StrainLimit(*cloth.model, solvers()),
+         soft ? std::optional<CoarseLimit>(std::in_place, *cloth.model, solvers()) : std::nullopt,
          EnergyMeter(*cloth.model, scene.gravity, solvers()),
          DrivenWork(*cloth.model, scene.gravity, solvers()), Energy{}, Energy{}, Energy{},
          Planes3(scene.wind ? cloth.model->size : 0), Planes3(cloth.model->size)});

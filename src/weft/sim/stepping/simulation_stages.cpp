@@ -117,7 +117,7 @@ int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport&
   coarse_limiter.passes = std::min(coarse_passes, limiter.passes);
   int contacts = 0;
   for (int round = 0; round < (soft ? rounds_of_soft_springs : 1); ++round) {
-    if (soft) mover.coarse_limit.limit(coarse_limiter, time_step, next, solvers());
+    if (mover.coarse_limit) mover.coarse_limit->limit(coarse_limiter, time_step, next, solvers());
     report.limit_ms += clock.lap_ms();
     const bool pulled = is_pulled(index);
     const double before = pulled ? mover.meter.measure(next).total() : 0;
