@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <climits>
+#include <map>
 #include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -54,15 +56,25 @@ int side_of(int samples) {
   return side;
 }
 
-ChartChoice charts_of(const std::string& arg) {
-  if (arg == "1") return ChartChoice::one;
-  return arg == "pieces" ? ChartChoice::pieces : ChartChoice::automatic;
+void choose_charts(const std::string& arg, ConvertOptions& options) {
+  const std::map<std::string, ChartChoice> words{{"1", ChartChoice::one},
+                                                 {"auto", ChartChoice::automatic},
+                                                 {"pieces", ChartChoice::pieces},
+                                                 {"uv", ChartChoice::texture}};
+  const auto found = words.find(arg);
+  options.charts = found != words.end() ? found->second : ChartChoice::regions;
+  if (found != words.end()) return;
+  if (!CLI::detail::lexical_cast(arg, options.max_charts) || options.max_charts < 1 ||
+      options.max_charts > largest_chart_count)
+    throw UsageError(
+        "--charts", fmt::format("'{}'", arg),
+        fmt::format("auto, pieces, uv or a number from 1 to {} is wanted", largest_chart_count));
 }
 
 ConvertOptions options_of(const ConvertArgs& args, const Context& context, Progress& progress) {
   ConvertOptions options;
   options.size = args.samples > 0 ? side_of(args.samples) : size_of(args.size);
-  options.charts = charts_of(args.charts);
+  choose_charts(args.charts, options);
   if (args.parameterizer == "floater") options.parameterizer = FloaterOptions{};
   options.seed_triangle = args.seed_triangle;
   options.normal_map_size = args.normal_map;
@@ -214,8 +226,8 @@ void add_convert(CLI::App& program, const Context& context) {
       ->excludes("--size");
   command
       ->add_option("--charts", args->charts,
-                   "1: refuse several pieces; auto, pieces: a chart for each piece")
-      ->check(CLI::IsMember({"1", "auto", "pieces"}))
+                   "1: refuse several pieces; auto, pieces: a chart for each piece; uv: for each "
+                   "island of the texture; N: N compact ones")
       ->capture_default_str();
   add_mesh_options(*command, args->frame);
   command->add_option("--parameterizer", args->parameterizer, "How the inside is mapped")

@@ -22,16 +22,22 @@ namespace weft {
 /// The value of ConvertOptions::size that asks for a size chosen from the mesh.
 inline constexpr int automatic_size = 0;
 
+/// The largest ConvertOptions::max_charts.
+inline constexpr int largest_chart_count = 4096;
+
 /// Of how many charts an image may be.
 enum class ChartChoice {
   automatic,  ///< one where that will do, else as few as make the mesh possible
   pieces,     ///< one for each connected piece
+  texture,    ///< one for each island of the mesh's texture coordinates
+  regions,    ///< ConvertOptions::max_charts compact ones; more where the mesh has more pieces
   one         ///< a mesh of several pieces is refused
 };
 
 struct ConvertOptions {
   ChartChoice charts = ChartChoice::automatic;
-  int size = 257;  ///< or automatic_size; the image tells which it was
+  int max_charts = 1;  ///< for ChartChoice::regions, from 1 to largest_chart_count
+  int size = 257;      ///< or automatic_size; the image tells which it was
   Parameterizer parameterizer = StretchOptions{};
   ComponentChoice component;  ///< `only`: of several components all, unless `charts` is `one`
   int seed_triangle = -1;     ///< of the input, before repair; -1: choose
@@ -87,7 +93,8 @@ struct Conversion {
 /// @param name  what errors and the image's metadata call the mesh: a path or builtin:NAME
 /// The seam's vertices are those of `mesh`, before repair.
 /// @throws InputError, TopologyError as the stages, InputError when texture coordinates are to be
-///         kept and the mesh lacks them; UsageError for a size that no image may have
+///         kept or followed and the mesh lacks them; UsageError for a size that no image may have,
+///         or such a number of charts
 Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
                         const ConvertOptions& options);
 

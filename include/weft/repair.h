@@ -15,9 +15,16 @@ struct ComponentChoice {
   int index = 0;           ///< for Kind::index, largest area first
 };
 
+/// Where else a surface is parted into charts than where it must be.
+struct PartChoice {
+  bool at_texture_seams = false;
+  int regions = 0;  ///< compact ones, as many in all where the surface has fewer parts; 0: none
+};
+
 struct RepairOptions {
   std::string name = "mesh";  ///< what errors call the mesh, mostly its path
   ComponentChoice component;
+  PartChoice part{};
 };
 
 /// A mesh fit for the stages that follow: finite, indexed, manifold, consistently oriented, one
@@ -28,8 +35,9 @@ struct RepairedMesh {
   std::vector<int> source_triangle;  ///< [F] the input's triangle; its orientation may differ
   std::vector<std::string> repairs;  ///< one sentence for each kind of change, with its count
   TopologyCounts counts;             ///< of `mesh`, parted vertices joined
-  /// [V] where the surface had to be parted, at edges of more than two triangles and where it
-  /// cannot be oriented: vertices of the same number are one point of it. Empty elsewhere.
+  /// [V] where the surface was parted, at edges of more than two triangles, where it cannot be
+  /// oriented, and as PartChoice asks: vertices of the same number are one point of it. Empty
+  /// elsewhere.
   std::vector<int> joined;
   /// [vertices of the input] the first vertex at the position of each, where welding them closed
   /// borders; empty elsewhere. Of these only first ones are in `source_vertex`.

@@ -180,6 +180,59 @@ TEST(Charts, AWeldedMeshFollowsAllOfItsVertices) {
     EXPECT_TRUE(std::isfinite(loaded.source->places[v].x)) << "vertex " << v;
 }
 
+void expect_sound(const Conversion& made, const std::string& what) {
+  const TopologyCounts& wanted = made.input.counts;
+  EXPECT_EQ(made.map_quality.flipped, 0) << what;
+  EXPECT_TRUE(mates_bit_equal(made.image)) << what;
+  const TriangleMesh mesh = rebuild_mesh(made.image).mesh;
+  const TopologyCounts counts =
+      count_topology(static_cast<int>(mesh.positions.size()), mesh.triangles);
+  EXPECT_EQ(counts.euler, wanted.euler) << what;
+  EXPECT_EQ(counts.boundaries, wanted.boundaries) << what;
+  EXPECT_EQ(counts.components, wanted.components) << what;
+}
+
+TEST(Charts, RegionsOfAnyNumberAreOneSurface) {
+  for (const char* shape : {"torus", "knot", "sheet"})
+    for (const int count : {3, 8}) {
+      ConvertOptions options = unmeasured(65);
+      options.charts = ChartChoice::regions;
+      options.max_charts = count;
+      const Conversion made = convert_mesh(make_shape(shape), shape, options);
+      const std::string what = std::string(shape) + " in " + std::to_string(count);
+      EXPECT_EQ(made.charts.size(), static_cast<std::size_t>(count)) << what;
+      expect_sound(made, what);
+    }
+}
+
+TEST(Charts, IslandsOfTheTextureBecomeCharts) {
+  TriangleMesh mesh = make_shape("torus");
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3d middle = mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]];
+    std::array<Vec2f, 3> corners;
+    for (int k = 0; k < 3; ++k)
+      corners[k] = {static_cast<float>(mesh.positions[t[k]].x) + (middle.x > 0 ? 10.0F : 0.0F),
+                    static_cast<float>(mesh.positions[t[k]].z)};
+    mesh.corner_uv.push_back(corners);
+  }
+  ConvertOptions options = unmeasured(65);
+  options.charts = ChartChoice::texture;
+  const Conversion made = convert_mesh(mesh, "torus", options);
+  EXPECT_EQ(made.charts.size(), 2U);
+  expect_sound(made, "torus in halves");
+}
+
+TEST(Charts, TextureAndNumbersThatCannotBeAreRefused) {
+  ConvertOptions options = unmeasured(33);
+  options.charts = ChartChoice::texture;
+  EXPECT_THROW(convert_mesh(make_shape("torus"), "torus", options), InputError);
+  options.charts = ChartChoice::regions;
+  for (const int count : {0, -1, largest_chart_count + 1}) {
+    options.max_charts = count;
+    EXPECT_THROW(convert_mesh(make_shape("torus"), "torus", options), UsageError) << count;
+  }
+}
+
 /// Three pages that meet in a spine.
 TriangleMesh book(int pages) {
   TriangleMesh mesh;

@@ -86,6 +86,29 @@ TEST(LayOutBorder, EqualLoopsOfATorusMeetOnTheHighestLevel) {
   }
 }
 
+TEST(LayOutBorder, WhatFixedBordersLeaveIsSharedOutToMates) {
+  // A ring whose outer and inner border are fixed: only the cut between them, which runs along the
+  // border twice, takes what is left.
+  int rings = 0;
+  for (Case& c : layout_cases()) {
+    int intervals = 4, borders = 0;
+    for (BorderPath& path : c.cut.paths)
+      if (path.mate < 0) {
+        path.intervals = intervals;
+        intervals += 4;
+        ++borders;
+      }
+    if (borders < 2 || !has_free_path(c.cut) || min_size(c.cut) > 129) continue;
+    ++rings;
+    const BorderLayout layout = lay_out_border(c.cut, {129, 0});
+    EXPECT_EQ(std::accumulate(layout.intervals.begin(), layout.intervals.end(), 0), 4 * 128);
+    for (std::size_t p = 0; p < c.cut.paths.size(); ++p)
+      if (c.cut.paths[p].mate < 0)
+        EXPECT_EQ(layout.intervals[p], c.cut.paths[p].intervals) << c.name;
+  }
+  EXPECT_GE(rings, 3);
+}
+
 TEST(LayOutBorder, LeastCountsKeepLoopsAndParallelPathsApart) {
   for (const Case& c : layout_cases()) {
     SCOPED_TRACE(c.name);

@@ -24,6 +24,13 @@ void check_size(int size) {
                    fmt::format("a side of {} .. {}", min_image_size, largest_image_size));
 }
 
+void check_charts(const ConvertOptions& options) {
+  if (options.charts != ChartChoice::regions) return;
+  if (options.max_charts >= 1 && options.max_charts <= largest_chart_count) return;
+  throw UsageError("", fmt::format("{} charts", options.max_charts),
+                   fmt::format("1 .. {} charts", largest_chart_count));
+}
+
 void check_texture(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.corner_uv.empty())
     throw InputError(
@@ -75,17 +82,24 @@ ComponentChoice components_of(const ConvertOptions& options) {
   return options.component;
 }
 
+PartChoice parts_of(const ConvertOptions& options) {
+  return {.at_texture_seams = options.charts == ChartChoice::texture,
+          .regions = options.charts == ChartChoice::regions ? options.max_charts : 0};
+}
+
 }  // namespace
 
 Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
                         const ConvertOptions& options) {
   check_size(options.size);
   if (options.normal_map_size != 0) check_size(options.normal_map_size);
-  if (options.keep_uv) check_texture(mesh, name);
+  check_charts(options);
+  if (options.keep_uv || options.charts == ChartChoice::texture) check_texture(mesh, name);
   Stopwatch watch;
   Conversion made;
   update(options.progress, "repair", 0);
-  made.input = repair_mesh(mesh, {.name = name, .component = components_of(options)});
+  made.input = repair_mesh(
+      mesh, {.name = name, .component = components_of(options), .part = parts_of(options)});
   made.seconds.load = watch.lap();
   named(name, [&] {
     ImageConversion(made, name, options).run();

@@ -13,6 +13,7 @@
 #include "weft/core/hash.h"
 #include "weft/error.h"
 #include "weft/mesh/manifold.h"
+#include "weft/mesh/partition.h"
 #include "weft/mesh/surface_parts.h"
 
 namespace weft {
@@ -121,12 +122,13 @@ class Repair {
     if (!has_area(mesh_))
       throw InputError(options_.name, "no triangle has an area", "a surface is wanted");
     orient();
-    if (is_parted_)
+    carry_corner_uv();
+    choose_parts();
+    if (std::find(parted_.begin(), parted_.end(), true) != parted_.end())
       part();
     else
       split_vertices();
     drop_unused_vertices();
-    carry_corner_uv();
     result_.counts = counts();
     result_.mesh = std::move(mesh_);
     return std::move(result_);
@@ -247,9 +249,9 @@ class Repair {
     int turned = 0;
     if (options_.component.kind == ComponentChoice::Kind::all) {
       turned = orient_parts(mesh_.triangles, edges_, parted_);
-      is_parted_ = std::find(parted_.begin(), parted_.end(), true) != parted_.end();
     } else {
       turned = orient_triangles(mesh_.triangles, edges_, options_.name);
+      parted_.assign(static_cast<std::size_t>(edges_.edge_count()), false);
     }
     if (turned > 0) report(fmt::format("oriented {}", counted(turned, "triangle")));
     const SurfaceParts parts = surface_parts(mesh_, edges_);
@@ -265,7 +267,8 @@ class Repair {
                          counted(turned_outward, "triangle")));
   }
 
-  void part() {
+  /// Reports where the surface has to be parted, and parts it where that is asked for besides.
+  void choose_parts() {
     std::size_t branching = 0, unoriented = 0;
     for (int e = 0; e < edges_.edge_count(); ++e) {
       branching += parted_[e] && edges_.of(e).size() > 2 ? 1 : 0;
@@ -276,6 +279,18 @@ class Repair {
     if (unoriented > 0)
       report(fmt::format("parted at {} where the surface cannot be oriented",
                          counted(unoriented, "edge")));
+    if (options_.part.at_texture_seams)
+      report(
+          fmt::format("parted at {} between islands of the texture",
+                      counted(std::size_t(part_at_texture_seams(mesh_, edges_, parted_)), "edge")));
+    if (options_.part.regions > 0)
+      report(fmt::format(
+          "parted into {}",
+          counted(std::size_t(part_in_regions(mesh_, edges_, options_.part.regions, parted_)),
+                  "region")));
+  }
+
+  void part() {
     find_edges();  // the same edges in the same order, of triangles as they lie now
     lengthen_slits(mesh_, edges_, parted_);
     PartedVertices made =
@@ -357,8 +372,7 @@ class Repair {
   const std::vector<Triangle>& source_triangles_;
   const RepairOptions& options_;
   std::vector<bool> parted_;  ///< [E] where the surface is parted
-  bool is_parted_ = false;
-  EdgeUses edges_;  ///< of mesh_, until triangles are flipped
+  EdgeUses edges_;            ///< of mesh_, until triangles are flipped
   RepairedMesh result_;
 };
 

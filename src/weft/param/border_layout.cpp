@@ -94,6 +94,16 @@ std::optional<std::vector<BorderCurve>> with_fixed_in(std::vector<BorderCurve> c
   return curves;
 }
 
+/// Whether curves can have so many intervals in all: where every free one has a mate, what the
+/// fixed ones leave has to be even.
+bool can_have(const std::vector<BorderCurve>& curves, int total) {
+  int left = total;
+  for (const BorderCurve& curve : curves) left -= curve.weight * curve.fixed;
+  const auto takes_one = [](const BorderCurve& c) { return c.fixed == 0 && c.weight == 1; };
+  return min_total(curves) <= total &&
+         (left % 2 == 0 || std::any_of(curves.begin(), curves.end(), takes_one));
+}
+
 /// Interval counts in multiples of the largest power of two that divides the side and for which
 /// near_enough holds; any counts where there is none.
 std::vector<int> aligned_counts(const std::vector<BorderCurve>& curves, int size) {
@@ -103,7 +113,7 @@ std::vector<int> aligned_counts(const std::vector<BorderCurve>& curves, int size
   while ((size - 1) % (2 * step) == 0) step *= 2;
   for (; step > 1; step /= 2) {
     const std::optional<std::vector<BorderCurve>> in_steps = with_fixed_in(curves, step);
-    if (!in_steps || min_total(*in_steps) > total / step) continue;
+    if (!in_steps || !can_have(*in_steps, total / step)) continue;
     std::vector<int> counts = apportion(*in_steps, total / step);
     if (!near_enough(curves, share, counts, step)) continue;
     for (int& count : counts) count *= step;
