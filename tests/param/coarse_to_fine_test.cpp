@@ -54,6 +54,20 @@ TEST(CoarseToFine, MapsAsWellAsNewtonStepsOnAllVertices) {
   EXPECT_GT(geometry.stretch_l2(refined), 1);
 }
 
+TEST(CoarseToFine, MapsALargeDiskAsWell) {
+  const DiskMesh disk = hills();
+  const DiskGeometry geometry(disk);
+  const MapDisk map = [](const DiskMesh& part, std::span<Vec2d> uv,
+                         std::span<const BorderFreedom>) { return map_plainly(part, uv, 40); };
+  std::vector<Vec2d> small = test::square_border(disk, 64);
+  std::vector<Vec2d> large = small;
+  ASSERT_TRUE(map_coarse_to_fine(disk, small, map, {.triangles = 1000}));
+  ASSERT_TRUE(map_coarse_to_fine(disk, large, map, {.triangles = 1000, .many = 1500}));
+  EXPECT_TRUE(is_valid_map(disk.triangles, large));
+  EXPECT_NE(small, large) << "rounds of many triangles pass over what is at rest";
+  EXPECT_LT(geometry.stretch_l2(large), 1.001 * geometry.stretch_l2(small));
+}
+
 TEST(CoarseToFine, GoesCoarserWhereTheCoarseMapFails) {
   const DiskMesh disk = hills();
   std::vector<Vec2d> uv = test::square_border(disk, 64);

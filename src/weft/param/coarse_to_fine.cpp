@@ -4,6 +4,7 @@
 
 #include "weft/param/collapse_passes.h"
 #include "weft/param/disk_geometry.h"
+#include "weft/param/disk_order.h"
 #include "weft/param/progressive_embedding.h"
 #include "weft/param/triangle_energy.h"
 
@@ -61,17 +62,11 @@ StarTriangle Triangles::operator()(const Triangle& t) const {
           inverse_unit_ * inverse_weight(surface)};
 }
 
-std::vector<BorderFreedom> renumbered(std::span<const BorderFreedom> freedoms,
-                                      const CoarseDisk& coarse, std::size_t vertices) {
-  std::vector<int> number(vertices, -1);
-  for (std::size_t v = 0; v < coarse.vertex.size(); ++v)
-    number[coarse.vertex[v]] = static_cast<int>(v);
-  std::vector<BorderFreedom> result(freedoms.begin(), freedoms.end());
-  for (BorderFreedom& freedom : result) {
-    freedom.vertex = number[freedom.vertex];
-    if (freedom.mate >= 0) freedom.mate = number[freedom.mate];
-  }
-  return result;
+/// [D] the index of each vertex in a list of them, -1 where it is not there.
+std::vector<int> places_in(std::span<const int> list, std::size_t vertices) {
+  std::vector<int> place(vertices, -1);
+  for (std::size_t i = 0; i < list.size(); ++i) place[list[i]] = static_cast<int>(i);
+  return place;
 }
 
 bool map_what_is_left(const CollapseHierarchy& mesh, const DiskMesh& disk, std::span<Vec2d> uv,
@@ -79,15 +74,14 @@ bool map_what_is_left(const CollapseHierarchy& mesh, const DiskMesh& disk, std::
   const CoarseDisk coarse = coarse_disk(mesh, disk);
   std::vector<Vec2d> coarse_uv;
   for (const int v : coarse.vertex) coarse_uv.push_back(uv[v]);
-  if (!map(coarse.disk, coarse_uv, renumbered(freedoms, coarse, uv.size()))) return false;
+  if (!map(coarse.disk, coarse_uv, renumbered(freedoms, places_in(coarse.vertex, uv.size()))))
+    return false;
   for (std::size_t v = 0; v < coarse.vertex.size(); ++v) uv[coarse.vertex[v]] = coarse_uv[v];
   return true;
 }
 
-}  // namespace
-
-bool map_coarse_to_fine(const DiskMesh& disk, std::span<Vec2d> uv, const MapDisk& map,
-                        const CoarseToFineOptions& options) {
+bool map_as_numbered(const DiskMesh& disk, std::span<Vec2d> uv, const MapDisk& map,
+                     const CoarseToFineOptions& options) {
   constexpr int triangles_per_border_edge = 8;
   const Triangles triangles(disk, uv);
   const CollapseOrder order = shortest_first(disk);
@@ -104,9 +98,33 @@ bool map_coarse_to_fine(const DiskMesh& disk, std::span<Vec2d> uv, const MapDisk
   ReinsertionOptions back{.triangle = triangles,
                           .growth = options.growth,
                           .sweeps = options.sweeps,
+                          .many = options.many,
                           .freedoms = options.freedoms,
                           .progress = options.progress};
   return bring_back(mesh, uv, back) && is_valid_map(disk.triangles, uv);
+}
+
+/// In a numbering that keeps neighbours together.
+bool map_in_order(const DiskMesh& disk, std::span<Vec2d> uv, const MapDisk& map,
+                  CoarseToFineOptions options) {
+  const OrderedDisk ordered = breadth_first(disk);
+  const std::vector<BorderFreedom> freedoms =
+      renumbered(options.freedoms, places_in(ordered.vertex, uv.size()));
+  options.freedoms = freedoms;
+  std::vector<Vec2d> own;
+  own.reserve(uv.size());
+  for (const int v : ordered.vertex) own.push_back(uv[v]);
+  const bool found = map_as_numbered(ordered.disk, own, map, options);
+  for (std::size_t v = 0; v < own.size(); ++v) uv[ordered.vertex[v]] = own[v];
+  return found;
+}
+
+}  // namespace
+
+bool map_coarse_to_fine(const DiskMesh& disk, std::span<Vec2d> uv, const MapDisk& map,
+                        const CoarseToFineOptions& options) {
+  const bool is_large = static_cast<int>(disk.triangles.size()) > options.many;
+  return is_large ? map_in_order(disk, uv, map, options) : map_as_numbered(disk, uv, map, options);
 }
 
 }  // namespace weft

@@ -18,6 +18,10 @@ struct CoarseToFineOptions {
   int triangles = 5000;  ///< about the size of the coarse disk; more where its border is long
   double growth = 1.6;   ///< of the number of triangles from one round of sweeps to the next
   int sweeps = 8;        ///< per round
+  /// A disk of more triangles than this is renumbered, and sweeps over so many pass over vertices
+  /// at rest: it does not fit into the processor's caches, and its finest levels converge at once
+  /// but for a few places.
+  int many = 200000;
   std::span<const BorderFreedom> freedoms = {};
   Progress* progress = nullptr;
 };

@@ -33,14 +33,14 @@ Vec2d on_axis(int axis, double length) { return axis == 0 ? Vec2d{length, 0} : V
 
 }  // namespace
 
-bool VertexMover::improve(int vertex) {
+double VertexMover::improve(int vertex) {
   star_.gather(mesh_, triangles_, uv_, vertex);
   const Vec2d place = uv_[vertex];
   const VertexStar::Model here = star_.model(place);
   const Symmetric2& curvature = here.hessian.is_positive() ? here.hessian : here.squares;
   const Vec2d step = curvature.solve(-1.0 * here.gradient);
   const double slope = dot(step, here.gradient);
-  if (!std::isfinite(here.energy) || !(slope < -min_gain * here.energy)) return false;
+  if (!std::isfinite(here.energy) || !(slope < -min_gain * here.energy)) return 0;
   const double most = 0.9 * star_.free_step_length(place, step);
   double step_length = std::min(1.0, most);
   for (int halving = 0; halving < 8; ++halving, step_length *= 0.5) {
@@ -50,9 +50,9 @@ bool VertexMover::improve(int vertex) {
       step_length = longer_step_length(star_, place, step, most);
     if (!star_.is_valid(place + step_length * step)) continue;
     uv_[vertex] = place + step_length * step;
-    return true;
+    return 1 - reached / here.energy;
   }
-  return false;
+  return 0;
 }
 
 bool VertexMover::centre(int vertex) {
@@ -106,6 +106,29 @@ void VertexMover::sweep(std::span<const BorderFreedom> freedoms) {
   for (int v = 0; v < mesh_.vertex_count(); ++v)
     if (mesh_.is_inner(v)) improve(v);
   for (const BorderFreedom& freedom : freedoms) improve(freedom);
+}
+
+/// Marks the vertices that moved far and their neighbours.
+void VertexMover::wake(std::span<const int> moved_far) {
+  awake_.assign(mesh_.vertex_count(), 0);
+  for (const int v : moved_far) {
+    awake_[v] = 1;
+    mesh_.around(v, [&](int h) { awake_[mesh_.to(h)] = 1; });
+  }
+}
+
+void VertexMover::sweep_restless(int most, std::span<const BorderFreedom> freedoms) {
+  constexpr double far = 1e-3;  // share of the energy around a vertex that its turn took away
+  std::vector<int> moved_far;
+  awake_.assign(mesh_.vertex_count(), 1);
+  for (int k = 0; k < most; ++k) {
+    moved_far.clear();
+    for (int v = 0; v < mesh_.vertex_count(); ++v)
+      if (awake_[v] && mesh_.is_inner(v) && improve(v) > far) moved_far.push_back(v);
+    for (const BorderFreedom& freedom : freedoms) improve(freedom);
+    if (moved_far.empty()) return;
+    wake(moved_far);
+  }
 }
 
 }  // namespace weft

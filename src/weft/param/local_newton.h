@@ -21,8 +21,8 @@ class VertexMover {
               std::span<Vec2d> uv)
       : mesh_(mesh), triangles_(triangles), uv_(uv) {}
 
-  /// Moves an inner vertex. @return whether it moved
-  bool improve(int vertex);
+  /// Moves an inner vertex. @return the share of the energy around it that this takes away
+  double improve(int vertex);
   /// Moves an inner vertex to the centre of the kernel of its neighbours where that lowers the
   /// energy: leaves at once a narrow corner from which Newton steps are very short.
   bool centre(int vertex);
@@ -30,12 +30,19 @@ class VertexMover {
   bool improve(const BorderFreedom& freedom);
   /// Moves all inner vertices and all freedoms once, in order.
   void sweep(std::span<const BorderFreedom> freedoms = {});
+  /// Moves all inner vertices once, then again those that moved far in the last sweep and their
+  /// neighbours: most of a fine mesh comes to rest at once. All freedoms move in every sweep.
+  /// @param most  number of sweeps
+  void sweep_restless(int most, std::span<const BorderFreedom> freedoms = {});
 
  private:
+  void wake(std::span<const int> moved_far);
+
   const CollapseHierarchy& mesh_;
   std::span<const StarTriangle> triangles_;
   std::span<Vec2d> uv_;
   VertexStar star_, mate_star_;
+  std::vector<char> awake_;  ///< [V] whether a vertex takes part in the next restless sweep
 };
 
 }  // namespace weft

@@ -21,6 +21,7 @@ class Reinsertion {
   void renew_around(int vertex);
   bool bring_one_back();
   bool place(int vertex);
+  void relax();
   void reserve(int half_edge, int circles);
   [[nodiscard]] std::vector<int> neighbourhood(int half_edge, int circles) const;
 
@@ -108,6 +109,12 @@ bool Reinsertion::bring_one_back() {
   return true;
 }
 
+void Reinsertion::relax() {
+  if (mesh_.triangle_count() > options_.many)
+    return mover_.sweep_restless(2 * options_.sweeps, options_.freedoms);
+  for (int k = 0; k < options_.sweeps; ++k) mover_.sweep(options_.freedoms);
+}
+
 bool Reinsertion::run() {
   const int whole = static_cast<int>(triangles_.size());
   do {
@@ -116,7 +123,7 @@ bool Reinsertion::run() {
     const double wanted = std::max(count * options_.growth, count + 8.0);
     while (mesh_.depth() > 0 && mesh_.triangle_count() < wanted)
       if (!bring_one_back()) return false;
-    for (int k = 0; k < options_.sweeps; ++k) mover_.sweep(options_.freedoms);
+    relax();
   } while (mesh_.depth() > 0);
   return true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 
 #include "weft/cut/disk_mesh.h"
@@ -16,6 +17,8 @@ struct ReinsertionOptions {
   std::function<StarTriangle(const Triangle&)> triangle;
   double growth = 1.3;  ///< of the number of triangles from one round of sweeps to the next
   int sweeps = 2;       ///< per round
+  /// Of more triangles, twice the sweeps, over what is not at rest.
+  int many = std::numeric_limits<int>::max();
   std::span<const BorderFreedom> freedoms = {};  ///< border vertices relaxed too
   Progress* progress = nullptr;
 };
