@@ -42,14 +42,14 @@ bool is_suspicious(const MappedDisk& mapped) {
 
 ChartConversion::ChartConversion(const Piece& piece, const RepairedMesh& input,
                                  const std::string& name, const ConvertOptions& options)
-    : piece_(piece), input_(input), name_(name), options_(options) {
+    : piece_(piece), input_(input), name_(name), options_(options), surface_(piece.mesh) {
   cut_ = lengthened_ = first_cut();
-  min_side_ = min_size(cut_open(piece.mesh, cut_));
+  min_side_ = min_size(cut_open(*surface_, cut_));
 }
 
 Cut ChartConversion::first_cut() {
   const CutOptions cut{.seed_triangle = seed_in_piece(piece_, input_, options_.seed_triangle)};
-  if (!options_.seam) return open_to_disk(piece_.mesh, cut);
+  if (!options_.seam) return open_to_disk(*surface_, cut);
   std::vector<int> source_vertex;
   for (const int v : piece_.vertex) source_vertex.push_back(input_.source_vertex[v]);
   SeamCut along = cut_along_seam(piece_.mesh, source_vertex, *options_.seam, cut);
@@ -70,26 +70,30 @@ int ChartConversion::suitable_side() const {
   return n;
 }
 
-MappedDisk ChartConversion::mapped_along(const Cut& cut, int side) const {
+MappedDisk ChartConversion::mapped_along(const Cut& cut, int side) {
   MapOptions map;
   map.size = side;
   map.parameterizer = options_.parameterizer;
   map.name = name_;
   map.progress = options_.progress;
-  return map_to_square(opened(cut), map);
+  CutDisk disk = opened(cut);
+  cut_summary_ = summarise(disk);
+  surface_.reset();  // a map takes enough memory as it is
+  return map_to_square(std::move(disk), map);
 }
 
 void ChartConversion::lengthen_cut(int side) {
   lengthened_ = cut_;
   if (!options_.augment || options_.seam) return;
   AugmentedCut augmented =
-      augment_cut(piece_.mesh, cut_, {.size = side, .progress = options_.progress});
+      augment_cut(*surface_, cut_, {.size = side, .progress = options_.progress});
   lengthened_ = std::move(augmented.cut);
   rounds_ = augmented.rounds;
 }
 
 CutDisk ChartConversion::opened(const Cut& cut) const {
-  return border_ != nullptr ? cut_open(piece_.mesh, cut, *border_) : cut_open(piece_.mesh, cut);
+  const FixedBorder& fixed = border_ != nullptr ? *border_ : FixedBorder{};
+  return surface_ ? cut_open(*surface_, cut, fixed) : cut_open(piece_.mesh, cut, fixed);
 }
 
 void ChartConversion::share(const FixedBorder& border) {
@@ -111,14 +115,16 @@ void ChartConversion::map(int side) {
   MappedDisk mapped = mapped_along(lengthened_, side);
   // The plain cut, where the longer one does not lower the stretch after all.
   if (rounds_ > 0 && is_suspicious(mapped) && has_free_path(opened(cut_))) {
+    const CutSummary longer = cut_summary_;
     MappedDisk plain = mapped_along(cut_, side);
     if (plain.quality.stretch_l2 < mapped.quality.stretch_l2) {
       mapped = std::move(plain);
       lengthened_ = cut_;
       rounds_ = 0;
+    } else {
+      cut_summary_ = longer;
     }
   }
-  cut_summary_ = summarise(opened(lengthened_));
   mapped_ = std::make_shared<MappedDisk>(std::move(mapped));
 }
 

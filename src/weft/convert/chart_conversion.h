@@ -7,6 +7,7 @@
 
 #include "weft/convert.h"
 #include "weft/convert/pieces.h"
+#include "weft/cut/cut_surface.h"
 #include "weft/cut/open_to_disk.h"
 
 namespace weft {
@@ -52,12 +53,13 @@ class ChartConversion {
  private:
   [[nodiscard]] Cut first_cut();
   [[nodiscard]] CutDisk opened(const Cut& cut) const;
-  [[nodiscard]] MappedDisk mapped_along(const Cut& cut, int side) const;
+  [[nodiscard]] MappedDisk mapped_along(const Cut& cut, int side);
 
   const Piece& piece_;
   const RepairedMesh& input_;
   const std::string& name_;
   const ConvertOptions& options_;
+  std::optional<CutSurface> surface_;  ///< of the piece; none once it is mapped
   Cut cut_, lengthened_;
   const FixedBorder* border_ = nullptr;
   std::vector<int> shared_curves_;

@@ -171,7 +171,10 @@ std::vector<BorderPath> divide(const CutGraph& graph, const std::vector<int>& bo
 }  // namespace
 
 CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut, const FixedBorder& fixed) {
-  const CutSurface surface(mesh);
+  return cut_open(CutSurface(mesh), cut, fixed);
+}
+
+CutDisk cut_open(const CutSurface& surface, const Cut& cut, const FixedBorder& fixed) {
   const CutGraph graph(surface, cut);
   const std::vector<int> border = walk_border(graph, fixed);
   CutDisk opened;
@@ -183,7 +186,10 @@ CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut, const FixedBorder& fi
 }
 
 Cut extend_cut(const TriangleMesh& mesh, const Cut& cut, int vertex) {
-  const CutSurface surface(mesh);
+  return extend_cut(CutSurface(mesh), cut, vertex);
+}
+
+Cut extend_cut(const CutSurface& surface, const Cut& cut, int vertex) {
   CutGraph graph(surface, cut);
   const PathTree tree =
       search_paths(surface, std::array{vertex}, [&](int v) { return graph.valence(v) > 0; });

@@ -64,9 +64,12 @@ Cut complete_cut(const CutGraph& held, const CutOptions& options) {
 }
 
 Cut open_to_disk(const TriangleMesh& mesh, const CutOptions& options) {
-  check_seed(options.seed_triangle, static_cast<int>(mesh.triangles.size()));
-  const CutSurface surface(mesh);
-  const TopologyCounts counts = count_topology(mesh.triangles, surface.edges());
+  return open_to_disk(CutSurface(mesh), options);
+}
+
+Cut open_to_disk(const CutSurface& surface, const CutOptions& options) {
+  check_seed(options.seed_triangle, surface.triangle_count());
+  const TopologyCounts counts = count_topology(surface.mesh().triangles, surface.edges());
   if (counts.genus == 0 && counts.boundaries == 1) return {};
   if (counts.genus == 0 && counts.boundaries == 0)
     return open_sphere(surface, options.seed_triangle < 0 ? 0 : options.seed_triangle);

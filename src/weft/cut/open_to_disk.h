@@ -9,6 +9,7 @@
 namespace weft {
 
 class CutGraph;
+class CutSurface;
 
 /// Cut edges of a mesh: opened along them and along its border edges, the mesh is a disk. Sorted
 /// pairs of vertices (a < b), interior edges only, each once, in ascending order.
@@ -41,6 +42,8 @@ struct CutOptions {
 /// @pre repaired mesh (weft/repair.h). Deterministic.
 /// @throws TopologyError when the seed triangle does not exist
 Cut open_to_disk(const TriangleMesh& mesh, const CutOptions& options = {});
+/// The same of a surface that is cut more than once: its half-edges take time on large meshes.
+Cut open_to_disk(const CutSurface& surface, const CutOptions& options = {});
 
 /// Completes the open edges of a surface to a cut that opens it to a disk, as open_to_disk. The
 /// edges already open stay open.
@@ -51,11 +54,13 @@ Cut complete_cut(const CutGraph& held, const CutOptions& options = {});
 /// Extends a cut by the shortest path from a vertex to it; the opened mesh stays a disk (stage 4).
 /// A vertex already on the cut or the border changes nothing.
 Cut extend_cut(const TriangleMesh& mesh, const Cut& cut, int vertex);
+Cut extend_cut(const CutSurface& surface, const Cut& cut, int vertex);
 
 /// The mesh opened along the cut, its border divided into paths.
 /// @throws TopologyError when the opened mesh is not one disk
 /// @param fixed  curves along its border, which become paths of their own
 CutDisk cut_open(const TriangleMesh& mesh, const Cut& cut, const FixedBorder& fixed = {});
+CutDisk cut_open(const CutSurface& surface, const Cut& cut, const FixedBorder& fixed = {});
 
 CutSummary summarise(const CutDisk& cut);
 

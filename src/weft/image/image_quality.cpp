@@ -39,11 +39,11 @@ double area_of(const TriangleMesh& mesh) {
 
 /// Part of a surface's area that faces the other way than the triangle of another one closest to
 /// it, by the centres of its triangles, or of evenly spread ones of many.
-double reversed_part(const TriangleMesh& surface, const TriangleMesh& mesh) {
+double reversed_part(const TriangleMesh& surface, const TriangleMesh& mesh,
+                     const ClosestPointQuery& query) {
   constexpr int max_probes = 40000;
   const auto count = static_cast<int>(surface.triangles.size());
   const int step = (count + max_probes - 1) / max_probes;
-  const ClosestPointQuery query(mesh);
   double area = 0, reversed = 0;
   int hint = 0;
   for (int t = 0; t < count; t += step) {
@@ -76,8 +76,9 @@ ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
   const TriangleMesh rebuilt = rebuild_mesh(image).mesh;
   ImageQuality quality;
   set_topology(quality, image, rebuilt);
+  const ClosestPointQuery query(mesh);
   const SurfaceDistance distance = surface_distance(
-      mesh, rebuilt,
+      mesh, query, rebuilt,
       {.seed = options.seed, .threads = options.threads, .progress = options.progress});
   quality.from_mesh = distance.from_first;
   quality.from_image = distance.from_second;
@@ -87,7 +88,7 @@ ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
   quality.hausdorff_percent = size > 0 ? 100 * distance.hausdorff / size : 0;
   const double area = area_of(mesh);
   quality.area_ratio = area > 0 ? area_of(rebuilt) / area : 1;
-  quality.reversed_area = reversed_part(rebuilt, mesh);
+  quality.reversed_area = reversed_part(rebuilt, mesh, query);
   return quality;
 }
 

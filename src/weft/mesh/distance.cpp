@@ -52,11 +52,11 @@ void append_corners(const TriangleMesh& mesh, std::vector<Vec3d>& points) {
 
 /// Distances from one surface to another: the mean over area samples, the maximum over every vertex
 /// too, since tips have little area and may lie far off.
-OneSidedDistance one_sided(const TriangleMesh& from, const TriangleMesh& to,
+OneSidedDistance one_sided(const TriangleMesh& from, const ClosestPointQuery& to,
                            const DistanceOptions& options) {
   std::vector<Vec3d> points = sample_surface(from, options.samples, options.seed);
   append_corners(from, points);
-  const std::vector<double> squared = squared_distances(points, ClosestPointQuery(to), options);
+  const std::vector<double> squared = squared_distances(points, to, options);
   double sum = 0;
   for (int i = 0; i < options.samples; ++i) sum += squared[i];
   return {std::sqrt(sum / options.samples),
@@ -88,12 +88,19 @@ std::vector<Vec3d> sample_surface(const TriangleMesh& mesh, int count, std::uint
 
 SurfaceDistance surface_distance(const TriangleMesh& a, const TriangleMesh& b,
                                  const DistanceOptions& options) {
+  return surface_distance(a, ClosestPointQuery(a), b, options);
+}
+
+SurfaceDistance surface_distance(const TriangleMesh& a, const ClosestPointQuery& near_a,
+                                 const TriangleMesh& b, const DistanceOptions& options) {
   WEFT_ASSERT(options.samples > 0 && options.threads > 0);
   PartOfProgress first(options.progress, "measure", 0, 0.5);
   PartOfProgress second(options.progress, "measure", 0.5, 1);
   SurfaceDistance distance;
-  distance.from_first = one_sided(a, b, {options.samples, options.seed, options.threads, &first});
-  distance.from_second = one_sided(b, a, {options.samples, options.seed, options.threads, &second});
+  distance.from_first =
+      one_sided(a, ClosestPointQuery(b), {options.samples, options.seed, options.threads, &first});
+  distance.from_second =
+      one_sided(b, near_a, {options.samples, options.seed, options.threads, &second});
   distance.rms = std::max(distance.from_first.rms, distance.from_second.rms);
   distance.hausdorff = std::max(distance.from_first.largest, distance.from_second.largest);
   return distance;

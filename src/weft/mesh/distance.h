@@ -56,5 +56,8 @@ struct DistanceOptions {
 /// Distances between two surfaces, in both directions, by area-uniform samples and all vertices.
 SurfaceDistance surface_distance(const TriangleMesh& a, const TriangleMesh& b,
                                  const DistanceOptions& options = {});
+/// The same with a query of the first that is made already.
+SurfaceDistance surface_distance(const TriangleMesh& a, const ClosestPointQuery& near_a,
+                                 const TriangleMesh& b, const DistanceOptions& options = {});
 
 }  // namespace weft

@@ -97,6 +97,13 @@ std::vector<int> first_at_position(std::span<const Vec3d> positions) {
   return result;
 }
 
+/// Whether each number is its own index.
+bool is_in_order(std::span<const int> numbers) {
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (numbers[i] != static_cast<int>(i)) return false;
+  return true;
+}
+
 /// The repair of one mesh, step by step; each step reports its changes.
 class Repair {
  public:
@@ -182,13 +189,16 @@ class Repair {
 
   /// Texture seams and files without indices leave a surface in parts that belong together.
   void weld() {
+    const EdgeKinds before = count_edges(edges_);
+    if (before.border == 0) return;
     std::vector<int> first = first_at_position(mesh_.positions);
+    if (is_in_order(first)) return;
     std::vector<Triangle> triangles = mesh_.triangles;
     for (Triangle& t : triangles)
       for (int& v : t) v = first[v];
     std::erase_if(triangles, repeats_a_vertex);
     const EdgeUses edges = edge_uses(static_cast<int>(mesh_.positions.size()), triangles);
-    const EdgeKinds before = count_edges(edges_), after = count_edges(edges);
+    const EdgeKinds after = count_edges(edges);
     if (after.border >= before.border || after.branching > before.branching) return;
     std::size_t joined = 0;
     const std::vector<bool> used = used_vertices();

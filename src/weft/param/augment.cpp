@@ -108,6 +108,11 @@ Plan plan_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& op
 }  // namespace
 
 AugmentedCut augment_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& options) {
+  return augment_cut(CutSurface(mesh), cut, options);
+}
+
+AugmentedCut augment_cut(const CutSurface& surface, const Cut& cut, const AugmentOptions& options) {
+  const TriangleMesh& mesh = surface.mesh();
   std::vector<int> targets;
   if (static_cast<int>(mesh.triangles.size()) > options.proxy_triangles) {
     const Proxy proxy = coarsen(mesh, cut, options.proxy_triangles);
@@ -119,8 +124,8 @@ AugmentedCut augment_cut(const TriangleMesh& mesh, const Cut& cut, const Augment
 
   AugmentedCut result{.cut = cut};
   for (const int target : targets) {
-    Cut longer = extend_cut(mesh, result.cut, target);
-    if (min_size(cut_open(mesh, longer)) > options.size) break;
+    Cut longer = extend_cut(surface, result.cut, target);
+    if (min_size(cut_open(surface, longer)) > options.size) break;
     result.cut = std::move(longer);
     ++result.rounds;
   }

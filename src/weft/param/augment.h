@@ -1,5 +1,6 @@
 #pragma once
 
+#include "weft/cut/cut_surface.h"
 #include "weft/cut/open_to_disk.h"
 #include "weft/progress.h"
 
@@ -23,5 +24,6 @@ struct AugmentedCut {
 /// as a gain. The cut is never too long for the image size.
 /// @pre repaired mesh
 AugmentedCut augment_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& options);
+AugmentedCut augment_cut(const CutSurface& surface, const Cut& cut, const AugmentOptions& options);
 
 }  // namespace weft

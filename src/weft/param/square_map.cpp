@@ -29,13 +29,15 @@ std::vector<Vec2d> place_border(const CutDisk& cut, int size, std::span<const do
 
 }  // namespace
 
-MappedDisk map_to_square(const CutDisk& cut, const MapOptions& options) {
-  MappedDisk mapped{.cut = cut, .layout = {}, .map = {}, .quality = {}, .parameterizer = "stretch"};
+MappedDisk map_to_square(CutDisk cut, const MapOptions& options) {
+  MappedDisk mapped{
+      .cut = std::move(cut), .layout = {}, .map = {}, .quality = {}, .parameterizer = "stretch"};
   if (std::holds_alternative<FloaterOptions>(options.parameterizer))
     mapped.parameterizer = "floater";
   update(options.progress, "map", 0.0);
-  const LayoutOptions layout{options.size, choose_rotation(cut, options.size, options.rotations)};
-  mapped.layout = lay_out_border(cut, layout);
+  const LayoutOptions layout{options.size,
+                             choose_rotation(mapped.cut, options.size, options.rotations)};
+  mapped.layout = lay_out_border(mapped.cut, layout);
   split_at_corners(mapped.cut, mapped.layout);
   split_chords(mapped.cut.disk);
 

@@ -39,7 +39,7 @@ struct MappedDisk {
 
 /// Stages 5 to 8. The result has no flipped and no degenerate triangle.
 /// @throws TopologyError when n is too small (naming the least n) or no valid map was found
-MappedDisk map_to_square(const CutDisk& cut, const MapOptions& options);
+MappedDisk map_to_square(CutDisk cut, const MapOptions& options);
 
 /// The border rotation (border position of the first path's first node) of lowest energy among
 /// about `count` candidates, spread evenly over one side of the square (rotating by a whole side
