@@ -68,6 +68,23 @@ TEST(CoarseToFine, MapsALargeDiskAsWell) {
   EXPECT_LT(geometry.stretch_l2(large), 1.001 * geometry.stretch_l2(small));
 }
 
+TEST(CoarseToFine, GivesTheSameBitsForAnyNumberOfThreads) {
+  const DiskMesh disk = test::shuffled(hills());
+  const MapDisk map = [](const DiskMesh& part, std::span<Vec2d> uv,
+                         std::span<const BorderFreedom>) { return map_plainly(part, uv, 5); };
+  for (const int many : {1500, 200000}) {
+    std::vector<Vec2d> alone = test::square_border(disk, 64);
+    const std::vector<Vec2d> border = alone;
+    ASSERT_TRUE(map_coarse_to_fine(disk, alone, map, {.triangles = 1000, .many = many}));
+    for (const int threads : {2, 3, 7}) {
+      std::vector<Vec2d> uv = border;
+      ASSERT_TRUE(
+          map_coarse_to_fine(disk, uv, map, {.triangles = 1000, .many = many, .threads = threads}));
+      EXPECT_EQ(uv, alone) << threads << " threads, " << many;
+    }
+  }
+}
+
 TEST(CoarseToFine, GoesCoarserWhereTheCoarseMapFails) {
   const DiskMesh disk = hills();
   std::vector<Vec2d> uv = test::square_border(disk, 64);

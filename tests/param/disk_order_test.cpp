@@ -9,21 +9,7 @@
 namespace weft {
 namespace {
 
-/// A sheet whose vertices are numbered at random.
-DiskMesh shuffled_sheet(int cells) {
-  DiskMesh disk = test::flat_sheet(cells);
-  const int count = static_cast<int>(disk.positions.size());
-  std::vector<int> number(count);
-  for (int v = 0; v < count; ++v) number[v] = v;
-  Random random(3);
-  for (int v = count - 1; v > 0; --v) std::swap(number[v], number[random.index(v + 1)]);
-  const DiskMesh before = disk;
-  for (int v = 0; v < count; ++v) disk.positions[number[v]] = before.positions[v];
-  for (Triangle& t : disk.triangles)
-    for (int& v : t) v = number[v];
-  for (int& v : disk.border) v = number[v];
-  return disk;
-}
+DiskMesh shuffled_sheet(int cells) { return test::shuffled(test::flat_sheet(cells)); }
 
 double mean_gap(const DiskMesh& disk) {
   double sum = 0;

@@ -52,4 +52,22 @@ inline std::vector<Vec2d> square_border(const DiskMesh& sheet, double extent) {
   return uv;
 }
 
+/// The same disk with its vertices numbered at random.
+inline DiskMesh shuffled(DiskMesh disk) {
+  const int count = static_cast<int>(disk.positions.size());
+  std::vector<int> number(count);
+  for (int v = 0; v < count; ++v) number[v] = v;
+  Random random(3);
+  for (int v = count - 1; v > 0; --v) std::swap(number[v], number[random.index(v + 1)]);
+  const DiskMesh before = disk;
+  for (int v = 0; v < count; ++v) {
+    disk.positions[number[v]] = before.positions[v];
+    disk.surface_vertex[number[v]] = before.surface_vertex[v];
+  }
+  for (Triangle& t : disk.triangles)
+    for (int& v : t) v = number[v];
+  for (int& v : disk.border) v = number[v];
+  return disk;
+}
+
 }  // namespace weft::test

@@ -1,5 +1,6 @@
 #include "weft/param/square_map.h"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -14,6 +15,7 @@
 #include "weft/mesh.h"
 #include "weft/param/augment.h"
 #include "weft/param/proxy.h"
+#include "weft/param/trial_map.h"
 #include "weft/repair.h"
 
 namespace weft {
@@ -105,6 +107,28 @@ TEST(Augment, AFlatSheetStaysWhole) {
   const DiskMesh sheet = test::flat_sheet(12);
   const TriangleMesh mesh{sheet.positions, sheet.triangles};
   EXPECT_EQ(augment_cut(mesh, Cut{}, {.size = 65}).rounds, 0);
+}
+
+TEST(SquareMap, GivesTheSameBitsForAnyNumberOfThreads) {
+  const TriangleMesh mesh = test::torus(40, 16);
+  const Cut cut = open_to_disk(mesh);
+  const Cut longer = augment_cut(mesh, cut, {.size = 65}).cut;
+  const SquareMap alone = map_to_square(cut_open(mesh, longer), {.size = 65}).map;
+  for (const int threads : {2, 3, 7}) {
+    EXPECT_EQ(augment_cut(mesh, cut, {.size = 65, .threads = threads}).cut.edges, longer.edges);
+    EXPECT_EQ(map_to_square(cut_open(mesh, longer), {.size = 65, .threads = threads}).map.uv,
+              alone.uv);
+  }
+}
+
+TEST(SquareMap, StopsWhereItsUserAsksForIt) {
+  struct Stop : Progress {
+    void update(std::string_view, double) override { throw Interrupted(); }
+  } stop;
+  const CutDisk disk = opened(test::torus(40, 16));
+  for (const int threads : {1, 2})
+    EXPECT_THROW((void)try_rotations(disk, std::array{0, 8, 16}, {65, threads, &stop}),
+                 Interrupted);
 }
 
 TEST(Augment, ProxyJudgesLargeMeshesAlike) {

@@ -75,6 +75,7 @@ MappedDisk ChartConversion::mapped_along(const Cut& cut, int side) {
   map.size = side;
   map.parameterizer = options_.parameterizer;
   map.name = name_;
+  map.threads = options_.threads;
   map.progress = options_.progress;
   CutDisk disk = opened(cut);
   cut_summary_ = summarise(disk);
@@ -85,8 +86,8 @@ MappedDisk ChartConversion::mapped_along(const Cut& cut, int side) {
 void ChartConversion::lengthen_cut(int side) {
   lengthened_ = cut_;
   if (!options_.augment || options_.seam) return;
-  AugmentedCut augmented =
-      augment_cut(*surface_, cut_, {.size = side, .progress = options_.progress});
+  AugmentedCut augmented = augment_cut(
+      *surface_, cut_, {.size = side, .threads = options_.threads, .progress = options_.progress});
   lengthened_ = std::move(augmented.cut);
   rounds_ = augmented.rounds;
 }

@@ -18,11 +18,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Trial map of a cut at the best of four rotations; one of infinite energy where the size is too
 /// small for the cut.
-TrialMap judge(const TriangleMesh& mesh, const Cut& cut, int size, Progress* progress) {
+TrialMap judge(const TriangleMesh& mesh, const Cut& cut, const TrialOptions& options) {
   const CutDisk opened = cut_open(mesh, cut);
-  if (min_size(opened) > size) return {};
-  const int step = std::max(1, (size - 1) / 4);
-  return try_rotations(opened, std::array{0, step, 2 * step, 3 * step}, {size, progress});
+  if (min_size(opened) > options.size) return {};
+  const int step = std::max(1, (options.size - 1) / 4);
+  return try_rotations(opened, std::array{0, step, 2 * step, 3 * step}, options);
 }
 
 /// Vertices to extend the cut to, each once: that of largest stretch before the Newton steps, and
@@ -77,7 +77,7 @@ Plan lengthen(const TriangleMesh& mesh, const Plan& plan, const AugmentOptions& 
                         (static_cast<double>(k) + 1) / count);
     Plan next{extend_cut(mesh, plan.cut, goals[k]), plan.targets, {}};
     next.targets.push_back(goals[k]);
-    next.trial = judge(mesh, next.cut, options.size, &part);
+    next.trial = judge(mesh, next.cut, {options.size, options.threads, &part});
     if (k == 0 || next.trial.energy < best.trial.energy) best = std::move(next);
   }
   return best;
@@ -87,7 +87,7 @@ Plan lengthen(const TriangleMesh& mesh, const Plan& plan, const AugmentOptions& 
 Plan plan_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& options) {
   constexpr double min_gain = 0.01;
   PartOfProgress start(options.progress, "cut", 0, 0);
-  Plan plan{cut, {}, judge(mesh, cut, options.size, &start)};
+  Plan plan{cut, {}, judge(mesh, cut, {options.size, options.threads, &start})};
   Plan best = plan;
   for (int round = 0; round < options.max_rounds; ++round) {
     PartOfProgress part(options.progress, "cut", static_cast<double>(round) / options.max_rounds,

@@ -10,6 +10,7 @@ struct AugmentOptions {
   int max_rounds = 12;
   int proxy_triangles = 1500;  ///< larger meshes are evaluated on a proxy of about this size
   int size = 257;              ///< side of the image
+  int threads = 1;
   Progress* progress = nullptr;
 };
 struct AugmentedCut {

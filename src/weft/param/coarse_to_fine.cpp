@@ -100,6 +100,7 @@ bool map_as_numbered(const DiskMesh& disk, std::span<Vec2d> uv, const MapDisk& m
                           .sweeps = options.sweeps,
                           .many = options.many,
                           .freedoms = options.freedoms,
+                          .threads = options.threads,
                           .progress = options.progress};
   return bring_back(mesh, uv, back) && is_valid_map(disk.triangles, uv);
 }

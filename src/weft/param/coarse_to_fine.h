@@ -23,6 +23,7 @@ struct CoarseToFineOptions {
   /// but for a few places.
   int many = 200000;
   std::span<const BorderFreedom> freedoms = {};
+  int threads = 1;
   Progress* progress = nullptr;
 };
 

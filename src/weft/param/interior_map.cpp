@@ -69,7 +69,8 @@ bool map_with_least_stretch(const DiskMesh& disk, std::span<Vec2d> uv,
                                  std::span<const BorderFreedom> freedoms) {
     const DiskGeometry geometry(part);
     InteriorSolver solver(part, geometry.edges);
-    return map_by_weights({geometry, solver, part_uv, {freedoms, &first}}, stretch);
+    return map_by_weights({geometry, solver, part_uv, {.freedoms = freedoms, .progress = &first}},
+                          stretch);
   };
   const MapDisk by_embedding = [&](const DiskMesh& part, std::span<Vec2d> part_uv,
                                    std::span<const BorderFreedom> freedoms) {
@@ -78,7 +79,8 @@ bool map_with_least_stretch(const DiskMesh& disk, std::span<Vec2d> uv,
     return true;
   };
   if (stretch.newton_steps == 0 && by_weights(disk, uv, {})) return true;
-  const CoarseToFineOptions refinement{.freedoms = options.freedoms, .progress = &second};
+  const CoarseToFineOptions refinement{
+      .freedoms = options.freedoms, .threads = options.threads, .progress = &second};
   return map_coarse_to_fine(disk, uv, by_weights, refinement) ||
          map_coarse_to_fine(disk, uv, by_embedding, refinement) ||
          embed_progressively(disk, uv, &second);
@@ -95,7 +97,8 @@ bool map_interior(const DiskMesh& disk, std::span<Vec2d> uv, const Parameterizer
   InteriorSolver solver(disk, geometry.edges);
   // A valid map that is not Floater's is better than none.
   return map_by_floater({geometry, solver, uv, options}) ||
-         map_with_least_stretch(disk, uv, {}, {.progress = options.progress});
+         map_with_least_stretch(disk, uv, {},
+                                {.threads = options.threads, .progress = options.progress});
 }
 
 }  // namespace weft

@@ -11,6 +11,7 @@ namespace weft {
 struct InteriorOptions {
   /// Border vertices that may move in the minimisation of stretch; Floater's map keeps them.
   std::span<const BorderFreedom> freedoms = {};
+  int threads = 1;
   Progress* progress = nullptr;
 };
 /// Stages 7 and 8: maps the interior of a disk into a given convex border, without a flipped or

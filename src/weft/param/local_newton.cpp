@@ -33,22 +33,28 @@ Vec2d on_axis(int axis, double length) { return axis == 0 ? Vec2d{length, 0} : V
 
 }  // namespace
 
-double VertexMover::improve(int vertex) {
-  star_.gather(mesh_, triangles_, uv_, vertex);
+VertexMover::VertexMover(const CollapseHierarchy& mesh, std::span<const StarTriangle> triangles,
+                         std::span<Vec2d> uv, int threads)
+    : mesh_(mesh), triangles_(triangles), uv_(uv), stars_(threads) {
+  if (threads > 1) team_ = std::make_unique<ThreadTeam>(threads);
+}
+
+double VertexMover::improve(int vertex, VertexStar& star) {
+  star.gather(mesh_, triangles_, uv_, vertex);
   const Vec2d place = uv_[vertex];
-  const VertexStar::Model here = star_.model(place);
+  const VertexStar::Model here = star.model(place);
   const Symmetric2& curvature = here.hessian.is_positive() ? here.hessian : here.squares;
   const Vec2d step = curvature.solve(-1.0 * here.gradient);
   const double slope = dot(step, here.gradient);
   if (!std::isfinite(here.energy) || !(slope < -min_gain * here.energy)) return 0;
-  const double most = 0.9 * star_.free_step_length(place, step);
+  const double most = 0.9 * star.free_step_length(place, step);
   double step_length = std::min(1.0, most);
   for (int halving = 0; halving < 8; ++halving, step_length *= 0.5) {
-    const double reached = star_.energy(place + step_length * step);
+    const double reached = star.energy(place + step_length * step);
     if (!(reached < here.energy + 1e-4 * step_length * slope)) continue;
     if (step_length == 1 && reached < 0.7 * here.energy)
-      step_length = longer_step_length(star_, place, step, most);
-    if (!star_.is_valid(place + step_length * step)) continue;
+      step_length = longer_step_length(star, place, step, most);
+    if (!star.is_valid(place + step_length * step)) continue;
     uv_[vertex] = place + step_length * step;
     return 1 - reached / here.energy;
   }
@@ -56,16 +62,16 @@ double VertexMover::improve(int vertex) {
 }
 
 bool VertexMover::centre(int vertex) {
-  star_.gather(mesh_, triangles_, uv_, vertex);
-  const std::optional<Vec2d> place = kernel_point(star_.ring());
-  if (!place || !(star_.energy(*place) < star_.energy(uv_[vertex]))) return false;
+  stars_[0].gather(mesh_, triangles_, uv_, vertex);
+  const std::optional<Vec2d> place = kernel_point(stars_[0].ring());
+  if (!place || !(stars_[0].energy(*place) < stars_[0].energy(uv_[vertex]))) return false;
   uv_[vertex] = *place;
   return true;
 }
 
 bool VertexMover::improve(const BorderFreedom& freedom) {
   const std::array<int, 2> vertex = {freedom.vertex, freedom.mate};
-  const std::array<VertexStar*, 2> star = {&star_, &mate_star_};
+  const std::array<VertexStar*, 2> star = {&stars_[0], &mate_star_};
   const std::array<Vec2d, 2> direction = {on_axis(freedom.axis, 1),
                                           on_axis(freedom.mate_axis, freedom.sign)};
   const int ends = freedom.mate >= 0 ? 2 : 1;
@@ -102,32 +108,69 @@ bool VertexMover::improve(const BorderFreedom& freedom) {
   return false;
 }
 
-void VertexMover::sweep(std::span<const BorderFreedom> freedoms) {
-  for (int v = 0; v < mesh_.vertex_count(); ++v)
-    if (mesh_.is_inner(v)) improve(v);
-  for (const BorderFreedom& freedom : freedoms) improve(freedom);
+void VertexMover::plan_sweeps() {
+  constexpr int min_vertices = 2000;  // below, waiting for each other takes longer than the work
+  constexpr int min_width = 40;
+  schedule_ = {};
+  if (!team_ || mesh_.triangle_count() < 2 * min_vertices) return;
+  schedule_ = schedule_sweep(mesh_);
+  const auto count = static_cast<int>(schedule_.vertices.size());
+  if (count < min_width * schedule_.group_count()) schedule_ = {};
+  for (VertexStar& star : stars_) star.reserve(schedule_.largest_valence);
 }
 
-/// Marks the vertices that moved far and their neighbours.
-void VertexMover::wake(std::span<const int> moved_far) {
-  awake_.assign(mesh_.vertex_count(), 0);
-  for (const int v : moved_far) {
-    awake_[v] = 1;
-    mesh_.around(v, [&](int h) { awake_[mesh_.to(h)] = 1; });
+/// Visits inner vertices as in ascending order. @param alone  without the help of other threads
+template <class Visit>
+void VertexMover::for_each_inner(bool alone, const Visit& visit) {
+  if (alone || schedule_.vertices.empty()) {
+    for (int v = 0; v < mesh_.vertex_count(); ++v)
+      if (mesh_.is_inner(v)) visit(v, stars_[0]);
+    return;
+  }
+  team_->run([&](Worker& worker) {
+    for (int g = 0; g < schedule_.group_count(); ++g) {
+      const Range mine = worker.share(schedule_.first[g + 1] - schedule_.first[g]);
+      for (int i = mine.first; i < mine.last; ++i)
+        visit(schedule_.vertices[schedule_.first[g] + i], stars_[worker.rank()]);
+      worker.barrier();
+    }
+  });
+}
+
+void VertexMover::sweep(int times, std::span<const BorderFreedom> freedoms) {
+  plan_sweeps();
+  for (int k = 0; k < times; ++k) {
+    for_each_inner(false, [&](int v, VertexStar& star) { improve(v, star); });
+    for (const BorderFreedom& freedom : freedoms) improve(freedom);
   }
 }
 
+/// Wakes the vertices that moved far and their neighbours. @return how many moved far
+int VertexMover::wake() {
+  awake_.assign(mesh_.vertex_count(), 0);
+  int count = 0;
+  for (int v = 0; v < mesh_.vertex_count(); ++v) {
+    if (!moved_far_[v]) continue;
+    ++count;
+    awake_[v] = 1;
+    mesh_.around(v, [&](int h) { awake_[mesh_.to(h)] = 1; });
+  }
+  return count;
+}
+
 void VertexMover::sweep_restless(int most, std::span<const BorderFreedom> freedoms) {
-  constexpr double far = 1e-3;  // share of the energy around a vertex that its turn took away
-  std::vector<int> moved_far;
+  constexpr double far = 1e-3;   // share of the energy around a vertex that its turn took away
+  constexpr int min_share = 16;  // a smaller part of all vertices does not pay for the barriers
+  plan_sweeps();
+  moved_far_.assign(mesh_.vertex_count(), 0);
   awake_.assign(mesh_.vertex_count(), 1);
-  for (int k = 0; k < most; ++k) {
-    moved_far.clear();
-    for (int v = 0; v < mesh_.vertex_count(); ++v)
-      if (awake_[v] && mesh_.is_inner(v) && improve(v) > far) moved_far.push_back(v);
+  int moved = mesh_.vertex_count();
+  for (int k = 0; k < most && moved > 0; ++k) {
+    for_each_inner(moved < mesh_.vertex_count() / min_share, [&](int v, VertexStar& star) {
+      moved_far_[v] = awake_[v] && improve(v, star) > far ? 1 : 0;
+    });
     for (const BorderFreedom& freedom : freedoms) improve(freedom);
-    if (moved_far.empty()) return;
-    wake(moved_far);
+    moved = wake();
   }
 }
 

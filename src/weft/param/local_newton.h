@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "weft/core/thread_team.h"
 #include "weft/param/border_relaxation.h"
+#include "weft/param/sweep_schedule.h"
 #include "weft/param/vertex_star.h"
 
 namespace weft {
@@ -17,32 +20,40 @@ class VertexMover {
   /// Keeps references to all of them.
   /// @param triangles  [F] as they are now
   /// @param uv         [D] a valid map
+  /// @param threads    that sweep; they do not show in the result
   VertexMover(const CollapseHierarchy& mesh, std::span<const StarTriangle> triangles,
-              std::span<Vec2d> uv)
-      : mesh_(mesh), triangles_(triangles), uv_(uv) {}
+              std::span<Vec2d> uv, int threads = 1);
 
   /// Moves an inner vertex. @return the share of the energy around it that this takes away
-  double improve(int vertex);
+  double improve(int vertex) { return improve(vertex, stars_[0]); }
   /// Moves an inner vertex to the centre of the kernel of its neighbours where that lowers the
   /// energy: leaves at once a narrow corner from which Newton steps are very short.
   bool centre(int vertex);
   /// Moves a border vertex along its side, and its mate with it.
   bool improve(const BorderFreedom& freedom);
-  /// Moves all inner vertices and all freedoms once, in order.
-  void sweep(std::span<const BorderFreedom> freedoms = {});
+  /// Moves all inner vertices and all freedoms so many times, in order.
+  void sweep(int times, std::span<const BorderFreedom> freedoms = {});
   /// Moves all inner vertices once, then again those that moved far in the last sweep and their
   /// neighbours: most of a fine mesh comes to rest at once. All freedoms move in every sweep.
   /// @param most  number of sweeps
   void sweep_restless(int most, std::span<const BorderFreedom> freedoms = {});
 
  private:
-  void wake(std::span<const int> moved_far);
+  double improve(int vertex, VertexStar& star);
+  void plan_sweeps();
+  template <class Visit>
+  void for_each_inner(bool alone, const Visit& visit);
+  [[nodiscard]] int wake();
 
   const CollapseHierarchy& mesh_;
   std::span<const StarTriangle> triangles_;
   std::span<Vec2d> uv_;
-  VertexStar star_, mate_star_;
-  std::vector<char> awake_;  ///< [V] whether a vertex takes part in the next restless sweep
+  std::unique_ptr<ThreadTeam> team_;  ///< none: one thread
+  std::vector<VertexStar> stars_;     ///< one a thread
+  VertexStar mate_star_;
+  SweepSchedule schedule_;       ///< of the mesh as it is, where that suits several threads
+  std::vector<char> awake_;      ///< [V] whether a vertex takes part in the next restless sweep
+  std::vector<char> moved_far_;  ///< [V] in the last one
 };
 
 }  // namespace weft

@@ -39,7 +39,7 @@ Reinsertion::Reinsertion(CollapseHierarchy& mesh, std::span<Vec2d> uv,
       uv_(uv),
       options_(options),
       triangles_(mesh.triangles().size()),
-      mover_(mesh, triangles_, uv) {
+      mover_(mesh, triangles_, uv, options.threads) {
   for (std::size_t t = 0; t < triangles_.size(); ++t)
     if (mesh_.has_triangle(static_cast<int>(t)))
       triangles_[t] = options_.triangle(mesh.triangles()[t]);
@@ -112,7 +112,7 @@ bool Reinsertion::bring_one_back() {
 void Reinsertion::relax() {
   if (mesh_.triangle_count() > options_.many)
     return mover_.sweep_restless(2 * options_.sweeps, options_.freedoms);
-  for (int k = 0; k < options_.sweeps; ++k) mover_.sweep(options_.freedoms);
+  mover_.sweep(options_.sweeps, options_.freedoms);
 }
 
 bool Reinsertion::run() {

@@ -20,6 +20,7 @@ struct ReinsertionOptions {
   /// Of more triangles, twice the sweeps, over what is not at rest.
   int many = std::numeric_limits<int>::max();
   std::span<const BorderFreedom> freedoms = {};  ///< border vertices relaxed too
+  int threads = 1;
   Progress* progress = nullptr;
 };
 

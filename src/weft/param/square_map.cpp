@@ -35,8 +35,8 @@ MappedDisk map_to_square(CutDisk cut, const MapOptions& options) {
   if (std::holds_alternative<FloaterOptions>(options.parameterizer))
     mapped.parameterizer = "floater";
   update(options.progress, "map", 0.0);
-  const LayoutOptions layout{options.size,
-                             choose_rotation(mapped.cut, options.size, options.rotations)};
+  const LayoutOptions layout{
+      options.size, choose_rotation(mapped.cut, options.size, options.rotations, options.threads)};
   mapped.layout = lay_out_border(mapped.cut, layout);
   split_at_corners(mapped.cut, mapped.layout);
   split_chords(mapped.cut.disk);
@@ -45,8 +45,9 @@ MappedDisk map_to_square(CutDisk cut, const MapOptions& options) {
   const std::vector<double> t = border_positions(mapped.cut, mapped.layout);
   mapped.map.uv = place_border(mapped.cut, options.size, t);
   const std::vector<BorderFreedom> freedoms = border_freedoms(mapped.cut, mapped.layout, t);
-  const bool found = map_interior(mapped.cut.disk, mapped.map.uv, options.parameterizer,
-                                  {.freedoms = freedoms, .progress = options.progress});
+  const bool found = map_interior(
+      mapped.cut.disk, mapped.map.uv, options.parameterizer,
+      {.freedoms = freedoms, .threads = options.threads, .progress = options.progress});
   mapped.quality = measure_map(mapped.cut.disk, mapped.map);
   if (!found)
     throw TopologyError(options.name,
@@ -155,10 +156,9 @@ struct Transfer {
   }
 };
 
-int best_rotation(const CutDisk& cut, int size, int count, int step) {
+int best_rotation(const CutDisk& cut, int count, int step, const TrialOptions& options) {
   std::vector<int> rotations;
   for (int k = 0; k < count; ++k) rotations.push_back(2 * k * step);
-  const TrialOptions options{.size = size};
   const TrialMap best = try_rotations(cut, rotations, options);
   const std::vector<int> near = {best.rotation - step, best.rotation + step};
   const TrialMap refined = try_rotations(cut, near, options);
@@ -167,17 +167,18 @@ int best_rotation(const CutDisk& cut, int size, int count, int step) {
 
 }  // namespace
 
-int choose_rotation(const CutDisk& cut, int size, int count) {
+int choose_rotation(const CutDisk& cut, int size, int count, int threads) {
   count = std::min(count, (size - 1) / 2);
   if (count <= 1) return 0;
   const int step = (size - 1) / (2 * count);
+  const TrialOptions options{.size = size, .threads = threads};
   if (static_cast<int>(cut.disk.triangles.size()) <= max_triangles)
-    return best_rotation(cut, size, count, step);
+    return best_rotation(cut, count, step, options);
   const Surface surface = closed(cut);
   const Proxy proxy = coarsen(surface.mesh, surface.cut, max_triangles);
   const CutDisk coarse = cut_open(proxy.mesh, proxy.cut);
   const Transfer transfer{cut, coarse, proxy.source_vertex, size};
-  return transfer.rotation(best_rotation(coarse, size, count, step), step);
+  return transfer.rotation(best_rotation(coarse, count, step, options), step);
 }
 
 }  // namespace weft

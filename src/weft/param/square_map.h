@@ -25,6 +25,7 @@ struct MapOptions {
   Parameterizer parameterizer = StretchOptions{};
   std::string name = "mesh";  ///< name of the input in errors
   int rotations = 8;          ///< number of border rotations tried
+  int threads = 1;
   Progress* progress = nullptr;
 };
 
@@ -47,6 +48,6 @@ MappedDisk map_to_square(CutDisk cut, const MapOptions& options);
 /// evaluated by trial maps (weft/param/trial_map.h), on a coarser mesh where the disk has more than
 /// 2000 triangles.
 /// @pre n is large enough for the cut
-int choose_rotation(const CutDisk& cut, int size, int count);
+int choose_rotation(const CutDisk& cut, int size, int count, int threads = 1);
 
 }  // namespace weft

@@ -11,6 +11,7 @@ namespace weft {
 
 struct TrialOptions {
   int size = 257;
+  int threads = 1;  ///< of try_rotations
   Progress* progress = nullptr;
 };
 /// Result of mapping a cut disk at one border rotation.
@@ -31,7 +32,7 @@ struct TrialMap {
 /// @pre size is enough for the cut
 TrialMap try_map(const CutDisk& cut, int rotation, const TrialOptions& options);
 
-/// The trial map of lowest energy among several rotations. @pre not empty
+/// The trial map of lowest energy among several rotations, the first of equal ones. @pre not empty
 TrialMap try_rotations(const CutDisk& cut, std::span<const int> rotations,
                        const TrialOptions& options);
 

@@ -45,6 +45,8 @@ struct StarTriangle {
 /// Hessian area * ((1 + quartic m) m'' + quartic m' m'^T) + inverse n''.
 class VertexStar {
  public:
+  /// Sets memory aside, so that `gather` allocates none at vertices of so many triangles.
+  void reserve(int triangles) { corners_.reserve(triangles); }
   /// @param triangles  [F] as they are now
   /// @param uv         [D]
   void gather(const CollapseHierarchy& mesh, std::span<const StarTriangle> triangles,
