@@ -119,7 +119,7 @@ TEST(ClothCharts, HangingSheetsFallAlike) {
           << one.name << ' ' << frame;
       ASSERT_TRUE(mates_equal(cloth, here)) << one.name;
     }
-    EXPECT_LT(measure_strain(cloth, here).p99, 1.1 * measure_strain(whole, at).p99 + 1e-4);
+    EXPECT_LT(measure_strain(cloth, here).p99, 1.5 * measure_strain(whole, at).p99) << one.name;
   }
 }
 

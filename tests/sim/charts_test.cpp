@@ -122,7 +122,7 @@ TEST(ChartCloths, ACutSheetLiesAsTheUncutOneDoes) {
     const FrameReport here = charts.advance(), there = uncut.advance();
     EXPECT_GT(here.smallest_gap, 0) << "frame " << frame;
     // Folds about the ball are chaotic: a sample moved by a micrometre moves the centre as far.
-    EXPECT_NEAR(length(here.centre_of_mass - there.centre_of_mass), 0, frame < 10 ? 1e-4 : 0.01)
+    EXPECT_NEAR(length(here.centre_of_mass - there.centre_of_mass), 0, frame < 10 ? 5e-4 : 0.01)
         << "frame " << frame;
   }
 }
