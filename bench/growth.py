@@ -12,7 +12,7 @@ import program
 
 SHAPES = ("mannequin", "double_torus")
 COARSE_SIZE = 24  # of the image whose rebuilt mesh is refined: 2 * 23 * 23 triangles
-PARTS = (1, 2, 4, 7, 10, 14, 20)  # of every edge
+PARTS = (1, 2, 4, 7, 10, 14, 20, 31, 44)  # of every edge
 STAGES = ("load", "cut", "map", "sample")
 COLUMNS = ("mesh", "triangles", *STAGES, "total", "triangles a second", "most of it", "measuring", "peak MB")
 
@@ -81,7 +81,7 @@ def row_of(name, mesh, folder, size):
 def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--size", type=int, default=257)
-    words.add_argument("--most", type=int, default=500000, help="leave out larger meshes")
+    words.add_argument("--most", type=int, default=2500000, help="leave out larger meshes")
     words.add_argument("--write", action="store_true", help="renew the table of docs/measured.md")
     options = words.parse_args()
     rows = []

@@ -20,7 +20,7 @@ SIMULATION = (*CLOTH, "src/weft/collide", "src/weft/sim", "include/weft/collider
 CONVERSION = ("src/weft/mesh", "src/weft/cut", "src/weft/param", "src/weft/image", "src/weft/convert")
 SOURCES = {
     "meshes": CONVERSION, "targets": CONVERSION, "growth": CONVERSION,
-    "hanging": SIMULATION, "table5": CLOTH, "error_129": CLOTH, "error_65": CLOTH, "kernels": CLOTH,
+    "hanging": SIMULATION, "charts": CLOTH, "table5": CLOTH, "error_129": CLOTH, "error_65": CLOTH, "kernels": CLOTH,
     "solver_fabrics": CLOTH, "solver_random": CLOTH,
     "ccd": ("src/weft/collide/ccd.cpp", "src/weft/collide/ccd.h"), "polar_map": ("src/weft/collide",),
     "broad_phases": ("src/weft/collide/broad_phase",),
