@@ -160,6 +160,17 @@ std::vector<int> middles_of(const Triangles& triangles, const std::vector<int>& 
   return middles;
 }
 
+/// Takes teeth off borders: a triangle between two of another region joins that.
+void smooth_borders(const Triangles& triangles, std::vector<int>& region) {
+  constexpr int passes = 4;
+  for (int pass = 0; pass < passes; ++pass)
+    for (int t = 0; t < triangles.count(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const int a = triangles.neighbour(t, k), b = triangles.neighbour(t, (k + 1) % 3);
+        if (a >= 0 && b >= 0 && region[a] == region[b]) region[t] = region[a];
+      }
+}
+
 }  // namespace
 
 int part_at_texture_seams(const TriangleMesh& mesh, const EdgeUses& edges,
@@ -188,10 +199,12 @@ int part_in_regions(const TriangleMesh& mesh, const EdgeUses& edges, int count,
     seeds = std::move(middles);
     region = grow(triangles, seeds, normals_of(triangles, region, seeds.size()));
   }
+  smooth_borders(triangles, region);
   for (int e = 0; e < edges.edge_count(); ++e)
     if (edges.of(e).size() == 2 && region[edges.of(e)[0] / 3] != region[edges.of(e)[1] / 3])
       parted[e] = true;
-  return static_cast<int>(seeds.size());
+  std::sort(region.begin(), region.end());
+  return static_cast<int>(std::unique(region.begin(), region.end()) - region.begin());
 }
 
 }  // namespace weft
