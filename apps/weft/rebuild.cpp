@@ -33,8 +33,14 @@ void rebuild(const RebuildArgs& args, const Context& context) {
   check_output(args.output, {".obj", ".ply"});
   const GeometryImage image = read_level(args);
   const RebuiltMesh rebuilt = rebuild_mesh(image);
+  const Json found = [&] {
+    try {
+      return image_json(image);
+    } catch (const TopologyError& error) {
+      throw TopologyError(args.image, error.what(), "");
+    }
+  }();
   write_mesh(args.output, rebuilt.mesh);
-  const Json found = image_json(image);
   say(context, fmt::format("mesh    {} vertices, {} triangles, {}, {} borders",
                            found["vertices"].get<int>(), found["triangles"].get<int>(),
                            genus_text(found["genus"]), found["boundaries"].get<int>()));
