@@ -1,7 +1,6 @@
 // A sheet cut into charts that are sewn together again, beside the uncut sheet: how far its centre
 // of mass is from the other's, what it costs, and how fast cycles of the solver converge.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <list>
@@ -52,7 +51,8 @@ GeometryImage image_of(const Layout& layout, int n) {
     image.cube.set(s, image.cube.at(s) + Vec3f{0.5F, 0, 0.5F});
   const int middle = (image.size() / 3) * image.size() + image.size() / 3;
   const Vec3f there = image.cube.at(middle);
-  image.cube.set(middle, {there.x, there.y + static_cast<float>(layout.nudge), there.z});
+  // In its plane: a sheet that is not flat at rest takes another way to bend.
+  image.cube.set(middle, {there.x + static_cast<float>(layout.nudge), there.y, there.z});
   return image;
 }
 

@@ -30,12 +30,22 @@ const std::vector<Case> cases{{"quarters", quarters, 65, 1.2, 0.001},
                               {"pinwheel", pinwheel, 65, 1.2, 0.001},
                               {"odd_pinwheel", pinwheel, 54, 2, 0.003}};
 
-Planes3 shaken_sheet(int samples, double amount) {
-  const Cloth whole = sheet_cloth(samples);
-  Planes3 position = whole.rest;
-  shake(whole, amount * whole.rest_spacing, position);
-  return position;
-}
+/// An uncut sheet and the same in charts, shaken alike.
+struct Pair {
+  CutSheet sheet;
+  Cloth whole, cloth;
+  ClothState at, here;  ///< of the uncut sheet, of the charts
+
+  Pair(const Case& of, const Material& material)
+      : sheet(of.samples, of.parts(of.samples)),
+        whole(sheet_cloth(of.samples, material)),
+        cloth(make_cloth(sheet.rest, sheet.mates, material)),
+        at(rest_state(whole)),
+        here(rest_state(cloth)) {
+    shake(whole, 0.2 * whole.rest_spacing, at.position);
+    here.position = sheet.cut(at.position);
+  }
+};
 
 TEST(ClothCharts, SeamsJoinAllOfTheSheetAgain) {
   for (const Case& one : cases) {
@@ -51,36 +61,29 @@ TEST(ClothCharts, SeamsJoinAllOfTheSheetAgain) {
 TEST(ClothCharts, EnergiesAreThoseOfTheUncutSheet) {
   for (const Case& one : cases)
     for (const Material& material : {cotton, woven}) {
-      const CutSheet sheet(one.samples, one.parts(one.samples));
-      const Cloth whole = sheet_cloth(one.samples, material);
-      const Cloth cloth = make_cloth(sheet.rest, sheet.mates, material);
-      ClothState a = rest_state(whole), b = rest_state(cloth);
-      a.position = shaken_sheet(one.samples, 0.2);
-      b.position = sheet.cut(a.position);
-      const double energy = potential_energy(whole, a, {}),
-                   bending = bending_energy(whole, a.position);
-      EXPECT_NEAR(potential_energy(cloth, b, {}), energy, 1e-6 * energy) << one.name;
-      EXPECT_NEAR(bending_energy(cloth, b.position), bending, 1e-5 * bending) << one.name;
-      EXPECT_NEAR(measure_strain(cloth, b).p99, measure_strain(whole, a).p99, 1e-6) << one.name;
-      EXPECT_NEAR(measure_strain(cloth, b).mean, measure_strain(whole, a).mean, 1e-6) << one.name;
+      const Pair pair(one, material);
+      const double energy = potential_energy(pair.whole, pair.at, {});
+      const double bending = bending_energy(pair.whole, pair.at.position);
+      EXPECT_NEAR(potential_energy(pair.cloth, pair.here, {}), energy, 1e-6 * energy) << one.name;
+      EXPECT_NEAR(bending_energy(pair.cloth, pair.here.position), bending, 1e-5 * bending);
+      const StrainSummary wanted = measure_strain(pair.whole, pair.at);
+      const StrainSummary found = measure_strain(pair.cloth, pair.here);
+      EXPECT_NEAR(found.p99, wanted.p99, 1e-6) << one.name;
+      EXPECT_NEAR(found.mean, wanted.mean, 1e-6) << one.name;
     }
 }
 
 TEST(ClothCharts, WindBlowsOnNothingBetweenThem) {
   const WindOptions options{.velocity = {3, 8, 1}, .drag = 1.2, .lift = 0.4};
   for (const Case& one : cases) {
-    const CutSheet sheet(one.samples, one.parts(one.samples));
-    const Cloth whole = sheet_cloth(one.samples, cotton);
-    const Cloth cloth = make_cloth(sheet.rest, sheet.mates, cotton);
-    ClothState a = rest_state(whole), b = rest_state(cloth);
-    a.position = shaken_sheet(one.samples, 0.2);
-    b.position = sheet.cut(a.position);
+    Pair pair(one, cotton);
     ThreadTeam team(1);
-    Wind(options, whole).blow(step, a, team);
-    Wind(options, cloth).blow(step, b, team);
-    for (int s = 0; s < cloth.size * cloth.size; ++s) {
-      if (sheet.uncut[static_cast<std::size_t>(s)] < 0) continue;
-      ASSERT_NEAR(length(b.velocity.at(s) - a.velocity.at(sheet.uncut[s])), 0, 1e-5)
+    Wind(options, pair.whole).blow(step, pair.at, team);
+    Wind(options, pair.cloth).blow(step, pair.here, team);
+    for (int s = 0; s < pair.cloth.size * pair.cloth.size; ++s) {
+      const int there = pair.sheet.uncut[static_cast<std::size_t>(s)];
+      if (there < 0) continue;
+      ASSERT_NEAR(length(pair.here.velocity.at(s) - pair.at.velocity.at(there)), 0, 1e-5)
           << one.name << ' ' << s;
     }
   }
@@ -89,12 +92,9 @@ TEST(ClothCharts, WindBlowsOnNothingBetweenThem) {
 TEST(ClothCharts, CyclesConvergeAsOnTheUncutSheet) {
   for (const Case& one : cases)
     for (const Material& material : {cotton, hard}) {
-      const CutSheet sheet(one.samples, one.parts(one.samples));
-      const Cloth whole = sheet_cloth(one.samples, material);
-      const Cloth cloth = make_cloth(sheet.rest, sheet.mates, material);
-      const int uncut = System(whole).iterations_to_a_hundredth();
-      const int here = System(cloth).iterations_to_a_hundredth();
-      EXPECT_LE(here, one.iterations * uncut) << one.name;
+      const Pair pair(one, material);
+      const int uncut = System(pair.whole).iterations_to_a_hundredth();
+      EXPECT_LE(System(pair.cloth).iterations_to_a_hundredth(), one.iterations * uncut) << one.name;
     }
 }
 
@@ -164,7 +164,9 @@ TEST(ClothCharts, SeparatePiecesFallWithoutEachOther) {
 
 TEST(ClothCharts, SideBySideAreRefused) {
   const BorderMates mates(33, {{"", 0, 0, 17, 17}, {"", 0, 17, 17, 16}}, {});
-  EXPECT_THROW(make_cloth(flat_sheet(33), mates, cotton), SceneError);
+  const Cloth cloth = make_cloth(flat_sheet(33), mates, cotton);
+  ThreadTeam team(1);
+  EXPECT_THROW(make_integrator(NewtonOptions{}, cloth, {}, team), SceneError);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "weft/repair.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -292,6 +293,27 @@ TEST(Repair, WeldingKeepsTheTextureCoordinatesOfCorners) {
       const Vec3d there = soup.positions[soup.triangles[std::size_t(uv.x)][std::size_t(uv.y)]];
       EXPECT_EQ(result.mesh.positions[result.mesh.triangles[t][k]], there);
     }
+}
+
+TEST(Repair, IslandsOfTheTextureAreTheSameWhateverWayTrianglesFace) {
+  TriangleMesh mesh = test::torus(6, 8);
+  for (const Triangle& t : mesh.triangles) {
+    std::array<Vec2f, 3> corners;
+    const bool left = mesh.positions[t[0]].x + mesh.positions[t[1]].x + mesh.positions[t[2]].x < 0;
+    for (int k = 0; k < 3; ++k) corners[k] = {float(t[k]), left ? 1.0F : 0.0F};
+    mesh.corner_uv.push_back(corners);
+  }
+  RepairOptions options = named(all);
+  options.part.at_texture_seams = true;
+  const RepairedMesh wanted = repair_mesh(mesh, options);
+  for (const int t : {3, 10, 11, 40, 57}) {
+    turn(mesh.triangles[t]);
+    std::swap(mesh.corner_uv[t][1], mesh.corner_uv[t][2]);
+  }
+  const RepairedMesh found = repair_mesh(mesh, options);
+  EXPECT_EQ(wanted.repairs.size(), 1U);
+  EXPECT_EQ(found.repairs, (Sentences{"oriented 5 triangles", wanted.repairs[0]}));
+  EXPECT_EQ(found.mesh.positions.size(), wanted.mesh.positions.size());
 }
 
 TEST(Repair, PiecesThatTouchWithoutClosingBordersAreNotWelded) {

@@ -164,6 +164,14 @@ TEST(ChartCloths, WhatCannotTakeThemSaysSo) {
   scene = sound;
   scene.cloths[0].pins = {ImagePin{{0.5, 0.5}}};
   EXPECT_NE(refusal_of(scene).find("between the charts"), std::string::npos);
+  // Three pages on one spine.
+  scene = sound;
+  scene.cloths[0].surface =
+      Surface(TriangleMesh{{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 1}, {-1, 0, -1}},
+                           {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}},
+              "pages");
+  EXPECT_NE(refusal_of(scene).find("edges of more than two triangles"), std::string::npos)
+      << refusal_of(scene);
 }
 
 }  // namespace

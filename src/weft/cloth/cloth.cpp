@@ -8,7 +8,6 @@
 #include "weft/cloth/bending_weights.h"
 #include "weft/cloth/border_springs.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/cloth/newton/level_layout.h"
 #include "weft/cloth/rest_shape.h"
 #include "weft/error.h"
 
@@ -50,9 +49,6 @@ void check_rest(const Planes3& rest, const BorderMates& mates) {
                          fmt::format("a position that is not finite at row {}, col {}", r, c),
                          "finite rest positions");
     }
-  if (mates.charts().size() > 1 && !LevelLayout(mates).has_gaps())
-    throw SceneError("cloth", "charts that lie side by side",
-                     fmt::format("{} samples between all charts", LevelLayout::gap));
 }
 
 /// Marks the representatives and counts them.

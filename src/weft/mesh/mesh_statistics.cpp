@@ -173,7 +173,7 @@ SoundPart sound_part(const TriangleMesh& mesh) {
   for (const Vec3d p : mesh.positions) sound.mesh.positions.push_back(is_finite(p) ? p : Vec3d{});
   for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
     const Triangle& t = mesh.triangles[i];
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    if (repeats_a_vertex(t)) continue;
     sound.mesh.triangles.push_back(t);
     sound.source.push_back(i);
   }

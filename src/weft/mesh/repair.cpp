@@ -4,17 +4,17 @@
 #include <climits>
 #include <cstdint>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "weft/core/assert.h"
-#include "weft/core/hash.h"
 #include "weft/error.h"
 #include "weft/mesh/manifold.h"
 #include "weft/mesh/partition.h"
 #include "weft/mesh/surface_parts.h"
+#include "weft/mesh/topology.h"
+#include "weft/mesh/weld.h"
 
 namespace weft {
 namespace {
@@ -50,8 +50,6 @@ std::string vertices(std::size_t count) {
   return fmt::format("{} {}", count, count == 1 ? "vertex" : "vertices");
 }
 
-bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
-
 bool has_area(const TriangleMesh& mesh, const Triangle& t) {
   const auto& p = mesh.positions;
   return squared_length(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]])) > 0;
@@ -61,47 +59,6 @@ bool has_area(const TriangleMesh& mesh, const Triangle& t) {
 bool has_area(const TriangleMesh& mesh) {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
                      [&](const Triangle& t) { return has_area(mesh, t); });
-}
-
-struct EdgeKinds {
-  std::size_t border = 0, branching = 0;  ///< of one triangle, of more than two
-};
-
-EdgeKinds count_edges(const EdgeUses& edges) {
-  EdgeKinds kinds;
-  for (int e = 0; e < edges.edge_count(); ++e) {
-    kinds.border += edges.of(e).size() == 1 ? 1 : 0;
-    kinds.branching += edges.of(e).size() > 2 ? 1 : 0;
-  }
-  return kinds;
-}
-
-struct PositionHash {
-  std::size_t operator()(Vec3d p) const {
-    Hash hash;
-    // Adding zero makes one of the two zeros, which are equal.
-    const std::array<double, 3> values{p.x + 0.0, p.y + 0.0, p.z + 0.0};
-    hash.add(std::span<const double>(values));
-    return hash.value();
-  }
-};
-
-/// [V] the first vertex at the position of each.
-std::vector<int> first_at_position(std::span<const Vec3d> positions) {
-  std::unordered_map<Vec3d, int, PositionHash> first;
-  first.reserve(positions.size());
-  std::vector<int> result;
-  result.reserve(positions.size());
-  for (const Vec3d p : positions)
-    result.push_back(first.try_emplace(p, static_cast<int>(result.size())).first->second);
-  return result;
-}
-
-/// Whether each number is its own index.
-bool is_in_order(std::span<const int> numbers) {
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (numbers[i] != static_cast<int>(i)) return false;
-  return true;
 }
 
 /// The repair of one mesh, step by step; each step reports its changes.
@@ -124,14 +81,14 @@ class Repair {
   RepairedMesh run() {
     drop_triangles();
     note_unreferenced();
-    if (options_.component.kind == ComponentChoice::Kind::all) weld();
+    if (options_.component.kind == ComponentChoice::Kind::all) weld_parts();
     choose_component();
     if (!has_area(mesh_))
       throw InputError(options_.name, "no triangle has an area", "a surface is wanted");
     orient();
     carry_corner_uv();
     choose_parts();
-    if (std::find(parted_.begin(), parted_.end(), true) != parted_.end())
+    if (is_parted())
       part();
     else
       split_vertices();
@@ -187,30 +144,23 @@ class Repair {
     if (unused > 0) report(fmt::format("dropped {} without triangles", vertices(unused)));
   }
 
-  /// Texture seams and files without indices leave a surface in parts that belong together.
-  void weld() {
-    const EdgeKinds before = count_edges(edges_);
-    if (before.border == 0) return;
-    std::vector<int> first = first_at_position(mesh_.positions);
-    if (is_in_order(first)) return;
-    std::vector<Triangle> triangles = mesh_.triangles;
-    for (Triangle& t : triangles)
-      for (int& v : t) v = first[v];
-    std::erase_if(triangles, repeats_a_vertex);
-    const EdgeUses edges = edge_uses(static_cast<int>(mesh_.positions.size()), triangles);
-    const EdgeKinds after = count_edges(edges);
-    if (after.border >= before.border || after.branching > before.branching) return;
+  void weld_parts() {
+    Welding found = find_welding(mesh_, edges_);
+    if (found.first.empty()) return;
     std::size_t joined = 0;
     const std::vector<bool> used = used_vertices();
-    for (std::size_t v = 0; v < first.size(); ++v)
-      joined += used[v] && first[v] != static_cast<int>(v) ? 1 : 0;
-    for (Triangle& t : mesh_.triangles)
-      for (int& v : t) v = first[v];
+    for (std::size_t v = 0; v < used.size(); ++v)
+      joined += used[v] && found.first[v] != static_cast<int>(v) ? 1 : 0;
+    weld(mesh_.triangles, found.first);
     keep_triangles([&](std::size_t t) { return !repeats_a_vertex(mesh_.triangles[t]); });
-    result_.welded = std::move(first);
+    result_.welded = std::move(found.first);
     report(fmt::format("welded {} to others at the same position, which closes {}",
-                       vertices(joined), counted(before.border - after.border, "border edge")));
+                       vertices(joined), counted(found.closed_borders, "border edge")));
     find_edges();
+  }
+
+  [[nodiscard]] bool is_parted() const {
+    return std::find(parted_.begin(), parted_.end(), true) != parted_.end();
   }
 
   void choose_component() {
@@ -289,6 +239,9 @@ class Repair {
     if (unoriented > 0)
       report(fmt::format("parted at {} where the surface cannot be oriented",
                          counted(unoriented, "edge")));
+    const bool is_asked = options_.part.at_texture_seams || options_.part.regions > 0;
+    if (!is_asked && !is_parted()) return;
+    find_edges();  // the same edges in the same order, of triangles as they lie now
     if (options_.part.at_texture_seams)
       report(
           fmt::format("parted at {} between islands of the texture",
@@ -301,7 +254,6 @@ class Repair {
   }
 
   void part() {
-    find_edges();  // the same edges in the same order, of triangles as they lie now
     lengthen_slits(mesh_, edges_, parted_);
     PartedVertices made =
         part_vertices(static_cast<int>(mesh_.positions.size()), mesh_.triangles, edges_, parted_);
@@ -394,20 +346,6 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
 
 int count_components(const TriangleMesh& mesh, const std::string& name) {
   return Repair(mesh, {name, {}}).count_components();
-}
-
-TriangleMesh weld_exact(const TriangleMesh& mesh) {
-  const std::vector<int> first = first_at_position(mesh.positions);
-  TriangleMesh welded{{}, mesh.triangles, mesh.corner_uv};
-  std::vector<int> number(first.size());
-  for (std::size_t v = 0; v < first.size(); ++v) {
-    const bool is_first = first[v] == static_cast<int>(v);
-    number[v] = is_first ? static_cast<int>(welded.positions.size()) : number[first[v]];
-    if (is_first) welded.positions.push_back(mesh.positions[v]);
-  }
-  for (Triangle& t : welded.triangles)
-    for (int& v : t) v = number[v];
-  return welded;
 }
 
 }  // namespace weft

@@ -22,6 +22,10 @@ struct HalfEdges {
   static int previous(int half_edge) { return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1; }
 };
 
+inline bool repeats_a_vertex(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
 /// The vertex that a half-edge leaves.
 inline int from_vertex(std::span<const Triangle> triangles, int half_edge) {
   return triangles[half_edge / 3][half_edge % 3];

@@ -6,15 +6,6 @@
 #include "weft/cloth/neighbours.h"
 
 namespace weft {
-
-namespace {
-
-RowTriple rows_around(const PaddedVectors& field, int r) {
-  return {field.row(r - 1), field.row(r), field.row(r + 1)};
-}
-
-}  // namespace
-
 BendingStencil::BendingStencil(const BendingPlanes& bending) {
   if (!bending.active) return;
   neighbours_ = bending.diagonals ? bending_neighbours : straight_bending_neighbours;

@@ -43,17 +43,6 @@ namespace {
 constexpr int frame = 16;
 constexpr int blocks_a_row = 5, entries = 6;
 
-/// A row of blocks from column c on.
-BlockRow6 row_of(const PaddedBlocks& blocks, int r, int c) {
-  BlockRow6 row{};
-  for (int k = 0; k < entries; ++k) row.entry[k] = blocks.entry[k].row(r) + c;
-  return row;
-}
-MutableBlockRow6 row_of(PaddedBlocks& blocks, int r, int c) {
-  MutableBlockRow6 row{};
-  for (int k = 0; k < entries; ++k) row.entry[k] = blocks.entry[k].row(r) + c;
-  return row;
-}
 StencilBlocks rows_of(const BlockStencil& stencil, int r, int c) {
   return {row_of(stencil.centre, r, c), row_of(stencil.right, r, c),
           row_of(stencil.below_left, r, c), row_of(stencil.below, r, c),

@@ -12,12 +12,6 @@ void view_blocks(const PaddedBlocks& blocks, PlaneView* views) {
   for (int k = 0; k < 6; ++k) views[k] = {blocks.entry[k].row(0), blocks.entry[k].stride()};
 }
 
-MutableBlockRow6 row_of(PaddedBlocks& blocks, int r) {
-  MutableBlockRow6 row{};
-  for (int k = 0; k < 6; ++k) row.entry[k] = blocks.entry[k].row(r);
-  return row;
-}
-
 }  // namespace
 
 void BlockMultigrid::join_centres(BlockLevel& level, const Workers& workers) {

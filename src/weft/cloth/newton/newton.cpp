@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/cloth/newton/level_layout.h"
 #include "weft/cloth/newton/newton_solver.h"
 #include "weft/cloth/proposal.h"
 #include "weft/error.h"
@@ -129,6 +130,9 @@ std::unique_ptr<Integrator> make_integrator_of(const NewtonOptions& options, con
                      "at least 1");
   if (!std::isfinite(options.tolerance) || options.tolerance < 0)
     throw SceneError("integrator.tolerance", fmt::format("{}", options.tolerance), "at least 0");
+  if (cloth.mates.charts().size() > 1 && !LevelLayout(cloth.mates).has_gaps())
+    throw SceneError("cloth", "charts that lie side by side",
+                     fmt::format("{} samples between all charts", LevelLayout::gap));
   return std::make_unique<Newton>(options, cloth, team);
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 
+#include "weft/cloth/kernels/newton_kernels.h"
 #include "weft/cloth/kernels/row_pointers.h"
 #include "weft/core/thread_team.h"
 
@@ -87,6 +88,27 @@ struct PaddedBlocks {
     for (PaddedPlane& plane : entry) plane = PaddedPlane(rows, cols);
   }
 };
+
+/// Three rows of a field from a column on. @param r  from -1 to rows
+inline RowTriple rows_around(const PaddedVectors& field, int r, int first_col = 0) {
+  const auto from = [&](int row) {
+    const ConstRow3 at = field.row(row);
+    return ConstRow3{at.x + first_col, at.y + first_col, at.z + first_col};
+  };
+  return {from(r - 1), from(r), from(r + 1)};
+}
+
+/// A row of blocks from a column on, which may be -1.
+inline BlockRow6 row_of(const PaddedBlocks& blocks, int r, int first_col = 0) {
+  BlockRow6 row{};
+  for (int k = 0; k < 6; ++k) row.entry[k] = blocks.entry[k].row(r) + first_col;
+  return row;
+}
+inline MutableBlockRow6 row_of(PaddedBlocks& blocks, int r, int first_col = 0) {
+  MutableBlockRow6 row{};
+  for (int k = 0; k < 6; ++k) row.entry[k] = blocks.entry[k].row(r) + first_col;
+  return row;
+}
 
 /// The workers of a level: all of a team, or one for whom the others wait.
 class Workers {

@@ -6,14 +6,6 @@
 #include "weft/cloth/neighbours.h"
 
 namespace weft {
-namespace {
-
-RowTriple rows_around(const PaddedVectors& field, int r) {
-  return {field.row(r - 1), field.row(r), field.row(r + 1)};
-}
-
-}  // namespace
-
 SpringHessian::SpringHessian(const Cloth& cloth, const NewtonKernels& kernels)
     : cloth_(cloth),
       kernels_(&kernels),

@@ -1,0 +1,124 @@
+#include <utility>
+
+#include "weft/cloth/neighbours.h"
+#include "weft/cloth/newton/block_multigrid.h"
+
+// The V-cycle: smoothing by lines, and the transfers between levels, from chart to chart.
+namespace weft {
+namespace {
+
+/// Damping of line relaxation, whose largest eigenvalue is close to 2 for springs.
+constexpr float damping = 0.73F;
+/// Levels of at most this many samples a side are left to one worker: barriers would cost more.
+constexpr int lone_size = 33;
+/// Smoothing sweeps on a coarsest level that is not solved directly.
+constexpr int coarsest_sweeps = 8;
+
+}  // namespace
+
+void BlockMultigrid::solve_lines(const LineFactor& lines, const PaddedVectors& rhs,
+                                 LineFactor::Solve how, PaddedVectors& out,
+                                 const Workers& workers) {
+  const Range mine = workers.share(lines.blocks());
+  for (int b = mine.first; b < mine.last; ++b)
+    lines.solve(b, rhs, how, scratch(workers), out, *kernels_);
+  workers.barrier();
+}
+
+void BlockMultigrid::smooth(std::size_t index, Direction direction, bool from_zero,
+                            const Workers& workers) {
+  BlockLevel& level = levels_[index];
+  if (!from_zero) residual(index, workers);
+  const LineFactor& lines = direction == Direction::rows ? level.rows : level.cols;
+  if (!level.seams.empty()) return smooth_seamed(level, lines, from_zero, workers);
+  solve_lines(lines, from_zero ? level.rhs : level.residual, {damping, !from_zero}, level.value,
+              workers);
+}
+
+/// Smooths a level with seams. A particle is solved for on the line of its first copy; on the lines
+/// of its other copies it is fixed.
+void BlockMultigrid::smooth_seamed(BlockLevel& level, const LineFactor& lines, bool from_zero,
+                                   const Workers& workers) {
+  const Range mine = workers.share(level.size);
+  PaddedVectors& y = level.curved;
+  const int n = level.size;
+  solve_lines(lines, from_zero ? level.rhs : level.residual, {damping, false}, y, workers);
+  level.seams.copy(workers, {&y.x, &y.y, &y.z});
+  workers.barrier();
+  for (int row = mine.first; row < mine.last; ++row) {
+    if (from_zero)
+      kernels_->scale_add(whole_vectors(n), std::as_const(y).row(row), 0, level.value.row(row));
+    else
+      kernels_->add_scaled(whole_vectors(n), 1, std::as_const(y).row(row), level.value.row(row));
+  }
+  workers.barrier();
+}
+
+void BlockMultigrid::restrict_residual(BlockLevel& fine, BlockLevel& coarse,
+                                       const Workers& workers) {
+  if (!fine.seams.empty()) {
+    fine.seams.share(workers, {&fine.residual.x, &fine.residual.y, &fine.residual.z});
+    workers.barrier();
+  }
+  const Range mine = workers.share(coarse.size);
+  for (int q = mine.first; q < mine.last; ++q)
+    for (const ChartRow& part : coarse.layout.rows.row(q)) {
+      const Chart &from = fine.layout.charts[part.chart], &to = coarse.layout.charts[part.chart];
+      const RowTriple rows = rows_around(fine.residual, from.row + 2 * (q - to.row), from.col);
+      kernels_->restrict_row(from.cols, to.cols, rows, scratch(workers).data(),
+                             shifted(coarse.rhs.row(q), to.col));
+    }
+  workers.barrier();
+  if (coarse.seams.empty()) return;
+  coarse.seams.sum(workers, {&coarse.rhs.x, &coarse.rhs.y, &coarse.rhs.z});
+  workers.barrier();
+}
+
+void BlockMultigrid::prolong(const BlockLevel& coarse, std::size_t fine_index,
+                             const Workers& workers) {
+  BlockLevel& fine = levels_[fine_index];
+  const Range mine = workers.share(fine.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    for (const ChartRow& part : fine.layout.rows.row(r)) {
+      const Chart &from = coarse.layout.charts[part.chart], &to = fine.layout.charts[part.chart];
+      const int row = r - to.row;
+      kernels_->prolong_row(to.cols, shifted(coarse.value.row(from.row + row / 2), from.col),
+                            shifted(coarse.value.row(from.row + (row + 1) / 2), from.col),
+                            scratch(workers).data(), shifted(fine.value.row(r), to.col));
+    }
+    if (fine_index == 0) clear_pins_of_row(r, fine.value);
+  }
+  workers.barrier();
+  if (fine.seams.empty()) return;
+  fine.seams.average(workers, {&fine.value.x, &fine.value.y, &fine.value.z});
+  workers.barrier();
+}
+
+void BlockMultigrid::cycle_coarsest(std::size_t index, const Workers& workers) {
+  if (coarsest_.active()) {
+    if (workers.alone() || workers.rank() == 0) coarsest_.solve(levels_[index]);
+    workers.barrier();
+    return;
+  }
+  smooth(index, Direction::rows, true, workers);
+  for (int i = 1; i < coarsest_sweeps; ++i)
+    smooth(index, i % 2 == 0 ? Direction::rows : Direction::cols, false, workers);
+}
+
+void BlockMultigrid::cycle(std::size_t index, const Workers& workers) {
+  if (!workers.alone() && levels_[index].size <= lone_size) {
+    if (workers.rank() == 0) cycle(index, Workers(workers.worker(), true));
+    return workers.barrier();
+  }
+  if (index + 1 == levels_.size()) return cycle_coarsest(index, workers);
+  smooth(index, Direction::rows, true, workers);
+  residual(index, workers);
+  restrict_residual(levels_[index], levels_[index + 1], workers);
+  cycle(index + 1, workers);
+  prolong(levels_[index + 1], index, workers);
+  smooth(index, Direction::cols, false, workers);
+}
+
+void BlockMultigrid::cycle(Worker& worker) { cycle(0, Workers(worker, false)); }
+
+}  // namespace weft
