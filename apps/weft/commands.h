@@ -15,6 +15,7 @@ void add_rebuild(CLI::App& program, const Context& context);
 void add_inspect(CLI::App& program, const Context& context);
 void add_simulate(CLI::App& program, const Context& context);
 void add_drape(CLI::App& program, const Context& context);
+void add_garment(CLI::App& program, const Context& context);
 void add_render(CLI::App& program, const Context& context);
 void add_view(CLI::App& program, const Context& context);
 void add_shapes(CLI::App& program, const Context& context);

@@ -94,6 +94,7 @@ int run(int argc, char** argv) {
   add_inspect(program, context);
   add_simulate(program, context);
   add_drape(program, context);
+  add_garment(program, context);
   add_render(program, context);
   add_view(program, context);
   add_shapes(program, context);

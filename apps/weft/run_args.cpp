@@ -37,6 +37,10 @@ void print_summary(const Context& context, const RunReport& report) {
                   100 * report.strain.p99, 100 * report.strain.max));
   say(context, fmt::format("touch   {} contacts at most, {} intersections", report.contacts_max,
                            report.intersections.counts.total()));
+  if (report.seams)
+    say(context, fmt::format("seams   {} of {} closed, largest gap {:.2f} mm", report.seams->closed,
+                             report.seams->count, 1000 * report.seams->largest_gap));
+  for (const std::string& name : report.fell_off) warn(context, name + ": fell off");
   say(context, "state   " + report.state_hash);
   for (const auto& path : report.outputs) say(context, "wrote   " + path.string());
 }
@@ -64,6 +68,19 @@ void check_whole_cloths(const RunReport& report, const std::string& name) {
               fmt::format("a whole cloth was put back to where its step began in frame {}",
                           first - report.history.begin() + 1),
               "more substeps are wanted");
+}
+
+/// Fails where a garment is not sewn or not worn.
+void check_garments(const RunReport& report, const std::string& name) {
+  if (report.seams && report.seams->closed < report.seams->count)
+    throw Error(ExitCode::check_failed, name,
+                fmt::format("{} of {} seams are open, by up to {:.2f} mm",
+                            report.seams->count - report.seams->closed, report.seams->count,
+                            1000 * report.seams->largest_gap),
+                "all closed is wanted");
+  if (!report.fell_off.empty())
+    throw Error(ExitCode::check_failed, name, fmt::format("'{}' fell off", report.fell_off.front()),
+                "a garment worn is wanted");
 }
 
 void check_verification(const Verification& found, const std::string& name) {
@@ -186,6 +203,7 @@ void run_and_report(Scene scene, const std::string& name, const RunArgs& args,
                           untangled)
             : "none is wanted");
   if (args.verify) check_whole_cloths(report, name);
+  if (args.verify) check_garments(report, name);
   if (report.verification) check_verification(*report.verification, name);
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "weft/cut.h"
+#include "weft/garment.h"
 #include "weft/geometry_image.h"
 #include "weft/image_quality.h"
 #include "weft/mesh.h"
@@ -50,8 +51,9 @@ struct ConvertOptions {
   MeshFrame files;           ///< unit and up axis of mesh files (load_surface)
   /// Move samples off the surface, so that the triangles between them fit it best.
   bool fit_samples = false;
-  bool measure = true;     ///< the distance between image and mesh
-  std::uint64_t seed = 1;  ///< of the surface points that it is measured at
+  bool measure = true;               ///< the distance between image and mesh
+  double spacing = default_spacing;  ///< of the samples of a sewing pattern (load_surface) [m]
+  std::uint64_t seed = 1;            ///< of the surface points that it is measured at
   int threads = 1;
   Progress* progress = nullptr;
 };
@@ -137,8 +139,8 @@ struct SourceMesh {
   std::vector<Vec2d> places;
 };
 
-/// A surface to load: by name (builtin:NAME, a geometry image in .exr or .png, a mesh file), or
-/// from memory. Copies share the data in memory.
+/// A surface to load: by name (builtin:NAME, a geometry image in .exr or .png, a mesh file, a
+/// sewing pattern in .json), or from memory. Copies share the data in memory.
 struct Surface {
   std::string name;  ///< of a surface in memory: its name in error messages
   std::shared_ptr<const TriangleMesh> mesh{};
@@ -161,12 +163,13 @@ struct Surface {
 /// A loaded surface.
 struct LoadedSurface {
   GeometryImage image;
-  std::optional<NormalMap> normals;     ///< where the surface came from a mesh
-  std::vector<std::string> notes;       ///< repairs and the like
-  std::optional<SampleBlends> follows;  ///< with keep_places, where it came from a mesh
-  std::optional<SourceMesh> source;     ///< with keep_source, where it came from a mesh
+  std::optional<NormalMap> normals;          ///< where the surface came from a mesh
+  std::vector<std::string> notes;            ///< repairs and the like
+  std::optional<SampleBlends> follows;       ///< with keep_places, where it came from a mesh
+  std::optional<SourceMesh> source;          ///< with keep_source, where it came from a mesh
+  std::shared_ptr<const Garment> garment{};  ///< where it came from a sewing pattern
 };
-/// @throws InputError, TopologyError, UsageError as convert_mesh and check_image
+/// @throws InputError, TopologyError, UsageError as convert_mesh, check_image and make_garment
 LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options);
 
 /// True when a name ends as geometry images do: .exr or .png.

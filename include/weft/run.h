@@ -53,6 +53,13 @@ struct Verification {
   }
 };
 
+/// The seams of all garments of a run.
+struct SeamsReport {
+  int count = 0, closed = 0;
+  double largest_gap = 0;       ///< in the last frame [m]
+  std::optional<int> frames{};  ///< the first frame in which all were closed; nothing: none was
+};
+
 struct RunOptions {
   std::filesystem::path folder{};  ///< where everything is written
   std::vector<std::string> exports{"obj", "pc2"};
@@ -83,7 +90,9 @@ struct RunReport {
   /// Of each cloth: its name, and the gap that it kept to cloth [m].
   std::vector<std::pair<std::string, double>> thickness_used;
   std::vector<StartInside> start_insides;
-  StrainSummary strain;  ///< last frame
+  std::optional<SeamsReport> seams;   ///< where a cloth is a garment
+  std::vector<std::string> fell_off;  ///< garments that sank by more than 20 cm
+  StrainSummary strain;               ///< last frame
   int contacts_max = 0, self_contacts_max = 0;
   FrameIntersections intersections;          ///< of the last frame; with verify: of the worst one
   IntersectionCounts start_intersections;    ///< of frame 0

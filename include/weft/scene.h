@@ -59,6 +59,7 @@ struct SceneCloth {
   std::string name = "cloth";
   Surface surface = "builtin:sheet";
   int size = 257;
+  double spacing = default_spacing;  ///< of the samples of a sewing pattern [m]
   Placement placement;
   Material material;
   double friction = 0.4;

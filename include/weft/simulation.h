@@ -32,6 +32,7 @@ class SurfaceCache {
     int size = 0, normal_map_size = 0;
     bool keep_places = false;
     ChartChoice charts{};
+    double spacing = 0;
     friend auto operator<=>(const Key&, const Key&) = default;
   };
   std::map<Key, LoadedSurface> kept_;
@@ -53,6 +54,7 @@ struct FrameReport {
   /// The minimum signed distance of a particle to an obstacle, negative on its wrong side. Bodies
   /// count within twice the thickness; infinite when nothing counts. [m]
   double smallest_gap = HUGE_VAL;
+  double seam_gap = 0;   ///< largest distance of samples that are to be sewn together [m]
   Vec3d centre_of_mass;  ///< all cloths together [m]
 };
 
@@ -65,7 +67,8 @@ struct SimulatedCloth {
   /// Springs and masses, for the library's own sources; copies of this share it.
   std::shared_ptr<Cloth> model;
   ClothState state;
-  std::optional<SourceMesh> source;  ///< unplaced, where the surface came from a mesh
+  std::optional<SourceMesh> source;          ///< unplaced, where the surface came from a mesh
+  std::shared_ptr<const Garment> garment{};  ///< where it came from a sewing pattern
 };
 /// A body of a running simulation, for drawing and export.
 struct PlacedBody {
@@ -205,6 +208,12 @@ class Simulation {
   [[nodiscard]] double used_thickness(std::size_t cloth) const;
   /// The contacts of a cloth in the last step.
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const;
+  /// The largest distance between the two samples of a pair, for each seam of a garment; empty for
+  /// other cloths. [m]
+  [[nodiscard]] std::vector<double> seam_gaps(std::size_t cloth) const;
+  /// How far the labelled edges of a garment, its collar or waist, have sunk from where the pattern
+  /// places them, on the mean; 0 for other cloths. [m]
+  [[nodiscard]] double sunk(std::size_t cloth) const;
   /// Number of cloth edges that crossed cloth at the start of the last step and are being
   /// untangled.
   [[nodiscard]] int crossings() const;

@@ -381,6 +381,7 @@ TEST(SceneSchema, ListsTheKeysThatTheReaderKnows) {
     EXPECT_EQ(properties_of(parts[type]), as_set(scene_keys::of_method<PyramidOptions>()));
   EXPECT_EQ(properties_of(parts["polar_map"]), as_set(scene_keys::of_method<PolarMapOptions>()));
   EXPECT_EQ(properties_of(parts["cloth"]), as_set(scene_keys::cloth));
+  EXPECT_EQ(properties_of(parts["sew"]), as_set(scene_keys::sew));
   EXPECT_EQ(properties_of(parts["body"]), as_set(scene_keys::body));
   EXPECT_EQ(properties_of(parts["material"]), as_set(scene_keys::material));
   EXPECT_EQ(properties_of(parts["pin"]), as_set(scene_keys::pin));

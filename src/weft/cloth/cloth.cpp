@@ -98,7 +98,11 @@ void set_damping(Cloth& cloth, SpringPlane& plane) {
 
 }  // namespace
 
-Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& material) {
+namespace {
+
+/// @param bending_mates  through which the fabric resists bending
+Cloth make(const Planes3& rest, const BorderMates& mates, const BorderMates& bending_mates,
+           const Material& material) {
   check_material(material);
   check_rest(rest, mates);
   const RestShape shape(rest, mates);
@@ -114,9 +118,22 @@ Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& 
     cloth.springs[d] = make_springs(shape, material, direction);
     set_damping(cloth, cloth.springs[d]);
   }
-  cloth.bending = make_bending(shape, material);
+  cloth.bending = make_bending(RestShape(rest, bending_mates), material);
   cloth.border_springs = find_border_springs(cloth);
   cloth.rest_spacing = shape.mean_spacing;
+  return cloth;
+}
+
+}  // namespace
+
+Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& material) {
+  return make(rest, mates, mates, material);
+}
+
+Cloth make_panels(const Planes3& rest, const BorderMates& apart, const BorderMates& sewn,
+                  const Material& material) {
+  Cloth cloth = make(rest, sewn, apart, material);
+  cloth.apart = apart;
   return cloth;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "weft/cloth_state.h"
@@ -78,6 +79,9 @@ struct Cloth {
   int size = 0;
   Material material;
   BorderMates mates;
+  /// While seams are being sewn: the mates of which all samples are at one place. Those of `mates`
+  /// then keep their distances from each other in a step's solve.
+  std::optional<BorderMates> apart;
   Planes3 rest;              ///< [n x n] rest positions [m]
   Grid<float> mass;          ///< [n x n] of the particle: summed over its class [kg], > 0
   Grid<float> inverse_mass;  ///< [n x n] 0 where pinned, and where no chart is
@@ -89,6 +93,9 @@ struct Cloth {
   std::vector<Pin> pins;
   int particles = 0;        ///< mates counted once
   double rest_spacing = 0;  ///< mean rest length of the stretch springs [m]
+
+  /// The mates of which all samples are at one place.
+  [[nodiscard]] const BorderMates& together() const { return apart ? *apart : mates; }
 };
 
 /// Lower bounds of rest lengths, relative to the mean stretch spring, and of masses, relative to
@@ -103,6 +110,11 @@ inline constexpr double min_relative_length = 1e-3, min_relative_mass = 1e-4;
 /// @param rest  [n x n] world positions, mates equal
 /// @throws SceneError for a material value out of range, or samples that carry no mass
 Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& material);
+
+/// The same of flat panels to be sewn together. Seams resist no bending.
+/// @param rest  [n x n] each chart laid flat  @param sewn  mates with the seams closed
+Cloth make_panels(const Planes3& rest, const BorderMates& apart, const BorderMates& sewn,
+                  const Material& material);
 
 /// Pins the class of a sample at a target. Pinning it again changes the target.
 /// @return index of its pin in the cloth's pins

@@ -36,7 +36,7 @@ void set_pins(const Cloth& cloth, const ClothState& start, double time_step, Clo
 
 void accept(const Cloth& cloth, ClothState& next, ClothState& state, ThreadTeam& team) {
   team.run([&](Worker& worker) {
-    copy_to_mates(cloth.mates, worker,
+    copy_to_mates(cloth.together(), worker,
                   {&next.position.x, &next.position.y, &next.position.z, &next.velocity.x,
                    &next.velocity.y, &next.velocity.z});
     worker.barrier();

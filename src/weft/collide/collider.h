@@ -45,6 +45,9 @@ struct CollidingCloth {
   /// Per sample, the number (from 1) of a closed body on whose wrong side it starts, or 0; empty:
   /// the first step determines it. [n * n]
   std::vector<int> wrong_side{};
+  /// The classes that samples are being sewn into: cells that share one get no contact at it,
+  /// though its samples are apart as yet. Null: nothing is sewn. Kept by pointer.
+  const BorderMates* sewn = nullptr;
 
   [[nodiscard]] bool is_kept_in(std::size_t body) const {
     return body < kept_in.size() && kept_in[body] != 0;

@@ -28,7 +28,8 @@ CollisionWorld::CollisionWorld(MakeBroadPhase make_broad_phase, const Obstacles&
                                std::span<const CollidingCloth> given) {
   cloths.reserve(given.size());
   for (const CollidingCloth& cloth : given) {
-    cloths.push_back({SurfaceGrid(cloth.size, cloth.mates, cloth.diagonals), cloth, points(), {}});
+    cloths.push_back(
+        {SurfaceGrid(cloth.size, cloth.mates, cloth.diagonals, cloth.sewn), cloth, points(), {}});
     cloth_of_.insert(cloth_of_.end(), static_cast<std::size_t>(cloth.size) * cloth.size,
                      cloths.size() - 1);
     slack_ = std::min(

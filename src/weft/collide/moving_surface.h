@@ -15,12 +15,19 @@ class SurfaceGrid {
  public:
   SurfaceGrid() = default;
   /// @param diagonals  [(n - 1) x (n - 1)]; empty: all rising
-  SurfaceGrid(int size, const BorderMates& mates, const Grid<Diagonal>& diagonals);
+  /// @param sewn  the classes that samples are being sewn into; null: those of `mates`
+  SurfaceGrid(int size, const BorderMates& mates, const Grid<Diagonal>& diagonals,
+              const BorderMates* sewn = nullptr);
 
   [[nodiscard]] int size() const { return size_; }       ///< n: samples a side
   [[nodiscard]] int cells() const { return size_ - 1; }  ///< cells a side
   /// The representative of a sample's class of mates.
   [[nodiscard]] int point(int sample) const { return point_[static_cast<std::size_t>(sample)]; }
+  /// The representative of the class that a sample is being sewn into; its point where there is no
+  /// sewing. Parts of the surface that share it are neighbours, though they may not touch yet.
+  [[nodiscard]] int joint(int sample) const {
+    return joint_.empty() ? point(sample) : joint_[static_cast<std::size_t>(sample)];
+  }
   /// The samples of one of a cell's two triangles.
   /// @param half  0 or 1
   [[nodiscard]] std::array<int, 3> triangle(int cell, int half) const {
@@ -65,6 +72,7 @@ class SurfaceGrid {
   int size_ = 0;
   bool has_missing_ = false;
   std::vector<int> point_;          // [n * n]
+  std::vector<int> joint_;          // [n * n], or none
   std::vector<Diagonal> diagonal_;  // [(n - 1)^2]
 };
 

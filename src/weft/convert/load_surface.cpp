@@ -104,12 +104,20 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
   const std::string& name = surface.name;
   if (surface.image) {
     check_image(*surface.image, name);
-    return {*surface.image, {}, {}, {}, {}};
+    return {*surface.image, {}, {}, {}, {}, {}};
   }
-  if (!surface.mesh && is_image_name(name)) return {read_image(name), {}, {}, {}, {}};
+  if (!surface.mesh && is_image_name(name)) return {read_image(name), {}, {}, {}, {}, {}};
   if (is_image_surface(surface)) {
     const int size = options.size == automatic_size ? ConvertOptions{}.size : options.size;
-    return {make_image_shape(name.substr(builtin_prefix.size()), size), {}, {}, {}, {}};
+    return {make_image_shape(name.substr(builtin_prefix.size()), size), {}, {}, {}, {}, {}};
+  }
+  if (!surface.mesh && is_pattern_name(name)) {
+    const Pattern pattern = read_pattern(name);
+    LoadedSurface loaded;
+    loaded.garment = std::make_shared<const Garment>(make_garment(pattern, name, options.spacing));
+    loaded.image = loaded.garment->image;
+    loaded.notes = pattern.notes;
+    return loaded;
   }
   ConvertOptions quick = options;
   quick.measure = false;

@@ -115,6 +115,13 @@ Json verification_json(const RunReport& report) {
           {"written", worst(report.verification->written)}};
 }
 
+Json seams_json(const SeamsReport& seams) {
+  return {{"count", seams.count},
+          {"closed", seams.closed},
+          {"largest_gap_mm", 1000 * seams.largest_gap},
+          {"frames", seams.frames ? Json(*seams.frames) : Json()}};
+}
+
 /// The length l of energy_gained_mgl [m].
 constexpr double usual_height = 1;
 
@@ -158,6 +165,10 @@ std::string to_json(const RunReport& report) {
   json["centre_of_mass"] = Json::array();
   for (const Vec3d& c : report.centre_of_mass) json["centre_of_mass"].push_back({c.x, c.y, c.z});
   json["state_hash"] = report.state_hash;
+  if (report.seams) {
+    json["seams"] = seams_json(*report.seams);
+    json["fell_off"] = report.fell_off;
+  }
   json["intersections_found"] = found_json(report.intersections);
   json["start_intersections"] = kinds_json(report.start_intersections);
   json["verification"] = verification_json(report);
@@ -173,7 +184,7 @@ std::string frames_csv_header() {
   return "frame,ms,forces_ms,solve_ms,collide_ms,limit_ms,iterations,residual,strain_mean,strain_"
          "p99,strain_max,"
          "kinetic_energy,potential_energy,contacts,stopped,fell_back,blocked_share,work,smallest_"
-         "gap,com_x,com_y,"
+         "gap,seam_gap,com_x,com_y,"
          "com_z\n";
 }
 
@@ -188,8 +199,8 @@ std::string frames_csv_line(int frame, const FrameReport& f, int particles) {
              f.residual, f.strain.mean, f.strain.p99, f.strain.max, f.kinetic_energy,
              f.potential_energy, f.contacts, f.stopped, f.fell_back, blocked_share(f, particles),
              f.work, gap) +
-         fmt::format("{:.9g},{:.9g},{:.9g}\n", f.centre_of_mass.x, f.centre_of_mass.y,
-                     f.centre_of_mass.z);
+         fmt::format("{:.6g},{:.9g},{:.9g},{:.9g}\n", f.seam_gap, f.centre_of_mass.x,
+                     f.centre_of_mass.y, f.centre_of_mass.z);
 }
 
 }  // namespace weft

@@ -28,6 +28,9 @@ constexpr std::size_t min_room = 16384, room_of_surface = 1024, room_of_frame = 
 /// Part of all points that fall back in a frame, above which the run notes it.
 constexpr double max_fallen_part = 0.01;
 
+/// How far the collar or waist of a garment may sink before it counts as fallen off. [m]
+constexpr double max_sunk = 0.2;
+
 std::string listed(std::span<const std::string_view> names) {
   std::string text;
   for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
@@ -170,6 +173,7 @@ class Run {
       }
       note_untangling();
       note_fallen();
+      report_garments();
       report_.state_hash = simulation_.state_hash();
     } catch (const OutputError&) {
       keep_what_fits();
@@ -183,6 +187,23 @@ class Run {
   }
 
  private:
+  void report_garments() {
+    for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
+      if (!simulation_.cloths()[i].garment) continue;
+      if (simulation_.sunk(i) > max_sunk) report_.fell_off.push_back(simulation_.cloths()[i].name);
+      if (!report_.seams) report_.seams.emplace();
+      for (const double gap : simulation_.seam_gaps(i)) {
+        ++report_.seams->count;
+        report_.seams->closed += gap == 0 ? 1 : 0;
+        report_.seams->largest_gap = std::max(report_.seams->largest_gap, gap);
+      }
+    }
+    const auto closed = std::find_if(report_.history.begin(), report_.history.end(),
+                                     [](const FrameReport& frame) { return frame.seam_gap == 0; });
+    if (report_.seams && closed != report_.history.end())
+      report_.seams->frames = static_cast<int>(closed - report_.history.begin()) + 1;
+  }
+
   Recorder& make_recorder() {
     if (!options_.scene_file.empty()) write_scene(options_.scene_file, scene_);
     recorder_.emplace(simulation_, scene_, options_);

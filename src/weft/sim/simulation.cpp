@@ -12,6 +12,7 @@
 #include "weft/core/stopwatch.h"
 #include "weft/error.h"
 #include "weft/scene_file.h"
+#include "weft/sim/placement.h"
 #include "weft/sim/stepping/simulation_parts.h"
 
 namespace weft {
@@ -116,7 +117,10 @@ void Simulation::Parts::measure(FrameReport& report) {
     report.smallest_gap =
         std::min(report.smallest_gap, collider->smallest_gap(i, cloth.state.position, team));
     const StrainSummary strain = measure_strain(*cloth.model, cloth.state);
-    check_strain(i, strain);
+    if (!cloth.model->apart) check_strain(i, strain);
+    if (sewing[i])
+      for (const double gap : sewing[i]->gaps(cloth.state.position))
+        report.seam_gap = std::max(report.seam_gap, gap);
     report.strain.mean += strain.mean * cloth.model->particles;
     report.strain.p99 = std::max(report.strain.p99, strain.p99);
     report.strain.max = std::max(report.strain.max, strain.max);
@@ -187,6 +191,7 @@ void Simulation::restore(const SimulationState& state) {
   parts_->work = state.work;
   parts_->known_energy = false;
   for (std::size_t i = 0; i < state.cloths.size(); ++i) parts_->cloths[i].state = state.cloths[i];
+  parts_->follow_sewing();
   if (parts_->driven.any_moves()) {
     parts_->driven.move_to(parts_->substep_time * (parts_->frame * parts_->scene.substeps),
                            parts_->team);
@@ -252,6 +257,22 @@ double Simulation::used_thickness(std::size_t cloth) const {
 
 std::span<const Contact> Simulation::contacts(std::size_t cloth) const {
   return parts_->collider->contacts(cloth);
+}
+
+std::vector<double> Simulation::seam_gaps(std::size_t cloth) const {
+  const std::optional<Sewing>& sewing = parts_->sewing[cloth];
+  return sewing ? sewing->gaps(parts_->cloths[cloth].state.position) : std::vector<double>();
+}
+
+double Simulation::sunk(std::size_t cloth) const {
+  const SimulatedCloth& worn = parts_->cloths[cloth];
+  if (!worn.garment || worn.garment->held.empty()) return 0;
+  const Planes3 placed =
+      placed_positions(worn.image, placement_map(parts_->scene.cloths[cloth].placement));
+  double sum = 0;
+  for (const int s : worn.garment->held)
+    sum += double{placed.at(s).y} - double{worn.state.position.at(s).y};
+  return sum / static_cast<double>(worn.garment->held.size());
 }
 
 int Simulation::crossings() const { return parts_->collider->crossings(); }

@@ -28,7 +28,8 @@ void BlockMultigrid::join_centres(BlockLevel& level, const Workers& workers) {
 
 /// Lines along a seam couple by the sum of all copies of their edges, as their diagonals do. With
 /// one copy's part alone, the line would resist a shift along itself with the stiffness of its
-/// threads.
+/// threads. While seams are being sewn, copies of a spring have directions of their own, and their
+/// sum is not of a spring's form: on the finest level they stay apart.
 void BlockMultigrid::join_edges(std::size_t index) {
   parted_.clear();
   for (const std::vector<BorderEdge>& group : levels_[index].seams.edges()) {
@@ -168,7 +169,7 @@ void BlockMultigrid::set_up(SpringHessian& springs, Worker& worker) {
     join_centres(levels_[i + 1], all);
   }
   for (std::size_t i = 0; i < levels_.size(); ++i) {
-    const bool seamed = !levels_[i].seams.edges().empty();
+    const bool seamed = !levels_[i].seams.edges().empty() && (i > 0 || !cloth_.apart);
     if (seamed) {
       worker.barrier();
       if (worker.rank() == 0) join_edges(i);

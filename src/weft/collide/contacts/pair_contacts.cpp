@@ -81,7 +81,7 @@ class Finder {
     if (!a.is_border() || !b.is_border()) return false;
     return std::any_of(a.samples.begin(), a.samples.end(), [&](int s) {
       return std::any_of(b.samples.begin(), b.samples.end(),
-                         [&](int t) { return a.grid->point(s) == a.grid->point(t); });
+                         [&](int t) { return a.grid->joint(s) == a.grid->joint(t); });
     });
   }
 
@@ -146,7 +146,7 @@ class Finder {
   [[nodiscard]] bool shares_point(int sample, const std::array<int, 3>& triangle) const {
     const SurfaceGrid& grid = *pair_.grid_a;
     return std::any_of(triangle.begin(), triangle.end(),
-                       [&](int corner) { return grid.point(corner) == grid.point(sample); });
+                       [&](int corner) { return grid.joint(corner) == grid.joint(sample); });
   }
 
   void edges(const CellGaps& gaps, const CandidateCell& a, const CandidateCell& b) {

@@ -43,6 +43,8 @@ class Finder {
     for (std::size_t k = 0; k < 4; ++k) {
       points_a_[k] = a.point(samples_a_[k]);
       points_b_[k] = b.point(samples_b_[k]);
+      joints_a_[k] = a.joint(samples_a_[k]);
+      joints_b_[k] = b.joint(samples_b_[k]);
     }
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j)
@@ -134,7 +136,7 @@ class Finder {
     int shared = 0;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
-        if (points_a_[a[i]] != points_b_[b[j]]) continue;
+        if (joints_a_[a[i]] != joints_b_[b[j]]) continue;
         if (++shared > 1) return shared;
         std::swap(a[0], a[i]);
         std::swap(b[0], b[j]);
@@ -164,7 +166,7 @@ class Finder {
   const PlaneSearch& search_;
   std::vector<SeparatingPlane>& out_;
   // Corners of the current pair of cells:
-  std::array<int, 4> samples_a_{}, samples_b_{}, points_a_{}, points_b_{};
+  std::array<int, 4> samples_a_{}, samples_b_{}, points_a_{}, points_b_{}, joints_a_{}, joints_b_{};
 };
 
 }  // namespace

@@ -53,9 +53,10 @@ std::array<int, 3> points_of(const SurfaceGrid& grid, int cell, int half) {
   return triangle;
 }
 
-template <class Samples>
-bool has(const Samples& samples, int sample) {
-  return std::find(samples.begin(), samples.end(), sample) != samples.end();
+/// Whether a sample is a corner of a triangle, or is being sewn to one.
+bool meets(const SurfaceGrid& grid, const std::array<int, 3>& triangle, int sample) {
+  return std::any_of(triangle.begin(), triangle.end(),
+                     [&](int corner) { return grid.joint(corner) == grid.joint(sample); });
 }
 
 }  // namespace
@@ -73,7 +74,8 @@ void IntersectionContours::cross(const StandingPair& pair, const SegmentEnd& edg
   for (std::size_t k = 0; k < 3; ++k) corners[k] = {triangle[k], pair.at(other, triangle[k])};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto [p, q] = std::minmax(edges_of.own[k], edges_of.own[(k + 1) % 3]);
-    if (pair.same && (has(triangle, p) || has(triangle, q))) continue;
+    if (pair.same && (meets(*pair.grids[0], triangle, p) || meets(*pair.grids[0], triangle, q)))
+      continue;
     if (!passes_through({{{p, pair.at(side, p)}, {q, pair.at(side, q)}}}, corners)) continue;
     SegmentEnd end = edges_of;
     end.crossing.edge = {p, q};

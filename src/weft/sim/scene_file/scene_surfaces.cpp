@@ -105,6 +105,9 @@ SceneCloth read_cloth(const nlohmann::json& value, const JsonPlace& place, const
   cloth.name = read_name(object, cloth.name);
   cloth.surface = read_surface(object, cloth.surface.name, folder);
   cloth.size = object.integer("size", cloth.size, min_image_size, largest_image_size);
+  if (const nlohmann::json* sew = object.find("sew"))
+    cloth.spacing = JsonObject(*sew, place.key("sew"), scene_keys::sew)
+                        .number("spacing", cloth.spacing, {0.0001, 1, false});
   cloth.placement = read_placement(object);
   if (const nlohmann::json* material = object.find("material"))
     cloth.material = read_material(*material, place.key("material"));

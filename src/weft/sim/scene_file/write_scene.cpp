@@ -92,6 +92,7 @@ void add_placement(Json& json, const Placement& placement) {
 Json cloth_json(const SceneCloth& cloth, bool self_collision, const fs::path& folder) {
   Json json{
       {"name", cloth.name}, {"surface", surface_text(cloth.surface, folder)}, {"size", cloth.size}};
+  if (cloth.spacing != default_spacing) json["sew"] = {{"spacing", cloth.spacing}};
   add_placement(json, cloth.placement);
   json["material"] = material_json(cloth.material);
   json["self_collision"] = self_collision;

@@ -20,6 +20,7 @@
 #include "weft/sim/stepping/adaptive_substeps.h"
 #include "weft/sim/stepping/driven_work.h"
 #include "weft/sim/stepping/runaway.h"
+#include "weft/sim/stepping/sewing.h"
 #include "weft/simulation.h"
 
 namespace weft {
@@ -41,8 +42,9 @@ struct Mover {
   DrivenWork driven_work;
   /// Energies of this step: at its start, after the wind; after solve and strain limit; at its end.
   Energy start, solved, end;
-  Planes3 calm_velocity;  // velocities before the wind [m/s]
-  Planes3 guess;          // filtered positions before the solve [m]
+  Planes3 calm_velocity;     // velocities before the wind [m/s]
+  Planes3 guess;             // filtered positions before the solve [m]
+  double unsewn_energy = 0;  // before a step in which seams are pulled together [J]
   // Of this step: work of the wind, energy added by the strain limit while something pulled. [J]
   double wind_work = 0, pulled_work = 0;
 };
@@ -63,7 +65,7 @@ struct Simulation::Parts {
   LoadedSurface load(const Surface& surface, ConvertOptions options, const std::string& what);
   void check_collider(const char* kind, const BorderMates& mates, const std::string& what) const;
   void check_charts(const BorderMates& mates, const std::string& what) const;
-  Cloth make(const SceneCloth& wanted, const Planes3& rest, const BorderMates& mates) const;
+  Cloth make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded) const;
   void load_cloths();
   void load_bodies();
   /// Ties cloths to bodies, at the initial positions of both.
@@ -78,6 +80,14 @@ struct Simulation::Parts {
   [[nodiscard]] double drive_of(std::size_t index) const;
   /// Begins a step that ends at `seconds`: sets the end positions of bodies, pins and the grab.
   void move_driven(double seconds);
+  /// Pulls the seams of a garment together that is not sewn yet.
+  void sew(std::size_t index);
+  [[nodiscard]] bool is_sewing() const;
+  double work_of_sewing();
+  /// Makes one surface of garments whose seams have closed.
+  void close_seams();
+  /// Makes the collider anew where sewing is over or, in an earlier state, not yet.
+  void follow_sewing();
   /// Ends the step: bodies take their end positions.
   void bodies_arrive();
   /// Advances by one substep, in as many steps as fast bodies and collisions require.
@@ -166,6 +176,7 @@ struct Simulation::Parts {
   ThreadTeam team, lone_team;
   double substep_time;              // [s]
   double time_step;                 // of the step: a substep or a piece of one [s]
+  double step_start = 0;            // time at which the step begins [s]
   double max_approach_in_step = 0;  // of a body towards cloth [m]
   ClothReach reach;                 // of one cloth in a substep
   SurfaceMotion body_motion;        // of one body in a substep
@@ -179,6 +190,7 @@ struct Simulation::Parts {
   std::vector<StartSides> start_sides;              // of each cloth
   std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
   std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
+  std::vector<std::optional<Sewing>> sewing;        // of each cloth; none: it is no garment
   std::vector<Mover> movers;                        // one a cloth
   std::unique_ptr<JointIntegrator> joint;           // of all; null: each is solved by itself
   std::vector<std::span<const Contact>> own_contacts;

@@ -16,8 +16,8 @@ namespace weft {
 
 LoadedSurface SurfaceCache::load(const Surface& surface, const ConvertOptions& options) {
   if (surface.in_memory()) return load_surface(surface, options);
-  const Key key{surface.name, options.size, options.normal_map_size, options.keep_places,
-                options.charts};
+  const Key key{surface.name,        options.size,   options.normal_map_size,
+                options.keep_places, options.charts, options.spacing};
   const auto found = kept_.find(key);
   if (found != kept_.end()) return found->second;
   return kept_.emplace(key, load_surface(surface, options)).first->second;
@@ -68,10 +68,14 @@ LoadedSurface Simulation::Parts::load(const Surface& surface, ConvertOptions opt
   return loaded;
 }
 
-Cloth Simulation::Parts::make(const SceneCloth& wanted, const Planes3& rest,
-                              const BorderMates& mates) const {
+Cloth Simulation::Parts::make(const SceneCloth& wanted, const Planes3& placed,
+                              const LoadedSurface& loaded) const {
   try {
-    return make_cloth(rest, mates, wanted.material);
+    if (!loaded.garment) return make_cloth(placed, loaded.image.mates, wanted.material);
+    const Garment& garment = *loaded.garment;
+    if (!(wanted.placement.scale == Vec3d{1, 1, 1}))
+      throw SceneError("scale", "a sewing pattern of another size", "1 is wanted");
+    return make_panels(garment.flat, garment.image.mates, garment.sewn, wanted.material);
   } catch (const SceneError& error) {
     throw SceneError(name, fmt::format("'{}': {}", wanted.name, error.what()), "");
   }
@@ -102,16 +106,19 @@ void Simulation::Parts::load_cloths() {
   for (const SceneCloth& wanted : scene.cloths) {
     ConvertOptions options;
     options.size = wanted.size;
+    options.spacing = wanted.spacing;
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
-    check_charts(loaded.image.mates, wanted.name);
-    const Planes3 rest = placed_positions(loaded.image, placement_map(wanted.placement));
-    Cloth cloth = make(wanted, rest, loaded.image.mates);
+    check_charts(loaded.garment ? loaded.garment->sewn : loaded.image.mates, wanted.name);
+    const Planes3 placed = placed_positions(loaded.image, placement_map(wanted.placement));
+    Cloth cloth = make(wanted, placed, loaded);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
+    state.position = placed;
+    sewing.push_back(loaded.garment ? std::optional<Sewing>(*loaded.garment) : std::nullopt);
     cloths.push_back({wanted.name, std::move(loaded.image),
                       std::make_shared<Cloth>(std::move(cloth)), std::move(state),
-                      std::move(loaded.source)});
+                      std::move(loaded.source), std::move(loaded.garment)});
   }
 }
 
@@ -123,6 +130,9 @@ void Simulation::Parts::load_bodies() {
     options.keep_places = !wanted.animation.empty();
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
+    if (loaded.garment)
+      throw SceneError(name, fmt::format("body '{}' is a sewing pattern", wanted.name),
+                       "a mesh or a geometry image is wanted");
     if (!loaded.image.has_one_chart()) check_collider("body", loaded.image.mates, wanted.name);
     BodyMotion motion(wanted, loaded, {scene.frame_rate, scene.files});
     const PlacementMap map = placement_map(wanted.placement);
@@ -177,12 +187,13 @@ void Simulation::Parts::make_collider_of_scene() {
     const SimulatedCloth& cloth = cloths[i];
     max_approach_in_step =
         std::min(max_approach_in_step, max_approach_in_gaps * gap_of(*cloth.model));
-    colliding.push_back({cloth.model->mates, cloth.model->size, choose_diagonals(cloth.image),
+    colliding.push_back({cloth.model->together(), cloth.model->size, choose_diagonals(cloth.image),
                          gap_of(*cloth.model), scene.cloths[i].friction, cloth.model->rest_spacing,
                          Colliders::traits_of(scene.collider).self_collision &&
                              scene.cloths[i].self_collision.value_or(true),
                          self_gap_of(*cloth.model), &cloth.model->rest, start_sides[i].kept_in,
-                         start_sides[i].wrong_side});
+                         start_sides[i].wrong_side,
+                         cloth.model->apart ? &cloth.model->mates : nullptr});
   }
   collider = make_collider(scene.collider, obstacles, colliding);
   collider->share_contacts(joint != nullptr);

@@ -72,6 +72,8 @@ void Simulation::Parts::propose(std::size_t index) {
   SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
   mover.wind_work = mover.pulled_work = 0;
+  if (is_sewing()) mover.unsewn_energy = mover.meter.measure(cloth.state).total();
+  if (cloth.model->apart) sew(index);
   if (mover.wind) {
     known_energy = false;
     mover.calm_velocity = cloth.state.velocity;
@@ -79,8 +81,50 @@ void Simulation::Parts::propose(std::size_t index) {
     mover.wind_work =
         mover.meter.kinetic(cloth.state.velocity) - mover.meter.kinetic(mover.calm_velocity);
   }
-  mover.integrator->begin({time_step, vec_cast<float>(scene.gravity)}, cloth.state);
+  const double gravity_part = cloth.model->apart ? Sewing::gravity_part(step_start) : 1;
+  mover.integrator->begin({time_step, vec_cast<float>(gravity_part * scene.gravity)}, cloth.state);
   if (!mover.integrator->starts_at_proposal()) mover.integrator->iterate({});
+}
+
+void Simulation::Parts::sew(std::size_t index) {
+  known_energy = false;
+  sewing[index]->pull(time_step, step_start, cloths[index].state);
+  movers[index].integrator->forget();
+}
+
+bool Simulation::Parts::is_sewing() const {
+  return std::any_of(cloths.begin(), cloths.end(),
+                     [](const SimulatedCloth& cloth) { return cloth.model->apart.has_value(); });
+}
+
+void Simulation::Parts::close_seams() {
+  bool closed = false;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    SimulatedCloth& cloth = cloths[i];
+    if (!cloth.model->apart || !sewing[i]->is_closed(cloth.state.position)) continue;
+    sewing[i]->close(cloth.state);
+    closed = true;
+  }
+  if (closed) follow_sewing();
+}
+
+void Simulation::Parts::follow_sewing() {
+  bool changed = false;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    if (!sewing[i]) continue;
+    Cloth& model = *cloths[i].model;
+    const std::vector<double> gaps = sewing[i]->gaps(cloths[i].state.position);
+    const bool open = std::any_of(gaps.begin(), gaps.end(), [](double gap) { return gap > 0; });
+    if (open == model.apart.has_value()) continue;
+    model.apart = open ? std::optional(cloths[i].image.mates) : std::nullopt;
+    changed = true;
+  }
+  if (!changed) return;
+  std::vector<std::vector<int>> marks(cloths.size());
+  for (std::size_t i = 0; i < cloths.size(); ++i) collider->save_marks(i, marks[i]);
+  make_collider_of_scene();
+  for (std::size_t i = 0; i < cloths.size(); ++i) collider->restore_marks(i, marks[i]);
+  known_energy = false;
 }
 
 bool Simulation::Parts::is_pulled(std::size_t index) const {

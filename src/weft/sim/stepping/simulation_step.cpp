@@ -35,6 +35,7 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
     unlimited = walk.is_shortened();
     const int piece = walk.index() + 1;
     const double seconds = piece < walk.subdivisions() ? begin + time_step * piece : end;
+    step_start = seconds - time_step;
     move_driven(seconds);
     const Tried tried = try_step(seconds, walk.may_halve(), report);
     if (tried.refused) {
@@ -106,6 +107,7 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
     done += movers[i].wind_work;
     work.pulled += movers[i].pulled_work;
   }
+  if (is_sewing()) done = work_of_sewing();
   // The end energies of this step are the start energies of the next.
   known_energy = known_energy && watched;
   for (Mover& mover : movers) mover.start = mover.end;
@@ -118,6 +120,15 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
   report.fell_back = std::max(report.fell_back, tried.filtered.fell_back);
   report.whole_fell_back = std::max(report.whole_fell_back, tried.filtered.whole);
   bodies_arrive();
+  close_seams();
+}
+
+/// All that cloths gained in a step of sewing is the work of the seams.
+double Simulation::Parts::work_of_sewing() {
+  double gained = 0;
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    gained += movers[i].meter.measure(cloths[i].state).total() - movers[i].unsewn_energy;
+  return gained;
 }
 
 }  // namespace weft

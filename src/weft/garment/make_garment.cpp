@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "weft/error.h"
+#include "weft/garment.h"
+#include "weft/garment/grid_map.h"
+#include "weft/garment/panel_outline.h"
+#include "weft/garment/panel_packing.h"
+
+namespace weft {
+namespace {
+
+/// Distance between panels that are laid flat above each other, so that no two are near. [m]
+constexpr float flat_distance = 0.5F;
+
+/// The samples of a panel, in its own axes.
+PlaneGrid samples_of(const PanelOutline& outline, const std::string& place) {
+  const int count = static_cast<int>(outline.points.size());
+  const double side = outline.mirrored ? -1 : 1;
+  std::vector<Vec2d> border;
+  for (int k = 0; k < count; ++k) {
+    const Vec2d p = outline.points[(outline.start + k) % count];
+    border.push_back({side * p.x, p.y});
+  }
+  std::optional<PlaneGrid> grid = spread_inside(border, outline.rows, outline.cols);
+  if (!grid)
+    throw InputError(place, "an outline that no unfolded grid fits into",
+                     "a simpler outline, or more samples, are wanted");
+  for (Vec2d& p : grid->points) p.x *= side;
+  return std::move(*grid);
+}
+
+/// Where an edge's first sample, as the outline is walked, lies on the border of its chart.
+int position_of(const PanelOutline& outline, int point) {
+  const int count = static_cast<int>(outline.points.size());
+  return (point - outline.start + count) % count;
+}
+
+class Maker {
+ public:
+  Maker(const Pattern& pattern, const std::string& name, double spacing)
+      : pattern_(pattern), name_(name), outlines_(lay_outlines(pattern, name, spacing)) {}
+
+  Garment make() {
+    Garment garment;
+    garment.name = name_;
+    std::vector<Chart> charts = pack_panels(outlines_, size_);
+    if (size_ > largest_image_size)
+      throw InputError(name_, fmt::format("an image of {} samples a side", size_),
+                       fmt::format("at most {}: a wider spacing is wanted", largest_image_size));
+    for (std::size_t p = 0; p < charts.size(); ++p) charts[p].name = pattern_.panels[p].name;
+    garment.image.mates = BorderMates(size_, charts, {});
+    garment.flat = garment.texture = Planes3(size_);
+    world_.resize(static_cast<std::size_t>(size_) * size_);
+    for (std::size_t p = 0; p < charts.size(); ++p) lay(p, charts[p], garment);
+    sew(charts, garment);
+    find_held(garment);
+    fill_holes(garment);
+    set_positions(garment.image);
+    garment.image.source = name_;
+    return garment;
+  }
+
+ private:
+  void lay(std::size_t p, const Chart& chart, Garment& garment) {
+    const PatternPanel& panel = pattern_.panels[p];
+    const PlaneGrid grid =
+        samples_of(outlines_[p], fmt::format("{}: panel '{}'", name_, panel.name));
+    Vec2d middle;
+    for (const Vec2d& q : grid.points)
+      middle = middle + (1.0 / static_cast<double>(grid.points.size())) * q;
+    for (int r = 0; r < chart.rows; ++r)
+      for (int c = 0; c < chart.cols; ++c) {
+        const Vec2d q = grid.at(r, c);
+        const int sample = (chart.row + r) * size_ + chart.col + c;
+        world_[sample] = panel.placed(q);
+        garment.texture.set(sample, {static_cast<float>(q.x), static_cast<float>(q.y), 0});
+        garment.flat.set(sample,
+                         {static_cast<float>(q.x - middle.x), static_cast<float>(q.y - middle.y),
+                          flat_distance * static_cast<float>(p)});
+      }
+  }
+
+  void sew(const std::vector<Chart>& charts, Garment& garment) const {
+    const BorderMates& apart = garment.image.mates;
+    std::vector<MateInterval> runs;
+    for (const Stitch& stitch : pattern_.stitches) {
+      const PanelOutline &a = outlines_[stitch.a.panel], &b = outlines_[stitch.b.panel];
+      const int count = a.intervals[stitch.a.edge];
+      const int first =
+          apart.first_position(stitch.a.panel) + position_of(a, a.first[stitch.a.edge]);
+      const int mate =
+          apart.first_position(stitch.b.panel) + position_of(b, b.first[stitch.b.edge] + count);
+      runs.push_back({first, mate, count, false});
+      GarmentSeam seam{
+          fmt::format("{}.{}-{}.{}", pattern_.panels[stitch.a.panel].name, stitch.a.edge,
+                      pattern_.panels[stitch.b.panel].name, stitch.b.edge),
+          {}};
+      for (int k = 0; k <= count; ++k)
+        seam.pairs.push_back({apart.sample_at(apart.along_border(first, k)),
+                              apart.sample_at(apart.along_border(mate, -k))});
+      garment.seams.push_back(std::move(seam));
+    }
+    garment.sewn = BorderMates(size_, charts, std::move(runs));
+  }
+
+  void find_held(Garment& garment) const {
+    const BorderMates& apart = garment.image.mates;
+    for (std::size_t p = 0; p < outlines_.size(); ++p)
+      for (std::size_t k = 0; k < pattern_.panels[p].edges.size(); ++k) {
+        if (pattern_.panels[p].edges[k].label.empty()) continue;
+        const int first = apart.first_position(static_cast<int>(p)) +
+                          position_of(outlines_[p], outlines_[p].first[k]);
+        for (int i = 0; i <= outlines_[p].intervals[k]; ++i)
+          garment.held.push_back(apart.sample_at(apart.along_border(first, i)));
+      }
+  }
+
+  /// Holes lie where the sample is that shelters them.
+  void fill_holes(Garment& garment) {
+    const BorderMates& apart = garment.image.mates;
+    for (int s = 0; s < size_ * size_; ++s) {
+      const int at = apart.representative(s);
+      if (!apart.is_hole(s)) continue;
+      world_[s] = world_[at];
+      garment.flat.set(s, garment.flat.at(at));
+      garment.texture.set(s, garment.texture.at(at));
+    }
+  }
+
+  void set_positions(GeometryImage& image) const {
+    Vec3d low = world_.front(), high = low;
+    for (const Vec3d& p : world_) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    image.world = {low, std::max({high.x - low.x, high.y - low.y, high.z - low.z})};
+    image.cube = Planes3(size_);
+    for (int s = 0; s < size_ * size_; ++s)
+      image.cube.set(s, vec_cast<float>((1 / image.world.scale) * (world_[s] - low)));
+  }
+
+  const Pattern& pattern_;
+  std::string name_;
+  std::vector<PanelOutline> outlines_;
+  int size_ = 0;
+  std::vector<Vec3d> world_;  // [n * n] [m]
+};
+
+}  // namespace
+
+Garment make_garment(const Pattern& pattern, const std::string& name, double spacing) {
+  return Maker(pattern, name, spacing).make();
+}
+
+}  // namespace weft

@@ -1,0 +1,218 @@
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "weft/core/json.h"
+#include "weft/error.h"
+#include "weft/files.h"
+#include "weft/garment.h"
+#include "weft/garment/check_pattern.h"
+
+namespace weft {
+namespace {
+
+using nlohmann::json;
+
+constexpr int deepest = 32;
+/// Lengths that a panel's coordinates may have. [m]
+constexpr double largest_length = 100;
+
+/// A value of the file and where it lies.
+struct Node {
+  const json& value;
+  std::string place;
+
+  [[noreturn]] void fail(const std::string& found, const std::string& wanted) const {
+    throw InputError(place, found, wanted);
+  }
+  [[nodiscard]] Node at(const std::string& key) const {
+    if (!value.is_object() || !value.contains(key))
+      fail(fmt::format("no '{}'", key), "a GarmentCode pattern is wanted");
+    return {value[key], fmt::format("{}: {}", place, key)};
+  }
+  [[nodiscard]] Node named(const std::string& what, std::size_t index) const {
+    return {value[index], fmt::format("{}: {} {}", place, what, index)};
+  }
+  [[nodiscard]] const Node& list(std::size_t count) const {
+    if (!value.is_array() || (count > 0 && value.size() != count))
+      fail("no list of that kind",
+           count > 0 ? fmt::format("a list of {} is wanted", count) : "a list is wanted");
+    return *this;
+  }
+  [[nodiscard]] double number() const {
+    if (!value.is_number() || !std::isfinite(value.get<double>()))
+      fail("no number", "a finite number is wanted");
+    return value.get<double>();
+  }
+  [[nodiscard]] Vec2d pair() const {
+    static_cast<void>(list(2));
+    return {Node{value[0], place}.number(), Node{value[1], place}.number()};
+  }
+  [[nodiscard]] Vec3d triple() const {
+    static_cast<void>(list(3));
+    return {Node{value[0], place}.number(), Node{value[1], place}.number(),
+            Node{value[2], place}.number()};
+  }
+  [[nodiscard]] int index(std::size_t count, const std::string& of) const {
+    if (!value.is_number_integer() || value.get<long long>() < 0 ||
+        value.get<long long>() >= static_cast<long long>(count))
+      fail(fmt::format("{}", json_text(value)),
+           fmt::format("one of the {} {} is wanted", count, of));
+    return value.get<int>();
+  }
+  [[nodiscard]] std::string text_or_none(const std::string& key) const {
+    if (!value.contains(key) || value[key].is_null()) return {};
+    if (!value[key].is_string()) fail(fmt::format("'{}' that is no text", key), "a text is wanted");
+    return value[key].get<std::string>();
+  }
+};
+
+/// A control point, given along the chord and to the left of it, in chord lengths.
+Vec2d beside_chord(Vec2d from, Vec2d to, Vec2d relative) {
+  const Vec2d chord = to - from;
+  return from + relative.x * chord + relative.y * Vec2d{-chord.y, chord.x};
+}
+
+PatternCurve read_curve(const Node& node, Vec2d from, Vec2d to, double unit) {
+  PatternCurve curve;
+  if (node.value.is_array()) {  // of older files
+    curve.kind = PatternCurve::Kind::bezier;
+    curve.controls = {beside_chord(from, to, node.pair())};
+    return curve;
+  }
+  const std::string type = node.value.is_object() ? node.text_or_none("type") : "";
+  const Node params = node.at("params");
+  if (type == "circle") {
+    static_cast<void>(params.list(3));
+    curve.kind = PatternCurve::Kind::arc;
+    curve.radius = unit * params.named("value", 0).number();
+    curve.large = params.named("value", 1).number() != 0;
+    curve.counterclockwise = params.named("value", 2).number() != 0;
+    if (!(curve.radius > 0) || curve.radius > 1000 * largest_length)
+      params.fail(fmt::format("a circle of radius {:.3g} m", curve.radius),
+                  "a positive one is wanted");
+    return curve;
+  }
+  if (type != "quadratic" && type != "cubic")
+    node.fail(fmt::format("a curve of the kind '{}'", type),
+              "quadratic, cubic or circle is wanted");
+  const std::size_t count = type == "cubic" ? 2 : 1;
+  curve.kind = PatternCurve::Kind::bezier;
+  for (std::size_t k = 0; k < params.list(count).value.size(); ++k)
+    curve.controls.push_back(beside_chord(from, to, params.named("value", k).pair()));
+  return curve;
+}
+
+PatternPanel read_panel(const Node& node, const std::string& name, double unit) {
+  PatternPanel panel{name, node.text_or_none("label"), {}, {}, {}, {}};
+  const Node vertices = node.at("vertices");
+  for (std::size_t k = 0; k < vertices.list(0).value.size(); ++k) {
+    const Vec2d p = unit * vertices.named("vertex", k).pair();
+    if (std::hypot(p.x, p.y) > largest_length)
+      vertices.fail(fmt::format("a vertex {:.3g} m away", std::hypot(p.x, p.y)),
+                    "a panel of at most 100 m is wanted (properties.units_in_meter)");
+    panel.vertices.push_back(p);
+  }
+  const Node edges = node.at("edges");
+  for (std::size_t k = 0; k < edges.list(0).value.size(); ++k) {
+    const Node one{edges.value[k], fmt::format("{}: edge {}", node.place, k)};
+    const Node ends = one.at("endpoints").list(2);
+    PatternEdge edge;
+    edge.from = ends.named("end", 0).index(panel.vertices.size(), "vertices");
+    edge.to = ends.named("end", 1).index(panel.vertices.size(), "vertices");
+    edge.label = one.text_or_none("label");
+    if (one.value.contains("curvature") && !one.value["curvature"].is_null())
+      edge.curve =
+          read_curve(one.at("curvature"), panel.vertices[edge.from], panel.vertices[edge.to], unit);
+    panel.edges.push_back(std::move(edge));
+  }
+  if (node.value.contains("rotation")) panel.rotate = node.at("rotation").triple();
+  if (node.value.contains("translation")) panel.translate = unit * node.at("translation").triple();
+  return panel;
+}
+
+double unit_of(const Node& file) {
+  if (!file.value.contains("properties") || !file.value["properties"].contains("units_in_meter"))
+    return 0.01;
+  const Node units = file.at("properties").at("units_in_meter");
+  const double count = units.number();
+  if (!(count > 0)) units.fail(fmt::format("{}", count), "a number above 0 is wanted");
+  return 1 / count;
+}
+
+PanelEdge read_side(const Node& node, const Pattern& pattern,
+                    const std::map<std::string, int>& panel_by_name) {
+  const std::string name = node.value.is_object() ? node.text_or_none("panel") : "";
+  const auto found = panel_by_name.find(name);
+  if (found == panel_by_name.end())
+    node.fail(fmt::format("panel '{}', which there is not", name),
+              "a panel of the pattern is wanted");
+  const Node edge{node.at("edge").value, fmt::format("{}: panel '{}', edge", node.place, name)};
+  return {found->second, edge.index(pattern.panels[found->second].edges.size(), "edges")};
+}
+
+Stitch read_stitch(const Node& node, const Pattern& pattern,
+                   const std::map<std::string, int>& panel_by_name) {
+  if (!node.value.is_array() || node.value.size() < 2 || node.value.size() > 3)
+    node.fail("no pair of edges", "two edges are wanted");
+  Stitch stitch{read_side({node.value[0], node.place}, pattern, panel_by_name),
+                read_side({node.value[1], node.place}, pattern, panel_by_name)};
+  if (node.value.size() == 3) {
+    if (node.value[2] != "right_wrong")
+      node.fail(json_text(node.value[2]), "\"right_wrong\" is wanted");
+    stitch.turned = true;
+  }
+  return stitch;
+}
+
+}  // namespace
+
+Vec3d PatternPanel::placed(Vec2d point) const {
+  constexpr double degree = std::numbers::pi / 180;
+  Vec3d p{point.x, point.y, 0};
+  const double cx = std::cos(degree * rotate.x), sx = std::sin(degree * rotate.x);
+  const double cy = std::cos(degree * rotate.y), sy = std::sin(degree * rotate.y);
+  const double cz = std::cos(degree * rotate.z), sz = std::sin(degree * rotate.z);
+  p = {p.x, cx * p.y - sx * p.z, sx * p.y + cx * p.z};
+  p = {cy * p.x + sy * p.z, p.y, -sy * p.x + cy * p.z};
+  p = {cz * p.x - sz * p.y, sz * p.x + cz * p.y, p.z};
+  return p + translate;
+}
+
+bool is_pattern_name(std::string_view name) { return ending_of(std::string(name)) == ".json"; }
+
+Pattern parse_pattern(std::string_view text, const std::string& name) {
+  json file;
+  try {
+    file = parse_json(text, deepest);
+  } catch (const JsonFault& fault) {
+    throw InputError(fault.place(name), fault.what(), fault.wanted("a sewing pattern is wanted"));
+  }
+  const Node whole{file, name};
+  const Node body = whole.at("pattern");
+  const double unit = unit_of(whole);
+  Pattern pattern;
+  std::map<std::string, int> panel_by_name;
+  const Node panels = body.at("panels");
+  if (!panels.value.is_object() || panels.value.empty())
+    panels.fail("no panels", "one at least is wanted");
+  for (const auto& [key, value] : panels.value.items()) {
+    panel_by_name[key] = static_cast<int>(pattern.panels.size());
+    pattern.panels.push_back(
+        read_panel({value, fmt::format("{}: panel '{}'", name, key)}, key, unit));
+  }
+  if (body.value.contains("stitches"))
+    for (std::size_t k = 0; k < body.at("stitches").list(0).value.size(); ++k)
+      pattern.stitches.push_back(
+          read_stitch({body.value["stitches"][k], fmt::format("{}: stitch {}", name, k)}, pattern,
+                      panel_by_name));
+  check_pattern(pattern, name);
+  return pattern;
+}
+
+Pattern read_pattern(const std::string& path) { return parse_pattern(read_file(path), path); }
+
+}  // namespace weft

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "weft/garment/panel_outline.h"
+
+namespace weft {
+
+/// Chooses which four border points of a panel are the corners of its rectangle: sharp corners of
+/// the outline, with opposite sides about equally long, for as many samples on both. Rows then run
+/// along the grain as nearly as they can. Sets start, rows and cols.
+void choose_corners(PanelOutline& outline);
+
+}  // namespace weft

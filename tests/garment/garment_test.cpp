@@ -1,0 +1,120 @@
+#include "weft/garment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/patterns.h"
+#include "weft/error.h"
+#include "weft/garment/grid_map.h"
+
+namespace weft {
+namespace {
+
+Garment tube(double spacing) {
+  return make_garment(parse_pattern(test::tube_pattern(40, 30, 20, 100), "p"), "p", spacing);
+}
+
+TEST(Garment, LaysEachPanelFlatInAChart) {
+  const Garment garment = tube(0.02);
+  ASSERT_EQ(garment.image.mates.charts().size(), 2U);
+  for (const Chart& chart : garment.image.mates.charts()) {
+    EXPECT_EQ(std::max(chart.rows, chart.cols), 21);
+    EXPECT_EQ(std::min(chart.rows, chart.cols), 17);  // 15 intervals, in fours
+  }
+  EXPECT_TRUE(mates_bit_equal(garment.image));
+}
+
+TEST(Garment, JoinsSeamsEndToStart) {
+  const Garment garment = tube(0.02);
+  ASSERT_EQ(garment.seams.size(), 2U);
+  for (const GarmentSeam& seam : garment.seams) {
+    EXPECT_EQ(seam.pairs.size(), 17U);
+    for (const auto& [a, b] : seam.pairs) {
+      const int n = garment.image.size();
+      const Vec3d p = garment.image.world_position(a / n, a % n),
+                  q = garment.image.world_position(b / n, b % n);
+      EXPECT_NEAR(p.x, q.x, 1e-6);
+      EXPECT_NEAR(p.y, q.y, 1e-6);
+      EXPECT_NEAR(std::abs(p.z - q.z), 0.2, 1e-6);
+      EXPECT_EQ(garment.sewn.representative(a), garment.sewn.representative(b));
+    }
+  }
+  EXPECT_TRUE(garment.sewn.keep_manifold());
+}
+
+TEST(Garment, PutsRowsAlongTheGrain) {
+  const Garment garment = tube(0.02);
+  for (const Chart& chart : garment.image.mates.charts()) {
+    const Vec3f step = garment.texture.at(chart.row + 3, chart.col + 4) -
+                       garment.texture.at(chart.row + 3, chart.col + 3);
+    EXPECT_NEAR(step.x, 0, 1e-6);
+    EXPECT_GT(step.y, 0.01);
+  }
+}
+
+TEST(Garment, TurnsAPanelOverWhereAStitchSaysRightToWrong) {
+  std::string text = test::tube_pattern(40, 30, 20, 100);
+  for (const char* edge : {"\"edge\":2}]", "\"edge\":0}]"}) {
+    const std::size_t at = text.find(edge);
+    ASSERT_NE(at, std::string::npos);
+    text.insert(at + 9, ",\"right_wrong\"");
+  }
+  const Garment garment = make_garment(parse_pattern(text, "p"), "p", 0.02);
+  EXPECT_TRUE(garment.sewn.keep_manifold());
+  EXPECT_EQ(garment.seams.size(), 2U);
+}
+
+TEST(Garment, RefusesOneThatHasOneSideOnly) {
+  std::string text = test::tube_pattern(40, 30, 20, 100);
+  text.insert(text.find("\"edge\":2}]") + 9, ",\"right_wrong\"");
+  EXPECT_THROW(make_garment(parse_pattern(text, "p"), "p", 0.02), InputError);
+}
+
+TEST(GridMap, UnfoldsAGridInANotchedOutline) {
+  // A square with a deep notch in its first row.
+  std::vector<Vec2d> border;
+  const int side = 24;
+  for (int k = 0; k < side; ++k)
+    border.push_back({k / 24.0, 0.8 * std::max(0.0, 1 - std::abs(k - 12) / 6.0)});
+  for (int k = 0; k < side; ++k) border.push_back({1, k / 24.0});
+  for (int k = 0; k < side; ++k) border.push_back({1 - k / 24.0, 1});
+  for (int k = 0; k < side; ++k) border.push_back({0, 1 - k / 24.0});
+  const auto grid = spread_inside(border, side + 1, side + 1);
+  ASSERT_TRUE(grid.has_value());
+  EXPECT_TRUE(grid->unfolded());
+}
+
+TEST(GridMap, KeepsARectangleEven) {
+  std::vector<Vec2d> border;
+  for (int k = 0; k < 8; ++k) border.push_back({k / 8.0, 0});
+  for (int k = 0; k < 4; ++k) border.push_back({1, k / 4.0});
+  for (int k = 0; k < 8; ++k) border.push_back({1 - k / 8.0, 1});
+  for (int k = 0; k < 4; ++k) border.push_back({0, 1 - k / 4.0});
+  const auto grid = spread_inside(border, 5, 9);
+  ASSERT_TRUE(grid.has_value());
+  for (int r = 0; r < 5; ++r)
+    for (int c = 0; c < 9; ++c) {
+      EXPECT_NEAR(grid->at(r, c).x, c / 8.0, 1e-3);
+      EXPECT_NEAR(grid->at(r, c).y, r / 4.0, 1e-3);
+    }
+}
+
+TEST(Garment, MakesChartsOfAllSharedPatterns) {
+  const std::filesystem::path folder = std::filesystem::path(WEFT_SHARED_DIR) / "patterns";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".json") {
+      const std::string name = entry.path().string();
+      const Garment garment = make_garment(read_pattern(name), name, 0.016);
+      EXPECT_FALSE(garment.seams.empty()) << name;
+      ++count;
+    }
+  EXPECT_GE(count, 14);
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,130 @@
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/patterns.h"
+#include "weft/error.h"
+#include "weft/garment.h"
+#include "weft/garment/edge_curve.h"
+
+namespace weft {
+namespace {
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+std::string tube() { return test::tube_pattern(40, 30, 20, 100); }
+
+/// The first edge of the panel `back`, which is 30 cm long, with a curvature.
+double length_with(const std::string& curvature) {
+  const std::string text = replaced(tube(), R"({"endpoints":[0,1]})",
+                                    R"({"endpoints":[0,1],"curvature":)" + curvature + "}");
+  const Pattern pattern = parse_pattern(text, "p");
+  return length_of(edge_polyline(pattern.panels[0], pattern.panels[0].edges[0]));
+}
+
+TEST(PatternFile, GivesPanelsInMetres) {
+  const Pattern pattern = parse_pattern(tube(), "p");
+  ASSERT_EQ(pattern.panels.size(), 2U);
+  EXPECT_EQ(pattern.panels[0].name, "back");
+  EXPECT_EQ(pattern.stitches.size(), 2U);
+  EXPECT_NEAR(pattern.panels[1].vertices[2].x, 0.4, 1e-12);
+  EXPECT_NEAR(pattern.panels[1].placed({0.4, 0.3}).y, 1.3, 1e-12);
+  EXPECT_NEAR(pattern.panels[1].placed({0.4, 0.3}).z, 0.1, 1e-12);
+}
+
+TEST(PatternFile, TurnsPanelsAboutXThenYThenZ) {
+  PatternPanel panel;
+  panel.rotate = {90, 90, 0};
+  const Vec3d p = panel.placed({0, 1});  // about x to +z, about y from there to +x
+  EXPECT_NEAR(p.x, 1, 1e-12);
+  EXPECT_NEAR(p.y, 0, 1e-12);
+  EXPECT_NEAR(p.z, 0, 1e-12);
+}
+
+TEST(PatternFile, CurvesHaveTheirLengths) {
+  EXPECT_NEAR(length_with("null"), 0.3, 1e-12);
+  EXPECT_NEAR(length_with(R"({"type":"circle","params":[15,0,0]})"), 0.15 * std::numbers::pi, 1e-5);
+  // Of a parabola over a chord c with its top at height h: by its closed form.
+  const double c = 0.3, h = 0.03, s = std::sqrt(c * c + 16 * h * h);
+  const double arc = s / 2 + c * c / (8 * h) * std::log((4 * h + s) / c);
+  EXPECT_NEAR(length_with(R"({"type":"quadratic","params":[[0.5,0.2]]})"), arc, 1e-5);
+  EXPECT_NEAR(length_with("[0.5,0.2]"), arc, 1e-5);
+  // The same parabola as a cubic.
+  EXPECT_NEAR(
+      length_with(R"({"type":"cubic","params":[[0.33333333,0.13333333],[0.66666667,0.13333333]]})"),
+      arc, 1e-5);
+}
+
+TEST(PatternFile, ArcsGoTheWayTheySay) {
+  const auto middle = [](int large, int counterclockwise) {
+    PatternPanel panel;
+    panel.vertices = {{0, 0}, {1, 0}};
+    PatternEdge edge{0, 1, {PatternCurve::Kind::arc, {}, 1, large != 0, counterclockwise != 0}, ""};
+    const std::vector<Vec2d> line = edge_polyline(panel, edge);
+    return line[line.size() / 2].y;
+  };
+  const double low = 1 - std::sqrt(0.75), high = 1 + std::sqrt(0.75);
+  EXPECT_NEAR(middle(0, 1), -low, 1e-9);
+  EXPECT_NEAR(middle(0, 0), low, 1e-9);
+  EXPECT_NEAR(middle(1, 1), -high, 1e-9);
+  EXPECT_NEAR(middle(1, 0), high, 1e-9);
+}
+
+struct Broken {
+  const char *what, *by, *said;
+};
+
+class BrokenPatterns : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenPatterns, AreRefusedInOneLineThatNamesThePlace) {
+  const Broken& broken = GetParam();
+  try {
+    parse_pattern(replaced(tube(), broken.what, broken.by), "p.json");
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(broken.said), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, BrokenPatterns,
+    testing::Values(
+        Broken{"{\"pattern\"", "{\"pattern", "p.json"},
+        Broken{"\"pattern\"", "\"other\"", "no 'pattern'"},
+        Broken{"\"panels\"", "\"panel\"", "no 'panels'"},
+        Broken{"{\"endpoints\":[3,0]}", "{\"endpoints\":[3,1]}",
+               "panel 'back', edge 3: an end at vertex 1"},
+        Broken{"{\"endpoints\":[0,1]}", "{\"endpoints\":[0,9]}", "panel 'back': edge 0"},
+        Broken{"{\"endpoints\":[0,1]}", "{\"endpoints\":[0]}", "edge 0"},
+        Broken{"[[0,0],[0,30.000000],[40.000000,30.000000],[40.000000,0]]",
+               "[[0,0],[40,30],[0,30],[40,0]]", "crosses itself"},
+        Broken{"[[0,0],[0,30.000000],[40.000000,30.000000],[40.000000,0]]",
+               "[[0,0],[0,30],[0,60],[0,20]]", "without area"},
+        Broken{"[[0,0],[0,30.000000]", "[[0,0],[0,\"a\"]", "no number"},
+        Broken{"[[0,0],[0,30.000000]", "[[0,0],[0,1e300]", "panel 'back'"},
+        Broken{"{\"panel\":\"front\",\"edge\":1}", "{\"panel\":\"front\",\"edge\":7}",
+               "panel 'front', edge"},
+        Broken{"{\"panel\":\"front\",\"edge\":1}", "{\"panel\":\"none\",\"edge\":1}",
+               "panel 'none'"},
+        Broken{"{\"panel\":\"front\",\"edge\":1}", "{\"panel\":\"back\",\"edge\":2}",
+               "a stitch with itself"},
+        Broken{"{\"panel\":\"front\",\"edge\":3}", "{\"panel\":\"front\",\"edge\":1}",
+               "two stitches"},
+        Broken{"{\"panel\":\"front\",\"edge\":1}", "7", "stitch 0"},
+        Broken{"\"edge\":2}]", "\"edge\":2},\"wrong\"]", "right_wrong"},
+        Broken{"\"units_in_meter\":100", "\"units_in_meter\":0", "units_in_meter"},
+        Broken{"\"units_in_meter\":100", "\"units_in_meter\":0.001", "units_in_meter"},
+        Broken{"{\"endpoints\":[0,1]}",
+               "{\"endpoints\":[0,1],\"curvature\":{\"type\":\"spiral\",\"params\":[]}}",
+               "'spiral'"},
+        Broken{"{\"endpoints\":[0,1]}",
+               "{\"endpoints\":[0,1],\"curvature\":{\"type\":\"circle\",\"params\":[-1,0,0]}}",
+               "radius"}));
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include "tests/support/patterns.h"
+#include "tests/support/temporary_folder.h"
+#include "weft/files.h"
+#include "weft/simulation.h"
+
+namespace weft {
+namespace {
+
+/// A tube sewn round the built-in cylinder or ball.
+class Sewing : public testing::Test {
+ protected:
+  Sewing() {
+    const std::string path = (folder_ / "tube.json").string();
+    write_file(path, [&](std::ostream& out) { out << test::tube_pattern(30, 20, 24, 100); });
+    scene_.ground.reset();
+    SceneCloth cloth;
+    cloth.surface = path;
+    cloth.spacing = 0.02;
+    scene_.cloths.push_back(cloth);
+    SceneBody body;
+    body.surface = "builtin:sphere";
+    body.size = 33;
+    body.placement.scale = {0.15, 0.15, 0.15};
+    body.placement.translate = {0, 1.1, 0};
+    scene_.bodies.push_back(body);
+  }
+  test::TemporaryFolder folder_;
+  Scene scene_;
+};
+
+TEST_F(Sewing, ClosesSeamsRoundABody) {
+  Simulation simulation(scene_, "scene", {});
+  EXPECT_NEAR(simulation.seam_gaps(0).front(), 0.24, 1e-3);
+  FrameReport report;
+  int frame = 0;
+  for (report.seam_gap = 1; report.seam_gap > 0 && frame < 150; ++frame)
+    report = simulation.advance();
+  EXPECT_EQ(report.seam_gap, 0) << "after " << frame << " frames";
+  // Sewn, all samples of a class have the same bits.
+  const SimulatedCloth& cloth = simulation.cloths()[0];
+  for (const GarmentSeam& seam : cloth.garment->seams)
+    for (const auto& [a, b] : seam.pairs)
+      EXPECT_EQ(cloth.state.position.at(a), cloth.state.position.at(b));
+  EXPECT_EQ(simulation.crossings(), 0);
+}
+
+TEST_F(Sewing, GivesTheSameBitsOnAllThreads) {
+  std::string first;
+  for (const int threads : {1, 2, 3}) {
+    Simulation simulation(scene_, "scene", {threads});
+    for (int frame = 0; frame < 20; ++frame) simulation.advance();
+    if (first.empty()) first = simulation.state_hash();
+    EXPECT_EQ(simulation.state_hash(), first) << threads;
+  }
+}
+
+TEST_F(Sewing, GoesOnFromASavedState) {
+  Simulation whole(scene_, "scene", {}), resumed(scene_, "scene", {});
+  SimulationState state;
+  for (int frame = 0; frame < 100; ++frame) {
+    if (frame == 12 || frame == 90) {
+      whole.save(state);
+      resumed.restore(state);
+    }
+    whole.advance();
+    if (frame >= 12) resumed.advance();
+  }
+  EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+namespace weft::test {
+
+/// Two rectangles, `width` by `height` centimetres, that face each other `apart` centimetres apart
+/// about the y axis, from `low` up, sewn to a tube along both sides.
+inline std::string tube_pattern(double width, double height, double apart, double low) {
+  const auto panel = [&](double z, bool back) {
+    const std::string w = std::to_string(width), h = std::to_string(height);
+    const std::string corners = back ? "[[0,0],[0," + h + "],[" + w + "," + h + "],[" + w + ",0]]"
+                                     : "[[0,0],[" + w + ",0],[" + w + "," + h + "],[0," + h + "]]";
+    return R"({"vertices":)" + corners +
+           R"(,"edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},{"endpoints":[3,0]}],)" +
+           R"("translation":[)" + std::to_string(-width / 2) + "," + std::to_string(low) + "," +
+           std::to_string(z) + R"(],"rotation":[0,0,0]})";
+  };
+  return R"({"pattern":{"panels":{"back":)" + panel(-apart / 2, true) + R"(,"front":)" +
+         panel(apart / 2, false) +
+         R"(},"stitches":[[{"panel":"front","edge":1},{"panel":"back","edge":2}],)" +
+         R"([{"panel":"front","edge":3},{"panel":"back","edge":0}]]},)" +
+         R"("properties":{"units_in_meter":100}})";
+}
+
+}  // namespace weft::test
