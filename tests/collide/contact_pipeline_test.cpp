@@ -6,6 +6,7 @@
 #include "tests/collide/test_bodies.h"
 #include "weft/collide/ccd.h"
 #include "weft/collide/moving_surface.h"
+#include "weft/core/contact_point.h"
 #include "weft/core/random.h"
 
 namespace weft {
@@ -212,6 +213,40 @@ TEST(ContactPipeline, LayersOfTwoClothsStayInTheirOrder) {
   // Both give way alike, so they meet about half-way.
   EXPECT_NEAR(low.position.at(4, 4).y, 0.005, 1e-3);
   EXPECT_NEAR(high.position.at(4, 4).y, 0.005, 1e-3);
+}
+
+/// A flat sheet, one sample of which is thrown past its neighbour along the sheet, where the search
+/// finds no contact.
+TEST(ContactPipeline, WhatTheFilterHeldBackIsAContactOfTheNextSolve) {
+  constexpr int n = 5, thrown = 2 * n + 2;
+  const BorderMates none;
+  const CollidingCloth statistics_of = statistics(none, n);
+  const auto collider = make_collider(PyramidOptions{}, {}, std::span(&statistics_of, 1));
+  TestCloth cloth(n);
+  const auto throw_it = [&] {
+    cloth.place([](int r, int c) { return Vec3d{0.1 * c, 0.002 * (r % 2), 0.1 * r}; });
+    cloth.position.set(thrown, cloth.start.at(thrown) + Vec3f{0.25F, 0, 0.02F});
+  };
+  ThreadTeam team(2);
+  throw_it();
+  const std::array moving{cloth.moving()};
+  collider->detect(moving, step, team);
+  ASSERT_TRUE(collider->contacts(0).empty());
+  ASSERT_GT(collider->filter(moving, step, team).moved, 0);
+  EXPECT_TRUE(collider->learn_struck(moving));
+  EXPECT_FALSE(collider->learn_struck(moving)) << "all of them are known";
+  collider->rollback();
+  throw_it();
+  collider->detect(moving, step, team);
+  ASSERT_FALSE(collider->contacts(0).empty());
+  for (const Contact& contact : collider->contacts(0)) {
+    EXPECT_LE(depth_of(contact, cloth.start), 1e-7) << "adds no energy";
+    EXPECT_LE(contact.offset, static_cast<float>(statistics_of.self_thickness));
+    EXPECT_GT(contact.stiffness, 0);
+  }
+  collider->commit();
+  collider->detect(moving, step, team);
+  EXPECT_TRUE(collider->contacts(0).empty()) << "they are of one step";
 }
 
 TEST(ContactPipeline, PinsAreStoppedToo) {

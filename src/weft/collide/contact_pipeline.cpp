@@ -9,7 +9,8 @@ ContactPipeline::ContactPipeline(CollisionWorld::MakeBroadPhase make_broad_phase
                                  const Obstacles& obstacles, std::span<const CollidingCloth> cloths)
     : world_(make_broad_phase, obstacles, cloths),
       finder_(world_, obstacles),
-      filter_(world_, untangler_) {
+      filter_(world_, untangler_),
+      struck_(world_) {
   std::vector<const SurfaceGrid*> grids;
   for (const WorldCloth& cloth : world_.cloths) {
     grids.push_back(&cloth.grid);
@@ -26,6 +27,7 @@ void ContactPipeline::detect(std::span<const MovingCloth> cloths, double time_st
   finder_.find_with_bodies(cloths, team);
   find_tangles(cloths, team);
   finder_.find_between_cloths(cloths, time_step, untangler_, team);
+  finder_.add_struck(struck_.found(), time_step);
 }
 
 void ContactPipeline::find_tangles(std::span<const MovingCloth> cloths, ThreadTeam& team) {
@@ -62,6 +64,7 @@ FilterCounts ContactPipeline::filter(std::span<const MovingCloth> cloths, double
 
 void ContactPipeline::commit() noexcept {
   filter_.commit();
+  struck_.clear();
   world_.commit();
 }
 

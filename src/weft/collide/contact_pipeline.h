@@ -8,6 +8,7 @@
 #include "weft/collide/contacts/contact_finder.h"
 #include "weft/collide/contacts/contact_response.h"
 #include "weft/collide/filter/step_filter.h"
+#include "weft/collide/filter/struck_contacts.h"
 #include "weft/collide/untangle/untangler.h"
 
 namespace weft {
@@ -44,6 +45,9 @@ class ContactPipeline final : public Collider {
               double time_step, ThreadTeam& team) noexcept override;
   FilterCounts filter(std::span<const MovingCloth> cloths, double time_step,
                       ThreadTeam& team) noexcept override;
+  bool learn_struck(std::span<const MovingCloth> cloths) noexcept override {
+    return struck_.learn(filter_.struck(), cloths);
+  }
   void commit() noexcept override;
   void rollback() noexcept override;
   void forget() noexcept override;
@@ -62,6 +66,7 @@ class ContactPipeline final : public Collider {
   ContactFinder finder_;
   std::vector<ContactResponse> responses_;  // of each cloth
   StepFilter filter_;
+  StruckContacts struck_;
   std::vector<double> row_gaps_;
 };
 

@@ -73,4 +73,21 @@ void ContactFinder::find_between_cloths(std::span<const MovingCloth> moving, dou
   self_contacts_ = count() - with_bodies;
 }
 
+void ContactFinder::add_struck(std::span<const StruckContact> struck, double time_step) {
+  for (StruckContact one : struck) {
+    Contact& contact = one.shared.contact;
+    Found& first = found_[static_cast<std::size_t>(one.shared.first)];
+    if (one.body >= 0) {
+      first.contacts.insert(first.contacts.begin() + static_cast<std::ptrdiff_t>(first.hard++),
+                            contact);
+      continue;
+    }
+    contact.stiffness = layer_stiffness(one.compliance, time_step);
+    if (one.shared.first == one.shared.second)
+      first.contacts.push_back(contact);
+    else if (shares_)
+      shared_.push_back(one.shared);
+  }
+}
+
 }  // namespace weft

@@ -11,6 +11,13 @@
 
 namespace weft {
 
+/// A contact that the filter asks for: of one cloth with a body, with itself or with another.
+struct StruckContact {
+  SharedContact shared;
+  int body = -1;          ///< -1: none
+  double compliance = 0;  ///< inverse effective mass of its points [1/kg]
+};
+
 /// The stage that finds the contacts of a step's proposals: of samples with bodies and the ground,
 /// of triangles with sharp points of bodies, and between parts of cloth.
 class ContactFinder {
@@ -23,6 +30,8 @@ class ContactFinder {
   /// @param untangler  knows where cloths cross
   void find_between_cloths(std::span<const MovingCloth> moving, double time_step,
                            const Untangler& untangler, ThreadTeam& team);
+  /// Adds contacts of an earlier solve of the step.
+  void add_struck(std::span<const StruckContact> struck, double time_step);
 
   /// See Collider::share_contacts.
   void share(bool shared) { shares_ = shared; }

@@ -249,9 +249,7 @@ class Finder {
   void finish(Vec3d normal, double compliance, Contact& contact) const {
     contact.normal = vec_cast<float>(normal);
     contact.friction = static_cast<float>(pair_.friction);
-    const double inertia =
-        compliance > 0 ? 1 / (compliance * pair_.time_step * pair_.time_step) : 0;
-    contact.stiffness = static_cast<float>(softness * inertia);
+    contact.stiffness = layer_stiffness(compliance, pair_.time_step);
   }
 
   const ClothPair& pair_;
@@ -260,6 +258,11 @@ class Finder {
 };
 
 }  // namespace
+
+float layer_stiffness(double compliance, double time_step) {
+  const double inertia = compliance > 0 ? 1 / (compliance * time_step * time_step) : 0;
+  return static_cast<float>(softness * inertia);
+}
 
 void PairContacts::find(const ClothPair& pair, std::span<const CandidatePair> cells,
                         ThreadTeam& team, const PairLists& lists) {

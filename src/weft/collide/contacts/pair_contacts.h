@@ -11,6 +11,10 @@
 
 namespace weft {
 
+/// Stiffness of a contact between layers whose points have this inverse effective mass [1/kg].
+/// [N/m]
+[[nodiscard]] float layer_stiffness(double compliance, double time_step);
+
 /// A pair of cloths, or a cloth with itself, for contact search.
 struct ClothPair {
   const SurfaceGrid *grid_a = nullptr, *grid_b = nullptr;

@@ -160,6 +160,7 @@ class Finder {
 
   void add(const MovingFeature& a, const MovingFeature& b) {
     SeparatingPlane plane;
+    plane.body = search_.b.body ? search_.body_number - 1 : -1;
     if (separate(a, b, search_.options, plane) == Separation::plane) out_.push_back(plane);
   }
 

@@ -78,6 +78,18 @@ void put_points(const MovingFeature& a, const MovingFeature& b, SeparatingPlane&
   std::copy_n(b.points.begin(), plane.count_b, plane.points.begin() + plane.count_a);
 }
 
+void put_closest(const MovingFeature& b, const ClosestPair& closest, SeparatingPlane& plane) {
+  for (int k = 0; k < plane.count_a; ++k)
+    plane.weights[k] = static_cast<float>(closest.weights_a[k]);
+  for (int k = 0; k < plane.count_b; ++k)
+    plane.weights[plane.count_a + k] = static_cast<float>(closest.weights_b[k]);
+  if (!b.body) return;
+  plane.body_point = closest.b;
+  plane.body_point_displacement = {};
+  for (int k = 0; k < b.count; ++k)
+    plane.body_point_displacement += closest.weights_b[k] * (b.end[k] - b.start[k]);
+}
+
 /// Extents of two features towards each other along a direction. [m]
 struct Reaches {
   double a, b;
@@ -151,6 +163,7 @@ Separation separate(const MovingFeature& a, const MovingFeature& b, const PlaneO
   if (!(gaps.start > 0)) return Separation::meeting;
   if (gaps.end >= wanted) return Separation::certain;
   put_points(a, b, out);
+  put_closest(b, closest, out);
   out.turned = out.normal;
   put_levels(a, b, out);
   if (options.turn) turn(a, b, out);

@@ -31,6 +31,11 @@ struct SeparatingPlane {
   double body_displacement = 0;  ///< how far a body on side b moves along it during the step [m]
   std::array<int, 6> points{};   ///< of all cloths: side a's, then side b's; bodies have none here
   int count_a = 0, count_b = 0;
+  /// The closest points of both sides at the start, which a contact holds apart: weights of the
+  /// points above, each side's sum 1; and of a body, its closest point and how far that moves.
+  std::array<float, 6> weights{};
+  Vec3d body_point, body_point_displacement;  // [m]
+  int body = -1;                              ///< number of the body on side b, -1: none
 };
 
 /// A convex feature of a moving surface: an edge or a triangle.

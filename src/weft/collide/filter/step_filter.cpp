@@ -208,6 +208,7 @@ void StepFilter::put_velocities(const SeparatingPlane& plane, const ImpactSides&
 /// Impacts are applied one after another in the planes' order, which is the same for any team.
 void StepFilter::strike_all(std::span<const MovingCloth> moving, double time_step) {
   for (const int p : plane_filter_.struck()) {
+    struck_.push_back(planes_[p]);
     ImpactSides sides = sides_of(planes_[p], moving);
     sides.body_speed = planes_[p].body_displacement / time_step;
     strike(sides);
@@ -256,6 +257,7 @@ void StepFilter::begin(std::span<const MovingCloth> moving) {
   for (std::size_t i = 0; i < moving.size(); ++i) cloths_[i].safe_position = &moving[i].start;
   carried_ = false;
   all_anew_ = true;
+  struck_.clear();
   spread_ = min_spread;
   fates_.assign(static_cast<std::size_t>(world_.points()), free_point);
 }

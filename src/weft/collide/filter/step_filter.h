@@ -29,6 +29,9 @@ class StepFilter {
   FilterCounts run(std::span<const MovingCloth> moving, double time_step, Pass pass,
                    ThreadTeam& team);
 
+  /// Planes of the last run that moved points, where it ended a step.
+  [[nodiscard]] std::span<const SeparatingPlane> struck() const { return struck_; }
+
   void commit() { may_pass_then_ = may_pass_; }
   void rollback() { may_pass_ = may_pass_then_; }
   void forget() { may_pass_ = may_pass_then_ = {true, true}; }
@@ -81,6 +84,7 @@ class StepFilter {
   /// start.
   std::array<bool, 2> may_pass_{true, true}, may_pass_then_{true, true};
   std::vector<SeparatingPlane> planes_;
+  std::vector<SeparatingPlane> struck_;
   std::size_t ground_planes_ = 0;  // index of the first ground plane in planes_
   std::vector<char> fates_;        // [points] of one run: free, moved, stopped, fell back
   std::vector<char> new_points_;   // [points] of a round, see PlaneSearch

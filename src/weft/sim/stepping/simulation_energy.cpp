@@ -26,9 +26,18 @@ constexpr double calm_part = 0.2;
 /// stop whatever moves in a pile.
 constexpr double lent_part = 0.003;
 
+/// Part of that up to which energy may remain that velocities cannot give back; more makes a step
+/// bad.
+constexpr double max_unpaid_part = 0.25;
+
 /// @param mass  [kg] @param density  [kg/m^2] @return [J]
 double lent_energy(double mass, double density) {
   return lent_part * mass * standard_gravity * std::sqrt(mass / density);
+}
+
+/// Energy that a cloth gained in a step. [J]
+double gain_of(const Mover& mover) {
+  return std::max(0.0, mover.end.total() - mover.start.total());
 }
 
 /// Largest energy that a step may add. [J]
@@ -62,12 +71,13 @@ void Simulation::Parts::lend() {
   }
   known_energy = true;
   work.least = std::min(work.least, start - explained);
+  lent = most;
   max_energy = work.least + explained + most;
   const double left = std::max(0.0, max_energy - start);
   for (Mover& mover : movers) mover.integrator->lend(left * mover.meter.mass() / mass);
 }
 
-void Simulation::Parts::assess_step(bool may_refuse, Tried& tried) {
+void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   Energy start, solved, end;
   double mass = 0;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
@@ -81,29 +91,38 @@ void Simulation::Parts::assess_step(bool may_refuse, Tried& tried) {
   const double added = end.total() - solved.total();
   const double gained = std::min(added, end.total() - start.total() - tried.work);
   const double limit = limit_for(solved, mass);
+  const double excess = std::max(0.0, std::min(gained, end.total() - tried.work - max_energy));
+  const bool unpaid = excess - removable(excess) > max_unpaid_part * lent;
   const double fault = std::max(end.elastic - solved.elastic, gained);
-  const bool bad = !(fault <= limit) || solve_is_lost() || tried.filtered.fell_back > 0;
-  tried.refused = bad && may_refuse;
+  const bool bad = !(fault <= limit) || unpaid || solve_is_lost() || tried.filtered.fell_back > 0;
+  tried.repeat = bad && !choices.halve && choices.repeat && collider->learn_struck(moving);
+  tried.refused = tried.repeat || (bad && choices.halve);
   tried.verdict = bad                         ? StepVerdict::forced
                   : fault < calm_part * limit ? StepVerdict::calm
                                               : StepVerdict::near;
   // Bodies do work by way of the filter, too.
   if (driven.any_moves()) tried.pushed = std::max(0.0, added);
   if (tried.refused) return;
-  const double excess = std::min(gained, end.total() - tried.work - max_energy);
   if (excess > 0) take_excess(excess);
+}
+
+double Simulation::Parts::removable(double excess) const {
+  double gained = 0, removed = 0;
+  for (const Mover& mover : movers) gained += gain_of(mover);
+  for (const Mover& mover : movers)
+    if (gained > 0)
+      removed += std::min(excess * (gain_of(mover) / gained), mover.end.kinetic - mover.end.drift);
+  return removed;
 }
 
 /// Removes energy from the motion of each cloth in proportion to what it gained.
 void Simulation::Parts::take_excess(double excess) {
   double gained = 0;
-  const auto own = [](const Mover& mover) {
-    return std::max(0.0, mover.end.total() - mover.start.total());
-  };
-  for (const Mover& mover : movers) gained += own(mover);
+  for (const Mover& mover : movers) gained += gain_of(mover);
   for (Mover& mover : movers)
-    if (own(mover) > 0)
-      mover.meter.take_out(excess * (own(mover) / gained), mover.integrator->proposal().velocity);
+    if (gain_of(mover) > 0)
+      mover.meter.take_out(excess * (gain_of(mover) / gained),
+                           mover.integrator->proposal().velocity);
   // The remaining energy is measured anew, not computed, as a resumed run would do.
   known_energy = false;
 }

@@ -98,15 +98,21 @@ struct Simulation::Parts {
   /// Outcome of a trial step.
   struct Tried {
     bool refused = false;
+    bool repeat = false;  // a refused step is solved again, with what the filter held back
     StepVerdict verdict = StepVerdict::calm;
     int contacts = 0;  // particles in contact
     FilterCounts filtered;
     double work = 0;    // done by pins and bodies [J]
     double pushed = 0;  // energy added by response and filter while bodies moved [J]
   };
+  /// What may become of a trial step that is bad; halving comes first.
+  struct StepChoices {
+    bool halve = false;   // it may be halved
+    bool repeat = false;  // it may be solved again
+  };
   /// Computes a trial step of all cloths, to be finished or refused by the caller.
   /// @param seconds  at the end of the step
-  Tried try_step(double seconds, bool may_refuse, FrameReport& report);
+  Tried try_step(double seconds, StepChoices choices, FrameReport& report);
   /// Computes the proposals of all cloths, with contact detection at the guesses and, where solves
   /// go far, again.
   void solve_all(FrameReport& report);
@@ -125,12 +131,18 @@ struct Simulation::Parts {
   void lend();
   /// Accepts or refuses the step by the energy that response and filter added, and removes any
   /// excess energy of an accepted step. @pre the filter is done
-  void assess_step(bool may_refuse, Tried& tried);
+  void assess_step(StepChoices choices, Tried& tried);
   void take_excess(double excess);
+  /// The part of an excess that take_excess can remove [J].
+  [[nodiscard]] double removable(double excess) const;
   /// Whether the linearisation errors of the solves exceed the energy limit: the step is too long.
   [[nodiscard]] bool solve_is_lost();
   void finish_step(const Tried& tried, FrameReport& report);
   void refuse_step();
+  /// Whether a bad step may be solved again with contacts for what the filter held back.
+  [[nodiscard]] bool may_solve_again() const {
+    return movers.front().integrator->solves_contacts();
+  }
   /// Shows the step to the watcher, whose time does not count as the frame's.
   void show_step(FrameReport& report) const;
   /// Checks proposals before the filter, which would hide runaway motion. @return whether motion is
@@ -203,6 +215,7 @@ struct Simulation::Parts {
   StepLevels levels;
   WorkDone work;
   double max_energy = HUGE_VAL;  // of cloths at the end of the step, before its work [J]
+  double lent = 0;               // part of it that contacts and the filter may lend [J]
   Energy start_energy;           // before the first frame
   /// Whether strain is left unlimited, as in steps that collisions shortened: displacements of the
   /// limiter do not shrink with the step, and would move cloth through itself again.

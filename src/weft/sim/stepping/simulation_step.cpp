@@ -19,6 +19,10 @@
 namespace weft {
 namespace {
 
+/// Largest number of times that a bad step which may not be halved is solved again, with contacts
+/// for what the filter held back.
+constexpr int max_repeats = 2;
+
 int level_of(int subdivisions) {
   int level = 0;
   while (1 << level < subdivisions) ++level;
@@ -29,6 +33,7 @@ int level_of(int subdivisions) {
 
 void Simulation::Parts::substep(int number, FrameReport& report) {
   const double begin = substep_time * number, end = substep_time * (number + 1);
+  int repeats = 0;
   StepWalk walk(level_of(subdivisions_until(end)), levels);
   while (!walk.done()) {
     time_step = substep_time / walk.subdivisions();
@@ -37,26 +42,30 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
     const double seconds = piece < walk.subdivisions() ? begin + time_step * piece : end;
     step_start = seconds - time_step;
     move_driven(seconds);
-    const Tried tried = try_step(seconds, walk.may_halve(), report);
-    if (tried.refused) {
-      refuse_step();
+    const Tried tried =
+        try_step(seconds, {walk.may_halve(), may_solve_again() && repeats < max_repeats}, report);
+    if (tried.refused) refuse_step();
+    if (tried.repeat) {
+      ++repeats;
+    } else if (tried.refused) {
       walk.halve();
     } else {
       finish_step(tried, report);
+      repeats = 0;
       walk.accept(tried.verdict);
     }
   }
   levels = walk.next(levels);
 }
 
-Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, bool may_refuse,
+Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices choices,
                                                      FrameReport& report) {
   Tried tried;
   solve_all(report);
   gather_moving();
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tried.contacts += correct(i, movers[i].integrator->proposal(), report);
-  tried.refused = !check_for_runaway(seconds, may_refuse && watched);
+  tried.refused = !check_for_runaway(seconds, choices.halve && watched);
   if (tried.refused) return tried;
   Stopwatch clock;
   tried.filtered = collider->filter(moving, time_step, team);
@@ -66,9 +75,9 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, bool may_re
         {cloths[i].state, movers[i].integrator->proposal(), time_step},
         {collider->obstacle_contacts(i), movers[i].integrator->contact_forces()});
   if (watched) {
-    assess_step(may_refuse, tried);
+    assess_step(choices, tried);
   } else if (solve_is_lost()) {
-    tried.refused = may_refuse;
+    tried.refused = choices.halve;
     tried.verdict = StepVerdict::forced;
   }
   return tried;

@@ -1,0 +1,79 @@
+#include "weft/collide/filter/struck_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "weft/core/contact_point.h"
+
+namespace weft {
+namespace {
+
+auto key_of(const StruckContact& one) {
+  std::array<char, 4> sides{};
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const float weight = one.shared.contact.weights[k];
+    sides[k] = weight > 0 ? 1 : weight < 0 ? -1 : 0;
+  }
+  return std::tuple(one.body, one.shared.first, one.shared.second, one.shared.contact.samples,
+                    sides);
+}
+
+bool before(const StruckContact& a, const StruckContact& b) { return key_of(a) < key_of(b); }
+bool same(const StruckContact& a, const StruckContact& b) { return key_of(a) == key_of(b); }
+
+}  // namespace
+
+StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
+                                         std::span<const MovingCloth> moving) const {
+  StruckContact out;
+  Contact& contact = out.shared.contact;
+  contact.weights = {};
+  out.body = plane.body;
+  std::size_t count = 0;
+  Vec3d apart;
+  for (int k = 0; k < plane.count_a + plane.count_b; ++k) {
+    if (!(plane.weights[k] > 0)) continue;
+    if (count == contact.samples.size()) return {};
+    const bool first = k < plane.count_a;
+    const std::size_t cloth = world_.cloth_of(plane.points[k]);
+    (first ? out.shared.first : out.shared.second) = static_cast<int>(cloth);
+    const int sample = plane.points[k] - world_.cloths[cloth].first_point;
+    const int n = world_.cloths[cloth].properties.size;
+    const double weight = first ? plane.weights[k] : -plane.weights[k];
+    contact.samples[count] = sample;
+    contact.weights[count++] = static_cast<float>(weight);
+    apart += weight * vec_cast<double>(moving[cloth].start.at(sample));
+    out.compliance += weight * weight * moving[cloth].inverse_mass(sample / n, sample % n);
+  }
+  if (plane.body >= 0) out.shared.second = out.shared.first;
+  const auto first = static_cast<std::size_t>(out.shared.first),
+             second = static_cast<std::size_t>(out.shared.second);
+  const CollidingCloth &a = world_.cloths[first].properties, &b = world_.cloths[second].properties;
+  const double distance = dot(plane.normal, apart - plane.body_point);
+  const bool before_body = plane.body >= 0;
+  const double gap = before_body ? a.thickness : world_.gap_between(first, second);
+  contact.normal = vec_cast<float>(plane.normal);
+  contact.offset =
+      static_cast<float>(std::min(gap, distance) +
+                         dot(plane.normal, plane.body_point + plane.body_point_displacement));
+  contact.surface_displacement = vec_cast<float>(plane.body_point_displacement);
+  contact.friction = static_cast<float>(pair_friction(
+      a.friction,
+      before_body ? world_.bodies[static_cast<std::size_t>(plane.body)].friction : b.friction));
+  return out;
+}
+
+bool StruckContacts::learn(std::span<const SeparatingPlane> planes,
+                           std::span<const MovingCloth> moving) {
+  const std::size_t known = found_.size();
+  for (const SeparatingPlane& plane : planes) {
+    const StruckContact one = contact_of(plane, moving);
+    if (one.compliance > 0) found_.push_back(one);
+  }
+  std::stable_sort(found_.begin(), found_.end(), before);
+  found_.erase(std::unique(found_.begin(), found_.end(), same), found_.end());
+  return found_.size() > known;
+}
+
+}  // namespace weft

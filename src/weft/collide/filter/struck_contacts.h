@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "weft/collide/collision_world.h"
+#include "weft/collide/contacts/contact_finder.h"
+#include "weft/collide/filter/separating_planes.h"
+
+namespace weft {
+
+/// Contacts for what the filter had to hold back in a step, with which the step is solved again: a
+/// solve that knows them leaves the filter little to do. They hold the closest points of both sides
+/// as far apart as the step found them, within the gap, so that they add no energy. They hold what
+/// the search for contacts leaves to the filter: triangles that a cloth without shear stiffness
+/// folds onto their neighbours. Valid for the step whose planes they are made from, with the same
+/// start and length.
+class StruckContacts {
+ public:
+  /// @param world  kept by reference
+  explicit StruckContacts(const CollisionWorld& world) : world_(world) {}
+
+  /// Adds contacts for planes that moved points.
+  /// @return whether any of them was not known
+  bool learn(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving);
+  void clear() { found_.clear(); }
+  [[nodiscard]] std::span<const StruckContact> found() const { return found_; }
+
+ private:
+  [[nodiscard]] StruckContact contact_of(const SeparatingPlane& plane,
+                                         std::span<const MovingCloth> moving) const;
+
+  const CollisionWorld& world_;
+  std::vector<StruckContact> found_;  // by samples and cloths, each once
+};
+
+}  // namespace weft
