@@ -26,6 +26,8 @@ SCENES = {
     "material.json": '{"cloths": [{"surface": "builtin:sheet", "material": "coton"}]}',
     "comma.json": '{"frames": 3\n "substeps": 4}',
     "pin.json": '{"cloths": [{"surface": "builtin:sheet", "pins": [{"image": [2, 0]}]}]}',
+    "middle.json": '{"cloths": [{"name": "sheet", "surface": "builtin:sheet", "size": 49}], '
+                   '"bodies": [{"name": "ball", "surface": "builtin:sphere", "size": 33}]}',
     "explicit.json": f'{{"integrator": {{"type": "explicit"}}, "substeps": 1, '
                      f'"cloths": [{{{SHEET}, "material": {{"stretch": 100000}}}}]}}',
     "stiff.json": f'{{"integrator": {{"type": "two_level", "filter_stiffness": 2000}}, '

@@ -4,6 +4,7 @@
 
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/cloth.h"
+#include "weft/error.h"
 #include "weft/run/verification.h"
 
 namespace weft {
@@ -86,6 +87,22 @@ TEST(Insides, AClothHalfInsideABallIsNamedAndPushedOut) {
   for (int frame = 1; frame <= 60; ++frame) simulation.advance();
   const int n = simulation.cloths()[0].model->size;
   EXPECT_EQ(points_outside(simulation), n * n);
+}
+
+/// A sheet through the middle has no way out: its points would leave by all sides, and tear it.
+TEST(Insides, AClothThroughTheMiddleOfABodyIsRefused) {
+  for (const char* shape : {"sphere", "torus", "box"}) {
+    Scene scene = around(shape, sheet({0, 0.5, 0}, 2));
+    scene.cloths[0].size = 97;
+    try {
+      Simulation simulation(scene, "s.json", 1);
+      ADD_FAILURE() << shape;
+    } catch (const SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("begins in the middle of body 'room'"),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(Insides, NothingIsInsideOfASurfaceWithABorder) {

@@ -8,6 +8,7 @@
 #include "weft/geometry_image.h"
 #include "weft/image/diagonals.h"
 #include "weft/scene_file.h"
+#include "weft/sim/exits.h"
 #include "weft/sim/placement.h"
 #include "weft/sim/stepping/simulation_parts.h"
 #include "weft/simulation.h"
@@ -167,6 +168,15 @@ void Simulation::Parts::find_insides() {
         find_start_sides(cloth, bodies, Colliders::traits_of(scene.collider).containers, team));
     const std::vector<StartInside>& found = start_sides.back().inside;
     insides.insert(insides.end(), found.begin(), found.end());
+    // Baselines take the start as it is.
+    if (!Colliders::traits_of(scene.collider).containers) continue;
+    if (const auto torn = find_torn_exit(cloth, bodies, start_sides.back().wrong_side, team))
+      throw SceneError(
+          name,
+          fmt::format("cloth '{}' begins in the middle of body '{}': neighbouring points would be "
+                      "pushed out by sides of it that are {:.2g} m apart",
+                      cloth.name, bodies[torn->body].name, torn->apart),
+          "a cloth that begins outside of it, or nearer to its surface, is wanted");
   }
 }
 
