@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "fuzz/properties.h"
-#include "weft/mesh/io/point_cache.h"
+#include "weft/point_cache.h"
 
 namespace {
 

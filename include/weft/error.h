@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace weft {
 
@@ -22,9 +24,17 @@ class Error : public std::runtime_error {
   /// @param where  a file, FILE:LINE, a scene key, or empty
   Error(ExitCode code, std::string_view where, std::string_view found, std::string_view wanted);
   [[nodiscard]] ExitCode code() const { return code_; }
+  // What the line is made of; any of them may be empty.
+  [[nodiscard]] const std::string& where() const { return parts_->where; }
+  [[nodiscard]] const std::string& found() const { return parts_->found; }
+  [[nodiscard]] const std::string& wanted() const { return parts_->wanted; }
 
  private:
+  struct Parts {
+    std::string where, found, wanted;
+  };
   ExitCode code_;
+  std::shared_ptr<const Parts> parts_;  // shared, so that copies do not throw
 };
 
 /// A command line that does not parse or asks for what does not exist.
@@ -60,6 +70,23 @@ class SceneError : public Error {
  public:
   SceneError(std::string_view where, std::string_view found, std::string_view wanted)
       : Error(ExitCode::input, where, found, wanted) {}
+};
+
+/// A cloth of a simulation that ran away.
+class Unstable : public SceneError {
+ public:
+  /// Where it was seen first.
+  struct Place {
+    int frame = 0;  ///< from 1
+    std::string cloth;
+    int row = -1, col = -1;  ///< of the sample; -1 where no single one tells
+  };
+  Unstable(std::string_view where, std::string_view found, std::string_view wanted, Place place)
+      : SceneError(where, found, wanted), place_(std::make_shared<const Place>(std::move(place))) {}
+  [[nodiscard]] const Place& place() const { return *place_; }
+
+ private:
+  std::shared_ptr<const Place> place_;
 };
 
 /// The user asked to stop.

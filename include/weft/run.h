@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "weft/colliders.h"
+#include "weft/point_cache.h"
 #include "weft/progress.h"
 #include "weft/scene.h"
 #include "weft/simulation.h"
@@ -125,6 +126,10 @@ std::string to_json(const RunReport& report);
 /// The largest rise of kinetic plus potential energy above an earlier minimum, less the work of
 /// pins, moving bodies and wind in between. [J]
 double energy_gained(const RunReport& report);
+
+/// Writes positions over time as a point cache (PC2), as runs export them: one sample a frame.
+/// @throws InputError as check_point_cache; OutputError
+void write_pc2(const std::filesystem::path& path, const PointCache& cache);
 
 /// The columns of frames.csv, one line with its end.
 std::string frames_csv_header();

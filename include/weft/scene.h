@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "weft/integrators.h"
 #include "weft/material.h"
 #include "weft/mesh.h"
+#include "weft/point_cache.h"
 
 namespace weft {
 
@@ -70,6 +72,21 @@ struct SceneCloth {
   std::vector<SceneAttachment> attach;
 };
 
+/// The motion of a surface's vertices: a point cache by the name of its file (PC2, MDD), or in
+/// memory. Copies share what is in memory.
+struct Animation {
+  std::string name;                            ///< of one in memory: its name in error messages
+  std::shared_ptr<const PointCache> points{};  ///< [m], y up
+
+  Animation() = default;
+  Animation(std::string file) : name(std::move(file)) {}  // NOLINT(google-explicit-constructor)
+  Animation(const char* file) : name(file) {}             // NOLINT(google-explicit-constructor)
+  Animation(PointCache given, std::string called)
+      : name(std::move(called)), points(std::make_shared<const PointCache>(std::move(given))) {}
+  [[nodiscard]] bool empty() const { return name.empty() && points == nullptr; }
+  [[nodiscard]] bool in_memory() const { return points != nullptr; }
+};
+
 struct SceneBody {
   std::string name = "body";
   Surface surface;
@@ -79,7 +96,7 @@ struct SceneBody {
   /// From the placed body, rotated about its placed origin (its placement's translate); ascending
   /// times. Only one of motion and animation.
   std::vector<MotionKey> motion;
-  std::string animation;  ///< a point cache (PC2, MDD) of the surface's vertices; empty: none
+  Animation animation;
   /// Time in which the body eases from its rest position to the start of motion or animation, which
   /// begin after it. [s]
   double lead_in = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "weft/cloth_state.h"
+#include "weft/colliders.h"
 #include "weft/contact.h"
 #include "weft/convert.h"
 #include "weft/progress.h"
@@ -167,7 +168,7 @@ class Simulation {
   ~Simulation();
 
   /// Advances by one frame.
-  /// @throws SceneError naming frame, cloth and particle when a step yields a not-finite number or
+  /// @throws Unstable naming frame, cloth and particle when a step yields a not-finite number or
   ///         runaway energy, with the integrator's advice
   FrameReport advance();
 
@@ -214,6 +215,10 @@ class Simulation {
   /// How far the labelled edges of a garment, its collar or waist, have sunk from where the pattern
   /// places them, on the mean; 0 for other cloths. [m]
   [[nodiscard]] double sunk(std::size_t cloth) const;
+  /// Counts the pairs of triangles that cross now: of cloths with themselves, with each other and
+  /// with bodies, and triangles below the ground. Exact, and none of a collider's code. Costs about
+  /// as much as a frame; not by several threads at once.
+  [[nodiscard]] IntersectionCounts intersections() const;
   /// Number of cloth edges that crossed cloth at the start of the last step and are being
   /// untangled.
   [[nodiscard]] int crossings() const;

@@ -1,4 +1,4 @@
-#include "weft/mesh/io/point_cache.h"
+#include "weft/point_cache.h"
 
 #include <bit>
 #include <fstream>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
-#include "weft/mesh/io/point_cache.h"
+#include "weft/point_cache.h"
 #include "weft/run.h"
 
 namespace weft::test {

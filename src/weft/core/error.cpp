@@ -16,6 +16,9 @@ std::string one_line(std::string_view where, std::string_view found, std::string
 }  // namespace
 
 Error::Error(ExitCode code, std::string_view where, std::string_view found, std::string_view wanted)
-    : std::runtime_error(one_line(where, found, wanted)), code_(code) {}
+    : std::runtime_error(one_line(where, found, wanted)),
+      code_(code),
+      parts_(std::make_shared<const Parts>(
+          Parts{std::string(where), std::string(found), std::string(wanted)})) {}
 
 }  // namespace weft

@@ -88,9 +88,11 @@ constexpr double counted_cloth_bytes_per_sample = 330;
 constexpr double moving_bytes_per_sample = 64;
 constexpr double margin = 1.25, short_share = 0.8;
 
-double animation_bytes(const std::string& path) {
+double animation_bytes(const Animation& animation) {
+  if (animation.in_memory())
+    return static_cast<double>(animation.points->positions.size() * sizeof(Vec3f));
   std::error_code missing;  // reported when it is read
-  const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
+  const std::uintmax_t bytes = std::filesystem::file_size(animation.name, missing);
   return missing ? 0 : static_cast<double>(bytes);
 }
 

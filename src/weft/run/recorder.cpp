@@ -28,7 +28,7 @@ std::vector<fs::path> input_files(const Scene& scene) {
   for (const SceneCloth& cloth : scene.cloths) add(cloth.surface);
   for (const SceneBody& body : scene.bodies) {
     add(body.surface);
-    files.emplace_back(body.animation);
+    if (!body.animation.in_memory()) files.emplace_back(body.animation.name);
   }
   return files;
 }
@@ -180,18 +180,6 @@ std::int64_t Recorder::written_crossings() {
       count += surfaces[i].count_crossings(surfaces[j]);
   }
   return count;
-}
-
-IntersectionCounts Recorder::intersections() {
-  if (!check_) {
-    std::vector<GridTriangles> cloths, bodies;
-    for (const auto& record : cloths_)
-      cloths.push_back({record->subject().now, &record->grid().triangles});
-    for (const auto& record : bodies_)
-      bodies.push_back({record->subject().now, &record->grid().triangles});
-    check_.emplace(cloths, bodies, scene_.ground);
-  }
-  return check_->count();
 }
 
 }  // namespace weft

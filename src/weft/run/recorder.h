@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "weft/collide/intersections.h"
 #include "weft/run.h"
 #include "weft/run/export/surface_record.h"
 
@@ -36,9 +35,6 @@ class Recorder {
   /// checkpoint should be written before.
   void make_of_caches();
 
-  /// Intersections of cloths at the current positions: with themselves, the others, bodies, the
-  /// ground.
-  [[nodiscard]] IntersectionCounts intersections();
   /// Pairs of triangles of the written surfaces that cross now, cloths with everything; on the
   /// vertices of the input meshes where those are written.
   [[nodiscard]] std::int64_t written_crossings();
@@ -61,7 +57,6 @@ class Recorder {
   std::vector<Planes3> body_rests_;  // placed, where a mesh is written
   Records cloths_, bodies_;
   std::vector<std::filesystem::path> rests_;  // outputs that do not grow
-  std::optional<IntersectionCheck> check_;    // made at its first use
 };
 
 }  // namespace weft

@@ -169,7 +169,7 @@ class Run {
       update(options_.progress, "simulate", 1);
       if (!options_.verify) {
         report_.intersections = {};
-        keep_worst(recorder_->intersections());
+        keep_worst(simulation_.intersections());
       }
       note_untangling();
       note_fallen();
@@ -231,7 +231,7 @@ class Run {
   void look_at_start() {
     for (const StartInside& found : report_.start_insides)
       if (options_.tell) options_.tell(start_inside_text(found));
-    const IntersectionCounts counts = recorder_->intersections();
+    const IntersectionCounts counts = simulation_.intersections();
     report_.start_intersections = counts;
     if (tangled_pairs(counts) == 0) {
       report_.untangled_frame = 0;
@@ -248,7 +248,7 @@ class Run {
   void look_at_frame() {
     const bool tangled = !report_.untangled_frame || simulation_.crossings() > 0;
     if (!options_.verify && !tangled) return;
-    const IntersectionCounts counts = recorder_->intersections();
+    const IntersectionCounts counts = simulation_.intersections();
     if (tangled_pairs(counts) > 0) {
       report_.untangled_frame.reset();
     } else if (!report_.untangled_frame) {
@@ -266,7 +266,7 @@ class Run {
 
   void note_untangling() {
     if (!report_.untangled_frame) {
-      const IntersectionCounts counts = recorder_->intersections();
+      const IntersectionCounts counts = simulation_.intersections();
       report_.notes.push_back("cloth is still tangled: in the last frame " + tangle_text(counts));
     } else if (*report_.untangled_frame > 0) {
       report_.notes.push_back(fmt::format("what crossed at the start is apart since frame {}",

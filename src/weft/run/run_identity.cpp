@@ -27,11 +27,16 @@ std::string surface_name(const Planes3& placed, const BorderMates& mates) {
   return std::string("/").append(hash.text());
 }
 
-/// Hash of a file's bytes, in the same form.
-std::string file_name(const std::string& path) {
-  const std::string bytes = read_file(path);
+/// Hash of what an animation is made of, in the same form.
+std::string animation_name(const Animation& animation) {
   Hash hash;
-  hash.add(std::span<const char>(bytes));
+  if (animation.in_memory()) {
+    hash.add(std::span(animation.points->times));
+    hash.add(std::span(animation.points->positions));
+  } else {
+    const std::string bytes = read_file(animation.name);
+    hash.add(std::span<const char>(bytes));
+  }
   return std::string("/").append(hash.text());
 }
 
@@ -61,7 +66,7 @@ std::string run_identity(const Scene& scene, const Simulation& simulation,
     const PlacedBody& body = simulation.bodies()[i];
     named.bodies[i].surface = surface_name(body.positions, body.image.mates);
     if (!named.bodies[i].animation.empty())
-      named.bodies[i].animation = file_name(named.bodies[i].animation);
+      named.bodies[i].animation = animation_name(named.bodies[i].animation);
   }
   Json json = parse_json(scene_text(named, "/scene.json"), deepest_nesting);
   json.erase("frames");

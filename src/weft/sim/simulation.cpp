@@ -48,10 +48,10 @@ std::string Simulation::Parts::advice_for(std::size_t index) const {
 }
 
 void Simulation::Parts::stop_unstable(std::size_t index, BadParticle particle) const {
-  throw SceneError(name,
-                   fmt::format("cloth '{}' ran away at frame {}, particle (row {}, col {})",
-                               cloths[index].name, frame + 1, particle.row, particle.col),
-                   advice_for(index));
+  throw Unstable(name,
+                 fmt::format("cloth '{}' ran away at frame {}, particle (row {}, col {})",
+                             cloths[index].name, frame + 1, particle.row, particle.col),
+                 advice_for(index), {frame + 1, cloths[index].name, particle.row, particle.col});
 }
 
 Vec3d Simulation::Parts::centre() const {
@@ -66,10 +66,10 @@ Vec3d Simulation::Parts::centre() const {
 }
 
 void Simulation::Parts::stop_torn(std::size_t index, const std::string& found) const {
-  throw SceneError(
+  throw Unstable(
       name,
       fmt::format("cloth '{}' ran away at frame {}: {}", cloths[index].name, frame + 1, found),
-      advice_for(index));
+      advice_for(index), {frame + 1, cloths[index].name});
 }
 
 void Simulation::Parts::check_energy(const FrameReport& report, double own) {
@@ -273,6 +273,9 @@ double Simulation::sunk(std::size_t cloth) const {
   for (const int s : worn.garment->held)
     sum += double{placed.at(s).y} - double{worn.state.position.at(s).y};
   return sum / static_cast<double>(worn.garment->held.size());
+IntersectionCounts Simulation::intersections() const {
+  if (!parts_->check) parts_->make_check();
+  return parts_->check->count();
 }
 
 int Simulation::crossings() const { return parts_->collider->crossings(); }

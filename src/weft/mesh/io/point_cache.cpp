@@ -1,4 +1,4 @@
-#include "weft/mesh/io/point_cache.h"
+#include "weft/point_cache.h"
 
 #include <cctype>
 #include <cmath>
@@ -106,6 +106,26 @@ PointCache parse_mdd(std::string_view bytes, std::string_view name) {
   }
   read_points(bytes.substr(mdd_header + word * counts.samples), name, true, cache);
   return cache;
+}
+
+void check_point_cache(const PointCache& cache, std::string_view name) {
+  const std::size_t points = cache.points < 0 ? 0 : static_cast<std::size_t>(cache.points);
+  if (points < 1 || cache.times.empty() || cache.positions.size() != points * cache.times.size())
+    throw InputError(name,
+                     fmt::format("{} positions for {} points and {} samples",
+                                 cache.positions.size(), cache.points, cache.times.size()),
+                     "as many as both make, at least one of each, are wanted");
+  for (std::size_t k = 0; k < cache.times.size(); ++k)
+    if (!(k == 0 ? cache.times[k] == 0 : cache.times[k] > cache.times[k - 1]))
+      throw InputError(name, fmt::format("the time of sample {} does not follow", k),
+                       "ascending times from 0 are wanted");
+  for (std::size_t i = 0; i < cache.positions.size(); ++i)
+    for (const float x : {cache.positions[i].x, cache.positions[i].y, cache.positions[i].z})
+      if (const std::string_view fault = coordinate_fault(x); !fault.empty())
+        throw InputError(
+            name,
+            fmt::format("a coordinate of point {} in sample {} {}", i % points, i / points, fault),
+            "finite numbers are wanted");
 }
 
 bool is_point_cache_name(const std::filesystem::path& name) {

@@ -13,6 +13,7 @@
 #include "weft/core/assert.h"
 #include "weft/error.h"
 #include "weft/files.h"
+#include "weft/run.h"
 #include "weft/run/export/bytes_out.h"
 #include "weft/run/export/motion_writer.h"
 
@@ -162,6 +163,13 @@ bool is_whole_pc2(const fs::path& path, int frames, std::span<const Vec3f> last)
   return left.holds && left.frames == frames &&
          fs::file_size(path, ignored) ==
              header_bytes + last.size_bytes() * static_cast<std::uintmax_t>(frames);
+}
+
+void write_pc2(const fs::path& path, const PointCache& cache) {
+  check_point_cache(cache, path.string());
+  Pc2Writer writer(path, cache.points);
+  for (int frame = 0; frame < cache.samples(); ++frame) writer.add(cache.sample(frame));
+  writer.finish();
 }
 
 void write_mdd(const std::filesystem::path& path, const FinishedMotion& motion) {

@@ -46,10 +46,13 @@ namespace {
 constexpr double steepest = 1.5;
 
 PointCache load_animation(const SceneBody& body, const BodyMotion::Files& files) {
-  PointCache cache = read_point_cache(body.animation);
+  const Animation& animation = body.animation;
+  if (animation.in_memory()) check_point_cache(*animation.points, animation.name);
+  PointCache cache = animation.in_memory() ? *animation.points : read_point_cache(animation.name);
   if (cache.times_in_frames)
     for (double& time : cache.times) time /= files.frame_rate;
   cache.times_in_frames = false;
+  if (animation.in_memory()) return cache;
   for (Vec3f& p : cache.positions)
     p = vec_cast<float>(in_metres_y_up(vec_cast<double>(p), files.frame));
   return cache;
@@ -71,7 +74,7 @@ std::vector<BlendedVertex> blends_of_image(const GeometryImage& image, const Sce
   const int vertices = static_cast<int>(rebuilt.sample_of.size());
   if (points == vertices) return one_vertex_each(rebuilt.vertex_of);
   if (points != samples)
-    throw SceneError(body.animation, fmt::format("{} points", points),
+    throw SceneError(body.animation.name, fmt::format("{} points", points),
                      fmt::format("{} (the samples of {}), or {} (mates joined), are wanted",
                                  samples, body.surface.name, vertices));
   std::vector<int> representatives(static_cast<std::size_t>(samples));
@@ -84,7 +87,7 @@ std::vector<BlendedVertex> blends_of(const LoadedSurface& surface, const SceneBo
                                      int points) {
   if (!surface.follows) return blends_of_image(surface.image, body, points);
   if (points != surface.follows->vertices)
-    throw SceneError(body.animation, fmt::format("{} points", points),
+    throw SceneError(body.animation.name, fmt::format("{} points", points),
                      fmt::format("{}, the vertices of {}, are wanted", surface.follows->vertices,
                                  body.surface.name));
   return surface.follows->blends;

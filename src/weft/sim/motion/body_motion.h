@@ -8,7 +8,7 @@
 
 #include "weft/convert.h"
 #include "weft/core/thread_team.h"
-#include "weft/mesh/io/point_cache.h"
+#include "weft/point_cache.h"
 #include "weft/scene.h"
 #include "weft/sim/placement.h"
 

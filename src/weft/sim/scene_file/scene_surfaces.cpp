@@ -3,7 +3,7 @@
 
 #include "weft/core/names.h"
 #include "weft/fabric.h"
-#include "weft/mesh/io/point_cache.h"
+#include "weft/point_cache.h"
 #include "weft/sim/scene_file/scene_keys.h"
 #include "weft/sim/scene_file/scene_parts.h"
 

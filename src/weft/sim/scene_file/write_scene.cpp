@@ -30,6 +30,13 @@ std::string surface_text(const Surface& surface, const fs::path& folder) {
       .string();
 }
 
+std::string animation_text(const Animation& animation, const fs::path& folder) {
+  if (animation.in_memory())
+    throw UsageError("scene", fmt::format("the motion '{}' is in memory alone", animation.name),
+                     "a point cache in a file is wanted");
+  return surface_text(animation.name, folder);
+}
+
 /// An integrator or a collider, with every option.
 template <class Method>
 Json method_json(const Method& method) {
@@ -112,7 +119,7 @@ Json body_json(const SceneBody& body, const fs::path& folder) {
   add_placement(json, body.placement);
   json["friction"] = body.friction;
   add_motion(json, "motion", body.motion);
-  if (!body.animation.empty()) json["animation"] = surface_text(body.animation, folder);
+  if (!body.animation.empty()) json["animation"] = animation_text(body.animation, folder);
   if (!body.motion.empty() || !body.animation.empty()) json["lead_in"] = body.lead_in;
   return json;
 }

@@ -12,6 +12,7 @@
 #include "weft/cloth/integrator.h"
 #include "weft/cloth/wind.h"
 #include "weft/collide/collider.h"
+#include "weft/collide/intersections.h"
 #include "weft/sim/insides.h"
 #include "weft/sim/motion/attachments.h"
 #include "weft/sim/motion/body_motion.h"
@@ -161,6 +162,8 @@ struct Simulation::Parts {
   /// Gathers the start and proposal of every cloth for the collider.
   void gather_moving();
   void finish(std::size_t index, FrameReport& report);
+  /// Makes what counts intersections, at its first use.
+  void make_check();
   [[noreturn]] void stop_unstable(std::size_t index, BadParticle particle) const;
   void measure(FrameReport& report);
   /// Stop a run whose energy rose without explanation, or whose springs are strained too far.
@@ -207,7 +210,9 @@ struct Simulation::Parts {
   std::unique_ptr<JointIntegrator> joint;           // of all; null: each is solved by itself
   std::vector<std::span<const Contact>> own_contacts;
   std::unique_ptr<Collider> collider;
-  std::vector<MovingCloth> moving;  // of this step
+  std::vector<MovingCloth> moving;                       // of this step
+  std::vector<std::vector<Triangle>> checked_triangles;  // of cloths, then bodies
+  std::optional<IntersectionCheck> check;                // of what they and the ground cross
   Grab grab;
   int frame = 0;
   StepWatcher* watcher = nullptr;

@@ -209,6 +209,18 @@ void Simulation::Parts::make_collider_of_scene() {
   collider->share_contacts(joint != nullptr);
 }
 
+void Simulation::Parts::make_check() {
+  for (const SimulatedCloth& cloth : cloths)
+    checked_triangles.push_back(grid_triangles(cloth.image));
+  for (const PlacedBody& body : bodies) checked_triangles.push_back(grid_triangles(body.image));
+  std::vector<GridTriangles> checked_cloths, checked_bodies;
+  auto triangles = checked_triangles.cbegin();
+  for (const SimulatedCloth& cloth : cloths)
+    checked_cloths.push_back({&cloth.state.position, &*triangles++});
+  for (const PlacedBody& body : bodies) checked_bodies.push_back({&body.positions, &*triangles++});
+  check.emplace(checked_cloths, checked_bodies, scene.ground);
+}
+
 void Simulation::Parts::note_too_fast() {
   if (driven.fastest() * substep_time <= max_pieces * max_approach_in_step) return;
   notes.push_back(fmt::format(

@@ -34,6 +34,12 @@ PointCache read_point_cache(const std::filesystem::path& path);
 PointCache parse_pc2(std::string_view bytes, std::string_view name);
 PointCache parse_mdd(std::string_view bytes, std::string_view name);
 
+/// Refuses a point cache that no file could hold, as one made by a caller may be.
+/// @param name  of the cache in the error
+/// @throws InputError for no points or samples, another number of positions than those make, times
+///         that do not ascend from 0, or positions that are not finite or above 1e30
+void check_point_cache(const PointCache& cache, std::string_view name);
+
 /// True when a name ends as point caches do: .pc2 or .mdd.
 bool is_point_cache_name(const std::filesystem::path& name);
 
