@@ -4,6 +4,9 @@ add_library(weft_flags INTERFACE)
 target_compile_features(weft_flags INTERFACE cxx_std_20)
 target_compile_options(weft_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp-simd -pthread)
+# The Python module is a shared object made of the same archives. Programs lose next to nothing by that, as
+# the linker binds calls of their own functions directly.
+target_compile_options(weft_flags INTERFACE "$<BUILD_INTERFACE:-fPIC;-fno-semantic-interposition>")
 target_include_directories(weft_flags INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks who includes whom: lower modules never see higher ones; the program, the window, the examples and the tests of
-contract see the public headers alone, which see each other alone; every source of the library begins with the header
+"""Checks who includes whom: lower modules never see higher ones; the program, the window, the examples, the Python
+module and the tests of contract see the public headers alone, which see each other alone; every source of the library begins with the header
 beside it; and what a header takes from the standard library and from fmt it includes, or has of what it includes (they
 are compiled with those headers in front, cmake/WeftModule.cmake).
 
@@ -40,7 +40,7 @@ PUBLIC = {
 }
 OWNER = {header: module for module, headers in PUBLIC.items() for header in headers}
 # Who uses the library by its public headers alone.
-OUTSIDE = ("apps/weft", "apps/viewer", "examples/library", "tests/contract")
+OUTSIDE = ("apps/weft", "apps/viewer", "examples/library", "tests/contract", "python/src")
 EIGEN_MODULES = {"cut", "param", "cloth"}  # and only in .cpp files
 # Where names of the standard library, and of fmt, come from.
 PROVIDERS = {

@@ -1,0 +1,285 @@
+// Simulations: scenes as JSON, with the surfaces and motions that are in memory put into them.
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "python/src/arrays.h"
+#include "python/src/calls.h"
+#include "python/src/images.h"
+#include "weft/error.h"
+#include "weft/run.h"
+#include "weft/scene_file.h"
+#include "weft/simulation.h"
+
+namespace weft::python {
+namespace {
+
+namespace py = pybind11;
+
+/// The simulation, and what hands on its progress: each call has a listener of its own.
+class Stepper {
+ public:
+  Stepper(const Scene& scene, const std::string& name, int threads, Progress& loading)
+      : relay_(loading), simulation(scene, name, threads, {&relay_}) {}
+
+  /// A frame more. Where it fails, the simulation is put back to where it was before it.
+  FrameReport advance(Progress& listener) {
+    relay_.listener = &listener;
+    simulation.save(before_);
+    try {
+      return simulation.advance();
+    } catch (...) {
+      simulation.restore(before_);
+      throw;
+    }
+  }
+
+ private:
+  struct Relay : Progress {
+    explicit Relay(Progress& first) : listener(&first) {}
+    void update(std::string_view stage, double fraction) override {
+      listener->update(stage, fraction);
+    }
+    Progress* listener;
+  };
+  Relay relay_;
+  SimulationState before_;
+
+ public:
+  Simulation simulation;
+  std::atomic<bool> busy = false;
+};
+
+/// Claims a stepper for one call. @throws RuntimeError while another thread's call goes on
+class Claim {
+ public:
+  explicit Claim(std::shared_ptr<Stepper> stepper) : stepper_(std::move(stepper)) {
+    if (stepper_->busy.exchange(true)) {
+      stepper_ = nullptr;
+      throw std::runtime_error("this simulation is at work in another call");
+    }
+  }
+  Claim(const Claim&) = delete;
+  Claim& operator=(const Claim&) = delete;
+  ~Claim() {
+    if (stepper_) stepper_->busy = false;
+  }
+  Stepper* operator->() const { return stepper_.get(); }
+
+ private:
+  std::shared_ptr<Stepper> stepper_;
+};
+
+class Simulated {
+ public:
+  explicit Simulated(std::shared_ptr<Stepper> stepper) : stepper_(std::move(stepper)) {}
+
+  py::dict advance(const py::object& progress) {
+    const auto claim = std::make_shared<Claim>(stepper_);
+    const auto report = std::make_shared<FrameReport>();
+    run_released(progress, [claim, report](Progress& told) { *report = (*claim)->advance(told); });
+    return told_of(*report);
+  }
+  /// (self, cloths, bodies, ground)
+  std::tuple<std::int64_t, std::int64_t, std::int64_t, std::int64_t> intersections() {
+    const Claim claim(stepper_);
+    const py::gil_scoped_release released;
+    const IntersectionCounts counts = claim->simulation.intersections();
+    return {counts.self, counts.cloths, counts.bodies, counts.ground};
+  }
+  py::array_t<float> cloth_samples(std::size_t index) {
+    const Claim claim(stepper_);
+    return samples(claim->simulation.cloths().at(index).state.position);
+  }
+  py::array_t<float> body_samples(std::size_t index) {
+    const Claim claim(stepper_);
+    return samples(claim->simulation.bodies().at(index).positions);
+  }
+  py::array_t<float> strains(std::size_t index) {
+    const Claim claim(stepper_);
+    const int n = claim->simulation.cloths().at(index).image.size();
+    Grid<float> strains(n, n);
+    claim->simulation.strain_at_samples(index, strains);
+    std::vector<float> values;
+    for (int row = 0; row < n; ++row)
+      values.insert(values.end(), strains.row(row), strains.row(row) + n);
+    return array_of<float>(std::move(values), {n, n});
+  }
+  Image cloth_image(std::size_t index) {
+    return {std::make_shared<const GeometryImage>(stepper_->simulation.cloths().at(index).image)};
+  }
+  Image body_image(std::size_t index) {
+    return {std::make_shared<const GeometryImage>(stepper_->simulation.bodies().at(index).image)};
+  }
+  std::string hash() {
+    const Claim claim(stepper_);
+    return claim->simulation.state_hash();
+  }
+  std::shared_ptr<SimulationState> save() {
+    const Claim claim(stepper_);
+    auto state = std::make_shared<SimulationState>();
+    claim->simulation.save(*state);
+    return state;
+  }
+  void restore(const SimulationState& state) {
+    const Claim claim(stepper_);
+    const std::vector<SimulatedCloth>& cloths = claim->simulation.cloths();
+    bool fits = state.cloths.size() == cloths.size();
+    for (std::size_t i = 0; fits && i < cloths.size(); ++i)
+      fits = state.cloths[i].position.size() == cloths[i].image.size();
+    if (!fits) throw py::value_error("a state of this simulation is wanted");
+    claim->simulation.restore(state);
+  }
+  [[nodiscard]] std::vector<std::string> names(bool cloths) const {
+    std::vector<std::string> found;
+    if (cloths)
+      for (const SimulatedCloth& cloth : stepper_->simulation.cloths()) found.push_back(cloth.name);
+    else
+      for (const PlacedBody& body : stepper_->simulation.bodies()) found.push_back(body.name);
+    return found;
+  }
+  [[nodiscard]] const Simulation& simulation() const { return stepper_->simulation; }
+
+ private:
+  static py::array_t<float> samples(const Planes3& planes) {
+    const py::ssize_t n = planes.size();
+    return array_of<float>(samples_of(planes), {n, n, 3});
+  }
+  static py::dict told_of(const FrameReport& report) {
+    py::dict told;
+    told["milliseconds"] = report.milliseconds;
+    told["iterations"] = report.iterations;
+    told["residual"] = report.residual;
+    told["strain"] = py::make_tuple(report.strain.mean, report.strain.p99, report.strain.max);
+    told["kinetic_energy"] = report.kinetic_energy;
+    told["potential_energy"] = report.potential_energy;
+    told["work"] = report.work;
+    told["contacts"] = report.contacts;
+    told["self_contacts"] = report.self_contacts;
+    told["stopped"] = report.stopped;
+    told["fell_back"] = report.fell_back;
+    told["smallest_gap"] = report.smallest_gap;
+    const Vec3d& c = report.centre_of_mass;
+    told["centre_of_mass"] = py::make_tuple(c.x, c.y, c.z);
+    return told;
+  }
+
+  std::shared_ptr<Stepper> stepper_;
+};
+
+/// A surface in memory: None, an Image, or a mesh as (V, F, name).
+void put_surface(const py::handle& given, Surface& surface, const std::string& name) {
+  if (given.is_none()) return;
+  if (py::isinstance<Image>(given)) {
+    surface.name = name;
+    surface.image = given.cast<const Image&>().image;
+    surface.mesh = nullptr;
+    return;
+  }
+  const auto [vertices, faces, called] = given.cast<std::tuple<Doubles, Ints, std::string>>();
+  surface = Surface(mesh_of(vertices, faces), called);
+}
+
+/// A motion in memory: None, or (positions (T, n, 3), frames a second, seconds of lead-in or None).
+void put_motion(const py::handle& given, SceneBody& body) {
+  if (given.is_none()) return;
+  const auto [positions, rate, lead_in] =
+      given.cast<std::tuple<Floats, double, std::optional<double>>>();
+  body.lead_in = lead_in.value_or(0);
+  if (positions.ndim() != 3 || positions.shape(2) != 3)
+    throw py::value_error("an array (T, n, 3) of positions is wanted");
+  PointCache cache;
+  cache.points = static_cast<int>(positions.shape(1));
+  for (py::ssize_t k = 0; k < positions.shape(0); ++k)
+    cache.times.push_back(static_cast<double>(k) / rate);
+  const auto p = positions.unchecked<3>();
+  for (py::ssize_t k = 0; k < p.shape(0); ++k)
+    for (py::ssize_t i = 0; i < p.shape(1); ++i)
+      cache.positions.push_back({p(k, i, 0), p(k, i, 1), p(k, i, 2)});
+  body.animation = Animation(std::move(cache), "motion of " + body.name);
+}
+
+/// @param cloths, bodies  what is in memory of each of the scene's, as put_surface takes it
+/// @param motions         of the bodies, as put_motion takes them
+std::unique_ptr<Simulated> simulate(const std::string& json, const std::string& name,
+                                    const std::string& folder, const py::list& cloths,
+                                    const py::list& bodies, const py::list& motions, int threads,
+                                    const py::object& progress) {
+  Scene scene = parse_scene(json, name, folder);
+  for (std::size_t i = 0; i < cloths.size() && i < scene.cloths.size(); ++i)
+    put_surface(cloths[i], scene.cloths[i].surface, scene.cloths[i].name);
+  for (std::size_t i = 0; i < bodies.size() && i < scene.bodies.size(); ++i)
+    put_surface(bodies[i], scene.bodies[i].surface, scene.bodies[i].name);
+  for (std::size_t i = 0; i < motions.size() && i < scene.bodies.size(); ++i)
+    put_motion(motions[i], scene.bodies[i]);
+  if (const std::optional<std::uint64_t> available = available_memory())
+    check_memory(estimate_memory(scene), *available, name);
+  const auto made = std::make_shared<std::shared_ptr<Stepper>>();
+  run_released(progress, [scene, name, threads, made](Progress& told) {
+    *made = std::make_shared<Stepper>(scene, name, threads, told);
+  });
+  return std::make_unique<Simulated>(*made);
+}
+
+void write_cache(const std::string& path, const Floats& positions) {
+  if (positions.ndim() != 3 || positions.shape(2) != 3)
+    throw py::value_error("an array (T, n, 3) of positions is wanted");
+  PointCache cache;
+  cache.points = static_cast<int>(positions.shape(1));
+  for (py::ssize_t k = 0; k < positions.shape(0); ++k)
+    cache.times.push_back(static_cast<double>(k));
+  const float* p = positions.data();
+  for (py::ssize_t i = 0; i < positions.size(); i += 3)
+    cache.positions.push_back({p[i], p[i + 1], p[i + 2]});
+  const py::gil_scoped_release released;
+  write_pc2(path, cache);
+}
+
+/// (positions (T, n, 3), times (T) in seconds or frames, whether they are frames)
+py::tuple read_cache(const std::string& path) {
+  PointCache cache;
+  {
+    const py::gil_scoped_release released;
+    cache = read_point_cache(path);
+  }
+  const py::ssize_t samples = cache.samples(), points = cache.points;
+  return py::make_tuple(array_of<float>(std::move(cache.positions), {samples, points, 3}),
+                        array_of<double>(std::move(cache.times), {samples}), cache.times_in_frames);
+}
+
+}  // namespace
+
+void add_simulations(py::module_& module) {
+  module.def("simulate", &simulate);
+  module.def("write_pc2", &write_cache);
+  module.def("read_point_cache", &read_cache);
+  py::class_<SimulationState, std::shared_ptr<SimulationState>>(module, "State")
+      .def_readonly("frame", &SimulationState::frame);
+  py::class_<Simulated>(module, "Simulated")
+      .def("advance", &Simulated::advance)
+      .def("intersections", &Simulated::intersections)
+      .def("cloth_samples", &Simulated::cloth_samples)
+      .def("body_samples", &Simulated::body_samples)
+      .def("strains", &Simulated::strains)
+      .def("cloth_image", &Simulated::cloth_image)
+      .def("body_image", &Simulated::body_image)
+      .def("state_hash", &Simulated::hash)
+      .def("save", &Simulated::save)
+      .def("restore", &Simulated::restore)
+      .def("names", &Simulated::names)
+      .def_property_readonly("frame", [](const Simulated& s) { return s.simulation().frame(); })
+      .def_property_readonly("particles",
+                             [](const Simulated& s) { return s.simulation().particles(); })
+      .def_property_readonly("mass", [](const Simulated& s) { return s.simulation().mass(); })
+      .def_property_readonly("notes", [](const Simulated& s) { return s.simulation().notes(); });
+}
+
+}  // namespace weft::python

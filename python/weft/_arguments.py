@@ -1,0 +1,156 @@
+"""What callers give, as the library takes it: arrays of any type and order, paths, threads, progress."""
+import errno
+import operator
+import os
+
+import numpy as np
+
+from . import _weft
+
+_INT32 = np.iinfo(np.int32)
+
+
+def _numbers(given, what, kinds="fiu"):
+    try:
+        array = np.asarray(given)
+    except ValueError as error:  # lists of different lengths
+        raise ValueError(f"{what}: an array of numbers is wanted, not {given!r:.60}") from error
+    if array.dtype.kind not in kinds:
+        raise TypeError(f"{what}: an array of numbers is wanted, not of {array.dtype}")
+    return array
+
+
+def _shaped(array, shape, what):
+    """The array, which must have this shape; None stands for any length."""
+    if array.ndim == len(shape) and all(want in (None, has) for has, want in zip(array.shape, shape)):
+        return array
+    wanted = ", ".join("n" if want is None else str(want) for want in shape)
+    raise ValueError(f"{what}: an array of shape ({wanted}{',' if len(shape) == 1 else ''}) is wanted, not {array.shape}")
+
+
+def vertices(given, what="V"):
+    """(n, 3) float64, C-contiguous."""
+    return np.ascontiguousarray(_shaped(_numbers(given, what), (None, 3), what), dtype=np.float64)
+
+
+def _whole(array, what):
+    if array.dtype.kind == "f" and not np.array_equal(array, np.floor(array)):
+        raise ValueError(f"{what}: whole numbers are wanted")
+    if array.size and not (_INT32.min <= array.min() and array.max() <= _INT32.max):
+        raise ValueError(f"{what}: an index is beyond 32 bits")
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def faces(given, what="F"):
+    """(m, 3) int32, C-contiguous."""
+    return _whole(_shaped(_numbers(given, what), (None, 3), what), what)
+
+
+def texture(given, face_count, what="uv"):
+    """(m, 3, 2) float32 of the corners of faces, or None."""
+    if given is None:
+        return None
+    return np.ascontiguousarray(_shaped(_numbers(given, what), (face_count, 3, 2), what), dtype=np.float32)
+
+
+def sequence(given, what):
+    """(T, n, 3) float32, finite."""
+    array = _shaped(_numbers(given, what), (None, None, 3), what)
+    if 0 in array.shape:
+        raise ValueError(f"{what}: at least one frame and one point are wanted, not {array.shape}")
+    with np.errstate(over="ignore"):
+        array = np.ascontiguousarray(array, dtype=np.float32)
+    if not np.isfinite(array).all():
+        frame, point, _ = (int(k) for k in np.argwhere(~np.isfinite(array))[0])
+        raise ValueError(f"{what}: point {point} of frame {frame} is not finite")
+    return array
+
+
+def vector(given, what, length=3):
+    """A list of finite floats."""
+    array = _shaped(_numbers(given, what), (length,), what).astype(float)
+    if not np.isfinite(array).all():
+        raise ValueError(f"{what}: finite numbers are wanted, not {array.tolist()}")
+    return array.tolist()
+
+
+def number(given, what, above=None):
+    """A finite float."""
+    try:
+        value = float(given)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what}: a number is wanted, not {given!r:.60}") from None
+    if not np.isfinite(value) or (above is not None and value <= above):
+        raise ValueError(f"{what}: a finite number{'' if above is None else f' above {above}'} is wanted, not {value}")
+    return value
+
+
+def integer(given, what, least, most):
+    """An int of a range."""
+    try:
+        value = operator.index(given)
+    except TypeError:
+        raise TypeError(f"{what}: a whole number is wanted, not {given!r:.60}") from None
+    if not least <= value <= most:
+        raise ValueError(f"{what}: a number from {least} to {most} is wanted, not {value}")
+    return value
+
+
+def size(given, what="size"):
+    """Samples a side."""
+    return integer(given, what, _weft.min_image_size, _weft.largest_image_size)
+
+
+def choice(given, what, names):
+    """One of some words."""
+    if given not in names:
+        raise ValueError(f"{what}: one of {', '.join(map(repr, names))} is wanted, not {given!r:.60}")
+    return given
+
+
+def threads(given):
+    """How many threads; None: as many as the machine has for this process, 8 at most."""
+    if given is None:
+        return max(1, min(8, len(os.sched_getaffinity(0))))
+    return integer(given, "threads", 1, 256)
+
+
+def path(given, what="path"):
+    """A path as text."""
+    try:
+        return os.fsdecode(given)
+    except TypeError:
+        raise TypeError(f"{what}: a path is wanted, not {given!r:.60}") from None
+
+
+def existing(given, what="path"):
+    """The path of a file that is there, as text. Raises FileNotFoundError, IsADirectoryError."""
+    name = path(given, what)
+    if not os.path.exists(name):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), name)
+    if os.path.isdir(name):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), name)
+    return name
+
+
+def to_write(given, what="path"):
+    """The path of a file in a folder that is there, as text. Raises FileNotFoundError."""
+    name = path(given, what)
+    folder = os.path.dirname(name) or "."
+    if not os.path.isdir(folder):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), folder)
+    return name
+
+
+def progress(given):
+    """None or a callable of (stage, fraction). Of a bar like tqdm's, with ``n``, ``total`` and ``update``, one is made."""
+    if given is None or callable(given):
+        return given
+    if not (hasattr(given, "update") and hasattr(given, "n")):
+        raise TypeError(f"progress: a callable or a bar like tqdm's is wanted, not {given!r:.60}")
+
+    def show(stage, fraction):
+        if hasattr(given, "set_description"):
+            given.set_description(stage, refresh=False)
+        given.update(fraction * (getattr(given, "total", None) or 1) - given.n)
+    return show

@@ -1,0 +1,367 @@
+"""Cloth over bodies, frame by frame."""
+import json
+import os
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _arguments, _weft
+from .images import GeometryImage
+
+_IDENTITY = {"scale": 1.0, "rotate": [0, 0, 0], "translate": [0, 0, 0]}
+
+
+class Strain(NamedTuple):
+    """|l / r - 1| over the stretch springs of all cloths."""
+
+    mean: float
+    p99: float
+    max: float
+
+
+class Intersections(NamedTuple):
+    """Pairs of triangles that cross: within a cloth, of two cloths, with bodies; triangles below the ground."""
+
+    self: int
+    cloths: int
+    bodies: int
+    ground: int
+
+
+class _Surface:
+    """What a cloth or body is made of: a name for the scene, or what is in memory."""
+
+    def __init__(self, given, faces, what):
+        self.name, self.memory, self.vertices = "builtin:sheet", None, None
+        if isinstance(given, GeometryImage):
+            self.memory = given._core
+        elif faces is not None or isinstance(given, tuple):
+            V, F = (given, faces) if faces is not None else self._pair(given, what)
+            self.memory = (_arguments.vertices(V), _arguments.faces(F), what)
+            self.vertices = len(self.memory[0])
+        else:
+            self.name = _arguments.path(given, what)
+            if not self.name.startswith("builtin:"):
+                self.name = os.path.abspath(_arguments.existing(self.name, what))
+
+    @staticmethod
+    def _pair(given, what):
+        if len(given) != 2:
+            raise ValueError(f"{what}: (V, F) is wanted, not {len(given)} arrays")
+        return given
+
+
+def _placement(scale, rotate, translate):
+    scaled = _arguments.number(scale, "scale") if np.ndim(scale) == 0 else _arguments.vector(scale, "scale")
+    return {"scale": scaled, "rotate": _arguments.vector(rotate, "rotate"),
+            "translate": _arguments.vector(translate, "translate")}
+
+
+class Body:
+    """What cloth collides with.
+
+    surface: V (n, 3) [m, y up] with ``faces`` (m, 3); or a `GeometryImage`; or the name of a mesh, image or builtin:NAME.
+    motion: (T, n, 3), where each vertex is at T times, ``fps`` a second; the body stands still after them. n is the
+    number of vertices of the mesh; of an image its samples (row by row) or the vertices of its `to_mesh`.
+    keys: instead of motion, list of {"time", "rotate", "translate"}, linear between them [s, degrees, m].
+    size: samples a side of the image that a mesh is turned into.
+    """
+
+    def __init__(self, surface, faces=None, *, motion=None, fps=30, keys=None, size=257):
+        self._surface = _Surface(surface, faces, "body")
+        self._size = _arguments.size(size)
+        if motion is not None and keys is not None:
+            raise ValueError("body: motion or keys are wanted, not both")
+        self._keys, self._motion = keys, None
+        if motion is not None:
+            positions = _arguments.sequence(motion, "motion")
+            wanted = self._surface.vertices
+            if wanted is not None and positions.shape[1] != wanted:
+                raise ValueError(f"motion: {wanted} points a frame are wanted, as many as vertices, not {positions.shape[1]}")
+            self._motion = (positions, _arguments.number(fps, "fps", above=0))
+
+
+class Cloth:
+    """A cloth of a simulation, which `Simulation.add_cloth` gives.
+
+    Fields: ``name``, ``index``. `faces` and the like begin the simulation where it has not begun.
+    """
+
+    def __init__(self, simulation, index, name):
+        self._simulation, self.index, self.name = simulation, index, name
+
+    @property
+    def image(self):
+        """Its `GeometryImage` at rest, unplaced."""
+        return self._simulation._image(self.index)
+
+    @property
+    def faces(self):
+        """(m, 3) int32: triangles of what `Frame.positions` gives."""
+        return self.image.to_mesh()[1]
+
+    def __repr__(self):
+        return f"<weft.Cloth {self.name!r}>"
+
+
+class Frame:
+    """What is known of a frame; it stays as it was when the simulation goes on, but for the intersections.
+
+    Fields: ``number`` (from 1), ``time`` [s], ``strain`` (a `Strain`), ``milliseconds``, ``iterations``, ``residual``,
+    ``kinetic_energy``, ``potential_energy``, ``work`` (of pins, bodies and wind) [J], ``contacts``, ``self_contacts``,
+    ``stopped``, ``fell_back``, ``smallest_gap`` [m], ``centre_of_mass`` [m].
+    """
+
+    def __init__(self, simulation, number, told, samples):
+        self.number, self.time = number, number / simulation.frame_rate
+        self.__dict__.update(told)
+        self.strain = Strain(*told["strain"])
+        self.centre_of_mass = np.array(told["centre_of_mass"])
+        self._simulation, self._samples, self._counts = simulation, samples, None
+
+    def positions(self, cloth, on="mesh"):
+        """Where a cloth is [m]. on: "mesh": (n, 3) float32, the vertices of ``cloth.image.to_mesh()``; "samples": (N, N, 3)."""
+        index = self._simulation._index(cloth)
+        samples = self._samples[index]
+        if _arguments.choice(on, "on", ("mesh", "samples")) == "samples":
+            return samples
+        return samples.reshape(-1, 3)[self._simulation._image(index).sample_of]
+
+    @property
+    def intersection_counts(self):
+        """`Intersections` of this frame, counted when they are first asked for.
+
+        Raises RuntimeError where the simulation has gone on before.
+        """
+        if self._counts is None:
+            if self._simulation.frame != self.number:
+                raise RuntimeError(f"intersections of frame {self.number} are wanted while the simulation stands at "
+                                   f"{self._simulation.frame}: ask for them before it goes on")
+            self._counts = Intersections(*self._simulation._core.intersections())
+        return self._counts
+
+    @property
+    def intersections(self):
+        """Their number in all."""
+        return sum(self.intersection_counts)
+
+    def __repr__(self):
+        return f"<weft.Frame {self.number}>"
+
+
+class Simulation:
+    """A scene and its simulation: the same bits as `weft simulate` makes of it, for any number of threads.
+
+    frame_rate [1/s]; substeps a frame; gravity [m/s^2]; ground: its height [m] or None; wind: its velocity [m/s] or
+    {"velocity", "drag", "lift"}; integrator, collider: a name, or a dictionary with ``type`` and its options, as in scene files.
+    Bodies and cloths are added before the first frame.
+    """
+
+    def __init__(self, *, frame_rate=60, substeps=4, gravity=(0, -9.81, 0), ground=0.0, wind=None, integrator="newton",
+                 collider="pyramid", threads=None, name="scene"):
+        self._threads = _arguments.threads(threads)
+        self._name, self._folder = str(name), ""
+        self.frame_rate = _arguments.number(frame_rate, "frame_rate", above=0)
+        self._scene = {"version": 1, "frame_rate": self.frame_rate,
+                       "substeps": _arguments.integer(substeps, "substeps", 1, 10**6),
+                       "gravity": _arguments.vector(gravity, "gravity"),
+                       "ground": None if ground is None else _arguments.number(ground, "ground"),
+                       "integrator": _method(integrator), "collider": _method(collider), "cloths": [], "bodies": []}
+        if wind is not None:
+            self._scene["wind"] = wind if isinstance(wind, dict) else {"velocity": _arguments.vector(wind, "wind")}
+        self._cloth_memory, self._body_memory, self._motions = [], [], []
+        self._names, self._images = [], {}  # of cloths, which know their simulation: it does not know them
+        self._core, self._record = None, {}
+
+    @classmethod
+    def from_scene(cls, path, *, threads=None):
+        """The simulation of a scene file. Raises FileNotFoundError, SceneError with FILE:KEY."""
+        name = _arguments.existing(path)
+        simulation = cls(threads=threads, name=name)
+        with open(name, encoding="utf-8") as file:
+            simulation._scene = file.read()
+        simulation._folder = os.path.dirname(os.path.abspath(name))
+        simulation.start()
+        told = json.loads(simulation._scene)
+        simulation.frame_rate = float(told.get("frame_rate", 60))
+        return simulation
+
+    def add_body(self, body, *, friction=0.4, name=None, scale=1.0, rotate=(0, 0, 0), translate=(0, 0, 0), lead_in=None):
+        """Adds a `Body`, or what one is made of.
+
+        rotate: degrees about x, then y, then z. lead_in: seconds in which a body that moves is eased into its motion,
+        which begins after them.
+        """
+        self._check_open()
+        if not isinstance(body, Body):
+            body = Body(body)
+        index = len(self._scene["bodies"])
+        told = {"name": name or f"body{index}" if index else name or "body", "surface": body._surface.name, "size": body._size,
+                "friction": _arguments.number(friction, "friction"), **_placement(scale, rotate, translate)}
+        if body._keys is not None:
+            told["motion"] = body._keys
+        self._scene["bodies"].append(told)
+        self._body_memory.append(body._surface.memory)
+        self._motions.append(None if body._motion is None else (*body._motion, lead_in and _arguments.number(lead_in, "lead_in")))
+        if lead_in is not None and body._keys is not None:
+            told["lead_in"] = _arguments.number(lead_in, "lead_in")
+
+    def add_cloth(self, surface, *, fabric="cotton", name=None, size=129, scale=1.0, rotate=(0, 0, 0), translate=(0, 0, 0),
+                  friction=0.4, velocity=(0, 0, 0), pins=(), attach=(), self_collision=None):
+        """Adds a cloth.
+
+        surface: a `GeometryImage`; or a mesh (V, F) [m, y up]; or the name of a mesh, an image or builtin:NAME.
+        fabric: a name, or a dictionary of its values, as ``material`` in scene files.
+        size: samples a side of the image that a mesh or a name is turned into.
+        pins, attach: lists as in scene files, for example ``pins=[{"image": [0, 0]}]``. velocity: at the start [m/s].
+        Returns a `Cloth`.
+        """
+        self._check_open()
+        made_of = _Surface(surface, None, "cloth")
+        index = len(self._scene["cloths"])
+        told = {"name": name or (f"cloth{index}" if index else "cloth"), "surface": made_of.name, "size": _arguments.size(size),
+                "material": fabric, "friction": _arguments.number(friction, "friction"),
+                "velocity": _arguments.vector(velocity, "velocity"), "pins": list(pins), "attach": list(attach),
+                **_placement(scale, rotate, translate)}
+        if self_collision is not None:
+            told["self_collision"] = bool(self_collision)
+        self._scene["cloths"].append(told)
+        self._cloth_memory.append(made_of.memory)
+        self._names.append(told["name"])
+        return Cloth(self, index, told["name"])
+
+    @property
+    def cloths(self):
+        """List of `Cloth`."""
+        return [Cloth(self, index, name) for index, name in enumerate(self._names)]
+
+    def _image(self, index):
+        if index not in self._images:
+            self._images[index] = GeometryImage(self.start()._core.cloth_image(index))
+        return self._images[index]
+
+    def _check_open(self):
+        if self._core is not None:
+            raise RuntimeError("the simulation has begun: cloths and bodies are to be added before")
+
+    def _index(self, cloth):
+        if not isinstance(cloth, Cloth) or cloth._simulation is not self:
+            raise ValueError(f"cloth: one of this simulation is wanted, not {cloth!r:.60}")
+        return cloth.index
+
+    def start(self, progress=None):
+        """Loads everything, which the first frame does otherwise. Raises SceneError, InputError, TopologyError."""
+        if self._core is not None:
+            return self
+        text = self._scene if isinstance(self._scene, str) else _json(self._scene)
+        core = _weft.simulate(text, self._name, self._folder, self._cloth_memory, self._body_memory, self._motions,
+                              self._threads, _arguments.progress(progress))
+        self._names = core.names(True)
+        self._core = core
+        self._keep()
+        return self
+
+    def _samples(self):
+        return [self._core.cloth_samples(index) for index in range(len(self._names))]
+
+    def _keep(self):
+        samples = self._samples()
+        for array in samples:
+            array.flags.writeable = False
+        self._record[self.frame] = samples
+        return samples
+
+    def run(self, frames, *, record=True, progress=None):
+        """Simulates so many frames more: a generator of each `Frame` as it is done.
+
+        record: whether positions are kept for `cache`.
+        progress: called with ("simulate", fraction) after every frame, or a bar like tqdm's.
+        Raises Unstable, after which the simulation stands at the frame before, as it does after Ctrl-C.
+        """
+        frames = _arguments.integer(frames, "frames", 0, 2**31 - 1)
+        tell = _arguments.progress(progress)
+        return self._frames(frames, bool(record), tell)
+
+    def _frames(self, frames, record, tell):
+        self.start()
+        for done in range(1, frames + 1):
+            told = self._core.advance(None)
+            samples = self._keep()
+            if not record:
+                self._record.clear()
+            if tell is not None:
+                tell("simulate", done / frames)
+            yield Frame(self, self.frame, told, samples)
+
+    @property
+    def frame(self):
+        """Frames done."""
+        return self._core.frame if self._core is not None else 0
+
+    @property
+    def particles(self):
+        """Particles of all cloths."""
+        return self.start()._core.particles
+
+    @property
+    def notes(self):
+        """What was repaired while loading, and the like: list of sentences."""
+        return self.start()._core.notes
+
+    def cache(self, cloth):
+        """(T, n, 3) float32 [m]: what `Frame.positions` gave of a cloth in all frames up to now, the start first.
+
+        Raises RuntimeError where frames were not recorded.
+        """
+        index = self._index(cloth)
+        frames = range(self.start().frame + 1)
+        if any(frame not in self._record for frame in frames):
+            raise RuntimeError("frames were not recorded: run(n, record=True) is wanted from the start on")
+        chosen = self._image(index).sample_of
+        return np.stack([self._record[frame][index].reshape(-1, 3)[chosen] for frame in frames])
+
+    def body_positions(self, index):
+        """(N, N, 3) float32 [m]: where the samples of a body, numbered as it was added, are now."""
+        bodies = self.start()._core.names(False)
+        return self._core.body_samples(_arguments.integer(index, "body", 0, len(bodies) - 1))
+
+    def strain_at_samples(self, cloth):
+        """(N, N) float32: the mean of l / r - 1 over the springs around each sample, now."""
+        return self.start()._core.strains(self._index(cloth))
+
+    @property
+    def state_hash(self):
+        """Hash of all positions and velocities, as `weft simulate` tells it."""
+        return self.start()._core.state_hash()
+
+    def save(self):
+        """The state, for `restore`; it may be restored any number of times."""
+        return self.start()._core.save()
+
+    def restore(self, state):
+        """Goes back, or on, to a saved state of this simulation; what follows has the same bits."""
+        if not isinstance(state, _weft.State):
+            raise TypeError(f"state: what save() gave is wanted, not {state!r:.60}")
+        self.start()._core.restore(state)
+        self._record = {frame: kept for frame, kept in self._record.items() if frame < state.frame}
+        self._keep()
+
+    def __repr__(self):
+        return f"<weft.Simulation of {len(self._names)} cloths at frame {self.frame}>"
+
+
+def _method(given):
+    return given if isinstance(given, dict) else {"type": given}
+
+
+def _json(scene):
+    def plain(value):
+        if isinstance(value, np.ndarray):
+            return value.tolist()
+        if isinstance(value, np.generic):
+            return value.item()
+        raise TypeError(f"scene: numbers, texts, lists and dictionaries are wanted, not {value!r:.60}")
+    try:
+        return json.dumps(scene, default=plain, allow_nan=False)
+    except ValueError as error:
+        raise ValueError(f"scene: {error}") from error
