@@ -41,20 +41,33 @@ def drawn_small(block):
     return re.sub(r"^weft render .*$", small, block, flags=re.M)
 
 
+PYTHON = pathlib.Path(PROGRAM).parents[1] / "python"
+
+
+def lacking(block):
+    """What a block wants and does not have here; empty where it has all."""
+    if "weft view" in block and not shutil.which("xvfb-run"):
+        return "xvfb-run"
+    if "WEFT_PYTHON" in block and (os.environ.get("WEFT_SANITIZE") or not list(PYTHON.glob("weft/_weft*.so"))):
+        return "a Python module without sanitizers"
+    return ""
+
+
 class Documents(ProgramTest):
     def run_document(self, path, environment):
         folder = self.folder / "-".join(path.relative_to(SOURCE).with_suffix("").parts)
         folder.mkdir()
         for block in blocks(path):
-            if "weft view" in block and not shutil.which("xvfb-run"):
-                print(f"{path.name}: not run without xvfb-run:\n{block}")
+            if lacks := lacking(block):
+                print(f"{path.name}: not run without {lacks}:\n{block}")
                 continue
             done = subprocess.run(["bash", "-e", "-c", with_window(drawn_small(block))], cwd=folder, env=environment,
                                   capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, f"{path.name}:\n{block}\n{done.stderr}")
 
     def test_every_command_runs(self):
-        environment = dict(os.environ, PATH=f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}")
+        environment = dict(os.environ, PATH=f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}",
+                           WEFT_PYTHON=str(PYTHON))
         self.assertGreater(sum(len(list(blocks(path))) for path in documents()), 15)
         for path in documents():
             with self.subTest(path.name):

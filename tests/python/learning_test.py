@@ -1,4 +1,5 @@
 """Arrays for machine learning, read back by numpy alone."""
+import functools
 import unittest
 
 import numpy as np
@@ -11,6 +12,7 @@ from module import ModuleTest
 SHAPES = {"mannequin": "auto", "tshirt": "auto", "double_torus": 6}
 
 
+@functools.cache
 def image_of(shape, size=63, **options):
     V, F = weft.read_mesh(f"builtin:{shape}")
     return weft.geometry_image(V, F, size=size, measure=False, **options)

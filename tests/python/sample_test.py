@@ -30,6 +30,15 @@ class Samples(ModuleTest):
         for block in blocks:
             # As many frames as in the document take minutes.
             exec(compile(block.replace("run(240)", "run(6)"), "docs/python.md", "exec"), names)
+        learning = BLOCK.findall((SOURCE / "docs/machine-learning.md").read_text())
+        self.assertGreater(len(learning), 2)
+        of_learning = {}
+        for block in learning:
+            exec(compile(block, "docs/machine-learning.md", "exec"), of_learning)
+        self.assertEqual(of_learning["array"].shape, (64, 64, 12))
+        self.assertEqual(of_learning["points"].shape[1], 3)
+        with np.load("sequence.npz") as sequence:
+            self.assertEqual(sequence["vertices_seq"].shape, (5, 33 * 33, 3))
         self.assertEqual(names["P"].shape, (257, 257, 3))
         self.assertTrue((names["P"] == weft.load("bunny.exr").positions).all())
         positions, times = weft.read_pc2("shirt.pc2")

@@ -1,0 +1,150 @@
+"""Where results are: a folder a job, or HDF5 files of many jobs each; and the rows that tell of them."""
+import fcntl
+import glob
+import json
+import os
+import shutil
+
+import numpy as np
+
+from .. import caches, images
+from ..errors import OutputError
+
+SHARD_JOBS = 256  # in one HDF5 file
+
+
+class Ledger:
+    """results.jsonl: one row a job that ended, written by one process; rows of parts of the jobs lie beside it."""
+
+    def __init__(self, folder, part=None):
+        os.makedirs(folder, exist_ok=True)
+        self.folder = folder
+        self._lock = open(os.path.join(folder, f".lock{'' if part is None else f'-{part}'}"), "w")  # noqa: SIM115
+        try:
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            raise OutputError(f"{folder}: another run is at work there", where=str(folder)) from error
+        self.path = os.path.join(folder, "results.jsonl" if part is None else f"results-{part}.jsonl")
+        self._drop_torn_line()
+        self._file = open(self.path, "a", encoding="utf-8")  # noqa: SIM115
+
+    def _drop_torn_line(self):
+        """What a killed run had begun to write."""
+        if not os.path.exists(self.path):
+            return
+        with open(self.path, "rb+") as file:
+            data = file.read()
+            file.truncate(data.rfind(b"\n") + 1)
+
+    def rows(self):
+        """The last row of each job, of all parts: {id: row}."""
+        found = {}
+        for path in sorted(glob.glob(os.path.join(glob.escape(self.folder), "results*.jsonl"))):
+            with open(path, encoding="utf-8") as file:
+                for line in file:
+                    if line.endswith("\n"):
+                        row = json.loads(line)
+                        if found.get(row["id"], {}).get("status") != "done":
+                            found[row["id"]] = row
+        return found
+
+    def add(self, row):
+        self._file.write(json.dumps(row) + "\n")
+        self._file.flush()
+        os.fsync(self._file.fileno())
+
+    def close(self):
+        self._file.close()
+        self._lock.close()
+
+
+class Folders:
+    """DIR/jobs/ID, as the worker left it."""
+
+    def __init__(self, folder, part=None):
+        self._folder = folder
+
+    def holds(self, row):
+        return os.path.isdir(os.path.join(self._folder, "jobs", row["id"]))
+
+    def take(self, row):
+        """Where a job's result is, beside DIR."""
+        return os.path.join("jobs", row["id"])
+
+    def close(self):
+        """Nothing is open."""
+
+
+class Hdf5:
+    """DIR/shards/*.h5: a group a job, with the arrays of what it made; attributes tell of the job.
+
+    Of an image: ``positions`` (n, n, 3) float64 [m], ``classes`` (n, n) int32. Of a run: each point cache under its name, (T, n, 3)
+    float32 [m].
+    """
+
+    def __init__(self, folder, part=None):
+        import h5py  # only where it is asked for
+        self._h5py, self._folder, self._file, self._count = h5py, folder, None, 0
+        self._prefix = "" if part is None else f"{part}-"
+
+    def holds(self, row):
+        path = os.path.join(self._folder, row.get("place", "").split(":")[0])
+        if not os.path.isfile(path):
+            return False
+        try:
+            with self._h5py.File(path, "r") as file:
+                return row["id"] in file and file[row["id"]].attrs.get("whole", False)
+        except OSError:  # killed while it was written
+            os.rename(path, f"{path}.damaged")
+            return False
+
+    def _open(self):
+        if self._file is not None and self._count < SHARD_JOBS:
+            return self._file
+        self.close()
+        os.makedirs(os.path.join(self._folder, "shards"), exist_ok=True)
+        number = 0
+        while os.path.exists(self._path(number)) or os.path.exists(self._path(number) + ".damaged"):
+            number += 1
+        self._file, self._count, self._number = self._h5py.File(self._path(number), "w"), 0, number
+        return self._file
+
+    def _path(self, number):
+        return os.path.join(self._folder, "shards", f"{self._prefix}{number:05}.h5")
+
+    def take(self, row):
+        made = os.path.join(self._folder, "jobs", row["id"])
+        file = self._open()
+        group = file.create_group(row["id"])
+        for name, array in arrays_of(os.path.join(made, "made")):
+            group.create_dataset(name, data=array, compression="gzip", compression_opts=4, shuffle=True)
+        group.attrs["row"] = json.dumps(row)
+        with open(os.path.join(made, "report.json"), encoding="utf-8") as report:
+            text = report.read()
+        if len(text) < 60000:  # attributes of this format are small
+            group.attrs["report"] = text
+        group.attrs["whole"] = True
+        self._count += 1
+        file.flush()
+        shutil.rmtree(made)
+        return f"{os.path.relpath(self._path(self._number), self._folder)}:{row['id']}"
+
+    def close(self):
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+
+def arrays_of(made):
+    """(name, array) of what a job made."""
+    for path in sorted(glob.glob(os.path.join(glob.escape(made), "*"))):
+        name = os.path.basename(path)
+        if name == "image.exr":
+            image = images.load(path)
+            yield "positions", np.asarray(image.positions)
+            yield "classes", image.classes
+        elif name.endswith(".pc2"):
+            yield name[:-4], caches.read_pc2(path)[0]
+
+
+STORES = {"folder": Folders, "hdf5": Hdf5}

@@ -1,0 +1,300 @@
+"""Batches: every job once, whatever dies; failures named; the same hashes as single runs."""
+import csv
+import hashlib
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import numpy as np
+
+import weft
+import weft.batch.jobs
+from module import ModuleTest, PROGRAM
+
+try:
+    import distributed
+    import h5py
+    import psutil
+except ImportError as missing:
+    raise unittest.SkipTest(f"skipped: {missing}; python3-distributed, python3-h5py and python3-psutil are wanted") from missing
+
+BATCH = [sys.executable, "-m", "weft.batch"]
+PATIENCE = 240  # seconds for what is waited for on a crowded machine
+
+
+class BatchTest(ModuleTest):
+    def write_jobs(self, *jobs, name="jobs.jsonl"):
+        (self.folder / name).write_text("".join(json.dumps(job) + "\n" for job in jobs))
+        return name
+
+    def batch(self, *words, code=0):
+        done = subprocess.run([*BATCH, *map(str, words)], capture_output=True, text=True, timeout=PATIENCE)
+        self.assertEqual(done.returncode, code, f"{words}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def begin(self, *words):
+        process = subprocess.Popen([*BATCH, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def wait_for(self, what, process):
+        """What is asked for, as soon as it is there."""
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            found = what()
+            if found:
+                return found
+            if process.poll() is not None:
+                self.fail(f"ended too early with {process.returncode}: {process.stdout.read()}")
+            time.sleep(0.02)
+        self.fail("waited for too long")
+
+    def rows(self, folder="out"):
+        return [json.loads(line) for line in (self.folder / folder / "results.jsonl").read_text().splitlines()]
+
+    def single_hash(self, job):
+        """Of the same command, run alone."""
+        if job["command"] == "convert":
+            self.run_weft("convert", job["mesh"], "-o", "alone.exr", "--size", job["size"], "--quiet")
+            return hashlib.sha256((self.folder / "alone.exr").read_bytes()).hexdigest()[:16]
+        report = self.run_weft("drape", job["cloth"], job["body"], "-o", "alone", "--size", job["size"], "--frames", job["frames"], "--json")
+        return json.loads(report)["state_hash"]
+
+    def assert_each_done_once(self, jobs, folder="out"):
+        done = [row for row in self.rows(folder) if row["status"] == "done"]
+        self.assertEqual(len(done), len({row["id"] for row in done}), "no job is done twice")
+        self.assertEqual(len(done), len(jobs))
+        by_job = {json.dumps([row["inputs"], row["options"]], sort_keys=True): row for row in done}
+        self.assertEqual(len(by_job), len(jobs))
+        return done
+
+
+def conversion(shape, size=17, **more):
+    return {"command": "convert", "mesh": f"builtin:{shape}", "size": size, **more}
+
+
+def drape(body="sphere", frames=4, size=17, **more):
+    return {"command": "drape", "cloth": "builtin:sheet", "body": f"builtin:{body}", "size": size, "frames": frames, **more}
+
+
+class Batch(BatchTest):
+    def test_results_are_those_of_single_runs_and_failures_are_named(self):
+        good = [conversion("torus"), conversion("knot", 33), drape()]
+        bad = [conversion("shoe"), conversion("mannequin", 1025, memory=30), drape("mannequin", 100000, 65, timeout=1)]
+        jobs = self.write_jobs(*good, *bad, good[0])
+        done = self.batch(jobs, "-o", "out", "--workers", 2, code=4)
+        rows = {json.dumps([row["inputs"], row["options"].get("size")]): row for row in self.rows()}
+        self.assertEqual(len(rows), 6)
+        for job in good:
+            words = [job[word] for word in weft.batch.jobs.WORDS[job["command"]]]
+            row = rows[json.dumps([words, job["size"]])]
+            self.assertEqual((row["status"], row["hash"], row["attempt"]), ("done", self.single_hash(job), 1))
+            self.assertTrue((self.folder / "out" / row["place"] / "made").is_dir())
+        errors = {row["id"]: row["error"] for row in rows.values() if row["status"] == "failed"}
+        for word in ("no such shape", "30 MB at most", "ended after 1 s"):
+            self.assertEqual(sum(word in text for text in errors.values()), 1, errors)
+            self.assertIn(word, done.stdout)
+        for name in errors:  # what is kept of a failure tells how to run it again
+            told = json.loads((self.folder / "out/failed" / name / "job.json").read_text())
+            self.assertEqual(told["id"], name)
+        with open("out/index.csv", newline="", encoding="utf-8") as file:
+            self.assertEqual(sorted(line["place"] for line in csv.DictReader(file)),
+                             sorted(row["place"] for row in rows.values() if row["status"] == "done"))
+        self.assertFalse((self.folder / "out/work").exists())
+        again = self.batch(jobs, "-o", "out", "--workers", 1, code=4)
+        self.assertIn("3 of 6 jobs are done already", again.stderr)
+        self.assert_each_done_once(good)
+
+    def test_a_changed_input_is_another_job(self):
+        V, F = weft.read_mesh("builtin:torus")
+        weft.write_mesh("a.obj", V, F)
+        jobs = self.write_jobs({"mesh": "*.obj", "size": 17})
+        self.batch(jobs, "-o", "out", "--quiet")
+        self.batch(jobs, "-o", "out", "--quiet")
+        self.assertEqual(len(self.rows()), 1)
+        weft.write_mesh("a.obj", 2 * V, F)
+        weft.write_mesh("b.obj", 3 * V, F)
+        self.batch(jobs, "-o", "out", "--quiet")
+        self.assertEqual(len({row["id"] for row in self.rows()}), 3)
+        self.batch(".", "-o", "folder", "--quiet", code=0)  # a folder of meshes, at the program's own size
+        self.assertEqual([row["size"] for row in self.rows("folder")], [257, 257])
+
+    def test_scenes_depend_on_the_files_that_they_name(self):
+        weft.builtin("sheet", size=9).save("sheet.exr")
+        scene = {"version": 1, "frames": 2, "cloths": [{"surface": "sheet.exr"}]}
+        (self.folder / "scene.json").write_text(json.dumps(scene))
+        reader = weft.batch.jobs.Reader(PROGRAM)
+        (job,) = reader.read(self.write_jobs({"command": "simulate", "scene": "scene.json"}))
+        weft.builtin("sheet", size=17).save("sheet.exr")
+        (other,) = weft.batch.jobs.Reader(PROGRAM).read("jobs.jsonl")
+        self.assertNotEqual(job.id, other.id)
+        self.batch("jobs.jsonl", "-o", "out", "--quiet")
+        self.assertEqual(self.rows()[0]["frames"], 2)
+
+    def test_tables_and_lines_say_the_same(self):
+        (self.folder / "jobs.csv").write_text("mesh,size,fit,parameterizer,timeout\nbuiltin:torus,17,true,,\nbuiltin:knot,33,,floater,9.5\n")
+        lines = self.write_jobs({"mesh": "builtin:torus", "size": 17, "fit": True},
+                                {"mesh": "builtin:knot", "size": 33, "parameterizer": "floater", "timeout": 9.5})
+        tables = weft.batch.jobs.Reader(PROGRAM).read("jobs.csv")
+        objects = weft.batch.jobs.Reader(PROGRAM).read(lines)
+        self.assertEqual([job.line() for job in tables], [job.line() for job in objects])
+        self.assertEqual([job.id for job in tables], [job.id for job in objects])
+        threads = weft.batch.jobs.Reader(PROGRAM).read(self.write_jobs({"mesh": "builtin:torus", "size": 17, "fit": True, "threads": 2}))
+        self.assertEqual(threads[0].id, tables[0].id)
+
+    def test_jobs_that_are_none_are_refused_before_anything_runs(self):
+        wrong = {'{"mesh": "builtin:torus", "sise": 17}': "sise", '{"command": "fold", "mesh": "a.obj"}': "fold", "{": "no JSON", "[1]": "object",
+                 '{"command": "drape", "cloth": "builtin:sheet"}': "no 'body'", '{"mesh": "none*.obj"}': "none*.obj",
+                 '{"mesh": "builtin:torus", "timeout": -1}': "timeout", '{"mesh": "builtin:torus", "output": "x.exr"}': "output",
+                 '{"mesh": "builtin:torus", "size": null}': "size"}
+        for line, word in wrong.items():
+            (self.folder / "jobs.jsonl").write_text('{"mesh": "builtin:torus"}\n' + line + "\n")
+            said = self.batch("jobs.jsonl", "-o", "out", code=3).stderr
+            self.assertTrue(said.startswith("weft.batch: error: jobs.jsonl:2: "), said)
+            self.assertIn(word, said)
+            self.assertEqual(len(said.splitlines()), 1)
+        for words in (["none.csv", "-o", "out"], [self.write_jobs(name="empty.jsonl"), "-o", "out"]):
+            self.assertEqual(len(self.batch(*words, code=3).stderr.splitlines()), 1)
+        self.batch("jobs.jsonl", code=2)
+        self.batch("jobs.jsonl", "-o", "out", "--workers", 0, code=2)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_hdf5_holds_what_the_folders_do(self):
+        jobs = self.write_jobs(conversion("torus"), drape(export="pc2"), conversion("shoe"))
+        self.batch(jobs, "-o", "folders", "--quiet", code=4)
+        self.batch(jobs, "-o", "out", "--store", "hdf5", "--quiet", code=4)
+        folders = {row["id"]: row for row in self.rows("folders")}
+        self.assertFalse(any((self.folder / "out/jobs").glob("*")))
+        for row in self.rows():
+            self.assertEqual(row.get("hash"), folders[row["id"]].get("hash"))
+            if row["status"] == "failed":
+                continue
+            shard, name = row["place"].split(":")
+            made = self.folder / "folders/jobs" / name / "made"
+            with h5py.File(f"out/{shard}", "r") as file:
+                group = file[name]
+                self.assertEqual(json.loads(group.attrs["row"])["hash"], row["hash"])
+                if row["command"] == "convert":
+                    np.testing.assert_array_equal(group["positions"], weft.load(made / "image.exr").positions)
+                else:
+                    caches = list(made.glob("*.pc2"))
+                    self.assertTrue(caches)
+                    for cache in caches:
+                        np.testing.assert_array_equal(group[cache.stem], weft.read_pc2(cache)[0])
+        before = (self.folder / "out/results.jsonl").read_text()
+        self.batch(jobs, "-o", "out", "--store", "hdf5", "--quiet", code=4)
+        self.assertEqual(len((self.folder / "out/results.jsonl").read_text().splitlines()), len(before.splitlines()) + 1)  # the failure
+
+    def test_tasks_of_an_array_and_what_gathers_them(self):
+        jobs = self.write_jobs(conversion("torus"), conversion("knot"), conversion("sphere"))
+        self.batch(jobs, "-o", "out", "--slurm", 2)
+        script = (self.folder / "out/slurm.sh").read_text()
+        self.assertIn("#SBATCH --array=0-1\n", script)
+        self.assertEqual(subprocess.run(["bash", "-n", "out/slurm.sh"]).returncode, 0)
+        for task in range(2):  # as Slurm would
+            done = subprocess.run(["bash", "out/slurm.sh"], env={**os.environ, "SLURM_ARRAY_TASK_ID": str(task)}, capture_output=True,
+                                  text=True, timeout=PATIENCE)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(len((self.folder / f"out/results-{task}.jsonl").read_text().splitlines()) for task in range(2)), [1, 2])
+        self.batch("out/jobs.jsonl", "-o", "out")
+        self.assertEqual((self.folder / "out/results.jsonl").read_text(), "")
+        with open("out/index.csv", newline="", encoding="utf-8") as file:
+            self.assertEqual(len(list(csv.DictReader(file))), 3)
+
+
+class BatchSurvives(BatchTest):
+    JOBS = [conversion("knot", 129), *(conversion("mannequin", size) for size in (65, 97, 129, 161)), drape("mannequin", 6, 33),
+            conversion("torus")]
+
+    def workers_at_work(self, process):
+        """Of a batch: processes whose child is the program."""
+        try:
+            return [child.parent() for child in psutil.Process(process.pid).children(recursive=True)
+                    if child.is_running() and child.name() == "weft" and child.ppid() != process.pid]
+        except psutil.NoSuchProcess:
+            return []
+
+    def test_a_killed_worker_costs_its_job_an_attempt_and_nothing_else(self):
+        process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--workers", 2)
+        victim, *_ = self.wait_for(lambda: self.workers_at_work(process), process)
+        os.kill(victim.pid, signal.SIGKILL)
+        said = process.communicate(timeout=PATIENCE)[0]
+        self.assertEqual(process.returncode, 0, said)
+        done = self.assert_each_done_once(self.JOBS)
+        self.assertGreaterEqual(max(row["attempt"] for row in done), 2)
+
+    def test_a_killed_batch_goes_on(self):
+        words = (self.write_jobs(*self.JOBS), "-o", "out", "--workers", 2)
+        process = self.begin(*words)
+        results = self.folder / "out/results.jsonl"
+        self.wait_for(lambda: results.exists() and results.read_text().count("\n") >= 2, process)
+        family = psutil.Process(process.pid).children(recursive=True)
+        process.kill()
+        process.wait()
+        _, alive = psutil.wait_procs(family, timeout=PATIENCE)
+        self.assertEqual(alive, [], "nothing of it stays")
+        kept = len(self.rows())
+        with open(results, "a", encoding="utf-8") as file:
+            file.write('{"id": "torn')  # as if it was killed while writing
+        self.batch(*words)
+        done = self.assert_each_done_once(self.JOBS)
+        self.assertLess(kept, len(done))
+        for job in (self.JOBS[0], self.JOBS[5]):
+            words = [job[word] for word in weft.batch.jobs.WORDS[job["command"]]]
+            (row,) = (row for row in done if row["inputs"] == words and row["options"]["size"] == job["size"])
+            self.assertEqual(row["hash"], self.single_hash(job))
+
+    def test_ctrl_c_keeps_what_was_finished(self):
+        process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--workers", 1)
+        results = self.folder / "out/results.jsonl"
+        self.wait_for(lambda: results.exists() and results.read_text(), process)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=PATIENCE)[0]
+        self.assertEqual(process.returncode, 130, said)
+        self.assertIn("interrupted; what was finished is kept", said)
+        self.batch("jobs.jsonl", "-o", "out", "--workers", 2)
+        self.assert_each_done_once(self.JOBS)
+
+    def test_two_batches_do_not_share_a_folder(self):
+        process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--workers", 1)
+        self.wait_for((self.folder / "out/results.jsonl").exists, process)
+        self.assertIn("another run is at work there", self.batch("jobs.jsonl", "-o", "out", code=3).stderr)
+
+    def test_a_running_scheduler_takes_the_jobs(self):
+        def start(*words):
+            process = subprocess.Popen([sys.executable, "-m", *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.addCleanup(process.wait)
+            self.addCleanup(process.terminate)
+            return process
+        start("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", "scheduler.json")
+        end = time.monotonic() + PATIENCE
+        while not pathlib.Path("scheduler.json").exists() and time.monotonic() < end:
+            time.sleep(0.05)
+        time.sleep(0.2)
+        address = json.loads(pathlib.Path("scheduler.json").read_text())["address"]
+        for _ in range(2):
+            start("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-dashboard", "--local-directory", str(self.folder))
+        with distributed.Client(address, set_as_default=False) as client:
+            client.wait_for_workers(2, timeout=PATIENCE)
+            pids = list(client.run(os.getpid).values())
+        process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--scheduler", address)
+
+        def at_work():
+            return [pid for pid in pids if psutil.pid_exists(pid) and psutil.Process(pid).children()]
+        victim, *_ = self.wait_for(at_work, process)
+        os.kill(victim, signal.SIGKILL)
+        said = process.communicate(timeout=PATIENCE)[0]
+        self.assertEqual(process.returncode, 0, said)
+        self.assert_each_done_once(self.JOBS)
+        self.assertIn("no scheduler answers", self.batch("jobs.jsonl", "-o", "other", "--scheduler", "tcp://127.0.0.1:9", code=3).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
