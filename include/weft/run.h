@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -130,6 +131,26 @@ double energy_gained(const RunReport& report);
 /// Writes positions over time as a point cache (PC2), as runs export them: one sample a frame.
 /// @throws InputError as check_point_cache; OutputError
 void write_pc2(const std::filesystem::path& path, const PointCache& cache);
+
+/// The vertices of the mesh that a cloth was made from, carried along by its samples: what exports
+/// on the input write.
+class CarriedVertices {
+ public:
+  /// @param simulation  at any frame; not needed afterwards
+  /// @param placement   of the cloth in the scene
+  /// @throws UsageError where the cloth was made from an image
+  CarriedVertices(const Simulation& simulation, std::size_t cloth, const Placement& placement);
+  CarriedVertices(const CarriedVertices&) = delete;
+  CarriedVertices& operator=(const CarriedVertices&) = delete;
+  ~CarriedVertices();
+  /// Positions of all vertices, in the order of the mesh. [V] y up [m]
+  /// @param samples  of the cloth at some frame [n x n] [m]
+  [[nodiscard]] std::vector<Vec3f> positions(const Planes3& samples) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 /// The columns of frames.csv, one line with its end.
 std::string frames_csv_header();

@@ -80,7 +80,10 @@ class Claim {
 
 class Simulated {
  public:
-  explicit Simulated(std::shared_ptr<Stepper> stepper) : stepper_(std::move(stepper)) {}
+  Simulated(std::shared_ptr<Stepper> stepper, const std::vector<SceneCloth>& cloths)
+      : stepper_(std::move(stepper)), carried_(cloths.size()) {
+    for (const SceneCloth& cloth : cloths) placements_.push_back(cloth.placement);
+  }
 
   py::dict advance(const py::object& progress) {
     const auto claim = std::make_shared<Claim>(stepper_);
@@ -118,6 +121,23 @@ class Simulated {
   }
   Image body_image(std::size_t index) {
     return {std::make_shared<const GeometryImage>(stepper_->simulation.bodies().at(index).image)};
+  }
+  /// The vertices of the mesh of a cloth where its samples (n, n, 3) are so. (V, 3)
+  py::array_t<float> carry(std::size_t index, const Floats& samples) {
+    const SimulatedCloth& cloth = stepper_->simulation.cloths().at(index);
+    const int n = cloth.image.size();
+    if (samples.ndim() != 3 || samples.shape(0) != n || samples.shape(1) != n ||
+        samples.shape(2) != 3)
+      throw py::value_error("the cloth's samples (n, n, 3) are wanted");
+    std::unique_ptr<CarriedVertices>& carried = carried_.at(index);
+    if (!carried)
+      carried = std::make_unique<CarriedVertices>(stepper_->simulation, index, placements_[index]);
+    Planes3 planes(n);
+    const float* p = samples.data();
+    for (int sample = 0; sample < n * n; ++sample, p += 3) planes.set(sample, {p[0], p[1], p[2]});
+    std::vector<Vec3f> positions = carried->positions(planes);
+    const auto vertices = static_cast<py::ssize_t>(positions.size());
+    return array_of<float>(std::move(positions), {vertices, 3});
   }
   std::string hash() {
     const Claim claim(stepper_);
@@ -173,6 +193,8 @@ class Simulated {
   }
 
   std::shared_ptr<Stepper> stepper_;
+  std::vector<Placement> placements_;                      // of cloths
+  std::vector<std::unique_ptr<CarriedVertices>> carried_;  // of cloths, made when asked for
 };
 
 /// A surface in memory: None, an Image, or a mesh as (V, F, name).
@@ -226,7 +248,7 @@ std::unique_ptr<Simulated> simulate(const std::string& json, const std::string& 
   run_released(progress, [scene, name, threads, made](Progress& told) {
     *made = std::make_shared<Stepper>(scene, name, threads, told);
   });
-  return std::make_unique<Simulated>(*made);
+  return std::make_unique<Simulated>(*made, scene.cloths);
 }
 
 void write_cache(const std::string& path, const Floats& positions) {
@@ -271,6 +293,7 @@ void add_simulations(py::module_& module) {
       .def("strains", &Simulated::strains)
       .def("cloth_image", &Simulated::cloth_image)
       .def("body_image", &Simulated::body_image)
+      .def("carry", &Simulated::carry)
       .def("state_hash", &Simulated::hash)
       .def("save", &Simulated::save)
       .def("restore", &Simulated::restore)

@@ -120,12 +120,14 @@ class Frame:
         self._simulation, self._samples, self._counts = simulation, samples, None
 
     def positions(self, cloth, on="mesh"):
-        """Where a cloth is [m]. on: "mesh": (n, 3) float32, the vertices of ``cloth.image.to_mesh()``; "samples": (N, N, 3)."""
+        """Where a cloth is [m].
+
+        on: "mesh": (n, 3) float32, the vertices of ``cloth.image.to_mesh()``; "samples": (N, N, 3), all samples of its image;
+        "input": (V, 3), the vertices of the mesh that it was made from, in their order (ValueError for a cloth that was given as an
+        image).
+        """
         index = self._simulation._index(cloth)
-        samples = self._samples[index]
-        if _arguments.choice(on, "on", ("mesh", "samples")) == "samples":
-            return samples
-        return samples.reshape(-1, 3)[self._simulation._image(index).sample_of]
+        return self._simulation._on(on, index, self._samples[index])
 
     @property
     def intersection_counts(self):
@@ -264,6 +266,12 @@ class Simulation:
     def _samples(self):
         return [self._core.cloth_samples(index) for index in range(len(self._names))]
 
+    def _on(self, on, index, samples):
+        _arguments.choice(on, "on", ("mesh", "samples", "input"))
+        if on == "input":
+            return self._core.carry(index, samples)
+        return samples if on == "samples" else samples.reshape(-1, 3)[self._image(index).sample_of]
+
     def _keep(self):
         samples = self._samples()
         for array in samples:
@@ -308,8 +316,8 @@ class Simulation:
         """What was repaired while loading, and the like: list of sentences."""
         return self.start()._core.notes
 
-    def cache(self, cloth):
-        """(T, n, 3) float32 [m]: what `Frame.positions` gave of a cloth in all frames up to now, the start first.
+    def cache(self, cloth, on="mesh"):
+        """(T, n, 3) float32 [m]: what `Frame.positions` gives of a cloth in all frames up to now, the start first.
 
         Raises RuntimeError where frames were not recorded.
         """
@@ -317,8 +325,7 @@ class Simulation:
         frames = range(self.start().frame + 1)
         if any(frame not in self._record for frame in frames):
             raise RuntimeError("frames were not recorded: run(n, record=True) is wanted from the start on")
-        chosen = self._image(index).sample_of
-        return np.stack([self._record[frame][index].reshape(-1, 3)[chosen] for frame in frames])
+        return np.stack([self._on(on, index, self._record[frame][index]) for frame in frames])
 
     def body_positions(self, index):
         """(N, N, 3) float32 [m]: where the samples of a body, numbered as it was added, are now."""

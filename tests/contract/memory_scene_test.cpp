@@ -115,6 +115,37 @@ TEST(MemoryScene, WhatIsInMemoryAloneIsNotWrittenAsAFile) {
   EXPECT_GT(estimate_memory(scene), 1'000'000U);
 }
 
+TEST(MemoryScene, VerticesOfAMeshAreCarriedByItsSamples) {
+  const TriangleMesh ball = make_shape("sphere");
+  SceneCloth cloth;
+  cloth.surface = {ball, "ball"};
+  cloth.size = 33;
+  cloth.placement.translate = {0, 3, 0};
+  SceneCloth sheet;
+  sheet.name = "sheet";
+  sheet.size = 9;
+  sheet.placement.translate = {5, 3, 0};
+  Scene scene;
+  scene.cloths = {cloth, sheet};
+  const Simulation simulation(scene, "memory", 1);
+  const CarriedVertices carried(simulation, 0, cloth.placement);
+  const Planes3& rest = simulation.cloths()[0].state.position;
+  Planes3 turned = rest;  // by a quarter about x, and moved
+  for (int s = 0; s < 33 * 33; ++s) turned.set(s, {rest.at(s).x + 1, -rest.at(s).z, rest.at(s).y});
+  const auto there = carried.positions(rest), moved = carried.positions(turned);
+  ASSERT_EQ(there.size(), ball.positions.size());
+  double at_rest = 0, after = 0;
+  for (std::size_t v = 0; v < there.size(); ++v) {
+    const Vec3d wanted = ball.positions[v] + Vec3d{0, 3, 0};
+    at_rest = std::fmax(at_rest, length(vec_cast<double>(there[v]) - wanted));
+    after = std::fmax(
+        after, length(vec_cast<double>(moved[v]) - Vec3d{wanted.x + 1, -wanted.z, wanted.y}));
+  }
+  EXPECT_LT(at_rest, 1e-6);
+  EXPECT_LT(after, 1e-5);
+  EXPECT_THROW(CarriedVertices(simulation, 1, sheet.placement), UsageError);
+}
+
 TEST(MemoryScene, StrainAtSamplesTellsOfStretch) {
   SceneCloth sheet;
   sheet.size = 17;

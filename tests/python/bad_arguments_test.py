@@ -71,6 +71,11 @@ def foreign_cloth():
     return next(first.run(1)).positions(other)
 
 
+def positions_on(on):
+    simulation, cloth = sphere_on_floor()
+    return next(simulation.run(1)).positions(cloth, on=on)
+
+
 def late(add):
     simulation, _ = sphere_on_floor()
     simulation.start()
@@ -224,6 +229,8 @@ CASES = [
     (RuntimeError, "begun", lambda: late(lambda simulation: simulation.add_cloth("builtin:sheet"))),
     (RuntimeError, "begun", lambda: late(lambda simulation: simulation.add_body("builtin:sphere"))),
     (Shape, "cloth", foreign_cloth),
+    (Shape, "geometry image", lambda: positions_on("input")),
+    (Shape, "on: ", lambda: positions_on("vertices")),
     (Shape, "state", foreign_state),
     (Type, "state", lambda: late(lambda simulation: simulation.restore(None))),
     (Shape, "body", lambda: late(lambda simulation: simulation.body_positions(3))),

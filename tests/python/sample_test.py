@@ -122,6 +122,23 @@ class SameBits(ModuleTest):
                 weft.write_pc2("module.pc2", simulation.cache(simulation.cloths[0]))
                 self.assertEqual((self.folder / "module.pc2").read_bytes(), next(self.folder.glob("run/*.pc2")).read_bytes())
 
+    def test_vertices_of_a_mesh_follow_as_the_program_writes_them(self):
+        weft.write_mesh("shirt.obj", *weft.read_mesh("builtin:tshirt"))
+        V, F = weft.read_mesh("shirt.obj")
+        scene = {"version": 1, "frames": 4, "cloths": [{"surface": "shirt.obj", "size": 33, "translate": [0, 0.2, 0]}]}
+        (self.folder / "scene.json").write_text(json.dumps(scene))
+        report = json.loads(self.run_weft("simulate", "scene.json", "-o", "run", "--export", "pc2", "--json"))
+        simulation = weft.Simulation()
+        cloth = simulation.add_cloth((V, F), size=33, translate=(0, 0.2, 0), fabric={})
+        *_, last = simulation.run(4)
+        self.assertEqual(simulation.state_hash, report["state_hash"])
+        wanted, _ = weft.read_pc2("run/cloth.pc2")
+        np.testing.assert_array_equal(simulation.cache(cloth, on="input"), wanted)
+        np.testing.assert_array_equal(last.positions(cloth, on="input"), wanted[-1])
+        self.assertEqual(wanted.shape[1:], V.shape)
+        np.testing.assert_array_equal(simulation.cache(cloth, on="samples")[-1].reshape(-1, 3)[cloth.image.sample_of],
+                                      last.positions(cloth))
+
     def test_saved_states_give_the_same_frames_again(self):
         simulation = weft.Simulation(threads=1)
         simulation.add_body("builtin:sphere", scale=0.5, translate=(0, 0.3, 0))
