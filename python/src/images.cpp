@@ -234,6 +234,7 @@ py::array_t<std::int32_t> classes_of(const Image& self) {
   const int n = self.image->size();
   const BorderMates& mates = self.image->mates;
   std::vector<std::int32_t> classes;
+  classes.reserve(static_cast<std::size_t>(n) * n);
   for (int sample = 0; sample < n * n; ++sample)
     classes.push_back(mates.is_hole(sample) ? -1 : mates.representative(sample));
   return array_of<std::int32_t>(std::move(classes), {n, n});

@@ -37,6 +37,7 @@ void raise(const Error& error) {
   PyErr_SetObject(raised.ptr(), raised(error.what(), **fields).ptr());
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 asks for this signature
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);

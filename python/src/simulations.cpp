@@ -229,21 +229,35 @@ void put_motion(const py::handle& given, SceneBody& body) {
   body.animation = Animation(std::move(cache), "motion of " + body.name);
 }
 
-/// @param cloths, bodies  what is in memory of each of the scene's, as put_surface takes it
-/// @param motions         of the bodies, as put_motion takes them
-std::unique_ptr<Simulated> simulate(const std::string& json, const std::string& name,
-                                    const std::string& folder, const py::list& cloths,
-                                    const py::list& bodies, const py::list& motions, int threads,
-                                    const py::object& progress) {
-  Scene scene = parse_scene(json, name, folder);
-  for (std::size_t i = 0; i < cloths.size() && i < scene.cloths.size(); ++i)
-    put_surface(cloths[i], scene.cloths[i].surface, scene.cloths[i].name);
-  for (std::size_t i = 0; i < bodies.size() && i < scene.bodies.size(); ++i)
-    put_surface(bodies[i], scene.bodies[i].surface, scene.bodies[i].name);
-  for (std::size_t i = 0; i < motions.size() && i < scene.bodies.size(); ++i)
-    put_motion(motions[i], scene.bodies[i]);
+/// Puts what is in memory of each surface or motion into a scene's cloths or bodies.
+template <class Items, class Put>
+void put_all(const py::handle& given, Items& items, const Put& put) {
+  const auto list = given.cast<py::list>();
+  for (std::size_t i = 0; i < list.size() && i < items.size(); ++i) put(list[i], items[i]);
+}
+
+/// @param given  the scene's `json`, `name` and `folder`; of what is in memory `cloths` and
+/// `bodies`,
+///               as put_surface takes each, and `motions` of bodies, as put_motion takes each
+Scene scene_of(const py::dict& given) {
+  const auto name = given["name"].cast<std::string>();
+  Scene scene =
+      parse_scene(given["json"].cast<std::string>(), name, given["folder"].cast<std::string>());
+  const auto put = [](const py::handle& surface, auto& made) {
+    put_surface(surface, made.surface, made.name);
+  };
+  put_all(given["cloths"], scene.cloths, put);
+  put_all(given["bodies"], scene.bodies, put);
+  put_all(given["motions"], scene.bodies, put_motion);
   if (const std::optional<std::uint64_t> available = available_memory())
     check_memory(estimate_memory(scene), *available, name);
+  return scene;
+}
+
+std::unique_ptr<Simulated> simulate(const py::dict& given, int threads,
+                                    const py::object& progress) {
+  const Scene scene = scene_of(given);
+  const auto name = given["name"].cast<std::string>();
   const auto made = std::make_shared<std::shared_ptr<Stepper>>();
   run_released(progress, [scene, name, threads, made](Progress& told) {
     *made = std::make_shared<Stepper>(scene, name, threads, told);

@@ -256,8 +256,9 @@ class Simulation:
         if self._core is not None:
             return self
         text = self._scene if isinstance(self._scene, str) else _json(self._scene)
-        core = _weft.simulate(text, self._name, self._folder, self._cloth_memory, self._body_memory, self._motions,
-                              self._threads, _arguments.progress(progress))
+        given = {"json": text, "name": self._name, "folder": self._folder, "cloths": self._cloth_memory,
+                 "bodies": self._body_memory, "motions": self._motions}
+        core = _weft.simulate(given, self._threads, _arguments.progress(progress))
         self._names = core.names(True)
         self._core = core
         self._keep()

@@ -71,7 +71,7 @@ class SameBits(ModuleTest):
             self.run_weft("convert", name, "-o", "program.exr", "--size", 33, *flags)
             wanted = (self.folder / "program.exr").read_bytes()
             V, F = weft.read_mesh(name)
-            for threads in (1, 2, 3):
+            for threads in (1, 3):
                 image = weft.geometry_image(V, F, size=33, name=name, threads=threads, **options)
                 image.save("module.exr")
                 self.assertEqual((self.folder / "module.exr").read_bytes(), wanted, f"{shape}, {threads} threads")
@@ -109,18 +109,17 @@ class SameBits(ModuleTest):
         shirt = weft.builtin("tshirt", size=33)
         shirt.save("shirt.exr")
         report = self.simulated()
-        for threads in (1, 3):
-            by_file = weft.Simulation.from_scene("scene.json", threads=threads)
-            by_calls = weft.Simulation(threads=threads)
-            by_calls.add_body(weft.Body("builtin:mannequin", size=65), friction=0.3)
-            by_calls.add_cloth(shirt, fabric="denim")
-            for simulation in (by_file, by_calls):
-                *_, last = simulation.run(10)
-                self.assertEqual(simulation.state_hash, report["state_hash"])
-                self.assertEqual(last.intersections, report["intersections"])
-                self.assertEqual(last.strain._asdict(), report["strain"])
-                weft.write_pc2("module.pc2", simulation.cache(simulation.cloths[0]))
-                self.assertEqual((self.folder / "module.pc2").read_bytes(), next(self.folder.glob("run/*.pc2")).read_bytes())
+        by_file = weft.Simulation.from_scene("scene.json", threads=3)
+        by_calls = weft.Simulation(threads=1)
+        by_calls.add_body(weft.Body("builtin:mannequin", size=65), friction=0.3)
+        by_calls.add_cloth(shirt, fabric="denim")
+        for simulation in (by_file, by_calls):
+            *_, last = simulation.run(10)
+            self.assertEqual(simulation.state_hash, report["state_hash"])
+            self.assertEqual(last.intersections, report["intersections"])
+            self.assertEqual(last.strain._asdict(), report["strain"])
+            weft.write_pc2("module.pc2", simulation.cache(simulation.cloths[0]))
+            self.assertEqual((self.folder / "module.pc2").read_bytes(), next(self.folder.glob("run/*.pc2")).read_bytes())
 
     def test_vertices_of_a_mesh_follow_as_the_program_writes_them(self):
         weft.write_mesh("shirt.obj", *weft.read_mesh("builtin:tshirt"))
