@@ -135,7 +135,7 @@ TEST(BodyMotion, AnimationOfAnImageHasItsSamplesOrItsVertices) {
   EXPECT_EQ(test::message_of<SceneError>([&] {
               BodyMotion(body, surface, {frame_rate, {}});
             }),
-            body.animation +
+            body.animation.name +
                 ": 100 points; 289 (the samples of builtin:torus), or 256 (mates joined), are "
                 "wanted");
 }
@@ -145,7 +145,7 @@ TEST(BodyMotion, AnimationOfAMeshNeedsItsVertices) {
   SceneBody body;
   body.surface = "builtin:box";
   body.animation = (folder / "a.pc2").string();
-  Pc2Writer writer(body.animation, 7);
+  Pc2Writer writer(body.animation.name, 7);
   writer.add(std::vector<Vec3f>(7));
   writer.finish();
   ConvertOptions options;
@@ -155,7 +155,8 @@ TEST(BodyMotion, AnimationOfAMeshNeedsItsVertices) {
   EXPECT_EQ(test::message_of<SceneError>([&] {
               BodyMotion(body, surface, {frame_rate, {}});
             }),
-            body.animation + ": 7 points; " + std::to_string(make_shape("box").positions.size()) +
+            body.animation.name + ": 7 points; " +
+                std::to_string(make_shape("box").positions.size()) +
                 ", the vertices of builtin:box, are wanted");
 }
 

@@ -90,7 +90,7 @@ TEST(SceneFile, EveryKeyIsRead) {
   ASSERT_EQ(scene.bodies[0].motion.size(), 2);
   EXPECT_EQ(scene.bodies[0].motion[1].rotate, (Vec3d{1, 2, 3}));
   EXPECT_EQ(scene.bodies[0].lead_in, 0.5);
-  EXPECT_TRUE(scene.bodies.at(1).animation.ends_with("/c.MDD"));
+  EXPECT_TRUE(scene.bodies.at(1).animation.name.ends_with("/c.MDD"));
 }
 
 TEST(SceneFile, PolarMapsKeysAreReadAndWritten) {
@@ -340,7 +340,7 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   EXPECT_EQ(back.cloths[0].attach.at(0).body, "b");
   EXPECT_EQ(back.bodies.at(0).motion.at(1).rotate, (Vec3d{0, 90, 0}));
   EXPECT_EQ(back.bodies.at(0).lead_in, 0.125);
-  EXPECT_EQ(back.bodies.at(1).animation, body.animation);
+  EXPECT_EQ(back.bodies.at(1).animation.name, body.animation.name);
   ASSERT_TRUE(back.wind.has_value());
   EXPECT_EQ(back.wind->lift, 0.25);
   EXPECT_FALSE(back.ground.has_value());
