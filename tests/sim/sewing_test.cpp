@@ -31,7 +31,7 @@ class Sewing : public testing::Test {
 };
 
 TEST_F(Sewing, ClosesSeamsRoundABody) {
-  Simulation simulation(scene_, "scene", {});
+  Simulation simulation(scene_, "scene", 1);
   EXPECT_NEAR(simulation.seam_gaps(0).front(), 0.24, 1e-3);
   FrameReport report;
   int frame = 0;
@@ -49,7 +49,7 @@ TEST_F(Sewing, ClosesSeamsRoundABody) {
 TEST_F(Sewing, GivesTheSameBitsOnAllThreads) {
   std::string first;
   for (const int threads : {1, 2, 3}) {
-    Simulation simulation(scene_, "scene", {threads});
+    Simulation simulation(scene_, "scene", threads);
     for (int frame = 0; frame < 20; ++frame) simulation.advance();
     if (first.empty()) first = simulation.state_hash();
     EXPECT_EQ(simulation.state_hash(), first) << threads;
@@ -57,7 +57,7 @@ TEST_F(Sewing, GivesTheSameBitsOnAllThreads) {
 }
 
 TEST_F(Sewing, GoesOnFromASavedState) {
-  Simulation whole(scene_, "scene", {}), resumed(scene_, "scene", {});
+  Simulation whole(scene_, "scene", 1), resumed(scene_, "scene", 1);
   SimulationState state;
   for (int frame = 0; frame < 100; ++frame) {
     if (frame == 12 || frame == 90) {

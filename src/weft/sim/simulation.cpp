@@ -273,6 +273,8 @@ double Simulation::sunk(std::size_t cloth) const {
   for (const int s : worn.garment->held)
     sum += double{placed.at(s).y} - double{worn.state.position.at(s).y};
   return sum / static_cast<double>(worn.garment->held.size());
+}
+
 IntersectionCounts Simulation::intersections() const {
   if (!parts_->check) parts_->make_check();
   return parts_->check->count();
