@@ -112,10 +112,10 @@ class Reader(ProgramTest):
             for k, (one, other) in enumerate(zip(some, others)):
                 self.assertEqual(one, other, f"{kind}, {k}")
 
-    def check_mesh(self, mesh, sizes, version=1):
+    def check_mesh(self, mesh, sizes, version=1, charts="auto"):
         for size in sizes:
             with self.subTest(mesh, size=size):
-                self.run_weft("convert", mesh, "-o", "image.exr", "--size", size, "--quiet")
+                self.run_weft("convert", mesh, "-o", "image.exr", "--size", size, "--charts", charts, "--quiet")
                 self.assertIn(b'"version":%d' % version, (self.folder / "image.exr").read_bytes())
                 wanted = self.rebuilt("image.exr")
                 self.assertGreater(len(wanted[1]), size * size / 2)
@@ -152,7 +152,7 @@ class Reader(ProgramTest):
         for name in ("box", "sphere", "torus", "tshirt"):
             self.check_mesh(f"builtin:{name}", (33, 65, 129))
         self.check_mesh("builtin:knot", (33, 129))
-        self.check_mesh("builtin:genus20", (65, 129))
+        self.check_mesh("builtin:genus20", (65, 129), charts="1")  # else it would be several
         self.check_mesh("builtin:mannequin", (65,))
 
     def test_pieces_pages_and_bands_of_several_charts(self):

@@ -166,7 +166,7 @@ class Simulate(SceneTest):
         self.assertEqual(list(rows[0]), ["frame", "ms", "forces_ms", "solve_ms", "collide_ms", "limit_ms", "iterations",
                                          "residual", "strain_mean", "strain_p99", "strain_max", "kinetic_energy",
                                          "potential_energy", "contacts", "stopped", "fell_back", "blocked_share", "work",
-                                         "smallest_gap",
+                                         "smallest_gap", "seam_gap",
                                          "com_x", "com_y", "com_z"])
         for frame, row in enumerate(rows, 1):
             stages = sum(float(row[stage]) for stage in ("forces_ms", "solve_ms", "collide_ms", "limit_ms"))

@@ -48,10 +48,6 @@ Box3d swept(const StepMotion::Path& step, const Features& samples) {
   return box;
 }
 
-bool has(const Triangle& t, int vertex) {
-  return t[0] == vertex || t[1] == vertex || t[2] == vertex;
-}
-
 }  // namespace
 
 /// State of a traversal of two trees.
@@ -60,11 +56,14 @@ struct PassingSurface::Pairs {
   std::int64_t count = 0;
 };
 
-PassingSurface::PassingSurface(const GeometryImage& image, const Planes3& start)
+PassingSurface::PassingSurface(const GeometryImage& image, const Planes3& start,
+                               const BorderMates* sewn)
     : triangles_(joined_triangles(image)),
       tree_(all_corners(start, triangles_)),
       boxes_(tree_.nodes.size()),
       swept_boxes_(triangles_.size()) {
+  const int samples = image.size() * image.size();
+  for (int v = 0; v < samples; ++v) joint_.push_back(sewn != nullptr ? sewn->representative(v) : v);
   own_features();
   follow({&start, &start});
 }
@@ -105,7 +104,7 @@ std::int64_t PassingSurface::count_vertices(int s, const PassingSurface& other, 
   const Triangle &own = triangles_[s], &face = other.triangles_[t];
   for (std::size_t k = 0; k < 3; ++k) {
     const int v = own[k];
-    if ((owned_[s].vertices >> k & 1U) == 0 || (same && has(face, v))) continue;
+    if ((owned_[s].vertices >> k & 1U) == 0 || (same && touches(face, v))) continue;
     if (!overlap(swept(step_, std::array{v}), other.swept_boxes_[t])) continue;
     const auto hit = time_of_impact(vertex_face(at(*step_.start, v), *other.step_.start, face),
                                     vertex_face(at(*step_.end, v), *other.step_.end, face));
@@ -125,7 +124,8 @@ std::int64_t PassingSurface::count_between(int s, const PassingSurface& other, i
     for (std::size_t k = 0; k < 3; ++k) {
       const std::array<int, 2> q = edge_of(b, k);
       if ((other.owned_[t].edges >> k & 1U) == 0 || !overlap(way, swept(other.step_, q))) continue;
-      if (same && (p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1])) continue;
+      if (same && (meet(p[0], q[0]) || meet(p[0], q[1]) || meet(p[1], q[0]) || meet(p[1], q[1])))
+        continue;
       const auto hit = time_of_impact(edge_edge(*step_.start, p, *other.step_.start, q),
                                       edge_edge(*step_.end, p, *other.step_.end, q));
       count += hit ? 1 : 0;
@@ -191,8 +191,8 @@ std::int64_t PassingSurface::count_below(double height) const {
 PassingCheck::PassingCheck(std::span<const Surface> cloths, std::span<const Surface> bodies,
                            std::optional<double> ground)
     : ground_(ground) {
-  for (const Surface& of : cloths) cloths_.emplace_back(*of.image, *of.positions);
-  for (const Surface& of : bodies) bodies_.emplace_back(*of.image, *of.positions);
+  for (const Surface& of : cloths) cloths_.emplace_back(*of.image, *of.positions, of.sewn);
+  for (const Surface& of : bodies) bodies_.emplace_back(*of.image, *of.positions, of.sewn);
 }
 
 std::int64_t PassingCheck::count(const StepMotion& step) {

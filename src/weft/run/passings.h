@@ -16,7 +16,8 @@ namespace weft {
 class PassingSurface {
  public:
   /// @param start  positions for which the tree is built [n x n] [m]
-  PassingSurface(const GeometryImage& image, const Planes3& start);
+  /// @param sewn  the mates that are sewn together in the run; null: none
+  PassingSurface(const GeometryImage& image, const Planes3& start, const BorderMates* sewn);
   /// Sets the motion of the current step. @param step  kept by pointer until the next
   void follow(const StepMotion::Path& step);
 
@@ -41,7 +42,14 @@ class PassingSurface {
   [[nodiscard]] std::int64_t count_vertices(int s, const PassingSurface& other, int t,
                                             bool same) const;
 
+  /// Whether two vertices are one, or are being sewn to each other.
+  [[nodiscard]] bool meet(int v, int w) const { return joint_[v] == joint_[w]; }
+  [[nodiscard]] bool touches(const Triangle& t, int v) const {
+    return meet(t[0], v) || meet(t[1], v) || meet(t[2], v);
+  }
+
   std::vector<Triangle> triangles_;  // by representatives of classes of mates
+  std::vector<int> joint_;           // [n * n] the class that a sample is sewn into, or itself
   std::vector<Owned> owned_;         // [F]
   BoxTree tree_;
   std::vector<Box3d> boxes_;        // [nodes] swept by the step
@@ -56,6 +64,7 @@ class PassingCheck {
   struct Surface {
     const GeometryImage* image = nullptr;
     const Planes3* positions = nullptr;
+    const BorderMates* sewn = nullptr;  ///< of a garment: the mates with its seams closed
   };
   /// @param cloths, bodies  at the start of the run
   PassingCheck(std::span<const Surface> cloths, std::span<const Surface> bodies,

@@ -10,7 +10,11 @@ namespace {
 template <class Things, class Positions>
 std::vector<PassingCheck::Surface> surfaces_of(const Things& things, const Positions& positions) {
   std::vector<PassingCheck::Surface> surfaces;
-  for (const auto& thing : things) surfaces.push_back({&thing.image, &positions(thing)});
+  for (const auto& thing : things) {
+    surfaces.push_back({&thing.image, &positions(thing)});
+    if constexpr (requires { thing.garment; })
+      if (thing.garment) surfaces.back().sewn = &thing.garment->sewn;
+  }
   return surfaces;
 }
 

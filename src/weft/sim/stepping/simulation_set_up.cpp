@@ -197,8 +197,10 @@ void Simulation::Parts::make_collider_of_scene() {
     const SimulatedCloth& cloth = cloths[i];
     max_approach_in_step =
         std::min(max_approach_in_step, max_approach_in_gaps * gap_of(*cloth.model));
+    // Seams slide over what is between them.
+    const double friction = cloth.model->apart ? 0 : scene.cloths[i].friction;
     colliding.push_back({cloth.model->together(), cloth.model->size, choose_diagonals(cloth.image),
-                         gap_of(*cloth.model), scene.cloths[i].friction, cloth.model->rest_spacing,
+                         gap_of(*cloth.model), friction, cloth.model->rest_spacing,
                          Colliders::traits_of(scene.collider).self_collision &&
                              scene.cloths[i].self_collision.value_or(true),
                          self_gap_of(*cloth.model), &cloth.model->rest, start_sides[i].kept_in,
