@@ -17,12 +17,13 @@ ALLOWED = {
     "image": {"core", "mesh"},
     "cut": {"core", "mesh"},
     "param": {"core", "mesh", "cut"},
-    "convert": {"core", "mesh", "image", "cut", "param"},
+    "garment": {"core", "mesh", "image"},
+    "convert": {"core", "mesh", "image", "garment", "cut", "param"},
     "cloth": {"core", "image"},
     "collide": {"core", "mesh", "image"},
-    "sim": {"core", "mesh", "image", "convert", "cloth", "collide"},
-    "run": {"core", "mesh", "image", "convert", "cloth", "collide", "sim"},
-    "view": {"core", "mesh", "cut", "param", "image", "convert"},
+    "sim": {"core", "mesh", "image", "garment", "convert", "cloth", "collide"},
+    "run": {"core", "mesh", "image", "garment", "convert", "cloth", "collide", "sim"},
+    "view": {"core", "mesh", "cut", "param", "image", "garment", "convert"},
 }
 # Which module declares itself in which of the public headers; who may include the module may include these.
 PUBLIC = {
@@ -32,6 +33,7 @@ PUBLIC = {
     "cut": {"cut"},
     "param": {"parameterizer"},
     "convert": {"convert"},
+    "garment": {"garment"},
     "cloth": {"material", "cloth_state", "integrators", "table5"},
     "collide": {"colliders"},
     "sim": {"scene", "scene_file", "simulation", "fabric"},

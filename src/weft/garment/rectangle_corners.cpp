@@ -14,8 +14,9 @@ namespace {
 /// What ratios of opposite sides weigh beside angles.
 constexpr double ratio_weight = 1.5;
 constexpr int step = 2, min_side = 4;
-/// Rectangles for which grids are tried.
-constexpr std::size_t max_choices = 16;
+/// Rectangles for which grids are tried, and how many that unfold soon are enough.
+constexpr std::size_t max_choices = 64;
+constexpr int enough_choices = 16;
 
 /// An outline with what the choice asks of it.
 struct Measured {
@@ -41,7 +42,7 @@ struct Measured {
   [[nodiscard]] Vec2d at(int i) const { return outline.points[(i + size()) % size()]; }
   /// Length from one point on. @param from  in 0 .. 2 T
   [[nodiscard]] double length(int from, int intervals) const {
-    const auto place = [&](int i) { return along[i % size()] + i / size() * along[size()]; };
+    const auto place = [&](int i) { return along[i % size()] + (i < size() ? 0 : along[size()]); };
     return place(from + intervals) - place(from);
   }
   [[nodiscard]] double cost(int start, int cols, int rows) const {
@@ -93,6 +94,7 @@ Choice best_of(const std::vector<Choice>& likely, const PanelOutline& outline) {
   const int count = static_cast<int>(outline.points.size());
   Choice best = likely.front();
   double least = HUGE_VAL;
+  int unfolded = 0;
   for (const Choice& one : likely) {
     std::vector<Vec2d> border;
     for (int k = 0; k < count; ++k) {
@@ -100,9 +102,11 @@ Choice best_of(const std::vector<Choice>& likely, const PanelOutline& outline) {
       border.push_back({outline.mirrored ? -p.x : p.x, p.y});
     }
     const double cost = spread_cost(border, count / 2 - one.cols + 1, one.cols + 1);
-    if (!(cost < least)) continue;
-    least = cost;
-    best = one;
+    if (cost < least) {
+      least = cost;
+      best = one;
+    }
+    if (cost < HUGE_VAL && ++unfolded == enough_choices) break;
   }
   return best;
 }

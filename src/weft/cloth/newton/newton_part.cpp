@@ -106,9 +106,10 @@ void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTe
       same_gravity && std::find(known_rows_.begin(), known_rows_.end(), 0) == known_rows_.end();
   start_potential_ = known ? potential_ : HUGE_VAL;
   set_pins(cloth_, start_, input.time_step, next_);
-  pulled_ = cloth_.apart || std::any_of(cloth_.pins.begin(), cloth_.pins.end(), [&](const Pin& held) {
-    return vec_cast<float>(held.target) != start_.position.at(held.sample);
-  });
+  pulled_ =
+      cloth_.apart || std::any_of(cloth_.pins.begin(), cloth_.pins.end(), [&](const Pin& held) {
+        return vec_cast<float>(held.target) != start_.position.at(held.sample);
+      });
 }
 
 void NewtonPart::find_mass() {
