@@ -98,7 +98,7 @@ std::optional<Conversion> convert_parted(const TriangleMesh& mesh, const std::st
   bool fits = true;
   named(name, [&] {
     ImageConversion conversion(made, name, options);
-    fits = conversion.place(most) <= most;
+    fits = conversion.place() <= most;
     if (!fits) return;
     conversion.run();
     made.quality = measure_topology(made.image);

@@ -67,9 +67,9 @@ ImageConversion::ImageConversion(Conversion& made, const std::string& name,
                         "to cut by hand, one is wanted, or --component K");
 }
 
-int ImageConversion::place(int most) {
+int ImageConversion::place() {
   Stopwatch watch;
-  cut(most);
+  cut();
   made_.seconds.cut = watch.lap();
   return places_.size;
 }
@@ -86,7 +86,7 @@ void ImageConversion::run() {
   made_.seconds.sample = watch.lap();
 }
 
-void ImageConversion::cut(int most) {
+void ImageConversion::cut() {
   charts_.reserve(pieces_.size());
   for (const Piece& piece : pieces_) {
     tell("cut");
@@ -94,7 +94,6 @@ void ImageConversion::cut(int most) {
   }
   std::vector<std::string> warnings;
   places_ = place_charts(pieces_, charts_, curves_, options_.size, warnings);
-  if (places_.size > most) return;
   for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].lengthen_cut(side(k));
   if (!made_.input.joined.empty()) {
     warnings.clear();

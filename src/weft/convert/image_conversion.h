@@ -19,16 +19,16 @@ class ImageConversion {
   /// @throws TopologyError when several pieces are to be cut by hand
   ImageConversion(Conversion& made, const std::string& name, const ConvertOptions& options);
 
-  /// Cuts the pieces open and gives each its chart, unless these need a larger image than `most`.
-  /// @return samples a side of the image  @throws TopologyError as the stages
-  int place(int most);
+  /// Cuts the pieces open and gives each its chart. @return samples a side of the image
+  /// @throws TopologyError as the stages
+  int place();
   /// Then fills the rest of `made`, but for what is measured. @throws TopologyError as the stages
   void run();
 
  private:
   [[nodiscard]] int side(std::size_t chart) const { return places_.charts[chart].rows; }
   void tell(std::string_view stage) const { update(options_.progress, stage, 0); }
-  void cut(int most);
+  void cut();
   void share_borders();
   void gather();
   [[nodiscard]] GeometryImage joined_image() const;
