@@ -67,15 +67,10 @@ ImageConversion::ImageConversion(Conversion& made, const std::string& name,
                         "to cut by hand, one is wanted, or --component K");
 }
 
-int ImageConversion::place() {
+void ImageConversion::run() {
   Stopwatch watch;
   cut();
   made_.seconds.cut = watch.lap();
-  return places_.size;
-}
-
-void ImageConversion::run() {
-  Stopwatch watch;
   for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].map(side(k));
   made_.seconds.map = watch.lap();
   for (ChartConversion& chart : charts_) {

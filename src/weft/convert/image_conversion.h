@@ -19,10 +19,7 @@ class ImageConversion {
   /// @throws TopologyError when several pieces are to be cut by hand
   ImageConversion(Conversion& made, const std::string& name, const ConvertOptions& options);
 
-  /// Cuts the pieces open and gives each its chart. @return samples a side of the image
-  /// @throws TopologyError as the stages
-  int place();
-  /// Then fills the rest of `made`, but for what is measured. @throws TopologyError as the stages
+  /// Fills the rest of `made`, but for what is measured. @throws TopologyError as the stages
   void run();
 
  private:
