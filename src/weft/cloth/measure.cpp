@@ -14,13 +14,32 @@ double spring_length(const Planes3& p, int from, int to) {
   return length(vec_cast<double>(p.at(to)) - vec_cast<double>(p.at(from)));
 }
 
+/// |l / r - 1| of a spring.
+float strain_of(const Planes3& p, int from, int to, double rest) {
+  return static_cast<float>(std::abs(spring_length(p, from, to) / rest - 1));
+}
+
+/// The same of every stretch spring of panels that are not sewn yet: each panel by its own samples.
+std::vector<float> strains_of_panels(const Cloth& cloth, const Planes3& p) {
+  std::vector<float> strains;
+  for (const SpringPlane* plane : {&cloth.springs[stretch_u], &cloth.springs[stretch_v]})
+    for (int r = 0; r + plane->down < cloth.size; ++r)
+      for (int c = 0; c + plane->right < cloth.size; ++c)
+        if (plane->stiffness(r, c) > 0)
+          strains.push_back(strain_of(p, r * cloth.size + c,
+                                      (r + plane->down) * cloth.size + c + plane->right,
+                                      plane->rest_length(r, c)));
+  return strains;
+}
+
 /// |l / r - 1| of every stretch spring, a seam spring once.
 std::vector<float> stretch_strains(const Cloth& cloth, const Planes3& p) {
+  if (cloth.apart) return strains_of_panels(cloth, p);
   const int n = cloth.size;
   std::vector<float> strains;
   strains.reserve(2 * static_cast<std::size_t>(n) * n);
   const auto add = [&](int from, int to, double rest) {
-    strains.push_back(static_cast<float>(std::abs(spring_length(p, from, to) / rest - 1)));
+    strains.push_back(strain_of(p, from, to, rest));
   };
   const bool one_chart = cloth.mates.chart_of().empty();
   const auto inside = [&](int r, int c) { return one_chart || !on_border(cloth.mates, r, c); };

@@ -15,6 +15,7 @@ ContactPipeline::ContactPipeline(CollisionWorld::MakeBroadPhase make_broad_phase
   for (const WorldCloth& cloth : world_.cloths) {
     grids.push_back(&cloth.grid);
     responses_.emplace_back(cloth.properties.mates);
+    sewing_ = sewing_ || cloth.properties.sewn != nullptr;
   }
   untangler_.set_up(grids, cloths);
 }
@@ -59,12 +60,14 @@ FilterCounts ContactPipeline::filter(std::span<const MovingCloth> cloths, double
     untangler_.move(cloths, time_step);
     world_.copy_to_mates(cloths);
   }
-  return filter_.run(cloths, time_step, StepFilter::Pass::end, team);
+  const FilterCounts counts = filter_.run(cloths, time_step, StepFilter::Pass::end, team);
+  if (sewing_) struck_.keep(filter_.struck(), cloths);
+  return counts;
 }
 
 void ContactPipeline::commit() noexcept {
   filter_.commit();
-  struck_.clear();
+  struck_.commit();
   world_.commit();
 }
 
@@ -75,6 +78,7 @@ void ContactPipeline::rollback() noexcept {
 
 void ContactPipeline::forget() noexcept {
   filter_.forget();
+  struck_.clear();
   world_.pairs().forget();
 }
 

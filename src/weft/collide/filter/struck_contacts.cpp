@@ -64,16 +64,43 @@ StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
   return out;
 }
 
+void StruckContacts::add(std::span<const SeparatingPlane> planes,
+                         std::span<const MovingCloth> moving,
+                         std::vector<StruckContact>& out) const {
+  for (const SeparatingPlane& plane : planes) {
+    const StruckContact one = contact_of(plane, moving);
+    if (one.compliance > 0) out.push_back(one);
+  }
+  std::stable_sort(out.begin(), out.end(), before);
+  out.erase(std::unique(out.begin(), out.end(), same), out.end());
+}
+
 bool StruckContacts::learn(std::span<const SeparatingPlane> planes,
                            std::span<const MovingCloth> moving) {
   const std::size_t known = found_.size();
-  for (const SeparatingPlane& plane : planes) {
-    const StruckContact one = contact_of(plane, moving);
-    if (one.compliance > 0) found_.push_back(one);
-  }
-  std::stable_sort(found_.begin(), found_.end(), before);
-  found_.erase(std::unique(found_.begin(), found_.end(), same), found_.end());
+  add(planes, moving, found_);
   return found_.size() > known;
+}
+
+void StruckContacts::keep(std::span<const SeparatingPlane> planes,
+                          std::span<const MovingCloth> moving) {
+  kept_.clear();
+  add(planes, moving, kept_);
+}
+
+void StruckContacts::commit() {
+  found_.swap(kept_);
+  kept_.clear();
+  // Bodies go on as they did.
+  for (StruckContact& one : found_) {
+    Contact& contact = one.shared.contact;
+    contact.offset += dot(contact.normal, contact.surface_displacement);
+  }
+}
+
+void StruckContacts::clear() {
+  found_.clear();
+  kept_.clear();
 }
 
 }  // namespace weft

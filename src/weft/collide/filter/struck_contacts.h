@@ -13,8 +13,8 @@ namespace weft {
 /// solve that knows them leaves the filter little to do. They hold the closest points of both sides
 /// as far apart as the step found them, within the gap, so that they add no energy. They hold what
 /// the search for contacts leaves to the filter: triangles that a cloth without shear stiffness
-/// folds onto their neighbours. Valid for the step whose planes they are made from, with the same
-/// start and length.
+/// folds onto their neighbours, and the other sides of creases in a body. Valid for the step whose
+/// planes they are made from, with the same start and length; kept ones for the next step, too.
 class StruckContacts {
  public:
   /// @param world  kept by reference
@@ -23,15 +23,21 @@ class StruckContacts {
   /// Adds contacts for planes that moved points.
   /// @return whether any of them was not known
   bool learn(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving);
-  void clear() { found_.clear(); }
+  /// Keeps contacts for the planes that moved points in a step, and forgets those of other steps.
+  void keep(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving);
+  /// Goes on to the next step, with what was kept.
+  void commit();
+  void clear();
   [[nodiscard]] std::span<const StruckContact> found() const { return found_; }
 
  private:
+  void add(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
+           std::vector<StruckContact>& out) const;
   [[nodiscard]] StruckContact contact_of(const SeparatingPlane& plane,
                                          std::span<const MovingCloth> moving) const;
 
   const CollisionWorld& world_;
-  std::vector<StruckContact> found_;  // by samples and cloths, each once
+  std::vector<StruckContact> found_, kept_;  // by samples and cloths, each once
 };
 
 }  // namespace weft

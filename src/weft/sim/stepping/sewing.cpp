@@ -2,19 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 namespace weft {
 namespace {
 
-/// Seams close by this part of their distance in a second, within these speeds. [1/s], [m/s]
-constexpr double closing_rate = 4, slowest = 0.05, fastest = 1;
-/// Time in which they reach that speed. [s]
-constexpr double set_off = 0.25;
+/// Seams close within a time in which no sample goes faster, which is at least this. [m/s], [s]
+constexpr double fastest = 1, least_time = 0.2;
+/// Speed of samples that were held back. [m/s]
+constexpr double late_speed = 0.25;
+/// What was held back is let go in the first part of each such time. [s]
+constexpr double let_go_for = 0.08, let_go_every = 0.2;
+/// Distance up to which the samples of a class take turns in being where the others go to: where
+/// one is held back at their mean, it is free where it is. [m]
+constexpr double turns_within = 0.005;
+/// Part of its speed that a cloth loses in a second while seams close.
+constexpr double damping = 6;
 /// Gravity fades in between these times where a seam stays open. [s]
 constexpr double gravity_from = 1.5, gravity_to = 2;
-/// Distance of samples that become one. [m]
-constexpr double closed = 1e-5;
+/// Distance from their mean at which samples become one: nothing is between. [m]
+constexpr double closed = 5e-5;
 
 Vec3d mean_of(const Planes3& planes, std::span<const int> samples) {
   Vec3d sum;
@@ -29,47 +37,120 @@ double farthest_from(Vec3d middle, const Planes3& planes, std::span<const int> s
   return most;
 }
 
+/// The part of the distances that is left: it falls from 1 to 0, slowly at first and at last.
+double part_left(double seconds, double time_to_close) {
+  const double t = std::min(1.0, seconds / time_to_close);
+  return 1 - t * t * (3 - 2 * t);
+}
+
+void damp(double time_step, Planes3& velocity) {
+  const auto kept = static_cast<float>(std::exp(-damping * time_step));
+  for (int s = 0; s < velocity.size() * velocity.size(); ++s)
+    velocity.set(s, kept * velocity.at(s));
+}
+
 }  // namespace
+
+Sewing::Sewing(const Garment& garment)
+    : garment_(garment), middle_(garment.sewn.class_count()), away_(garment.sewn.class_count()) {
+  measure(world_positions(garment.image));
+  const double farthest = away_.empty() ? 0 : *std::max_element(away_.begin(), away_.end());
+  // part_left is steepest in the middle, by 1.5.
+  time_to_close_ = std::max(least_time, 1.5 * farthest / fastest);
+}
+
+void Sewing::measure(const Planes3& position) {
+  for (int k = 0; k < garment_.sewn.class_count(); ++k) {
+    const std::span<const int> samples = garment_.sewn.copies(k);
+    if (samples.size() < 2) continue;
+    middle_[k] = mean_of(position, samples);
+    away_[k] = farthest_from(middle_[k], position, samples);
+  }
+}
+
+double Sewing::kept_part(double away, double time_step, double seconds) const {
+  if (!(away > 0)) return 0;
+  const double left = part_left(seconds, time_to_close_);
+  if (left > 0)
+    return std::max(part_left(seconds + time_step, time_to_close_) / left,
+                    1 - fastest * time_step / away);
+  if (std::fmod(seconds - time_to_close_, let_go_every) >= let_go_every - let_go_for) return 1;
+  return std::max(0.0, 1 - late_speed * time_step / away);
+}
 
 double Sewing::gravity_part(double seconds) {
   return std::clamp((seconds - gravity_from) / (gravity_to - gravity_from), 0.0, 1.0);
 }
 
-void Sewing::pull(double time_step, double seconds, ClothState& state) const {
-  const double begun = std::min(1.0, (seconds + time_step) / set_off);
+void Sewing::pull(double time_step, double seconds, ClothState& state) {
+  damp(time_step, state.velocity);
+  measure(state.position);
+  const auto step = static_cast<std::size_t>(std::llround(seconds / time_step));
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> samples = garment_.sewn.copies(k);
     if (samples.size() < 2) continue;
-    const Vec3d middle = mean_of(state.position, samples);
     const Vec3d velocity = mean_of(state.velocity, samples);
-    const double away = farthest_from(middle, state.position, samples);
-    const double speed = begun * std::clamp(closing_rate * away, slowest, fastest);
-    const double per_distance = speed * time_step < away ? speed / away : 1 / time_step;
-    for (const int s : samples)
-      state.velocity.set(
-          s, vec_cast<float>(velocity +
-                             per_distance * (middle - vec_cast<double>(state.position.at(s)))));
+    const Vec3d goal = away_[k] < turns_within
+                           ? vec_cast<double>(state.position.at(samples[step % samples.size()]))
+                           : middle_[k];
+    const double rate = (1 - kept_part(away_[k], time_step, seconds)) / time_step;
+    for (const int s : samples) {
+      const Vec3d to_goal = goal - vec_cast<double>(state.position.at(s));
+      state.velocity.set(s, vec_cast<float>(velocity + rate * to_goal));
+    }
   }
-}
-
-bool Sewing::is_closed(const Planes3& position) const {
-  for (int k = 0; k < garment_.sewn.class_count(); ++k) {
-    const std::span<const int> samples = garment_.sewn.copies(k);
-    if (farthest_from(mean_of(position, samples), position, samples) > closed) return false;
-  }
-  return true;
 }
 
 void Sewing::close(ClothState& state) const {
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> copies = garment_.sewn.copies(k);
-    const auto at = vec_cast<float>(mean_of(state.position, copies));
+    const Vec3d middle = mean_of(state.position, copies);
+    if (copies.size() < 2 || farthest_from(middle, state.position, copies) > closed) continue;
+    const auto at = vec_cast<float>(middle);
     const auto velocity = vec_cast<float>(mean_of(state.velocity, copies));
     for (const int s : garment_.sewn.mates(k)) {
       state.position.set(s, at);
       state.velocity.set(s, velocity);
     }
   }
+}
+
+BorderMates Sewing::joined(const Planes3& position) const {
+  const BorderMates& sewn = garment_.sewn;
+  std::vector<MateInterval> runs;
+  for (const MateInterval& seam : sewn.intervals()) {
+    const int back = seam.turned ? 1 : -1;
+    const auto is_closed = [&](int k) {
+      return position.at(sewn.sample_at(sewn.along_border(seam.first, k))) ==
+             position.at(sewn.sample_at(sewn.along_border(seam.mate, back * k)));
+    };
+    for (int k = 0, begin = 0; k <= seam.count + 1; ++k) {
+      if (k <= seam.count && is_closed(k)) continue;
+      if (k - begin > 1)
+        runs.push_back({sewn.along_border(seam.first, begin),
+                        sewn.along_border(seam.mate, back * begin), k - begin - 1, seam.turned});
+      begin = k + 1;
+    }
+  }
+  return {sewn.size(), sewn.charts(), runs};
+}
+
+int Sewing::closed_pairs(const Planes3& position) const {
+  int closed_pairs = 0;
+  for (const GarmentSeam& seam : garment_.seams)
+    closed_pairs += static_cast<int>(
+        std::count_if(seam.pairs.begin(), seam.pairs.end(), [&](const std::array<int, 2>& pair) {
+          return position.at(pair[0]) == position.at(pair[1]);
+        }));
+  return closed_pairs;
+}
+
+bool Sewing::is_closed(const Planes3& position) const {
+  const auto pairs = [](int sum, const GarmentSeam& seam) {
+    return sum + static_cast<int>(seam.pairs.size());
+  };
+  return closed_pairs(position) ==
+         std::accumulate(garment_.seams.begin(), garment_.seams.end(), 0, pairs);
 }
 
 std::vector<double> Sewing::gaps(const Planes3& position) const {

@@ -6,30 +6,43 @@
 namespace weft {
 
 /// Brings together the samples of a garment's seams. In each step the samples of a class go towards
-/// their mean, at a speed that falls with their distance; otherwise they move as one particle. What
-/// holds one of them back, a body or other cloth, is waited for.
+/// each other; otherwise they move as one particle. All distances shrink by the same part, so that
+/// the cloth between needs to stretch nowhere. What is held back, by a body or other cloth, is let
+/// go and pulled again in turn, so that cloth that was pulled into a crease comes out of it.
 class Sewing {
  public:
   /// @param garment  kept by reference
-  explicit Sewing(const Garment& garment) : garment_(garment) {}
+  explicit Sewing(const Garment& garment);
 
-  /// Sets the velocities of a state's seams for the next step: of each class the mean, and towards
-  /// each other. @param seconds  since the start: seams set off gently
-  void pull(double time_step, double seconds, ClothState& state) const;
+  /// Sets the velocities of a cloth for the next step: in each class those of the mean, and towards
+  /// each other. All are damped, as only the seams are to move the cloth.
+  /// @param seconds  since the start
+  void pull(double time_step, double seconds, ClothState& state);
 
   /// The part of gravity that acts on the cloth: none while seams close, but not for ever.
   [[nodiscard]] static double gravity_part(double seconds);
 
-  /// Whether all samples that are to be sewn together are so close that nothing can be between.
-  [[nodiscard]] bool is_closed(const Planes3& position) const;
-  /// Puts the samples of every class at their mean, with their mean velocity.
+  /// Puts the samples of each class at their mean, with their mean velocity, where they are so
+  /// close that nothing can be between.
   void close(ClothState& state) const;
+  /// The charts, joined where their seams have closed.
+  [[nodiscard]] BorderMates joined(const Planes3& position) const;
+  /// How many pairs of samples, of all seams, lie in one place.
+  [[nodiscard]] int closed_pairs(const Planes3& position) const;
+  [[nodiscard]] bool is_closed(const Planes3& position) const;
 
   /// Of each seam the largest distance in a pair. [m]
   [[nodiscard]] std::vector<double> gaps(const Planes3& position) const;
 
  private:
+  void measure(const Planes3& position);
+  /// The part of its distance that a class keeps in a step.
+  [[nodiscard]] double kept_part(double away, double time_step, double seconds) const;
+
   const Garment& garment_;
+  double time_to_close_;       // if nothing holds the seams back [s]
+  std::vector<Vec3d> middle_;  // of each class
+  std::vector<double> away_;   // distance of its farthest sample from there [m]
 };
 
 }  // namespace weft

@@ -73,7 +73,9 @@ void Simulation::Parts::lend() {
   work.least = std::min(work.least, start - explained);
   lent = most;
   max_energy = work.least + explained + most;
-  const double left = std::max(0.0, max_energy - start);
+  // Where seams move the cloth its energy tells nothing, and many linearisations would gain
+  // nothing.
+  const double left = is_sewing() ? most / lent_part : std::max(0.0, max_energy - start);
   for (Mover& mover : movers) mover.integrator->lend(left * mover.meter.mass() / mass);
 }
 
@@ -91,11 +93,15 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   const double added = end.total() - solved.total();
   const double gained = std::min(added, end.total() - start.total() - tried.work);
   const double limit = limit_for(solved, mass);
-  const double excess = std::max(0.0, std::min(gained, end.total() - tried.work - max_energy));
+  // What cloth gains while it is sewn is the work of its seams, which end it where they close.
+  const bool sewn = is_sewing();
+  const double excess =
+      sewn ? 0 : std::max(0.0, std::min(gained, end.total() - tried.work - max_energy));
   const bool unpaid = excess - removable(excess) > max_unpaid_part * lent;
   const double fault = std::max(end.elastic - solved.elastic, gained);
-  const bool bad = !(fault <= limit) || unpaid || solve_is_lost() || tried.filtered.fell_back > 0;
-  tried.repeat = bad && !choices.halve && choices.repeat && collider->learn_struck(moving);
+  const bool bad =
+      tried.filtered.fell_back > 0 || (!sewn && (!(fault <= limit) || unpaid || solve_is_lost()));
+  tried.repeat = bad && !sewn && !choices.halve && choices.repeat && collider->learn_struck(moving);
   tried.refused = tried.repeat || (bad && choices.halve);
   tried.verdict = bad                         ? StepVerdict::forced
                   : fault < calm_part * limit ? StepVerdict::calm

@@ -85,9 +85,9 @@ struct Simulation::Parts {
   void sew(std::size_t index);
   [[nodiscard]] bool is_sewing() const;
   double work_of_sewing();
-  /// Makes one surface of garments whose seams have closed.
+  /// Joins samples of seams that have come together.
   void close_seams();
-  /// Makes the collider anew where sewing is over or, in an earlier state, not yet.
+  /// Makes the collider anew where other samples than before are joined.
   void follow_sewing();
   /// Ends the step: bodies take their end positions.
   void bodies_arrive();
@@ -206,8 +206,9 @@ struct Simulation::Parts {
   std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
   std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
   std::vector<std::optional<Sewing>> sewing;        // of each cloth; none: it is no garment
-  std::vector<Mover> movers;                        // one a cloth
-  std::unique_ptr<JointIntegrator> joint;           // of all; null: each is solved by itself
+  std::vector<int> sewn_pairs;             // of each cloth, as its collider knows; -1: not yet
+  std::vector<Mover> movers;               // one a cloth
+  std::unique_ptr<JointIntegrator> joint;  // of all; null: each is solved by itself
   std::vector<std::span<const Contact>> own_contacts;
   std::unique_ptr<Collider> collider;
   std::vector<MovingCloth> moving;                       // of this step

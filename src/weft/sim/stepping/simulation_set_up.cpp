@@ -116,6 +116,7 @@ void Simulation::Parts::load_cloths() {
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
     state.position = placed;
+    sewn_pairs.push_back(-1);
     sewing.push_back(loaded.garment ? std::optional<Sewing>(*loaded.garment) : std::nullopt);
     cloths.push_back({wanted.name, std::move(loaded.image),
                       std::make_shared<Cloth>(std::move(cloth)), std::move(state),

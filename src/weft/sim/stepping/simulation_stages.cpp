@@ -98,14 +98,8 @@ bool Simulation::Parts::is_sewing() const {
 }
 
 void Simulation::Parts::close_seams() {
-  bool closed = false;
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    SimulatedCloth& cloth = cloths[i];
-    if (!cloth.model->apart || !sewing[i]->is_closed(cloth.state.position)) continue;
-    sewing[i]->close(cloth.state);
-    closed = true;
-  }
-  if (closed) follow_sewing();
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    if (cloths[i].model->apart) sewing[i]->close(cloths[i].state);
 }
 
 void Simulation::Parts::follow_sewing() {
@@ -113,10 +107,12 @@ void Simulation::Parts::follow_sewing() {
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     if (!sewing[i]) continue;
     Cloth& model = *cloths[i].model;
-    const std::vector<double> gaps = sewing[i]->gaps(cloths[i].state.position);
-    const bool open = std::any_of(gaps.begin(), gaps.end(), [](double gap) { return gap > 0; });
-    if (open == model.apart.has_value()) continue;
-    model.apart = open ? std::optional(cloths[i].image.mates) : std::nullopt;
+    const Planes3& position = cloths[i].state.position;
+    const int closed = sewing[i]->closed_pairs(position);
+    if (closed == sewn_pairs[i]) continue;
+    sewn_pairs[i] = closed;
+    model.apart =
+        sewing[i]->is_closed(position) ? std::nullopt : std::optional(sewing[i]->joined(position));
     changed = true;
   }
   if (!changed) return;
