@@ -46,6 +46,38 @@ TEST_F(Sewing, ClosesSeamsRoundABody) {
   EXPECT_EQ(simulation.crossings(), 0);
 }
 
+TEST_F(Sewing, StretchesNothingOnTheWay) {
+  scene_.bodies.clear();
+  Simulation simulation(scene_, "scene", 1);
+  double strain = 0;
+  FrameReport report;
+  for (report.seam_gap = 1; report.seam_gap > 0;) {
+    report = simulation.advance();
+    strain = std::max(strain, report.strain.max);
+    ASSERT_LT(report.strain.p99, 0.02);
+  }
+  EXPECT_LT(strain, 0.05);
+}
+
+TEST_F(Sewing, PairsThatMetStayTogether) {
+  Simulation simulation(scene_, "scene", 1);
+  const auto together = [&] {
+    const SimulatedCloth& cloth = simulation.cloths()[0];
+    int count = 0;
+    for (const GarmentSeam& seam : cloth.garment->seams)
+      for (const auto& [a, b] : seam.pairs)
+        count += cloth.state.position.at(a) == cloth.state.position.at(b) ? 1 : 0;
+    return count;
+  };
+  int before = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    simulation.advance();
+    EXPECT_GE(together(), before) << frame;
+    before = together();
+  }
+  EXPECT_GT(before, 0);
+}
+
 TEST_F(Sewing, GivesTheSameBitsOnAllThreads) {
   std::string first;
   for (const int threads : {1, 2, 3}) {
