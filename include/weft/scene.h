@@ -72,15 +72,18 @@ struct SceneCloth {
   std::vector<SceneAttachment> attach;
 };
 
-/// The motion of a surface's vertices: a point cache by the name of its file (PC2, MDD), or in
-/// memory. Copies share what is in memory.
+/// The motion of a surface's vertices: by the name of its file (whatever read_point_cache reads),
+/// or in memory. Copies share what is in memory.
 struct Animation {
   std::string name;                            ///< of one in memory: its name in error messages
+  std::string clip{};                          ///< of a glTF file: its animation; empty: the first
   std::shared_ptr<const PointCache> points{};  ///< [m], y up
 
   Animation() = default;
   Animation(std::string file) : name(std::move(file)) {}  // NOLINT(google-explicit-constructor)
   Animation(const char* file) : name(file) {}             // NOLINT(google-explicit-constructor)
+  Animation(std::string file, std::string of_file)
+      : name(std::move(file)), clip(std::move(of_file)) {}
   Animation(PointCache given, std::string called)
       : name(std::move(called)), points(std::make_shared<const PointCache>(std::move(given))) {}
   [[nodiscard]] bool empty() const { return name.empty() && points == nullptr; }

@@ -175,8 +175,10 @@ TEST(SceneFile, MotionsThatMakeNoSenseAreRefused) {
   };
   EXPECT_EQ(error_with(R"("motion":[{"time":1},{"time":0}])"),
             "s.json:bodies[0].motion[1].time: 0 after 1; ascending times are wanted");
-  EXPECT_EQ(error_with(R"("animation":"a.abc")"),
-            "s.json:bodies[0].animation: 'a.abc'; a point cache, .pc2 or .mdd, is wanted");
+  EXPECT_EQ(
+      error_with(R"("animation":"a.abc")"),
+      "s.json:bodies[0].animation: 'a.abc'; a motion, .pc2, .mdd, .npz, .glb, .gltf or numbered "
+      "meshes (body_%04d.obj), is wanted");
   EXPECT_EQ(error_with(R"("motion":[{"time":0}],"animation":"a.pc2")"),
             "s.json:bodies[0].animation: is there beside motion; one of both is wanted");
   EXPECT_EQ(error_with(R"("lead_in":1)"),

@@ -20,16 +20,6 @@ struct PositionHash {
   }
 };
 
-std::vector<int> first_at_position(std::span<const Vec3d> positions) {
-  std::unordered_map<Vec3d, int, PositionHash> first;
-  first.reserve(positions.size());
-  std::vector<int> result;
-  result.reserve(positions.size());
-  for (const Vec3d p : positions)
-    result.push_back(first.try_emplace(p, static_cast<int>(result.size())).first->second);
-  return result;
-}
-
 struct EdgeKinds {
   std::size_t border = 0, branching = 0;  ///< of one triangle, of more than two
 };
@@ -51,6 +41,16 @@ bool is_in_order(std::span<const int> numbers) {
 }
 
 }  // namespace
+
+std::vector<int> first_at_position(std::span<const Vec3d> positions) {
+  std::unordered_map<Vec3d, int, PositionHash> first;
+  first.reserve(positions.size());
+  std::vector<int> result;
+  result.reserve(positions.size());
+  for (const Vec3d p : positions)
+    result.push_back(first.try_emplace(p, static_cast<int>(result.size())).first->second);
+  return result;
+}
 
 void weld(std::span<Triangle> triangles, std::span<const int> first) {
   for (Triangle& t : triangles)

@@ -8,6 +8,9 @@
 
 namespace weft {
 
+/// The first vertex at the position of each. [V]
+std::vector<int> first_at_position(std::span<const Vec3d> positions);
+
 /// What welding a surface's vertices at exactly equal positions makes of it.
 struct Welding {
   std::vector<int> first;          ///< [V] the first vertex at the position of each

@@ -10,6 +10,7 @@
 #include "weft/convert.h"
 #include "weft/error.h"
 #include "weft/image_file.h"
+#include "weft/point_cache.h"
 #include "weft/run.h"
 
 namespace weft {
@@ -88,12 +89,14 @@ constexpr double counted_cloth_bytes_per_sample = 330;
 constexpr double moving_bytes_per_sample = 64;
 constexpr double margin = 1.25, short_share = 0.8;
 
-double animation_bytes(const Animation& animation) {
+double animation_bytes(const Animation& animation, const MotionSampling& sampling) {
   if (animation.in_memory())
     return static_cast<double>(animation.points->positions.size() * sizeof(Vec3f));
-  std::error_code missing;  // reported when it is read
-  const std::uintmax_t bytes = std::filesystem::file_size(animation.name, missing);
-  return missing ? 0 : static_cast<double>(bytes);
+  try {
+    return static_cast<double>(point_cache_bytes(animation.name, sampling));
+  } catch (const InputError&) {
+    return 0;  // reported when it is read
+  }
 }
 
 double samples_of(const Surface& surface, int size) {
@@ -124,7 +127,9 @@ std::uint64_t estimate_memory(const Scene& scene) {
     const double samples = samples_of(body.surface, body.size);
     bytes += per_body_sample * samples;
     if (!body.motion.empty() || !body.animation.empty()) bytes += moving_bytes_per_sample * samples;
-    if (!body.animation.empty()) bytes += animation_bytes(body.animation);
+    if (!body.animation.empty())
+      bytes +=
+          animation_bytes(body.animation, {body.animation.clip, scene.frame_rate, body.lead_in});
   }
   return static_cast<std::uint64_t>(bytes);
 }

@@ -3,11 +3,13 @@
 #include <ostream>
 
 #include "weft/cloth/cloth.h"
+#include "weft/error.h"
 #include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image_file.h"
 #include "weft/mesh.h"
 #include "weft/mesh/crossings.h"
+#include "weft/point_cache.h"
 #include "weft/run.h"
 #include "weft/run/export/cache_manifest.h"
 #include "weft/run/run_manifest.h"
@@ -28,7 +30,13 @@ std::vector<fs::path> input_files(const Scene& scene) {
   for (const SceneCloth& cloth : scene.cloths) add(cloth.surface);
   for (const SceneBody& body : scene.bodies) {
     add(body.surface);
-    if (!body.animation.in_memory()) files.emplace_back(body.animation.name);
+    if (body.animation.in_memory()) continue;
+    files.emplace_back(body.animation.name);
+    if (body.animation.empty()) continue;
+    try {
+      for (const fs::path& file : point_cache_files(body.animation.name)) files.push_back(file);
+    } catch (const InputError&) {  // they were there when they were read, which was enough
+    }
   }
   return files;
 }

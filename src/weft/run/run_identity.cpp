@@ -9,6 +9,7 @@
 #include "weft/core/hash.h"
 #include "weft/core/json.h"
 #include "weft/files.h"
+#include "weft/point_cache.h"
 #include "weft/scene_file.h"
 
 namespace weft {
@@ -34,8 +35,11 @@ std::string animation_name(const Animation& animation) {
     hash.add(std::span(animation.points->times));
     hash.add(std::span(animation.points->positions));
   } else {
-    const std::string bytes = read_file(animation.name);
-    hash.add(std::span<const char>(bytes));
+    for (const std::filesystem::path& file : point_cache_files(animation.name)) {
+      const std::string bytes = read_file(file);
+      hash.add(std::span<const char>(bytes));
+    }
+    hash.add(std::span<const char>(animation.clip));
   }
   return std::string("/").append(hash.text());
 }

@@ -137,6 +137,15 @@ std::string_view GltfBuffers::view(int buffer_view) {
   return bytes.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
 }
 
+std::vector<fs::path> GltfBuffers::external_files() const {
+  std::vector<fs::path> files;
+  for (std::size_t i = 0; i < root_.count("buffers"); ++i) {
+    const std::optional<std::string> uri = root_.element("buffers", i).text("uri");
+    if (uri && !uri->starts_with("data:")) files.emplace_back(without_escapes(*uri));
+  }
+  return files;
+}
+
 std::string_view GltfBuffers::buffer(int index) {
   if (const auto known = buffers_.find(index); known != buffers_.end()) return known->second;
   const GltfObject object = root_.element("buffers", static_cast<std::size_t>(index));

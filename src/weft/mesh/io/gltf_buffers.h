@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "weft/mesh/io/gltf_object.h"
 
@@ -32,6 +33,8 @@ class GltfBuffers {
 
   /// The part of a buffer that a buffer view names. @throws InputError
   std::string_view view(int buffer_view);
+  /// The files that buffers name, relative to the folder. @throws InputError
+  [[nodiscard]] std::vector<std::filesystem::path> external_files() const;
 
  private:
   std::string_view buffer(int index);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "weft/mesh/io/gltf_object.h"
@@ -21,10 +22,30 @@ struct Placing {
   [[nodiscard]] bool mirrors() const { return dot(axes[0], cross(axes[1], axes[2])) < 0; }
 };
 
+/// The composition of two maps: `inner` first, then `outer`.
+Placing after(const Placing& outer, const Placing& inner);
+
+/// What places a node in its parent's frame: a matrix, or scale, rotation and translation in this
+/// order.
+struct NodeTransform {
+  std::optional<Placing> matrix;
+  Vec3d translation;
+  std::array<double, 4> rotation{0, 0, 0, 1};  ///< quaternion x, y, z, w of any length but 0
+  Vec3d scale{1, 1, 1};
+  [[nodiscard]] Placing placing() const;
+};
+
+/// @throws InputError for a matrix that is not affine, or a rotation without direction
+NodeTransform read_transform(const GltfObject& node);
+
+/// Whether a quaternion has a direction: finite, and not 0.
+bool is_rotation(const std::array<double, 4>& quaternion);
+
 /// A mesh of the file where a node puts it.
 struct PlacedMesh {
   int mesh = 0;
   Placing placing;
+  int node = -1;  ///< -1 in a file without nodes
 };
 
 /// The meshes of the default scene: the one that the file names, else its first, else all root

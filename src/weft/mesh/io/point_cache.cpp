@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,8 @@
 #include "weft/files.h"
 #include "weft/mesh/io/byte_reader.h"
 #include "weft/mesh/io/line_reader.h"
+#include "weft/mesh/io/mesh_sequence.h"
+#include "weft/mesh/io/motion_files.h"
 
 namespace weft {
 namespace {
@@ -39,6 +42,12 @@ void check_length(std::string_view bytes, std::string_view name, Counts counts, 
                    fmt::format("is {} bytes long with {} points and {} samples", bytes.size(),
                                counts.points, counts.samples),
                    "a whole point cache is wanted");
+}
+
+std::uint64_t bytes_of(const std::filesystem::path& path) {
+  std::error_code missing;  // reported when it is read
+  const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
+  return missing ? 0 : bytes;
 }
 
 /// @param bytes  exactly the points
@@ -128,18 +137,42 @@ void check_point_cache(const PointCache& cache, std::string_view name) {
             "finite numbers are wanted");
 }
 
-bool is_point_cache_name(const std::filesystem::path& name) {
+bool is_gltf_name(const std::filesystem::path& name) {
   const std::string ending = ending_of(name);
-  return ending == ".pc2" || ending == ".mdd";
+  return ending == ".glb" || ending == ".gltf";
 }
 
-PointCache read_point_cache(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
-  const std::string ending = ending_of(path);
+bool is_point_cache_name(const std::filesystem::path& name) {
+  const std::string ending = ending_of(name);
+  return ending == ".pc2" || ending == ".mdd" || ending == ".npz" || is_gltf_name(name) ||
+         is_mesh_sequence_name(name);
+}
+
+PointCache read_point_cache(const std::filesystem::path& path, const MotionSampling& sampling) {
+  if (is_mesh_sequence_name(path)) return read_mesh_sequence(path);
+  const std::string bytes = read_file(path), ending = ending_of(path);
   if (ending == ".pc2") return parse_pc2(bytes, path.string());
   if (ending == ".mdd") return parse_mdd(bytes, path.string());
-  throw InputError(path.string(), "the ending '" + ending + "' is not that of a point cache",
-                   ".pc2 or .mdd is wanted");
+  if (ending == ".npz") return parse_npz(bytes, path.string());
+  if (is_gltf_name(path))
+    return parse_gltf_motion(bytes, path.string(), sampling, path.parent_path());
+  throw InputError(path.string(), "the ending '" + ending + "' is not that of a motion",
+                   point_cache_wanted);
+}
+
+std::vector<std::filesystem::path> point_cache_files(const std::filesystem::path& path) {
+  if (is_mesh_sequence_name(path)) return find_mesh_sequence(path).files;
+  if (is_gltf_name(path)) return gltf_files(path);
+  return {path};
+}
+
+std::uint64_t point_cache_bytes(const std::filesystem::path& path, const MotionSampling& sampling) {
+  if (is_gltf_name(path)) return gltf_motion_bytes(path, sampling);
+  std::uint64_t bytes = 0;
+  // A vertex takes more as text than as three floats.
+  for (const std::filesystem::path& file : point_cache_files(path))
+    bytes += ending_of(path) == ".npz" ? npz_motion_bytes(file) : bytes_of(file);
+  return bytes;
 }
 
 }  // namespace weft

@@ -48,15 +48,24 @@ std::string read_surface(const JsonObject& object, std::string_view fallback,
   return resolved(surface, folder);
 }
 
-/// Path of the animation; empty where there is none.
-std::string read_animation(const JsonObject& object, const fs::path& folder) {
+/// An animation: a file; FILE#NAME, one of a glTF file's; or the name alone, of the surface's file.
+Animation read_animation(const JsonObject& object, const std::string& surface,
+                         const fs::path& folder) {
   if (!object.has("animation")) return {};
   const std::string name = object.text("animation", "");
-  if (!is_point_cache_name(name))
-    object.place()
-        .key("animation")
-        .fail(fmt::format("'{}'", name), "a point cache, .pc2 or .mdd, is wanted");
-  return resolved(name, folder);
+  if (is_point_cache_name(name)) return resolved(name, folder);
+  const std::size_t mark = name.find('#');
+  const std::string file = name.substr(0, mark);
+  if (mark != name.npos && is_gltf_name(file))
+    return {resolved(file, folder), name.substr(mark + 1)};
+  if (is_gltf_name(surface) && !name.empty()) return {surface, name};
+  object.place()
+      .key("animation")
+      .fail(
+          fmt::format("'{}'", name),
+          fmt::format(
+              "{}{}", point_cache_wanted,
+              is_gltf_name(surface) ? ", or the name of an animation of the surface's file" : ""));
 }
 
 /// Names become file names, so they must be plain.
@@ -128,7 +137,7 @@ SceneBody read_body(const nlohmann::json& value, const JsonPlace& place, const f
   body.placement = read_placement(object);
   body.friction = object.number("friction", body.friction, friction_range);
   body.motion = read_motion(object, "motion");
-  body.animation = read_animation(object, folder);
+  body.animation = read_animation(object, body.surface.name, folder);
   if (!body.motion.empty() && !body.animation.empty())
     place.key("animation").fail("is there beside motion", "one of both is wanted");
   body.lead_in = object.number("lead_in", body.lead_in, not_negative);

@@ -34,7 +34,8 @@ std::string animation_text(const Animation& animation, const fs::path& folder) {
   if (animation.in_memory())
     throw UsageError("scene", fmt::format("the motion '{}' is in memory alone", animation.name),
                      "a point cache in a file is wanted");
-  return surface_text(animation.name, folder);
+  const std::string file = surface_text(animation.name, folder);
+  return animation.clip.empty() ? file : fmt::format("{}#{}", file, animation.clip);
 }
 
 /// An integrator or a collider, with every option.
