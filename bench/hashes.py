@@ -108,9 +108,10 @@ def entries(frames, minutes):
     for collider in COLLIDERS:
         yield "collider", collider, lambda _, name=collider: of_method("implicit", name, 20)
     for scene in sorted((ROOT / "examples/scenes").glob("*.json")):
-        if any(not (scene.parent / body["animation"]).exists() for body in json.loads(scene.read_text()).get("bodies", [])
-               if "animation" in body):
-            print(f"skipped {scene.name}: its animation is not there (examples/walk.py makes it)", flush=True)
+        moving = [body for body in json.loads(scene.read_text()).get("bodies", []) if "animation" in body]
+        # A name without an ending is that of an animation in the surface's file.
+        if any(not (scene.parent / body["animation" if "." in body["animation"] else "surface"]).exists() for body in moving):
+            print(f"skipped {scene.name}: its animation is not there (examples/{{walk,make_walker}}.py make it)", flush=True)
             continue
         yield "scene", scene.name, lambda known, name=scene.name: of_scene(name, known or frames, 60 if known else minutes)
 

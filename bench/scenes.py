@@ -26,10 +26,11 @@ def scenes(folder, shared):
     for path in sorted((shared / "scenes").glob("*.json")):
         yield path.stem, ("simulate", path)
     for path in sorted((program.ROOT / "examples/scenes").glob("*.json")):
-        if "walk.pc2" in path.read_text():
-            subprocess.run([sys.executable, program.ROOT / "examples/walk.py", made / "walk.pc2", "--weft", program.PROGRAM],
-                           check=True)
-            path = pathlib.Path(made / path.name).write_text(path.read_text()) and made / path.name
+        for maker, file in (("walk.py", "walk.pc2"), ("make_walker.py", "figure.glb")):
+            if file in path.read_text():
+                subprocess.run([sys.executable, program.ROOT / "examples" / maker, made / file, "--weft", program.PROGRAM],
+                               check=True)
+                path = pathlib.Path(made / path.name).write_text(path.read_text()) and made / path.name
         yield path.stem, ("simulate", path)
 
 

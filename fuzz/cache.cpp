@@ -1,33 +1,11 @@
-#include <cmath>
-
-#include "fuzz/properties.h"
-#include "weft/point_cache.h"
-
-namespace {
-
-/// Whole, finite, and at times that ascend from 0.
-void require_sound(const weft::PointCache& cache) {
-  using weft::fuzz::require;
-  require(cache.points > 0 && cache.samples() > 0, "a cache has points and samples");
-  require(cache.positions.size() ==
-              static_cast<std::size_t>(cache.points) * static_cast<std::size_t>(cache.samples()),
-          "every sample is whole");
-  for (const weft::Vec3f p : cache.positions)
-    require(std::fabs(p.x) <= 1e30 && std::fabs(p.y) <= 1e30 && std::fabs(p.z) <= 1e30,
-            "coordinates are finite");
-  require(cache.times[0] == 0, "times begin at 0");
-  for (std::size_t k = 1; k < cache.times.size(); ++k)
-    require(cache.times[k] > cache.times[k - 1], "times ascend");
-}
-
-}  // namespace
+#include "fuzz/cache_properties.h"
 
 /// The same bytes as PC2 and as MDD.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (const auto parse : {weft::parse_pc2, weft::parse_mdd}) {
     const auto cache = weft::fuzz::read_or_refuse(
         [&] { return parse(weft::fuzz::as_text(data, size), weft::fuzz::file_name); });
-    if (cache) require_sound(*cache);
+    if (cache) weft::fuzz::require_sound(*cache);
   }
   return 0;
 }

@@ -4,10 +4,12 @@
 Usage: make_corpus.py [FOLDER]   (default: corpus beside this script; found-* files there are kept)
 """
 import base64
+import io
 import json
 import pathlib
 import struct
 import sys
+import zipfile
 import zlib
 
 POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
@@ -85,6 +87,42 @@ def glb(content, binary):
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
+def with_parts(content, binary, *parts):
+    """A file with further accessors, of (bytes, component type, count, type, more keys)."""
+    content = json.loads(json.dumps(content))
+    for data, component, count, kind, more in parts:
+        binary += b"\0" * (-len(binary) % 4)
+        content["bufferViews"].append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(data)})
+        content["accessors"].append({"bufferView": len(content["bufferViews"]) - 1, "componentType": component, "count": count,
+                                     "type": kind, **more})
+        binary += data
+    return {**content, "buffers": [{"byteLength": len(binary)}]}, binary
+
+
+def skinned(content, binary):
+    turn = struct.pack("<8f", 0, 0, 0, 1, 0, 0, 0.6, 0.8)
+    content, binary = with_parts(
+        content, binary, (bytes([0, 1, 0, 0] * 4), 5121, 4, "VEC4", {}), (bytes([200, 55, 0, 0] * 4), 5121, 4, "VEC4", {"normalized": True}),
+        (struct.pack("<32f", *[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] * 2), 5126, 2, "MAT4", {}),
+        (struct.pack("<2f", 0, 1), 5126, 2, "SCALAR", {}), (turn, 5126, 2, "VEC4", {}), (struct.pack("<18f", *range(18)), 5126, 6, "VEC3", {}))
+    return glb({**content, "nodes": [{"mesh": 0, "skin": 0}, {"children": [2]}, {"translation": [0, 1, 0]}], "scenes": [{"nodes": [0, 1]}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3}, "indices": 1}]}],
+                "skins": [{"joints": [1, 2], "inverseBindMatrices": 4}],
+                "animations": [{"name": "a", "samplers": [{"input": 5, "output": 6}, {"input": 5, "output": 7, "interpolation": "CUBICSPLINE"}],
+                                "channels": [{"sampler": 0, "target": {"node": 2, "path": "rotation"}},
+                                             {"sampler": 1, "target": {"node": 1, "path": "translation"}}]}]}, binary)
+
+
+def morphed(content, binary):
+    content, binary = with_parts(content, binary, (struct.pack("<2H", 1, 3), 5123, 2, "SCALAR", {}), (struct.pack("<6f", *range(6)), 5126, 2, "VEC3", {}),
+                                 (struct.pack("<2f", 0, 1), 5126, 2, "SCALAR", {}), (struct.pack("<2f", 0, 1), 5126, 2, "SCALAR", {}))
+    content["accessors"].append({"componentType": 5126, "count": 4, "type": "VEC3", "sparse": {
+        "count": 2, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 3}}})
+    content["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": len(content["accessors"]) - 1}]
+    return glb({**content, "animations": [{"samplers": [{"input": 4, "output": 5, "interpolation": "STEP"}],
+                                           "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]}]}, binary)
+
+
 def glb_files():
     binary = b"".join(struct.pack("<3f", *p) for p in POINTS) + b"".join(struct.pack("<3H", *f) for f in FACES)
     content = {
@@ -112,6 +150,7 @@ def glb_files():
     yield "texture", glb(textured, binary)
     short = struct.pack("<12h", 0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0) + bytes([0, 1, 2])
     yield "quantized", glb({**quantized, "buffers": [{"byteLength": 27}]}, short)
+    yield from (("skinned", skinned(content, binary)), ("morphed", morphed(content, binary)))
     uri = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
     yield "text", json.dumps({**content, "buffers": [{"byteLength": 72, "uri": uri}]}, indent=1).encode()
 
@@ -192,6 +231,31 @@ def cache_files():
     yield "backward.mdd", mdd(1, [1, 0], 6)
 
 
+def npy(descr, shape, body, fortran_order=False):
+    header = f"{{'descr': '{descr}', 'fortran_order': {fortran_order}, 'shape': {shape}, }}"
+    header += " " * (-(len(header) + 11) % 64) + "\n"
+    return b"\x93NUMPY\x01\0" + struct.pack("<H", len(header)) + header.encode() + body
+
+
+def npz_files():
+    def archive(method, **arrays):
+        packed = io.BytesIO()
+        with zipfile.ZipFile(packed, "w") as files:
+            for name, array in arrays.items():
+                member = zipfile.ZipInfo(f"{name}.npy")  # of a fixed date
+                member.compress_type = method
+                files.writestr(member, array)
+        return packed.getvalue()
+
+    singles = npy("<f4", "(2, 2, 3)", struct.pack("<12f", *(i / 8 for i in range(12))))
+    doubles = npy("<f8", "(1, 2, 3)", struct.pack("<6d", *range(6)), True)
+    yield "stored", archive(zipfile.ZIP_STORED, vertices=singles, fps=npy("<i4", "()", struct.pack("<i", 25)))
+    yield "deflated", archive(zipfile.ZIP_DEFLATED, faces=singles, vertices=doubles)
+    yield "objects", archive(zipfile.ZIP_STORED, vertices=npy("|O", "(1, 1, 3)", b"cos\nsystem\n"))
+    yield "array", singles
+    yield "false_count", npy("<f4", "(99999999999, 99999999999, 3)", b"")
+
+
 def scene_files():
     yield "least", {"cloths": [{}]}
     yield "pins", {"cloths": [{"size": 65, "pins": [{"image": [0, 0]}, {"nearest": [1, 0, 1]},
@@ -252,7 +316,7 @@ def query_files():
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parent / "corpus"
     kinds = {"obj": obj_files, "off": off_files, "ply": ply_files, "stl": stl_files, "glb": glb_files,
-             "image": image_files, "cache": cache_files, "scene": scene_files, "checkpoint": checkpoint_files,
+             "image": image_files, "cache": cache_files, "npz": npz_files, "scene": scene_files, "checkpoint": checkpoint_files,
              "queries": query_files}
     for kind, files in kinds.items():
         (folder / kind).mkdir(parents=True, exist_ok=True)

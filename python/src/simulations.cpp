@@ -280,11 +280,11 @@ void write_cache(const std::string& path, const Floats& positions) {
 }
 
 /// (positions (T, n, 3), times (T) in seconds or frames, whether they are frames)
-py::tuple read_cache(const std::string& path) {
+py::tuple read_cache(const std::string& path, double frame_rate, const std::string& clip) {
   PointCache cache;
   {
     const py::gil_scoped_release released;
-    cache = read_point_cache(path);
+    cache = read_point_cache(path, {clip, frame_rate});
   }
   const py::ssize_t samples = cache.samples(), points = cache.points;
   return py::make_tuple(array_of<float>(std::move(cache.positions), {samples, points, 3}),

@@ -123,6 +123,12 @@ def path(given, what="path"):
         raise TypeError(f"{what}: a path is wanted, not {given!r:.60}") from None
 
 
+def word(given, what):
+    if not isinstance(given, str):
+        raise TypeError(f"{what}: a text is wanted, not {given!r:.60}")
+    return given
+
+
 def existing(given, what="path"):
     """The path of a file that is there, as text. Raises FileNotFoundError, IsADirectoryError."""
     name = path(given, what)

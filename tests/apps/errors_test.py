@@ -1,10 +1,15 @@
 """Every error of docs/errors.md is provoked: the program says what the page says, to the letter."""
+import base64
+import json
 import math
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import unittest
+
+import numpy as np
 
 from program import PROGRAM, ProgramTest, SOURCE
 
@@ -19,6 +24,12 @@ MESHES = {
     "fan.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 2 1 5\n",
     "large.obj": "v 0 0 0\nv 170 0 0\nv 0 0 170\nf 1 3 2\n",
     "coat.fbx": "FBX",
+    "moves.gltf": json.dumps({
+        "asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:;base64," + base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()}],
+        "animations": [{"name": "walk"}, {}]}),
 }
 SHEET = '"surface": "builtin:sheet", "size": 33, "pins": [{"image": [0, 0]}]'
 SCENES = {
@@ -30,6 +41,8 @@ SCENES = {
                    '"bodies": [{"name": "ball", "surface": "builtin:sphere", "size": 33}]}',
     "explicit.json": f'{{"integrator": {{"type": "explicit"}}, "substeps": 1, '
                      f'"cloths": [{{{SHEET}, "material": {{"stretch": 100000}}}}]}}',
+    "run.json": f'{{"cloths": [{{{SHEET}}}], "bodies": [{{"surface": "ball.obj", "size": 17, "animation": "moves.gltf#run"}}]}}',
+    "counts.json": f'{{"cloths": [{{{SHEET}}}], "bodies": [{{"surface": "ball.obj", "size": 17, "animation": "moves.npz"}}]}}',
     "stiff.json": f'{{"integrator": {{"type": "two_level", "filter_stiffness": 2000}}, '
                   f'"cloths": [{{{SHEET}, "velocity": [0, 0, 3]}}]}}',
 }
@@ -61,6 +74,7 @@ class Errors(ProgramTest):
         for name, text in {**MESHES, **SCENES, "moebius.obj": twisted_strip()}.items():
             (self.folder / name).write_text(text)
         self.run_weft("shapes", "sphere", "-o", "ball.obj")
+        np.savez(self.folder / "moves.npz", vertices=np.zeros((3, 2, 3)))
         self.run_weft("drape", "builtin:sheet", "builtin:sphere", "-o", "draped", "--size", "17", "--frames", "4")
         done = self.run_weft("--help")
         self.commands = ", ".join(re.findall(r"^  (\w+) ", done.stdout.split("Subcommands:\n")[1], re.M))
@@ -70,7 +84,8 @@ class Errors(ProgramTest):
         words = re.sub(r"(^| )weft ", rf"\1{PROGRAM} ", command, count=1)
         done = subprocess.run(["/bin/bash", "-c", f"{words} --quiet" if "large" not in command else words],
                               cwd=self.folder, capture_output=True, text=True, env=dict(os.environ))
-        return done.stderr.split("\n")[0], done.returncode
+        # Files that a scene names are told with their whole path.
+        return done.stderr.split("\n")[0].replace(f"{self.folder.resolve()}/", ""), done.returncode
 
     def test_the_program_says_what_the_page_says(self):
         entries = ENTRY.findall((SOURCE / "docs/errors.md").read_text())

@@ -348,6 +348,9 @@ class Examples(ProgramTest):
             if "walk.pc2" in path.read_text():
                 subprocess.run([sys.executable, SOURCE / "examples/walk.py", self.folder / "walk.pc2", "--weft", PROGRAM],
                                check=True)
+            if "figure.glb" in path.read_text():
+                subprocess.run([sys.executable, SOURCE / "examples/make_walker.py", self.folder / "figure.glb", "--weft", PROGRAM],
+                               check=True)
             for part in scene["cloths"] + scene.get("bodies", []):
                 part["size"] = 33
                 if "animation" not in part:
