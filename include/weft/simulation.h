@@ -194,6 +194,10 @@ class Simulation {
   [[nodiscard]] int frame() const;
   [[nodiscard]] const std::vector<SimulatedCloth>& cloths() const;
   [[nodiscard]] const std::vector<PlacedBody>& bodies() const;
+  /// Where the animation of a body's mesh has its vertices now, in the mesh's order; empty for a
+  /// body that moves otherwise, or not, or came from an image. The samples of the body's image are
+  /// blended from them. @param body  of bodies()  @return [V] world [m]
+  [[nodiscard]] std::vector<Vec3d> body_vertices(std::size_t body) const;
   [[nodiscard]] const std::vector<std::string>& notes() const;  ///< repairs made while loading
   /// The closed bodies that hold cloths at the start, ordered by cloth, then by body.
   [[nodiscard]] const std::vector<StartInside>& start_insides() const;

@@ -71,6 +71,43 @@ TEST(Exports, OnInputHoldsForEveryFormatThatIsAskedFor) {
   EXPECT_EQ(read_mesh(run.folder / "ring.glb").positions.size(), 84);
 }
 
+TEST(Exports, AnimatedMeshesAreWrittenAsTheirAnimationHasThem) {
+  const test::TemporaryFolder folder;
+  Scene scene = tube(folder / "tube.obj", 1);
+  SceneBody body;
+  body.name = "figure";
+  body.surface = scene.cloths[0].surface;
+  body.size = 9;  // so coarse that the image is no good copy
+  body.animation = (folder / "moves.pc2").string();
+  body.placement.translate = {8, 0, 0};
+  const std::vector<Vec3d> rest = read_mesh(body.surface.name).positions;
+  PointCache moves;
+  moves.points = static_cast<int>(rest.size());
+  moves.times_in_frames = true;
+  for (int k = 0; k < 3; ++k) {
+    moves.times.push_back(k);
+    for (const Vec3d& p : rest)
+      moves.positions.push_back(vec_cast<float>(Vec3d{p.x, p.y + 0.25 * k * p.x * p.x, p.z}));
+  }
+  write_pc2(body.animation.name, moves);
+  for (const double lead_in : {0.0, 2 / scene.frame_rate}) {
+    body.lead_in = lead_in;
+    scene.bodies = {body};
+    const ExportedRun run(scene);
+    const PointCache written = read_point_cache(run.folder / "figure.pc2");
+    ASSERT_EQ(written.points, moves.points);
+    for (int frame = 0; frame <= 2; ++frame)
+      for (std::size_t v = 0; v < rest.size(); ++v) {
+        // In two frames of lead-in: at rest, half way, at the first sample.
+        const Vec3d first = vec_cast<double>(moves.sample(0)[v]);
+        const Vec3d wanted = lead_in > 0 ? rest[v] + 0.5 * frame * (first - rest[v])
+                                         : vec_cast<double>(moves.sample(frame)[v]);
+        EXPECT_LT(length(vec_cast<double>(written.sample(frame)[v]) - wanted - Vec3d{8, 0, 0}),
+                  1e-6);
+      }
+  }
+}
+
 TEST(Exports, OnImageWritesTheSamplesOfAMesh) {
   const test::TemporaryFolder folder;
   const ExportedRun run(tube(folder / "tube.obj", 1), WrittenOn::image);

@@ -93,6 +93,25 @@ TEST(SceneFile, EveryKeyIsRead) {
   EXPECT_TRUE(scene.bodies.at(1).animation.name.ends_with("/c.MDD"));
 }
 
+TEST(SceneFile, AnimationsAreFilesOrNamesInThem) {
+  const auto read = [](const std::string& surface, const std::string& animation) {
+    const Scene scene = parse_scene(R"({"cloths":[{}],"bodies":[{"surface":")" + surface +
+                                        R"(","animation":")" + animation + R"("}]})",
+                                    "s.json", "/folder");
+    const Scene back = parse_scene(scene_text(scene, "/folder/s.json"), "s.json", "/folder");
+    EXPECT_EQ(back.bodies.at(0).animation.name, scene.bodies.at(0).animation.name);
+    EXPECT_EQ(back.bodies.at(0).animation.clip, scene.bodies.at(0).animation.clip);
+    return std::pair(scene.bodies.at(0).animation.name, scene.bodies.at(0).animation.clip);
+  };
+  using Names = std::pair<std::string, std::string>;
+  EXPECT_EQ(read("a.glb", "walk"), Names("/folder/a.glb", "walk"));
+  EXPECT_EQ(read("a.gltf", "Take #2"), Names("/folder/a.gltf", "Take #2"));
+  EXPECT_EQ(read("a.glb", "a.glb"), Names("/folder/a.glb", ""));
+  EXPECT_EQ(read("a.obj", "b.GLB#run"), Names("/folder/b.GLB", "run"));
+  EXPECT_EQ(read("a.obj", "m/b.npz"), Names("/folder/m/b.npz", ""));
+  EXPECT_EQ(read("a.obj", "m/b_%04d.obj"), Names("/folder/m/b_%04d.obj", ""));
+}
+
 TEST(SceneFile, PolarMapsKeysAreReadAndWritten) {
   const Scene scene = parse_scene(
       R"({"collider":{"type":"polar_map","size":99,"walk":false},"cloths":[{}]})", "s.json", "");

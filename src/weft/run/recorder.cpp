@@ -79,7 +79,8 @@ void Recorder::record_bodies(const ExportOptions& options) {
                                          &body_rests_.back(),
                                          body.source ? &*body.source : nullptr,
                                          placement,
-                                         body.moves};
+                                         body.moves,
+                                         [this, i] { return simulation_.body_vertices(i); }};
     write_rest(subject);
     write_normals(body);
     bodies_.push_back(std::make_unique<SurfaceRecord>(subject, options));
@@ -174,7 +175,7 @@ void Recorder::write_manifests(RunReport& report) {
 std::int64_t Recorder::written_crossings() {
   std::vector<CrossingSurface> surfaces;  // cloths first
   each([&](const SurfaceRecord& record) {
-    const std::vector<Vec3f> points = record.shown().points(*record.subject().now);
+    const std::vector<Vec3f> points = record.points();
     std::vector<Corners> corners;
     for (const auto& [a, b, c] : fans_of(record.shown().faces()).triangles)
       corners.push_back(

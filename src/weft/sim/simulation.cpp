@@ -225,6 +225,12 @@ bool Simulation::holds() const { return parts_->grab.holds(); }
 int Simulation::frame() const { return parts_->frame; }
 const std::vector<SimulatedCloth>& Simulation::cloths() const { return parts_->cloths; }
 const std::vector<PlacedBody>& Simulation::bodies() const { return parts_->bodies; }
+std::vector<Vec3d> Simulation::body_vertices(std::size_t body) const {
+  const std::optional<SourceMesh>& source = parts_->bodies[body].source;
+  if (!source) return {};
+  const double seconds = parts_->frame / parts_->scene.frame_rate;
+  return parts_->driven.motion(body).vertices(seconds, source->positions);
+}
 const std::vector<std::string>& Simulation::notes() const { return parts_->notes; }
 const std::vector<StartInside>& Simulation::start_insides() const { return parts_->insides; }
 

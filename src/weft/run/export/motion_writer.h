@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "weft/run/export/exported_surface.h"
@@ -14,7 +15,11 @@ class MotionFrame {
  public:
   /// All by reference. @param samples  of the image, world [m]
   MotionFrame(int number, const Planes3& samples, const ExportedSurface& surface)
-      : number_(number), samples_(samples), surface_(surface), points_(surface.points(samples)) {}
+      : MotionFrame(number, samples, surface, surface.points(samples)) {}
+  /// @param points  [surface.vertices()] of it, in the unit and axes of files
+  MotionFrame(int number, const Planes3& samples, const ExportedSurface& surface,
+              std::vector<Vec3f> points)
+      : number_(number), samples_(samples), surface_(surface), points_(std::move(points)) {}
 
   [[nodiscard]] int number() const { return number_; }  ///< from 0, the start
   [[nodiscard]] const Planes3& samples() const { return samples_; }

@@ -17,6 +17,16 @@ SurfaceRecord::SurfaceRecord(const Subject& subject, const ExportOptions& option
   if (subject.moves) add_writers();
 }
 
+std::vector<Vec3f> SurfaceRecord::points(bool on_input) const {
+  const std::vector<Vec3d> known =
+      on_input && subject_.vertices ? subject_.vertices() : std::vector<Vec3d>();
+  if (known.empty()) return surface(on_input).points(*subject_.now);
+  std::vector<Vec3f> points;
+  points.reserve(known.size());
+  for (const Vec3d& p : known) points.push_back(vec_cast<float>(in_frame(p, options_.files)));
+  return points;
+}
+
 MotionPlace SurfaceRecord::place(bool on_input) const {
   // NAME.pc2 has the vertices of NAME.obj.
   const bool beside = !on_input && on_input_.has_value();
@@ -54,7 +64,7 @@ void SurfaceRecord::write_still_files() {
   for (const std::string& format : options_.formats) {
     if (subject_.moves && format != "obj") continue;
     const bool on_input = shows_input(format);
-    const MotionFrame now(0, *subject_.now, surface(on_input));
+    const MotionFrame now = frame(0, on_input);
     if (const auto path = write_still(format, place(on_input), now))
       still_.push_back({*path, format, on_input, surface(on_input).vertices()});
   }
@@ -66,7 +76,7 @@ void SurfaceRecord::each_frame(int frame, const Visit& visit) const {
     std::optional<MotionFrame> now;  // shared by all writers of these vertices
     for (const Writer& writer : writers_) {
       if (writer.on_input != on_input) continue;
-      if (!now) now.emplace(frame, *subject_.now, surface(on_input));
+      if (!now) now.emplace(this->frame(frame, on_input));
       visit(*writer.files, *now);
     }
   }

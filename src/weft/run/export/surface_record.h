@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,9 @@ class SurfaceRecord {
     const SourceMesh* source = nullptr;  ///< null: the image came from no mesh
     PlacementMap placement;
     bool moves = true;
+    /// Current world positions of the source's vertices where more is known of them than where the
+    /// samples are [m]; null, or gives none: they follow the samples.
+    std::function<std::vector<Vec3d>()> vertices{};
   };
   /// @param subject  what it points to must outlive this
   SurfaceRecord(const Subject& subject, const ExportOptions& options);
@@ -65,6 +69,8 @@ class SurfaceRecord {
   [[nodiscard]] const Subject& subject() const { return subject_; }
   /// The mesh's own vertices where any format shows them, else the samples.
   [[nodiscard]] const ExportedSurface& shown() const { return surface(on_input_.has_value()); }
+  /// Their current positions, in the unit and axes of files.
+  [[nodiscard]] std::vector<Vec3f> points() const { return points(on_input_.has_value()); }
   /// The file name of the point cache of the samples; empty: there is none.
   [[nodiscard]] std::string image_cache() const { return image_cache_; }
 
@@ -79,6 +85,10 @@ class SurfaceRecord {
   }
   [[nodiscard]] const ExportedSurface& surface(bool on_input) const {
     return on_input ? *on_input_ : on_image_;
+  }
+  [[nodiscard]] std::vector<Vec3f> points(bool on_input) const;
+  [[nodiscard]] MotionFrame frame(int number, bool on_input) const {
+    return {number, *subject_.now, surface(on_input), points(on_input)};
   }
   [[nodiscard]] MotionPlace place(bool on_input) const;
   void add_writer(const std::string& format, bool on_input);

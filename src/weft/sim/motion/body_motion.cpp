@@ -115,6 +115,7 @@ BodyMotion::BodyMotion(const SceneBody& body, const LoadedSurface& surface, cons
   if (!body.animation.empty()) {
     animation_ = load_animation(body, files);
     blends_ = blends_of(surface, body, animation_->points);
+    of_mesh_ = surface.follows.has_value();
     fastest_ = fastest_animated();
   } else {
     const double reach = farthest_from(origin_, rest_);
@@ -149,8 +150,7 @@ BodyMotion::Instant BodyMotion::instant_at(double seconds) const noexcept {
   return {before, after, std::max(0.0, seconds - times[before]) / (times[after] - times[before])};
 }
 
-Vec3d BodyMotion::animated(const Instant& instant, int sample) const noexcept {
-  const BlendedVertex& blend = blends_[static_cast<std::size_t>(sample)];
+Vec3d BodyMotion::animated(const Instant& instant, const BlendedVertex& blend) const noexcept {
   const auto blended = [&](int index) {
     const std::span<const Vec3f> points = animation_->sample(index);
     Vec3d sum;
@@ -176,7 +176,7 @@ void BodyMotion::place(double seconds, Planes3& positions, ThreadTeam& team) con
   if (animation_) {
     const Instant instant = instant_at(std::max(0.0, seconds - lead_in_));
     set_all([&](int s, Vec3d rest) {
-      const Vec3d there = animated(instant, s);
+      const Vec3d there = animated(instant, blends_[static_cast<std::size_t>(s)]);
       return share < 1 ? rest + share * (there - rest) : there;
     });
   } else {
@@ -186,15 +186,31 @@ void BodyMotion::place(double seconds, Planes3& positions, ThreadTeam& team) con
   }
 }
 
+std::vector<Vec3d> BodyMotion::vertices(double seconds, std::span<const Vec3d> rest) const {
+  std::vector<Vec3d> positions;
+  if (!of_mesh_) return positions;
+  const double share = led_in(seconds);
+  const Instant instant = instant_at(std::max(0.0, seconds - lead_in_));
+  positions.reserve(rest.size());
+  for (std::size_t v = 0; v < rest.size(); ++v) {
+    const auto vertex = static_cast<int>(v);
+    const Vec3d there = animated(instant, {{vertex, vertex, vertex}, {1, 0, 0}});
+    const Vec3d start = map_.point(rest[v]);
+    positions.push_back(share < 1 ? start + share * (there - start) : there);
+  }
+  return positions;
+}
+
 double BodyMotion::fastest_animated() const {
   double fastest = 0;
   for (int s = 0; s < rest_.size() * rest_.size(); ++s) {
-    Vec3d before = animated({0, 0, 0}, s);
+    const BlendedVertex& blend = blends_[static_cast<std::size_t>(s)];
+    Vec3d before = animated({0, 0, 0}, blend);
     if (lead_in_ > 0)
       fastest =
           std::max(fastest, steepest * length(before - vec_cast<double>(rest_.at(s))) / lead_in_);
     for (int k = 1; k < animation_->samples(); ++k) {
-      const Vec3d there = animated({k, k, 0}, s);
+      const Vec3d there = animated({k, k, 0}, blend);
       const double seconds = animation_->times[k] - animation_->times[k - 1];
       fastest = std::max(fastest, length(there - before) / seconds);
       before = there;

@@ -43,6 +43,9 @@ class BodyMotion {
   /// Sets the positions of all samples at a time; mates are equal.
   /// @param positions  [n x n] world [m]
   void place(double seconds, Planes3& positions, ThreadTeam& team) const noexcept;
+  /// Where an animation of a mesh has its vertices at a time; empty for other motions.
+  /// @param rest  [V] of the mesh, unplaced [m]  @return [V] world [m]
+  [[nodiscard]] std::vector<Vec3d> vertices(double seconds, std::span<const Vec3d> rest) const;
   /// Largest speed of any of its points. [m/s]
   [[nodiscard]] double fastest() const { return fastest_; }
 
@@ -54,7 +57,7 @@ class BodyMotion {
   };
   [[nodiscard]] MotionKey key_now(double seconds) const noexcept;
   [[nodiscard]] Instant instant_at(double seconds) const noexcept;
-  [[nodiscard]] Vec3d animated(const Instant& instant, int sample) const noexcept;
+  [[nodiscard]] Vec3d animated(const Instant& instant, const BlendedVertex& blend) const noexcept;
   [[nodiscard]] double fastest_animated() const;
   /// Part of the lead-in displacement that is done, 0 to 1: smooth at both ends.
   [[nodiscard]] double led_in(double seconds) const noexcept;
@@ -66,6 +69,7 @@ class BodyMotion {
   std::vector<MotionKey> path_;
   std::optional<PointCache> animation_;  // times in seconds
   std::vector<BlendedVertex> blends_;    // [n * n]
+  bool of_mesh_ = false;                 // whether the animation moves a mesh's vertices
 };
 
 /// Motions of the bodies of a scene, in its order.
@@ -75,6 +79,8 @@ class DrivenBodies {
   /// Computes the positions of moving bodies at the end of a step.
   void move_to(double seconds, ThreadTeam& team) noexcept;
 
+  /// @pre body < number of bodies added
+  [[nodiscard]] const BodyMotion& motion(std::size_t body) const { return motions_[body]; }
   /// Positions of each body at the end of the step. [n x n] world [m]; null where it stands still
   [[nodiscard]] std::span<const Planes3* const> ends() const { return ends_; }
   [[nodiscard]] bool any_moves() const;
