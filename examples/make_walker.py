@@ -88,9 +88,11 @@ def bump(phase, middle, width):
 
 def leg(phase):
     """Turns of thigh, shin and foot about x [degrees] after the heel's strike at phase 0."""
-    thigh = -(4 + 23 * math.cos(2 * math.pi * phase))
-    shin = 6 + 52 * bump(phase, 0.74, 0.26) + 9 * bump(phase, 0.12, 0.15)
-    pitch = 38 * bump(phase, 0.63, 0.2) - 14 * bump(phase, 0.0, 0.1)  # of the foot over the ground
+    # Evenly back while it carries, for half a cycle, then swung to the front.
+    forward = 1 - 4 * phase if phase < 0.5 else -math.cos(2 * math.pi * (phase - 0.5))
+    thigh = -(3 + 22 * forward)
+    shin = 6 + 54 * bump(phase, 0.74, 0.25) + 8 * bump(phase, 0.12, 0.15)
+    pitch = 26 * bump(phase, 0.62, 0.2) - 12 * bump(phase, 0.0, 0.1)  # of the foot over the ground
     return thigh, shin, pitch - thigh - shin
 
 
@@ -134,21 +136,24 @@ def soles(turns, all_joints):
 
 
 def walk(all_joints):
-    """Keys of the walk: times, turns, places of the hips. The lowest sole is on the ground and does not slide."""
+    """Keys of the walk: times, turns, places of the hips. The lowest sole is on the ground; the hips go evenly, as far as the
+    feet carry them."""
     times, poses, hips = [], [], []
     forward, before = 0.0, None
     for key in range(CYCLES * KEYS + 1):
         turns = walking(key / KEYS % 1)
         points = soles(turns, all_joints)
-        lowest = min(range(len(points)), key=lambda k: points[k][1])
         if before is not None:
-            forward += before[lowest][2] - points[lowest][2]
+            carrying = range(3) if (key - 1) / KEYS % 1 < 0.5 else range(3, 6)  # soles of the left foot, or of the right
+            sole = min(carrying, key=lambda k: points[k][1])
+            forward += before[sole][2] - points[sole][2]
         before = points
         times.append(key * CYCLE / KEYS)
         poses.append(turns)
         x, y, z = all_joints[0]["place"]
-        hips.append((x, y - points[lowest][1], z + forward))
-    return times, poses, hips
+        hips.append((x, y - min(point[1] for point in points), z))
+    step = forward / (len(times) - 1)
+    return times, poses, [(x, y, z + step * key) for key, (x, y, z) in enumerate(hips)]
 
 
 def wave(all_joints):

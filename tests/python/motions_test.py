@@ -1,6 +1,7 @@
 """Motions of bodies from files: what numpy writes, and skins against the formulas of the glTF specification in numpy."""
 import json
 import pathlib
+import shutil
 import struct
 import subprocess
 import sys
@@ -156,7 +157,36 @@ class Skins(ModuleTest):
         positions, _ = weft.read_pc2(self.made, frame_rate=60)
         lowest = positions[..., 1].min(1)
         self.assertLess(np.abs(lowest).max(), 0.012)
-        self.assertGreater(positions[-1, :, 2].mean() - positions[0, :, 2].mean(), 1.5)
+        along = positions[..., 2].mean(1)
+        self.assertGreater(along[-1] - along[0], 2)
+        self.assertGreater(np.diff(along).min(), 0)  # it never slides back
+
+    def scene(self, animation, name="scene.json"):
+        """The figure, eased in for six frames, and a small sheet beside it."""
+        shutil.copy(self.made, "figure.glb")
+        pathlib.Path(name).write_text(json.dumps({
+            "frames": 12, "cloths": [{"surface": "builtin:sheet", "size": 9, "scale": 0.2, "translate": [2, 0.1, 0]}],
+            "bodies": [{"name": "figure", "surface": "figure.glb", "size": 33, "animation": animation, "lead_in": 0.1,
+                        "translate": [0, 0, 1]}]}))
+        return name
+
+    def test_runs_write_the_figure_as_it_walks(self):
+        self.run_weft("simulate", self.scene("walk"), "-o", "run", "--quiet")
+        written, _ = weft.read_pc2("run/figure.pc2")
+        figure = Figure(self.made)
+        for frame in (6, 7, 12):
+            wanted = figure.positions("walk", frame / 60 - 0.1) + (0, 0, 1)
+            self.assertLess(np.abs(written[frame] - wanted).max(), 1e-6)
+
+    def test_a_run_goes_on_with_its_animation_alone(self):
+        whole = self.run_weft("simulate", self.scene("walk"), "-o", "whole", "--json")
+        self.run_weft("simulate", "scene.json", "-o", "run", "--frames", "5", "--checkpoint", "5")
+        words = [PROGRAM, "simulate", self.scene("wave", "other.json"), "-o", "run", "--resume"]
+        done = subprocess.run(words, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("bodies/0/animation", done.stderr)
+        resumed = self.run_weft("simulate", self.scene("figure.glb#walk"), "-o", "run", "--resume", "--json", "--threads", "2")
+        self.assertEqual(json.loads(resumed)["state_hash"], json.loads(whole)["state_hash"])
 
     def test_names_that_are_not_there_are_told_with_those_that_are(self):
         self.assertRaisesRegex(weft.InputError, "no animation 'run'; one of its 2, 'walk', 'wave'", weft.read_pc2, self.made, clip="run")

@@ -85,6 +85,19 @@ NodeTransform read_transform(const GltfObject& node) {
   return transform;
 }
 
+std::vector<int> parents_of(const GltfObject& root) {
+  const std::size_t count = root.count("nodes");
+  std::vector<int> parents(count, -1);
+  for (std::size_t n = 0; n < count; ++n)
+    for (const int child : root.element("nodes", n).indices("children", count)) {
+      if (parents[child] >= 0)
+        root.element("nodes", static_cast<std::size_t>(child))
+            .fail("is reached twice", "a tree of nodes is wanted");
+      parents[child] = static_cast<int>(n);
+    }
+  return parents;
+}
+
 std::vector<PlacedMesh> placed_meshes(const GltfObject& root) {
   std::vector<PlacedMesh> meshes;
   const std::size_t nodes = root.count("nodes"), mesh_count = root.count("meshes");

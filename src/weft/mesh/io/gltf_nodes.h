@@ -41,6 +41,9 @@ NodeTransform read_transform(const GltfObject& node);
 /// Whether a quaternion has a direction: finite, and not 0.
 bool is_rotation(const std::array<double, 4>& quaternion);
 
+/// The parent of each node; -1: none. @throws InputError for a node with two
+std::vector<int> parents_of(const GltfObject& root);
+
 /// A mesh of the file where a node puts it.
 struct PlacedMesh {
   int mesh = 0;

@@ -93,6 +93,20 @@ GltfSkin read_gltf_skin(GltfDocument& document, int index) {
   return skin;
 }
 
+Placing bound_placing(GltfDocument& document, int skin) {
+  const GltfObject& root = document.root();
+  const GltfSkin bound = read_gltf_skin(document, skin);
+  const std::vector<int> parents = parents_of(root);
+  Placing placing = bound.inverse_binds[0];
+  std::size_t steps = 0;
+  for (int node = bound.joints[0]; node >= 0; node = parents[static_cast<std::size_t>(node)]) {
+    const GltfObject object = root.element("nodes", static_cast<std::size_t>(node));
+    if (++steps > parents.size()) object.fail("is its own ancestor", "a tree of nodes is wanted");
+    placing = after(read_transform(object).placing(), placing);
+  }
+  return placing;
+}
+
 SkinWeights read_skin_weights(GltfDocument& document, const GltfObject& primitive,
                               std::size_t vertices, std::size_t joints) {
   const std::optional<GltfObject> attributes = primitive.object("attributes");

@@ -20,6 +20,11 @@ struct GltfSkin {
 /// @throws InputError for no joints, or matrices that are too few, not affine or not finite
 GltfSkin read_gltf_skin(GltfDocument& document, int index);
 
+/// Where the first joint of a skin puts its mesh while nodes are at rest; a mesh with a skin does
+/// not go with its own node [gltf20, 3.7.3.3]. All joints put it there that are as they were bound.
+/// @throws InputError as read_gltf_skin, or for a joint that is its own ancestor
+Placing bound_placing(GltfDocument& document, int skin);
+
 /// How much each joint of a skin moves each vertex.
 struct SkinWeights {
   struct Influence {

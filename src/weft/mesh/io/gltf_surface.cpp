@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "weft/error.h"
 #include "weft/mesh/io/gltf_accessor.h"
 #include "weft/mesh/io/gltf_nodes.h"
+#include "weft/mesh/io/gltf_skin.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
 
@@ -40,19 +43,41 @@ std::vector<Triangle> triangles_of(const GltfObject& primitive, int mode,
   return triangles;
 }
 
+/// Whether two maps move points of the unit cube to about the same places.
+bool agree(const Placing& a, const Placing& b) {
+  constexpr double tolerance = 1e-4;  // of the maps' size: skins are written in single precision
+  double apart = length(a.offset - b.offset), size = length(a.offset);
+  for (std::size_t k = 0; k < 3; ++k) {
+    apart += length(a.axes[k] - b.axes[k]);
+    size += length(a.axes[k]);
+  }
+  return apart <= tolerance * size;
+}
+
+/// Where a skin puts its mesh; nothing for one that is not sound, which matters to motions alone.
+std::optional<Placing> sound_placing(GltfDocument& document, int skin) {
+  try {
+    return bound_placing(document, skin);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 class Gatherer {
  public:
   explicit Gatherer(GltfDocument& document)
-      : root_(document.root()),
+      : document_(document),
+        root_(document.root()),
         buffers_(document.buffers()),
         most_(std::max(max_shown_freely, document.size())) {}
 
   void add(const PlacedMesh& placed) {
     bases_.clear();
     const GltfObject object = root_.element("meshes", static_cast<std::size_t>(placed.mesh));
+    const Placing placing = rest_placing(placed);
     for (std::size_t i = 0; i < object.count("primitives"); ++i) {
       block_ = {placed.node, placed.mesh, static_cast<int>(i)};
-      add_primitive(object.element("primitives", i), placed.placing);
+      add_primitive(object.element("primitives", i), placing);
     }
   }
 
@@ -63,6 +88,17 @@ class Gatherer {
   }
 
  private:
+  /// Where a mesh is at rest: where its skin puts it, if it has a sound one, else its node.
+  Placing rest_placing(const PlacedMesh& placed) {
+    if (placed.node < 0) return placed.placing;
+    const GltfObject node = root_.element("nodes", static_cast<std::size_t>(placed.node));
+    if (!node.has("skin") || root_.count("skins") == 0) return placed.placing;
+    const std::optional<int> skin = node.index("skin", root_.count("skins"));
+    if (!bound_.contains(*skin)) bound_[*skin] = sound_placing(document_, *skin);
+    const std::optional<Placing>& bound = bound_[*skin];
+    return bound && !agree(*bound, placed.placing) ? *bound : placed.placing;
+  }
+
   void add_primitive(const GltfObject& primitive, const Placing& placing) {
     const auto mode = static_cast<int>(primitive.integer("mode", 0, 6).value_or(triangles_mode));
     if (mode < triangles_mode) {  // points and lines have no surface
@@ -130,14 +166,16 @@ class Gatherer {
                      fmt::format("at most {} are wanted", most_));
   }
 
+  GltfDocument& document_;
   const GltfObject& root_;
   GltfBuffers& buffers_;
   std::size_t most_;
   TriangleMesh mesh_;
   std::vector<GltfBlock> blocks_;
-  GltfBlock block_;                           ///< of the primitive that is being added
-  bool points_ = false, lines_ = false;       ///< whether such were left out
-  std::map<int, std::pair<int, int>> bases_;  ///< by accessor, of the mesh that is being added
+  GltfBlock block_;                              ///< of the primitive that is being added
+  bool points_ = false, lines_ = false;          ///< whether such were left out
+  std::map<int, std::optional<Placing>> bound_;  ///< by skin
+  std::map<int, std::pair<int, int>> bases_;     ///< by accessor, of the mesh that is being added
 };
 
 }  // namespace

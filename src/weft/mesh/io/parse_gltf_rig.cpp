@@ -43,18 +43,11 @@ GltfObject find_clip(const GltfObject& root, std::string_view clip) {
 }
 
 std::vector<Node> read_nodes(const GltfObject& root) {
-  const std::size_t count = root.count("nodes");
-  std::vector<Node> nodes(count);
-  for (std::size_t n = 0; n < count; ++n) {
-    const GltfObject object = root.element("nodes", n);
-    nodes[n].rest = read_transform(object);
-    for (const int child : object.indices("children", count)) {
-      Node& node = nodes[static_cast<std::size_t>(child)];
-      if (node.parent >= 0)
-        root.element("nodes", static_cast<std::size_t>(child))
-            .fail("is reached twice", "a tree of nodes is wanted");
-      node.parent = static_cast<int>(n);
-    }
+  const std::vector<int> parents = parents_of(root);
+  std::vector<Node> nodes(parents.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    nodes[n].rest = read_transform(root.element("nodes", n));
+    nodes[n].parent = parents[n];
   }
   return nodes;
 }
