@@ -353,6 +353,17 @@ TEST(GltfMotion, SamplesAreAtWholeFramesAfterTheLeadIn) {
   }
 }
 
+TEST(GltfMotion, EndsThatAreFramesButForRoundingAreOneSample) {
+  for (const float end : {3.45F, 3.4499998F, 3.45F - 0.1F / 60}) {
+    Moving file;
+    file.move(0, "translation", {0, end}, {0, 0, 0, 1, 0, 0}, 3);
+    const PointCache cache = parse_gltf_motion(file.pair.bytes(), "a.glb", {});
+    EXPECT_EQ(cache.samples(), 208) << end;
+    EXPECT_EQ(cache.times.back(), end);
+    EXPECT_EQ(cache.sample(207)[0].x, 1);
+  }
+}
+
 TEST(GltfMotion, FirstSampleOfAStillFileIsItsMesh) {
   Moving file;
   file.pair.json["nodes"][0] = {{"mesh", 0}, {"translation", {1, 2, 3}}, {"scale", {1, 2, 1}}};

@@ -25,7 +25,8 @@ std::vector<double> sample_times(const GltfRig& rig, const MotionSampling& sampl
         fmt::format("an animation of {:.6g} s, at {:g} frames a second and {} vertices",
                     rig.duration, rate, rig.points()),
         "a shorter one is wanted");
-  constexpr double rounding = 1e-6;  // of a frame
+  // Of a frame. Keys are in single precision: one that is meant to be a frame lies a little beside.
+  const double rounding = 1e-6 + 2.5e-7 * rig.duration * rate;
   const double lead = sampling.lead_in * rate;
   std::vector<double> times{0};
   for (double frame = std::floor(lead + rounding) + 1;
