@@ -1,12 +1,15 @@
 """The contract of --export, --on, --unit and --up: files, counts, refusals, resuming; and of caches.json."""
 import json
 import os
+import pathlib
 import resource
 import signal
 import struct
 import subprocess
 import time
 import unittest
+
+import numpy
 
 from program import PROGRAM, ProgramTest
 
@@ -40,6 +43,20 @@ def read_pc2(path):
     data = path.read_bytes()
     points, frames = struct.unpack_from("<i", data, 16)[0], struct.unpack_from("<i", data, 28)[0]
     return [list(struct.iter_unpack("<3f", data[32 + 12 * points * k:32 + 12 * points * (k + 1)])) for k in range(frames)]
+
+
+def pattern_of_a_tube():
+    """Two panels of 30 x 20 cm that face each other, sewn along both sides."""
+    def panel(z, corners):
+        edges = [{"endpoints": [k, (k + 1) % 4]} for k in range(4)]
+        return {"vertices": corners, "edges": edges, "translation": [-15, 100, z], "rotation": [0, 0, 0]}
+    front = panel(12, [[0, 0], [30, 0], [30, 20], [0, 20]])
+    back = panel(-12, [[0, 0], [0, 20], [30, 20], [30, 0]])
+    stitches = [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}],
+                [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]
+    return {"pattern": {"panels": {"front": front, "back/left": back}, "stitches": [
+        [{**end, "panel": end["panel"].replace("back", "back/left")} for end in stitch] for stitch in stitches]},
+        "properties": {"units_in_meter": 100}}
 
 
 class ExportTest(ProgramTest):
@@ -212,6 +229,40 @@ class ExportsGoOn(ExportTest):
         frames = read_pc2(self.folder / "run/shirt.pc2")
         self.assertGreater(len(frames), 1)
         self.assertEqual({len(points) for points in frames}, {84})
+
+
+class ExportsOfGarments(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "tube.json").write_text(json.dumps(pattern_of_a_tube()))
+        self.words = ("garment", "tube.json", "--body", "builtin:sphere", "--spacing", "30", "--frames", "3")
+
+    def test_panels_are_arrays_of_numpy(self):
+        found = self.run_json(*self.words, "-o", "run")
+        names = {pathlib.Path(path).name for path in found["outputs"]}
+        self.assertLessEqual({"garment.obj", "garment.draped.obj", "garment.pc2", "garment.panels.exr", "garment.panels.npz"}, names)
+        with numpy.load(self.folder / "run/garment.panels.npz") as arrays:
+            self.assertEqual(sorted(arrays), ["back_left.pattern", "back_left.position", "front.pattern", "front.position"])
+            flat, placed = arrays["front.pattern"], arrays["front.position"]
+        self.assertEqual(flat.shape[:2], placed.shape[:2])
+        self.assertEqual((flat.dtype, flat.shape[2], placed.shape[2]), (numpy.float32, 2, 3))
+        numpy.testing.assert_allclose((flat.min(), flat[..., 0].max(), flat[..., 1].max()), (0, 30, 20), rtol=1e-6)
+        last = read_pc2(self.folder / "run/garment.image.pc2")[-1]
+        self.assertIn(tuple(placed[0, 0]), last)
+
+    def test_on_image_leaves_panels_apart(self):
+        self.run_weft(*self.words, "-o", "sewn")
+        self.run_weft(*self.words, "-o", "apart", "--on", "image")
+        points = {run: len(read_pc2(self.folder / run / "garment.pc2")[0]) for run in ("sewn", "apart")}
+        self.assertGreater(points["apart"], points["sewn"])
+        self.assertFalse((self.folder / "apart/garment.image.pc2").exists())
+
+    def test_resuming_a_finished_run_leaves_the_same_files(self):
+        self.run_weft(*self.words, "-o", "run")
+        once = {path.name: path.read_bytes() for path in (self.folder / "run").glob("garment.*")}
+        self.run_weft(*self.words, "-o", "run", "--resume")
+        again = {path.name: path.read_bytes() for path in (self.folder / "run").glob("garment.*")}
+        self.assertEqual(once, again)
 
 
 if __name__ == "__main__":

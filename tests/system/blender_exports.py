@@ -51,6 +51,20 @@ def scene(surface, **changes):
     return {"version": 1, "frames": FRAMES, "cloths": [cloth], "bodies": [body], **changes}
 
 
+def garment_scene(path):
+    """A band of two panels, sewn round the waist of a figure."""
+    def panel(z, corners):
+        return {"vertices": corners, "translation": [-23, 95, z],
+                "edges": [{"endpoints": [k, (k + 1) % 4]} for k in range(4)]}
+    panels = {"front": panel(25, [[0, 0], [46, 0], [46, 25], [0, 25]]),
+              "back": panel(-25, [[0, 0], [0, 25], [46, 25], [46, 0]])}
+    stitches = [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}],
+                [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]
+    path.write_text(json.dumps({"pattern": {"panels": panels, "stitches": stitches}, "properties": {"units_in_meter": 100}}))
+    return {"version": 1, "frames": 90, "cloths": [{"name": "band", "surface": str(path), "sew": {"spacing": 0.03}}],
+            "bodies": [{"name": "figure", "surface": "builtin:mannequin", "size": 65}]}
+
+
 def cases(folder, shared):
     """Name: (scene, words, user's mesh or None)."""
     tube, inches = folder / "tube.obj", folder / "inches.obj"
@@ -59,7 +73,8 @@ def cases(folder, shared):
     found = {"image": (scene("builtin:torus"), [], None),
              "unwelded": (scene("builtin:torus"), ["--unwelded"], None),
              "input": (scene(str(tube)), [], tube),
-             "inches": (scene(str(inches), unit="in", up="z"), [], inches)}
+             "inches": (scene(str(inches), unit="in", up="z"), [], inches),
+             "garment": (garment_scene(folder / "band.json"), [], None)}
     shirt = shared / "meshes/dc_tshirt1000-tri.obj"
     if shirt.exists():
         found["shirt"] = (scene(str(shirt)), ["--on", "input"], shirt)
@@ -157,6 +172,16 @@ def in_blender(folder, report):
         fact(f"{what}: faces are the user's", faces == wanted[1])
         fact(f"{what}: texture coordinates are the user's", same_uv(texture, wanted[2]))
 
+    def check_garment(what, path, last):
+        thing = load_obj(path)
+        check(f"{what}: draped OBJ is the last frame", positions(thing, 0), last)
+        wanted = read_obj(path)
+        faces, texture = faces_and_uv(thing)
+        fact(f"{what}: faces beside lines of seams", faces == wanted[1])
+        fact(f"{what}: texture coordinates in centimetres", same_uv(texture, wanted[2]))
+        sides = {tuple(sorted(edge)) for face in faces for edge in zip(face, face[1:] + face[:1])}
+        fact(f"{what}: seams are edges of faces", {tuple(sorted(edge.vertices)) for edge in thing.data.edges} == sides)
+
     def check_cache(what, obj, cache, frames):
         thing = load_obj(obj)
         modifier = thing.modifiers.new("cache", "MESH_CACHE")
@@ -210,8 +235,14 @@ def in_blender(folder, report):
         for surface in manifest["surfaces"]:
             what, name = f"{case['name']}/{surface['name']}", surface["name"]
             users = pathlib.Path(case["mesh"]) if case["mesh"] and surface["kind"] == "cloth" else None
+            if not surface["moves"]:
+                check_obj(what, run / f"{name}.obj", None)
+                continue
             frames = read_pc2(run / f"{name}.pc2")
             check_obj(what, run / f"{name}.obj", users)
+            draped = run / f"{name}.draped.obj"
+            if draped.exists():
+                check_garment(what, draped, frames[-1])
             for ending in (".pc2", ".mdd"):
                 check_cache(what, run / f"{name}.obj", run / f"{name}{ending}", frames)
             if manifest["up"] == "y":

@@ -60,7 +60,8 @@ void Recorder::record_cloths(const ExportOptions& options) {
                                          &cloth.model->rest,
                                          cloth.source ? &*cloth.source : nullptr,
                                          placement_map(scene_.cloths[i].placement),
-                                         true};
+                                         true,
+                                         cloth.garment.get()};
     write_rest(subject);
     cloths_.push_back(std::make_unique<SurfaceRecord>(subject, options));
     cloths_.back()->write_still_files();
@@ -80,6 +81,7 @@ void Recorder::record_bodies(const ExportOptions& options) {
                                          body.source ? &*body.source : nullptr,
                                          placement,
                                          body.moves,
+                                         nullptr,
                                          [this, i] { return simulation_.body_vertices(i); }};
     write_rest(subject);
     write_normals(body);
@@ -172,12 +174,22 @@ void Recorder::write_manifests(RunReport& report) {
   report.outputs.push_back(manifest);
 }
 
+bool Recorder::is_open(const SurfaceRecord& record) const {
+  for (const SimulatedCloth& cloth : simulation_.cloths())
+    if (&cloth.state.position == record.subject().now) return cloth.model->apart.has_value();
+  return false;
+}
+
 std::int64_t Recorder::written_crossings() {
   std::vector<CrossingSurface> surfaces;  // cloths first
   each([&](const SurfaceRecord& record) {
-    const std::vector<Vec3f> points = record.points();
+    // What spans an open seam is no cloth.
+    const bool open = is_open(record);
+    const ExportedSurface& written = open ? record.samples() : record.shown();
+    const std::vector<Vec3f> points =
+        open ? written.points(*record.subject().now) : record.points();
     std::vector<Corners> corners;
-    for (const auto& [a, b, c] : fans_of(record.shown().faces()).triangles)
+    for (const auto& [a, b, c] : fans_of(written.faces()).triangles)
       corners.push_back(
           {vec_cast<double>(points[a]), vec_cast<double>(points[b]), vec_cast<double>(points[c])});
     surfaces.emplace_back(std::move(corners));

@@ -48,6 +48,8 @@ class Recorder {
   void write_rest(const SurfaceRecord::Subject& subject);
   void write_normals(const PlacedBody& body);
   void write_manifests(RunReport& report);
+  /// Whether it is a garment with open seams.
+  [[nodiscard]] bool is_open(const SurfaceRecord& record) const;
   template <class Visit>
   void each(const Visit& visit) const;
 

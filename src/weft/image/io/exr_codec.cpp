@@ -16,32 +16,13 @@
 
 #include "weft/error.h"
 #include "weft/image/io/exr_header.h"
+#include "weft/image/io/exr_memory.h"
 #include "weft/image/io/metadata.h"
 
 namespace weft {
 namespace {
 
 constexpr std::array<const char*, 3> channel_names{"R", "G", "B"};
-
-// Output to memory: OpenEXR writes a file's last table in a destructor, where the error of a full
-// disk would be lost.
-class MemoryOutput : public Imf::OStream {
- public:
-  MemoryOutput() : Imf::OStream("memory") {}
-  void write(const char bytes[], int count) override {
-    const auto end = static_cast<std::size_t>(position_) + static_cast<std::size_t>(count);
-    if (bytes_.size() < end) bytes_.resize(end);
-    std::memcpy(bytes_.data() + position_, bytes, static_cast<std::size_t>(count));
-    position_ = end;
-  }
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override { position_ = position; }
-  std::string take() { return std::move(bytes_); }
-
- private:
-  std::string bytes_;
-  std::uint64_t position_ = 0;
-};
 
 class MemoryInput : public Imf::IStream {
  public:
@@ -108,7 +89,7 @@ std::string encode_exr(const Planes3& planes, const std::string& text) {
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const char* name : channel_names) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   if (!text.empty()) header.insert(metadata_key, Imf::StringAttribute(text));
-  MemoryOutput stream;
+  ExrMemory stream;
   {
     Imf::OutputFile file(stream, header, 0);
     file.setFrameBuffer(frame_buffer(copy));

@@ -135,6 +135,11 @@ MeshFaces grid_faces(const SurfacePoints& grid) {
       faces.corners.push_back(grid.vertex_of[static_cast<std::size_t>(sample)]);
       faces.texture_corners.push_back(sample);
     }
+  return faces;
+}
+
+MeshFaces image_faces(const SurfacePoints& grid) {
+  MeshFaces faces = grid_faces(grid);
   const double steps = grid.size - 1;
   for (int r = 0; r < grid.size; ++r)
     for (int c = 0; c < grid.size; ++c)
@@ -142,7 +147,63 @@ MeshFaces grid_faces(const SurfacePoints& grid) {
   return faces;
 }
 
+constexpr float centimetres = 100;
+
+/// Texture coordinates are where a sample lies in its panel; samples without a face have none.
+MeshFaces garment_faces(const SurfacePoints& grid, const Planes3& texture) {
+  MeshFaces faces = grid_faces(grid);
+  std::vector<int> number(static_cast<std::size_t>(grid.size) * grid.size, -1);
+  for (const int sample : faces.texture_corners) number[sample] = 0;
+  for (std::size_t s = 0; s < number.size(); ++s) {
+    if (number[s] < 0) continue;
+    number[s] = static_cast<int>(faces.texture.size());
+    const Vec3f p = texture.at(static_cast<int>(s));
+    faces.texture.push_back({centimetres * p.x, centimetres * p.y});
+  }
+  for (int& corner : faces.texture_corners) corner = number[corner];
+  return faces;
+}
+
+std::vector<NamedRun> panels_of(const SurfacePoints& grid, const BorderMates& mates) {
+  std::vector<NamedRun> panels;
+  for (const Chart& chart : mates.charts()) panels.push_back({chart.name, 0, 0});
+  for (int f = 0; f < static_cast<int>(grid.triangles.size()); ++f) {
+    const std::vector<int>& chart_of = mates.chart_of();
+    NamedRun& panel = panels[chart_of.empty() ? 0 : chart_of[grid.triangles[f][0]]];
+    if (panel.count++ == 0) panel.first = f;
+  }
+  return panels;
+}
+
+/// The vertices along a seam, those that are not there left out.
+NamedRun seam_line(const SurfacePoints& grid, const GarmentSeam& seam) {
+  NamedRun line{seam.name, 0, 0};
+  for (const auto& [a, b] : seam.pairs) {
+    const int vertex = grid.vertex_of[a];
+    if (vertex >= 0 && (line.vertices.empty() || line.vertices.back() != vertex))
+      line.vertices.push_back(vertex);
+  }
+  return line;
+}
+
+/// Puts the vertices of sewn samples in their middle.
+void join_sewn(const SurfacePoints& grid, const BorderMates& sewn, const Planes3& samples,
+               std::vector<Vec3f>& points) {
+  for (int k = 0; k < sewn.class_count(); ++k) {
+    const std::span<const int> copies = sewn.copies(k);
+    const int vertex = grid.vertex_of[copies.front()];
+    if (vertex < 0) continue;
+    Vec3d sum;
+    for (const int sample : copies) sum += vec_cast<double>(samples.at(sample));
+    points[vertex] = vec_cast<float>((1 / static_cast<double>(copies.size())) * sum);
+  }
+}
+
 }  // namespace
+
+ExportedSurface::ExportedSurface(const SurfacePoints& grid, const Garment& garment,
+                                 const MeshFrame& files)
+    : grid_(&grid), garment_(&garment), files_(files) {}
 
 ExportedSurface::ExportedSurface(const SurfacePoints& grid, const MeshFrame& files)
     : grid_(&grid), files_(files) {}
@@ -159,7 +220,18 @@ int ExportedSurface::vertices() const {
   return bound_ ? bound_->size() : static_cast<int>(grid_->sample_of.size());
 }
 
-MeshFaces ExportedSurface::faces() const { return bound_ ? mesh_->faces : grid_faces(*grid_); }
+MeshFaces ExportedSurface::faces() const {
+  if (bound_) return mesh_->faces;
+  return garment_ != nullptr ? garment_faces(*grid_, garment_->texture) : image_faces(*grid_);
+}
+
+GarmentParts ExportedSurface::parts() const {
+  GarmentParts parts;
+  if (garment_ == nullptr) return parts;
+  parts.panels = panels_of(*grid_, garment_->image.mates);
+  for (const GarmentSeam& seam : garment_->seams) parts.seams.push_back(seam_line(*grid_, seam));
+  return parts;
+}
 
 std::vector<Vec3f> ExportedSurface::points(const Planes3& samples) const {
   std::vector<Vec3f> points;
@@ -168,6 +240,7 @@ std::vector<Vec3f> ExportedSurface::points(const Planes3& samples) const {
       points.push_back(vec_cast<float>(in_frame(p, files_)));
   } else {
     points = grid_->gather(samples);
+    if (garment_ != nullptr) join_sewn(*grid_, garment_->sewn, samples, points);
     for (Vec3f& p : points) p = vec_cast<float>(in_frame(vec_cast<double>(p), files_));
   }
   return points;

@@ -3,9 +3,11 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "weft/convert.h"
+#include "weft/garment.h"
 #include "weft/mesh.h"
 #include "weft/run/export/surface_points.h"
 #include "weft/sim/placement.h"
@@ -52,8 +54,21 @@ class BoundVertices {
   std::vector<Bond> bonds_;       // [V]
 };
 
-/// The vertices of a surface that are written: the samples of its image, or the vertices of its
-/// input mesh. They are the same, in the same order, for every format and frame.
+/// A named run of a surface's faces, or of vertices along a line.
+struct NamedRun {
+  std::string name;
+  int first = 0, count = 0;     ///< of the faces
+  std::vector<int> vertices{};  ///< of a line, in order
+};
+
+/// Panels and seams of a garment, as its mesh names them.
+struct GarmentParts {
+  std::vector<NamedRun> panels, seams;
+};
+
+/// The vertices of a surface that are written: the samples of its image, the vertices of its input
+/// mesh, or those of a garment with its seams closed. They are the same, in the same order, for
+/// every format and frame.
 class ExportedSurface {
  public:
   /// Exports the samples. @param grid  must outlive this
@@ -68,8 +83,14 @@ class ExportedSurface {
   /// Exports the vertices of the mesh. @param grid  welded; it and the mesh must outlive this
   ExportedSurface(const SurfacePoints& grid, const Source& source, const MeshFrame& files);
 
-  [[nodiscard]] bool on_input() const { return bound_.has_value(); }
+  /// Exports a garment as one mesh: samples that are sewn together are one vertex, in their middle
+  /// until they meet. Texture coordinates are the pattern's, in centimetres.
+  /// @param grid  sewn_points; it and the garment must outlive this
+  ExportedSurface(const SurfacePoints& grid, const Garment& garment, const MeshFrame& files);
+
   [[nodiscard]] int vertices() const;
+  /// Panels and seams; nothing for what is no garment.
+  [[nodiscard]] GarmentParts parts() const;
   /// Polygons and texture coordinates; computed by every call where the samples are exported.
   [[nodiscard]] MeshFaces faces() const;
   /// Positions of the vertices for given samples, in the unit and axes of files. [vertices]
@@ -81,6 +102,7 @@ class ExportedSurface {
  private:
   const SurfacePoints* grid_;
   const SourceMesh* mesh_ = nullptr;
+  const Garment* garment_ = nullptr;
   std::optional<BoundVertices> bound_;
   MeshFrame files_;
 };

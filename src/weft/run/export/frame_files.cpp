@@ -149,6 +149,13 @@ class Text {
   fmt::memory_buffer text_;
 };
 
+/// A name as one word: blanks would make several groups of it.
+std::string word_of(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) <= ' ' || c == '\\') c = '_';
+  return name;
+}
+
 /// Writes a face, with texture indices only where all its corners have one.
 void write_face(Text& text, std::span<const int> corners, std::span<const int> texture) {
   const bool textured = !texture.empty() && std::all_of(texture.begin(), texture.end(),
@@ -164,14 +171,29 @@ void write_face(Text& text, std::span<const int> corners, std::span<const int> t
   text.add("\n");
 }
 
-void write_faces(Text& text, const MeshFaces& faces) {
+/// Writes the faces, those of each panel as a group.
+void write_faces(Text& text, const MeshFaces& faces, const std::vector<NamedRun>& panels) {
   const std::span<const int> corners = faces.corners, texture = faces.texture_corners;
   std::size_t first = 0;
-  for (const int size : faces.sizes) {
-    const auto count = static_cast<std::size_t>(size);
+  auto panel = panels.begin();
+  for (std::size_t f = 0; f < faces.sizes.size(); ++f) {
+    while (panel != panels.end() && panel->count == 0) ++panel;
+    if (panel != panels.end() && static_cast<std::size_t>(panel->first) == f)
+      text.add("g {}\n", word_of((panel++)->name));
+    const auto count = static_cast<std::size_t>(faces.sizes[f]);
     write_face(text, corners.subspan(first, count),
                faces.has_texture() ? texture.subspan(first, count) : texture);
     first += count;
+  }
+}
+
+/// Writes seams as lines along vertices of the faces.
+void write_seams(Text& text, const std::vector<NamedRun>& seams) {
+  for (const NamedRun& seam : seams) {
+    if (seam.vertices.size() < 2) continue;
+    text.add("g seam_{}\nl", word_of(seam.name));
+    for (const int vertex : seam.vertices) text.add(" {}", vertex + 1);
+    text.add("\n");
   }
 }
 
@@ -188,7 +210,9 @@ void write_obj(const std::filesystem::path& path, const ExportedSurface& surface
     for (const Vec3f n : normals) text.add("vn {:.5g} {:.5g} {:.5g}\n", n.x, n.y, n.z);
     // Smooth shading also in programs that compute their own normals.
     text.add("s 1\n");
-    write_faces(text, faces);
+    const GarmentParts parts = surface.parts();
+    write_faces(text, faces, parts.panels);
+    write_seams(text, parts.seams);
     text.flush();
   });
 }

@@ -42,7 +42,8 @@ std::string pvd_text(const std::string& folder, const std::vector<std::string>& 
 std::string exr_frame(const MotionFrame& frame);
 
 /// Writes an OBJ: positions, texture coordinates where there are some, a smooth normal for each
-/// vertex, polygons. @param points  [vertices]  @throws OutputError
+/// vertex, polygons; of a garment also a group for each panel and a line for each seam. @param
+/// points  [vertices]  @throws OutputError
 void write_obj(const std::filesystem::path& path, const ExportedSurface& surface,
                std::span<const Vec3f> points);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <numeric>
 #include <string_view>
 
@@ -38,6 +39,53 @@ SurfacePoints surface_points(const GeometryImage& image, bool unwelded) {
   return points;
 }
 
+namespace {
+
+/// The corners of a triangle as particles, ascending.
+Triangle particles_of(const Triangle& t, const BorderMates& mates) {
+  Triangle points{mates.representative(t[0]), mates.representative(t[1]),
+                  mates.representative(t[2])};
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+/// The triangles that are left once mates are joined. Two of the same corners, as a dart makes them
+/// at its tip, lie on each other and go together.
+std::vector<Triangle> unfolded(const std::vector<Triangle>& all, const BorderMates& mates) {
+  std::map<Triangle, int> uses;
+  for (const Triangle& t : all) ++uses[particles_of(t, mates)];
+  std::vector<Triangle> kept;
+  for (const Triangle& t : all) {
+    const Triangle points = particles_of(t, mates);
+    if (points[0] != points[1] && points[1] != points[2] && uses[points] == 1) kept.push_back(t);
+  }
+  return kept;
+}
+
+}  // namespace
+
+SurfacePoints sewn_points(const GeometryImage& image, const BorderMates& sewn) {
+  SurfacePoints points;
+  points.size = image.size();
+  points.triangles = unfolded(grid_triangles(image), sewn);
+  const std::vector<int>& chart = sewn.chart_of();
+  if (!chart.empty())
+    std::stable_sort(
+        points.triangles.begin(), points.triangles.end(),
+        [&](const Triangle& a, const Triangle& b) { return chart[a[0]] < chart[b[0]]; });
+  const int samples = points.size * points.size;
+  std::vector<bool> used(static_cast<std::size_t>(samples), false);
+  for (const Triangle& t : points.triangles)
+    for (const int corner : t) used[sewn.representative(corner)] = true;
+  points.vertex_of.assign(used.size(), -1);
+  for (int s = 0; s < samples; ++s) {
+    if (!used[s]) continue;
+    points.vertex_of[s] = static_cast<int>(points.sample_of.size());
+    points.sample_of.push_back(s);
+  }
+  for (int s = 0; s < samples; ++s) points.vertex_of[s] = points.vertex_of[sewn.representative(s)];
+  return points;
+}
 namespace {
 
 constexpr std::streamoff header_bytes = 32;

@@ -25,6 +25,11 @@ struct SurfacePoints {
 /// @param unwelded  every sample a vertex of its own; otherwise mates are one
 SurfacePoints surface_points(const GeometryImage& image, bool unwelded);
 
+/// The same of panels with their seams closed: the triangles of the image, panel by panel, without
+/// those that closing folds onto each other or to an edge.
+/// @param sewn  mates of the image's charts with the seams closed
+SurfacePoints sewn_points(const GeometryImage& image, const BorderMates& sewn);
+
 /// The frames of a point cache, read one at a time.
 class PointFrames {
  public:

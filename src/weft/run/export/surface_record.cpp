@@ -1,6 +1,11 @@
 #include "weft/run/export/surface_record.h"
 
 #include <algorithm>
+#include <ostream>
+
+#include "weft/files.h"
+#include "weft/run/export/frame_files.h"
+#include "weft/run/export/panel_images.h"
 
 namespace weft {
 
@@ -14,6 +19,10 @@ SurfaceRecord::SurfaceRecord(const Subject& subject, const ExportOptions& option
         grid_,
         ExportedSurface::Source{subject.image, subject.source, subject.rest, subject.placement},
         options.files);
+  if (subject.garment != nullptr && !options.unwelded && options.on != WrittenOn::image) {
+    sewn_ = sewn_points(*subject.image, subject.garment->sewn);
+    on_input_.emplace(sewn_, *subject.garment, options.files);
+  }
   if (subject.moves) add_writers();
 }
 
@@ -108,6 +117,24 @@ void SurfaceRecord::flush() {
 void SurfaceRecord::finish() {
   for (const Writer& writer : writers_)
     if (!is_made_of_cache(writer.format)) writer.files->finish();
+  if (subject_.garment != nullptr) write_draped();
+}
+
+void SurfaceRecord::write_draped() {
+  const auto named = [&](const char* ending) { return options_.folder / (subject_.name + ending); };
+  const auto& formats = options_.formats;
+  if (std::find(formats.begin(), formats.end(), "obj") != formats.end()) {
+    const bool on_input = shows_input("obj");
+    const ExportedSurface& mesh = surface(on_input);
+    write_obj(named(".draped.obj"), mesh, mesh.points(*subject_.now));
+    still_.push_back({named(".draped.obj"), "obj", on_input, mesh.vertices()});
+  }
+  const PanelImages panels = panel_images(*subject_.garment, *subject_.now);
+  for (const auto& [ending, bytes] :
+       {std::pair{".panels.exr", panels.exr}, {".panels.npz", panels.npz}}) {
+    write_file(named(ending), [&](std::ostream& out) { out << bytes; });
+    images_.push_back(named(ending));
+  }
 }
 
 void SurfaceRecord::make_of_caches() {
@@ -126,6 +153,7 @@ std::vector<WrittenFile> SurfaceRecord::written() const {
 std::vector<std::filesystem::path> SurfaceRecord::outputs() const {
   std::vector<std::filesystem::path> paths;
   for (const WrittenFile& file : written()) paths.push_back(file.path);
+  paths.insert(paths.end(), images_.begin(), images_.end());
   return paths;
 }
 

@@ -39,6 +39,7 @@ class SurfaceRecord {
     const SourceMesh* source = nullptr;  ///< null: the image came from no mesh
     PlacementMap placement;
     bool moves = true;
+    const Garment* garment = nullptr;  ///< null: the surface is no sewing pattern
     /// Current world positions of the source's vertices where more is known of them than where the
     /// samples are [m]; null, or gives none: they follow the samples.
     std::function<std::vector<Vec3d>()> vertices{};
@@ -58,7 +59,7 @@ class SurfaceRecord {
   void resume(int frame, bool finished);
   void add(int frame);
   void flush();
-  /// Finishes the files that grew.
+  /// Finishes the files that grew, and writes a garment as it is now.
   void finish();
   /// Writes the files that are converted from finished caches.
   void make_of_caches();
@@ -71,6 +72,7 @@ class SurfaceRecord {
   [[nodiscard]] const ExportedSurface& shown() const { return surface(on_input_.has_value()); }
   /// Their current positions, in the unit and axes of files.
   [[nodiscard]] std::vector<Vec3f> points() const { return points(on_input_.has_value()); }
+  [[nodiscard]] const ExportedSurface& samples() const { return on_image_; }
   /// The file name of the point cache of the samples; empty: there is none.
   [[nodiscard]] std::string image_cache() const { return image_cache_; }
 
@@ -93,17 +95,19 @@ class SurfaceRecord {
   [[nodiscard]] MotionPlace place(bool on_input) const;
   void add_writer(const std::string& format, bool on_input);
   void add_writers();
+  void write_draped();
   template <class Visit>
   void each_frame(int frame, const Visit& visit) const;
 
   Subject subject_;
   ExportOptions options_;
-  SurfacePoints grid_;
+  SurfacePoints grid_, sewn_;
   ExportedSurface on_image_;
-  std::optional<ExportedSurface> on_input_;
+  std::optional<ExportedSurface> on_input_;  // or the sewn garment
   std::string image_cache_;
   std::vector<Writer> writers_;  // caches first: others are converted from them
   std::vector<WrittenFile> still_;
+  std::vector<std::filesystem::path> images_;  // of panels
 };
 
 }  // namespace weft
