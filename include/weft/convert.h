@@ -47,6 +47,7 @@ struct ConvertOptions {
   int normal_map_size = 0;   ///< 0: none
   bool keep_uv = false;      ///< sample the mesh's own texture coordinates too
   bool keep_places = false;  ///< record where on the mesh each sample lies (load_surface)
+  bool keep_warp = false;  ///< where it has texture coordinates, the direction of u (load_surface)
   bool keep_source = false;  ///< keep the mesh and where its vertices lie (load_surface)
   MeshFrame files;           ///< unit and up axis of mesh files (load_surface)
   /// Move samples off the surface, so that the triangles between them fit it best.
@@ -168,6 +169,10 @@ struct LoadedSurface {
   std::optional<SampleBlends> follows;       ///< with keep_places, where it came from a mesh
   std::optional<SourceMesh> source;          ///< with keep_source, where it came from a mesh
   std::shared_ptr<const Garment> garment{};  ///< where it came from a sewing pattern
+  std::optional<Planes3> texture{};          ///< with keep_uv, see Conversion
+  /// With keep_warp, where the mesh has texture coordinates: the direction in which u grows along
+  /// the surface, 0 where it does not. [n x n]
+  std::optional<Planes3> warp{};
 };
 /// @throws InputError, TopologyError, UsageError as convert_mesh, check_image and make_garment
 LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options);

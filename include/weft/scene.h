@@ -57,11 +57,19 @@ struct SceneAttachment {
   PinPlace place;
 };
 
+/// A cloth's rest shape from the texture coordinates of its mesh: flat, with the warp along u.
+struct TextureRest {
+  /// Metres a unit of the texture; nothing: as many as give the flat shape the area of the placed
+  /// mesh.
+  std::optional<double> scale{};
+};
+
 struct SceneCloth {
   std::string name = "cloth";
   Surface surface = "builtin:sheet";
   int size = 257;
   double spacing = default_spacing;  ///< of the samples of a sewing pattern [m]
+  std::optional<TextureRest> rest;   ///< none: the mesh as it is placed
   Placement placement;
   Material material;
   double friction = 0.4;

@@ -31,7 +31,7 @@ class SurfaceCache {
   struct Key {
     std::string name;
     int size = 0, normal_map_size = 0;
-    bool keep_places = false;
+    bool keep_places = false, keep_uv = false, keep_warp = false;
     ChartChoice charts{};
     double spacing = 0;
     friend auto operator<=>(const Key&, const Key&) = default;

@@ -281,6 +281,30 @@ TEST(SceneFile, WarpAndWeftAreTwoNumbersOrOne) {
   EXPECT_EQ(material(R"("stretch":7000)").bending, Material{}.bending);
 }
 
+TEST(SceneFile, RestIsTheMeshOrItsTexture) {
+  const auto rest = [](const std::string& keys) {
+    return parse_scene(with_cloth(keys), "s.json", "").cloths[0].rest;
+  };
+  EXPECT_FALSE(rest(""));
+  EXPECT_FALSE(rest(R"("rest":"mesh")"));
+  EXPECT_EQ(rest(R"("rest":"uv")").value().scale, std::nullopt);
+  EXPECT_EQ(rest(R"("rest":"uv","uv_scale":"auto")").value().scale, std::nullopt);
+  EXPECT_EQ(rest(R"("rest":"uv","uv_scale":0.5)").value().scale, 0.5);
+  EXPECT_NE(error_of(with_cloth(R"("rest":"flat")")).find("mesh or uv is wanted"),
+            std::string::npos);
+  EXPECT_NE(error_of(with_cloth(R"("rest":"uv","uv_scale":0)")).find("uv_scale"),
+            std::string::npos);
+  EXPECT_NE(error_of(with_cloth(R"("rest":"uv","uv_scale":"large")")).find("'large'"),
+            std::string::npos);
+  EXPECT_NE(error_of(with_cloth(R"("uv_scale":2)")).find("scales nothing"), std::string::npos);
+  // Written and read again.
+  for (const char* keys : {R"("rest":"uv")", R"("rest":"uv","uv_scale":0.25)"}) {
+    const Scene scene = parse_scene(with_cloth(keys), "s.json", "");
+    const Scene again = parse_scene(scene_text(scene, "s.json"), "s.json", "");
+    EXPECT_EQ(again.cloths[0].rest.value().scale, scene.cloths[0].rest->scale);
+  }
+}
+
 TEST(SceneFile, WriterTellsWarpAndWeftApartOnlyWhereTheyDiffer) {
   const nlohmann::json material =
       parse_json(material_text({.stretch = {3e4, 15e3}, .bending = 2e-5}), 32);

@@ -74,7 +74,10 @@ void RingReader::add_sample(int sample, Surroundings& around) const {
     around.free = around.free || at.border;
     around.ring.push_back(at);
   }
-  around.rows.push_back(row_direction(row, col));
+  const Vec3d warp = shape_.warp_at(sample);
+  const bool cut = squared_length(warp) > 0;
+  around.cut = around.cut || cut;
+  around.rows.push_back(cut ? warp : row_direction(row, col));
   add_area(row, col, around);
 }
 

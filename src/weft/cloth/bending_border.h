@@ -23,7 +23,8 @@ struct Neighbour {
 struct Surroundings {
   std::vector<Neighbour> ring;
   Vec3d area_vector;
-  std::vector<Vec3d> rows;  ///< row direction at each sample, unit length or 0
+  std::vector<Vec3d> rows;  ///< direction of the warp at each sample, unit length or 0
+  bool cut = false;         ///< at some sample the warp is not that of the rows
   double spacing = 0;       ///< mean length of the straight edges [m]
   bool free = false;        ///< on a free border
 };

@@ -59,18 +59,6 @@ double wish_between(const Surroundings& around, const Neighbour& at) {
   return at.share * 2 / (own * (own + other));
 }
 
-/// Sets the target weights: the five-point stencil, along free borders the second difference.
-void set_wishes(const Operator& wanted_operator, Surroundings& around) {
-  for (Neighbour& at : around.ring) {
-    const bool wanted = straight(at) && (!around.free || at.border);
-    const double relative = squared_length(at.edge) / (around.spacing * around.spacing);
-    const double part = at.place < 2 ? wanted_operator.along_rows : wanted_operator.along_columns;
-    at.wish = wanted ? part * wish_between(around, at) : 0;
-    at.cost = relative * relative / at.share *
-              (wanted ? 1 : (around.free ? across_border_cost : diagonal_cost));
-  }
-}
-
 /// The direction along the border, or zero at its corners.
 Vec3d border_direction(const Surroundings& around) {
   std::vector<const Neighbour*> ends;
@@ -102,21 +90,56 @@ Frame flatten(Surroundings& around) {
   return {along, across};
 }
 
-/// The moments of L: twice its tensor, averaged over the row directions of the particle's samples.
-/// A free border has a moment only along itself.
-Moments moments_of(const Operator& wanted, const Frame& frame, const Surroundings& around) {
-  double along = 0, both = 0;  // the double angle's cosine and sine, averaged
+/// The angle of the warp to a tangent plane's first axis: cosine and sine of its double, averaged
+/// over the particle's samples.
+struct WarpAngle {
+  double along = 0, both = 0;
+};
+
+WarpAngle warp_angle(const Frame& frame, const Surroundings& around) {
+  WarpAngle angle;
   for (const Vec3d row : around.rows) {
     const Vec2d at{dot(row, frame.along), dot(row, frame.across)};
     const double squared = dot(at, at);
     if (!(squared > 0)) continue;
-    along += (at.x * at.x - at.y * at.y) / (squared * static_cast<double>(around.rows.size()));
-    both += 2 * at.x * at.y / (squared * static_cast<double>(around.rows.size()));
+    angle.along +=
+        (at.x * at.x - at.y * at.y) / (squared * static_cast<double>(around.rows.size()));
+    angle.both += 2 * at.x * at.y / (squared * static_cast<double>(around.rows.size()));
   }
+  return angle;
+}
+
+/// The moments of L: twice its tensor. A free border has a moment only along itself.
+Moments moments_of(const Operator& wanted, WarpAngle warp, const Surroundings& around) {
   const double sum = wanted.along_rows + wanted.along_columns;
   const double difference = wanted.along_rows - wanted.along_columns;
-  if (around.free) return {0, 0, sum + difference * along, 0, 0};
-  return {0, 0, sum + difference * along, difference * both, sum - difference * along};
+  if (around.free) return {0, 0, sum + difference * warp.along, 0, 0};
+  return {0, 0, sum + difference * warp.along, difference * warp.both,
+          sum - difference * warp.along};
+}
+
+/// L along the line to a neighbour.
+double part_along(const Operator& wanted, WarpAngle warp, const Neighbour& at) {
+  const double squared = at.x * at.x + at.y * at.y;
+  if (!(squared > 0)) return 0;
+  const double along = (at.x * at.x - at.y * at.y) / squared, both = 2 * at.x * at.y / squared;
+  return 0.5 *
+         (wanted.along_rows + wanted.along_columns +
+          (wanted.along_rows - wanted.along_columns) * (warp.along * along + warp.both * both));
+}
+
+/// Sets the target weights: the five-point stencil, along free borders the second difference.
+void set_wishes(const Operator& wanted_operator, WarpAngle warp, Surroundings& around) {
+  for (Neighbour& at : around.ring) {
+    const bool wanted = straight(at) && (!around.free || at.border);
+    const double relative = squared_length(at.edge) / (around.spacing * around.spacing);
+    const double part = around.cut     ? part_along(wanted_operator, warp, at)
+                        : at.place < 2 ? wanted_operator.along_rows
+                                       : wanted_operator.along_columns;
+    at.wish = wanted ? part * wish_between(around, at) : 0;
+    at.cost = relative * relative / at.share *
+              (wanted ? 1 : (around.free ? across_border_cost : diagonal_cost));
+  }
 }
 
 Column column_of(const Neighbour& at) {
@@ -196,8 +219,9 @@ void set_weights(const Operator& wanted, double mean_spacing, Surroundings& arou
     for (Neighbour& at : around.ring) at.weight = 0;
     return;
   }
-  set_wishes(wanted, around);
-  const Moments moments = moments_of(wanted, frame, around);
+  const WarpAngle warp = warp_angle(frame, around);
+  set_wishes(wanted, warp, around);
+  const Moments moments = moments_of(wanted, warp, around);
   const double miss =
       largest_miss(around, moments, conditions, [](const Neighbour& a) { return a.wish; });
   fit(moments, miss < straight_enough ? 2 : conditions, around);

@@ -98,19 +98,15 @@ void set_damping(Cloth& cloth, SpringPlane& plane) {
 
 }  // namespace
 
-namespace {
-
-/// @param bending_mates  through which the fabric resists bending
-Cloth make(const Planes3& rest, const BorderMates& mates, const BorderMates& bending_mates,
-           const Material& material) {
+Cloth make_cloth(const ClothShape& wanted, const Material& material) {
   check_material(material);
-  check_rest(rest, mates);
-  const RestShape shape(rest, mates);
+  check_rest(wanted.rest, wanted.mates);
+  const RestShape shape(wanted.rest, wanted.mates, wanted.warp);
   Cloth cloth;
-  cloth.size = rest.size();
+  cloth.size = wanted.rest.size();
   cloth.material = material;
-  cloth.mates = mates;
-  cloth.rest = rest;
+  cloth.mates = wanted.mates;
+  cloth.rest = wanted.rest;
   count_particles(cloth);
   set_masses(cloth, shape);
   for (int d = 0; d < spring_directions; ++d) {
@@ -118,23 +114,15 @@ Cloth make(const Planes3& rest, const BorderMates& mates, const BorderMates& ben
     cloth.springs[d] = make_springs(shape, material, direction);
     set_damping(cloth, cloth.springs[d]);
   }
-  cloth.bending = make_bending(RestShape(rest, bending_mates), material);
+  const BorderMates& bent = wanted.bending != nullptr ? *wanted.bending : wanted.mates;
+  cloth.bending = make_bending(RestShape(wanted.rest, bent, wanted.warp), material);
   cloth.border_springs = find_border_springs(cloth);
   cloth.rest_spacing = shape.mean_spacing;
   return cloth;
 }
 
-}  // namespace
-
 Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& material) {
-  return make(rest, mates, mates, material);
-}
-
-Cloth make_panels(const Planes3& rest, const BorderMates& apart, const BorderMates& sewn,
-                  const Material& material) {
-  Cloth cloth = make(rest, sewn, apart, material);
-  cloth.apart = apart;
-  return cloth;
+  return make_cloth(ClothShape{rest, mates}, material);
 }
 
 int pin(Cloth& cloth, int sample, Vec3d target) {
@@ -167,7 +155,7 @@ void unpin_last(Cloth& cloth) {
 }
 
 ClothState rest_state(const Cloth& cloth, Vec3f velocity) {
-  ClothState state{cloth.rest, Planes3(cloth.size)};
+  ClothState state{cloth.start_positions(), Planes3(cloth.size)};
   state.velocity.x.fill(velocity.x);
   state.velocity.y.fill(velocity.y);
   state.velocity.z.fill(velocity.z);

@@ -82,7 +82,9 @@ struct Cloth {
   /// While seams are being sewn: the mates of which all samples are at one place. Those of `mates`
   /// then keep their distances from each other in a step's solve.
   std::optional<BorderMates> apart;
-  Planes3 rest;              ///< [n x n] rest positions [m]
+  Planes3 rest;  ///< [n x n] rest positions [m]
+  /// Positions at the start, where the rest shape lies elsewhere: flat panels. [n x n] [m]
+  std::optional<Planes3> start;
   Grid<float> mass;          ///< [n x n] of the particle: summed over its class [kg], > 0
   Grid<float> inverse_mass;  ///< [n x n] 0 where pinned, and where no chart is
   Grid<float> owner;         ///< [n x n] 1 on representatives, 0 on their mates
@@ -96,6 +98,7 @@ struct Cloth {
 
   /// The mates of which all samples are at one place.
   [[nodiscard]] const BorderMates& together() const { return apart ? *apart : mates; }
+  [[nodiscard]] const Planes3& start_positions() const { return start ? *start : rest; }
 };
 
 /// Lower bounds of rest lengths, relative to the mean stretch spring, and of masses, relative to
@@ -103,18 +106,26 @@ struct Cloth {
 /// otherwise be divisors close to zero.
 inline constexpr double min_relative_length = 1e-3, min_relative_mass = 1e-4;
 
-/// Builds the cloth whose rest shape is the given positions. A stretch or shear spring of rest
+/// The rest shape of a cloth.
+struct ClothShape {
+  const Planes3& rest;       ///< [n x n] positions [m]
+  const BorderMates& mates;  ///< samples that are one particle
+  /// Those through which the fabric resists bending: at other mates the rest shape is not one
+  /// surface, as panels that are laid flat are not. Null: all.
+  const BorderMates* bending = nullptr;
+  /// Directions of the warp at rest, of any length but 0, where it is that of the rows. [n x n];
+  /// null: that of the rows.
+  const Planes3* warp = nullptr;
+};
+
+/// Builds the cloth of a rest shape. A stretch or shear spring of rest
 /// length l stands for a strip of rest width w = (its share of the area beside it) / l: half of
 /// each cell that a stretch spring borders on, the whole cell of a shear spring; its stiffness is Y
-/// w / l.
-/// @param rest  [n x n] world positions, mates equal
+/// w / l, with Y = Y_warp cos^2 + Y_weft sin^2 of a stretch spring's angle to the warp.
 /// @throws SceneError for a material value out of range, or samples that carry no mass
+Cloth make_cloth(const ClothShape& shape, const Material& material);
+/// The same of positions whose mates are equal. @param rest  [n x n] [m]
 Cloth make_cloth(const Planes3& rest, const BorderMates& mates, const Material& material);
-
-/// The same of flat panels to be sewn together. Seams resist no bending.
-/// @param rest  [n x n] each chart laid flat  @param sewn  mates with the seams closed
-Cloth make_panels(const Planes3& rest, const BorderMates& apart, const BorderMates& sewn,
-                  const Material& material);
 
 /// Pins the class of a sample at a target. Pinning it again changes the target.
 /// @return index of its pin in the cloth's pins
@@ -123,7 +134,8 @@ int pin(Cloth& cloth, int sample, Vec3d target);
 /// Removes the last pin and frees its samples. @pre there is one
 void unpin_last(Cloth& cloth);
 
-/// The state in the rest shape, with the same velocity at every sample.
+/// The state at the start, which is the rest shape if nothing else is set, with the same velocity
+/// at every sample.
 ClothState rest_state(const Cloth& cloth, Vec3f velocity = {});
 
 }  // namespace weft

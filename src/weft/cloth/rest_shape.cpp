@@ -69,14 +69,38 @@ struct SpringPlace {
   double rest_length = 0;
 };
 
+/// The squared cosine of a stretch spring's angle to the warp, the mean of both ends'.
+double warp_part(const RestShape& shape, SpringDirection direction, const SpringPlace& at) {
+  const int n = shape.size(), from = at.row * n + at.col;
+  const int to = direction == stretch_u ? from + 1 : from + n;
+  const Vec3d edge = normalized(vec_cast<double>(shape.position.at(to)) -
+                                vec_cast<double>(shape.position.at(from)));
+  double part = 0;
+  for (const int end : {from, to}) {
+    const Vec3d warp = shape.warp_at(end);
+    const double along = dot(edge, warp);
+    const bool by_rows = !(squared_length(warp) > 0);
+    part += 0.5 * (by_rows ? (direction == stretch_u ? 1.0 : 0.0) : along * along);
+  }
+  return part;
+}
+
+double stretch_of(const RestShape& shape, const WarpWeft& stretch, SpringDirection direction,
+                  const SpringPlace& at) {
+  const bool rows = shape.warp == nullptr || stretch.warp == stretch.weft;
+  if (rows) return direction == stretch_u ? stretch.warp : stretch.weft;
+  const double part = warp_part(shape, direction, at);
+  return part * stretch.warp + (1 - part) * stretch.weft;
+}
+
 double stiffness_of(const RestShape& shape, const Material& material, SpringDirection direction,
                     const SpringPlace& at) {
   const double squared = at.rest_length * at.rest_length;
   switch (direction) {
     case stretch_u:
-      return material.stretch.warp * strip_area(shape, direction, at.row, at.col) / squared;
     case stretch_v:
-      return material.stretch.weft * strip_area(shape, direction, at.row, at.col) / squared;
+      return stretch_of(shape, material.stretch, direction, at) *
+             strip_area(shape, direction, at.row, at.col) / squared;
     case shear_1:
     case shear_2:
       return material.shear * strip_area(shape, direction, at.row, at.col) / squared;
@@ -89,9 +113,10 @@ double stiffness_of(const RestShape& shape, const Material& material, SpringDire
 
 }  // namespace
 
-RestShape::RestShape(const Planes3& rest, const BorderMates& border)
+RestShape::RestShape(const Planes3& rest, const BorderMates& border, const Planes3* warp_at_rest)
     : position(rest),
       mates(border),
+      warp(warp_at_rest),
       cell_area(rest.size() - 1, rest.size() - 1),
       mean_spacing(mean_spacing_of(rest, border)) {
   for (int r = 0; r + 1 < size(); ++r)

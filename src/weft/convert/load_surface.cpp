@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::string_view builtin_prefix = "builtin:";
 
-SampleBlends blends_of(const Conversion& made, int vertices) {
-  const TriangleMesh& mesh = made.input.mesh;
+/// The triangle of the mesh that each sample lies in; none of holes. [n * n]
+std::vector<SurfacePlace> sample_places(const Conversion& made) {
   const int n = made.image.size();
   std::vector<SurfacePlace> places(static_cast<std::size_t>(n) * n);
   for (const ConvertedChart& chart : made.charts) {
@@ -31,6 +31,12 @@ SampleBlends blends_of(const Conversion& made, int vertices) {
       places[row * n + col] = {chart.piece->triangle[own[s].triangle], own[s].weights};
     }
   }
+  return places;
+}
+
+SampleBlends blends_of(const Conversion& made, int vertices) {
+  const TriangleMesh& mesh = made.input.mesh;
+  const std::vector<SurfacePlace> places = sample_places(made);
   SampleBlends follows{vertices, std::vector<BlendedVertex>(places.size())};
   for (std::size_t s = 0; s < places.size(); ++s) {
     // On the cut, mates lie in different triangles; all get the place of their representative.
@@ -42,6 +48,28 @@ SampleBlends blends_of(const Conversion& made, int vertices) {
     follows.blends[s].weights = place.weights;
   }
   return follows;
+}
+
+/// The direction in which u grows on a triangle; 0 where its texture has no area.
+Vec3d direction_of_u(const TriangleMesh& mesh, int triangle) {
+  const Triangle& t = mesh.triangles[triangle];
+  const Vec3d first = mesh.positions[t[1]] - mesh.positions[t[0]];
+  const Vec3d second = mesh.positions[t[2]] - mesh.positions[t[0]];
+  const auto& [a, b, c] = mesh.corner_uv[triangle];
+  const Vec2d to_b{double{b.x} - a.x, double{b.y} - a.y},
+      to_c{double{c.x} - a.x, double{c.y} - a.y};
+  const double area = to_b.x * to_c.y - to_b.y * to_c.x;
+  return normalized(area * (to_c.y * first - to_b.y * second));
+}
+
+Planes3 warp_of(const Conversion& made) {
+  Planes3 warp(made.image.size());
+  const std::vector<SurfacePlace> places = sample_places(made);
+  for (std::size_t s = 0; s < places.size(); ++s)
+    if (places[s].triangle >= 0)
+      warp.set(static_cast<int>(s),
+               vec_cast<float>(direction_of_u(made.input.mesh, places[s].triangle)));
+  return warp;
 }
 
 /// Where the vertices of the file lie in the image.
@@ -71,6 +99,12 @@ MeshFile load_mesh_file(const std::string& name, const MeshFrame& files) {
   MeshFile file = read_mesh_file(name);
   file.mesh = in_metres_y_up(std::move(file.mesh), files);
   return file;
+}
+
+LoadedSurface image_alone(GeometryImage image) {
+  LoadedSurface loaded;
+  loaded.image = std::move(image);
+  return loaded;
 }
 
 void check_texture(const TriangleMesh& mesh, const std::string& name) {
@@ -104,12 +138,12 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
   const std::string& name = surface.name;
   if (surface.image) {
     check_image(*surface.image, name);
-    return {*surface.image, {}, {}, {}, {}, {}};
+    return image_alone(*surface.image);
   }
-  if (!surface.mesh && is_image_name(name)) return {read_image(name), {}, {}, {}, {}, {}};
+  if (!surface.mesh && is_image_name(name)) return image_alone(read_image(name));
   if (is_image_surface(surface)) {
     const int size = options.size == automatic_size ? ConvertOptions{}.size : options.size;
-    return {make_image_shape(name.substr(builtin_prefix.size()), size), {}, {}, {}, {}, {}};
+    return image_alone(make_image_shape(name.substr(builtin_prefix.size()), size));
   }
   if (!surface.mesh && is_pattern_name(name)) {
     const Pattern pattern = read_pattern(name);
@@ -132,6 +166,8 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
   if (options.keep_source)
     loaded.source = {std::move(file.mesh.positions), std::move(file.faces),
                      places_of(made, vertices)};
+  if (options.keep_warp && !made.input.mesh.corner_uv.empty()) loaded.warp = warp_of(made);
+  loaded.texture = std::move(made.texture);
   loaded.image = std::move(made.image);
   loaded.normals = std::move(made.normals);
   loaded.notes = std::move(made.input.repairs);

@@ -57,7 +57,7 @@ void Recorder::record_cloths(const ExportOptions& options) {
     const SurfaceRecord::Subject subject{cloth.name,
                                          &cloth.image,
                                          &cloth.state.position,
-                                         &cloth.model->rest,
+                                         &cloth.model->start_positions(),
                                          cloth.source ? &*cloth.source : nullptr,
                                          placement_map(scene_.cloths[i].placement),
                                          true,

@@ -65,6 +65,7 @@ std::string run_identity(const Scene& scene, const Simulation& simulation,
   for (std::size_t i = 0; i < named.cloths.size(); ++i) {
     const Cloth& cloth = *simulation.cloths()[i].model;
     named.cloths[i].surface = surface_name(cloth.rest, cloth.mates);
+    if (cloth.start) named.cloths[i].surface.name += surface_name(*cloth.start, cloth.mates);
   }
   for (std::size_t i = 0; i < named.bodies.size(); ++i) {
     const PlacedBody& body = simulation.bodies()[i];

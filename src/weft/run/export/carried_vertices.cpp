@@ -16,7 +16,7 @@ struct CarriedVertices::Parts {
   Parts(const SimulatedCloth& cloth, const Placement& placement)
       : image(cloth.image),
         source(*cloth.source),
-        rest(cloth.model->rest),
+        rest(cloth.model->start_positions()),
         grid(surface_points(image, false)),
         surface(grid, ExportedSurface::Source{&image, &source, &rest, placement_map(placement)},
                 MeshFrame{}) {}

@@ -27,7 +27,8 @@ struct Pinner {
     int nearest = 0;
     double least = HUGE_VAL;
     for (int s = 0; s < cloth.size * cloth.size; ++s) {
-      const double squared = squared_length(vec_cast<double>(cloth.rest.at(s)) - at.point);
+      const double squared =
+          squared_length(vec_cast<double>(cloth.start_positions().at(s)) - at.point);
       if (squared < least) {
         least = squared;
         nearest = s;
@@ -54,7 +55,7 @@ struct Pinner {
   }
 
   void hold(int sample) const {
-    held.push_back(pin(cloth, sample, vec_cast<double>(cloth.rest.at(sample))));
+    held.push_back(pin(cloth, sample, vec_cast<double>(cloth.start_positions().at(sample))));
   }
 };
 

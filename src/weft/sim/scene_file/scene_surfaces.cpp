@@ -108,6 +108,32 @@ Material read_material(const nlohmann::json& value, const JsonPlace& place) {
   return material;
 }
 
+namespace {
+
+/// The rest shape: `mesh`, as it is placed, or `uv` with `uv_scale`.
+std::optional<TextureRest> read_rest(const JsonObject& object) {
+  const std::string rest = object.text("rest", "mesh");
+  const JsonPlace place = object.place();
+  if (rest != "mesh" && rest != "uv")
+    place.key("rest").fail(fmt::format("'{}'", rest), "mesh or uv is wanted");
+  const nlohmann::json* scale = object.find("uv_scale");
+  if (rest == "mesh" && scale != nullptr)
+    place.key("uv_scale").fail("scales nothing", "\"rest\": \"uv\" beside it is wanted");
+  if (rest == "mesh") return std::nullopt;
+  TextureRest flat;
+  if (scale != nullptr && scale->is_string()) {
+    if (*scale != "auto")
+      place.key("uv_scale")
+          .fail(fmt::format("'{}'", scale->get<std::string>()),
+                "metres a unit of the texture, or auto, are wanted");
+  } else if (scale != nullptr) {
+    flat.scale = object.number("uv_scale", 1, positive);
+  }
+  return flat;
+}
+
+}  // namespace
+
 SceneCloth read_cloth(const nlohmann::json& value, const JsonPlace& place, const fs::path& folder) {
   const JsonObject object(value, place, scene_keys::cloth);
   SceneCloth cloth;
@@ -117,6 +143,7 @@ SceneCloth read_cloth(const nlohmann::json& value, const JsonPlace& place, const
   if (const nlohmann::json* sew = object.find("sew"))
     cloth.spacing = JsonObject(*sew, place.key("sew"), scene_keys::sew)
                         .number("spacing", cloth.spacing, {0.0001, 1, false});
+  cloth.rest = read_rest(object);
   cloth.placement = read_placement(object);
   if (const nlohmann::json* material = object.find("material"))
     cloth.material = read_material(*material, place.key("material"));

@@ -66,7 +66,7 @@ struct Simulation::Parts {
   LoadedSurface load(const Surface& surface, ConvertOptions options, const std::string& what);
   void check_collider(const char* kind, const BorderMates& mates, const std::string& what) const;
   void check_charts(const BorderMates& mates, const std::string& what) const;
-  Cloth make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded) const;
+  Cloth make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded);
   void load_cloths();
   void load_bodies();
   /// Ties cloths to bodies, at the initial positions of both.

@@ -9,6 +9,7 @@
 #include "weft/image/diagonals.h"
 #include "weft/scene_file.h"
 #include "weft/sim/exits.h"
+#include "weft/sim/flat_rest.h"
 #include "weft/sim/placement.h"
 #include "weft/sim/stepping/simulation_parts.h"
 #include "weft/simulation.h"
@@ -17,8 +18,8 @@ namespace weft {
 
 LoadedSurface SurfaceCache::load(const Surface& surface, const ConvertOptions& options) {
   if (surface.in_memory()) return load_surface(surface, options);
-  const Key key{surface.name,        options.size,   options.normal_map_size,
-                options.keep_places, options.charts, options.spacing};
+  const Key key{surface.name,    options.size,      options.normal_map_size, options.keep_places,
+                options.keep_uv, options.keep_warp, options.charts,          options.spacing};
   const auto found = kept_.find(key);
   if (found != kept_.end()) return found->second;
   return kept_.emplace(key, load_surface(surface, options)).first->second;
@@ -69,14 +70,59 @@ LoadedSurface Simulation::Parts::load(const Surface& surface, ConvertOptions opt
   return loaded;
 }
 
+namespace {
+
+/// A garment of flat panels, their warp along the y axis of the pattern.
+Cloth cloth_of_panels(const SceneCloth& wanted, const Planes3& placed, const Garment& garment) {
+  if (!(wanted.placement.scale == Vec3d{1, 1, 1}))
+    throw SceneError("scale", "a sewing pattern of another size", "1 is wanted");
+  const Planes3 warp = even_warp(garment.flat.size(), {0, 1, 0});
+  const BorderMates& apart = garment.image.mates;
+  Cloth cloth = make_cloth({garment.flat, garment.sewn, &apart, &warp}, wanted.material);
+  cloth.apart = apart;
+  cloth.start = placed;
+  return cloth;
+}
+
+/// A mesh whose rest shape is its texture.
+Cloth cloth_of_texture(const SceneCloth& wanted, const Planes3& placed, const FlatRest& flat,
+                       const BorderMates& mates) {
+  Cloth cloth = make_cloth({flat.rest, mates, &flat.bent, &flat.warp}, wanted.material);
+  cloth.start = placed;
+  return cloth;
+}
+
+/// The direction of the warp in the world; only lengths are lost.
+Planes3 placed_warp(const Planes3& warp, const PlacementMap& map) {
+  Planes3 placed(warp.size());
+  for (int s = 0; s < warp.size() * warp.size(); ++s) {
+    const Vec3d along = vec_cast<double>(warp.at(s));
+    placed.set(s, vec_cast<float>(map.point(along) - map.translate));
+  }
+  return placed;
+}
+
+}  // namespace
+
 Cloth Simulation::Parts::make(const SceneCloth& wanted, const Planes3& placed,
-                              const LoadedSurface& loaded) const {
+                              const LoadedSurface& loaded) {
+  const PlacementMap map = placement_map(wanted.placement);
+  const BorderMates& mates = loaded.image.mates;
   try {
-    if (!loaded.garment) return make_cloth(placed, loaded.image.mates, wanted.material);
-    const Garment& garment = *loaded.garment;
-    if (!(wanted.placement.scale == Vec3d{1, 1, 1}))
-      throw SceneError("scale", "a sewing pattern of another size", "1 is wanted");
-    return make_panels(garment.flat, garment.image.mates, garment.sewn, wanted.material);
+    if (loaded.garment && !wanted.rest) return cloth_of_panels(wanted, placed, *loaded.garment);
+    if (wanted.rest && !loaded.texture)
+      throw SceneError("rest", "uv of what has no texture coordinates",
+                       "a mesh file with texture coordinates is wanted");
+    if (wanted.rest) {
+      const FlatRest flat = flat_rest(loaded, map, *wanted.rest);
+      if (!wanted.rest->scale)
+        notes.push_back(fmt::format("{}: uv_scale {:.6g} m gives the texture the mesh's area",
+                                    wanted.name, flat.scale));
+      return cloth_of_texture(wanted, placed, flat, mates);
+    }
+    const std::optional<Planes3> warp =
+        loaded.warp ? std::optional(placed_warp(*loaded.warp, map)) : std::nullopt;
+    return make_cloth({placed, mates, nullptr, warp ? &*warp : nullptr}, wanted.material);
   } catch (const SceneError& error) {
     throw SceneError(name, fmt::format("'{}': {}", wanted.name, error.what()), "");
   }
@@ -103,11 +149,24 @@ void Simulation::Parts::check_charts(const BorderMates& mates, const std::string
   if (!mates.chart_of().empty()) check_collider("cloth", mates, what);
 }
 
+namespace {
+
+/// Whether a fabric is not the same along warp and weft.
+bool has_direction(const Material& material) {
+  return material.stretch.warp != material.stretch.weft ||
+         material.bending.warp != material.bending.weft;
+}
+
+}  // namespace
+
 void Simulation::Parts::load_cloths() {
   for (const SceneCloth& wanted : scene.cloths) {
     ConvertOptions options;
     options.size = wanted.size;
     options.spacing = wanted.spacing;
+    options.keep_uv = wanted.rest.has_value() && !is_image_surface(wanted.surface);
+    if (options.keep_uv) options.charts = ChartChoice::texture;
+    options.keep_warp = !wanted.rest && has_direction(wanted.material);
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
     check_charts(loaded.garment ? loaded.garment->sewn : loaded.image.mates, wanted.name);
@@ -115,7 +174,6 @@ void Simulation::Parts::load_cloths() {
     Cloth cloth = make(wanted, placed, loaded);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
-    state.position = placed;
     sewn_pairs.push_back(-1);
     sewing.push_back(loaded.garment ? std::optional<Sewing>(*loaded.garment) : std::nullopt);
     cloths.push_back({wanted.name, std::move(loaded.image),
