@@ -44,7 +44,9 @@ RunawayCheck::RunawayCheck(const Cloth& cloth, const ClothState& start, Vec3d gr
     : rows_(static_cast<std::size_t>(cloth.size)), gravity_(length(gravity)) {
   const Motion motion = motion_of(cloth, start);
   mass_ = motion.mass;
-  start_energy_ = motion.kinetic / motion.mass + 0.5 * drive * drive;
+  // Cloth whose flat rest shape is of another size than its mesh begins strained.
+  const double strained = potential_energy(cloth, start, {});
+  start_energy_ = (motion.kinetic + strained) / motion.mass + 0.5 * drive * drive;
   speed_ = std::sqrt(motion.fastest) + drive;
   Box3d box;
   for (int s = 0; s < cloth.size * cloth.size; ++s) box.add(vec_cast<double>(start.position.at(s)));
