@@ -17,6 +17,8 @@ struct Image {
 
 /// Meshes, conversion and images.
 void add_images(pybind11::module_& module);
+/// Sewing patterns and garments.
+void add_garments(pybind11::module_& module);
 /// Simulations.
 void add_simulations(pybind11::module_& module);
 

@@ -53,5 +53,6 @@ PYBIND11_MODULE(_weft, module) {
   pybind11::register_exception_translator(weft::python::translate);
   module.attr("version") = WEFT_VERSION;
   weft::python::add_images(module);
+  weft::python::add_garments(module);
   weft::python::add_simulations(module);
 }

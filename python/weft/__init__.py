@@ -7,12 +7,13 @@ y up, right-handed. Long calls let other threads of Python run, take ``threads=`
 from . import _weft
 from .caches import read_pc2, write_pc2
 from .errors import Error, InputError, OutputError, SceneError, TopologyError, Unstable, UsageError
+from .garments import Edge, Garment, Panel, Pattern, Stitch, read_pattern
 from .images import Chart, GeometryImage, builtin, geometry_image, load, read_mesh, shapes, write_mesh
 from .simulation import Body, Cloth, Frame, Intersections, Simulation, Strain
 
 __version__ = _weft.version
 __all__ = [
-    "Body", "Chart", "Cloth", "Error", "Frame", "GeometryImage", "InputError", "Intersections", "OutputError", "SceneError",
-    "Simulation", "Strain", "TopologyError", "Unstable", "UsageError", "builtin", "geometry_image", "load", "read_mesh",
-    "read_pc2", "shapes", "write_mesh", "write_pc2",
+    "Body", "Chart", "Cloth", "Edge", "Error", "Frame", "Garment", "GeometryImage", "InputError", "Intersections", "OutputError",
+    "Panel", "Pattern", "SceneError", "Simulation", "Stitch", "Strain", "TopologyError", "Unstable", "UsageError", "builtin",
+    "geometry_image", "load", "read_mesh", "read_pattern", "read_pc2", "shapes", "write_mesh", "write_pc2",
 ]

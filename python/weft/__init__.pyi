@@ -68,6 +68,53 @@ class GeometryImage:
     def to_mesh(self, level: int = 0) -> tuple[NDArray[np.float64], NDArray[np.int32]]: ...
     def save(self, path: _Path, format: Literal["omages", "garmage"] | None = None, **options: Any) -> None: ...
 
+class Edge(NamedTuple):
+    ends: tuple[int, int]
+    label: str
+    kind: Literal["straight", "bezier", "arc"]
+    controls: NDArray[np.float64]
+    radius: float | None
+    large: bool
+    counterclockwise: bool
+
+class Panel(NamedTuple):
+    name: str
+    label: str
+    vertices: NDArray[np.float64]
+    edges: list[Edge]
+    rotate: tuple[float, float, float]
+    translate: tuple[float, float, float]
+
+class Stitch(NamedTuple):
+    panel: int
+    edge: int
+    other_panel: int
+    other_edge: int
+    turned: bool
+
+class Pattern:
+    path: str
+    panels: list[Panel]
+    stitches: list[Stitch]
+    notes: list[str]
+    def __init__(self, path: str) -> None: ...
+    def garment(self, spacing: float = 0.008) -> Garment: ...
+
+class Garment:
+    image: GeometryImage
+    places: NDArray[np.float32]
+    classes: NDArray[np.int32]
+    seams: dict[str, NDArray[np.int32]]
+    @property
+    def sample_of(self) -> NDArray[np.int32]: ...
+    @property
+    def faces(self) -> NDArray[np.int32]: ...
+    @property
+    def panel_of(self) -> NDArray[np.int32]: ...
+    @property
+    def corner_places(self) -> NDArray[np.float32]: ...
+
+def read_pattern(path: _Path) -> Pattern: ...
 def read_mesh(path: _Path, uv: bool = False) -> tuple[Any, ...]: ...
 def write_mesh(path: _Path, V: ArrayLike, F: ArrayLike) -> None: ...
 def geometry_image(V: ArrayLike, F: ArrayLike, size: int | Literal["auto"] = 257,
@@ -137,10 +184,11 @@ class Simulation:
     def add_body(self, body: Body | _Mesh | GeometryImage | _Path, *, friction: float = 0.4, name: str | None = None,
                  scale: float | _Vector = 1.0, rotate: _Vector = (0, 0, 0), translate: _Vector = (0, 0, 0),
                  lead_in: float | None = None) -> None: ...
-    def add_cloth(self, surface: _Mesh | GeometryImage | _Path, *, fabric: str | _Json = "cotton", name: str | None = None,
+    def add_cloth(self, surface: _Mesh | GeometryImage | Pattern | _Path, *, fabric: str | _Json = "cotton", name: str | None = None,
                   size: int = 129, scale: float | _Vector = 1.0, rotate: _Vector = (0, 0, 0), translate: _Vector = (0, 0, 0),
                   friction: float = 0.4, velocity: _Vector = (0, 0, 0), pins: Sequence[_Json] = (),
-                  attach: Sequence[_Json] = (), self_collision: bool | None = None) -> Cloth: ...
+                  attach: Sequence[_Json] = (), self_collision: bool | None = None, spacing: float | None = None,
+                  rest: Literal["mesh", "uv"] = "mesh", uv_scale: float | None = None) -> Cloth: ...
     @property
     def cloths(self) -> list[Cloth]: ...
     def start(self, progress: _Progress = None) -> Simulation: ...

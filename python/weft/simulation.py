@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _arguments, _weft
+from .garments import Pattern
 from .images import GeometryImage
 
 _IDENTITY = {"scale": 1.0, "rotate": [0, 0, 0], "translate": [0, 0, 0]}
@@ -33,6 +34,8 @@ class _Surface:
 
     def __init__(self, given, faces, what):
         self.name, self.memory, self.vertices = "builtin:sheet", None, None
+        if isinstance(given, Pattern):
+            given = given.path
         if isinstance(given, GeometryImage):
             self.memory = given._core
         elif faces is not None or isinstance(given, tuple):
@@ -209,12 +212,14 @@ class Simulation:
             told["lead_in"] = _arguments.number(lead_in, "lead_in")
 
     def add_cloth(self, surface, *, fabric="cotton", name=None, size=129, scale=1.0, rotate=(0, 0, 0), translate=(0, 0, 0),
-                  friction=0.4, velocity=(0, 0, 0), pins=(), attach=(), self_collision=None):
+                  friction=0.4, velocity=(0, 0, 0), pins=(), attach=(), self_collision=None, spacing=None, rest="mesh", uv_scale=None):
         """Adds a cloth.
 
-        surface: a `GeometryImage`; or a mesh (V, F) [m, y up]; or the name of a mesh, an image or builtin:NAME.
+        surface: a `GeometryImage`; or a mesh (V, F) [m, y up]; or a `Pattern`; or the name of a mesh, an image, a pattern or builtin:NAME.
         fabric: a name, or a dictionary of its values, as ``material`` in scene files.
         size: samples a side of the image that a mesh or a name is turned into.
+        spacing: of the samples along edges of a pattern [m].
+        rest: "mesh", or "uv": the texture coordinates of a mesh file as its flat rest shape, ``uv_scale`` metres a unit (None: by area).
         pins, attach: lists as in scene files, for example ``pins=[{"image": [0, 0]}]``. velocity: at the start [m/s].
         Returns a `Cloth`.
         """
@@ -225,6 +230,12 @@ class Simulation:
                 "material": fabric, "friction": _arguments.number(friction, "friction"),
                 "velocity": _arguments.vector(velocity, "velocity"), "pins": list(pins), "attach": list(attach),
                 **_placement(scale, rotate, translate)}
+        if spacing is not None:
+            told["sew"] = {"spacing": _arguments.number(spacing, "spacing", above=0)}
+        if _arguments.choice(rest, "rest", ("mesh", "uv")) == "uv":
+            told["rest"] = "uv"
+        if uv_scale is not None:
+            told["uv_scale"] = _arguments.number(uv_scale, "uv_scale", above=0)
         if self_collision is not None:
             told["self_collision"] = bool(self_collision)
         self._scene["cloths"].append(told)

@@ -113,6 +113,18 @@ class Batch(BatchTest):
         self.assertIn("3 of 6 jobs are done already", again.stderr)
         self.assert_each_done_once(good)
 
+    def test_garments_are_jobs_that_tell_of_their_seams(self):
+        def panel(z, corners):
+            return {"vertices": corners, "translation": [-15, 100, z], "edges": [{"endpoints": [k, (k + 1) % 4]} for k in range(4)]}
+        panels = {"front": panel(12, [[0, 0], [30, 0], [30, 20], [0, 20]]), "back": panel(-12, [[0, 0], [0, 20], [30, 20], [30, 0]])}
+        stitches = [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}]]
+        (self.folder / "p.json").write_text(json.dumps({"pattern": {"panels": panels, "stitches": stitches}, "properties": {"units_in_meter": 100}}))
+        jobs = self.write_jobs({"command": "garment", "pattern": "*.json", "body": "builtin:sphere", "spacing": 40, "frames": 2})
+        self.batch(jobs, "-o", "out", "--workers", 1)
+        row, = self.rows()
+        self.assertEqual((row["status"], row["seams"]["count"], row["fell_off"]), ("done", 1, []))
+        self.assertTrue((self.folder / "out/jobs" / row["id"] / "made/garment.panels.npz").exists())
+
     def test_a_changed_input_is_another_job(self):
         V, F = weft.read_mesh("builtin:torus")
         weft.write_mesh("a.obj", V, F)

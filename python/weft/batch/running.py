@@ -128,7 +128,8 @@ def _figures(job, place, made):
         image = report["image"]
         return {"hash": name, "size": image["size"], "psnr_db": image["psnr_db"], "hausdorff_percent": image["hausdorff_percent"],
                 "charts": len(report["charts"])}
-    return {"hash": report["state_hash"], "frames": report["frames"], "strain": report["strain"], "intersections": report["intersections"]}
+    sewn = {key: report[key] for key in ("seams", "fell_off") if key in report}
+    return {"hash": report["state_hash"], "frames": report["frames"], "strain": report["strain"], "intersections": report["intersections"], **sewn}
 
 
 def _move(place, there, row):
