@@ -69,7 +69,10 @@ struct SceneCloth {
   Surface surface = "builtin:sheet";
   int size = 257;
   double spacing = default_spacing;  ///< of the samples of a sewing pattern [m]
-  std::optional<TextureRest> rest;   ///< none: the mesh as it is placed
+  /// Of a sewing pattern: how many garments are worn below it, from which its panels start the
+  /// farther outside; none: as many garments as the scene lists before it.
+  std::optional<int> layer;
+  std::optional<TextureRest> rest;  ///< none: the mesh as it is placed
   Placement placement;
   Material material;
   double friction = 0.4;

@@ -12,7 +12,6 @@
 #include "weft/core/stopwatch.h"
 #include "weft/error.h"
 #include "weft/scene_file.h"
-#include "weft/sim/placement.h"
 #include "weft/sim/stepping/simulation_parts.h"
 
 namespace weft {
@@ -274,8 +273,7 @@ std::vector<double> Simulation::seam_gaps(std::size_t cloth) const {
 double Simulation::sunk(std::size_t cloth) const {
   const SimulatedCloth& worn = parts_->cloths[cloth];
   if (!worn.garment || worn.garment->held.empty()) return 0;
-  const Planes3 placed =
-      placed_positions(worn.image, placement_map(parts_->scene.cloths[cloth].placement));
+  const Planes3& placed = worn.model->start_positions();
   double sum = 0;
   for (const int s : worn.garment->held)
     sum += double{placed.at(s).y} - double{worn.state.position.at(s).y};

@@ -24,10 +24,10 @@ std::vector<std::string_view> of_method() {
       [&](std::string_view key, auto /*member*/, const auto& /*range*/) { keys.push_back(key); });
   return keys;
 }
-inline constexpr std::array<std::string_view, 15> cloth{
-    "name",           "surface",  "size",     "sew",       "rest",
-    "uv_scale",       "scale",    "rotate",   "translate", "material",
-    "self_collision", "friction", "velocity", "pins",      "attach"};
+inline constexpr std::array<std::string_view, 16> cloth{
+    "name",     "surface",  "size",   "sew",       "layer",    "rest",
+    "uv_scale", "scale",    "rotate", "translate", "material", "self_collision",
+    "friction", "velocity", "pins",   "attach"};
 inline constexpr std::array<std::string_view, 1> sew{"spacing"};
 inline constexpr std::array<std::string_view, 10> body{
     "name",      "surface",  "size",   "scale",     "rotate",

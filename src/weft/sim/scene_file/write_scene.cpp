@@ -101,6 +101,7 @@ Json cloth_json(const SceneCloth& cloth, bool self_collision, const fs::path& fo
   Json json{
       {"name", cloth.name}, {"surface", surface_text(cloth.surface, folder)}, {"size", cloth.size}};
   if (cloth.spacing != default_spacing) json["sew"] = {{"spacing", cloth.spacing}};
+  if (cloth.layer) json["layer"] = *cloth.layer;
   if (cloth.rest) {
     json["rest"] = "uv";
     json["uv_scale"] = cloth.rest->scale ? Json(*cloth.rest->scale) : Json("auto");

@@ -151,6 +151,33 @@ void Simulation::Parts::check_charts(const BorderMates& mates, const std::string
 
 namespace {
 
+/// How much farther outside the panels of a garment start than those of the one below it. [m]
+constexpr double layer_distance = 0.05;
+
+/// The outer side of a chart, on the mean.
+Vec3d outer_side(const Chart& chart, const Planes3& placed) {
+  Vec3d sum;
+  for (int r = chart.row; r + 1 < chart.row + chart.rows; ++r)
+    for (int c = chart.col; c + 1 < chart.col + chart.cols; ++c) {
+      const Vec3d along = vec_cast<double>(placed.at(r + 1, c + 1) - placed.at(r, c));
+      const Vec3d across = vec_cast<double>(placed.at(r + 1, c) - placed.at(r, c + 1));
+      sum += cross(along, across);
+    }
+  return normalized(sum);
+}
+
+/// Moves the panels of a garment outwards, so that it closes round those that are worn below it.
+void push_out(const BorderMates& mates, int layer, Planes3& placed) {
+  std::vector<Vec3f> shift;
+  for (const Chart& chart : mates.charts())
+    shift.push_back(vec_cast<float>(layer * layer_distance * outer_side(chart, placed)));
+  const std::vector<int>& chart_of = mates.chart_of();
+  for (int s = 0; s < placed.size() * placed.size(); ++s) {
+    const int at = mates.is_hole(s) ? mates.representative(s) : s;
+    placed.set(s, placed.at(s) + shift[chart_of.empty() ? 0 : chart_of[at]]);
+  }
+}
+
 /// Whether a fabric is not the same along warp and weft.
 bool has_direction(const Material& material) {
   return material.stretch.warp != material.stretch.weft ||
@@ -160,6 +187,7 @@ bool has_direction(const Material& material) {
 }  // namespace
 
 void Simulation::Parts::load_cloths() {
+  int garments = 0;
   for (const SceneCloth& wanted : scene.cloths) {
     ConvertOptions options;
     options.size = wanted.size;
@@ -170,7 +198,8 @@ void Simulation::Parts::load_cloths() {
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
     check_charts(loaded.garment ? loaded.garment->sewn : loaded.image.mates, wanted.name);
-    const Planes3 placed = placed_positions(loaded.image, placement_map(wanted.placement));
+    Planes3 placed = placed_positions(loaded.image, placement_map(wanted.placement));
+    if (loaded.garment) push_out(loaded.image.mates, wanted.layer.value_or(garments++), placed);
     Cloth cloth = make(wanted, placed, loaded);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
