@@ -305,6 +305,14 @@ TEST(SceneFile, RestIsTheMeshOrItsTexture) {
   }
 }
 
+TEST(SceneFile, LayerIsACountOrTheOrderOfTheScene) {
+  EXPECT_EQ(parse_scene(with_cloth(""), "s.json", "").cloths[0].layer, std::nullopt);
+  const Scene scene = parse_scene(with_cloth(R"("layer":3)"), "s.json", "");
+  EXPECT_EQ(scene.cloths[0].layer, 3);
+  EXPECT_EQ(parse_scene(scene_text(scene, "s.json"), "s.json", "").cloths[0].layer, 3);
+  EXPECT_NE(error_of(with_cloth(R"("layer":-1)")).find("layer"), std::string::npos);
+}
+
 TEST(SceneFile, WriterTellsWarpAndWeftApartOnlyWhereTheyDiffer) {
   const nlohmann::json material =
       parse_json(material_text({.stretch = {3e4, 15e3}, .bending = 2e-5}), 32);
