@@ -112,6 +112,22 @@ TEST(Intersections, FollowWhateverMoves) {
   EXPECT_GT(check.count().self, 10);
 }
 
+TEST(Intersections, SheetsThatCrossExactlyAlongRowsAreSeen) {
+  const Sheet first(size, level);
+  const auto count_with = [&](const std::function<Vec3d(int, int)>& place) {
+    const Sheet second(size, place);
+    const std::array<GridTriangles, 2> cloths{first.grid(), second.grid()};
+    return IntersectionCheck(cloths, {}, {}).count().cloths;
+  };
+  const auto at = [](int row) { return 0.125 * row - 1.25; };
+  EXPECT_EQ(count_with([&](int r, int c) { return Vec3d{0.1 * c, at(r), 1}; }), size - 1);
+  EXPECT_EQ(count_with([&](int r, int c) {
+              return Vec3d{0.1 * c, 1.25 + at(r), 1};
+            }),
+            0)
+      << "its border stands on a row";
+}
+
 TEST(Intersections, FlatFoldedAndTouchingClothHasNone) {
   EXPECT_EQ(count_once(Sheet(size, level), 0.0).total(), 0) << "lying on the ground";
   const Sheet tilted(size, [](int r, int c) {

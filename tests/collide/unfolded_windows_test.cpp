@@ -33,7 +33,7 @@ struct Patch {
       triangles.push_back({points[s[0]], points[s[1]], points[s[2]]});
     }
     int count = 0;
-    for_self_crossings(triangles, [&](int, int) { ++count; });
+    for_self_crossings(triangles, {}, [&](int, int) { ++count; });
     return count;
   }
 };

@@ -162,7 +162,9 @@ TriangleMesh box(Vec3d lower, Vec3d upper) {
 
 std::vector<std::array<int, 2>> self_crossings(const TriangleMesh& mesh) {
   std::vector<std::array<int, 2>> pairs;
-  for_self_crossings(corners_of(mesh), [&](int s, int t) { pairs.push_back({s, t}); });
+  for_self_crossings(corners_of(mesh), Neighbours(mesh.triangles), [&](int s, int t) {
+    pairs.push_back({s, t});
+  });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
@@ -202,6 +204,87 @@ TEST(Crossings, TreeFindsWhatTestingEveryPairFinds) {
       if (triangles_cross(corners[s], corners[t])) brute.push_back({s, t});
   EXPECT_GT(brute.size(), 50U);
   EXPECT_EQ(self_crossings(mesh), brute);
+}
+
+/// A strip of 5 x 3 vertices: rows at 0 to 4 along x, across them what `across` says.
+TriangleMesh strip(const std::array<Vec3d, 3>& across, double from = 0) {
+  TriangleMesh mesh;
+  for (int r = 0; r < 5; ++r)
+    for (int c = 0; c < 3; ++c) {
+      mesh.positions.push_back(across[c] + Vec3d{from + r, 0, 0});
+      if (r == 0 || c == 0) continue;
+      const int v = 3 * r + c;
+      mesh.triangles.push_back({v - 4, v - 3, v});
+      mesh.triangles.push_back({v - 4, v, v - 1});
+    }
+  return mesh;
+}
+
+std::int64_t crossings_of(const TriangleMesh& a, const TriangleMesh& b) {
+  const CrossingSurface one(corners_of(a), Neighbours(a.triangles));
+  const CrossingSurface two(corners_of(b), Neighbours(b.triangles));
+  const std::int64_t count = one.count_crossings(two);
+  EXPECT_EQ(two.count_crossings(one), count);
+  EXPECT_EQ(self_crossings(test::together(a, b)).size(), static_cast<std::size_t>(count));
+  return count;
+}
+
+const TriangleMesh flat_strip = strip({{{0, -1, 0}, {0, 0, 0}, {0, 1, 0}}});
+
+TEST(Crossings, SurfacesThatPassThroughEachOtherAlongEdgesCross) {
+  const std::array<Vec3d, 3> upright{{{0, 0, -1}, {0, 0, 0}, {0, 0, 1}}};
+  EXPECT_EQ(crossings_of(flat_strip, strip(upright)), 4) << "edge on edge";
+  EXPECT_EQ(crossings_of(flat_strip, strip(upright, 0.5)), 7) << "in halves";
+  EXPECT_EQ(crossings_of(flat_strip, strip(upright, 4)), 0) << "they touch in a point";
+  EXPECT_EQ(crossings_of(flat_strip, strip({{{0, 0.25, -1}, {0, 0.25, 0}, {0, 0.25, 1}}})), 8)
+      << "each of 4 edges inside of two triangles";
+  EXPECT_EQ(crossings_of(flat_strip, strip({{{0, -1, -1}, {0, 0, 0}, {0, 2, 1}}})), 4)
+      << "both sides, bent";
+}
+
+TEST(Crossings, SurfacesThatTouchAlongEdgesDoNotCross) {
+  EXPECT_EQ(crossings_of(flat_strip, strip({{{0, -1, 1}, {0, 0, 0}, {0, 1, 1}}})), 0) << "a keel";
+  EXPECT_EQ(crossings_of(flat_strip, strip({{{0, 0.2, 1}, {0, 0, 0}, {0, 0.3, 1}}})), 0);
+  EXPECT_EQ(crossings_of(flat_strip, strip({{{0, 0.25, 1}, {0, 0.25, 0}, {0, 0.5, 1}}})), 0);
+  EXPECT_EQ(crossings_of(flat_strip, strip({{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}}})), 0) << "a border";
+  EXPECT_EQ(crossings_of(strip({{{0, -1, 1}, {0, 0, 0}, {0, 1, 1}}}),
+                         strip({{{0, -1, 3}, {0, 0, 0}, {0, 1, 3}}})),
+            0)
+      << "one keel in another";
+}
+
+// Two triangles on an edge each, corners on a small lattice: what crosses along edges does after
+// any small displacement, too.
+TEST(Crossings, CrossingAlongEdgesOutlastsSmallDisplacements) {
+  Random random(21);
+  int along_edges = 0;
+  for (int i = 0; i < 60000; ++i) {
+    TriangleMesh a, b;
+    for (TriangleMesh* mesh : {&a, &b}) {
+      for (int k = 0; k < 4; ++k)
+        mesh->positions.push_back(
+            {1.0 * random.index(3), 1.0 * random.index(3), 1.0 * random.index(3)});
+      mesh->triangles = {{0, 1, 2}, {1, 0, 3}};
+    }
+    if (i % 2 == 0) {
+      b.positions[0] = a.positions[0];
+      b.positions[1] = a.positions[1];
+    }
+    const auto count = [&](const Neighbours& neighbours) {
+      return CrossingSurface(corners_of(a), neighbours)
+          .count_crossings(CrossingSurface(corners_of(b), neighbours));
+    };
+    if (count({}) > 0 || count(Neighbours(a.triangles)) == 0) continue;
+    ++along_edges;
+    for (int k = 0; k < 8; ++k) {
+      const std::vector<Vec3d> there = b.positions;
+      const Vec3d aside = test::random_point(random, 1e-6);
+      for (Vec3d& p : b.positions) p += aside;
+      ASSERT_GT(count({}), 0) << i;
+      b.positions = there;
+    }
+  }
+  EXPECT_GT(along_edges, 300);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 int self_crossings(const TriangleMesh& mesh) {
   int count = 0;
-  for_self_crossings(corners_of(mesh), [&](int, int) { ++count; });
+  for_self_crossings(corners_of(mesh), {}, [&](int, int) { ++count; });
   return count;
 }
 

@@ -28,7 +28,9 @@ std::vector<Vec3f> samples_of(const Planes3& positions) {
 }  // namespace
 
 IntersectionCheck::Surface::Surface(const GridTriangles& grid)
-    : grid_(grid), seen_(samples_of(*grid.positions)), crossing_(corners_of(grid)) {}
+    : grid_(grid),
+      seen_(samples_of(*grid.positions)),
+      crossing_(corners_of(grid), Neighbours(*grid.triangles)) {}
 
 void IntersectionCheck::Surface::follow() {
   const int n = grid_.positions->size();

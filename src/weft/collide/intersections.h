@@ -14,13 +14,15 @@ namespace weft {
 /// A triangulated grid whose positions are read at every count. Triangles with coinciding corners
 /// are degenerate and meet nothing.
 struct GridTriangles {
-  const Planes3* positions = nullptr;                ///< [n x n] world, mates equal [m]
-  const std::vector<Triangle>* triangles = nullptr;  ///< corners as samples
+  const Planes3* positions = nullptr;  ///< [n x n] world, mates equal [m]
+  /// Corners as samples, mates as one: what has the same two corners is one edge.
+  const std::vector<Triangle>* triangles = nullptr;
 };
 
 /// Counts the pairs of triangles that cross each other (weft/mesh/crossings.h): exact for the
 /// positions as they are. Touching pairs do not count, so that neighbours are no special case;
-/// pairs that overlap in one plane do. Independent of every collider: none of their code is used
+/// pairs that overlap in one plane do, and one pair for each edge along which surfaces pass exactly
+/// through each other. Independent of every collider: none of their code is used
 /// here.
 class IntersectionCheck {
  public:

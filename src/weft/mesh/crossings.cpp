@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "weft/core/orientation.h"
+#include "weft/mesh/edge_uses.h"
 
 namespace weft {
 namespace {
@@ -80,14 +81,124 @@ bool intervals_overlap(Corners a, const Signs& of_a, Corners b, const Signs& of_
   return orientation(a[0], a[1], b[0], b[1]) < 0 && orientation(a[0], a[2], b[2], b[0]) < 0;
 }
 
+/// A triangle of a surface.
+struct Placed {
+  std::span<const Corners> surface;
+  const Neighbours& neighbours;
+  int index = 0;
+  [[nodiscard]] const Corners& corners() const { return surface[index]; }
+  [[nodiscard]] int across(int k) const { return neighbours.across(index, k); }
+  [[nodiscard]] Vec3d at(int k) const { return corners()[k % 3]; }
+  /// The corner of the neighbour at edge k that is not on it.
+  [[nodiscard]] Vec3d beyond(int k) const {
+    const int other = across(k);
+    for (int i = 0; i < 3; ++i)
+      if (neighbours.across(other, i) == index) return surface[other][(i + 2) % 3];
+    return at(k);
+  }
+};
+
+/// Whether an edge in the plane of a triangle passes through its inside.
+bool passes_inside(Vec3d from, Vec3d to, const Corners& triangle) {
+  const int axis = axis_with_area(triangle);
+  if (axis == 3) return false;
+  const FlatCorners t = flatten(triangle, axis);
+  const Vec2d p = project(from, axis), q = project(to, axis);
+  for (int k = 0; k < 3; ++k)
+    if (orientation(t[k], t[(k + 1) % 3], p) <= 0 && orientation(t[k], t[(k + 1) % 3], q) <= 0)
+      return false;
+  return on_both_sides({orientation(p, q, t[0]), orientation(p, q, t[1]), orientation(p, q, t[2])});
+}
+
+/// Whether two edges have more than a point in common.
+bool lie_on_each_other(Vec3d p, Vec3d q, Vec3d u, Vec3d v) {
+  bool along = false;
+  for (double Vec3d::*axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+    const double first = std::max(std::min(p.*axis, q.*axis), std::min(u.*axis, v.*axis));
+    const double last = std::min(std::max(p.*axis, q.*axis), std::max(u.*axis, v.*axis));
+    if (first > last) return false;
+    along |= first < last;
+  }
+  for (int axis = 0; axis < 3 && along; ++axis) {
+    const Vec2d a = project(p, axis), b = project(q, axis);
+    along = orientation(a, b, project(u, axis)) == 0 && orientation(a, b, project(v, axis)) == 0;
+  }
+  return along;
+}
+
+/// Whether point x is in the wedge that opens counter-clockwise about the line from p to q, from
+/// the side of point a to that of b. @pre x is on neither side
+bool in_wedge(const std::array<Vec3d, 2>& line, Vec3d a, Vec3d b, Vec3d x) {
+  const auto turn = [&](Vec3d from, Vec3d to) { return orientation(line[0], line[1], from, to); };
+  const int opening = turn(a, b);
+  if (opening > 0) return turn(a, x) > 0 && turn(x, b) > 0;
+  if (opening < 0) return !(turn(b, x) > 0 && turn(x, a) > 0);
+  return turn(a, x) > 0;
+}
+
+/// Whether two surfaces pass through each other at edges i and j that lie on each other: the
+/// triangles at one are between those at the other, whichever way one goes around.
+bool cross_at_edges(const Placed& s, int i, const Placed& t, int j) {
+  if (!lie_on_each_other(s.at(i), s.at(i + 1), t.at(j), t.at(j + 1))) return false;
+  const std::array<Vec3d, 2> line{s.at(i), s.at(i + 1)}, other{t.at(j), t.at(j + 1)};
+  const std::array<Vec3d, 2> a{s.at(i + 2), s.beyond(i)}, b{t.at(j + 2), t.beyond(j)};
+  const auto overlap = [](const std::array<Vec3d, 2>& of_x, Vec3d x,
+                          const std::array<Vec3d, 2>& of_y, Vec3d y) {
+    const Corners one{of_x[0], of_x[1], x}, two{of_y[0], of_y[1], y};
+    return has_no_area(one) || has_no_area(two) || triangles_cross(one, two);
+  };
+  // Triangles that overlap are a pair of their own.
+  if (overlap(line, a[0], line, a[1]) || overlap(other, b[0], other, b[1])) return false;
+  for (const Vec3d x : a)
+    for (const Vec3d y : b)
+      if (overlap(line, x, other, y)) return false;
+  return in_wedge(line, a[0], a[1], b[0]) != in_wedge(line, a[0], a[1], b[1]);
+}
+
+/// Whether a surface passes through triangle t along an edge of its triangle s, or along one of
+/// each. An edge belongs to the lesser of its triangles.
+/// @param of_s  the sides of the plane of t on which the corners of s lie
+bool edge_crosses(const Placed& s, const Signs& of_s, const Placed& t, bool same) {
+  for (int k = 0; k < 3; ++k) {
+    const int across = s.across(k);
+    if (of_s[k] != 0 || of_s[(k + 1) % 3] != 0 || across < s.index) continue;
+    if (same && across == t.index) continue;
+    const Corners& plane = t.corners();
+    const int side = of_s[(k + 2) % 3];
+    if (side != 0 && orientation(plane[0], plane[1], plane[2], s.beyond(k)) == -side &&
+        passes_inside(s.at(k), s.at(k + 1), plane))
+      return true;
+    for (int j = 0; j < 3; ++j)
+      if (t.across(j) > t.index && !(same && t.across(j) == s.index) && cross_at_edges(s, k, t, j))
+        return true;
+  }
+  return false;
+}
+
+/// Whether two triangles cross, or the surfaces do along edges of theirs.
+/// @param same  both are of one surface
+bool surfaces_cross(const Placed& s, const Placed& t, bool same) {
+  const Corners &a = s.corners(), &b = t.corners();
+  const Signs of_a = sides(b, a);
+  if (!on_both_sides(of_a))
+    return (of_a == Signs{0, 0, 0} && overlap_in_plane(a, b)) || edge_crosses(s, of_a, t, same);
+  const Signs of_b = sides(a, b);
+  return on_both_sides(of_b) ? intervals_overlap(a, of_a, b, of_b) : edge_crosses(t, of_b, s, same);
+}
+
+/// A surface to be searched.
+struct Searched {
+  std::span<const Corners> triangles;
+  const Neighbours& neighbours;
+};
+
 /// Visits the pairs of triangles that cross, by descending through pairs of nodes with overlapping
 /// boxes.
 class PairSearch {
  public:
   using Visit = std::function<void(int s, int t)>;
 
-  PairSearch(std::span<const Corners> a, std::span<const Corners> b, Visit visit)
-      : a_(a), b_(b), visit_(std::move(visit)) {}
+  PairSearch(Searched a, Searched b, Visit visit) : a_(a), b_(b), visit_(std::move(visit)) {}
 
   void within(const BoxTree& tree, int node) const {
     const BoxTree::Node& n = tree.nodes[node];
@@ -122,10 +233,13 @@ class PairSearch {
     return {min(min(t[0], t[1]), t[2]), max(max(t[0], t[1]), t[2])};
   }
   void try_pair(int s, int t) const {
-    if (overlap(box_of(a_[s]), box_of(b_[t])) && triangles_cross(a_[s], b_[t])) visit_(s, t);
+    if (!overlap(box_of(a_.triangles[s]), box_of(b_.triangles[t]))) return;
+    const bool same = a_.triangles.data() == b_.triangles.data();
+    if (surfaces_cross({a_.triangles, a_.neighbours, s}, {b_.triangles, b_.neighbours, t}, same))
+      visit_(s, t);
   }
 
-  std::span<const Corners> a_, b_;
+  Searched a_, b_;
   Visit visit_;
 };
 
@@ -140,28 +254,43 @@ bool triangles_cross(const Corners& a, const Corners& b) {
 
 bool has_no_area(const Corners& triangle) { return axis_with_area(triangle) == 3; }
 
-void for_self_crossings(std::span<const Corners> surface,
+Neighbours::Neighbours(std::span<const Triangle> triangles)
+    : across_(triangles.size(), std::array<int, 3>{-1, -1, -1}) {
+  int vertices = 0;
+  for (const Triangle& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+  const EdgeUses edges = edge_uses(vertices, triangles);
+  for (int e = 0; e < edges.edge_count(); ++e) {
+    const std::span<const int> of = edges.of(e);
+    if (of.size() != 2 || of[0] / 3 == of[1] / 3) continue;
+    across_[of[0] / 3][of[0] % 3] = of[1] / 3;
+    across_[of[1] / 3][of[1] % 3] = of[0] / 3;
+  }
+}
+
+void for_self_crossings(std::span<const Corners> surface, const Neighbours& neighbours,
                         const std::function<void(int s, int t)>& visit) {
   if (surface.empty()) return;
   const BoxTree tree(surface);
   const auto ordered = [&](int s, int t) { visit(std::min(s, t), std::max(s, t)); };
-  PairSearch(surface, surface, ordered).within(tree, 0);
+  const Searched searched{surface, neighbours};
+  PairSearch(searched, searched, ordered).within(tree, 0);
 }
 
-CrossingSurface::CrossingSurface(std::vector<Corners> triangles)
-    : triangles_(std::move(triangles)), tree_(triangles_) {}
+CrossingSurface::CrossingSurface(std::vector<Corners> triangles, Neighbours neighbours)
+    : triangles_(std::move(triangles)), neighbours_(std::move(neighbours)), tree_(triangles_) {}
 
 std::int64_t CrossingSurface::count_self_crossings() const {
   if (triangles_.empty()) return 0;
   std::int64_t count = 0;
-  PairSearch(triangles_, triangles_, [&](int, int) { ++count; }).within(tree_, 0);
+  const Searched own{triangles_, neighbours_};
+  PairSearch(own, own, [&](int, int) { ++count; }).within(tree_, 0);
   return count;
 }
 
 std::int64_t CrossingSurface::count_crossings(const CrossingSurface& other) const {
   if (triangles_.empty() || other.triangles_.empty()) return 0;
   std::int64_t count = 0;
-  PairSearch(triangles_, other.triangles_, [&](int, int) {
+  PairSearch({triangles_, neighbours_}, {other.triangles_, other.neighbours_}, [&](int, int) {
     ++count;
   }).between(tree_, 0, other.tree_, 0);
   return count;

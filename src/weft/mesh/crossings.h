@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -19,16 +20,35 @@ bool triangles_cross(const Corners& a, const Corners& b);
 /// True when the three corners are exactly on one line.
 bool has_no_area(const Corners& triangle);
 
+/// Which triangles of a surface are neighbours. Surfaces can pass through each other exactly along
+/// their edges, where no two triangles cross: an edge between two neighbours lies in a triangle of
+/// the other surface, or on an edge between two others, and these are on both sides of it. Who
+/// knows neighbours counts that as one pair, of the lesser triangles at those edges.
+class Neighbours {
+ public:
+  Neighbours() = default;  ///< none are known
+  /// @param triangles  [F] by vertices >= 0; what has the same two vertices is one edge
+  explicit Neighbours(std::span<const Triangle> triangles);
+  /// The triangle at the other side of edge k, from corner k to the next; -1: none is known, or the
+  /// edge has more than two.
+  [[nodiscard]] int across(int triangle, int k) const {
+    return across_.empty() ? -1 : across_[static_cast<std::size_t>(triangle)][k];
+  }
+
+ private:
+  std::vector<std::array<int, 3>> across_;
+};
+
 /// Calls visit(s, t) for each pair of triangles of one surface that cross, s < t, in an order that
 /// depends on the surface alone. Found through a tree of boxes. @pre finite corners
-void for_self_crossings(std::span<const Corners> surface,
+void for_self_crossings(std::span<const Corners> surface, const Neighbours& neighbours,
                         const std::function<void(int s, int t)>& visit);
 
 /// A moving surface with a tree of boxes: its hierarchy stays, its boxes are refitted.
 class CrossingSurface {
  public:
   /// @pre finite corners, here and below
-  explicit CrossingSurface(std::vector<Corners> triangles);
+  explicit CrossingSurface(std::vector<Corners> triangles, Neighbours neighbours = {});
   /// The triangles for writing new corners into, [F]; `moved` must follow.
   [[nodiscard]] std::span<Corners> triangles() { return triangles_; }
   void moved() noexcept { tree_.fit_boxes(triangles_); }
@@ -40,6 +60,7 @@ class CrossingSurface {
 
  private:
   std::vector<Corners> triangles_;
+  Neighbours neighbours_;
   BoxTree tree_;
 };
 

@@ -205,7 +205,7 @@ void find_crossings(const SoundPart& part, MeshStatistics& statistics) {
     std::sort(list.begin(), list.end());
     list.resize(std::min(list.size(), max_listed_crossings));
   };
-  for_self_crossings(corners_of(part.mesh), [&](int s, int t) {
+  for_self_crossings(corners_of(part.mesh), Neighbours(part.mesh.triangles), [&](int s, int t) {
     ++statistics.self_intersections;
     crossing[s] = crossing[t] = true;
     list.push_back({part.source[s], part.source[t]});

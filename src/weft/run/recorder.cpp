@@ -189,10 +189,11 @@ std::int64_t Recorder::written_crossings() {
     const std::vector<Vec3f> points =
         open ? written.points(*record.subject().now) : record.points();
     std::vector<Corners> corners;
-    for (const auto& [a, b, c] : fans_of(written.faces()).triangles)
+    const std::vector<Triangle> triangles = fans_of(written.faces()).triangles;
+    for (const auto& [a, b, c] : triangles)
       corners.push_back(
           {vec_cast<double>(points[a]), vec_cast<double>(points[b]), vec_cast<double>(points[c])});
-    surfaces.emplace_back(std::move(corners));
+    surfaces.emplace_back(std::move(corners), Neighbours(triangles));
   });
   std::int64_t count = 0;
   for (std::size_t i = 0; i < cloths_.size(); ++i) {

@@ -301,8 +301,8 @@ void Simulation::Parts::make_collider_of_scene() {
 
 void Simulation::Parts::make_check() {
   for (const SimulatedCloth& cloth : cloths)
-    checked_triangles.push_back(grid_triangles(cloth.image));
-  for (const PlacedBody& body : bodies) checked_triangles.push_back(grid_triangles(body.image));
+    checked_triangles.push_back(joined_triangles(cloth.image));
+  for (const PlacedBody& body : bodies) checked_triangles.push_back(joined_triangles(body.image));
   std::vector<GridTriangles> checked_cloths, checked_bodies;
   auto triangles = checked_triangles.cbegin();
   for (const SimulatedCloth& cloth : cloths)
