@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <climits>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 #include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/error.h"
+#include "weft/files.h"
 #include "weft/image_file.h"
 
 namespace weft::app {
@@ -174,6 +177,7 @@ void require_all(const ConvertArgs& args, const Context& context, const Json& re
 
 void check_args(const ConvertArgs& args) {
   check_output(args.output, {".exr", ".png"});
+  check_not_input(args.output, std::vector<fs::path>{args.mesh, args.seam});
   if (args.component != "all") return;
   for (const auto& [option, given] :
        {std::pair{"--cut", !args.seam.empty()}, {"--seed-triangle", args.seed_triangle >= 0}})

@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <memory>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -7,6 +9,7 @@
 #include "apps/weft/commands.h"
 #include "apps/weft/reports.h"
 #include "weft/error.h"
+#include "weft/files.h"
 #include "weft/geometry_image.h"
 #include "weft/image_file.h"
 #include "weft/mesh.h"
@@ -31,6 +34,7 @@ GeometryImage read_level(const RebuildArgs& args) {
 
 void rebuild(const RebuildArgs& args, const Context& context) {
   check_output(args.output, {".obj", ".ply"});
+  check_not_input(args.output, std::vector<std::filesystem::path>{args.image});
   const GeometryImage image = read_level(args);
   const RebuiltMesh rebuilt = rebuild_mesh(image);
   const Json found = [&] {

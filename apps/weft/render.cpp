@@ -4,6 +4,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -105,6 +106,8 @@ void film(const RenderArgs& args, Shots& shots, const Context& context) {
 
 void render(RenderArgs& args, const Context& context) {
   check_output(args.output, {".png", ".mp4", ".gif"});
+  check_not_input(args.output,
+                  std::vector<std::filesystem::path>(args.subjects.begin(), args.subjects.end()));
   args.shown.view.azimuth = args.azimuth * std::numbers::pi / 180;
   args.shown.view.elevation = args.elevation * std::numbers::pi / 180;
   check(args);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,12 @@ std::string ending_of(const std::filesystem::path& path);
 /// Makes a folder and its missing parents; an existing one is left as it is.
 /// @throws OutputError when it cannot be made, or a file has its name
 void make_folder(const std::filesystem::path& path);
+
+/// Refuses an output in the place of a file that the same work reads, by whatever name.
+/// @param inputs  those that do not exist are passed over
+/// @throws OutputError
+void check_not_input(const std::filesystem::path& output,
+                     std::span<const std::filesystem::path> inputs);
 
 /// Makes a folder and its missing parents for output that may never be written: the destructor
 /// removes those of them that are still empty.

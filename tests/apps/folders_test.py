@@ -62,6 +62,44 @@ class Leftovers(SceneTest):
         self.assertEqual(self.listing("."), ["mine", "scene.json"])
 
 
+class Inputs(SceneTest):
+    """What a command reads stays as it is, whatever else is in the folder that it writes to."""
+
+    def refused(self, *words):
+        files = {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}
+        line = self.error_of(*words, code=3)
+        self.assertIn("would be overwritten, and is read here", line)
+        self.assertEqual(files, {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()})
+        return line
+
+    def test_runs_do_not_overwrite_what_their_scene_is_made_of(self):
+        self.run_weft("shapes", "disk", "-o", "sheet.obj")
+        self.run_weft("shapes", "sphere", "-o", "ball.obj")
+        cloth = {"name": "sheet", "surface": "sheet.obj", "size": 9}
+        self.write_scene(sheet_scene(frames=1, cloths=[cloth]))
+        self.assertIn("sheet.obj", self.refused("simulate", "scene.json", "-o", "."))
+        self.run_weft("simulate", "scene.json", "-o", ".", "--export", "pc2")
+        self.run_weft("simulate", "scene.json", "-o", "elsewhere")
+        (self.folder / "linked").symlink_to(self.folder)
+        self.refused("simulate", "scene.json", "-o", "linked")
+        image = {"name": "sheet", "surface": "sheet.exr", "size": 9}
+        self.write_scene(sheet_scene(frames=1, cloths=[image]))
+        self.assertIn("sheet.exr", self.refused("simulate", "scene.json", "-o", ".", "--export", "pc2"))
+        other = {"name": "cloth", "surface": "builtin:sheet", "size": 9}
+        self.write_scene(sheet_scene(frames=1, cloths=[other], bodies=[{"name": "ball", "surface": "ball.obj", "size": 9}]))
+        self.assertIn("ball.obj", self.refused("simulate", "scene.json", "-o", "."))
+        self.write_scene(sheet_scene(frames=1, cloths=[other]), "caches.json")
+        self.assertIn("caches.json", self.refused("simulate", "caches.json", "-o", "."))
+
+    def test_drapes_and_pictures_do_not_overwrite_their_subjects(self):
+        self.run_weft("shapes", "disk", "-o", "cloth.obj")
+        self.run_weft("shapes", "sphere", "-o", "body.obj")
+        self.refused("drape", "cloth.obj", "builtin:sphere", "-o", ".", "--frames", "1")
+        self.refused("drape", "builtin:sheet", "body.obj", "-o", ".", "--frames", "1")
+        self.run_weft("convert", "body.obj", "-o", "body.png", "--size", "33")
+        self.refused("render", "body.png", "-o", "body.png")
+
+
 class FullDisk(SceneTest):
     def test_run_on_a_full_disk_tells_of_the_frames_that_are_there(self):
         self.write_scene(sheet_scene(frames=300))

@@ -50,6 +50,15 @@ void make_folder(const fs::path& path) {
                       "a writable place is wanted");
 }
 
+void check_not_input(const fs::path& output, std::span<const fs::path> inputs) {
+  for (const fs::path& input : inputs) {
+    std::error_code ignored;
+    if (fs::equivalent(output, input, ignored))
+      throw OutputError(output.string(), "would be overwritten, and is read here",
+                        "another place for what is written is wanted");
+  }
+}
+
 WantedFolder::WantedFolder(const fs::path& path) {
   std::error_code ignored;
   for (fs::path missing = path; !missing.empty() && !fs::exists(missing, ignored);

@@ -9,39 +9,15 @@
 #include "weft/image_file.h"
 #include "weft/mesh.h"
 #include "weft/mesh/crossings.h"
-#include "weft/point_cache.h"
 #include "weft/run.h"
 #include "weft/run/export/cache_manifest.h"
+#include "weft/run/input_files.h"
 #include "weft/run/run_manifest.h"
 #include "weft/run_folder.h"
 
 namespace weft {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-/// Input files of a scene, which may lie in the folder of an earlier run.
-std::vector<fs::path> input_files(const Scene& scene) {
-  std::vector<fs::path> files;
-  const auto add = [&](const Surface& surface) {
-    if (!surface.in_memory()) files.emplace_back(surface.name);
-  };
-  for (const SceneCloth& cloth : scene.cloths) add(cloth.surface);
-  for (const SceneBody& body : scene.bodies) {
-    add(body.surface);
-    if (body.animation.in_memory()) continue;
-    files.emplace_back(body.animation.name);
-    if (body.animation.empty()) continue;
-    try {
-      for (const fs::path& file : point_cache_files(body.animation.name)) files.push_back(file);
-    } catch (const InputError&) {  // they were there when they were read, which was enough
-    }
-  }
-  return files;
-}
-
-}  // namespace
 
 Recorder::Recorder(const Simulation& simulation, const Scene& scene, const RunOptions& options)
     : simulation_(simulation), scene_(scene), options_(options) {

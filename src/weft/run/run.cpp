@@ -10,6 +10,7 @@
 #include "weft/files.h"
 #include "weft/run/checkpoint.h"
 #include "weft/run/disk_reservation.h"
+#include "weft/run/input_files.h"
 #include "weft/run/recorder.h"
 #include "weft/run/run_identity.h"
 #include "weft/scene_file.h"
@@ -362,6 +363,7 @@ class Run {
 
 RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options) {
   check_exports(scene, options);
+  check_inputs_stay(scene, name, options);
   const std::uint64_t memory = estimate_memory(scene);
   if (const auto available = available_memory()) check_memory(memory, *available, name);
   const WantedFolder folder(options.folder);
