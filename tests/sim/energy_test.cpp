@@ -83,6 +83,18 @@ TEST(StepEnergy, WorkOfPinsAccountsForWhatTheyPutIn) {
   EXPECT_LT(gained(simulation, reports), 0.05 * work);
 }
 
+/// Closer than their thickness, which the contacts want back at once: in steps however short.
+TEST(StepEnergy, LayersThatBeginTooCloseTogetherPartGently) {
+  Scene scene;
+  scene.ground.reset();
+  scene.cloths = {sheet(33, {0, 0, 0}), sheet(33, {0, 1e-4, 0})};
+  scene.cloths[1].name = "upper";
+  Simulation simulation(scene, "close", 1);
+  const std::vector<FrameReport> reports = run(simulation, 10);
+  EXPECT_LT(gained(simulation, reports), 0.01 * simulation.mass() * standard_gravity);
+  EXPECT_GT(reports.front().self_contacts, 0);
+}
+
 /// A sheet that lies on a box and is pulled off it at 12 m/s.
 Scene tablecloth() {
   Scene scene;

@@ -135,7 +135,6 @@ double ContactSystem::compliance(int index, std::span<const Grid<float>* const> 
 /// speed.
 double ContactSystem::attainable_offset(int index) const {
   const Contact& contact = contacts_[index];
-  if (contact.stiffness > 0) return contact.offset;
   const double farthest = max_exit_speed * input_.time_step;
   const double before = double{contact.offset} -
                         dot(vec_cast<double>(contact.normal), start_of(index)) -
