@@ -39,6 +39,8 @@ SCENES = {
     "pin.json": '{"cloths": [{"surface": "builtin:sheet", "pins": [{"image": [2, 0]}]}]}',
     "middle.json": '{"cloths": [{"name": "sheet", "surface": "builtin:sheet", "size": 49}], '
                    '"bodies": [{"name": "ball", "surface": "builtin:sphere", "size": 33}]}',
+    "lining.json": '{"cloths": [{"name": "sheet", "surface": "builtin:sheet", "size": 33}, '
+                   '{"name": "lining", "surface": "builtin:sheet", "size": 33}]}',
     "own.json": '{"cloths": [{"surface": "builtin:sheet", "size": 33}], '
                 '"bodies": [{"name": "ball", "surface": "ball.obj", "size": 33}]}',
     "explicit.json": f'{{"integrator": {{"type": "explicit"}}, "substeps": 1, '

@@ -20,6 +20,15 @@ SceneCloth sheet(Vec3d translate, double scale) {
   return cloth;
 }
 
+std::string refusal_of(const Scene& scene) {
+  try {
+    Simulation simulation(scene, "s.json", 1);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 Scene around(const char* shape, const SceneCloth& cloth) {
   Scene scene;
   scene.ground.reset();
@@ -150,6 +159,25 @@ TEST(Insides, WhatAClosedBodySwallowsIsSeen) {
   verifier.count_frame(2, found);
   EXPECT_EQ(found.swallowed.count, 33 * 33);
   EXPECT_EQ(found.swallowed.frame, 2);
+}
+
+/// Which of the two is above nobody can tell: they were thrown apart by the joules.
+TEST(Insides, ClothsInTheSamePlaceAreRefused) {
+  Scene scene;
+  scene.ground.reset();
+  scene.cloths = {sheet({0, 1, 0}, 1), sheet({0, 1, 0}, 1)};
+  scene.cloths[1].name = "lining";
+  const std::string expected = "cloths 'sheet' and 'lining' begin in the same place: 100 %";
+  EXPECT_NE(refusal_of(scene).find(expected), std::string::npos) << refusal_of(scene);
+  for (SceneCloth& cloth : scene.cloths) cloth.placement.rotate = {20, 30, 40};
+  EXPECT_NE(refusal_of(scene).find(expected), std::string::npos) << "in any direction";
+  for (SceneCloth& cloth : scene.cloths) cloth.placement.rotate = {};
+  scene.cloths[1].placement.translate.x = 0.3;
+  EXPECT_NE(refusal_of(scene).find("same place"), std::string::npos) << "in part";
+  scene.cloths[1].placement.translate.x = 0.99;
+  EXPECT_EQ(refusal_of(scene), "") << "a row of them";
+  scene.cloths[1].placement.translate = {0, 1.001, 0};
+  EXPECT_EQ(refusal_of(scene), "") << "one above the other";
 }
 
 }  // namespace

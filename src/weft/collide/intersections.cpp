@@ -77,4 +77,11 @@ IntersectionCounts IntersectionCheck::count() {
   return counts;
 }
 
+double IntersectionCheck::part_lying_on(std::size_t cloth, std::size_t other) {
+  for (const std::size_t i : {cloth, other}) cloths_[i].follow();
+  const CrossingSurface& own = cloths_[cloth].crossing();
+  return own.count_lying_on(cloths_[other].crossing()) /
+         std::max(1.0, static_cast<double>(cloths_[cloth].triangle_count()));
+}
+
 }  // namespace weft

@@ -33,6 +33,9 @@ class IntersectionCheck {
                     std::optional<double> ground);
   /// Counts the intersections of the current positions.
   [[nodiscard]] IntersectionCounts count();
+  /// The part of a cloth's triangles that lie exactly on those of another: in one plane,
+  /// overlapping. From 0 to 1.
+  [[nodiscard]] double part_lying_on(std::size_t cloth, std::size_t other);
 
  private:
   /// A grid with the tree over its triangles, which is refitted only when a sample has moved.
@@ -41,6 +44,7 @@ class IntersectionCheck {
     explicit Surface(const GridTriangles& grid);
     void follow();
     [[nodiscard]] const CrossingSurface& crossing() const { return crossing_; }
+    [[nodiscard]] std::size_t triangle_count() const { return grid_.triangles->size(); }
     /// @return number of triangles with a corner below `height`
     [[nodiscard]] std::int64_t count_below(double height);
 

@@ -296,4 +296,15 @@ std::int64_t CrossingSurface::count_crossings(const CrossingSurface& other) cons
   return count;
 }
 
+int CrossingSurface::count_lying_on(const CrossingSurface& other) const {
+  if (triangles_.empty() || other.triangles_.empty()) return 0;
+  std::vector<char> lying(triangles_.size(), 0);
+  const auto visit = [&](int s, int t) {
+    if (sides(other.triangles_[t], triangles_[s]) == Signs{0, 0, 0}) lying[s] = 1;
+  };
+  PairSearch({triangles_, neighbours_}, {other.triangles_, other.neighbours_}, visit)
+      .between(tree_, 0, other.tree_, 0);
+  return static_cast<int>(std::count(lying.begin(), lying.end(), 1));
+}
+
 }  // namespace weft

@@ -57,6 +57,8 @@ class CrossingSurface {
   [[nodiscard]] std::int64_t count_self_crossings() const;
   /// How many pairs of triangles, one of each surface, cross.
   [[nodiscard]] std::int64_t count_crossings(const CrossingSurface& other) const;
+  /// How many of its triangles lie exactly on triangles of the other: in one plane, overlapping.
+  [[nodiscard]] int count_lying_on(const CrossingSurface& other) const;
 
  private:
   std::vector<Corners> triangles_;

@@ -140,6 +140,7 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
   parts_->tie_cloths();
   parts_->make_movers();
   parts_->find_insides();
+  parts_->check_apart();
   parts_->make_collider_of_scene();
   parts_->note_too_fast();
 }

@@ -74,6 +74,8 @@ struct Simulation::Parts {
   void make_movers();
   /// Finds the closed bodies that cloths begin inside of, at the initial positions of both.
   void find_insides();
+  /// Refuses cloths that begin in the same place.
+  void check_apart();
   /// Creates the collider, with the bodies at their current positions.
   void make_collider_of_scene();
   void note_too_fast();

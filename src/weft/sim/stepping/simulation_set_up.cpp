@@ -35,6 +35,9 @@ constexpr double gap_in_spacings = 1.0 / 3, max_gap_in_thicknesses = 3;
 /// Largest gap between parts of cloth, in rest spacings; a larger one would lock folds.
 constexpr double max_self_gap_in_spacings = 0.25;
 
+/// Part of a cloth that may begin exactly on another one: a few rows find their way apart.
+constexpr double max_part_in_one_place = 0.05;
+
 /// Friction coefficient of the ground, which scenes do not set.
 constexpr double ground_friction = 0.5;
 
@@ -266,6 +269,24 @@ void Simulation::Parts::find_insides() {
                       cloth.name, bodies[torn->body].name, torn->apart),
           "a cloth that begins outside of it, or nearer to its surface, is wanted");
   }
+}
+
+void Simulation::Parts::check_apart() {
+  // Baselines take the start as it is.
+  if (cloths.size() < 2 || !Colliders::traits_of(scene.collider).filters) return;
+  make_check();
+  for (std::size_t j = 1; j < cloths.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      const double part = std::max(check->part_lying_on(i, j), check->part_lying_on(j, i));
+      if (part <= max_part_in_one_place) continue;
+      const double gap = self_gap_of(*cloths[i].model) + self_gap_of(*cloths[j].model);
+      throw SceneError(
+          name,
+          fmt::format("cloths '{}' and '{}' begin in the same place: {:.0f} % of one lies exactly "
+                      "on the other, and which is above nobody can tell",
+                      cloths[i].name, cloths[j].name, 100 * part),
+          fmt::format("cloths that begin {:.2g} m apart, or more, are wanted", gap / 2));
+    }
 }
 
 void Simulation::Parts::make_collider_of_scene() {
