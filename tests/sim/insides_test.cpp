@@ -4,6 +4,7 @@
 
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/cloth.h"
+#include "weft/convert.h"
 #include "weft/error.h"
 #include "weft/run/verification.h"
 
@@ -159,6 +160,34 @@ TEST(Insides, WhatAClosedBodySwallowsIsSeen) {
   verifier.count_frame(2, found);
   EXPECT_EQ(found.swallowed.count, 33 * 33);
   EXPECT_EQ(found.swallowed.frame, 2);
+}
+
+/// A ring that stands in a sheet holds less of it than a ball, but has no way out either.
+TEST(Insides, ARingThatStandsInAClothIsRefused) {
+  for (const double up : {0.0, 0.1}) {
+    Scene scene = around("torus", sheet({0, 0.5 + up, 0}, 1));
+    scene.cloths[0].size = 65;
+    scene.bodies[0].placement.scale = {0.6, 0.6, 0.6};
+    scene.bodies[0].placement.rotate = {90, 0, 0};
+    EXPECT_NE(refusal_of(scene).find("begins in the middle of body 'room'"), std::string::npos)
+        << up;
+  }
+}
+
+/// What is a little inside may begin so, in the midst of a cloth and at its border.
+TEST(Insides, AClothALittleInsideIsNotRefused) {
+  for (const char* shape : {"sphere", "torus", "box", "cone", "rod"})
+    for (const double deep : {0.005, 0.03}) {
+      Scene scene = around(shape, sheet({}, 1));
+      scene.bodies[0].placement.translate = {};
+      Box3d box;
+      ConvertOptions options;
+      options.size = 33;
+      const GeometryImage image = load_surface(std::string("builtin:") + shape, options).image;
+      for (int s = 0; s < 33 * 33; ++s) box.add(vec_cast<double>(image.cube.at(s)));
+      scene.cloths[0].placement.translate = {0.013, box.upper.y - deep, 0.007};
+      EXPECT_EQ(refusal_of(scene), "") << shape << deep;
+    }
 }
 
 /// Which of the two is above nobody can tell: they were thrown apart by the joules.
