@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "weft/cloth/neighbours.h"
+#include "weft/cloth/strain_stiffening.h"
 
 namespace weft {
 
-EnergyMeter::EnergyMeter(const Cloth& cloth, Vec3d gravity, ThreadTeam& team)
+EnergyMeter::EnergyMeter(const Cloth& cloth, Vec3d gravity, ThreadTeam& team, bool stiffens)
     : cloth_(cloth),
       team_(team),
       kernels_(kernels_for(team.instructions())),
@@ -15,6 +16,7 @@ EnergyMeter::EnergyMeter(const Cloth& cloth, Vec3d gravity, ThreadTeam& team)
       mass_(cloth.size, cloth.size),
       gravity_(3, cloth.size),
       axes_(2, cloth.size),
+      stiffens_(stiffens),
       sums_(cloth.size) {
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c) {
@@ -45,7 +47,7 @@ double EnergyMeter::spring_row(const Planes3& position, int row) const {
                                       {here, here},
                                       {there, there}});
   }
-  return energy;
+  return energy + (stiffens_ ? strain_limit_energy(cloth_, position, row) : 0);
 }
 
 Energy EnergyMeter::measure(const ClothState& state) noexcept {

@@ -32,8 +32,9 @@ struct Energy {
 /// instruction set gives the same bits.
 class EnergyMeter {
  public:
-  /// @param cloth  kept by reference, as is the team
-  EnergyMeter(const Cloth& cloth, Vec3d gravity, ThreadTeam& team);
+  /// @param cloth     kept by reference, as is the team
+  /// @param stiffens  whether springs stiffen beyond the material's strain limit
+  EnergyMeter(const Cloth& cloth, Vec3d gravity, ThreadTeam& team, bool stiffens = false);
 
   Energy measure(const ClothState& state) noexcept;
   double kinetic(const Planes3& velocity) noexcept;
@@ -55,6 +56,7 @@ class EnergyMeter {
   Grid<float> gravity_;  // [3 x n] its components, in every column [m/s^2]
   Grid<float> axes_;     // [2 x n] zeros, ones
   double total_mass_ = 0;
+  bool stiffens_;
   RowSums sums_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/measure.h"
+#include "weft/cloth/strain_stiffening.h"
 #include "weft/core/assert.h"
 #include "weft/core/hash.h"
 #include "weft/core/stopwatch.h"
@@ -108,7 +109,9 @@ void Simulation::Parts::measure(FrameReport& report) {
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
     const double kinetic = kinetic_energy(*cloth.model, cloth.state);
-    const double potential = potential_energy(*cloth.model, cloth.state, scene.gravity);
+    double potential = potential_energy(*cloth.model, cloth.state, scene.gravity);
+    for (int r = 0; stiffens() && r < cloth.model->size; ++r)
+      potential += strain_limit_energy(*cloth.model, cloth.state.position, r);
     const Vec3d weight_force = mass_of(*cloth.model) * scene.gravity;
     own += kinetic + potential + dot(weight_force, weft::centre_of_mass(*cloth.model, cloth.state));
     report.kinetic_energy += kinetic;

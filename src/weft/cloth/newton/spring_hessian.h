@@ -5,11 +5,9 @@
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/kernels/newton_kernels.h"
 #include "weft/cloth/newton/padded_planes.h"
+#include "weft/cloth/strain_stiffening.h"
 
 namespace weft {
-
-/// Additional stiffness of stretch springs beyond the material's strain limit, over their own.
-inline constexpr float strain_limit_factor = 10;
 
 /// Positions and velocities of a step, and its start positions, in padded planes. [m], [m/s]
 struct PaddedState {

@@ -4,18 +4,49 @@
 
 #include "weft/cloth/mates.h"
 #include "weft/cloth/neighbours.h"
+#include "weft/cloth/strain_stiffening.h"
 
 namespace weft {
 
-DrivenWork::DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team)
+DrivenWork::DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team, bool stiffens)
     : cloth_(cloth),
       gravity_(gravity),
       team_(team),
       springs_(cloth, team),
       bending_(cloth, team.instructions()),
       force_(cloth.size),
-      driven_(static_cast<std::size_t>(cloth.size) * cloth.size) {
+      driven_(static_cast<std::size_t>(cloth.size) * cloth.size),
+      stiffens_(stiffens),
+      nearest_(driven_.size(), -1) {
   samples_.reserve(driven_.size());
+  pins_.reserve(driven_.size());
+  front_.reserve(driven_.size());
+  find_nearest_pins();
+}
+
+/// Labels samples ring by ring from the pins.
+void DrivenWork::find_nearest_pins() {
+  const int n = cloth_.size;
+  pins_.clear();
+  front_.clear();
+  std::fill(nearest_.begin(), nearest_.end(), -1);
+  const auto reach = [&](int sample, int pin) {
+    const int s = cloth_.mates.representative(sample);
+    if (nearest_[s] >= 0) return;
+    nearest_[s] = pin;
+    front_.push_back(s);
+  };
+  for (const Pin& pin : cloth_.pins) {
+    pins_.push_back(cloth_.mates.representative(pin.sample));
+    reach(pin.sample, pins_.back());
+  }
+  for (std::size_t i = 0; i < front_.size(); ++i) {
+    const int s = front_[i], row = s / n, col = s % n;
+    if (row > 0) reach(s - n, nearest_[s]);
+    if (row + 1 < n) reach(s + n, nearest_[s]);
+    if (col > 0) reach(s - 1, nearest_[s]);
+    if (col + 1 < n) reach(s + 1, nearest_[s]);
+  }
 }
 
 DrivenWork::Driven& DrivenWork::driven(int sample) {
@@ -69,6 +100,8 @@ void DrivenWork::find_forces(const DoneStep& step) {
       bending_.add_row(1, r, force_);
     }
     worker.barrier();
+    if (stiffens_ && worker.rank() == 0) add_strain_limit_forces(cloth_, step.end.position, force_);
+    worker.barrier();
     sum_over_mates(cloth_.mates, worker, {&force_.x, &force_.y, &force_.z});
   });
 }
@@ -85,22 +118,47 @@ Vec3d DrivenWork::force_on(const Driven& driven, Vec3d reaction) {
   return pressing * normal + (has > most ? most / has : 1.0) * drag;
 }
 
+Vec3d DrivenWork::reaction_on(int sample, const DoneStep& step) const {
+  const double mass = cloth_.mass(sample / cloth_.size, sample % cloth_.size);
+  const Vec3d gained = vec_cast<double>(step.end.velocity.at(sample)) -
+                       vec_cast<double>(step.start.velocity.at(sample));
+  return mass * ((1 / step.time_step) * gained - gravity_) - vec_cast<double>(force_.at(sample));
+}
+
+/// The work of the forces left on free particles, as of the pins nearest to them. @pre forces are
+/// found, and driven_ holds the pins' displacements
+double DrivenWork::work_on_free(const DoneStep& step) {
+  const bool same = std::equal(
+      pins_.begin(), pins_.end(), cloth_.pins.begin(), cloth_.pins.end(),
+      [&](int s, const Pin& pin) { return s == cloth_.mates.representative(pin.sample); });
+  if (!same) find_nearest_pins();
+  double work = 0;
+  for (int s = 0; s < cloth_.size * cloth_.size; ++s) {
+    const int pin = nearest_[s];
+    if (pin < 0 || pin == s || !driven_[pin].pinned) continue;
+    if (!(cloth_.inverse_mass(s / cloth_.size, s % cloth_.size) > 0)) continue;
+    work += dot(reaction_on(s, step), driven_[pin].displacement);
+  }
+  return work;
+}
+
 double DrivenWork::measure(const DoneStep& step, const PressingObstacles& obstacles) noexcept {
   add_pins(step);
   add_contacts(obstacles);
-  if (samples_.empty()) return 0;
-  find_forces(step);
   double work = 0;
-  for (const int s : samples_) {
-    const double mass = cloth_.mass(s / cloth_.size, s % cloth_.size);
-    const Vec3d gained =
-        vec_cast<double>(step.end.velocity.at(s)) - vec_cast<double>(step.start.velocity.at(s));
-    const Vec3d reaction =
-        mass * ((1 / step.time_step) * gained - gravity_) - vec_cast<double>(force_.at(s));
-    work += dot(force_on(driven_[s], reaction), (1 / driven_[s].weight) * driven_[s].displacement);
-    driven_[s] = {};
+  if (!samples_.empty()) {
+    find_forces(step);
+    if (!touched_ &&
+        std::any_of(samples_.begin(), samples_.end(), [&](int s) { return driven_[s].pinned; }))
+      work = work_on_free(step);
+    for (const int s : samples_) {
+      work += dot(force_on(driven_[s], reaction_on(s, step)),
+                  (1 / driven_[s].weight) * driven_[s].displacement);
+      driven_[s] = {};
+    }
   }
   samples_.clear();
+  touched_ = false;
   return work;
 }
 

@@ -28,11 +28,19 @@ struct PressingObstacles {
 /// Other layers may press on a touched particle, too. The normal force of a body is therefore the
 /// solved one, or the normal part of the reaction where that is larger, and never a pull; the
 /// tangential force is limited by friction.
+///
+/// Solves end with small forces unbalanced on free particles, too. Next to the pins' own reaction
+/// they are small, but stiff cloth hands on within a step what a pin does: all together they are of
+/// its size. They belong to the pins: in momentum, only pins and obstacles act on a cloth. While a
+/// cloth touches nothing, the force left on a free particle counts as the nearest pin's.
 class DrivenWork {
  public:
-  /// @param cloth  kept by reference, as is the team
-  DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team);
+  /// @param cloth     kept by reference, as is the team
+  /// @param stiffens  whether springs stiffen beyond the material's strain limit
+  DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team, bool stiffens = false);
 
+  /// To be called before measure, where the cloth touches anything in the step.
+  void touch() { touched_ = true; }
   /// @return work of all pins and bodies [J]
   double measure(const DoneStep& step, const PressingObstacles& obstacles) noexcept;
 
@@ -50,6 +58,9 @@ class DrivenWork {
   [[nodiscard]] static Vec3d force_on(const Driven& driven, Vec3d reaction);
   Driven& driven(int sample);
   void find_forces(const DoneStep& step);
+  void find_nearest_pins();
+  [[nodiscard]] Vec3d reaction_on(int sample, const DoneStep& step) const;
+  double work_on_free(const DoneStep& step);
 
   const Cloth& cloth_;
   Vec3d gravity_;
@@ -59,6 +70,11 @@ class DrivenWork {
   Planes3 force_;               // [n x n] the cloth's own, summed over mates [N]
   std::vector<Driven> driven_;  // [n * n] valid for samples_
   std::vector<int> samples_;    // representatives moved by pins or bodies
+  bool stiffens_;
+  bool touched_ = false;
+  std::vector<int> pins_;     // for which nearest_ was found, representatives
+  std::vector<int> nearest_;  // [n * n] of representatives: the pin that is nearest along the cloth
+  std::vector<int> front_;    // scratch
 };
 
 }  // namespace weft

@@ -119,6 +119,8 @@ struct Simulation::Parts {
   /// Computes the proposals of all cloths, with contact detection at the guesses and, where solves
   /// go far, again.
   void solve_all(FrameReport& report);
+  /// Tells the measures of work which cloths touch anything.
+  void touch_driven();
   /// Detects contacts at the guesses, and filters the guesses. @return whether anything is near
   /// that the filter must act on
   bool free_guesses();
@@ -178,6 +180,10 @@ struct Simulation::Parts {
   /// end of the step.
   [[nodiscard]] bool heeds_contacts() const {
     return Integrators::traits_of(scene.integrator).heeds_contacts;
+  }
+  /// Whether springs stiffen beyond the strain limit, which then holds energy.
+  [[nodiscard]] bool stiffens() const {
+    return std::holds_alternative<NewtonOptions>(scene.integrator);
   }
   /// The thread team of the solvers, the same for all cloths, as they may be solved together.
   [[nodiscard]] ThreadTeam& solvers() {

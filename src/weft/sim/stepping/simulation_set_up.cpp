@@ -351,9 +351,9 @@ void Simulation::Parts::make_movers() {
          RunawayCheck(*cloth.model, cloth.state, scene.gravity, drive_of(i)),
          StrainLimit(*cloth.model, solvers()),
          soft ? std::optional<CoarseLimit>(std::in_place, *cloth.model, solvers()) : std::nullopt,
-         EnergyMeter(*cloth.model, scene.gravity, solvers()),
-         DrivenWork(*cloth.model, scene.gravity, solvers()), Energy{}, Energy{}, Energy{},
-         Planes3(scene.wind ? cloth.model->size : 0), Planes3(cloth.model->size)});
+         EnergyMeter(*cloth.model, scene.gravity, solvers(), stiffens()),
+         DrivenWork(*cloth.model, scene.gravity, solvers(), stiffens()), Energy{}, Energy{},
+         Energy{}, Planes3(scene.wind ? cloth.model->size : 0), Planes3(cloth.model->size)});
     if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
       notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }

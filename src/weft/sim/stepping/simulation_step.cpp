@@ -70,6 +70,7 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
   Stopwatch clock;
   tried.filtered = collider->filter(moving, time_step, team);
   report.collide_ms += clock.lap_ms();
+  touch_driven();
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tried.work += movers[i].driven_work.measure(
         {cloths[i].state, movers[i].integrator->proposal(), time_step},
@@ -81,6 +82,14 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
     tried.verdict = StepVerdict::forced;
   }
   return tried;
+}
+
+void Simulation::Parts::touch_driven() {
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    if (!collider->contacts(i).empty()) movers[i].driven_work.touch();
+  for (const SharedContact& shared : collider->shared_contacts())
+    for (const int cloth : {shared.first, shared.second})
+      movers[static_cast<std::size_t>(cloth)].driven_work.touch();
 }
 
 void Simulation::Parts::solve_all(FrameReport& report) {
