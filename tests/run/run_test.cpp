@@ -219,12 +219,36 @@ TEST(Run, BlockedShareIsOfAllPoints) {
   EXPECT_NE(frames_csv_line(2, report.history[1], 200).find(",50,0,0.25,"), std::string::npos);
 }
 
-TEST(Run, BodiesThatAreTooFastAreTold) {
-  const Simulation simulation(hit_sheet(200), "hit.json", 1);
+TEST(Run, BodiesAsFastAsShotsPushClothAndDoNotPassIt) {
+  Scene scene = hit_sheet(120);
+  scene.frames = 6;
+  scene.cloths[0].size = 17;
+  const test::TemporaryFolder place;
+  const RunReport report = run_scene(scene, "hit.json", {.folder = place / "run", .verify = true});
+  EXPECT_EQ(report.intersections.counts.total(), 0);
+  ASSERT_TRUE(report.verification);
+  EXPECT_TRUE(report.verification->good());
+  for (const FrameReport& frame : report.history) EXPECT_EQ(frame.whole_fell_back, 0);
+  EXPECT_GT(report.centre_of_mass.back().z, 0.05);
+}
+
+TEST(Run, BodiesThatAreTooFastAreToldAndStopTheRunAtTheCloth) {
+  Scene scene = hit_sheet(3000);
+  scene.bodies[0].motion.back() = {0.053, {}, {0, 0, 9}};
+  Simulation simulation(scene, "hit.json", 1);
   ASSERT_EQ(simulation.notes().size(), 1);
   EXPECT_EQ(simulation.notes()[0],
-            "bodies go up to 200 m/s, faster than cloth can be kept from them; 12 substeps or more "
-            "are wanted");
+            "bodies go up to 3000 m/s, faster than cloth can be kept from them; 11 substeps or "
+            "more are wanted");
+  for (int frame = 1; frame <= 3; ++frame) simulation.advance();
+  try {
+    simulation.advance();
+    ADD_FAILURE() << "went on";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("bodies pass cloth at up to 3000 m/s in frame 4"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Run, InterruptedRunKeepsItsFrames) {

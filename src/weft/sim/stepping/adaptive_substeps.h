@@ -18,8 +18,9 @@ inline constexpr double max_approach_in_gaps = 0.75;
 /// Largest rotation of a body's normals in a step, for which the normals at both ends tell the
 /// approach. [rad]
 inline constexpr double max_turn = 0.35;
-/// Largest number of steps in a substep.
-inline constexpr int max_pieces = 64;
+/// Largest number of steps in a substep, for bodies of up to some hundred metres a second, and its
+/// level. Collisions halve steps less often: StepLevels::deepest.
+inline constexpr int finest_level = 10, max_pieces = 1 << finest_level;
 
 /// Bounding boxes of the region that a cloth may reach during a substep.
 class ClothReach {
@@ -72,13 +73,13 @@ enum class StepVerdict {
 /// by two halves; after calm steps the length doubles, up to that of the first step.
 class StepWalk {
  public:
-  /// @param least  smallest level, as moving bodies require
+  /// @param least  smallest level, as moving bodies require; at most finest_level
   StepWalk(int least, const StepLevels& levels);
 
   [[nodiscard]] bool done() const { return done_ == whole; }
   [[nodiscard]] int subdivisions() const { return 1 << level_; }
   /// Number of steps of the current length before this one.
-  [[nodiscard]] int index() const { return done_ >> (StepLevels::deepest - level_); }
+  [[nodiscard]] int index() const { return done_ >> (finest_level - level_); }
   [[nodiscard]] bool may_halve() const { return level_ < most_; }
   /// Whether the step is shorter than moving bodies require.
   [[nodiscard]] bool is_shortened() const { return level_ > least_; }
@@ -89,7 +90,7 @@ class StepWalk {
   [[nodiscard]] StepLevels next(const StepLevels& levels) const;
 
  private:
-  static constexpr int whole = 1 << StepLevels::deepest;
+  static constexpr int whole = max_pieces;
   int least_, first_, level_, most_;
   int done_ = 0;  // in units of the shortest step
   bool calm_ = true, forced_ = false, halved_ = false;

@@ -335,7 +335,7 @@ void Simulation::Parts::make_check() {
 void Simulation::Parts::note_too_fast() {
   if (driven.fastest() * substep_time <= max_pieces * max_approach_in_step) return;
   notes.push_back(fmt::format(
-      "bodies go up to {:.3g} m/s, faster than cloth can be kept from them; {} substeps "
+      "bodies go up to {:.4g} m/s, faster than cloth can be kept from them; {} substeps "
       "or more are wanted",
       driven.fastest(),
       std::ceil(driven.fastest() / (scene.frame_rate * max_pieces * max_approach_in_step))));

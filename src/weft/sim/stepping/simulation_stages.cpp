@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "weft/cloth/cloth.h"
 #include "weft/core/contact_point.h"
 #include "weft/core/stopwatch.h"
+#include "weft/error.h"
 #include "weft/sim/stepping/simulation_parts.h"
 
 namespace weft {
@@ -198,6 +201,13 @@ int Simulation::Parts::subdivisions_until(double seconds) {
             wanted, wanted_subdivisions({bodies[i].positions, *driven.ends()[i], body_triangles[i]},
                                         reach, max_approach_in_step, body_motion, team));
   }
+  if (wanted > max_pieces)
+    throw SceneError(name,
+                     fmt::format("bodies pass cloth at up to {:.4g} m/s in frame {}, faster than "
+                                 "it can be kept from them",
+                                 driven.fastest(), frame + 1),
+                     fmt::format("{} substeps or more are wanted",
+                                 std::ceil(scene.substeps * wanted / max_pieces)));
   return whole_subdivisions(wanted);
 }
 
