@@ -140,6 +140,18 @@ TEST(Augment, ProxyJudgesLargeMeshesAlike) {
   EXPECT_LT(after, 0.75 * before);
 }
 
+TEST(Augment, CutClimbsAWireWhoseFarEndCollapses) {
+  // In the map of its border alone, far rings are smaller than doubles.
+  TriangleMesh mesh = test::sock(12, 3000);
+  for (Vec3d& p : mesh.positions) {
+    const double angle = 25 * pi * p.y, radius = 0.5 + 0.1 * p.x;
+    p = {radius * cosine(angle), p.y + 0.1 * p.z, radius * sine(angle)};
+  }
+  const AugmentedCut longer = augment_cut(mesh, Cut{}, {.size = 65});
+  ASSERT_GE(longer.rounds, 1);
+  EXPECT_LT(map_to_square(cut_open(mesh, longer.cut), {.size = 65}).quality.stretch_l2, 15);
+}
+
 TEST(Proxy, KeepsTopologyAndOpensToADiskAlongItsCut) {
   const TriangleMesh mesh = test::torus(60, 30);
   const Cut cut = open_to_disk(mesh);

@@ -27,7 +27,8 @@ TrialMap judge(const TriangleMesh& mesh, const Cut& cut, const TrialOptions& opt
 
 /// Vertices to extend the cut to, each once: that of largest stretch before the Newton steps, and
 /// those farthest from the cut, by distance alone and by distance times functions of the remaining
-/// stretch.
+/// stretch. Where no trial map was valid its stretch says nothing, as that of a long tube whose far
+/// end has collapsed, and the distance alone counts.
 std::vector<int> candidates(const TriangleMesh& mesh, const Cut& cut, const TrialMap& trial) {
   const CutSurface surface(mesh);
   const CutGraph graph(surface, cut);
@@ -39,14 +40,16 @@ std::vector<int> candidates(const TriangleMesh& mesh, const Cut& cut, const Tria
     if (v >= 0 && std::find(found.begin(), found.end(), v) == found.end()) found.push_back(v);
   };
   add(trial.worst_vertex);
-  if (sources.empty() || trial.stretch_at.empty()) return found;
+  if (sources.empty()) return found;
   const PathTree tree = paths_from(surface, sources);
+  const bool is_valid = !trial.stretch_at.empty();
   const auto largest = [&](const auto& weight) {
     int best = -1;
     double most = 0;
     for (int v = 0; v < surface.vertex_count(); ++v) {
-      if (trial.stretch_at[v] <= 0 || !(tree.distance[v] < HUGE_VAL)) continue;
-      const double value = weight(trial.stretch_at[v]) * tree.distance[v];
+      const double stretch = is_valid ? trial.stretch_at[v] : 1;
+      if (stretch <= 0 || !(tree.distance[v] < HUGE_VAL)) continue;
+      const double value = weight(stretch) * tree.distance[v];
       if (value <= most) continue;
       most = value;
       best = v;
@@ -54,6 +57,7 @@ std::vector<int> candidates(const TriangleMesh& mesh, const Cut& cut, const Tria
     return best;
   };
   add(largest([](double) { return 1.0; }));
+  if (!is_valid) return found;
   add(largest([](double s) { return s; }));
   add(largest([](double s) { return s * s; }));
   add(largest([](double s) { return s - 1; }));
