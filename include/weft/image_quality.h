@@ -33,6 +33,8 @@ ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
                            const MeasureOptions& options = {});
 /// Measures the topology alone, which is fast; distances stay 0.
 ImageQuality measure_topology(const GeometryImage& image);
+/// Measures topology, area_ratio and reversed_area; distances stay 0. @throws as measure_image
+ImageQuality measure_folds(const GeometryImage& image, const TriangleMesh& mesh);
 
 /// Statistics of an image from its samples alone, without its source mesh.
 struct ImageStatistics {

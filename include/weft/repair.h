@@ -19,6 +19,9 @@ struct ComponentChoice {
 struct PartChoice {
   bool at_texture_seams = false;
   int regions = 0;  ///< compact ones, as many in all where the surface has fewer parts; 0: none
+  /// [triangles of the mesh as it is repaired without regions] which of them lie in parts that
+  /// may be divided into regions; empty: all
+  std::vector<bool> divisible{};
 };
 
 struct RepairOptions {

@@ -36,7 +36,7 @@ TEST(Partition, RegionsAreConnectedAndAsManyAsAsked) {
   const EdgeUses edges = edges_of(mesh);
   for (const int count : {2, 5, 12}) {
     std::vector<bool> parted(edges.edge_count(), false);
-    EXPECT_EQ(part_in_regions(mesh, edges, count, parted), count);
+    EXPECT_EQ(part_in_regions(mesh, edges, {.regions = count}, parted), count);
     const std::vector<int> regions = regions_of(mesh, edges, parted);
     EXPECT_EQ(count_of(regions), static_cast<std::size_t>(count));
     std::vector<std::size_t> sizes;
@@ -52,15 +52,27 @@ TEST(Partition, PiecesAreRegionsOfTheirOwn) {
       test::together(test::together(test::tetrahedron(), test::tetrahedron()), test::torus(5, 7));
   const EdgeUses edges = edges_of(mesh);
   std::vector<bool> parted(edges.edge_count(), false);
-  EXPECT_EQ(part_in_regions(mesh, edges, 2, parted), 3);
+  EXPECT_EQ(part_in_regions(mesh, edges, {.regions = 2}, parted), 3);
   EXPECT_EQ(std::count(parted.begin(), parted.end(), true), 0);
+}
+
+TEST(Partition, WhatMayNotBeDividedStaysWhole) {
+  const TriangleMesh mesh = test::together(test::torus(20, 30), test::torus(5, 7));
+  const EdgeUses edges = edges_of(mesh);
+  constexpr std::size_t first = 2 * 20 * 30;
+  std::vector<bool> divisible(mesh.triangles.size(), true), parted(edges.edge_count(), false);
+  std::fill(divisible.begin(), divisible.begin() + first, false);
+  EXPECT_EQ(part_in_regions(mesh, edges, {.regions = 4, .divisible = divisible}, parted), 4);
+  const std::vector<int> regions = regions_of(mesh, edges, parted);
+  EXPECT_EQ(count_of({regions.begin(), regions.begin() + first}), 1u);
+  EXPECT_EQ(count_of({regions.begin() + first, regions.end()}), 3u);
 }
 
 TEST(Partition, NoMoreRegionsThanTriangles) {
   const TriangleMesh mesh = test::tetrahedron();
   const EdgeUses edges = edges_of(mesh);
   std::vector<bool> parted(edges.edge_count(), false);
-  EXPECT_EQ(part_in_regions(mesh, edges, 100, parted), 4);
+  EXPECT_EQ(part_in_regions(mesh, edges, {.regions = 100}, parted), 4);
 }
 
 TEST(Partition, TextureSeamsAreWhereCoordinatesDiffer) {

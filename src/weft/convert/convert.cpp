@@ -4,6 +4,7 @@
 
 #include "weft/convert/chart_packing.h"
 #include "weft/convert/image_conversion.h"
+#include "weft/convert/more_charts.h"
 #include "weft/convert/pieces.h"
 #include "weft/core/stopwatch.h"
 #include "weft/cut/disk_mesh.h"
@@ -61,20 +62,6 @@ void named(const std::string& name, const Stage& stage) {
   }
 }
 
-/// A map may be valid and the image of little use: thin triangles of it fold where samples miss
-/// them.
-void warn_of_folds(Conversion& made) {
-  constexpr double max_stretch = 5, max_area_ratio = 1.05, max_reversed = 0.02;
-  const ImageQuality& q = made.quality;
-  const double stretch = made.map_quality.stretch_l2;
-  if (stretch <= max_stretch && q.area_ratio <= max_area_ratio && q.reversed_area <= max_reversed)
-    return;
-  made.warnings.push_back(fmt::format(
-      "the image is poor: stretch {:.3g} (L2), {:.3g} times the mesh's area, {:.2g} % of "
-      "it facing the wrong way; a larger size may help",
-      stretch, q.area_ratio, 100 * q.reversed_area));
-}
-
 ComponentChoice components_of(const ConvertOptions& options) {
   const bool many = options.charts != ChartChoice::one;
   if (options.component.kind == ComponentChoice::Kind::only && many)
@@ -87,6 +74,61 @@ PartChoice parts_of(const ConvertOptions& options) {
           .regions = options.charts == ChartChoice::regions ? options.max_charts : 0};
 }
 
+void measure(Conversion& made, const ConvertOptions& options) {
+  Stopwatch watch;
+  update(options.progress, "measure", 0);
+  made.quality =
+      measure_image(made.image, made.input.mesh, {options.threads, options.seed, options.progress});
+  made.seconds.measure = watch.lap();
+}
+
+/// With one way of parting. @return nothing where the charts need a larger image than `most`
+std::optional<Conversion> convert_parted(const TriangleMesh& mesh, const std::string& name,
+                                         const ConvertOptions& options, const PartChoice& parts,
+                                         int most) {
+  Stopwatch watch;
+  Conversion made;
+  update(options.progress, "repair", 0);
+  made.input =
+      repair_mesh(mesh, {.name = name, .component = components_of(options), .part = parts});
+  made.seconds.load = watch.lap();
+  bool fits = true;
+  named(name, [&] {
+    ImageConversion conversion(made, name, options);
+    fits = conversion.place(most) <= most;
+    if (!fits) return;
+    conversion.run();
+    made.quality = measure_topology(made.image);
+    require_topology(made, name);
+  });
+  if (!fits) return std::nullopt;
+  if (options.measure) measure(made, options);
+  return made;
+}
+
+/// The same, where it is of use and no cut is given by hand, in more charts.
+/// What it takes does not depend on whether the caller measures: what decides is measured.
+Conversion improved(Conversion first, const TriangleMesh& mesh, const std::string& name,
+                    ConvertOptions options) {
+  const MoreCharts more = more_charts_for(first);
+  if (more.most < 2 || options.seam || options.seed_triangle >= 0) return first;
+  if (!options.measure) {
+    const ImageQuality folds = measure_folds(first.image, first.input.mesh);
+    first.quality.area_ratio = folds.area_ratio;
+    first.quality.reversed_area = folds.reversed_area;
+    if (!is_poor(first)) return first;
+    measure(first, options);
+  }
+  if (!is_poor(first)) return first;
+  options.size = first.image.size();
+  options.measure = true;
+  const auto convert = [&](int charts) {
+    return convert_parted(mesh, name, options, {.regions = charts, .divisible = more.divisible},
+                          options.size);
+  };
+  return with_more_charts(std::move(first), more, convert);
+}
+
 }  // namespace
 
 Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
@@ -95,27 +137,14 @@ Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
   if (options.normal_map_size != 0) check_size(options.normal_map_size);
   check_charts(options);
   if (options.keep_uv || options.charts == ChartChoice::texture) check_texture(mesh, name);
-  Stopwatch watch;
-  Conversion made;
-  update(options.progress, "repair", 0);
-  made.input = repair_mesh(
-      mesh, {.name = name, .component = components_of(options), .part = parts_of(options)});
-  made.seconds.load = watch.lap();
-  named(name, [&] {
-    ImageConversion(made, name, options).run();
-    made.quality = measure_topology(made.image);
-    require_topology(made, name);
-  });
-  watch.lap();
-  if (options.measure) {
-    update(options.progress, "measure", 0);
-    made.quality = measure_image(made.image, made.input.mesh,
-                                 {options.threads, options.seed, options.progress});
-    warn_of_folds(made);
-    made.seconds.measure = watch.lap();
-  }
-  const StageSeconds& s = made.seconds;
-  made.seconds.total = s.load + s.cut + s.map + s.sample + s.measure;
+  Conversion made = *convert_parted(mesh, name, options, parts_of(options), largest_image_size);
+  if (options.charts == ChartChoice::automatic)
+    made = improved(std::move(made), mesh, name, options);
+  if (options.measure && is_poor(made))
+    made.warnings.push_back(
+        fmt::format("the image is poor: {}; a larger size may help", folds_of(made)));
+  StageSeconds& s = made.seconds;
+  s.total = s.load + s.cut + s.map + s.sample + s.measure;
   return made;
 }
 

@@ -67,10 +67,15 @@ ImageConversion::ImageConversion(Conversion& made, const std::string& name,
                         "to cut by hand, one is wanted, or --component K");
 }
 
+int ImageConversion::place(int most) {
+  Stopwatch watch;
+  cut(most);
+  made_.seconds.cut = watch.lap();
+  return places_.size;
+}
+
 void ImageConversion::run() {
   Stopwatch watch;
-  cut();
-  made_.seconds.cut = watch.lap();
   for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].map(side(k));
   made_.seconds.map = watch.lap();
   for (ChartConversion& chart : charts_) {
@@ -81,7 +86,7 @@ void ImageConversion::run() {
   made_.seconds.sample = watch.lap();
 }
 
-void ImageConversion::cut() {
+void ImageConversion::cut(int most) {
   charts_.reserve(pieces_.size());
   for (const Piece& piece : pieces_) {
     tell("cut");
@@ -89,6 +94,7 @@ void ImageConversion::cut() {
   }
   std::vector<std::string> warnings;
   places_ = place_charts(pieces_, charts_, curves_, options_.size, warnings);
+  if (places_.size > most) return;
   for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].lengthen_cut(side(k));
   if (!made_.input.joined.empty()) {
     warnings.clear();

@@ -19,13 +19,16 @@ class ImageConversion {
   /// @throws TopologyError when several pieces are to be cut by hand
   ImageConversion(Conversion& made, const std::string& name, const ConvertOptions& options);
 
-  /// Fills the rest of `made`, but for what is measured. @throws TopologyError as the stages
+  /// Cuts the pieces open and gives each its chart, unless these need a larger image than `most`.
+  /// @return samples a side of the image  @throws TopologyError as the stages
+  int place(int most);
+  /// Then fills the rest of `made`, but for what is measured. @throws TopologyError as the stages
   void run();
 
  private:
   [[nodiscard]] int side(std::size_t chart) const { return places_.charts[chart].rows; }
   void tell(std::string_view stage) const { update(options_.progress, stage, 0); }
-  void cut();
+  void cut(int most);
   void share_borders();
   void gather();
   [[nodiscard]] GeometryImage joined_image() const;

@@ -57,6 +57,13 @@ double reversed_part(const TriangleMesh& surface, const TriangleMesh& mesh,
   return area > 0 ? reversed / area : 0;
 }
 
+void set_folds(ImageQuality& quality, const TriangleMesh& rebuilt, const TriangleMesh& mesh,
+               const ClosestPointQuery& query) {
+  const double area = area_of(mesh);
+  quality.area_ratio = area > 0 ? area_of(rebuilt) / area : 1;
+  quality.reversed_area = reversed_part(rebuilt, mesh, query);
+}
+
 double diagonal(const TriangleMesh& mesh) {
   Box3d box;
   for (const Vec3d p : mesh.positions) box.add(p);
@@ -86,9 +93,15 @@ ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
   quality.psnr_db = distance.rms > 0 ? 20 * std::log10(size / distance.rms) : best_psnr_db;
   quality.psnr_db = std::min(quality.psnr_db, best_psnr_db);
   quality.hausdorff_percent = size > 0 ? 100 * distance.hausdorff / size : 0;
-  const double area = area_of(mesh);
-  quality.area_ratio = area > 0 ? area_of(rebuilt) / area : 1;
-  quality.reversed_area = reversed_part(rebuilt, mesh, query);
+  set_folds(quality, rebuilt, mesh, query);
+  return quality;
+}
+
+ImageQuality measure_folds(const GeometryImage& image, const TriangleMesh& mesh) {
+  const TriangleMesh rebuilt = rebuild_mesh(image).mesh;
+  ImageQuality quality;
+  set_topology(quality, image, rebuilt);
+  set_folds(quality, rebuilt, mesh, ClosestPointQuery(mesh));
   return quality;
 }
 

@@ -93,8 +93,9 @@ class ShortestPaths {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 
-/// A triangle of every connected part, then again and again the one farthest from all others.
-std::vector<int> first_seeds(const Triangles& triangles, int count) {
+/// A triangle of every connected part, then again and again the one farthest from all others, of
+/// those that may be divided.
+std::vector<int> first_seeds(const Triangles& triangles, const PartChoice& choice) {
   std::vector<int> seeds;
   ShortestPaths paths(triangles);
   const auto step = [&](int a, int b) { return triangles.distance(a, b); };
@@ -105,10 +106,12 @@ std::vector<int> first_seeds(const Triangles& triangles, int count) {
   };
   for (int t = 0; t < triangles.count(); ++t)
     if (paths.distance(t) == HUGE_VAL) add(t);
-  while (static_cast<int>(seeds.size()) < count) {
-    int farthest = 0;
+  while (static_cast<int>(seeds.size()) < choice.regions) {
+    int farthest = seeds[0];  // at no distance
     for (int t = 0; t < triangles.count(); ++t)
-      if (paths.distance(t) > paths.distance(farthest)) farthest = t;
+      if (paths.distance(t) > paths.distance(farthest) &&
+          (choice.divisible.empty() || choice.divisible[t]))
+        farthest = t;
     if (!(paths.distance(farthest) > 0)) break;
     add(farthest);
   }
@@ -188,10 +191,10 @@ int part_at_texture_seams(const TriangleMesh& mesh, const EdgeUses& edges,
   return count;
 }
 
-int part_in_regions(const TriangleMesh& mesh, const EdgeUses& edges, int count,
+int part_in_regions(const TriangleMesh& mesh, const EdgeUses& edges, const PartChoice& choice,
                     std::vector<bool>& parted) {
   const Triangles triangles(mesh, edges, parted);
-  std::vector<int> seeds = first_seeds(triangles, count);
+  std::vector<int> seeds = first_seeds(triangles, choice);
   std::vector<int> region = grow(triangles, seeds, std::vector<Vec3d>(seeds.size()));
   for (int round = 0; round < max_rounds; ++round) {
     std::vector<int> middles = middles_of(triangles, region, seeds);

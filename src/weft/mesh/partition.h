@@ -4,6 +4,7 @@
 
 #include "weft/mesh.h"
 #include "weft/mesh/edge_uses.h"
+#include "weft/repair.h"
 
 namespace weft {
 
@@ -19,10 +20,10 @@ int part_at_texture_seams(const TriangleMesh& mesh, const EdgeUses& edges,
 /// Parts it into regions that are compact and nearly flat, by Lloyd's method on triangles: regions
 /// grow from their seeds, and each gets as its seed the triangle farthest from its border
 /// [sander03].
-/// @param count  of regions in all; each connected part of the surface is one at least
+/// @param choice  of so many regions in all; each connected part of the surface is one at least
 /// @param parted  [E]
 /// @return how many regions there are
-int part_in_regions(const TriangleMesh& mesh, const EdgeUses& edges, int count,
+int part_in_regions(const TriangleMesh& mesh, const EdgeUses& edges, const PartChoice& choice,
                     std::vector<bool>& parted);
 
 }  // namespace weft

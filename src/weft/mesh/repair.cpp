@@ -249,8 +249,7 @@ class Repair {
     if (options_.part.regions > 0)
       report(fmt::format(
           "parted into {}",
-          counted(std::size_t(part_in_regions(mesh_, edges_, options_.part.regions, parted_)),
-                  "region")));
+          counted(std::size_t(part_in_regions(mesh_, edges_, options_.part, parted_)), "region")));
   }
 
   void part() {
