@@ -149,22 +149,29 @@ void say_statistics(const Context& context, const MeshStatistics& statistics) {
                            statistics.self_intersections, statistics.intersecting_triangles));
 }
 
-/// Outcome of converting a mesh: its repaired topology and the smallest size that holds its cut, or
-/// the error.
+/// Outcome of converting a mesh: its repaired topology, its charts and the smallest size that holds
+/// its cut, or the error.
 struct Fate {
-  Json input, min_size;
+  Json input, min_size, charts;
   std::string verdict;
 };
+
+/// What convert makes of it by itself.
+std::string charts_text(const CutPreview& cut) {
+  return fmt::format("{} chart{}{}", cut.disks.size(), cut.disks.size() == 1 ? "" : "s",
+                     cut.may_be_split ? ", more where that image would be poor" : "");
+}
 
 Fate fate_of(const std::string& name, const TriangleMesh& mesh, const MeshStatistics& statistics) {
   try {
     const CutPreview cut = preview_cut(mesh, name);
     const RepairedMesh& repaired = cut.input;
-    std::string verdict = fmt::format("converts: {}, {} border(s); size {} or more",
+    std::string verdict = fmt::format("converts: {}, {} border(s); size {} or more; {}",
                                       genus_text(genus_json(repaired.counts)),
-                                      repaired.counts.boundaries, cut.min_size);
+                                      repaired.counts.boundaries, cut.min_size, charts_text(cut));
     for (const std::string& repair : repaired.repairs) verdict += "; " + repair;
-    return {input_json(name, repaired), cut.min_size, verdict};
+    const Json charts{{"least", cut.disks.size()}, {"may_be_split", cut.may_be_split}};
+    return {input_json(name, repaired), cut.min_size, charts, verdict};
   } catch (const Error& error) {
     return {{{"path", name},
              {"vertices", statistics.vertices},
@@ -175,6 +182,7 @@ Fate fate_of(const std::string& name, const TriangleMesh& mesh, const MeshStatis
              {"euler", nullptr},
              {"repairs", Json::array()},
              {"error", error.what()}},
+            nullptr,
             nullptr,
             fmt::format("does not convert as it is: {}", error.what())};
   }
@@ -191,6 +199,7 @@ void inspect_mesh(const InspectArgs& args, const Context& context) {
   Json report{{"input", fate.input}};
   report.update(statistics_json(statistics));
   report["least_size"] = fate.min_size;
+  report["charts"] = fate.charts;
   say(context, fate.verdict);
   report["warnings"] = warnings;
   print_report(context, report);

@@ -109,6 +109,9 @@ struct CutPreview {
   /// Of each piece of the mesh, the largest first, for what draws it (weft/drawing.h).
   std::vector<std::shared_ptr<const CutDisk>> disks;
   int min_size = 0;  ///< least size of an image that holds the plain cuts
+  /// Whether ChartChoice::automatic makes more charts than `disks` where the image of these is
+  /// poor.
+  bool may_be_split = false;
 };
 struct CutPreviewOptions {
   bool augment = false;  ///< lengthen the cut as a conversion would, where that betters the map

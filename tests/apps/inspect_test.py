@@ -56,6 +56,20 @@ class Inspect(ProgramTest):
         self.assertIn("0-1", said)
         self.assertIn("parted at 1 edge", said.splitlines()[-1])
 
+    def test_charts_are_those_that_convert_makes(self):
+        band = [f"v {x} {y} 0" for x in range(6) for y in range(2)]
+        band += [f"f {2 * i + 1} {2 * i + 2} {2 * i + 4}\nf {2 * i + 1} {2 * i + 4} {2 * i + 3}" for i in range(5)]
+        turned = "\n".join(band + ["f 11 12 1", "f 11 1 2"]) + "\n"  # the last edge to the first, the other way round
+        fan = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 2 1 5\n"
+        for mesh, charts, may_be_split in ((self.write("turned.obj", turned), None, False), (self.write("fan.obj", fan), 3, False),
+                                           (self.write("two.obj", cube(0, 0) + cube(0.5, 8)), 2, False),
+                                           ("builtin:torus", 1, True)):
+            found = self.run_json("inspect", mesh)["charts"]
+            made = self.run_json("convert", mesh, "-o", "made.exr", "--size", "65")["charts"]
+            self.assertEqual(found, {"least": charts or len(made), "may_be_split": may_be_split}, mesh)
+            self.assertEqual(len(made), found["least"], mesh)
+        self.assertIn("1 chart, more where that image would be poor", self.run_weft("inspect", "builtin:torus").stdout)
+
     def test_borders_are_measured(self):
         found = self.run_json("inspect", self.write("square.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n"))
         self.assertEqual(found["border_loops"],

@@ -163,6 +163,7 @@ CutPreview preview_cut(const TriangleMesh& mesh, const std::string& name,
           augment_cut(piece.mesh, cut, {.size = options.size, .progress = options.progress}).cut);
     made.disks.push_back(std::make_shared<CutDisk>(std::move(disk)));
   }
+  made.may_be_split = made.input.mesh.triangles.size() >= 2 * min_triangles_of_more_charts;
   made.min_size = shares[0].min_side;
   if (shares.size() > 1)
     while (!pack_charts(shares, made.min_size)) ++made.min_size;
