@@ -9,6 +9,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/bin/test_convert"
@@ -29,13 +30,13 @@ def main():
     words.add_argument("--batch", type=int, default=100, help="seeds between two lines of progress")
     words.add_argument("--keep", type=pathlib.Path, help="write the meshes that fail there")
     options = words.parse_args()
-    failed, end = 0, options.first + options.count
+    failed, end, start = 0, options.first + options.count, time.monotonic()
     for first in range(options.first, end, options.batch):
         count = min(options.batch, end - first)
         named, passed = run(first, count, options.keep)
         failed += 0 if passed else 1
         print(f"seeds {first} .. {first + count - 1}: {'pass' if passed else 'FAIL'}", *named, sep="\n  ", flush=True)
-    print(f"{options.count} seeds, {failed} batches with failures")
+    print(f"{options.count} seeds, {failed} batches with failures, {(time.monotonic() - start) / options.count:.2f} s a seed")
     return 1 if failed else 0
 
 

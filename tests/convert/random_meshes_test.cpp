@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -47,6 +48,11 @@ Seeds seeds_of(int test) {
     seeds.count = std::max(0, std::min(seeds.count, all.count - test * seeds.count));
   }
   return seeds;
+}
+
+/// Of so many seeds one in several, but all of those that were asked for.
+std::uint64_t one_in(int several, int count) {
+  return static_cast<std::uint64_t>(std::getenv("WEFT_RANDOM_SEEDS") ? count : count / several);
 }
 
 /// The least size that holds the mesh's plain cut, a little more, or one that users ask for.
@@ -149,7 +155,7 @@ std::vector<std::array<int, 2>> components_of(const TriangleMesh& mesh) {
 
 TEST_P(RandomMeshes, SeveralPiecesBecomeAsManyChartsOrMore) {
   const auto [first, count] = seeds_of(GetParam());
-  for (std::uint64_t seed = first; seed < first + std::uint64_t(count) / 5; ++seed) {
+  for (std::uint64_t seed = first; seed < first + one_in(5, count); ++seed) {
     const test::RandomMesh made = random_pieces(seed);
     try {
       // The mesh before poor pieces were divided: that of the conversion is parted.
@@ -191,6 +197,50 @@ TEST_P(RandomMeshes, WhatIsNoManifoldIsPartedAndJoinedAgain) {
       ADD_FAILURE() << error.what() << ": " << command(seed, 129, broken.made_of);
       keep(broken.mesh, seed, 129);
     }
+  }
+}
+
+/// Every edge of more than two triangles, in the rebuilt mesh as long as in the input.
+double nonmanifold_length(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b] : examine_mesh(mesh).nonmanifold_edge_list)
+    sum += length(mesh.positions[a] - mesh.positions[b]);
+  return sum;
+}
+
+/// What is wrong with the conversion of what is no manifold; empty when nothing is.
+std::string complex_fault(const test::RandomComplex& complex) {
+  try {
+    const Conversion made = convert_mesh(complex.mesh, "complex", unmeasured(129));
+    const TopologyCounts wanted =
+        repair_mesh(complex.whole, {.component = {ComponentChoice::Kind::all, 0}}).counts;
+    const TriangleMesh again = rebuild_mesh(made.image).mesh;
+    const MeshStatistics found = examine_mesh(again);
+    std::ostringstream wrong;
+    const auto require = [&](const char* what, int is, int should) {
+      if (is != should) wrong << what << " " << is << ", wanted " << should << "; ";
+    };
+    require("flipped", made.map_quality.flipped + made.map_quality.degenerate, 0);
+    require("mates bit-equal", made.quality.mates_bit_equal ? 1 : 0, 1);
+    require("Euler number", made.quality.euler, wanted.euler);
+    require("borders", made.quality.boundaries, wanted.boundaries);
+    require("components", found.components, wanted.components);
+    const double before = nonmanifold_length(complex.whole), after = nonmanifold_length(again);
+    if (std::abs(after - before) > 1e-4 * before + 1e-5 * found.box.diagonal())
+      wrong << "edges of more than two triangles " << after << " m, wanted " << before << "; ";
+    return wrong.str();
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST_P(RandomMeshes, WhatFilesHoldKeepsItsTopology) {
+  const auto [first, count] = seeds_of(GetParam());
+  for (std::uint64_t seed = first; seed < first + one_in(10, count); ++seed) {
+    const test::RandomComplex complex = test::random_complex(seed);
+    const std::string wrong = complex_fault(complex);
+    EXPECT_EQ(wrong, "") << command(seed, 129, complex.made_of);
+    if (!wrong.empty()) keep(complex.mesh, seed, 129);
   }
 }
 

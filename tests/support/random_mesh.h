@@ -27,4 +27,15 @@ struct BrokenMesh {
 /// A random mesh that no image can be made of.
 BrokenMesh random_broken_mesh(std::uint64_t seed);
 
+/// A mesh of what files hold that are no manifold.
+struct RandomComplex {
+  TriangleMesh mesh;
+  TriangleMesh whole;  ///< the same before its triangles were repeated and its vertices split
+  std::string made_of;
+};
+/// A random mesh with some of: fins on edges, which then have 3 to 5 triangles; twisted handles;
+/// Moebius bands, Klein bottles and further random meshes beside it; triangles that are there
+/// twice; vertices split as at texture seams, where there are no fins.
+RandomComplex random_complex(std::uint64_t seed);
+
 }  // namespace weft::test
