@@ -230,8 +230,8 @@ void add_convert(CLI::App& program, const Context& context) {
       ->excludes("--size");
   command
       ->add_option("--charts", args->charts,
-                   "1: refuse several pieces; auto, pieces: a chart for each piece; uv: for each "
-                   "island of the texture; N: N compact ones")
+                   "1: refuse several pieces; pieces: a chart for each; auto: more where that is "
+                   "poor; uv: for each island of the texture; N: N compact ones")
       ->capture_default_str();
   add_mesh_options(*command, args->frame);
   command->add_option("--parameterizer", args->parameterizer, "How the inside is mapped")

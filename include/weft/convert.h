@@ -28,7 +28,8 @@ inline constexpr int largest_chart_count = 4096;
 
 /// Of how many charts an image may be.
 enum class ChartChoice {
-  automatic,  ///< one where that will do, else as few as make the mesh possible
+  automatic,  ///< one where that will do, else as few as make the mesh possible; more of those
+              ///< that are stretched where that image is poor
   pieces,     ///< one for each connected piece
   texture,    ///< one for each island of the mesh's texture coordinates
   regions,    ///< ConvertOptions::max_charts compact ones; more where the mesh has more pieces

@@ -194,8 +194,8 @@ def geometry_image(V, F, size=257, charts="auto", *, uv=None, parameterizer="str
 
     V: (n, 3) [m], F: (m, 3) indices from 0, of any type of number and order in memory.
     size: samples a side, or "auto": by the mesh.
-    charts: "auto", "pieces" (one for each connected piece), "uv" (one for each island of the texture), N (so many compact
-    ones), "one" (a mesh of several pieces is refused).
+    charts: "auto" (as few as may be, more where that is poor), "pieces" (one for each connected piece), "uv" (one for each
+    island of the texture), N (so many compact ones), "one" (a mesh of several pieces is refused).
     uv: (m, 3, 2) texture coordinates of the faces' corners, for charts="uv".
     component: of several pieces one alone: a number, the largest is 0, or "largest".
     parameterizer: "stretch" or "floater". cut: list of paths of vertices to cut along. seed_triangle: where the cut begins.
