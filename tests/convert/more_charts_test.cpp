@@ -55,7 +55,7 @@ TEST(MoreCharts, TheirNumberGoesByStretchSamplesAndTriangles) {
   EXPECT_EQ(more_charts_for(with_stretch(1, 16)).first, 16);
   EXPECT_EQ(more_charts_for(with_stretch(1, 1e30)).first, 31) << "1000 triangles";
   Conversion small = with_stretch(1, 16);
-  small.image.cube = Planes3(49);
+  small.image.cube = Planes3(97);
   EXPECT_EQ(more_charts_for(small).most, 8) << "samples";
 }
 

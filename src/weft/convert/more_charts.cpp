@@ -63,7 +63,7 @@ std::string folds_of(const Conversion& made) {
 MoreCharts more_charts_for(const Conversion& made) {
   // Charts of less than the first stretch stay whole; the second is what parts are to have.
   constexpr double stretched = 1.5, wanted = 4;
-  constexpr int at_least = 8, at_most = 32, min_samples = 16 * 16;
+  constexpr int at_least = 8, at_most = 32, min_samples = 32 * 32;
   MoreCharts more;
   more.divisible.resize(made.input.mesh.triangles.size(), false);
   double needed = 0;
