@@ -72,6 +72,7 @@ TEST_F(Sewing, PairsThatMetStayTogether) {
   int before = 0;
   for (int frame = 0; frame < 60; ++frame) {
     simulation.advance();
+    EXPECT_EQ(simulation.intersections().total(), 0) << frame;
     EXPECT_GE(together(), before) << frame;
     before = together();
   }

@@ -48,6 +48,19 @@ void IntersectionCheck::Surface::follow() {
   crossing_.moved();
 }
 
+bool IntersectionCheck::Surface::meet_at_open_seam(int s, int t) const {
+  for (const int a : (*grid_.triangles)[s])
+    for (const int b : (*grid_.triangles)[t])
+      if (grid_.sewn->representative(a) == grid_.sewn->representative(b) && !(seen_[a] == seen_[b]))
+        return true;
+  return false;
+}
+
+std::int64_t IntersectionCheck::Surface::count_self() const {
+  if (grid_.sewn == nullptr) return crossing_.count_self_crossings();
+  return crossing_.count_self_crossings([&](int s, int t) { return meet_at_open_seam(s, t); });
+}
+
 std::int64_t IntersectionCheck::Surface::count_below(double height) {
   const std::span<const Corners> corners = crossing_.triangles();
   return std::count_if(corners.begin(), corners.end(), [height](const Corners& t) {
@@ -68,7 +81,7 @@ IntersectionCounts IntersectionCheck::count() {
   IntersectionCounts counts;
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     const CrossingSurface& cloth = cloths_[i].crossing();
-    counts.self += cloth.count_self_crossings();
+    counts.self += cloths_[i].count_self();
     for (std::size_t other = 0; other < i; ++other)
       counts.cloths += cloth.count_crossings(cloths_[other].crossing());
     for (const Surface& body : bodies_) counts.bodies += cloth.count_crossings(body.crossing());

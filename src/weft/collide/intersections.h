@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "weft/colliders.h"
+#include "weft/geometry_image.h"
 #include "weft/grid.h"
 #include "weft/mesh/crossings.h"
 
@@ -17,6 +18,9 @@ struct GridTriangles {
   const Planes3* positions = nullptr;  ///< [n x n] world, mates equal [m]
   /// Corners as samples, mates as one: what has the same two corners is one edge.
   const std::vector<Triangle>* triangles = nullptr;
+  /// The classes that samples are being sewn into; null: none. Triangles that are to share a corner
+  /// do not count as long as it is not in one place.
+  const BorderMates* sewn = nullptr;
 };
 
 /// Counts the pairs of triangles that cross each other (weft/mesh/crossings.h): exact for the
@@ -43,12 +47,16 @@ class IntersectionCheck {
    public:
     explicit Surface(const GridTriangles& grid);
     void follow();
+    [[nodiscard]] std::int64_t count_self() const;
     [[nodiscard]] const CrossingSurface& crossing() const { return crossing_; }
     [[nodiscard]] std::size_t triangle_count() const { return grid_.triangles->size(); }
     /// @return number of triangles with a corner below `height`
     [[nodiscard]] std::int64_t count_below(double height);
 
    private:
+    /// Whether two triangles are neighbours across a seam that is still open between them.
+    [[nodiscard]] bool meet_at_open_seam(int s, int t) const;
+
     GridTriangles grid_;
     std::vector<Vec3f> seen_;  // [n * n] where the samples were when the tree was fitted
     CrossingSurface crossing_;

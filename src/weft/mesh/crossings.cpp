@@ -280,10 +280,15 @@ CrossingSurface::CrossingSurface(std::vector<Corners> triangles, Neighbours neig
     : triangles_(std::move(triangles)), neighbours_(std::move(neighbours)), tree_(triangles_) {}
 
 std::int64_t CrossingSurface::count_self_crossings() const {
+  return count_self_crossings([](int, int) { return false; });
+}
+
+std::int64_t CrossingSurface::count_self_crossings(
+    const std::function<bool(int s, int t)>& left_out) const {
   if (triangles_.empty()) return 0;
   std::int64_t count = 0;
   const Searched own{triangles_, neighbours_};
-  PairSearch(own, own, [&](int, int) { ++count; }).within(tree_, 0);
+  PairSearch(own, own, [&](int s, int t) { count += left_out(s, t) ? 0 : 1; }).within(tree_, 0);
   return count;
 }
 

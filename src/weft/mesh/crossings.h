@@ -55,6 +55,9 @@ class CrossingSurface {
 
   /// How many pairs of its triangles cross.
   [[nodiscard]] std::int64_t count_self_crossings() const;
+  /// The same without the pairs that are `left_out`(s, t).
+  [[nodiscard]] std::int64_t count_self_crossings(
+      const std::function<bool(int s, int t)>& left_out) const;
   /// How many pairs of triangles, one of each surface, cross.
   [[nodiscard]] std::int64_t count_crossings(const CrossingSurface& other) const;
   /// How many of its triangles lie exactly on triangles of the other: in one plane, overlapping.

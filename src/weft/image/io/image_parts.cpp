@@ -1,5 +1,6 @@
 #include "weft/image/io/image_parts.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -21,8 +22,18 @@
 namespace weft {
 namespace {
 
-Imf::Header header_of(const ImagePart& part) {
-  Imf::Header header(part.cols, part.rows);
+/// Parts of one file have one display window, whatever their own sizes are: one that holds each.
+Imath::Box2i window_of(const std::vector<ImagePart>& parts) {
+  int rows = 1, cols = 1;
+  for (const ImagePart& part : parts) {
+    rows = std::max(rows, part.rows);
+    cols = std::max(cols, part.cols);
+  }
+  return {{0, 0}, {cols - 1, rows - 1}};
+}
+
+Imf::Header header_of(const ImagePart& part, const Imath::Box2i& window) {
+  Imf::Header header(window, {{0, 0}, {part.cols - 1, part.rows - 1}});
   header.setName(part.name);
   header.setType(Imf::SCANLINEIMAGE);
   header.compression() = Imf::ZIP_COMPRESSION;
@@ -122,7 +133,8 @@ class Archive {
 std::string encode_exr_parts(const std::vector<ImagePart>& parts) {
   std::vector<Imf::Header> headers;
   headers.reserve(parts.size());
-  for (const ImagePart& part : parts) headers.push_back(header_of(part));
+  const Imath::Box2i window = window_of(parts);
+  for (const ImagePart& part : parts) headers.push_back(header_of(part, window));
   ExrMemory memory;
   {
     Imf::MultiPartOutputFile file(memory, headers.data(), static_cast<int>(headers.size()));

@@ -51,9 +51,9 @@ void damp(double time_step, Planes3& velocity) {
 
 }  // namespace
 
-Sewing::Sewing(const Garment& garment)
+Sewing::Sewing(const Garment& garment, const Planes3& start)
     : garment_(garment), middle_(garment.sewn.class_count()), away_(garment.sewn.class_count()) {
-  measure(world_positions(garment.image));
+  measure(start);
   const double farthest = away_.empty() ? 0 : *std::max_element(away_.begin(), away_.end());
   // part_left is steepest in the middle, by 1.5.
   time_to_close_ = std::max(least_time, 1.5 * farthest / fastest);

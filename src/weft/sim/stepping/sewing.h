@@ -12,7 +12,8 @@ namespace weft {
 class Sewing {
  public:
   /// @param garment  kept by reference
-  explicit Sewing(const Garment& garment);
+  /// @param start  where its panels begin [n x n] [m]
+  Sewing(const Garment& garment, const Planes3& start);
 
   /// Sets the velocities of a cloth for the next step: in each class those of the mean, and towards
   /// each other. All are damped, as only the seams are to move the cloth.

@@ -207,7 +207,9 @@ void Simulation::Parts::load_cloths() {
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
     sewn_pairs.push_back(-1);
-    sewing.push_back(loaded.garment ? std::optional<Sewing>(*loaded.garment) : std::nullopt);
+    sewing.push_back(loaded.garment
+                         ? std::optional<Sewing>(std::in_place, *loaded.garment, state.position)
+                         : std::nullopt);
     cloths.push_back({wanted.name, std::move(loaded.image),
                       std::make_shared<Cloth>(std::move(cloth)), std::move(state),
                       std::move(loaded.source), std::move(loaded.garment)});
@@ -327,7 +329,8 @@ void Simulation::Parts::make_check() {
   std::vector<GridTriangles> checked_cloths, checked_bodies;
   auto triangles = checked_triangles.cbegin();
   for (const SimulatedCloth& cloth : cloths)
-    checked_cloths.push_back({&cloth.state.position, &*triangles++});
+    checked_cloths.push_back(
+        {&cloth.state.position, &*triangles++, cloth.garment ? &cloth.garment->sewn : nullptr});
   for (const PlacedBody& body : bodies) checked_bodies.push_back({&body.positions, &*triangles++});
   check.emplace(checked_cloths, checked_bodies, scene.ground);
 }
