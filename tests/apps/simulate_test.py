@@ -352,6 +352,10 @@ class Examples(ProgramTest):
                 subprocess.run([sys.executable, SOURCE / "examples/make_walker.py", self.folder / "figure.glb", "--weft", PROGRAM],
                                check=True)
             for part in scene["cloths"] + scene.get("bodies", []):
+                if part["surface"].endswith(".json"):
+                    part["surface"] = str(path.parent / part["surface"])
+                    part["sew"] = {"spacing": 0.03}
+                    continue
                 part["size"] = 33
                 if "animation" not in part:
                     part["surface"] = self.image_of(part["surface"])

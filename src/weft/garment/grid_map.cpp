@@ -1,68 +1,25 @@
 #include "weft/garment/grid_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <deque>
 
 #include "weft/garment/grid_energy.h"
+#include "weft/garment/quasi_newton.h"
 
 namespace weft {
 namespace {
 
-using Vectors = std::vector<Vec2d>;
-
-constexpr int memory = 10, steps_a_round = 80, max_rounds = 40, max_halvings = 30;
+constexpr int steps_a_round = 80, max_rounds = 40, max_halvings = 30;
 /// A round that lowers the energy by less than this part of it, with nothing folded, is the last.
 constexpr double settled = 1e-3;
 
-double dot_of(const Vectors& a, const Vectors& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += dot(a[k], b[k]);
-  return sum;
+/// The part of a direction that moves no point by more than a tenth of a typical side.
+double first_length(const PlaneGrid& grid, const Vectors& direction) {
+  const Vec2d side = grid.at(0, 1) - grid.at(0, 0);
+  double most = 0;
+  for (const Vec2d& v : direction) most = std::max(most, std::hypot(v.x, v.y));
+  return 0.1 * std::hypot(side.x, side.y) / most;
 }
-
-void add_scaled(Vectors& to, double factor, const Vectors& what) {
-  for (std::size_t k = 0; k < to.size(); ++k) to[k] = to[k] + factor * what[k];
-}
-
-/// The limited-memory method of Broyden, Fletcher, Goldfarb and Shanno. [nocedal06]
-class QuasiNewton {
- public:
-  /// The direction of descent. @param gradient  at the current point
-  [[nodiscard]] Vectors direction(const Vectors& gradient) const {
-    Vectors d = gradient;
-    std::vector<double> part(pairs_.size());
-    for (std::size_t k = pairs_.size(); k-- > 0;) {
-      part[k] = dot_of(pairs_[k].moved, d) / pairs_[k].product;
-      add_scaled(d, -part[k], pairs_[k].turned);
-    }
-    if (!pairs_.empty()) {
-      const Pair& last = pairs_.back();
-      const double scale = last.product / dot_of(last.turned, last.turned);
-      for (Vec2d& v : d) v = scale * v;
-    }
-    for (std::size_t k = 0; k < pairs_.size(); ++k)
-      add_scaled(d, part[k] - dot_of(pairs_[k].turned, d) / pairs_[k].product, pairs_[k].moved);
-    return d;
-  }
-  /// @param moved, turned  change of the point and of the gradient
-  void learn(Vectors moved, Vectors turned) {
-    const double product = dot_of(moved, turned);
-    if (!(product > 0)) return;
-    pairs_.push_back({std::move(moved), std::move(turned), product});
-    if (pairs_.size() > memory) pairs_.pop_front();
-  }
-  [[nodiscard]] bool knows_nothing() const { return pairs_.empty(); }
-  void forget() { pairs_.clear(); }
-
- private:
-  struct Pair {
-    Vectors moved, turned;
-    double product;
-  };
-  std::deque<Pair> pairs_;
-};
 
 /// Lowers the energy. @return it
 double descend(const GridEnergy& measure, PlaneGrid& grid) {
@@ -73,13 +30,7 @@ double descend(const GridEnergy& measure, PlaneGrid& grid) {
     const Vectors direction = method.direction(gradient);
     const double slope = dot_of(direction, gradient);
     if (!(slope > 0)) break;
-    double length = method.knows_nothing() ? 1e-2 / std::sqrt(slope) : 1;
-    if (method.knows_nothing()) {  // a tenth of a typical side at most
-      const Vec2d side = grid.at(0, 1) - grid.at(0, 0);
-      double most = 0;
-      for (const Vec2d& v : direction) most = std::max(most, std::hypot(v.x, v.y));
-      length = 0.1 * std::hypot(side.x, side.y) / most;
-    }
+    double length = method.knows_nothing() ? first_length(grid, direction) : 1;
     PlaneGrid trial = grid;
     double lower = energy;
     int halvings = 0;

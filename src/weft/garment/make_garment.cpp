@@ -17,18 +17,13 @@ constexpr float flat_distance = 0.5F;
 
 /// The samples of a panel, in its own axes.
 PlaneGrid samples_of(const PanelOutline& outline, const std::string& place) {
-  const int count = static_cast<int>(outline.points.size());
-  const double side = outline.mirrored ? -1 : 1;
-  std::vector<Vec2d> border;
-  for (int k = 0; k < count; ++k) {
-    const Vec2d p = outline.points[(outline.start + k) % count];
-    border.push_back({side * p.x, p.y});
-  }
-  std::optional<PlaneGrid> grid = spread_inside(border, outline.rows, outline.cols);
+  std::optional<PlaneGrid> grid =
+      spread_inside(outline.border_from(outline.start), outline.rows, outline.cols);
   if (!grid)
     throw InputError(place, "an outline that no unfolded grid fits into",
                      "a simpler outline, or more samples, are wanted");
-  for (Vec2d& p : grid->points) p.x *= side;
+  if (outline.mirrored)
+    for (Vec2d& p : grid->points) p.x *= -1;
   return std::move(*grid);
 }
 

@@ -95,6 +95,15 @@ PanelOutline walk(const PatternPanel& panel, const std::vector<int>& intervals, 
 
 }  // namespace
 
+std::vector<Vec2d> PanelOutline::border_from(int point) const {
+  std::vector<Vec2d> border;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vec2d p = points[(static_cast<std::size_t>(point) + k) % points.size()];
+    border.push_back({mirrored ? -p.x : p.x, p.y});
+  }
+  return border;
+}
+
 std::vector<PanelOutline> lay_outlines(const Pattern& pattern, const std::string& name,
                                        double spacing) {
   const std::vector<bool> turned = find_turned(pattern, name);

@@ -17,6 +17,9 @@ struct PanelOutline {
   bool mirrored = false;       ///< the panel's x goes the other way as the border is walked
   int start = 0;               ///< which point is at the rectangle's first row and column
   int rows = 0, cols = 0;
+
+  /// The border samples from `point` on, mirrored where the panel is: counter-clockwise.
+  [[nodiscard]] std::vector<Vec2d> border_from(int point) const;
 };
 
 /// Finds which way every outline is walked, so that all stitches join an oriented surface, and

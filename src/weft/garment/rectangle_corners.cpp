@@ -96,12 +96,8 @@ Choice best_of(const std::vector<Choice>& likely, const PanelOutline& outline) {
   double least = HUGE_VAL;
   int unfolded = 0;
   for (const Choice& one : likely) {
-    std::vector<Vec2d> border;
-    for (int k = 0; k < count; ++k) {
-      const Vec2d p = outline.points[(one.start + k) % count];
-      border.push_back({outline.mirrored ? -p.x : p.x, p.y});
-    }
-    const double cost = spread_cost(border, count / 2 - one.cols + 1, one.cols + 1);
+    const double cost =
+        spread_cost(outline.border_from(one.start), count / 2 - one.cols + 1, one.cols + 1);
     if (cost < least) {
       least = cost;
       best = one;
