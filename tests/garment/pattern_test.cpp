@@ -36,6 +36,23 @@ TEST(PatternFile, GivesPanelsInMetres) {
   EXPECT_NEAR(pattern.panels[1].placed({0.4, 0.3}).z, 0.1, 1e-12);
 }
 
+TEST(PatternFile, LeavesOutEdgesShorterThanAnyThread) {
+  // Generators write edges of hundredths of a millimetre; samples along them would be next to one
+  // point.
+  const Pattern pattern = parse_pattern(
+      R"({"pattern":{"panels":{"p":{"vertices":[[0,0],[40,0],[40,0.004],[40,30],[0,30]],
+          "edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},{"endpoints":[3,4]},
+                   {"endpoints":[4,0]}],"translation":[0,0,0],"rotation":[0,0,0]}},
+          "stitches":[[{"panel":"p","edge":2},{"panel":"p","edge":4}]]},
+          "properties":{"units_in_meter":100}})",
+      "p");
+  ASSERT_EQ(pattern.panels[0].edges.size(), 4U);
+  EXPECT_EQ(pattern.notes.size(), 1U);
+  ASSERT_EQ(pattern.stitches.size(), 1U);
+  EXPECT_EQ(pattern.stitches[0].a.edge, 1);
+  EXPECT_EQ(pattern.stitches[0].b.edge, 3);
+}
+
 TEST(PatternFile, TurnsPanelsAboutXThenYThenZ) {
   PatternPanel panel;
   panel.rotate = {90, 90, 0};

@@ -9,8 +9,8 @@ namespace weft {
 /// The edge as errors name it: PATTERN: panel 'NAME', edge K.
 std::string place_of(const Pattern& pattern, PanelEdge edge, const std::string& name);
 
-/// Edges shorter than this are points. [m]
-inline constexpr double min_edge = 1e-5;
+/// Edges shorter than this are points: samples that lie closer would be stiffer than cloth is. [m]
+inline constexpr double min_edge = 1e-3;
 
 /// Refuses what cannot be sewn, and drops edges of no length together with their stitches, which it
 /// notes.
