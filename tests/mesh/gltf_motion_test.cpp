@@ -205,12 +205,15 @@ TEST(GltfMotion, MeshesWithASkinStandWhereItIsBound) {
   for (int joint = 0; joint < 2; ++joint)
     for (int k = 0; k < 16; ++k) binds.push_back(k % 5 != 0 ? 0.0F : k == 15 ? 1.0F : 0.01F);
   file.pair.json["skins"][0]["inverseBindMatrices"] = file.add(binds, "MAT4", 5126, 16);
-  file.pair.json["nodes"][1]["translation"] = {0, 2, 0};
+  for (const int joint : {1, 2}) file.pair.json["nodes"][joint]["translation"] = {0, 2, 0};
   const auto rest = [&] { return parse_gltf(file.pair.bytes(), "a.glb").positions; };
   expect_near(rest().at(1), {0.01, 2, 0}, 1e-9);
   file.move(1, "translation", {0}, {0, 2, 0}, 3);
   expect_near(file.at(0, 1), {0.01, 2, 0}, 1e-9);
-  // A skin that cannot be read leaves the mesh to its node.
+  // A skeleton that was saved in a pose leaves the mesh to its node, and so does a skin that cannot
+  // be read.
+  file.pair.json["nodes"][2]["translation"] = {0, 3, 0};
+  EXPECT_EQ(rest().at(1), (Vec3d{1, 0, 0}));
   file.pair.json["skins"][0]["joints"] = {1, 99};
   EXPECT_EQ(rest().at(1), (Vec3d{1, 0, 0}));
 }

@@ -84,7 +84,7 @@ TEST(Npz, FramesAreTheScenesUnlessARateIsThere) {
   }
   EXPECT_EQ(error_of(zip({{"vertices.npy", two_by_two},
                           {"fps.npy", npy("<i2", "()", little_endian(0xffff, 2))}})),
-            "a: fps is no frame rate; one number > 0 is wanted");
+            "a: fps is no frame rate; one number from 1e-6 to 1e6 is wanted");
 }
 
 TEST(Npz, EveryCutAndEverySpareByteIsRefused) {

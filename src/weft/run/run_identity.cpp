@@ -65,6 +65,13 @@ std::string run_identity(const Scene& scene, const Simulation& simulation,
   for (std::size_t i = 0; i < named.cloths.size(); ++i) {
     const Cloth& cloth = *simulation.cloths()[i].model;
     named.cloths[i].surface = surface_name(cloth.rest, cloth.mates);
+    // The grain, which may come from a texture.
+    if (cloth.material.stretch.warp != cloth.material.stretch.weft) {
+      Planes3 stiffness(cloth.size);
+      stiffness.x = cloth.springs[stretch_u].stiffness;
+      stiffness.y = cloth.springs[stretch_v].stiffness;
+      named.cloths[i].surface.name += surface_name(stiffness, cloth.mates);
+    }
     if (cloth.start) named.cloths[i].surface.name += surface_name(*cloth.start, cloth.mates);
   }
   for (std::size_t i = 0; i < named.bodies.size(); ++i) {

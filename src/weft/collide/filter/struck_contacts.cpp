@@ -91,11 +91,10 @@ void StruckContacts::keep(std::span<const SeparatingPlane> planes,
 void StruckContacts::commit() {
   found_.swap(kept_);
   kept_.clear();
-  // Bodies go on as they did.
-  for (StruckContact& one : found_) {
-    Contact& contact = one.shared.contact;
-    contact.offset += dot(contact.normal, contact.surface_displacement);
-  }
+  // Where a body that moves will be in the next step is not known here.
+  std::erase_if(found_, [](const StruckContact& one) {
+    return !(one.shared.contact.surface_displacement == Vec3f{});
+  });
 }
 
 void StruckContacts::clear() {

@@ -141,7 +141,8 @@ std::vector<fs::path> GltfBuffers::external_files() const {
   std::vector<fs::path> files;
   for (std::size_t i = 0; i < root_.count("buffers"); ++i) {
     const std::optional<std::string> uri = root_.element("buffers", i).text("uri");
-    if (uri && !uri->starts_with("data:")) files.emplace_back(without_escapes(*uri));
+    if (!uri || uri->starts_with("data:")) continue;
+    if (const std::string file = without_escapes(*uri); is_below(file)) files.emplace_back(file);
   }
   return files;
 }

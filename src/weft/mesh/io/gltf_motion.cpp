@@ -28,6 +28,9 @@ std::vector<double> sample_times(const GltfRig& rig, const MotionSampling& sampl
   // Of a frame. Keys are in single precision: one that is meant to be a frame lies a little beside.
   const double rounding = 1e-6 + 2.5e-7 * rig.duration * rate;
   const double lead = sampling.lead_in * rate;
+  if (!(lead < most_positions))
+    throw InputError(rig.name, fmt::format("a lead-in of {:g} frames", lead),
+                     "a shorter one is wanted");
   std::vector<double> times{0};
   for (double frame = std::floor(lead + rounding) + 1;
        frame - lead < rig.duration * rate - rounding; ++frame)
@@ -64,7 +67,8 @@ std::vector<std::filesystem::path> gltf_files(const std::filesystem::path& path)
   GltfDocument document(bytes, name, path.parent_path());
   std::vector<std::filesystem::path> files{path};
   for (const std::filesystem::path& file : document.buffers().external_files())
-    files.push_back(path.parent_path() / file);
+    if (std::filesystem::exists(path.parent_path() / file))  // others were not needed
+      files.push_back(path.parent_path() / file);
   return files;
 }
 

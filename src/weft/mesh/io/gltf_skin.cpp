@@ -93,18 +93,31 @@ GltfSkin read_gltf_skin(GltfDocument& document, int index) {
   return skin;
 }
 
-Placing bound_placing(GltfDocument& document, int skin) {
-  const GltfObject& root = document.root();
-  const GltfSkin bound = read_gltf_skin(document, skin);
-  const std::vector<int> parents = parents_of(root);
-  Placing placing = bound.inverse_binds[0];
+namespace {
+
+/// Where a joint of a skin puts the mesh.
+Placing placing_by(const GltfObject& root, const std::vector<int>& parents, const GltfSkin& bound,
+                   std::size_t joint) {
+  Placing placing = bound.inverse_binds[joint];
   std::size_t steps = 0;
-  for (int node = bound.joints[0]; node >= 0; node = parents[static_cast<std::size_t>(node)]) {
+  for (int node = bound.joints[joint]; node >= 0; node = parents[static_cast<std::size_t>(node)]) {
     const GltfObject object = root.element("nodes", static_cast<std::size_t>(node));
     if (++steps > parents.size()) object.fail("is its own ancestor", "a tree of nodes is wanted");
     placing = after(read_transform(object).placing(), placing);
   }
   return placing;
+}
+
+}  // namespace
+
+std::array<Placing, 3> bound_placings(GltfDocument& document, int skin) {
+  const GltfSkin bound = read_gltf_skin(document, skin);
+  const std::vector<int> parents = parents_of(document.root());
+  const auto by = [&](std::size_t joint) {
+    return placing_by(document.root(), parents, bound, joint);
+  };
+  const std::size_t last = bound.joints.size() - 1;
+  return {by(0), by(last / 2), by(last)};
 }
 
 SkinWeights read_skin_weights(GltfDocument& document, const GltfObject& primitive,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <utility>
@@ -20,10 +21,11 @@ struct GltfSkin {
 /// @throws InputError for no joints, or matrices that are too few, not affine or not finite
 GltfSkin read_gltf_skin(GltfDocument& document, int index);
 
-/// Where the first joint of a skin puts its mesh while nodes are at rest; a mesh with a skin does
-/// not go with its own node [gltf20, 3.7.3.3]. All joints put it there that are as they were bound.
+/// Where the first, a middle and the last joint of a skin put its mesh while nodes are at rest; a
+/// mesh with a skin does not go with its own node [gltf20, 3.7.3.3]. It is one place where nodes
+/// stand as the mesh was bound to them.
 /// @throws InputError as read_gltf_skin, or for a joint that is its own ancestor
-Placing bound_placing(GltfDocument& document, int skin);
+std::array<Placing, 3> bound_placings(GltfDocument& document, int skin);
 
 /// How much each joint of a skin moves each vertex.
 struct SkinWeights {

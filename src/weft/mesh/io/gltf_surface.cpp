@@ -54,10 +54,12 @@ bool agree(const Placing& a, const Placing& b) {
   return apart <= tolerance * size;
 }
 
-/// Where a skin puts its mesh; nothing for one that is not sound, which matters to motions alone.
+/// Where a skin puts its mesh; nothing where its joints do not agree, as in files that were saved
+/// in a pose, and for a skin that is not sound, which matters to motions alone.
 std::optional<Placing> sound_placing(GltfDocument& document, int skin) {
   try {
-    return bound_placing(document, skin);
+    const std::array<Placing, 3> by = bound_placings(document, skin);
+    return agree(by[0], by[1]) && agree(by[0], by[2]) ? std::optional(by[0]) : std::nullopt;
   } catch (const InputError&) {
     return std::nullopt;
   }

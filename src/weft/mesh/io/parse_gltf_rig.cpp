@@ -20,6 +20,8 @@ using Shape = GltfRig::Shape;
 using Target = GltfRig::Target;
 
 constexpr std::size_t most_named = 12;  ///< animations that an error lists
+/// Joints and morph targets of all places of all meshes together.
+constexpr std::size_t most_numbers = 10'000'000;
 
 std::string clip_name(const GltfObject& root, std::size_t index) {
   return root.element("animations", index)
@@ -104,6 +106,11 @@ class RigReader {
     }
     if (weights.empty()) weights = mesh.numbers("weights", targets);
     weights.resize(targets);
+    numbers_ += targets;
+    if (block.skin >= 0) numbers_ += rig.skins[static_cast<std::size_t>(block.skin)].joints.size();
+    if (numbers_ > most_numbers)
+      root_.fail("has more than 10 million joints and morph targets at all places of its meshes",
+                 "fewer are wanted");
     block.weights = std::move(weights);
     block.shape = shape_of(rig, source, block.skin);
     return block;
@@ -157,6 +164,7 @@ class RigReader {
   const GltfObject& root_;
   std::string_view name_;
   std::map<std::tuple<int, int, int>, std::shared_ptr<const Shape>> shapes_;
+  std::size_t numbers_ = 0;  // joints and morph targets so far
   std::map<std::pair<int, std::size_t>, std::shared_ptr<const Target>> targets_;  ///< by accessor
 };
 

@@ -40,8 +40,9 @@ std::optional<double> frame_rate_of(const std::vector<ZipMember>& members, std::
     const std::string bytes = unpack(*member, name);
     const NpyArray array = parse_npy(bytes, fmt::format("{}: {}", name, key));
     const double rate = array.count() == 1 ? array.at(0) : 0;
-    if (!(rate > 0 && rate <= 1e6))
-      throw InputError(name, fmt::format("{} is no frame rate", key), "one number > 0 is wanted");
+    if (!(rate >= 1e-6 && rate <= 1e6))
+      throw InputError(name, fmt::format("{} is no frame rate", key),
+                       "one number from 1e-6 to 1e6 is wanted");
     return rate;
   }
   return std::nullopt;

@@ -91,7 +91,9 @@ void write_cache_manifest(const fs::path& path, const CacheManifest& manifest,
   for (const ListedFile& file : before) {
     const auto is_it = [&](const fs::path& input) {
       std::error_code ignored;
-      return fs::equivalent(input, path.parent_path() / file.path, ignored);
+      const fs::path listed = path.parent_path() / file.path;
+      return fs::equivalent(input, listed, ignored) ||
+             fs::equivalent(input.parent_path(), listed, ignored);
     };
     if (now.count(file.path) == 0 && std::none_of(inputs.begin(), inputs.end(), is_it))
       remove_listed(path.parent_path(), file);

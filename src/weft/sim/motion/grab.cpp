@@ -32,6 +32,7 @@ Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, double time_step,
   const auto beside = [&](int copy, int down, int right) {
     const int r = copy / n + down, c = copy % n + right;
     if (std::min(r, c) < 0 || std::max(r, c) >= n) return;
+    if (!held.model->mates.same_chart(copy, r * n + c)) return;
     const Vec3d rest = vec_cast<double>(held.model->rest.at(r, c) - held.model->rest.at(copy));
     const double along = dot(vec_cast<double>(held.state.velocity.at(r, c)), ahead);
     const Vec3d there = vec_cast<double>(held.state.position.at(r, c)) +

@@ -17,7 +17,10 @@ DrivenWork::DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team, bool
       force_(cloth.size),
       driven_(static_cast<std::size_t>(cloth.size) * cloth.size),
       stiffens_(stiffens),
-      nearest_(driven_.size(), -1) {
+      nearest_(driven_.size(), -1),
+      class_of_(driven_.size(), -1) {
+  for (int k = 0; k < cloth.mates.class_count(); ++k)
+    for (const int s : cloth.mates.copies(k)) class_of_[s] = k;
   samples_.reserve(driven_.size());
   pins_.reserve(driven_.size());
   front_.reserve(driven_.size());
@@ -40,12 +43,21 @@ void DrivenWork::find_nearest_pins() {
     pins_.push_back(cloth_.mates.representative(pin.sample));
     reach(pin.sample, pins_.back());
   }
+  // All copies of a sample have neighbours, each within its chart.
+  const auto spread = [&](int s, int pin) {
+    const auto go = [&](int to) {
+      if (cloth_.mates.same_chart(s, to)) reach(to, pin);
+    };
+    if (s >= n) go(s - n);
+    if (s + n < n * n) go(s + n);
+    if (s % n > 0) go(s - 1);
+    if (s % n + 1 < n) go(s + 1);
+  };
   for (std::size_t i = 0; i < front_.size(); ++i) {
-    const int s = front_[i], row = s / n, col = s % n;
-    if (row > 0) reach(s - n, nearest_[s]);
-    if (row + 1 < n) reach(s + n, nearest_[s]);
-    if (col > 0) reach(s - 1, nearest_[s]);
-    if (col + 1 < n) reach(s + 1, nearest_[s]);
+    const int s = front_[i], of = class_of_[s];
+    if (of < 0) spread(s, nearest_[s]);
+    if (of >= 0)
+      for (const int copy : cloth_.mates.copies(of)) spread(copy, nearest_[s]);
   }
 }
 

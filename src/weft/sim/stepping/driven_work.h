@@ -74,7 +74,8 @@ class DrivenWork {
   bool touched_ = false;
   std::vector<int> pins_;     // for which nearest_ was found, representatives
   std::vector<int> nearest_;  // [n * n] of representatives: the pin that is nearest along the cloth
-  std::vector<int> front_;    // scratch
+  std::vector<int> class_of_;  // [n * n] the class of mates of each sample, -1: it has none
+  std::vector<int> front_;     // scratch
 };
 
 }  // namespace weft

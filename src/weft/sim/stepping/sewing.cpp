@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 
 namespace weft {
@@ -19,10 +18,11 @@ constexpr double let_go_for = 0.08, let_go_every = 0.2;
 constexpr double turns_within = 0.005;
 /// Part of its speed that a cloth loses in a second while seams close.
 constexpr double damping = 6;
-/// Gravity fades in between these times where a seam stays open. [s]
-constexpr double gravity_from = 1.5, gravity_to = 2;
-/// Distance from their mean at which samples become one: nothing is between. [m]
-constexpr double closed = 5e-5;
+/// Where a seam stays open gravity fades in after this time, and in this one. [s]
+constexpr double gravity_after = 1.5, gravity_fades = 0.5;
+/// Distance from their mean at which samples become one, and the same over the gap that cloth keeps
+/// to itself: nothing is between. [m]
+constexpr double closed = 5e-5, closed_in_gaps = 0.05;
 
 Vec3d mean_of(const Planes3& planes, std::span<const int> samples) {
   Vec3d sum;
@@ -44,15 +44,18 @@ double part_left(double seconds, double time_to_close) {
 }
 
 void damp(double time_step, Planes3& velocity) {
-  const auto kept = static_cast<float>(std::exp(-damping * time_step));
+  const auto kept = static_cast<float>(1 / (1 + damping * time_step));
   for (int s = 0; s < velocity.size() * velocity.size(); ++s)
     velocity.set(s, kept * velocity.at(s));
 }
 
 }  // namespace
 
-Sewing::Sewing(const Garment& garment, const Planes3& start)
-    : garment_(garment), middle_(garment.sewn.class_count()), away_(garment.sewn.class_count()) {
+Sewing::Sewing(const Garment& garment, const Planes3& start, double gap)
+    : garment_(garment),
+      closed_(std::min(closed, closed_in_gaps * gap)),
+      middle_(garment.sewn.class_count()),
+      away_(garment.sewn.class_count()) {
   measure(start);
   const double farthest = away_.empty() ? 0 : *std::max_element(away_.begin(), away_.end());
   // part_left is steepest in the middle, by 1.5.
@@ -78,8 +81,9 @@ double Sewing::kept_part(double away, double time_step, double seconds) const {
   return std::max(0.0, 1 - late_speed * time_step / away);
 }
 
-double Sewing::gravity_part(double seconds) {
-  return std::clamp((seconds - gravity_from) / (gravity_to - gravity_from), 0.0, 1.0);
+double Sewing::gravity_part(double seconds) const {
+  const double since = seconds - std::max(gravity_after, time_to_close_);
+  return std::clamp(since / gravity_fades, 0.0, 1.0);
 }
 
 void Sewing::pull(double time_step, double seconds, ClothState& state) {
@@ -105,7 +109,7 @@ void Sewing::close(ClothState& state) const {
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> copies = garment_.sewn.copies(k);
     const Vec3d middle = mean_of(state.position, copies);
-    if (copies.size() < 2 || farthest_from(middle, state.position, copies) > closed) continue;
+    if (copies.size() < 2 || farthest_from(middle, state.position, copies) > closed_) continue;
     const auto at = vec_cast<float>(middle);
     const auto velocity = vec_cast<float>(mean_of(state.velocity, copies));
     for (const int s : garment_.sewn.mates(k)) {
@@ -135,22 +139,13 @@ BorderMates Sewing::joined(const Planes3& position) const {
   return {sewn.size(), sewn.charts(), runs};
 }
 
-int Sewing::closed_pairs(const Planes3& position) const {
-  int closed_pairs = 0;
-  for (const GarmentSeam& seam : garment_.seams)
-    closed_pairs += static_cast<int>(
-        std::count_if(seam.pairs.begin(), seam.pairs.end(), [&](const std::array<int, 2>& pair) {
-          return position.at(pair[0]) == position.at(pair[1]);
-        }));
-  return closed_pairs;
-}
-
 bool Sewing::is_closed(const Planes3& position) const {
-  const auto pairs = [](int sum, const GarmentSeam& seam) {
-    return sum + static_cast<int>(seam.pairs.size());
+  const auto meets = [&](const std::array<int, 2>& pair) {
+    return position.at(pair[0]) == position.at(pair[1]);
   };
-  return closed_pairs(position) ==
-         std::accumulate(garment_.seams.begin(), garment_.seams.end(), 0, pairs);
+  return std::all_of(garment_.seams.begin(), garment_.seams.end(), [&](const GarmentSeam& seam) {
+    return std::all_of(seam.pairs.begin(), seam.pairs.end(), meets);
+  });
 }
 
 std::vector<double> Sewing::gaps(const Planes3& position) const {

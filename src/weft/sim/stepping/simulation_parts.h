@@ -43,7 +43,7 @@ struct Mover {
   DrivenWork driven_work;
   /// Energies of this step: at its start, after the wind; after solve and strain limit; at its end.
   Energy start, solved, end;
-  Planes3 calm_velocity;     // velocities before the wind [m/s]
+  Planes3 calm_velocity;     // velocities before the wind and the seams [m/s]
   Planes3 guess;             // filtered positions before the solve [m]
   double unsewn_energy = 0;  // before a step in which seams are pulled together [J]
   // Of this step: work of the wind, energy added by the strain limit while something pulled. [J]
@@ -214,9 +214,8 @@ struct Simulation::Parts {
   std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
   std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
   std::vector<std::optional<Sewing>> sewing;        // of each cloth; none: it is no garment
-  std::vector<int> sewn_pairs;             // of each cloth, as its collider knows; -1: not yet
-  std::vector<Mover> movers;               // one a cloth
-  std::unique_ptr<JointIntegrator> joint;  // of all; null: each is solved by itself
+  std::vector<Mover> movers;                        // one a cloth
+  std::unique_ptr<JointIntegrator> joint;           // of all; null: each is solved by itself
   std::vector<std::span<const Contact>> own_contacts;
   std::unique_ptr<Collider> collider;
   std::vector<MovingCloth> moving;                       // of this step

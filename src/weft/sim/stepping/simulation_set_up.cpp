@@ -206,10 +206,9 @@ void Simulation::Parts::load_cloths() {
     Cloth cloth = make(wanted, placed, loaded);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
-    sewn_pairs.push_back(-1);
-    sewing.push_back(loaded.garment
-                         ? std::optional<Sewing>(std::in_place, *loaded.garment, state.position)
-                         : std::nullopt);
+    sewing.push_back(loaded.garment ? std::optional<Sewing>(std::in_place, *loaded.garment,
+                                                            state.position, self_gap_of(cloth))
+                                    : std::nullopt);
     cloths.push_back({wanted.name, std::move(loaded.image),
                       std::make_shared<Cloth>(std::move(cloth)), std::move(state),
                       std::move(loaded.source), std::move(loaded.garment)});
@@ -356,7 +355,8 @@ void Simulation::Parts::make_movers() {
          soft ? std::optional<CoarseLimit>(std::in_place, *cloth.model, solvers()) : std::nullopt,
          EnergyMeter(*cloth.model, scene.gravity, solvers(), stiffens()),
          DrivenWork(*cloth.model, scene.gravity, solvers(), stiffens()), Energy{}, Energy{},
-         Energy{}, Planes3(scene.wind ? cloth.model->size : 0), Planes3(cloth.model->size)});
+         Energy{}, Planes3(scene.wind || cloth.garment ? cloth.model->size : 0),
+         Planes3(cloth.model->size)});
     if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
       notes.push_back(fmt::format("{}: {}", cloth.name, caution));
   }

@@ -75,16 +75,16 @@ void Simulation::Parts::propose(std::size_t index) {
   SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
   mover.wind_work = mover.pulled_work = 0;
+  if (mover.wind || cloth.model->apart) mover.calm_velocity = cloth.state.velocity;
   if (is_sewing()) mover.unsewn_energy = mover.meter.measure(cloth.state).total();
   if (cloth.model->apart) sew(index);
   if (mover.wind) {
     known_energy = false;
-    mover.calm_velocity = cloth.state.velocity;
+    const double before = mover.meter.kinetic(cloth.state.velocity);
     mover.wind->blow(time_step, cloth.state, solvers());
-    mover.wind_work =
-        mover.meter.kinetic(cloth.state.velocity) - mover.meter.kinetic(mover.calm_velocity);
+    mover.wind_work = mover.meter.kinetic(cloth.state.velocity) - before;
   }
-  const double gravity_part = cloth.model->apart ? Sewing::gravity_part(step_start) : 1;
+  const double gravity_part = cloth.model->apart ? sewing[index]->gravity_part(step_start) : 1;
   mover.integrator->begin({time_step, vec_cast<float>(gravity_part * scene.gravity)}, cloth.state);
   if (!mover.integrator->starts_at_proposal()) mover.integrator->iterate({});
 }
@@ -111,11 +111,12 @@ void Simulation::Parts::follow_sewing() {
     if (!sewing[i]) continue;
     Cloth& model = *cloths[i].model;
     const Planes3& position = cloths[i].state.position;
-    const int closed = sewing[i]->closed_pairs(position);
-    if (closed == sewn_pairs[i]) continue;
-    sewn_pairs[i] = closed;
-    model.apart =
-        sewing[i]->is_closed(position) ? std::nullopt : std::optional(sewing[i]->joined(position));
+    std::optional<BorderMates> apart;
+    if (!sewing[i]->is_closed(position)) apart = sewing[i]->joined(position);
+    if (apart.has_value() == model.apart.has_value() &&
+        (!apart || apart->intervals() == model.apart->intervals()))
+      continue;
+    model.apart = std::move(apart);
     changed = true;
   }
   if (!changed) return;

@@ -7,7 +7,8 @@
 //    there, and the filter would stretch it back.
 // 3. Integrators solve; where that moved cloth far, contacts are detected and solved for again.
 // 4. Strain is limited, and points are pushed out of obstacles, with friction.
-// 5. The collider filters the proposals, which is the last change of positions.
+// 5. The collider filters the proposals, which is the last change of positions, but that pairs of
+//    seams which have met are put in one place, a small part of the gap away.
 // A step to which the filter adds much energy, or that fails otherwise, is refused: the state
 // before it is restored, and two steps of half the length replace it.
 #include <algorithm>
@@ -111,7 +112,8 @@ void Simulation::Parts::solve_all(FrameReport& report) {
 void Simulation::Parts::refuse_step() {
   collider->rollback();
   for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (movers[i].wind) cloths[i].state.velocity = movers[i].calm_velocity;
+    if (movers[i].wind || cloths[i].model->apart)
+      cloths[i].state.velocity = movers[i].calm_velocity;
   if (movers.front().wind) known_energy = false;
 }
 
