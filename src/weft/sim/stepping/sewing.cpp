@@ -20,9 +20,8 @@ constexpr double turns_within = 0.005;
 constexpr double damping = 6;
 /// Where a seam stays open gravity fades in after this time, and in this one. [s]
 constexpr double gravity_after = 1.5, gravity_fades = 0.5;
-/// Distance from their mean at which samples become one, and the same over the gap that cloth keeps
-/// to itself: nothing is between. [m]
-constexpr double closed = 5e-5, closed_in_gaps = 0.05;
+/// Distance from their mean at which samples become one. [m]
+constexpr double closed = 5e-5;
 
 Vec3d mean_of(const Planes3& planes, std::span<const int> samples) {
   Vec3d sum;
@@ -51,11 +50,8 @@ void damp(double time_step, Planes3& velocity) {
 
 }  // namespace
 
-Sewing::Sewing(const Garment& garment, const Planes3& start, double gap)
-    : garment_(garment),
-      closed_(std::min(closed, closed_in_gaps * gap)),
-      middle_(garment.sewn.class_count()),
-      away_(garment.sewn.class_count()) {
+Sewing::Sewing(const Garment& garment, const Planes3& start)
+    : garment_(garment), middle_(garment.sewn.class_count()), away_(garment.sewn.class_count()) {
   measure(start);
   const double farthest = away_.empty() ? 0 : *std::max_element(away_.begin(), away_.end());
   // part_left is steepest in the middle, by 1.5.
@@ -109,7 +105,7 @@ void Sewing::close(ClothState& state) const {
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> copies = garment_.sewn.copies(k);
     const Vec3d middle = mean_of(state.position, copies);
-    if (copies.size() < 2 || farthest_from(middle, state.position, copies) > closed_) continue;
+    if (copies.size() < 2 || farthest_from(middle, state.position, copies) > closed) continue;
     const auto at = vec_cast<float>(middle);
     const auto velocity = vec_cast<float>(mean_of(state.velocity, copies));
     for (const int s : garment_.sewn.mates(k)) {

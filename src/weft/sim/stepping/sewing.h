@@ -13,8 +13,7 @@ class Sewing {
  public:
   /// @param garment  kept by reference
   /// @param start  where its panels begin [n x n] [m]
-  /// @param gap  that the cloth keeps to itself [m]
-  Sewing(const Garment& garment, const Planes3& start, double gap);
+  Sewing(const Garment& garment, const Planes3& start);
 
   /// Sets the velocities of a cloth for the next step: in each class those of the mean, and towards
   /// each other. All are damped, as only the seams are to move the cloth.
@@ -24,8 +23,8 @@ class Sewing {
   /// The part of gravity that acts on the cloth: none while seams close, but not for ever.
   [[nodiscard]] double gravity_part(double seconds) const;
 
-  /// Puts the samples of each class at their mean, with their mean velocity, where they are so
-  /// close that nothing can be between.
+  /// Puts the samples of each class at their mean, with their mean velocity, where they are next to
+  /// each other. Whether something is between is for the filter to find.
   void close(ClothState& state) const;
   /// The charts, joined where their seams have closed.
   [[nodiscard]] BorderMates joined(const Planes3& position) const;
@@ -41,7 +40,6 @@ class Sewing {
   [[nodiscard]] double kept_part(double away, double time_step, double seconds) const;
 
   const Garment& garment_;
-  double closed_;              // distance from their mean at which samples become one [m]
   double time_to_close_;       // if nothing holds the seams back [s]
   std::vector<Vec3d> middle_;  // of each class
   std::vector<double> away_;   // distance of its farthest sample from there [m]

@@ -87,8 +87,8 @@ struct Simulation::Parts {
   void sew(std::size_t index);
   [[nodiscard]] bool is_sewing() const;
   double work_of_sewing();
-  /// Joins samples of seams that have come together.
-  void close_seams();
+  /// Puts samples of seams in one place that the proposals bring next to each other.
+  void bring_seams_together();
   /// Makes the collider anew where other samples than before are joined.
   void follow_sewing();
   /// Ends the step: bodies take their end positions.

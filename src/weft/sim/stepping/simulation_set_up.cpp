@@ -206,9 +206,9 @@ void Simulation::Parts::load_cloths() {
     Cloth cloth = make(wanted, placed, loaded);
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
-    sewing.push_back(loaded.garment ? std::optional<Sewing>(std::in_place, *loaded.garment,
-                                                            state.position, self_gap_of(cloth))
-                                    : std::nullopt);
+    sewing.push_back(loaded.garment
+                         ? std::optional<Sewing>(std::in_place, *loaded.garment, state.position)
+                         : std::nullopt);
     cloths.push_back({wanted.name, std::move(loaded.image),
                       std::make_shared<Cloth>(std::move(cloth)), std::move(state),
                       std::move(loaded.source), std::move(loaded.garment)});

@@ -100,9 +100,9 @@ bool Simulation::Parts::is_sewing() const {
                      [](const SimulatedCloth& cloth) { return cloth.model->apart.has_value(); });
 }
 
-void Simulation::Parts::close_seams() {
+void Simulation::Parts::bring_seams_together() {
   for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (cloths[i].model->apart) sewing[i]->close(cloths[i].state);
+    if (cloths[i].model->apart) sewing[i]->close(movers[i].integrator->proposal());
 }
 
 void Simulation::Parts::follow_sewing() {

@@ -7,8 +7,8 @@
 //    there, and the filter would stretch it back.
 // 3. Integrators solve; where that moved cloth far, contacts are detected and solved for again.
 // 4. Strain is limited, and points are pushed out of obstacles, with friction.
-// 5. The collider filters the proposals, which is the last change of positions, but that pairs of
-//    seams which have met are put in one place, a small part of the gap away.
+// 5. Samples of seams that have nearly met are put in one place, and the collider filters the
+//    proposals, which is the last change of positions.
 // A step to which the filter adds much energy, or that fails otherwise, is refused: the state
 // before it is restored, and two steps of half the length replace it.
 #include <algorithm>
@@ -68,6 +68,7 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
     tried.contacts += correct(i, movers[i].integrator->proposal(), report);
   tried.refused = !check_for_runaway(seconds, choices.halve && watched);
   if (tried.refused) return tried;
+  bring_seams_together();
   Stopwatch clock;
   tried.filtered = collider->filter(moving, time_step, team);
   report.collide_ms += clock.lap_ms();
@@ -140,7 +141,6 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
   report.fell_back = std::max(report.fell_back, tried.filtered.fell_back);
   report.whole_fell_back = std::max(report.whole_fell_back, tried.filtered.whole);
   bodies_arrive();
-  close_seams();
 }
 
 /// All that cloths gained in a step of sewing is the work of the seams.
