@@ -1,6 +1,7 @@
 #include "weft/cloth/newton/seams.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -10,6 +11,26 @@ namespace weft {
 namespace {
 
 float& at(PaddedPlane& plane, int n, int sample) { return plane(sample / n, sample % n); }
+
+using EdgeGroup = std::vector<BorderEdge>;
+
+/// Whether an edge of one group follows one of another on a line.
+bool follows(const EdgeGroup& second, const EdgeGroup& first) {
+  for (const BorderEdge& a : first)
+    for (const BorderEdge& b : second)
+      if (a.along_row == b.along_row && b.row == a.row + (a.along_row ? 0 : 1) &&
+          b.col == a.col + (a.along_row ? 1 : 0))
+        return true;
+  return false;
+}
+
+/// The edges at a corner of a chart, along its first or last row and column.
+std::array<BorderEdge, 2> edges_at_corner(const Chart& chart, bool last_row, bool last_col) {
+  const int row = chart.row + (last_row ? chart.rows - 1 : 0),
+            col = chart.col + (last_col ? chart.cols - 1 : 0);
+  return {BorderEdge{true, row, last_col ? col - 1 : col},
+          BorderEdge{false, last_row ? row - 1 : row, col}};
+}
 
 }  // namespace
 
@@ -39,11 +60,15 @@ void Seams::find_edges(const LevelLayout& layout) {
     const auto found = first_copy.find(s);
     return found == first_copy.end() ? s : found->second;
   };
-  std::map<std::pair<int, int>, std::vector<BorderEdge>> groups;
-  const auto add = [&](const BorderEdge& edge) {
+  std::map<std::pair<int, int>, EdgeGroup> groups;
+  const auto ends_of = [&](const BorderEdge& edge) {
     const int s = edge.row * n + edge.col;
     const int a = particle(s), b = particle(edge.along_row ? s + 1 : s + n);
-    if (a != b) groups[std::minmax(a, b)].push_back(edge);
+    return std::pair(std::min(a, b), std::max(a, b));
+  };
+  const auto add = [&](const BorderEdge& edge) {
+    const auto ends = ends_of(edge);
+    if (ends.first != ends.second) groups[ends].push_back(edge);
   };
   for (const Chart& chart : layout.charts)
     for (int i = 0; i + 1 < std::max(chart.rows, chart.cols); ++i)
@@ -52,8 +77,18 @@ void Seams::find_edges(const LevelLayout& layout) {
         if (i + 1 < chart.rows)
           add({false, chart.row + i, chart.col + (last ? chart.cols - 1 : 0)});
       }
+  for (const Chart& chart : layout.charts)
+    for (const auto& [last_row, last_col] : {std::pair(false, false), std::pair(false, true),
+                                             std::pair(true, false), std::pair(true, true)}) {
+      const auto [along, down] = edges_at_corner(chart, last_row, last_col);
+      const auto one = groups.find(ends_of(along)), other = groups.find(ends_of(down));
+      if (one == groups.end() || other == groups.end()) continue;
+      if (one == other || follows(one->second, other->second) ||
+          follows(other->second, one->second))
+        std::erase(other->second, down);
+    }
   for (auto& [ends, group] : groups)
-    if (group.size() > 1) edges_.push_back(std::move(group));
+    if (group.size() > 1 && !follows(group, group)) edges_.push_back(std::move(group));
 }
 
 Seams Seams::coarsened(const LevelLayout& fine, const LevelLayout& coarse) const {

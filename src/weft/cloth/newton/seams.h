@@ -14,6 +14,7 @@ namespace weft {
 struct BorderEdge {
   bool along_row = true;
   int row = 0, col = 0;
+  bool operator==(const BorderEdge&) const = default;
 };
 
 /// The classes of seam copies (mates) of a level: samples that are one particle. Each class is
@@ -36,7 +37,12 @@ class Seams {
     return std::span(samples_).subspan(starts_[index], starts_[index + 1] - starts_[index]);
   }
 
-  /// Groups of border edges that join the same two particles, two or more each.
+  /// Groups of border edges that join the same two particles, two or more each, for lines that
+  /// couple by the sums of their groups. Left out is what would make such a line indefinite, so
+  /// that solving for it diverges: groups whose edges follow each other on a line, as where a seam
+  /// ends in a side that is sewn to itself, and one edge of a corner at which a seam turns that
+  /// goes straight on in another chart, as without the coupling across the corner the others are no
+  /// part of a positive matrix.
   [[nodiscard]] const std::vector<std::vector<BorderEdge>>& edges() const { return edges_; }
 
   /// Every copy gets the sum over its class, added in ascending order of samples.

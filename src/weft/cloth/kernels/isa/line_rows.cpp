@@ -8,7 +8,9 @@ namespace {
 
 /// Positions that are read at a time.
 constexpr int chunk = 16;
-/// A pivot is at least this part of its diagonal entry, so that rounding never makes one negative.
+/// A pivot is at least what the diagonal has beyond the springs, as those alone leave none below 0,
+/// and at least this part of its entry. Rounding alone would make small pivots, or negative ones,
+/// and what lines pass on would grow from sample to sample.
 constexpr double min_pivot = 2e-7;
 constexpr float min_series_pivot = 1e-6F;
 
@@ -95,7 +97,8 @@ struct Elimination {
   alignas(64) double coupling[6][lanes] = {};
 
   /// inverse = (block - coupling inverse coupling)^-1 by L D L^T.
-  void advance(const double (*block)[lanes]) {
+  /// @param beyond  what the diagonal of the block has beyond springs
+  void advance(const double (*block)[lanes], const float* beyond) {
 #pragma omp simd
     for (int i = 0; i < lanes; ++i) {
       const double o0 = coupling[0][i], o1 = coupling[1][i], o2 = coupling[2][i],
@@ -114,8 +117,11 @@ struct Elimination {
       const double a3 = block[3][i] - (o1 * h01 + o3 * h11 + o4 * h21);
       const double a4 = block[4][i] - (o1 * h02 + o3 * h12 + o4 * h22);
       const double a5 = block[5][i] - (o2 * h02 + o4 * h12 + o5 * h22);
-      const double least0 = min_pivot * block[0][i], least3 = min_pivot * block[3][i],
-                   least5 = min_pivot * block[5][i];
+      const double own = double{beyond[i]};
+      const double part0 = min_pivot * block[0][i], part3 = min_pivot * block[3][i],
+                   part5 = min_pivot * block[5][i];
+      const double least0 = part0 > own ? part0 : own, least3 = part3 > own ? part3 : own,
+                   least5 = part5 > own ? part5 : own;
       const double d0 = a0 > least0 ? a0 : least0;
       const double i0 = 1 / d0, l1 = a1 * i0, l2 = a2 * i0;
       const double p1 = a3 - l1 * a1, d1 = p1 > least3 ? p1 : least3;
@@ -190,7 +196,7 @@ void factor(const LineBlock& block, const PlaneView* diagonal, const PlaneView& 
         for (int i = 0; i < lanes; ++i)
           here[k][i] = double{tile[k][j][i]} + (on_diagonal ? double{tile[6][j][i]} : 0.0);
       }
-      state.advance(here);
+      state.advance(here, tile[6][j]);
       coupling.at(j, next);
       float* out =
           factors + static_cast<std::ptrdiff_t>(position + j) * line_factor_entries * lanes;
