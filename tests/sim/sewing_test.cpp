@@ -59,6 +59,50 @@ TEST_F(Sewing, StretchesNothingOnTheWay) {
   EXPECT_LT(strain, 0.05);
 }
 
+TEST_F(Sewing, PanelsComeTogetherFlat) {
+  // Pulled at their edges alone, panels would bend and their edges go inwards, past what they are
+  // to close round.
+  scene_.bodies.clear();
+  Simulation simulation(scene_, "scene", 1);
+  const SimulatedCloth& cloth = simulation.cloths()[0];
+  const Planes3 start = cloth.state.position;
+  double inwards = 0;
+  FrameReport report;
+  for (report.seam_gap = 1; report.seam_gap > 0.02;) {
+    report = simulation.advance();
+    for (const auto& [a, b] : cloth.garment->seams.front().pairs)
+      inwards = std::max(inwards,
+                         double{std::abs(start.at(a).x) - std::abs(cloth.state.position.at(a).x)});
+  }
+  EXPECT_LT(inwards, 0.08);
+}
+
+TEST_F(Sewing, PanelsBeginOutsideOfBodies) {
+  scene_.bodies[0].placement.scale = {0.3, 0.3, 0.3};
+  Simulation simulation(scene_, "scene", 1);
+  EXPECT_TRUE(simulation.start_insides().empty());
+  EXPECT_NEAR(simulation.seam_gaps(0).front(), 0.24 + 2 * 0.06, 1e-3);
+  EXPECT_EQ(simulation.intersections().total(), 0);
+  // Panels that are all inside stay there.
+  scene_.bodies[0].placement.scale = {1, 1, 1};
+  EXPECT_NEAR(Simulation(scene_, "scene", 1).seam_gaps(0).front(), 0.24, 1e-3);
+}
+
+TEST_F(Sewing, SewsATriangleIntoASlit) {
+  scene_.bodies.clear();
+  write_file(scene_.cloths[0].surface.name,
+             [&](std::ostream& out) { out << test::godet_pattern(); });
+  scene_.cloths[0].spacing = 0.008;
+  Simulation simulation(scene_, "scene", 1);
+  FrameReport report;
+  for (int frame = 0; frame < 40 && (frame == 0 || report.seam_gap > 0); ++frame) {
+    report = simulation.advance();
+    EXPECT_LT(report.strain.p99, 0.02) << frame;
+  }
+  EXPECT_EQ(report.seam_gap, 0);
+  EXPECT_EQ(simulation.intersections().total(), 0);
+}
+
 TEST_F(Sewing, PairsThatMetStayTogether) {
   Simulation simulation(scene_, "scene", 1);
   const auto together = [&] {

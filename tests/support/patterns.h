@@ -23,4 +23,20 @@ inline std::string tube_pattern(double width, double height, double apart, doubl
          R"("properties":{"units_in_meter":100}})";
 }
 
+/// A skirt panel with a slit of 25 cm from its lower side, and a triangle to be sewn into it, whose
+/// corner comes to lie in the middle of a seam.
+inline std::string godet_pattern() {
+  return R"({"pattern":{"panels":{
+    "skirt":{"vertices":[[0,0],[20,0],[20.1,25],[20.2,0],[40,0],[40,50],[0,50]],
+      "edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},{"endpoints":[3,4]},
+               {"endpoints":[4,5]},{"endpoints":[5,6]},{"endpoints":[6,0]}],
+      "translation":[-20,100,0],"rotation":[0,0,0]},
+    "godet":{"vertices":[[0,0],[16,0],[8,24]],
+      "edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,0]}],
+      "translation":[-8,100,5],"rotation":[0,0,0]}},
+    "stitches":[[{"panel":"godet","edge":2},{"panel":"skirt","edge":1}],
+                [{"panel":"godet","edge":1},{"panel":"skirt","edge":2}]]},
+    "properties":{"units_in_meter":100}})";
+}
+
 }  // namespace weft::test

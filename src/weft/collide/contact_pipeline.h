@@ -67,9 +67,7 @@ class ContactPipeline final : public Collider {
   std::vector<ContactResponse> responses_;  // of each cloth
   StepFilter filter_;
   StruckContacts struck_;
-  /// Whether cloth is being sewn. Seams pull into creases of bodies, of whose sides the search for
-  /// contacts finds the nearest alone: the next step knows what the filter held back in the last.
-  bool sewing_ = false;
+  bool keeps_struck_ = false;  // of any cloth
   std::vector<double> row_gaps_;
 };
 

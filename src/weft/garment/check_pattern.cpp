@@ -33,19 +33,20 @@ void check_loop(const Pattern& pattern, int index, const std::string& name) {
            "one closed outline is wanted");
 }
 
-/// Removes edges of no length. The stitches of the panel follow.
+/// Removes edges of almost no length. The stitches of the panel follow.
 void drop_points(Pattern& pattern, int index) {
   PatternPanel& panel = pattern.panels[index];
   for (int k = static_cast<int>(panel.edges.size()) - 1; k >= 0; --k) {
-    if (length_of(edge_polyline(panel, panel.edges[k])) >= min_edge) continue;
+    const double length = length_of(edge_polyline(panel, panel.edges[k]));
+    if (length >= min_edge) continue;
     const int gone = panel.edges[k].to, kept = panel.edges[k].from;
     panel.edges.erase(panel.edges.begin() + k);
     for (PatternEdge& edge : panel.edges) {
       if (edge.from == gone) edge.from = kept;
       if (edge.to == gone) edge.to = kept;
     }
-    pattern.notes.push_back(
-        fmt::format("panel '{}', edge {}: left out, it has no length", panel.name, k));
+    pattern.notes.push_back(fmt::format("panel '{}', edge {}: left out, it is {:.2g} mm long",
+                                        panel.name, k, 1000 * length));
     std::erase_if(pattern.stitches, [&](const Stitch& s) {
       return (s.a.panel == index && s.a.edge == k) || (s.b.panel == index && s.b.edge == k);
     });

@@ -138,8 +138,8 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
     : parts_(std::make_unique<Parts>(scene, name, team, help)) {
   check_abilities(scene, name);
   if (scene.cloths.empty()) throw SceneError(name, "no cloth", "at least one is wanted");
-  parts_->load_cloths();
   parts_->load_bodies();
+  parts_->load_cloths();
   parts_->tie_cloths();
   parts_->make_movers();
   parts_->find_insides();

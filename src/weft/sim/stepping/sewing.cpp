@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 
 namespace weft {
@@ -11,12 +12,19 @@ namespace {
 constexpr double fastest = 1, least_time = 0.2;
 /// Speed of samples that were held back. [m/s]
 constexpr double late_speed = 0.25;
-/// What was held back is let go in the first part of each such time. [s]
+/// What was held back is let go in the last part of each such time. [s]
 constexpr double let_go_for = 0.08, let_go_every = 0.2;
 /// Distance up to which the samples of a class take turns in being where the others go to: where
 /// one is held back at their mean, it is free where it is. [m]
 constexpr double turns_within = 0.005;
-/// Part of its speed that a cloth loses in a second while seams close.
+/// Samples this close to their mean have met. Of samples far from theirs those are pulled that lie
+/// up to so many samples along the seam from where it has met. [m]
+constexpr double met = 0.002, far = 0.02;
+constexpr int zip_reach = 3;
+/// Rate at which a cloth comes to rest while it is sewn; until its seams should have closed, at
+/// which a panel takes their mean velocity. Pulled along at its edges alone, its middle would lag
+/// behind, the edges would come together before it, and seams end on the wrong side of a limb.
+/// Much higher, panels would be pressed onto bodies and stick. [1/s]
 constexpr double damping = 6;
 /// Where a seam stays open gravity fades in after this time, and in this one. [s]
 constexpr double gravity_after = 1.5, gravity_fades = 0.5;
@@ -42,20 +50,37 @@ double part_left(double seconds, double time_to_close) {
   return 1 - t * t * (3 - 2 * t);
 }
 
-void damp(double time_step, Planes3& velocity) {
-  const auto kept = static_cast<float>(1 / (1 + damping * time_step));
-  for (int s = 0; s < velocity.size() * velocity.size(); ++s)
-    velocity.set(s, kept * velocity.at(s));
-}
-
 }  // namespace
 
 Sewing::Sewing(const Garment& garment, const Planes3& start)
-    : garment_(garment), middle_(garment.sewn.class_count()), away_(garment.sewn.class_count()) {
+    : garment_(garment),
+      middle_(garment.sewn.class_count()),
+      away_(garment.sewn.class_count()),
+      rate_(garment.sewn.class_count()),
+      panel_pull_(garment.sewn.charts().size()),
+      panel_pulled_(garment.sewn.charts().size()),
+      next_(garment.sewn.class_count()) {
+  const std::vector<int>& charts = garment_.image.mates.chart_of();
+  for (int s = 0; s < start.size() * start.size(); ++s)
+    panel_of_.push_back(charts.empty() ? 0 : charts[garment_.image.mates.representative(s)]);
+  find_classes_along_seams();
   measure(start);
   const double farthest = away_.empty() ? 0 : *std::max_element(away_.begin(), away_.end());
   // part_left is steepest in the middle, by 1.5.
   time_to_close_ = std::max(least_time, 1.5 * farthest / fastest);
+}
+
+void Sewing::find_classes_along_seams() {
+  std::map<int, int> class_of;
+  for (int k = 0; k < garment_.sewn.class_count(); ++k)
+    class_of[garment_.sewn.mates(k).front()] = k;
+  for (const GarmentSeam& seam : garment_.seams) {
+    std::vector<int>& classes = along_.emplace_back();
+    for (const auto& [a, b] : seam.pairs) {
+      const auto found = class_of.find(garment_.sewn.representative(a));
+      if (found != class_of.end()) classes.push_back(found->second);
+    }
+  }
 }
 
 void Sewing::measure(const Planes3& position) {
@@ -67,12 +92,29 @@ void Sewing::measure(const Planes3& position) {
   }
 }
 
-double Sewing::kept_part(double away, double time_step, double seconds) const {
+void Sewing::find_next() {
+  for (std::size_t k = 0; k < next_.size(); ++k) next_[k] = away_[k] < far ? 1 : 0;
+  for (const std::vector<int>& classes : along_) {
+    const auto count = static_cast<int>(classes.size());
+    const auto is_met = [&](int k) { return away_[k] < met; };
+    if (std::none_of(classes.begin(), classes.end(), is_met)) {
+      for (const int k : classes) next_[k] = 1;
+      continue;
+    }
+    for (int i = 0; i < count; ++i)
+      for (int j = std::max(0, i - zip_reach); j <= std::min(count - 1, i + zip_reach); ++j)
+        if (is_met(classes[i])) next_[classes[j]] = 1;
+  }
+}
+
+double Sewing::kept_part(int index, double time_step, double seconds) const {
+  const double away = away_[index];
   if (!(away > 0)) return 0;
   const double left = part_left(seconds, time_to_close_);
   if (left > 0)
     return std::max(part_left(seconds + time_step, time_to_close_) / left,
                     1 - fastest * time_step / away);
+  if (next_[index] == 0) return 1;
   if (std::fmod(seconds - time_to_close_, let_go_every) >= let_go_every - let_go_for) return 1;
   return std::max(0.0, 1 - late_speed * time_step / away);
 }
@@ -83,21 +125,50 @@ double Sewing::gravity_part(double seconds) const {
 }
 
 void Sewing::pull(double time_step, double seconds, ClothState& state) {
-  damp(time_step, state.velocity);
   measure(state.position);
+  find_next();
   const auto step = static_cast<std::size_t>(std::llround(seconds / time_step));
+  for (int k = 0; k < garment_.sewn.class_count(); ++k)
+    rate_[k] = (1 - kept_part(k, time_step, seconds)) / time_step;
+  find_panel_pulls(state.position, step);
+  carry_panels(time_step, seconds, state.velocity);
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> samples = garment_.sewn.copies(k);
     if (samples.size() < 2) continue;
     const Vec3d velocity = mean_of(state.velocity, samples);
-    const Vec3d goal = away_[k] < turns_within
-                           ? vec_cast<double>(state.position.at(samples[step % samples.size()]))
-                           : middle_[k];
-    const double rate = (1 - kept_part(away_[k], time_step, seconds)) / time_step;
-    for (const int s : samples) {
-      const Vec3d to_goal = goal - vec_cast<double>(state.position.at(s));
-      state.velocity.set(s, vec_cast<float>(velocity + rate * to_goal));
+    for (const int s : samples)
+      state.velocity.set(s, vec_cast<float>(velocity + pull_of(k, s, state.position, step)));
+  }
+}
+
+Vec3d Sewing::pull_of(int index, int sample, const Planes3& position, std::size_t step) const {
+  const std::span<const int> samples = garment_.sewn.copies(index);
+  const Vec3d goal = away_[index] < turns_within
+                         ? vec_cast<double>(position.at(samples[step % samples.size()]))
+                         : middle_[index];
+  return rate_[index] * (goal - vec_cast<double>(position.at(sample)));
+}
+
+void Sewing::find_panel_pulls(const Planes3& position, std::size_t step) {
+  std::fill(panel_pull_.begin(), panel_pull_.end(), Vec3d{});
+  std::fill(panel_pulled_.begin(), panel_pulled_.end(), 0);
+  for (int k = 0; k < garment_.sewn.class_count(); ++k) {
+    const std::span<const int> samples = garment_.sewn.copies(k);
+    for (std::size_t i = 0; samples.size() > 1 && i < samples.size(); ++i) {
+      panel_pull_[panel_of_[samples[i]]] += pull_of(k, samples[i], position, step);
+      ++panel_pulled_[panel_of_[samples[i]]];
     }
+  }
+  for (std::size_t p = 0; p < panel_pull_.size(); ++p)
+    if (panel_pulled_[p] > 0) panel_pull_[p] = (1.0 / panel_pulled_[p]) * panel_pull_[p];
+}
+
+void Sewing::carry_panels(double time_step, double seconds, Planes3& velocity) const {
+  const bool closing = seconds < time_to_close_;
+  const double kept = 1 / (1 + damping * time_step);
+  for (int s = 0; s < velocity.size() * velocity.size(); ++s) {
+    const Vec3d wanted = closing ? panel_pull_[panel_of_[s]] : Vec3d{};
+    velocity.set(s, vec_cast<float>(wanted + kept * (vec_cast<double>(velocity.at(s)) - wanted)));
   }
 }
 

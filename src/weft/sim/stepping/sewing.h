@@ -7,8 +7,10 @@ namespace weft {
 
 /// Brings together the samples of a garment's seams. In each step the samples of a class go towards
 /// each other; otherwise they move as one particle. All distances shrink by the same part, so that
-/// the cloth between needs to stretch nowhere. What is held back, by a body or other cloth, is let
-/// go and pulled again in turn, so that cloth that was pulled into a crease comes out of it.
+/// the cloth between needs to stretch nowhere. What is held back, by a body or other cloth, is then
+/// closed from where its seam is closed already, as a zip is; it is let go and pulled again in
+/// turn, so that cloth that was pulled into a crease, or to the wrong side of a limb, comes out of
+/// it.
 class Sewing {
  public:
   /// @param garment  kept by reference
@@ -35,14 +37,30 @@ class Sewing {
   [[nodiscard]] std::vector<double> gaps(const Planes3& position) const;
 
  private:
+  void find_classes_along_seams();
   void measure(const Planes3& position);
+  /// The velocity towards its mates that sewing gives a sample of a class.
+  [[nodiscard]] Vec3d pull_of(int index, int sample, const Planes3& position,
+                              std::size_t step) const;
+  /// Finds the mean of these velocities over the seams of each panel.
+  void find_panel_pulls(const Planes3& position, std::size_t step);
+  /// Damps velocities towards these, or towards none once the seams should have closed.
+  void carry_panels(double time_step, double seconds, Planes3& velocity) const;
+  /// Finds the classes that are pulled once the seams should have closed.
+  void find_next();
   /// The part of its distance that a class keeps in a step.
-  [[nodiscard]] double kept_part(double away, double time_step, double seconds) const;
+  [[nodiscard]] double kept_part(int index, double time_step, double seconds) const;
 
   const Garment& garment_;
-  double time_to_close_;       // if nothing holds the seams back [s]
-  std::vector<Vec3d> middle_;  // of each class
-  std::vector<double> away_;   // distance of its farthest sample from there [m]
+  double time_to_close_;                 // if nothing holds the seams back [s]
+  std::vector<Vec3d> middle_;            // of each class
+  std::vector<double> away_;             // distance of its farthest sample from there [m]
+  std::vector<double> rate_;             // at which it shrinks [1/s]
+  std::vector<int> panel_of_;            // of each sample
+  std::vector<Vec3d> panel_pull_;        // of each panel [m/s]
+  std::vector<int> panel_pulled_;        // of each panel, how many samples are in seams
+  std::vector<std::vector<int>> along_;  // the classes along each seam
+  std::vector<char> next_;               // of each class: whether it is pulled late
 };
 
 }  // namespace weft

@@ -67,8 +67,11 @@ struct Simulation::Parts {
   void check_collider(const char* kind, const BorderMates& mates, const std::string& what) const;
   void check_charts(const BorderMates& mates, const std::string& what) const;
   Cloth make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded);
-  void load_cloths();
+  /// Where the samples of a cloth begin. @param garment  how many garments come before it
+  Planes3 place(const SceneCloth& wanted, const LoadedSurface& loaded, int garment);
   void load_bodies();
+  /// After the bodies, which panels of garments must be outside of.
+  void load_cloths();
   /// Ties cloths to bodies, at the initial positions of both.
   void tie_cloths();
   void make_movers();
@@ -89,7 +92,10 @@ struct Simulation::Parts {
   double work_of_sewing();
   /// Puts samples of seams in one place that the proposals bring next to each other.
   void bring_seams_together();
-  /// Makes the collider anew where other samples than before are joined.
+  /// Whether a cloth has no friction: seams that close slide over what is between them, until
+  /// gravity acts on what stays open.
+  [[nodiscard]] bool slides(std::size_t index) const;
+  /// Makes the collider anew where other samples than before are joined, or friction begins.
   void follow_sewing();
   /// Ends the step: bodies take their end positions.
   void bodies_arrive();
@@ -218,6 +224,7 @@ struct Simulation::Parts {
   std::unique_ptr<JointIntegrator> joint;           // of all; null: each is solved by itself
   std::vector<std::span<const Contact>> own_contacts;
   std::unique_ptr<Collider> collider;
+  std::vector<char> sliding;  // of each cloth: whether the collider's friction is none
   std::vector<MovingCloth> moving;                       // of this step
   std::vector<std::vector<Triangle>> checked_triangles;  // of cloths, then bodies
   std::optional<IntersectionCheck> check;                // of what they and the ground cross

@@ -105,6 +105,11 @@ void Simulation::Parts::bring_seams_together() {
     if (cloths[i].model->apart) sewing[i]->close(movers[i].integrator->proposal());
 }
 
+bool Simulation::Parts::slides(std::size_t index) const {
+  const double seconds = substep_time * (frame * scene.substeps);
+  return cloths[index].model->apart && sewing[index]->gravity_part(seconds) == 0;
+}
+
 void Simulation::Parts::follow_sewing() {
   bool changed = false;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
@@ -113,11 +118,10 @@ void Simulation::Parts::follow_sewing() {
     const Planes3& position = cloths[i].state.position;
     std::optional<BorderMates> apart;
     if (!sewing[i]->is_closed(position)) apart = sewing[i]->joined(position);
-    if (apart.has_value() == model.apart.has_value() &&
-        (!apart || apart->intervals() == model.apart->intervals()))
-      continue;
-    model.apart = std::move(apart);
-    changed = true;
+    const bool same = apart.has_value() == model.apart.has_value() &&
+                      (!apart || apart->intervals() == model.apart->intervals());
+    if (!same) model.apart = std::move(apart);
+    changed = changed || !same || slides(i) != (sliding[i] != 0);
   }
   if (!changed) return;
   std::vector<std::vector<int>> marks(cloths.size());

@@ -1,0 +1,139 @@
+#include "weft/sim/panel_starts.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "weft/geometry_image.h"
+#include "weft/sim/insides.h"
+
+namespace weft {
+namespace {
+
+/// How much farther outside the panels of a garment start than those of the one below it. [m]
+constexpr double layer_distance = 0.05;
+
+/// Panels leave bodies in steps of this length, up to this many. [m]
+constexpr double step_out = 0.02;
+constexpr int max_steps_out = 25;
+
+/// The outer side of a chart, on the mean.
+Vec3d outer_side(const Chart& chart, const Planes3& placed) {
+  Vec3d sum;
+  for (int r = chart.row; r + 1 < chart.row + chart.rows; ++r)
+    for (int c = chart.col; c + 1 < chart.col + chart.cols; ++c) {
+      const Vec3d along = vec_cast<double>(placed.at(r + 1, c + 1) - placed.at(r, c));
+      const Vec3d across = vec_cast<double>(placed.at(r + 1, c) - placed.at(r, c + 1));
+      sum += cross(along, across);
+    }
+  return normalized(sum);
+}
+
+/// The chart of a sample; of a hole, that of the sample that it follows.
+int chart_of(const BorderMates& mates, int sample) {
+  const std::vector<int>& charts = mates.chart_of();
+  return charts.empty() ? 0 : charts[mates.is_hole(sample) ? mates.representative(sample) : sample];
+}
+
+/// @param shift  of each chart [m]
+void move(const BorderMates& mates, const std::vector<Vec3d>& shift, Planes3& placed) {
+  for (int s = 0; s < placed.size() * placed.size(); ++s)
+    placed.set(s, placed.at(s) + vec_cast<float>(shift[chart_of(mates, s)]));
+}
+
+/// Marks the charts of which a part is inside a body.
+class InsideCharts {
+ public:
+  InsideCharts(const BorderMates& mates, std::span<const PlacedBody> bodies, ThreadTeam& team,
+               const Planes3& placed)
+      : mates_(mates), team_(team) {
+    for (const PlacedBody& body : bodies) {
+      ClosedBody closed(body.image, body.positions);
+      if (closed.closed() && !holds_all(closed, placed)) bodies_.push_back(std::move(closed));
+    }
+  }
+
+  [[nodiscard]] std::vector<bool> find(const Planes3& placed) {
+    std::vector<bool> found(mates_.charts().size());
+    for (const ClosedBody& body : bodies_) {
+      body.mark_inside(placed, team_, inside_);
+      for (std::size_t s = 0; s < inside_.size(); ++s)
+        if (inside_[s] != 0) found[chart_of(mates_, static_cast<int>(s))] = true;
+    }
+    return found;
+  }
+
+ private:
+  bool holds_all(const ClosedBody& body, const Planes3& placed) {
+    body.mark_inside(placed, team_, inside_);
+    return std::find(inside_.begin(), inside_.end(), 0) == inside_.end();
+  }
+
+  const BorderMates& mates_;
+  ThreadTeam& team_;
+  std::vector<ClosedBody> bodies_;  // that panels are to leave
+  std::vector<char> inside_;        // [n * n]
+};
+
+/// Moves panels outwards, step by step.
+class StepsOut {
+ public:
+  /// @param placed  kept by reference
+  StepsOut(const BorderMates& mates, Planes3& placed)
+      : mates_(mates), start_(placed), placed_(placed), moved_(mates.charts().size()) {
+    for (const Chart& chart : mates.charts()) step_.push_back(step_out * outer_side(chart, placed));
+  }
+  void go(const std::vector<bool>& those) {
+    for (std::size_t i = 0; i < those.size(); ++i)
+      if (those[i]) moved_[i] += step_[i];
+    put();
+  }
+  void take_back(const std::vector<bool>& those) {
+    for (std::size_t i = 0; i < those.size(); ++i)
+      if (those[i]) moved_[i] = {};
+    put();
+  }
+
+ private:
+  void put() {
+    placed_ = start_;
+    move(mates_, moved_, placed_);
+  }
+
+  const BorderMates& mates_;
+  const Planes3 start_;
+  Planes3& placed_;
+  std::vector<Vec3d> step_, moved_;  // of each chart [m]
+};
+
+bool any(const std::vector<bool>& charts) {
+  return std::find(charts.begin(), charts.end(), true) != charts.end();
+}
+
+}  // namespace
+
+void put_round_layers(const BorderMates& mates, int layer, Planes3& placed) {
+  std::vector<Vec3d> shift;
+  for (const Chart& chart : mates.charts())
+    shift.push_back(layer * layer_distance * outer_side(chart, placed));
+  move(mates, shift, placed);
+}
+
+int move_out_of_bodies(const BorderMates& mates, std::span<const PlacedBody> bodies,
+                       ThreadTeam& team, Planes3& placed) {
+  InsideCharts inside(mates, bodies, team, placed);
+  const std::vector<bool> first = inside.find(placed);
+  if (!any(first)) return 0;
+  StepsOut steps(mates, placed);
+  std::vector<bool> left = first;
+  for (int i = 0; i < max_steps_out && any(left); ++i) {
+    steps.go(left);
+    left = inside.find(placed);
+  }
+  steps.take_back(left);
+  std::vector<bool> out = first;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = first[i] && !left[i];
+  steps.go(out);
+  return static_cast<int>(std::count(out.begin(), out.end(), true));
+}
+
+}  // namespace weft

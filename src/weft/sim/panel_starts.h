@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "weft/core/thread_team.h"
+#include "weft/grid.h"
+#include "weft/simulation.h"
+
+namespace weft {
+
+/// Moves the panels of a garment outwards, each along its outer side, so that it closes round those
+/// that are worn below it.
+/// @param layer   from 0, the innermost  @param placed  samples of the panels [n x n] [m]
+void put_round_layers(const BorderMates& mates, int layer, Planes3& placed);
+
+/// Moves panels that begin inside a closed body outwards, each as a whole along its outer side, as
+/// far as it takes to come out and then a little. A body that holds all panels stays round them,
+/// and panels that half a metre does not bring out stay where they are.
+/// @return how many panels were moved
+int move_out_of_bodies(const BorderMates& mates, std::span<const PlacedBody> bodies,
+                       ThreadTeam& team, Planes3& placed);
+
+}  // namespace weft
