@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "weft/core/math.h"
+#include "weft/fabric.h"
 #include "weft/run.h"
 #include "weft/simulation.h"
 
@@ -111,6 +112,50 @@ TEST(StepEnergy, WorkOfPinsThatStartSuddenlyIsTheirs) {
   EXPECT_LT(gained(simulation, reports), 1e-3 * weight);
   // Lowered at 0.4 m/s for 17 frames, less what it takes to get it going.
   EXPECT_NEAR(work, -0.4 * (17.0 / 60 * weight - 0.4 * simulation.mass()), 0.03 * weight * 0.4);
+}
+
+/// A tube that falls onto itself and the ground while a pin pulls one corner away.
+Scene tube_on_a_pin() {
+  Scene scene;
+  scene.substeps = 2;
+  scene.cloths = {sheet(33, {})};
+  scene.cloths[0].surface = "builtin:cylinder";
+  scene.cloths[0].placement.rotate = {-69, 167, 44};
+  scene.cloths[0].material = find_material("silk").value();
+  scene.cloths[0].pins = {ScenePin{ImagePin{{0, 1}}, {{0, {}, {}}, {0.5, {}, {-0.4, 0.5, 0.3}}}}};
+  return scene;
+}
+
+TEST(StepEnergy, WorkOfAPinIsKnownWhereClothTouchesItselfAndTheGround) {
+  Simulation simulation(tube_on_a_pin(), "tube", 1);
+  const std::vector<FrameReport> reports = run(simulation, 15);
+  int touching = 0;
+  for (const FrameReport& report : reports)
+    touching += report.self_contacts > 0 && report.contacts > 0;
+  EXPECT_GT(touching, 3);
+  EXPECT_LT(gained(simulation, reports), 0.003 * simulation.mass() * standard_gravity);
+}
+
+/// What pins are said to do, and the limiter by which they pull a sheet along, against what it
+/// gains.
+TEST(StepEnergy, PullOfALimiterCountsOnce) {
+  Scene scene;
+  scene.ground.reset();
+  scene.gravity = {};
+  scene.integrator = MultigridOptions{};
+  scene.cloths = {sheet(33, {})};
+  scene.cloths[0].self_collision = false;
+  scene.cloths[0].material.stretch = {200, 200};
+  scene.cloths[0].material.strain_limit = 0.01;
+  scene.cloths[0].pins = {ScenePin{RegionPin{{1, 0}, {1, 1}}, {{0, {}, {}}, {1, {}, {1, 0, 0}}}}};
+  Simulation simulation(scene, "pulled", 1);
+  const std::vector<FrameReport> reports = run(simulation, 20);
+  SimulationState state;
+  simulation.save(state);
+  const FrameReport& last = reports.back();
+  const double energy = last.kinetic_energy + last.potential_energy - simulation.start_energy();
+  EXPECT_GT(state.work.pulled, 0.1 * energy);
+  EXPECT_NEAR(state.work.net + state.work.pulled, energy, 0.25 * energy);
 }
 
 /// Soft springs that a limit holds, which carry more than all others.

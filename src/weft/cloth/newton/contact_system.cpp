@@ -184,16 +184,20 @@ double ContactSystem::lone_compliance(int index) const {
   return compliance(index, loose_) * input_.time_step * input_.time_step;
 }
 
+/// Weights of contacts between cloth and cloth sum to 0, others to 1.
+bool ContactSystem::is_with_obstacle(std::size_t index) const {
+  const auto& weights = contacts_[index].weights;
+  return (weights[0] + weights[1]) + (weights[2] + weights[3]) > 0.5F;
+}
+
 void ContactSystem::count_holds() {
   std::fill(obstructed_.begin(), obstructed_.end(), char{0});
   shared_ = false;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!(stiffness_[i] > 0)) continue;
-    const auto& weights = contacts_[i].weights;
-    const float sum = (weights[0] + weights[1]) + (weights[2] + weights[3]);
     if (i >= firsts_.back())
       shared_ = true;
-    else if (sum > 0.5F)
+    else if (is_with_obstacle(i))
       obstructed_[places_[i][0].cloth] = 1;
   }
 }
@@ -249,6 +253,15 @@ double ContactSystem::work(Fields step, Worker& worker) {
                      : dot(force_after(i, step), vec_cast<double>(surface_displacement));
   }
   return sum_of_energies(worker);
+}
+
+Vec3d ContactSystem::obstacle_force(Fields step, Worker& worker) {
+  load_forces(step, worker);
+  Vec3d total;
+  for (std::size_t i = 0; i < load_.size(); ++i)
+    if (is_with_obstacle(i)) total += vec_cast<double>(load_[i]);
+  worker.barrier();
+  return total;
 }
 
 void ContactSystem::load_product(Fields direction, Worker& worker) {

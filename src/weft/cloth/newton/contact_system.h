@@ -59,6 +59,8 @@ class ContactSystem {
   double energy(Fields step, float part, Worker& worker);
   /// The work of moving obstacles with the contact forces after a step; all workers get it [J].
   double work(Fields step, Worker& worker);
+  /// The sum of the forces of obstacles on all cloths after a step; all workers get it [N].
+  Vec3d obstacle_force(Fields step, Worker& worker);
   /// Computes the contact forces after the last step.
   /// @param position  of the cloths then [m]
   void measure(Fields position, Worker& worker);
@@ -107,6 +109,7 @@ class ContactSystem {
   bool choose(int index, Fields step);
   void count(Worker& worker);
   void count_holds();
+  [[nodiscard]] bool is_with_obstacle(std::size_t index) const;
   [[nodiscard]] double depth_after(int index, Vec3d step) const;
   [[nodiscard]] Vec3d slid_after(int index, Vec3d step) const;
   [[nodiscard]] Vec3d force_after(int index, Fields step) const;

@@ -77,6 +77,41 @@ double NewtonPart::kinetic(Worker& worker) {
   return kinetic_of([&](int r) { return std::as_const(state_.velocity).row(r); }, worker);
 }
 
+template <class Velocity>
+double NewtonPart::kinetic_of(const Velocity& row_of_velocity, Vec3d beside, Worker& worker) {
+  return sums_.sum(worker, [&](int r) {
+    const ConstRow3 v = row_of_velocity(r);
+    const float *mass = own_mass_.row(r), *free = multigrid_.mask().row(r);
+    return 0.5 * lane_sum(cloth_.size, [&](int c) {
+             const double x = v.x[c] - beside.x, y = v.y[c] - beside.y, z = v.z[c] - beside.z;
+             return double{free[c]} * mass[c] * (x * x + y * y + z * z);
+           });
+  });
+}
+
+double NewtonPart::start_kinetic_beside(Vec3d velocity, Worker& worker) {
+  return kinetic_of([&](int r) { return row_of(std::as_const(start_.velocity), r); }, velocity,
+                    worker);
+}
+
+double NewtonPart::kinetic_beside(Vec3d velocity, Worker& worker) {
+  return kinetic_of([&](int r) { return std::as_const(state_.velocity).row(r); }, velocity, worker);
+}
+
+Vec3d NewtonPart::gained_momentum(Worker& worker) {
+  const auto gained = [&](const PaddedPlane& now, const Grid<float>& before) {
+    return sums_.sum(worker, [&](int r) {
+      const float *mass = own_mass_.row(r), *v = now.row(r), *v0 = before.row(r);
+      return lane_sum(cloth_.size,
+                      [&](int c) { return double{mass[c]} * (double{v[c]} - double{v0[c]}); });
+    });
+  };
+  const Planes3& before = start_.velocity;
+  const double x = gained(state_.velocity.x, before.x), y = gained(state_.velocity.y, before.y),
+               z = gained(state_.velocity.z, before.z);
+  return {x, y, z};
+}
+
 double NewtonPart::inner_kinetic(Worker& worker) {
   const PaddedVectors& v = state_.velocity;
   const PaddedPlane* const planes[3] = {&v.x, &v.y, &v.z};

@@ -106,17 +106,30 @@ void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTe
       same_gravity && std::find(known_rows_.begin(), known_rows_.end(), 0) == known_rows_.end();
   start_potential_ = known ? potential_ : HUGE_VAL;
   set_pins(cloth_, start_, input.time_step, next_);
-  pulled_ =
-      cloth_.apart || std::any_of(cloth_.pins.begin(), cloth_.pins.end(), [&](const Pin& held) {
-        return vec_cast<float>(held.target) != start_.position.at(held.sample);
-      });
+  look_at_pins();
+}
+
+void NewtonPart::look_at_pins() {
+  pulled_ = cloth_.apart.has_value();
+  pin_step_.reset();
+  bool alike = !pulled_;
+  for (const Pin& held : cloth_.pins) {
+    const Vec3f target = vec_cast<float>(held.target), from = start_.position.at(held.sample);
+    pulled_ = pulled_ || target != from;
+    const Vec3d moved = vec_cast<double>(target) - vec_cast<double>(from);
+    if (!pin_step_) pin_step_ = moved;
+    alike = alike && length(moved - *pin_step_) <= same_displacement;
+  }
+  if (!alike) pin_step_.reset();
 }
 
 void NewtonPart::find_mass() {
-  mass_ = 0;
+  mass_ = total_mass_ = 0;
   for (int r = 0; r < cloth_.size; ++r)
-    for (int c = 0; c < cloth_.size; ++c)
+    for (int c = 0; c < cloth_.size; ++c) {
+      total_mass_ += double{own_mass_(r, c)};
       if (cloth_.inverse_mass(r, c) > 0) mass_ += double{own_mass_(r, c)};
+    }
   if (!(mass_ > 0)) mass_ = 1;  // all is pinned
 }
 

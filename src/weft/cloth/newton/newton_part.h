@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,10 +38,19 @@ class NewtonPart {
   [[nodiscard]] double mass() const { return mass_; }
   /// Whether its pins move in this step.
   [[nodiscard]] bool is_pulled() const { return pulled_; }
+  /// Displacements of pins in a step that differ by no more are the same, rounded [m].
+  static constexpr double same_displacement = 2e-6;
+  /// The displacement of all its pins in this step; none where they differ, or where seams pull,
+  /// too [m].
+  [[nodiscard]] const std::optional<Vec3d>& pin_step() const { return pin_step_; }
+  /// Mass of all particles [kg].
+  [[nodiscard]] double total_mass() const { return total_mass_; }
   /// Energy that may be gained from contacts in this step [J].
   double lent = 0;
   /// See Integrator::missed; of all cloths that were solved with this one [J].
   double missed = 0;
+  /// See Integrator::pin_force.
+  std::optional<Vec3d> pin_force;
   /// History of its contacts, and of shared ones whose first cloth it is.
   ContactHistory history;
   /// Normal forces of its own contacts [N].
@@ -103,6 +113,12 @@ class NewtonPart {
   double start_potential(Worker& worker);
   double kinetic(Worker& worker);
   double start_kinetic(Worker& worker);
+  /// Kinetic energy of the free particles relative to a velocity, at the state and at the step's
+  /// start.
+  double kinetic_beside(Vec3d velocity, Worker& worker);
+  double start_kinetic_beside(Vec3d velocity, Worker& worker);
+  /// Momentum gained since the step's start [kg m/s].
+  Vec3d gained_momentum(Worker& worker);
   /// Invalidates the last value of potential(), which is not that of the current next().
   void forget_potential(Worker& worker);
   /// Kinetic energy of the velocities relative to their mean.
@@ -122,8 +138,11 @@ class NewtonPart {
   [[nodiscard]] const float* shares_of(int row) const {
     return multigrid_.seams().empty() ? nullptr : share_.row(row);
   }
+  void look_at_pins();
   template <class Velocity>
   double kinetic_of(const Velocity& row_of_velocity, Worker& worker);
+  template <class Velocity>
+  double kinetic_of(const Velocity& row_of_velocity, Vec3d beside, Worker& worker);
   double potential_at(const PaddedVectors& position, Worker& worker);
   double bending_energy(const PaddedVectors& position, Worker& worker);
 
@@ -151,7 +170,8 @@ class NewtonPart {
   double start_potential_ = HUGE_VAL;  // infinite: not known yet [J]
   Vec3f known_gravity_;                // gravity of the last step
   Vec3d mean_velocity_;
-  double mass_ = 0;
+  double mass_ = 0, total_mass_ = 0;
+  std::optional<Vec3d> pin_step_;
   double last_length_ = 0;  // of the last advance along the direction
   bool pulled_ = false;
   bool has_last_ = false;  // whether start_ and next_ are those of the step before

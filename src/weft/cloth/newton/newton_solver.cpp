@@ -8,13 +8,6 @@
 namespace weft {
 namespace {
 
-/// Energy gain of a step over its kinetic energy, up to which the gain is taken out of the
-/// velocities. A larger gain leads to another linearisation.
-constexpr double harmless_gain = 0.02;
-/// The same over the energy that contacts lend.
-constexpr double harmless_part = 0.25;
-/// Largest number of linearisations in a run, and of halvings of a step that raises the energy.
-constexpr int max_linearisations = 4, max_halvings = 5;
 /// Fraction of the tension at the guess that counts as transverse stiffness of springs, without and
 /// with contacts.
 constexpr float share_in_flight = 0.1F, share_in_contact = 1;
@@ -42,29 +35,6 @@ NewtonSolver::NewtonSolver(std::span<NewtonPart* const> parts)
     steps_.push_back(&part->step());
     directions_.push_back(&part->direction());
   }
-}
-
-template <class Act>
-void NewtonSolver::each(Worker& worker, const Act& act) {
-  if (!apart_) {
-    for (std::size_t i = 0; i < parts_.size(); ++i) act(i, worker);
-    return;
-  }
-  const Range mine = worker.share(static_cast<int>(parts_.size()));
-  Worker lone = Worker::lone();
-  for (int i = mine.first; i < mine.last; ++i) act(static_cast<std::size_t>(i), lone);
-  worker.barrier();
-}
-
-template <class Term>
-double NewtonSolver::total(Worker& worker, const Term& term) {
-  if (!apart_) {
-    double sum = 0;
-    for (std::size_t i = 0; i < parts_.size(); ++i) sum += term(i, worker);
-    return sum;
-  }
-  Worker lone = Worker::lone();
-  return sums_.sum(worker, [&](int i) { return term(static_cast<std::size_t>(i), lone); });
 }
 
 NewtonPart::Contacts NewtonSolver::contacts_of(std::size_t part) const {
@@ -174,33 +144,11 @@ void NewtonSolver::move_state(float length, Worker& worker) {
   each(worker, [&](std::size_t i, Worker& own) { parts_[i]->move_state(length, own); });
 }
 
-double NewtonSolver::energy(float length, Worker& worker) {
-  const double inner =
-      total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->step_energy(own); });
-  return inner + (contacts_.empty() ? 0 : contacts_.energy(steps_, length, worker));
-}
-
-/// Halves the last step until it lowers the energy. @return whether it had to
-bool NewtonSolver::shorten_step(Worker& worker) {
-  double after = energy(1, worker);
-  move_state(-1, worker);
-  const double before = energy(0, worker);
-  float length = 1;
-  move_state(length, worker);
-  for (int i = 0; after > before && i < max_halvings; ++i) {
-    length *= 0.5F;
-    move_state(-length, worker);
-    after = energy(length, worker);
-  }
-  each(worker, [&](std::size_t i, Worker& own) { parts_[i]->scale_step(length, own); });
-  return length < 1;
-}
-
 void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Worker& worker) {
   linearise(worker);
   choose_contacts(worker);
   progress.promised = 0;
-  if (pulled_) progress.before = energy(0, worker);
+  if (is_pulled_unlike()) progress.before = energy(0, worker);
   drift(worker);
   for (int round = 0; round < max_contact_rounds; ++round) {
     each(worker, [&](std::size_t i, Worker& own) { parts_[i]->set_up(contacts_of(i), own); });
@@ -212,51 +160,6 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
   drift(worker);
   each(worker, [&](std::size_t i, Worker& own) { parts_[i]->clear_pins(own); });
   move_state(1, worker);
-}
-
-/// The energy that the cloths gained, less the work of moving obstacles. The work of moving pins is
-/// not known: with those, the shortfall of the energy decrease below that of the linearisation.
-double NewtonSolver::error_of(const Progress& progress, double known, Worker& worker) {
-  if (pulled_) return energy(1, worker) - progress.before + progress.promised;
-  const double now = total(worker, [&](std::size_t i, Worker& own) {
-    return parts_[i]->potential(own) + parts_[i]->kinetic(own);
-  });
-  return now - known - (contacts_.active() > 0 ? contacts_.work(steps_, worker) : 0);
-}
-
-/// One linearisation is enough for smooth motion. It is repeated where its energy error is large,
-/// as after an impact.
-void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Worker& worker) {
-  const double kinetic =
-      total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->start_kinetic(own); });
-  double known = 0;
-  if (!pulled_)
-    known = kinetic + total(worker, [&](std::size_t i, Worker& own) {
-              return parts_[i]->start_potential(own);
-            });
-  const StepInput& input = parts_.front()->input();
-  const double fall = input.time_step * length(input.gravity);
-  const double lent = contacts_.empty() ? 0 : lent_;
-  const double allowed =
-      harmless_gain * (kinetic + 0.5 * mass_ * fall * fall) + harmless_part * lent;
-  double error = HUGE_VAL;
-  for (int i = 0; i < max_linearisations && error > allowed; ++i) {
-    advance(options, progress, worker);
-    error = error_of(progress, known, worker);
-    if (error > allowed && shorten_step(worker)) error = error_of(progress, known, worker);
-  }
-  if (worker.rank() == 0) missed_ = error > allowed ? error : 0;
-  if (pulled_)
-    each(worker, [&](std::size_t i, Worker& own) { parts_[i]->forget_potential(own); });
-  else if (error > lent)
-    calm(error - lent, worker);
-}
-
-void NewtonSolver::calm(double excess, Worker& worker) {
-  const double inner =
-      total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->inner_kinetic(own); });
-  const double left = inner > excess ? std::sqrt((inner - excess) / inner) : 0;
-  each(worker, [&](std::size_t i, Worker& own) { parts_[i]->calm(left, own); });
 }
 
 void NewtonSolver::run(std::span<const std::span<const Contact>> own,
@@ -273,12 +176,15 @@ void NewtonSolver::run(std::span<const std::span<const Contact>> own,
     first = first && parts_[i]->iterations == 0;
     pulled_ = pulled_ || parts_[i]->is_pulled();
   }
+  carried_ = common_pin_step();
   contacts_.set_contacts(own_, shared, parts_.front()->input());
   team.run([&](Worker& worker) {
     each(worker, [&](std::size_t i, Worker& one) { parts_[i]->read_state(one); });
     Progress progress;
     progress.first = first;
     descend(options, progress, worker);
+    const Vec3d pinned = carried_ ? force_of_pins(worker) : Vec3d{};
+    if (worker.rank() == 0) pin_force_ = pinned;
     if (!contacts_.empty()) contacts_.measure(positions_, worker);
     each(worker, [&](std::size_t i, Worker& one) {
       parts_[i]->write_state(one);
@@ -286,6 +192,7 @@ void NewtonSolver::run(std::span<const std::span<const Contact>> own,
     });
   });
   parts_.front()->missed = missed_;
+  tell_pin_force();
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const std::span<const float> forces = contacts_.forces(i);
     parts_[i]->contact_forces.assign(forces.begin(), forces.end());

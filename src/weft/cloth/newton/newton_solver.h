@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,8 @@ namespace weft {
 /// direction is the velocity change of the step before, which is in no ClothState: forget() makes
 /// steps depend on their state alone. Where nothing drives the cloths, a run adds no energy: it
 /// linearises again if it would add much, and takes the rest out of the velocities relative to
-/// their mean.
+/// their mean. Pins that move alike stand still for an observer who moves with them, to whom the
+/// same applies.
 class NewtonSolver {
  public:
   /// @param parts  that began the same step when run is called; kept by pointer
@@ -65,6 +67,17 @@ class NewtonSolver {
   bool shorten_step(Worker& worker);
   /// Energy error of the last linearisation [J].
   double error_of(const Progress& progress, double known, Worker& worker);
+  /// The energy that the cloths gained, as who moves with the pins sees it [J].
+  double gained_beside_pins(double known, Worker& worker);
+  /// The displacement of all pins; none where none moves, or they move differently [m].
+  [[nodiscard]] std::optional<Vec3d> common_pin_step() const;
+  [[nodiscard]] Vec3d pin_velocity() const;
+  /// The force of all pins on the cloths [N].
+  Vec3d force_of_pins(Worker& worker);
+  /// Writes the force of the pins into the parts, see Integrator::pin_force.
+  void tell_pin_force();
+  /// Whether pins move so that the energy gained is not known.
+  [[nodiscard]] bool is_pulled_unlike() const { return pulled_ && !carried_; }
   /// E at the state, which is at a part `length` of the step [J].
   double energy(float length, Worker& worker);
   void move_state(float length, Worker& worker);
@@ -82,6 +95,31 @@ class NewtonSolver {
   double missed_ = 0;                    // see NewtonPart [J]
   bool apart_ = false;                   // whether each part is one worker's
   bool pulled_ = false;                  // whether pins move
+  std::optional<Vec3d> carried_;         // displacement of all pins, where they move alike [m]
+  Vec3d pin_force_;                      // see Integrator [N]
 };
+
+template <class Act>
+void NewtonSolver::each(Worker& worker, const Act& act) {
+  if (!apart_) {
+    for (std::size_t i = 0; i < parts_.size(); ++i) act(i, worker);
+    return;
+  }
+  const Range mine = worker.share(static_cast<int>(parts_.size()));
+  Worker lone = Worker::lone();
+  for (int i = mine.first; i < mine.last; ++i) act(static_cast<std::size_t>(i), lone);
+  worker.barrier();
+}
+
+template <class Term>
+double NewtonSolver::total(Worker& worker, const Term& term) {
+  if (!apart_) {
+    double sum = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) sum += term(i, worker);
+    return sum;
+  }
+  Worker lone = Worker::lone();
+  return sums_.sum(worker, [&](int i) { return term(static_cast<std::size_t>(i), lone); });
+}
 
 }  // namespace weft

@@ -119,7 +119,6 @@ void DrivenWork::find_forces(const DoneStep& step) {
 }
 
 Vec3d DrivenWork::force_on(const Driven& driven, Vec3d reaction) {
-  if (driven.pinned) return reaction;
   const double size = length(driven.normal);
   if (!(size > 0)) return {};
   const Vec3d normal = (1 / size) * driven.normal;
@@ -154,23 +153,43 @@ double DrivenWork::work_on_free(const DoneStep& step) {
   return work;
 }
 
-double DrivenWork::measure(const DoneStep& step, const PressingObstacles& obstacles) noexcept {
+/// @pre driven_ holds the pins' displacements, which a filter may have shortened
+Vec3d DrivenWork::mean_pin_displacement() const {
+  Vec3d sum;
+  for (const Pin& pin : cloth_.pins)
+    sum += driven_[cloth_.mates.representative(pin.sample)].displacement;
+  return cloth_.pins.empty() ? sum : (1.0 / static_cast<double>(cloth_.pins.size())) * sum;
+}
+
+/// The work of the pins by their force, or by what is left on them and on free particles, unless
+/// those are ignored. @pre forces are found, and driven_ holds the pins' displacements
+double DrivenWork::work_of_pins(const DoneStep& step, const std::optional<Vec3d>& force) {
+  const auto moves = [&](int s) { return driven_[s].pinned; };
+  if (std::none_of(samples_.begin(), samples_.end(), moves)) return 0;
+  if (force) return dot(*force, mean_pin_displacement());
+  double work = ignores_free_ ? 0 : work_on_free(step);
+  for (const int s : samples_)
+    if (driven_[s].pinned) work += dot(reaction_on(s, step), driven_[s].displacement);
+  return work;
+}
+
+double DrivenWork::measure(const DoneStep& step, const PressingObstacles& obstacles,
+                           std::optional<Vec3d> pin_force) noexcept {
   add_pins(step);
   add_contacts(obstacles);
   double work = 0;
   if (!samples_.empty()) {
     find_forces(step);
-    if (!touched_ &&
-        std::any_of(samples_.begin(), samples_.end(), [&](int s) { return driven_[s].pinned; }))
-      work = work_on_free(step);
+    work = work_of_pins(step, pin_force);
     for (const int s : samples_) {
-      work += dot(force_on(driven_[s], reaction_on(s, step)),
-                  (1 / driven_[s].weight) * driven_[s].displacement);
+      if (!driven_[s].pinned)
+        work += dot(force_on(driven_[s], reaction_on(s, step)),
+                    (1 / driven_[s].weight) * driven_[s].displacement);
       driven_[s] = {};
     }
   }
   samples_.clear();
-  touched_ = false;
+  ignores_free_ = false;
   return work;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,17 +33,21 @@ struct PressingObstacles {
 /// Solves end with small forces unbalanced on free particles, too. Next to the pins' own reaction
 /// they are small, but stiff cloth hands on within a step what a pin does: all together they are of
 /// its size. They belong to the pins: in momentum, only pins and obstacles act on a cloth. While a
-/// cloth touches nothing, the force left on a free particle counts as the nearest pin's.
+/// cloth touches nothing, the force left on a free particle counts as the nearest pin's. Where pins
+/// move alike, a solve that knows its contact forces has all that from the cloth's momentum.
 class DrivenWork {
  public:
   /// @param cloth     kept by reference, as is the team
   /// @param stiffens  whether springs stiffen beyond the material's strain limit
   DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team, bool stiffens = false);
 
-  /// To be called before measure, where the cloth touches anything in the step.
-  void touch() { touched_ = true; }
+  /// To be called before measure, where more than springs and gravity acts on free particles in the
+  /// step: contacts, or a strain limiter, whose pull counts by itself.
+  void ignore_free() { ignores_free_ = true; }
+  /// @param pin_force  of all pins, where the solve knows it [N]
   /// @return work of all pins and bodies [J]
-  double measure(const DoneStep& step, const PressingObstacles& obstacles) noexcept;
+  double measure(const DoneStep& step, const PressingObstacles& obstacles,
+                 std::optional<Vec3d> pin_force = {}) noexcept;
 
  private:
   /// A particle moved by a pin or bodies.
@@ -55,6 +60,8 @@ class DrivenWork {
   };
   void add_pins(const DoneStep& step);
   void add_contacts(const PressingObstacles& obstacles);
+  double work_of_pins(const DoneStep& step, const std::optional<Vec3d>& force);
+  [[nodiscard]] Vec3d mean_pin_displacement() const;
   [[nodiscard]] static Vec3d force_on(const Driven& driven, Vec3d reaction);
   Driven& driven(int sample);
   void find_forces(const DoneStep& step);
@@ -71,7 +78,7 @@ class DrivenWork {
   std::vector<Driven> driven_;  // [n * n] valid for samples_
   std::vector<int> samples_;    // representatives moved by pins or bodies
   bool stiffens_;
-  bool touched_ = false;
+  bool ignores_free_ = false;
   std::vector<int> pins_;     // for which nearest_ was found, representatives
   std::vector<int> nearest_;  // [n * n] of representatives: the pin that is nearest along the cloth
   std::vector<int> class_of_;  // [n * n] the class of mates of each sample, -1: it has none

@@ -48,6 +48,7 @@ struct Mover {
   double unsewn_energy = 0;  // before a step in which seams are pulled together [J]
   // Of this step: work of the wind, energy added by the strain limit while something pulled. [J]
   double wind_work = 0, pulled_work = 0;
+  bool limited = false;  // a strain limiter works on the proposals of this step
 };
 
 struct Simulation::Parts {
@@ -125,8 +126,8 @@ struct Simulation::Parts {
   /// Computes the proposals of all cloths, with contact detection at the guesses and, where solves
   /// go far, again.
   void solve_all(FrameReport& report);
-  /// Tells the measures of work which cloths touch anything.
-  void touch_driven();
+  /// Tells the measures of work what acts on each cloth.
+  void expect_driven_work();
   /// Detects contacts at the guesses, and filters the guesses. @return whether anything is near
   /// that the filter must act on
   bool free_guesses();

@@ -161,6 +161,7 @@ int Simulation::Parts::correct(std::size_t index, ClothState& next, FrameReport&
   Stopwatch clock;
   LimitOptions limiter = limit_for(scene, *cloth.model);
   if (unlimited) limiter.passes = 0;
+  mover.limited = limiter.passes > 0 && strain_limit_of(limiter, cloth.model->material) > 0;
   LimitOptions coarse_limiter = limiter;
   coarse_limiter.passes = std::min(coarse_passes, limiter.passes);
   int contacts = 0;

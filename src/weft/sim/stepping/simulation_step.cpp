@@ -72,11 +72,12 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
   Stopwatch clock;
   tried.filtered = collider->filter(moving, time_step, team);
   report.collide_ms += clock.lap_ms();
-  touch_driven();
+  expect_driven_work();
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tried.work += movers[i].driven_work.measure(
         {cloths[i].state, movers[i].integrator->proposal(), time_step},
-        {collider->obstacle_contacts(i), movers[i].integrator->contact_forces()});
+        {collider->obstacle_contacts(i), movers[i].integrator->contact_forces()},
+        movers[i].integrator->pin_force());
   if (watched) {
     assess_step(choices, tried);
   } else if (solve_is_lost()) {
@@ -86,12 +87,12 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
   return tried;
 }
 
-void Simulation::Parts::touch_driven() {
+void Simulation::Parts::expect_driven_work() {
   for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (!collider->contacts(i).empty()) movers[i].driven_work.touch();
+    if (!collider->contacts(i).empty() || movers[i].limited) movers[i].driven_work.ignore_free();
   for (const SharedContact& shared : collider->shared_contacts())
     for (const int cloth : {shared.first, shared.second})
-      movers[static_cast<std::size_t>(cloth)].driven_work.touch();
+      movers[static_cast<std::size_t>(cloth)].driven_work.ignore_free();
 }
 
 void Simulation::Parts::solve_all(FrameReport& report) {

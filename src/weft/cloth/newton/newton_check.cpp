@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+
+#include "weft/cloth/newton/newton_solver.h"
+
+// The check of a step's energy, and the force of the pins.
+namespace weft {
+namespace {
+
+/// Energy gain of a step over its kinetic energy, up to which the gain is taken out of the
+/// velocities. A larger gain leads to another linearisation.
+constexpr double harmless_gain = 0.02;
+/// The same over the energy that contacts lend.
+constexpr double harmless_part = 0.25;
+/// Largest number of linearisations in a run, and of halvings of a step that raises the energy.
+constexpr int max_linearisations = 4, max_halvings = 5;
+
+}  // namespace
+
+double NewtonSolver::energy(float length, Worker& worker) {
+  const double inner =
+      total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->step_energy(own); });
+  return inner + (contacts_.empty() ? 0 : contacts_.energy(steps_, length, worker));
+}
+
+/// Halves the last step until it lowers the energy. @return whether it had to
+bool NewtonSolver::shorten_step(Worker& worker) {
+  double after = energy(1, worker);
+  move_state(-1, worker);
+  const double before = energy(0, worker);
+  float length = 1;
+  move_state(length, worker);
+  for (int i = 0; after > before && i < max_halvings; ++i) {
+    length *= 0.5F;
+    move_state(-length, worker);
+    after = energy(length, worker);
+  }
+  each(worker, [&](std::size_t i, Worker& own) { parts_[i]->scale_step(length, own); });
+  return length < 1;
+}
+
+std::optional<Vec3d> NewtonSolver::common_pin_step() const {
+  if (!pulled_) return std::nullopt;
+  std::optional<Vec3d> common;
+  for (const NewtonPart* part : parts_) {
+    if (part->cloth().pins.empty()) continue;
+    if (!part->pin_step()) return std::nullopt;
+    if (!common) common = part->pin_step();
+    if (length(*part->pin_step() - *common) > NewtonPart::same_displacement) return std::nullopt;
+  }
+  return common;
+}
+
+Vec3d NewtonSolver::pin_velocity() const {
+  return (1 / parts_.front()->input().time_step) * *carried_;
+}
+
+/// The energy that the cloths gained for an observer who moves with the pins: there they do no
+/// work, but obstacles that stand still do.
+double NewtonSolver::gained_beside_pins(double known, Worker& worker) {
+  const Vec3d gravity = vec_cast<double>(parts_.front()->input().gravity);
+  const double now = total(worker, [&](std::size_t i, Worker& own) {
+    return parts_[i]->potential(own) + parts_[i]->kinetic_beside(pin_velocity(), own) +
+           parts_[i]->total_mass() * dot(gravity, *carried_);
+  });
+  if (contacts_.active() == 0) return now - known;
+  const double work = contacts_.work(steps_, worker);
+  return now - known - work + dot(contacts_.obstacle_force(steps_, worker), *carried_);
+}
+
+/// What changed the cloths' momentum besides gravity and obstacles.
+Vec3d NewtonSolver::force_of_pins(Worker& worker) {
+  const StepInput& input = parts_.front()->input();
+  each(worker, [&](std::size_t i, Worker& own) {
+    const Vec3d gained = parts_[i]->gained_momentum(own);
+    if (own.rank() == 0)
+      forces_[i] = (1 / input.time_step) * gained -
+                   parts_[i]->total_mass() * vec_cast<double>(input.gravity);
+    own.barrier();
+  });
+  Vec3d sum;
+  for (const Vec3d& force : forces_) sum += force;
+  return contacts_.active() > 0 ? sum - contacts_.obstacle_force(steps_, worker) : sum;
+}
+
+void NewtonSolver::tell_pin_force() {
+  bool first = true;
+  for (NewtonPart* part : parts_) {
+    part->pin_force.reset();
+    if (!carried_) continue;
+    const bool pinned = !part->cloth().pins.empty();
+    part->pin_force = first && pinned ? pin_force_ : Vec3d{};
+    first = first && !pinned;
+  }
+}
+
+/// The energy that the cloths gained, less the work of moving obstacles. The work of pins that move
+/// differently is not known: with those, the shortfall of the energy decrease below that of the
+/// linearisation.
+double NewtonSolver::error_of(const Progress& progress, double known, Worker& worker) {
+  if (is_pulled_unlike()) return energy(1, worker) - progress.before + progress.promised;
+  if (carried_) return gained_beside_pins(known, worker);
+  const double now = total(worker, [&](std::size_t i, Worker& own) {
+    return parts_[i]->potential(own) + parts_[i]->kinetic(own);
+  });
+  return now - known - (contacts_.active() > 0 ? contacts_.work(steps_, worker) : 0);
+}
+
+/// One linearisation is enough for smooth motion. It is repeated where its energy error is large,
+/// as after an impact.
+void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Worker& worker) {
+  const double kinetic = total(worker, [&](std::size_t i, Worker& own) {
+    return carried_ ? parts_[i]->start_kinetic_beside(pin_velocity(), own)
+                    : parts_[i]->start_kinetic(own);
+  });
+  double known = 0;
+  if (!is_pulled_unlike())
+    known = kinetic + total(worker, [&](std::size_t i, Worker& own) {
+              return parts_[i]->start_potential(own);
+            });
+  const StepInput& input = parts_.front()->input();
+  const double fall = input.time_step * length(input.gravity);
+  const double lent = contacts_.empty() ? 0 : lent_;
+  const double allowed =
+      harmless_gain * (kinetic + 0.5 * mass_ * fall * fall) + harmless_part * lent;
+  double error = HUGE_VAL;
+  for (int i = 0; i < max_linearisations && error > allowed; ++i) {
+    advance(options, progress, worker);
+    error = error_of(progress, known, worker);
+    if (error > allowed && shorten_step(worker)) error = error_of(progress, known, worker);
+  }
+  if (worker.rank() == 0) missed_ = error > allowed ? error : 0;
+  if (is_pulled_unlike())
+    each(worker, [&](std::size_t i, Worker& own) { parts_[i]->forget_potential(own); });
+  else if (error > lent)
+    calm(error - lent, worker);
+}
+
+void NewtonSolver::calm(double excess, Worker& worker) {
+  const double inner =
+      total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->inner_kinetic(own); });
+  const double left = inner > excess ? std::sqrt((inner - excess) / inner) : 0;
+  each(worker, [&](std::size_t i, Worker& own) { parts_[i]->calm(left, own); });
+}
+
+}  // namespace weft
