@@ -2,16 +2,19 @@
 """Random starts: bodies, poses, sizes, speeds up to 10 m/s, materials, pins, wind, animations; every step verified. Failures name
 their seed, and every start leaves its figures in a table.
 
-Usage: bench/soak.py [--seeds 200] [--first 0] [--jobs 2] [--keep FOLDER] [--figures FILE.csv] [--write]
+Usage: bench/soak.py [--seeds 200] [--first 0] [--jobs 2] [--most-seconds 1800] [--keep FOLDER] [--figures FILE.csv] [--write]
        bench/soak.py --scene SEED       prints the scene of one seed
 """
 import argparse
 import concurrent.futures
 import csv
+import functools
 import json
 import math
 import pathlib
 import random
+import resource
+import signal
 import struct
 import subprocess
 import sys
@@ -33,7 +36,7 @@ MATERIALS = ("cotton", "silk", "wool", "denim", "leather", "linen", "jersey", "c
 # fall.
 MOST_STRAIN, MOST_FELL_BACK, MOST_GAINED, MOST_OFF = 0.2, 0.01, 0.01, 1e-3
 FIGURES = ("seed", "failure", "strain_p99", "fell_back_share", "blocked_share", "energy_gained_mgl", "off_free_fall", "contacts_max",
-           "self_contacts_max", "intersections", "passed", "swallowed", "ms_median")
+           "self_contacts_max", "intersections", "passed", "swallowed", "ms_median", "seconds")
 GAP = 0.03  # between the spheres around all things at the start [m]
 
 
@@ -206,8 +209,27 @@ def figures_of(seed, scene, report, frames):
     return figures
 
 
-def look_at(seed, keep):
-    """The figures of one start; what went wrong as `failure`."""
+def processor_seconds():
+    """Of all processes that this one has waited for."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def simulate(path, run, most_seconds):
+    words = [program.PROGRAM, "simulate", path, "-o", run, "--verify", "--quiet", "--json", "--threads", "1", "--checkpoint", "0"]
+    return subprocess.run(words, capture_output=True, text=True,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (most_seconds, most_seconds + 5)))
+
+
+def error_of(done, most_seconds):
+    """Why a run failed, in a line; empty where it did not."""
+    if done.returncode == -signal.SIGXCPU:
+        return f"takes more than {most_seconds} s"
+    last = "".join(done.stderr.strip().splitlines()[-1:])
+    return f"exit {done.returncode}: {last.split('scene.json: ')[-1]}" if done.returncode else ""
+
+
+def figures_of_start(seed, keep, most_seconds):
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(keep or temporary) / f"seed{seed}"
         folder.mkdir(parents=True, exist_ok=True)
@@ -215,16 +237,21 @@ def look_at(seed, keep):
         path = folder / "scene.json"
         path.write_text(json.dumps(scene))
         run = folder / "run"  # apart from the scene's files, which outputs would overwrite
-        words = [program.PROGRAM, "simulate", path, "-o", run, "--verify", "--quiet", "--json", "--threads", "1", "--checkpoint", "0"]
-        done = subprocess.run(words, capture_output=True, text=True)
-        found = done.stderr.strip().splitlines()[-1:] if done.returncode else []
+        done = simulate(path, run, most_seconds)
+        error = error_of(done, most_seconds)
         if not done.stdout:
-            return {"seed": seed, "failure": f"exit {done.returncode}: {''.join(found).split('scene.json: ')[-1]}"}
+            return {"seed": seed, "failure": error}
         with (run / "frames.csv").open() as table:
             figures = figures_of(seed, scene, json.loads(done.stdout), list(csv.DictReader(table)))
-    if found:
-        figures["failure"] = f"exit {done.returncode}: {found[0].split('scene.json: ')[-1]}; {figures['failure']}".rstrip("; ")
+    figures["failure"] = "; ".join(filter(None, (error, figures["failure"])))
     return figures
+
+
+def look_at(seed, keep, most_seconds):
+    """The figures of one start; what went wrong as `failure`."""
+    before = processor_seconds()
+    figures = figures_of_start(seed, keep, most_seconds)
+    return figures | {"seconds": round(processor_seconds() - before, 1)}
 
 
 def main():
@@ -232,6 +259,7 @@ def main():
     words.add_argument("--seeds", type=int, default=200)
     words.add_argument("--first", type=int, default=0)
     words.add_argument("--jobs", type=int, default=2)
+    words.add_argument("--most-seconds", type=int, default=1800, help="of the processor, beyond which a start fails")
     words.add_argument("--keep", type=pathlib.Path, help="leave scenes and runs in this folder")
     words.add_argument("--figures", type=pathlib.Path, default=pathlib.Path("soak.csv"), help="a line for every start")
     words.add_argument("--scene", type=int, metavar="SEED")
@@ -244,10 +272,12 @@ def main():
         return
     seeds = range(options.first, options.first + options.seeds)
     failures = ""
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as jobs, options.figures.open("w", newline="") as file:
+    look = functools.partial(look_at, keep=options.keep, most_seconds=options.most_seconds)
+    # Processes, each of which knows the time of its own children.
+    with concurrent.futures.ProcessPoolExecutor(options.jobs) as jobs, options.figures.open("w", newline="") as file:
         table = csv.DictWriter(file, FIGURES)
         table.writeheader()
-        for figures in jobs.map(lambda seed: look_at(seed, options.keep), seeds):
+        for figures in jobs.map(look, seeds):
             table.writerow(figures)
             file.flush()
             if figures["failure"]:
