@@ -174,6 +174,40 @@ TEST(GltfMotion, SkinsBlendTheirJointsLinearly) {
   expect_near(file.at(1, 2), {0.5, 1, 6});
 }
 
+TEST(GltfMotion, PrimitivesThatShareTheirPositionsHaveJointsOfTheirOwn) {
+  Moving file;
+  file.skin({1, 1, 1, 1, 1, 1}, {0, 0, 0, 0, 0, 0});  // all go with the first joint
+  Json& primitives = file.pair.json["meshes"][0]["primitives"];
+  Json second = primitives[0];
+  Floats weights;
+  for (int v = 0; v < 6; ++v) weights.insert(weights.end(), {0, 1, 0, 0});
+  second["attributes"]["WEIGHTS_0"] = file.add(weights, "VEC4", 5126, 4);
+  // The first triangle is of one primitive, the second of the other.
+  primitives[0]["indices"] = file.add(std::vector<std::uint16_t>{0, 1, 2}, "SCALAR", 5123, 1);
+  second["indices"] = file.add(std::vector<std::uint16_t>{3, 4, 5}, "SCALAR", 5123, 1);
+  primitives.push_back(second);
+  file.move(2, "translation", {0}, {0, 0, 7}, 3);
+  EXPECT_EQ(file.rig().points(), 4);
+  expect_near(file.at(0, 0), {0, 0, 0});
+  expect_near(file.at(0, 1), {1, 0, 0});
+  expect_near(file.at(0, 3), {1, 1, 7});  // of the second alone
+}
+
+TEST(GltfMotion, PrimitivesThatShareTheirPositionsHaveTargetsOfTheirOwn) {
+  Moving file;
+  Json& primitives = file.pair.json["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  Floats offsets(18, 0);
+  primitives[0]["targets"] = {{{"POSITION", file.vectors(offsets)}}};
+  for (std::size_t v = 0; v < 6; ++v) offsets[3 * v + 2] = 5;
+  primitives[1]["targets"] = {{{"POSITION", file.vectors(offsets)}}};
+  primitives[0]["indices"] = file.add(std::vector<std::uint16_t>{0, 1, 2}, "SCALAR", 5123, 1);
+  primitives[1]["indices"] = file.add(std::vector<std::uint16_t>{3, 4, 5}, "SCALAR", 5123, 1);
+  file.move(0, "weights", {0}, {1}, 1);
+  expect_near(file.at(0, 0), {0, 0, 0});
+  expect_near(file.at(0, 3), {1, 1, 5});
+}
+
 TEST(GltfMotion, JointsTurnAboutWhereTheyAreBound) {
   Moving file;
   file.skin({0, 0, 0, 0, 0, 0}, {1, 1, 1, 1, 1, 1});

@@ -53,7 +53,7 @@ struct PlacedMesh {
 
 /// The meshes of the default scene: the one that the file names, else its first, else all root
 /// nodes; in the order of the nodes, parents first. A file without nodes shows every mesh once, as
-/// it is. Skins and morph targets are ignored: the result is the shape at rest.
+/// it is. A mesh with a skin is placed by its node all the same: read_gltf_surface asks its skin.
 /// @throws InputError for a node out of range or reached twice, or a matrix that is not affine
 std::vector<PlacedMesh> placed_meshes(const GltfObject& root);
 

@@ -11,8 +11,6 @@
 namespace weft {
 namespace {
 
-constexpr std::size_t most_sets = 8;  ///< of four joints; programs write one or two
-
 Placing from_columns(const GltfObject& skin, std::span<const double> m) {
   for (const double value : m)
     if (!std::isfinite(value))
@@ -125,7 +123,7 @@ SkinWeights read_skin_weights(GltfDocument& document, const GltfObject& primitiv
   const std::optional<GltfObject> attributes = primitive.object("attributes");
   if (!attributes) primitive.fail("has no attributes", "joints and weights are wanted");
   std::vector<InfluenceSet> sets{read_set(document, *attributes, 0, vertices)};
-  while (sets.size() < most_sets && attributes->has(fmt::format("JOINTS_{}", sets.size())))
+  while (sets.size() < most_joint_sets && attributes->has(fmt::format("JOINTS_{}", sets.size())))
     sets.push_back(read_set(document, *attributes, sets.size(), vertices));
   SkinWeights weights;
   weights.first.reserve(vertices + 1);

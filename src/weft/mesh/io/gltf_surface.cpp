@@ -65,6 +65,28 @@ std::optional<Placing> sound_placing(GltfDocument& document, int skin) {
   }
 }
 
+/// What tells the vertices of primitives apart: the accessors of their positions, and of whatever
+/// moves them. Of vertices that differ in texture alone one is enough.
+using VertexSource = std::vector<int>;
+
+/// Appends the accessor of an attribute; -1: it has none.
+void append_accessor(VertexSource& source, const GltfObject& root, const GltfObject& attributes,
+                     const std::string& name) {
+  source.push_back(attributes.index(name, root.count("accessors")).value_or(-1));
+}
+
+VertexSource vertex_source(const GltfObject& root, const GltfObject& primitive,
+                           const GltfObject& attributes) {
+  VertexSource source;
+  append_accessor(source, root, attributes, "POSITION");
+  for (std::size_t set = 0; set < most_joint_sets; ++set)
+    for (const char* name : {"JOINTS", "WEIGHTS"})
+      append_accessor(source, root, attributes, fmt::format("{}_{}", name, set));
+  for (std::size_t k = 0; k < primitive.count("targets"); ++k)
+    append_accessor(source, root, primitive.element("targets", k), "POSITION");
+  return source;
+}
+
 class Gatherer {
  public:
   explicit Gatherer(GltfDocument& document)
@@ -111,7 +133,8 @@ class Gatherer {
     const std::optional<int> position =
         attributes ? attributes->index("POSITION", root_.count("accessors")) : std::nullopt;
     if (!position) primitive.fail("has no POSITION", "positions are wanted");
-    const auto [base, count] = place_positions(primitive, *position, placing);
+    const auto [base, count] =
+        place_positions(primitive, vertex_source(root_, primitive, *attributes), placing);
     std::vector<Triangle> triangles =
         triangles_of(primitive, mode, corners_of(primitive, static_cast<std::size_t>(count)));
     require_room(primitive, mesh_.triangles.size() + triangles.size());
@@ -140,12 +163,12 @@ class Gatherer {
     return corners;
   }
 
-  /// Adds an accessor's positions, which the primitives of a mesh may share.
+  /// Adds a primitive's positions, which others of its mesh may share.
   /// @return first vertex and count
-  std::pair<int, int> place_positions(const GltfObject& primitive, int accessor,
+  std::pair<int, int> place_positions(const GltfObject& primitive, const VertexSource& source,
                                       const Placing& placing) {
-    if (const auto known = bases_.find(accessor); known != bases_.end()) return known->second;
-    const std::vector<Vec3d> positions = read_gltf_positions(root_, buffers_, accessor);
+    if (const auto known = bases_.find(source); known != bases_.end()) return known->second;
+    const std::vector<Vec3d> positions = read_gltf_positions(root_, buffers_, source.front());
     const int base = static_cast<int>(mesh_.positions.size());
     require_room(primitive, mesh_.positions.size() + positions.size());
     for (const Vec3d& p : positions) {
@@ -159,7 +182,7 @@ class Gatherer {
     block_.base = base;
     block_.count = static_cast<int>(positions.size());
     blocks_.push_back(block_);
-    return bases_[accessor] = {base, block_.count};
+    return bases_[source] = {base, block_.count};
   }
 
   void require_room(const GltfObject& primitive, std::size_t count) const {
@@ -174,10 +197,10 @@ class Gatherer {
   std::size_t most_;
   TriangleMesh mesh_;
   std::vector<GltfBlock> blocks_;
-  GltfBlock block_;                              ///< of the primitive that is being added
-  bool points_ = false, lines_ = false;          ///< whether such were left out
-  std::map<int, std::optional<Placing>> bound_;  ///< by skin
-  std::map<int, std::pair<int, int>> bases_;     ///< by accessor, of the mesh that is being added
+  GltfBlock block_;                                    ///< of the primitive that is being added
+  bool points_ = false, lines_ = false;                ///< whether such were left out
+  std::map<int, std::optional<Placing>> bound_;        ///< by skin
+  std::map<VertexSource, std::pair<int, int>> bases_;  ///< of the mesh that is being added
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ struct GltfBlock {
 };
 
 /// The triangles of a file's default scene at rest, in the order of its nodes and primitives.
-/// Primitives of a mesh that share their positions share a block.
+/// Primitives of a mesh that share their positions, and all that moves them, share a block.
 struct GltfSurface {
   TriangleMesh mesh;
   std::vector<GltfBlock> blocks;  ///< by ascending vertices, without gaps

@@ -74,6 +74,21 @@ std::vector<int> parents_first(const GltfObject& root, const std::vector<Node>& 
   return order;
 }
 
+/// Of vertices at one position the first that a triangle has, else the first; in the order of
+/// positions. Primitives may share positions of which each has its own part.
+std::vector<int> leading_vertices(const TriangleMesh& mesh) {
+  const std::vector<int> first = first_at_position(mesh.positions);
+  std::vector<int> leading(first.size(), -1), kept;
+  std::vector<bool> used(first.size(), false);
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t) used[v] = true;
+  for (std::size_t v = 0; v < first.size(); ++v)
+    if (used[v] && leading[first[v]] < 0) leading[first[v]] = static_cast<int>(v);
+  for (std::size_t v = 0; v < first.size(); ++v)
+    if (first[v] == static_cast<int>(v)) kept.push_back(leading[v] >= 0 ? leading[v] : first[v]);
+  return kept;
+}
+
 /// Reads all of a rig but its animation.
 class RigReader {
  public:
@@ -83,9 +98,7 @@ class RigReader {
   void read_blocks(GltfRig& rig) {
     const GltfSurface surface = read_gltf_surface(document_);
     require_surface(surface.mesh, name_);
-    const std::vector<int> first = first_at_position(surface.mesh.positions);
-    for (std::size_t v = 0; v < first.size(); ++v)
-      if (first[v] == static_cast<int>(v)) rig.kept.push_back(first[v]);
+    rig.kept = leading_vertices(surface.mesh);
     for (std::size_t i = 0; i < root_.count("skins"); ++i)
       rig.skins.push_back(read_gltf_skin(document_, static_cast<int>(i)));
     for (const GltfBlock& block : surface.blocks) rig.blocks.push_back(read_block(rig, block));
