@@ -186,6 +186,9 @@ TEST(Npz, HeadersThatNumpyDoesNotWriteAreRefused) {
             "wanted");
   EXPECT_EQ(error("{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (1,)}"),
             "a: vertices: holds records of several fields; numbers are wanted");
+  EXPECT_EQ(error("{'descr': '<f4', 'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 3)}"),
+            "a: vertices: has the key 'descr' twice in its header; a header as numpy writes it is "
+            "wanted");
   for (const char* header :
        {"", "{", "{'descr", "{'descr': '<f4'", "{'shape': (1, -1, 3)}", "{1: 2}"})
     EXPECT_NE(error(header), "") << header;

@@ -1,5 +1,6 @@
 #include "weft/mesh/io/npy_array.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -13,7 +14,7 @@ namespace weft {
 namespace {
 
 constexpr std::string_view signature{"\x93NUMPY", 6};
-constexpr std::size_t most_axes = 32;  ///< numpy's own limit
+constexpr std::size_t most_axes = 32;  ///< of numpy before 2.0, which has 64; three are of use
 constexpr std::string_view header_wanted = "a header as numpy writes it is wanted";
 
 /// Reads the header: a Python dictionary of three keys, of which only what numpy writes is known.
@@ -25,6 +26,8 @@ class HeaderReader {
     want('{');
     while (!take('}')) {
       const std::string key(quoted());
+      if (std::find(found_.begin(), found_.end(), key) != found_.end())
+        fail(fmt::format("the key {} twice", in_quotes(key)));
       want(':');
       if (key == "descr")
         read_type(array);
@@ -34,10 +37,10 @@ class HeaderReader {
         read_shape(array);
       else
         fail(fmt::format("the key {}", in_quotes(key)));
-      found_ += 1;
+      found_.push_back(key);
       if (!take(',') && !at('}')) fail("an entry without end");
     }
-    if (found_ != 3) fail(fmt::format("{} keys of 3", found_));
+    if (found_.size() != 3) fail(fmt::format("{} keys of 3", found_.size()));
   }
 
  private:
@@ -112,7 +115,7 @@ class HeaderReader {
   }
 
   std::string_view text_, name_;
-  int found_ = 0;
+  std::vector<std::string> found_;
 };
 
 /// @return header and rest
