@@ -6,7 +6,9 @@
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
+#include "weft/error.h"
 
 namespace weft {
 namespace {
@@ -25,6 +27,22 @@ TEST(ImageParts, MayDifferInSize) {
   EXPECT_EQ(file.header(1).dataWindow().max.x, 72);
   EXPECT_EQ(file.header(1).dataWindow().max.y, 4);
   EXPECT_EQ(file.header(2).dataWindow().max.y, 32);
+}
+
+TEST(ImageParts, ArchivesHaveTheLeastByteFirst) {
+  const std::string archive = encode_npz_parts({part_of("a", 1, 2)});
+  const std::string one{"\0\0\x80\x3f", 4};  // 1.0 in single precision
+  EXPECT_EQ(archive.substr(0, 30), std::string("PK\3\4\x14\0\0\x08\0\0\0\0\x21\0", 14) +
+                                       archive.substr(14, 4) +
+                                       std::string("\x88\0\0\0\x88\0\0\0\5\0\0\0", 12));
+  EXPECT_EQ(archive.substr(30 + 5 + 128, 8), one + one);
+}
+
+TEST(ImageParts, RefusesNamesThatAnArchiveCannotTell) {
+  EXPECT_EQ(test::message_of<OutputError>(
+                [] { encode_npz_parts({part_of(std::string(65532, 'a'), 1, 1)}); }),
+            "npz: a name of 65532 bytes; at most 65531 are wanted");
+  EXPECT_NO_THROW(encode_npz_parts({part_of(std::string(65531, 'a'), 1, 1)}));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "weft/image/io/image_parts.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -54,12 +54,13 @@ Imf::FrameBuffer buffer_of(const ImagePart& part) {
   return buffer;
 }
 
-template <class T>
-void put(std::string& bytes, T value) {
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  bytes.append(raw, sizeof(T));
+/// Appends a number with its least byte first, whatever this machine's byte order.
+template <class Unsigned>
+void put(std::string& bytes, Unsigned value) {
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
+    bytes += static_cast<char>(static_cast<unsigned char>(value >> (8 * i)));
 }
+void put(std::string& bytes, float value) { put(bytes, std::bit_cast<std::uint32_t>(value)); }
 
 /// An array in numpy's format, version 1.0.
 std::string npy_of(const ImagePart& part) {
@@ -148,8 +149,18 @@ std::string encode_exr_parts(const std::vector<ImagePart>& parts) {
 }
 
 std::string encode_npz_parts(const std::vector<ImagePart>& parts) {
+  constexpr std::size_t most = std::numeric_limits<std::uint16_t>::max();
+  if (parts.size() > most)
+    throw OutputError("npz", fmt::format("{} arrays", parts.size()),
+                      fmt::format("at most {} are wanted", most));
   Archive archive;
-  for (const ImagePart& part : parts) archive.add(part.name + ".npy", npy_of(part));
+  for (const ImagePart& part : parts) {
+    const std::string name = part.name + ".npy";
+    if (name.size() > most)
+      throw OutputError("npz", fmt::format("a name of {} bytes", part.name.size()),
+                        fmt::format("at most {} are wanted", most - 4));
+    archive.add(name, npy_of(part));
+  }
   return archive.finish();
 }
 

@@ -21,7 +21,8 @@ struct ImagePart {
 std::string encode_exr_parts(const std::vector<ImagePart>& parts);
 
 /// The same as numpy's archive of arrays: NAME is [rows x cols x channels] float32, not compressed.
-/// @pre as above  @throws OutputError where it is larger than 4 GB
+/// @pre as above  @throws OutputError where it is larger than 4 GB, or has
+/// more arrays or longer names than its 16-bit fields can tell
 std::string encode_npz_parts(const std::vector<ImagePart>& parts);
 
 }  // namespace weft
