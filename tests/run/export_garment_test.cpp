@@ -134,6 +134,22 @@ TEST_F(GarmentExports, ObjNamesPanelsAndDrawsSeams) {
     EXPECT_EQ(uses.at(std::minmax(line[k - 1], line[k])), 2);
 }
 
+TEST(GarmentGroups, StayApartWhereTheirNamesDifferInBlanksAlone) {
+  const test::TemporaryFolder folder;
+  std::string pattern = test::tube_pattern(width, height, 24, 100);
+  for (const auto& [from, to] : {std::pair{"\"back\"", "\"a b\""}, {"\"front\"", "\"a_b\""}})
+    for (std::size_t at = 0; (at = pattern.find(from, at)) != pattern.npos;)
+      pattern.replace(at, std::string_view(from).size(), to);
+  Scene scene = tube(folder / "tube.json", 1);
+  write_file(folder / "tube.json", [&](std::ostream& out) { out << pattern; });
+  const ExportedRun run(scene);
+  const std::vector<std::string> groups = lines_of(read_file(run.folder / "tube.obj"), "g");
+  ASSERT_EQ(groups.size(), 4U);
+  EXPECT_EQ(groups[0], "g a_b");
+  EXPECT_EQ(groups[1], "g a_b_2");
+  EXPECT_EQ(std::set<std::string>(groups.begin(), groups.end()).size(), 4U);
+}
+
 TEST_F(GarmentExports, CacheOfTheImageKeepsPanelsApart) {
   const PointCache image = read_point_cache(run().folder / "tube.image.pc2");
   EXPECT_EQ(image.points - run().cache.points, 2 * (along + 1));

@@ -12,6 +12,7 @@
 #include "weft/image/io/exr_codec.h"
 #include "weft/mesh/point_normals.h"
 #include "weft/run/export/bytes_out.h"
+#include "weft/run/export/distinct_names.h"
 
 namespace weft {
 namespace {
@@ -149,12 +150,8 @@ class Text {
   fmt::memory_buffer text_;
 };
 
-/// A name as one word: blanks would make several groups of it.
-std::string word_of(std::string name) {
-  for (char& c : name)
-    if (static_cast<unsigned char>(c) <= ' ' || c == '\\') c = '_';
-  return name;
-}
+/// Whether a character would make several groups of a name.
+bool ends_a_word(char c) { return static_cast<unsigned char>(c) <= ' ' || c == '\\'; }
 
 /// Writes a face, with texture indices only where all its corners have one.
 void write_face(Text& text, std::span<const int> corners, std::span<const int> texture) {
@@ -172,14 +169,15 @@ void write_face(Text& text, std::span<const int> corners, std::span<const int> t
 }
 
 /// Writes the faces, those of each panel as a group.
-void write_faces(Text& text, const MeshFaces& faces, const std::vector<NamedRun>& panels) {
+void write_faces(Text& text, const MeshFaces& faces, const std::vector<NamedRun>& panels,
+                 DistinctNames& groups) {
   const std::span<const int> corners = faces.corners, texture = faces.texture_corners;
   std::size_t first = 0;
   auto panel = panels.begin();
   for (std::size_t f = 0; f < faces.sizes.size(); ++f) {
     while (panel != panels.end() && panel->count == 0) ++panel;
     if (panel != panels.end() && static_cast<std::size_t>(panel->first) == f)
-      text.add("g {}\n", word_of((panel++)->name));
+      text.add("g {}\n", groups.add((panel++)->name, ends_a_word));
     const auto count = static_cast<std::size_t>(faces.sizes[f]);
     write_face(text, corners.subspan(first, count),
                faces.has_texture() ? texture.subspan(first, count) : texture);
@@ -188,10 +186,10 @@ void write_faces(Text& text, const MeshFaces& faces, const std::vector<NamedRun>
 }
 
 /// Writes seams as lines along vertices of the faces.
-void write_seams(Text& text, const std::vector<NamedRun>& seams) {
+void write_seams(Text& text, const std::vector<NamedRun>& seams, DistinctNames& groups) {
   for (const NamedRun& seam : seams) {
     if (seam.vertices.size() < 2) continue;
-    text.add("g seam_{}\nl", word_of(seam.name));
+    text.add("g {}\nl", groups.add("seam_" + seam.name, ends_a_word));
     for (const int vertex : seam.vertices) text.add(" {}", vertex + 1);
     text.add("\n");
   }
@@ -211,8 +209,9 @@ void write_obj(const std::filesystem::path& path, const ExportedSurface& surface
     // Smooth shading also in programs that compute their own normals.
     text.add("s 1\n");
     const GarmentParts parts = surface.parts();
-    write_faces(text, faces, parts.panels);
-    write_seams(text, parts.seams);
+    DistinctNames groups;
+    write_faces(text, faces, parts.panels, groups);
+    write_seams(text, parts.seams, groups);
     text.flush();
   });
 }

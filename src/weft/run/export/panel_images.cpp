@@ -1,29 +1,21 @@
 #include "weft/run/export/panel_images.h"
 
-#include <set>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "weft/image/io/image_parts.h"
+#include "weft/run/export/distinct_names.h"
 
 namespace weft {
 namespace {
 
 constexpr float centimetres = 100;
 
-/// Names of panels as names of files, which unpacking may make of them, no two alike.
-std::vector<std::string> plain_names(const std::vector<Chart>& charts) {
+/// Names of panels as names of files, which unpacking may make of them.
+std::vector<std::string> file_names(const std::vector<Chart>& charts) {
   std::vector<std::string> names;
-  std::set<std::string> taken;
-  for (const Chart& chart : charts) {
-    std::string name = chart.name;
-    for (char& c : name)
-      if (c == '/' || c == '\\' || c == '\0') c = '_';
-    const std::string plain = name;
-    for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}_{}", plain, k);
-    names.push_back(name);
-  }
+  DistinctNames distinct;
+  const auto unwanted = [](char c) { return c == '/' || c == '\\' || c == '\0'; };
+  for (const Chart& chart : charts) names.push_back(distinct.add(chart.name, unwanted));
   return names;
 }
 
@@ -40,7 +32,7 @@ ImagePart::Channel channel_of(const char* name, const Chart& chart, const Grid<f
 
 PanelImages panel_images(const Garment& garment, const Planes3& samples) {
   const std::vector<Chart>& charts = garment.image.mates.charts();
-  const std::vector<std::string> names = plain_names(charts);
+  const std::vector<std::string> names = file_names(charts);
   std::vector<ImagePart> parts, arrays;
   for (std::size_t p = 0; p < charts.size(); ++p) {
     const Chart& chart = charts[p];
