@@ -24,7 +24,7 @@ struct Surroundings {
   std::vector<Neighbour> ring;
   Vec3d area_vector;
   std::vector<Vec3d> rows;  ///< direction of the warp at each sample, unit length or 0
-  bool cut = false;         ///< at some sample the warp is not that of the rows
+  bool cut = false;         ///< at some sample the rest shape tells the warp, whatever the rows are
   double spacing = 0;       ///< mean length of the straight edges [m]
   bool free = false;        ///< on a free border
 };
