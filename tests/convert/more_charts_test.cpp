@@ -1,9 +1,11 @@
 #include "weft/convert/more_charts.h"
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -113,6 +115,34 @@ TEST(MoreCharts, TheFirstStaysWhereOthersLoseFailOrNeedALargerImage) {
       with_more_charts(with_stretch(1, 100), {.first = 8, .most = 8},
                        [](int charts) { return with_stretch(charts, 2, 49.7); });
   EXPECT_EQ(losing.charts.size(), 1u);
+}
+
+TEST(MoreCharts, WhatAllTrialsAreToldIsToldOnce) {
+  Conversion first = with_stretch(1, 100);
+  first.warnings = {"the seam is short", "of the first alone"};
+  const Conversion made =
+      with_more_charts(std::move(first), {.first = 8, .most = 32}, [](int charts) {
+        Conversion trial = with_stretch(charts, 3);
+        trial.warnings = {"the seam is short", "of the trial alone"};
+        return trial;
+      });
+  ASSERT_EQ(made.warnings.size(), 4u);
+  EXPECT_EQ(made.warnings[0], "the seam is short");
+  EXPECT_EQ(made.warnings[1], "of the first alone");
+  EXPECT_EQ(made.warnings[2], "of the trial alone");
+}
+
+TEST(MoreCharts, SecondsAreThoseOfFailedTrialsToo) {
+  constexpr std::chrono::milliseconds pause(30);
+  const auto failing = [&](int charts) -> std::optional<Conversion> {
+    std::this_thread::sleep_for(pause);
+    if (charts > 20) return std::nullopt;
+    throw TopologyError("", "too many charts", "fewer");
+  };
+  const Conversion made =
+      with_more_charts(with_stretch(1, 100), {.first = 32, .most = 32}, failing);
+  EXPECT_GE(made.seconds.cut, 0.06) << "of two";
+  EXPECT_EQ(made.seconds.map, 1) << "of the first image";
 }
 
 /// A wire of five turns, 300 times longer than thick, beside a ball.

@@ -79,7 +79,7 @@ void measure(Conversion& made, const ConvertOptions& options) {
   update(options.progress, "measure", 0);
   made.quality =
       measure_image(made.image, made.input.mesh, {options.threads, options.seed, options.progress});
-  made.seconds.measure = watch.lap();
+  made.seconds.measure += watch.lap();
 }
 
 /// With one way of parting. @return nothing where the charts need a larger image than `most`
@@ -113,7 +113,9 @@ Conversion improved(Conversion first, const TriangleMesh& mesh, const std::strin
   const MoreCharts more = more_charts_for(first);
   if (more.most < 2 || options.seam || options.seed_triangle >= 0) return first;
   if (!options.measure) {
+    const Stopwatch watch;
     const ImageQuality folds = measure_folds(first.image, first.input.mesh);
+    first.seconds.measure += watch.seconds();
     first.quality.area_ratio = folds.area_ratio;
     first.quality.reversed_area = folds.reversed_area;
     if (!is_poor(first)) return first;

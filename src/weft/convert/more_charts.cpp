@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "weft/convert/pieces.h"
+#include "weft/core/stopwatch.h"
 #include "weft/error.h"
 #include "weft/param/square_map.h"
 
@@ -32,12 +33,28 @@ void add(StageSeconds& to, const StageSeconds& more) {
 }
 
 /// Too many charts for a small mesh, say, do not prevent what was found already.
-std::optional<Conversion> attempt(const ConvertToCharts& convert, int charts) {
+/// @param spent  the trial's seconds are added; those of one that leads to nothing went into cuts
+std::optional<Conversion> attempt(const ConvertToCharts& convert, int charts, StageSeconds& spent) {
+  const Stopwatch watch;
   try {
-    return convert(charts);
+    if (std::optional<Conversion> made = convert(charts)) {
+      add(spent, std::exchange(made->seconds, {}));
+      return made;
+    }
   } catch (const TopologyError&) {
-    return std::nullopt;
+    // As one that does not fit.
   }
+  spent.cut += watch.seconds();
+  return std::nullopt;
+}
+
+/// Puts those in front that are not there already: trials repeat what the first image was told.
+void put_before(std::vector<std::string>& warnings, const std::vector<std::string>& earlier) {
+  std::vector<std::string> all = earlier;
+  for (std::string& warning : warnings)
+    if (std::find(earlier.begin(), earlier.end(), warning) == earlier.end())
+      all.push_back(std::move(warning));
+  warnings = std::move(all);
 }
 
 bool is_better(const Conversion& made, const Conversion& best, double first_psnr) {
@@ -93,10 +110,9 @@ Conversion with_more_charts(Conversion first, const MoreCharts& more,
   Conversion best = std::move(first);
   int count = more.first;
   for (int trial = 0; trial < max_trials && count >= 2; ++trial) {
-    std::optional<Conversion> made = attempt(convert, least + count);
+    std::optional<Conversion> made = attempt(convert, least + count, spent);
     const bool fits = made && chart_count(*made) > least;
     if (fits) {
-      add(spent, std::exchange(made->seconds, {}));
       if (is_better(*made, best, first_psnr)) best = std::move(*made);
       if (!is_poor(best) && best.quality.psnr_db >= first_psnr + enough_db) break;
     }
@@ -106,7 +122,7 @@ Conversion with_more_charts(Conversion first, const MoreCharts& more,
   }
   best.seconds = spent;
   if (const int taken = chart_count(best); taken != least) {
-    best.warnings.insert(best.warnings.begin(), warnings.begin(), warnings.end());
+    put_before(best.warnings, warnings);
     best.warnings.push_back(fmt::format("{}; {} were taken", why, charts_text(taken)));
   }
   return best;

@@ -36,7 +36,8 @@ using ConvertToCharts = std::function<std::optional<Conversion>(int charts)>;
 /// more as the first, or a quarter where the first did not fit. One that is not poor and loses no
 /// more than 0.2 dB goes before those that are; of others the best PSNR does, by more than 0.5 dB.
 /// The second is left out where the first is not poor and gains 6 dB.
-/// The result's seconds are those of all trials. @pre all are measured
+/// The result's seconds are those of all trials, also of those that led to nothing. @pre all are
+/// measured
 Conversion with_more_charts(Conversion first, const MoreCharts& more,
                             const ConvertToCharts& convert);
 
