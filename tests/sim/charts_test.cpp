@@ -9,6 +9,7 @@
 #include "tests/support/errors.h"
 #include "weft/collide/intersections.h"
 #include "weft/convert.h"
+#include "weft/core/math.h"
 #include "weft/error.h"
 #include "weft/scene_file.h"
 #include "weft/shapes.h"
@@ -82,6 +83,54 @@ TEST(ChartBodies, MoveAsOne) {
   Simulation simulation(scene, "charts", 1);
   for (int frame = 0; frame < 25; ++frame)
     EXPECT_GT(simulation.advance().smallest_gap, 0) << "frame " << frame;
+}
+
+/// A coil of six turns, which the image of one chart holds badly.
+TriangleMesh coil() {
+  constexpr int around = 6, rings = 180;
+  TriangleMesh mesh;
+  for (int i = 0; i <= rings; ++i)
+    for (int k = 0; k < around; ++k) {
+      const double angle = 12 * pi * i / rings, across = 2 * pi * k / around;
+      const double radius = 0.15 + 0.006 * cosine(across);
+      mesh.positions.push_back(
+          {radius * cosine(angle), 0.0025 * i + 0.006 * sine(across) - 0.1, radius * sine(angle)});
+    }
+  for (int i = 0; i < rings; ++i)
+    for (int k = 0; k < around; ++k) {
+      const int a = i * around + k, b = i * around + (k + 1) % around;
+      mesh.triangles.push_back({a, b, b + around});
+      mesh.triangles.push_back({a, b + around, a + around});
+    }
+  return mesh;
+}
+
+TEST(ChartBodies, PoorOnesStayWholeForMethodsThatKnowOneChartOnly) {
+  Scene scene = sheet_over({coil(), "coil"});
+  scene.bodies[0].size = 97;
+  EXPECT_GT(Simulation(scene, "s", 1).bodies()[0].image.mates.charts().size(), 1U);
+  scene.integrator = ImplicitOptions{};  // of cloths only: bodies are the collider's
+  EXPECT_GT(Simulation(scene, "s", 1).bodies()[0].image.mates.charts().size(), 1U);
+  for (const ColliderOptions& collider :
+       {ColliderOptions{PolarMapOptions{}}, ColliderOptions{SpatialHashOptions{}}}) {
+    scene.collider = collider;
+    EXPECT_TRUE(Simulation(scene, "s", 1).bodies()[0].image.has_one_chart());
+  }
+}
+
+TEST(ChartCloths, PoorOnesStayWholeForMethodsThatKnowOneChartOnly) {
+  Scene scene;
+  SceneCloth cloth;
+  cloth.surface = Surface(coil(), "coil");
+  cloth.self_collision = false;
+  cloth.size = 97;
+  scene.cloths = {cloth};
+  EXPECT_GT(Simulation(scene, "s", 1).cloths()[0].image.mates.charts().size(), 1U);
+  Scene other = scene;
+  other.collider = SpatialHashOptions{};
+  EXPECT_TRUE(Simulation(other, "s", 1).cloths()[0].image.has_one_chart());
+  scene.integrator = ImplicitOptions{};
+  EXPECT_TRUE(Simulation(scene, "s", 1).cloths()[0].image.has_one_chart());
 }
 
 TEST(ChartBodies, CollidersThatCannotTakeThemSaySo) {

@@ -133,6 +133,12 @@ bool has_direction(const Material& material) {
          material.bending.warp != material.bending.weft;
 }
 
+/// Methods that know one chart only get as few as the mesh can be made of, however poor: others get
+/// more where one is stretched.
+ChartChoice charts_for(bool several) {
+  return several ? ChartChoice::automatic : ChartChoice::pieces;
+}
+
 }  // namespace
 
 Planes3 Simulation::Parts::place(const SceneCloth& wanted, const LoadedSurface& loaded,
@@ -150,13 +156,15 @@ Planes3 Simulation::Parts::place(const SceneCloth& wanted, const LoadedSurface& 
 }
 
 void Simulation::Parts::load_cloths() {
+  const bool several = Colliders::traits_of(scene.collider).several_charts &&
+                       Integrators::traits_of(scene.integrator).several_charts;
   int garments = 0;
   for (const SceneCloth& wanted : scene.cloths) {
     ConvertOptions options;
     options.size = wanted.size;
     options.spacing = wanted.spacing;
     options.keep_uv = wanted.rest.has_value() && !is_image_surface(wanted.surface);
-    if (options.keep_uv) options.charts = ChartChoice::texture;
+    options.charts = options.keep_uv ? ChartChoice::texture : charts_for(several);
     options.keep_warp = !wanted.rest && has_direction(wanted.material);
     options.progress = progress;
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
@@ -179,6 +187,7 @@ void Simulation::Parts::load_bodies() {
   for (const SceneBody& wanted : scene.bodies) {
     ConvertOptions options;
     options.size = wanted.size;
+    options.charts = charts_for(Colliders::traits_of(scene.collider).several_charts);
     options.normal_map_size = body_normal_map_size;
     options.keep_places = !wanted.animation.empty();
     options.progress = progress;
