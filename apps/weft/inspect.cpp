@@ -18,11 +18,11 @@
 namespace weft::app {
 namespace {
 
+void compare_meshes(const InspectArgs& args, const Context& context);
+
 void inspect(const InspectArgs& args, const Context& context) {
   if (is_image_name(args.subject)) return inspect_image(args, context);
-  if (!args.against.empty())
-    throw UsageError("--against", "the subject is a mesh",
-                     "a geometry image is compared against a mesh");
+  if (!args.against.empty()) return compare_meshes(args, context);
   inspect_mesh(args, context);
 }
 
@@ -33,7 +33,7 @@ void add_inspect(CLI::App& program, const Context& context) {
   CLI::App* command = program.add_subcommand("inspect", "Say what a mesh or a geometry image is");
   command->add_option("MESH|IMAGE", args->subject, "Mesh, builtin:NAME, or geometry image")
       ->required();
-  command->add_option("--against", args->against, "Mesh to measure the image's distance to");
+  command->add_option("--against", args->against, "Mesh to measure the distance to");
   add_mesh_options(*command, args->frame);
   command->footer("Example: weft inspect bunny.exr --against bunny.obj");
   command->callback([args, &context] { inspect(*args, context); });
@@ -44,22 +44,32 @@ Json one_sided_json(const OneSidedDistance& distance) {
   return {{"rms", distance.rms}, {"largest", distance.largest}};
 }
 
-void add_distances(const InspectArgs& args, const Context& context, const GeometryImage& image,
-                   Json& found) {
-  TerminalProgress progress(context.quiet || context.json);
-  const ImageQuality quality = measure_image(image, load_named_mesh(args.against, args.frame).mesh,
-                                             {context.threads, context.seed, &progress});
+/// @param kind  what the subject is called: image, or subject
+void add_distances(const InspectArgs& args, const Context& context, const ImageQuality& quality,
+                   const std::string& kind, Json& found) {
   found["psnr_db"] = quality.psnr_db;
   found["hausdorff_percent"] = quality.hausdorff_percent;
   found["from_mesh"] = one_sided_json(quality.from_mesh);
-  found["from_image"] = one_sided_json(quality.from_image);
+  found["from_" + kind] = one_sided_json(quality.from_image);
   say(context, fmt::format("against {}: PSNR {:.1f} dB, Hausdorff {:.2f} %", args.against,
                            quality.psnr_db, quality.hausdorff_percent));
-  say(context,
-      fmt::format("        from the mesh {:.3g} m (largest {:.3g}), from the image {:.3g} m "
-                  "(largest {:.3g})",
-                  quality.from_mesh.rms, quality.from_mesh.largest, quality.from_image.rms,
-                  quality.from_image.largest));
+  say(context, fmt::format("        from the mesh {:.3g} m (largest {:.3g}), from the {} {:.3g} m "
+                           "(largest {:.3g})",
+                           quality.from_mesh.rms, quality.from_mesh.largest, kind,
+                           quality.from_image.rms, quality.from_image.largest));
+}
+
+void compare_meshes(const InspectArgs& args, const Context& context) {
+  TerminalProgress progress(context.quiet || context.json);
+  const TriangleMesh mesh = load_named_mesh(args.against, args.frame).mesh;
+  const TriangleMesh subject = load_named_mesh(args.subject, args.frame).mesh;
+  Json found = Json::object();
+  add_distances(args, context,
+                measure_mesh(subject, mesh, {context.threads, context.seed, &progress}), "subject",
+                found);
+  print_report(
+      context,
+      {{"input", {{"path", args.subject}}}, {"against", found}, {"outputs", Json::array()}});
 }
 
 void say_image(const Context& context, const GeometryImage& image,
@@ -94,7 +104,13 @@ void inspect_image(const InspectArgs& args, const Context& context) {
   found["folded_quads"] = statistics.folded_quads;
   found["zero_area_triangles"] = statistics.zero_area_triangles;
   say_image(context, image, statistics, found);
-  if (!args.against.empty()) add_distances(args, context, image, found);
+  if (!args.against.empty()) {
+    TerminalProgress progress(context.quiet || context.json);
+    const TriangleMesh mesh = load_named_mesh(args.against, args.frame).mesh;
+    add_distances(args, context,
+                  measure_image(image, mesh, {context.threads, context.seed, &progress}), "image",
+                  found);
+  }
   print_report(context,
                {{"input", {{"path", args.subject}}}, {"image", found}, {"outputs", Json::array()}});
 }

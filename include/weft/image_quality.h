@@ -31,6 +31,9 @@ struct MeasureOptions {
 /// manifold
 ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
                            const MeasureOptions& options = {});
+/// The same distances of any two meshes; topology and folds stay as they are in an ImageQuality.
+ImageQuality measure_mesh(const TriangleMesh& other, const TriangleMesh& mesh,
+                          const MeasureOptions& options = {});
 /// Measures the topology alone, which is fast; distances stay 0.
 ImageQuality measure_topology(const GeometryImage& image);
 /// Measures topology, area_ratio and reversed_area; distances stay 0. @throws as measure_image

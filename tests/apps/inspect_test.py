@@ -1,4 +1,5 @@
 """The contract of inspect: what it says of meshes, broken ones too, and of images."""
+import math
 import unittest
 
 from program import ProgramTest
@@ -110,9 +111,14 @@ class Inspect(ProgramTest):
         self.assertGreater(found["psnr_db"], 40)
         self.assertLess(found["bounding_box"]["lower"][0], found["bounding_box"]["upper"][0])
 
-    def test_against_is_for_images(self):
-        line = self.error_of("inspect", "builtin:torus", "--against", "builtin:torus", code=2)
-        self.assertIn("--against", line)
+    def test_meshes_are_compared_with_meshes(self):
+        same = self.run_json("inspect", "builtin:torus", "--against", "builtin:torus")["against"]
+        self.assertGreater(same["psnr_db"], 200)
+        (self.folder / "low.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        (self.folder / "high.obj").write_text("v 0 0 0.01\nv 1 0 0.01\nv 1 1 0.01\nv 0 1 0.01\nf 1 2 3 4\n")
+        apart = self.run_json("inspect", "low.obj", "--against", "high.obj")["against"]
+        self.assertAlmostEqual(apart["psnr_db"], 20 * math.log10(2 ** 0.5 / 0.01), places=6)
+        self.assertAlmostEqual(apart["from_subject"]["largest"], 0.01, places=9)
 
 
 if __name__ == "__main__":

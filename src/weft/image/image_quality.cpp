@@ -70,6 +70,19 @@ double diagonal(const TriangleMesh& mesh) {
   return box.diagonal();
 }
 
+void set_distances(ImageQuality& quality, const TriangleMesh& other, const TriangleMesh& mesh,
+                   const ClosestPointQuery& query, const MeasureOptions& options) {
+  const SurfaceDistance distance = surface_distance(
+      mesh, query, other,
+      {.seed = options.seed, .threads = options.threads, .progress = options.progress});
+  quality.from_mesh = distance.from_first;
+  quality.from_image = distance.from_second;
+  const double size = diagonal(mesh);
+  quality.psnr_db = distance.rms > 0 ? 20 * std::log10(size / distance.rms) : best_psnr_db;
+  quality.psnr_db = std::min(quality.psnr_db, best_psnr_db);
+  quality.hausdorff_percent = size > 0 ? 100 * distance.hausdorff / size : 0;
+}
+
 }  // namespace
 
 ImageQuality measure_topology(const GeometryImage& image) {
@@ -84,16 +97,15 @@ ImageQuality measure_image(const GeometryImage& image, const TriangleMesh& mesh,
   ImageQuality quality;
   set_topology(quality, image, rebuilt);
   const ClosestPointQuery query(mesh);
-  const SurfaceDistance distance = surface_distance(
-      mesh, query, rebuilt,
-      {.seed = options.seed, .threads = options.threads, .progress = options.progress});
-  quality.from_mesh = distance.from_first;
-  quality.from_image = distance.from_second;
-  const double size = diagonal(mesh);
-  quality.psnr_db = distance.rms > 0 ? 20 * std::log10(size / distance.rms) : best_psnr_db;
-  quality.psnr_db = std::min(quality.psnr_db, best_psnr_db);
-  quality.hausdorff_percent = size > 0 ? 100 * distance.hausdorff / size : 0;
+  set_distances(quality, rebuilt, mesh, query, options);
   set_folds(quality, rebuilt, mesh, query);
+  return quality;
+}
+
+ImageQuality measure_mesh(const TriangleMesh& other, const TriangleMesh& mesh,
+                          const MeasureOptions& options) {
+  ImageQuality quality;
+  set_distances(quality, other, mesh, ClosestPointQuery(mesh), options);
   return quality;
 }
 
