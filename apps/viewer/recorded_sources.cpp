@@ -46,11 +46,11 @@ RunSource::RunSource(const std::string& folder, const SourceMaker& maker)
   subject.ground = run_.ground;
   subject.plays = true;
   for (std::size_t i = 0; i < run_.cloths.size(); ++i)
-    subject.cloths.push_back(
-        {run_.cloths[i].name, run_.cloths[i].image.mates, std::nullopt, cloths_[i], true});
+    subject.cloths.push_back({run_.cloths[i].name, run_.cloths[i].image.mates, std::nullopt,
+                              cloths_[i], true, run_.cloths[i].image.colours});
   for (const RecordedBody& body : run_.bodies)
     subject.bodies.push_back({body.name, body.image.mates, body.normals, body.positions_at(0),
-                              body.recorded.has_value()});
+                              body.recorded.has_value(), body.image.colours});
   subject_ = std::make_shared<Subject>(std::move(subject));
 }
 
@@ -89,8 +89,8 @@ StillSource::StillSource(const std::string& name, const SourceMaker& maker) {
   Subject subject;
   subject.number = maker.number;
   subject.name = name;
-  subject.cloths.push_back(
-      {name, loaded.image.mates, std::move(loaded.normals), world_positions(loaded.image), false});
+  subject.cloths.push_back({name, loaded.image.mates, std::move(loaded.normals),
+                            world_positions(loaded.image), false, loaded.image.colours});
   subject.ground = bounds(subject.cloths[0].start).lower.y;
   subject_ = std::make_shared<Subject>(std::move(subject));
 }

@@ -16,11 +16,11 @@ Subject subject_of(const Scene& scene, const Simulation& simulation, const std::
   subject.scene = scene;
   subject.plays = true;
   for (const SimulatedCloth& cloth : simulation.cloths())
-    subject.cloths.push_back(
-        {cloth.name, cloth.image.mates, std::nullopt, cloth.state.position, true});
+    subject.cloths.push_back({cloth.name, cloth.image.mates, std::nullopt, cloth.state.position,
+                              true, cloth.image.colours});
   for (const PlacedBody& body : simulation.bodies())
-    subject.bodies.push_back(
-        {body.name, body.image.mates, body.normals, body.positions, body.moves});
+    subject.bodies.push_back({body.name, body.image.mates, body.normals, body.positions, body.moves,
+                              body.image.colours});
   return subject;
 }
 

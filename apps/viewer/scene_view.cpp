@@ -22,6 +22,13 @@ const Planes3& body_now(const Snapshot& snapshot, std::size_t i) {
   return body.moves ? snapshot.bodies[i] : body.start;
 }
 
+/// In the colours of its image, where that has some.
+void paint(DrawnSurface& drawn, const SubjectSurface& surface) {
+  if (surface.colours.size() == 0) return;
+  drawn.colours = &surface.colours;
+  drawn.colour = {1, 1, 1};
+}
+
 DrawnSurface body_surface(const Snapshot& snapshot, std::size_t i) {
   const SubjectSurface& body = snapshot.subject->bodies[i];
   DrawnSurface drawn;
@@ -29,6 +36,7 @@ DrawnSurface body_surface(const Snapshot& snapshot, std::size_t i) {
   drawn.mates = &body.mates;
   drawn.normals = body.normals ? &*body.normals : nullptr;
   drawn.colour = plaster;
+  paint(drawn, body);
   drawn.look = Look::body;
   // Even numbers for what stands still, odd ones for what moves.
   drawn.revision = body.moves ? 2 * snapshot.number + 1 : 2 * snapshot.subject->number;
@@ -43,6 +51,7 @@ DrawnSurface cloth_surface(const Snapshot& snapshot, std::size_t i) {
   drawn.normals = cloth.normals ? &*cloth.normals : nullptr;
   drawn.look = cloth.moves ? Look::fabric : Look::body;
   drawn.colour = cloth.moves ? fabrics[i % std::size(fabrics)] : plaster;
+  paint(drawn, cloth);
   if (snapshot.colours[i].size() > 0) {
     drawn.colours = &snapshot.colours[i];
     drawn.colour = bright;

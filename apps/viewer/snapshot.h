@@ -19,6 +19,7 @@ struct SubjectSurface {
   std::optional<NormalMap> normals;  ///< where it does not move
   Planes3 start;                     ///< initial positions [m]
   bool moves = false;
+  Planes3 colours{};  ///< of the image, linear RGB; size 0: none
 };
 
 /// The constant data of what is shown.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct ConvertArgs {
   std::string mesh, output, parameterizer = "stretch", component, size = "257", charts = "auto";
   MeshArgs frame;
   int normal_map = 0, seed_triangle = -1, samples = 0;
-  bool keep_uv = false, fit = false;
+  bool keep_uv = false, fit = false, colours = false;
   std::string seam;
 };
 
@@ -72,6 +73,12 @@ void choose_charts(const std::string& arg, ConvertOptions& options) {
     throw UsageError(
         "--charts", fmt::format("'{}'", arg),
         fmt::format("auto, pieces, uv or a number from 1 to {} is wanted", largest_chart_count));
+}
+
+SurfaceColours colours_of(const std::string& mesh) {
+  if (mesh.starts_with("builtin:"))
+    throw UsageError("--colours", "of " + mesh, "a mesh file with colours is wanted");
+  return read_colours(mesh);
 }
 
 ConvertOptions options_of(const ConvertArgs& args, const Context& context, Progress& progress) {
@@ -125,6 +132,10 @@ Json convert_one(const ConvertArgs& args, const Context& context, const NamedMes
   if (conversion.normals) {
     outputs.push_back(beside(output, "-normals"));
     write_normal_map(outputs.back(), *conversion.normals);
+  }
+  if (conversion.colour_map) {
+    outputs.push_back(beside(output, "-colour").replace_extension(".png"));
+    write_colours(outputs.back(), *conversion.colour_map);
   }
   if (conversion.texture) {
     outputs.push_back(beside(output, "-uv").replace_extension(".exr"));
@@ -193,6 +204,8 @@ void convert(const ConvertArgs& args, const Context& context) {
   const auto start = std::chrono::steady_clock::now();
   const NamedMesh named = [&] {
     const PromptStop stop;
+    if (args.colours)
+      options.colours = std::make_shared<const SurfaceColours>(colours_of(args.mesh));
     return load_named_mesh(args.mesh, args.frame);
   }();
   const std::chrono::duration<double> load = std::chrono::steady_clock::now() - start;
@@ -247,6 +260,8 @@ void add_convert(CLI::App& program, const Context& context) {
                     "Move the samples so that the surface between them is nearer to the mesh");
   command->add_flag("--keep-uv", args->keep_uv,
                     "Write the mesh's texture coordinates beside the image, as NAME-uv.exr");
+  command->add_flag("--colours", args->colours,
+                    "Keep vertex colours and pictures: in the image (EXR) and as NAME-colour.png");
   command->add_option(
       "--component", args->component,
       "Of several pieces one: a number (largest is 0), largest; all: an image each");

@@ -21,6 +21,13 @@ struct RunFrame {
   DrawnScene scene;
 };
 
+/// In the colours of its image, where that has some.
+void paint(DrawnSurface& surface, const GeometryImage& image) {
+  if (!image.has_colours()) return;
+  surface.colours = &image.colours;
+  surface.colour = {1, 1, 1};
+}
+
 void add_cloth(RunFrame& drawn, const RecordedCloth& cloth, int frame) {
   const std::size_t k = drawn.cloths.size();
   drawn.cloths.push_back(cloth.recorded.positions(frame));
@@ -29,6 +36,7 @@ void add_cloth(RunFrame& drawn, const RecordedCloth& cloth, int frame) {
   surface.mates = &cloth.image.mates;
   surface.revision = static_cast<std::uint64_t>(frame) + 1;
   surface.colour = cloth_colours[k % std::size(cloth_colours)];
+  paint(surface, cloth.image);
   drawn.scene.surfaces.push_back(surface);
 }
 
@@ -45,6 +53,7 @@ void add_body(RunFrame& drawn, const RecordedBody& body, int frame) {
     surface.normals = &*body.normals;
   }
   surface.colour = plaster;
+  paint(surface, body.image);
   surface.look = Look::body;
   drawn.scene.surfaces.push_back(surface);
 }

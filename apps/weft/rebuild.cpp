@@ -44,7 +44,7 @@ void rebuild(const RebuildArgs& args, const Context& context) {
       throw TopologyError(args.image, error.what(), "");
     }
   }();
-  write_mesh(args.output, rebuilt.mesh);
+  write_mesh(args.output, rebuilt.mesh, vertex_colours(image, rebuilt));
   say(context, fmt::format("mesh    {} vertices, {} triangles, {}, {} borders",
                            found["vertices"].get<int>(), found["triangles"].get<int>(),
                            genus_text(found["genus"]), found["boundaries"].get<int>()));

@@ -140,7 +140,10 @@ void Shown::show_image(const ShownArgs& args, const GeometryImage& image) {
       surface_ = stretch_on_surface(image);
       drawing = draw_stretch(surface_);
     } else {
-      surface_.mesh = rebuild_mesh(image).mesh;
+      RebuiltMesh rebuilt = rebuild_mesh(image);
+      for (const Vec3f colour : vertex_colours(image, rebuilt))
+        drawing.colours.push_back(display_colour(colour));
+      surface_.mesh = std::move(rebuilt.mesh);
     }
     if (args.show != "surface") add_cut(drawing, image);
     show(drawing, args.view);

@@ -14,6 +14,7 @@
 #include "weft/geometry_image.h"
 #include "weft/image_quality.h"
 #include "weft/mesh.h"
+#include "weft/mesh_colours.h"
 #include "weft/parameterizer.h"
 #include "weft/progress.h"
 #include "weft/repair.h"
@@ -45,8 +46,9 @@ struct ConvertOptions {
   int seed_triangle = -1;     ///< of the input, before repair; -1: choose
   std::optional<Seam> seam;   ///< cut here, and elsewhere only as far as it must be for a disk
   bool augment = true;
-  int normal_map_size = 0;   ///< 0: none
-  bool keep_uv = false;      ///< sample the mesh's own texture coordinates too
+  int normal_map_size = 0;  ///< 0: none
+  bool keep_uv = false;     ///< sample the mesh's own texture coordinates too
+  std::shared_ptr<const SurfaceColours> colours{};  ///< of the mesh's triangles, to be sampled too
   bool keep_places = false;  ///< record where on the mesh each sample lies (load_surface)
   bool keep_warp = false;  ///< where it has texture coordinates, the direction of u (load_surface)
   bool keep_source = false;  ///< keep the mesh and where its vertices lie (load_surface)
@@ -87,6 +89,8 @@ struct Conversion {
   std::vector<ConvertedChart> charts;  ///< the largest area first
   GeometryImage image;
   std::optional<NormalMap> normals;
+  /// With colours, [m x m] where m - 1 is a multiple of n - 1: the image's own are means of these.
+  std::optional<Planes3> colour_map;
   std::optional<Planes3> texture;  ///< with keep_uv: x = u, y = v; mates differ along seams of it
   ImageQuality quality;
   StageSeconds seconds;

@@ -137,8 +137,12 @@ struct GeometryImage {
   WorldMap world;
   std::string source;       ///< file name (without folder) or builtin:NAME that it was made from
   std::string source_hash;  ///< 16 hexadecimal digits over that mesh, or empty
+  /// [n x n] the surface's colours, linear RGB in [0, 1], or of size 0: none; mates hold equal
+  /// bits.
+  Planes3 colours{};
 
   [[nodiscard]] int size() const { return cube.size(); }
+  [[nodiscard]] bool has_colours() const { return colours.size() > 0; }
   /// Whether it is one square chart joined to an oriented manifold, as those of the paper are.
   [[nodiscard]] bool has_one_chart() const {
     return mates.charts().size() <= 1 && mates.chart_of().empty() && mates.keep_manifold();
@@ -165,7 +169,8 @@ bool mates_bit_equal(const GeometryImage& image);
 /// Refuses an image that violates the invariants of GeometryImage, as one made by a caller may.
 /// @param name  of the image in the error
 /// @throws InputError for a side out of range, mates of another size, positions outside the unit
-///         cube or not finite, a world without size, or mates that differ
+///         cube or not finite, a world without size, mates that differ, or colours of another size
+///         or outside of [0, 1]
 void check_image(const GeometryImage& image, std::string_view name);
 
 /// World positions of all samples; mates are equal.
@@ -182,6 +187,9 @@ struct RebuiltMesh {
   std::vector<int> sample_of;  ///< [V] the representative sample of every vertex, ascending
 };
 RebuiltMesh rebuild_mesh(const GeometryImage& image);
+
+/// The colours of the vertices of a rebuilt mesh, linear RGB; empty where the image has none. [V]
+std::vector<Vec3f> vertex_colours(const GeometryImage& image, const RebuiltMesh& rebuilt);
 
 /// A coarser level of an image: every 2^level-th row and column, mates joined as they were.
 /// @return nothing where charts or seams do not lie on those, or the level has another topology

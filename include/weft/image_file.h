@@ -10,7 +10,8 @@ namespace weft {
 
 /// Writes a geometry image by the ending of the name: .exr (float32, the same bits when read back)
 /// or .png (16 bits a channel: positions are rounded to 1 / 65535 of the cube's side). Mates, world
-/// map and source travel inside. @throws OutputError; UsageError on another ending
+/// map and source travel inside; EXR keeps colours, too, as half floats. @throws OutputError;
+/// UsageError on another ending
 void write_image(const std::filesystem::path& path, const GeometryImage& image);
 
 /// The same files in memory.
@@ -28,6 +29,10 @@ GeometryImage parse_image(std::string_view bytes, std::string_view where);
 /// A normal map as an 8-bit PNG (n * 127.5 + 127.5) or float EXR, by the ending of the name, for
 /// other programs. @throws OutputError; UsageError on another ending
 void write_normal_map(const std::filesystem::path& path, const NormalMap& normals);
+
+/// Colours as an 8-bit sRGB PNG, for other programs. @param colours  linear RGB in [0, 1]
+/// @throws OutputError
+void write_colours(const std::filesystem::path& path, const Planes3& colours);
 
 /// Texture coordinates as a float EXR, R = u, G = v, B = 0. @throws OutputError
 void write_texture(const std::filesystem::path& path, const Planes3& texture);

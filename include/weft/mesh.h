@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -112,10 +113,14 @@ TriangleMesh parse_gltf(std::string_view bytes, std::string_view name,
 
 /// Writes OBJ or PLY (binary, double precision) by the ending of the name. Numbers are written so
 /// that reading them back gives the same bits. @throws OutputError; UsageError on another ending
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// @param colours  [V] linear RGB: written as vertex colours (PLY: bytes; OBJ: behind positions),
+/// in
+///                 display values of sRGB; none when empty
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
+                std::span<const Vec3f> colours = {});
 
 /// The same files in memory.
-std::string obj_text(const TriangleMesh& mesh);
-std::string ply_bytes(const TriangleMesh& mesh);
+std::string obj_text(const TriangleMesh& mesh, std::span<const Vec3f> colours = {});
+std::string ply_bytes(const TriangleMesh& mesh, std::span<const Vec3f> colours = {});
 
 }  // namespace weft

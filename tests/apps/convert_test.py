@@ -57,6 +57,50 @@ class Convert(ProgramTest):
                                    "--parameterizer", name)
             self.assertEqual(report["map"]["parameterizer"], name)
 
+    def painted(self, name="painted.ply"):
+        """A ball, red where x < 0 and blue elsewhere."""
+        self.run_weft("shapes", "sphere", "-o", "ball.obj")
+        lines = (self.folder / "ball.obj").read_text().splitlines()
+        points = [line.split()[1:] for line in lines if line.startswith("v ")]
+        faces = [[int(word) - 1 for word in line.split()[1:]] for line in lines if line.startswith("f ")]
+        header = ("ply\nformat ascii 1.0\nelement vertex {}\n" + "".join(f"property double {axis}\n" for axis in "xyz") +
+                  "".join(f"property uchar {colour}\n" for colour in ("red", "green", "blue")) +
+                  "element face {}\nproperty list uchar int vertex_indices\nend_header\n")
+        with open(self.folder / name, "w", encoding="utf-8") as file:
+            file.write(header.format(len(points), len(faces)))
+            file.writelines(" ".join(p) + (" 255 0 0\n" if float(p[0]) < 0 else " 0 0 255\n") for p in points)
+            file.writelines(f"3 {a} {b} {c}\n" for a, b, c in faces)
+        return name
+
+    def colours_of(self, name):
+        """Positions and colours of a PLY that weft wrote."""
+        data = (self.folder / name).read_bytes()
+        head, body = data.split(b"end_header\n", 1)
+        self.assertIn(b"property uchar red\n", head)
+        count = int(head.split(b"element vertex ")[1].split()[0])
+        return [struct.unpack_from("<3d3B", body, 27 * k) for k in range(count)]
+
+    def test_colours_go_through_the_image_into_the_mesh(self):
+        report = self.run_json("convert", self.painted(), "-o", "ball.exr", "--size", "65", "--colours")
+        self.assertEqual(report["outputs"], ["ball.exr", "ball-colour.png"])
+        width, height = struct.unpack(">II", (self.folder / "ball-colour.png").read_bytes()[16:24])
+        self.assertEqual((width, height), (257, 257))
+        plain = self.run_json("convert", "painted.ply", "-o", "plain.exr", "--size", "65")
+        self.assertEqual(plain["image"]["psnr_db"], report["image"]["psnr_db"])
+        self.assertEqual(plain["outputs"], ["plain.exr"])
+        self.run_weft("rebuild", "ball.exr", "-o", "again.ply")
+        far = [(x, colour) for x, _, _, *colour in self.colours_of("again.ply") if abs(x) > 0.1]
+        self.assertGreater(len(far), 1000)
+        for x, colour in far:
+            self.assertEqual(colour, [255, 0, 0] if x < 0 else [0, 0, 255])
+
+    def test_colours_that_are_not_there_are_an_error(self):
+        self.run_weft("shapes", "sphere", "-o", "ball.obj")
+        line = self.error_of("convert", "ball.obj", "-o", "b.exr", "--colours", code=3)
+        self.assertIn("ball.obj: has no colours; vertex colours, or materials", line)
+        self.assertIn("--colours", self.error_of("convert", "builtin:sphere", "-o", "b.exr", "--colours", code=2))
+        self.assertFalse((self.folder / "b.exr").exists())
+
     def test_normal_map_is_written_beside(self):
         report = self.run_json("convert", "builtin:sphere", "-o", "s.png", "--size", "33", "--normal-map", "64")
         self.assertEqual(report["outputs"], ["s.png", "s-normals.png"])

@@ -155,6 +155,15 @@ class Reader(ProgramTest):
         self.check_mesh("builtin:genus20", (65, 129), charts="1")  # else it would be several
         self.check_mesh("builtin:mannequin", (65,))
 
+    def test_colours_are_stepped_over(self):
+        points, triangles = self.shape("torus")
+        (self.folder / "painted.obj").write_text("".join(f"v {x} {y} {z} 0 {k % 2} 0.5\n" for k, (x, y, z) in enumerate(points)) +
+                                                 "".join(f"f {a} {b} {c}\n" for a, b, c in triangles))
+        self.run_weft("convert", "painted.obj", "-o", "image.exr", "--size", 33, "--colours")
+        self.run_weft("convert", "painted.obj", "-o", "plain.exr", "--size", 33)
+        self.assertIn(b"colour.R", (self.folder / "image.exr").read_bytes())
+        self.assert_same(self.read("image.exr"), self.rebuilt("plain.exr"))
+
     def test_pieces_pages_and_bands_of_several_charts(self):
         pieces = beside([self.shape(name) for name in ("sphere", "torus", "tshirt")])
         self.check_mesh(self.write("pieces.obj", pieces), (65, 129), version=2)

@@ -33,6 +33,28 @@ class Render(ProgramTest):
         self.run_weft("render", "t.exr", "-o", "colours.png")
         self.assertEqual(self.size_of("colours.png"), (33 * 8, 33 * 8))
 
+    def colours_of(self, name):
+        """How many pixels of a picture are clearly red, green, blue."""
+        done = subprocess.run(["ffmpeg", "-loglevel", "error", "-i", self.folder / name, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
+                              capture_output=True, check=True)
+        pixels = zip(*[iter(done.stdout)] * 3)
+        counts = [0, 0, 0]
+        for pixel in pixels:
+            for k in range(3):
+                counts[k] += pixel[k] > 2 * max(pixel[k - 1], pixel[k - 2])
+        return counts
+
+    def test_images_are_drawn_in_their_colours(self):
+        (self.folder / "painted.obj").write_text("v -1 0 0 1 0 0\nv 0 0 0 1 0 0\nv -1 1 0 1 0 0\nv 0 1 0 0 0 1\nv 1 0 0 0 0 1\n"
+                                                 "v 1 1 0 0 0 1\nf 1 2 4 3\nf 2 5 6 4\n")
+        for words, name in ((["--colours"], "painted"), ([], "plain")):
+            self.run_weft("convert", "painted.obj", "-o", f"{name}.exr", "--size", "33", *words)
+            self.run_weft("render", f"{name}.exr", "-o", f"{name}.png", "--show", "surface", "--width", "160", "--height", "120")
+        red, green, blue = self.colours_of("painted.png")
+        self.assertGreater(min(red, blue), 500)
+        self.assertEqual(green, 0)
+        self.assertEqual(self.colours_of("plain.png"), [0, 0, 0])
+
     def test_the_same_words_give_the_same_bytes(self):
         for name in ("a.png", "b.png"):
             self.run_weft("render", "builtin:torus", "-o", name, "--width", "160", "--height", "120")

@@ -28,7 +28,7 @@ ALLOWED = {
 # Which module declares itself in which of the public headers; who may include the module may include these.
 PUBLIC = {
     "core": {"methods", "vec", "error", "progress", "grid", "contact", "threads", "files"},
-    "mesh": {"mesh", "point_cache", "shapes", "repair", "mesh_statistics"},
+    "mesh": {"mesh", "point_cache", "shapes", "repair", "mesh_statistics", "mesh_colours"},
     "image": {"geometry_image", "image_file", "image_quality"},
     "cut": {"cut"},
     "param": {"parameterizer"},

@@ -7,15 +7,15 @@ while rest[0]:  # name, type, size and value of an attribute; an empty name ends
     name, _, rest = rest.split(b"\0", 2)
     size = int.from_bytes(rest[:4], "little")
     header[name], rest = rest[4:4 + size], rest[4 + size:]
-n = (weft := json.loads(header[b"weft"]))["size"]
+n, behind = (weft := json.loads(header[b"weft"]))["size"], 6 * (b"colour.R" in header[b"channels"])
 for offset in struct.unpack_from(f"<{(n + 15) // 16}Q", rest, 1):  # blocks of 16 rows
     row, size = struct.unpack_from("<2i", data, offset)
-    block, whole = data[offset + 8:offset + 8 + size], 12 * n * min(16, n - row)
+    block, whole = data[offset + 8:offset + 8 + size], (12 + behind) * n * min(16, n - row)
     if size < whole:
         parted = bytes(itertools.accumulate(zlib.decompress(block), lambda a, b: a + b - 128 & 255))
         block = bytes(itertools.chain(*zip(parted[:whole // 2], parted[whole // 2:])))
-    for blue, green, red in zip(*[struct.iter_unpack(f"<{n}f", block)] * 3):
-        samples += zip(red, green, blue)
+    for line in struct.iter_unpack(f"<{3 * n}f{behind * n}x", block):  # blue, green, red, colours
+        samples += zip(line[2 * n:], line[n:], line)
 def square(a, b):  # of the distance of two samples
     x, y, z = (p - q for p, q in zip(samples[a], samples[b]))
     return x * x + y * y + z * z

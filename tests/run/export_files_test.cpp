@@ -3,15 +3,19 @@
 #include <gtest/gtest.h>
 
 #include "tests/run/exported_runs.h"
+#include "tests/support/convert_options.h"
+#include "weft/convert.h"
 #include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/mesh.h"
+#include "weft/mesh_colours.h"
 
 namespace weft {
 namespace {
 
 using test::as_floats;
 using test::ExportedRun;
+using test::sized;
 using test::thrown_ring;
 constexpr int frames = test::exported_frames;
 
@@ -25,6 +29,32 @@ TEST(Exports, ObjIsFrameZeroOfTheCache) {
   for (std::size_t at = text.find("\nvn "); at != text.npos; at = text.find("\nvn ", at + 1))
     ++normals;
   EXPECT_EQ(normals, 256);
+}
+
+TEST(Exports, PlyAndGlbHaveTheColoursOfTheImage) {
+  Scene scene = thrown_ring();
+  GeometryImage image = load_surface({"builtin:torus"}, sized(17)).image;
+  image.colours = Planes3(17);
+  const auto colour = [](const GeometryImage& of, int sample) {
+    const Vec3f p = of.cube.at(sample);  // exact in single precision, as GLB has it
+    return Vec3f{p.x, 1 - p.y, 0.5F};
+  };
+  for (int s = 0; s < 17 * 17; ++s)
+    image.colours.set(s, colour(image, image.mates.representative(s)));
+  scene.cloths[0].surface = Surface(image, "ring");
+  const ExportedRun run(scene, WrittenOn::image);
+  const RebuiltMesh rebuilt = rebuild_mesh(image);
+  const std::vector<Vec3f> wanted = vertex_colours(image, rebuilt);
+  for (const char* name : {"ring_ply/ring_0002.ply", "ring.glb"}) {
+    const TriangleMesh mesh = read_mesh(run.folder / name);
+    const SurfaceColours found = read_colours(run.folder / name);
+    ASSERT_EQ(mesh.triangles.size(), rebuilt.mesh.triangles.size()) << name;
+    for (std::size_t t = 0; t < rebuilt.mesh.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        ASSERT_EQ(display_bytes(found.corners[t][k]),
+                  display_bytes(wanted[rebuilt.mesh.triangles[t][k]]))
+            << name;
+  }
 }
 
 TEST(Exports, MddHasTheSamePointsAndTheTimesInSeconds) {

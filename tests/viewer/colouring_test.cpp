@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/viewer/scene_view.h"
 #include "tests/view/shapes.h"
 #include "weft/image/builtin.h"
 
@@ -75,6 +76,26 @@ TEST(Colouring, EvenStepsAreWhiteAndLongOnesRed) {
   }
   colour_stretch(sheet, colours);
   EXPECT_GT(colours.at(9, n - 1).x, 1.5F * colours.at(9, n - 1).z);
+}
+
+TEST(Colouring, ImagesHaveTheirOwnUntilSomethingElseIsAskedFor) {
+  Subject subject;
+  const BorderMates mates(n, {});
+  subject.cloths = {{"cloth", mates, {}, Planes3(n), true, Planes3(n)}};
+  subject.bodies = {{"painted", mates, {}, Planes3(n), false, Planes3(n)},
+                    {"plain", mates, {}, Planes3(n), false, {}}};
+  Snapshot snapshot;
+  snapshot.subject = std::make_shared<const Subject>(subject);
+  snapshot.cloths = {Planes3(n)};
+  snapshot.bodies.resize(2);
+  snapshot.colours.resize(1);
+  const DrawnScene own = drawn_scene(snapshot, {});
+  EXPECT_EQ(own.surfaces[0].colours, &snapshot.subject->cloths[0].colours);
+  EXPECT_EQ(own.surfaces[1].colours, &snapshot.subject->bodies[0].colours);
+  EXPECT_EQ(own.surfaces[1].colour, (Vec3f{1, 1, 1}));
+  EXPECT_EQ(own.surfaces[2].colours, nullptr);
+  snapshot.colours[0] = Planes3(n);
+  EXPECT_EQ(drawn_scene(snapshot, {}).surfaces[0].colours, &snapshot.colours[0]);
 }
 
 }  // namespace

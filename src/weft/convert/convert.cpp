@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/convert/bake_colours.h"
 #include "weft/convert/chart_packing.h"
 #include "weft/convert/image_conversion.h"
 #include "weft/convert/more_charts.h"
@@ -142,6 +143,11 @@ Conversion convert_mesh(const TriangleMesh& mesh, const std::string& name,
   Conversion made = *convert_parted(mesh, name, options, parts_of(options), largest_image_size);
   if (options.charts == ChartChoice::automatic)
     made = improved(std::move(made), mesh, name, options);
+  if (options.colours) {
+    const Stopwatch watch;
+    bake_colours(mesh, *options.colours, made);
+    made.seconds.sample += watch.seconds();
+  }
   if (options.measure && is_poor(made))
     made.warnings.push_back(
         fmt::format("the image is poor: {}; a larger size may help", folds_of(made)));

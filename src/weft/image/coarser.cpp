@@ -49,9 +49,12 @@ std::optional<GeometryImage> coarser_image(const GeometryImage& image, int level
   coarse.mates = coarser_mates(image, step);
   const int size = coarse.mates.size();
   coarse.cube = Planes3(size);
+  if (image.has_colours()) coarse.colours = Planes3(size);
   for (int s = 0; s < size * size; ++s) {
     const int from = coarse.mates.representative(s);
-    coarse.cube.set(s, image.cube.at(step * (from / size), step * (from % size)));
+    const int row = step * (from / size), col = step * (from % size);
+    coarse.cube.set(s, image.cube.at(row, col));
+    if (image.has_colours()) coarse.colours.set(s, image.colours.at(row, col));
   }
   const ImageQuality fine = measure_topology(image), found = measure_topology(coarse);
   if (fine.euler != found.euler || fine.boundaries != found.boundaries) return std::nullopt;

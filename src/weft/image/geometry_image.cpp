@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "weft/error.h"
+#include "weft/image/image_colours.h"
 
 namespace weft {
 namespace {
@@ -51,6 +52,7 @@ void check_image(const GeometryImage& image, std::string_view name) {
                      fmt::format("mates of side {}", n));
   if (!mates_bit_equal(image))
     throw InputError(name, "border mates with different positions", "mates that hold equal bits");
+  check_colours(image, name);
 }
 
 bool mates_bit_equal(const GeometryImage& image) {

@@ -5,7 +5,9 @@
 #include <cstring>
 #include <exception>
 #include <stdexcept>
+#include <vector>
 
+#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -22,7 +24,9 @@
 namespace weft {
 namespace {
 
-constexpr std::array<const char*, 3> channel_names{"R", "G", "B"};
+using ChannelNames = std::array<const char*, 3>;
+constexpr ChannelNames channel_names{"R", "G", "B"};
+constexpr ChannelNames colour_names{"colour.R", "colour.G", "colour.B"};
 
 class MemoryInput : public Imf::IStream {
  public:
@@ -44,14 +48,28 @@ class MemoryInput : public Imf::IStream {
 };
 
 // OpenEXR takes one plane type for reading and writing, so the view is of mutable samples.
-Imf::FrameBuffer frame_buffer(Planes3& planes) {
-  Imf::FrameBuffer buffer;
+void add_slices(Imf::FrameBuffer& buffer, const ChannelNames& names, Planes3& planes) {
   const std::array<Grid<float>*, 3> grids{&planes.x, &planes.y, &planes.z};
   for (std::size_t k = 0; k < grids.size(); ++k)
-    buffer.insert(channel_names[k],
+    buffer.insert(names[k],
                   Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(grids[k]->row(0)), sizeof(float),
                              sizeof(float) * static_cast<std::size_t>(grids[k]->stride())));
-  return buffer;
+}
+
+/// Half floats, which OpenEXR takes as such when it writes.
+std::vector<Imath::half> halves(const Grid<float>& values) {
+  std::vector<Imath::half> narrow;
+  narrow.reserve(static_cast<std::size_t>(values.rows()) * values.cols());
+  for (int r = 0; r < values.rows(); ++r)
+    for (int c = 0; c < values.cols(); ++c) narrow.emplace_back(values(r, c));
+  return narrow;
+}
+
+bool has_colours(const Imf::Header& header) {
+  return std::all_of(colour_names.begin(), colour_names.end(), [&](const char* name) {
+    const Imf::Channel* channel = header.channels().findChannel(name);
+    return channel != nullptr && channel->xSampling == 1 && channel->ySampling == 1;
+  });
 }
 
 void check_channels(const Imf::Header& header, std::string_view where) {
@@ -74,25 +92,41 @@ DecodedImage decode(std::string_view bytes, std::string_view where) {
     throw InputError(where, "an EXR picture that is no geometry image", "one that weft wrote");
   check_channels(header, where);
   if (!file.isComplete()) throw InputError(where, "an EXR file that was cut short", "a whole file");
-  DecodedImage decoded{Planes3(header.dataWindow().max.x + 1), text->value()};
-  file.setFrameBuffer(frame_buffer(decoded.planes));
+  DecodedImage decoded{Planes3(header.dataWindow().max.x + 1), text->value(), {}};
+  if (has_colours(header)) decoded.colours = Planes3(decoded.planes.size());
+  Imf::FrameBuffer buffer;
+  add_slices(buffer, channel_names, decoded.planes);
+  if (has_colours(header)) add_slices(buffer, colour_names, decoded.colours);
+  file.setFrameBuffer(buffer);
   file.readPixels(0, decoded.planes.size() - 1);
   return decoded;
 }
 
 }  // namespace
 
-std::string encode_exr(const Planes3& planes, const std::string& text) {
+std::string encode_exr(const Planes3& planes, const std::string& text, const Planes3& colours) {
   Planes3 copy = planes;
+  const std::array<std::vector<Imath::half>, 3> narrow{halves(colours.x), halves(colours.y),
+                                                       halves(colours.z)};
   const int n = planes.size();
   Imf::Header header(n, n);
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const char* name : channel_names) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  if (colours.size() > 0)
+    for (const char* name : colour_names) header.channels().insert(name, Imf::Channel(Imf::HALF));
   if (!text.empty()) header.insert(metadata_key, Imf::StringAttribute(text));
   ExrMemory stream;
   {
     Imf::OutputFile file(stream, header, 0);
-    file.setFrameBuffer(frame_buffer(copy));
+    Imf::FrameBuffer buffer;
+    add_slices(buffer, channel_names, copy);
+    if (colours.size() > 0)
+      for (std::size_t k = 0; k < 3; ++k)
+        buffer.insert(colour_names[k],
+                      Imf::Slice(Imf::HALF,
+                                 const_cast<char*>(reinterpret_cast<const char*>(narrow[k].data())),
+                                 sizeof(Imath::half), sizeof(Imath::half) * n));
+    file.setFrameBuffer(buffer);
     file.writePixels(n);
   }
   return stream.take();

@@ -6,9 +6,11 @@
 
 #include "weft/error.h"
 #include "weft/files.h"
+#include "weft/image/image_colours.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image/io/metadata.h"
 #include "weft/image/io/png_codec.h"
+#include "weft/mesh_colours.h"
 
 namespace weft {
 namespace {
@@ -75,7 +77,7 @@ Planes3 planes_of(const PngPicture& picture) {
 }  // namespace
 
 std::string exr_bytes(const GeometryImage& image) {
-  return encode_exr(stored_samples(image), metadata_text(image));
+  return encode_exr(stored_samples(image), metadata_text(image), image.colours);
 }
 
 std::string png_bytes(const GeometryImage& image) {
@@ -103,13 +105,26 @@ GeometryImage parse_image(std::string_view bytes, std::string_view where) {
   using std::string_view_literals::operator""sv;
   if (bytes.starts_with("\x76\x2f\x31\x01"sv)) {
     DecodedImage decoded = decode_exr(bytes, where);
-    return assemble_image(std::move(decoded.planes), decoded.text, where);
+    GeometryImage image = assemble_image(std::move(decoded.planes), decoded.text, where);
+    image.colours = std::move(decoded.colours);
+    check_colours(image, where);
+    join_colours(image);
+    return image;
   }
   if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) {
     const PngPicture picture = decode_png(bytes, where);
     return assemble_image(planes_of(picture), picture.text, where);
   }
   throw InputError(where, "neither an EXR nor a PNG file", "a geometry image");
+}
+
+void write_colours(const std::filesystem::path& path, const Planes3& colours) {
+  Planes3 whole(colours.size());
+  for (int s = 0; s < colours.size() * colours.size(); ++s) {
+    const auto [r, g, b] = display_bytes(colours.at(s));
+    whole.set(s, {static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)});
+  }
+  write_bytes(path, encode_png(picture_of(whole, 8)));
 }
 
 void write_texture(const std::filesystem::path& path, const Planes3& texture) {

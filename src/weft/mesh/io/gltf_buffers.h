@@ -33,6 +33,10 @@ class GltfBuffers {
 
   /// The part of a buffer that a buffer view names. @throws InputError
   std::string_view view(int buffer_view);
+  /// What a uri of an object names. @throws InputError
+  std::string_view resource(const GltfObject& object, const std::string& uri) {
+    return fetch(object, uri);
+  }
   /// The files that buffers name, relative to the folder. @throws InputError
   [[nodiscard]] std::vector<std::filesystem::path> external_files() const;
 

@@ -89,8 +89,9 @@ VertexSource vertex_source(const GltfObject& root, const GltfObject& primitive,
 
 class Gatherer {
  public:
-  explicit Gatherer(GltfDocument& document)
+  Gatherer(GltfDocument& document, GltfColours* colours)
       : document_(document),
+        colours_(colours),
         root_(document.root()),
         buffers_(document.buffers()),
         most_(std::max(max_shown_freely, document.size())) {}
@@ -141,6 +142,8 @@ class Gatherer {
     if (placing.mirrors())
       for (Triangle& t : triangles) std::swap(t[1], t[2]);
     add_texture(*attributes, triangles, static_cast<std::size_t>(count));
+    if (colours_ != nullptr)
+      colours_->add(primitive, *attributes, triangles, static_cast<std::size_t>(count));
     for (const auto& [a, b, c] : triangles)
       mesh_.triangles.push_back({a + base, b + base, c + base});
   }
@@ -192,6 +195,7 @@ class Gatherer {
   }
 
   GltfDocument& document_;
+  GltfColours* colours_;
   const GltfObject& root_;
   GltfBuffers& buffers_;
   std::size_t most_;
@@ -205,8 +209,8 @@ class Gatherer {
 
 }  // namespace
 
-GltfSurface read_gltf_surface(GltfDocument& document) {
-  Gatherer gatherer(document);
+GltfSurface read_gltf_surface(GltfDocument& document, GltfColours* colours) {
+  Gatherer gatherer(document, colours);
   for (const PlacedMesh& placed : placed_meshes(document.root())) gatherer.add(placed);
   return gatherer.take();
 }

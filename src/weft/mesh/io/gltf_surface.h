@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "weft/mesh.h"
+#include "weft/mesh/io/gltf_colours.h"
 #include "weft/mesh/io/gltf_document.h"
 
 namespace weft {
@@ -22,7 +23,8 @@ struct GltfSurface {
   std::vector<GltfBlock> blocks;  ///< by ascending vertices, without gaps
 };
 
+/// @param colours  receives those of the triangles, or null: pictures are then left alone
 /// @throws InputError for a file without triangles, or whatever in it is wrong
-GltfSurface read_gltf_surface(GltfDocument& document);
+GltfSurface read_gltf_surface(GltfDocument& document, GltfColours* colours = nullptr);
 
 }  // namespace weft

@@ -11,6 +11,7 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/mesh.h"
+#include "weft/mesh_colours.h"
 
 namespace weft {
 
@@ -48,26 +49,40 @@ void append_little_endian(std::string& bytes, Unsigned value) {
 
 }  // namespace
 
-std::string obj_text(const TriangleMesh& mesh) {
+std::string obj_text(const TriangleMesh& mesh, std::span<const Vec3f> colours) {
   std::string text;
   const auto out = std::back_inserter(text);
   // fmt gives the shortest decimals that read back as the same double.
-  for (const Vec3d& p : mesh.positions) fmt::format_to(out, "v {} {} {}\n", p.x, p.y, p.z);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3d& p = mesh.positions[v];
+    fmt::format_to(out, "v {} {} {}", p.x, p.y, p.z);
+    if (!colours.empty())
+      for (const std::uint8_t value : display_bytes(colours[v]))
+        fmt::format_to(out, " {:.4g}", value / 255.0);
+    text.push_back('\n');
+  }
   for (const Triangle& t : mesh.triangles)
     fmt::format_to(out, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
   return text;
 }
 
-std::string ply_bytes(const TriangleMesh& mesh) {
+std::string ply_bytes(const TriangleMesh& mesh, std::span<const Vec3f> colours) {
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\n"
-      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      mesh.positions.size(), mesh.triangles.size());
-  bytes.reserve(bytes.size() + 24 * mesh.positions.size() + 13 * mesh.triangles.size());
-  for (const Vec3d& p : mesh.positions)
+      mesh.positions.size(),
+      colours.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+      mesh.triangles.size());
+  bytes.reserve(bytes.size() + 27 * mesh.positions.size() + 13 * mesh.triangles.size());
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3d& p = mesh.positions[v];
     for (const double x : {p.x, p.y, p.z})
       append_little_endian(bytes, __builtin_bit_cast(std::uint64_t, x));
+    if (!colours.empty())
+      for (const std::uint8_t value : display_bytes(colours[v]))
+        bytes.push_back(static_cast<char>(value));
+  }
   for (const Triangle& t : mesh.triangles) {
     bytes.push_back(3);
     for (const int v : t) append_little_endian(bytes, static_cast<std::uint32_t>(v));
@@ -75,12 +90,13 @@ std::string ply_bytes(const TriangleMesh& mesh) {
   return bytes;
 }
 
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
+                std::span<const Vec3f> colours) {
   const std::string ending = ending_of(path);
   if (ending != ".obj" && ending != ".ply")
     throw UsageError(path.string(), "a mesh cannot be written with the ending '" + ending + "'",
                      ".obj or .ply is wanted");
-  const std::string bytes = ending == ".obj" ? obj_text(mesh) : ply_bytes(mesh);
+  const std::string bytes = ending == ".obj" ? obj_text(mesh, colours) : ply_bytes(mesh, colours);
   write_file(path, [&](std::ostream& out) { out << bytes; });
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -9,6 +11,7 @@
 
 #include "weft/error.h"
 #include "weft/mesh.h"
+#include "weft/mesh/io/coloured_files.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
 #include "weft/mesh/io/text_encoding.h"
@@ -32,6 +35,10 @@ struct ObjScan {
   std::vector<ForwardReference> forward;
   std::size_t faces = 0;
   bool lines = false;
+  std::vector<Vec3f> displays;  ///< [V] colours behind positions; not finite where there is none
+  std::vector<std::string> libraries;      ///< files of materials
+  std::vector<std::string> materials{""};  ///< in the order in which they are used, none first
+  std::vector<int> material_of;            ///< [faces] into materials
 };
 
 void scan_vertex(LineReader& reader, ObjScan& scan) {
@@ -39,9 +46,24 @@ void scan_vertex(LineReader& reader, ObjScan& scan) {
   const double y = reader.coordinate();
   const double z = reader.coordinate();
   scan.positions.push_back({x, y, z});
-  // A weight or a colour may follow and is dropped.
+  // A weight or a colour may follow.
+  std::vector<float> more;
+  for (std::string_view field = reader.next_field(); !field.empty(); field = reader.next_field()) {
+    const std::optional<double> number = to_number(field);
+    if (!number) reader.fail(in_quotes(field) + " is not a number", "v x y z is wanted");
+    more.push_back(static_cast<float>(*number));
+  }
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  scan.displays.push_back(more.size() == 3 ? Vec3f{more[0], more[1], more[2]}
+                                           : Vec3f{none, none, none});
+}
+
+/// The rest of a line as one name, its blanks between words made single.
+std::string name_in(LineReader& reader) {
+  std::string name(reader.next_field());
   for (std::string_view field = reader.next_field(); !field.empty(); field = reader.next_field())
-    if (!to_number(field)) reader.fail(in_quotes(field) + " is not a number", "v x y z is wanted");
+    name.append(" ").append(field);
+  return name;
 }
 
 /// Reads a line of texture coordinates. Nothing is refused: the surface does not depend on them,
@@ -92,6 +114,7 @@ void scan_face(LineReader& reader, ObjScan& scan) {
   if (corners < 3)
     reader.fail(fmt::format("a face with {} corners", corners), "at least 3 are wanted");
   ++scan.faces;
+  scan.material_of.push_back(static_cast<int>(scan.materials.size()) - 1);
 }
 
 ObjScan scan_obj(std::string_view bytes, std::string_view name) {
@@ -103,6 +126,8 @@ ObjScan scan_obj(std::string_view bytes, std::string_view name) {
     if (keyword == "vt") scan_texture(reader, scan);
     if (keyword == "f") scan_face(reader, scan);
     if (keyword == "l") scan.lines = true;
+    if (keyword == "usemtl") scan.materials.push_back(name_in(reader));
+    if (keyword == "mtllib") scan.libraries.push_back(name_in(reader));
   }
   for (const ForwardReference& reference : scan.forward)
     if (reference.index > static_cast<std::int64_t>(scan.positions.size()))
@@ -217,8 +242,14 @@ void keep_texture(std::vector<Vec2f> texture, MeshFaces& faces) {
   faces.texture = std::move(texture);
 }
 
-/// @param faces  receives polygons and texture indices as they are in the file; may be null
-TriangleMesh parse(std::string_view bytes, std::string_view name, MeshFaces* faces) {
+/// What a file holds besides its mesh.
+struct ObjExtras {
+  MeshFaces* faces = nullptr;  ///< receives polygons and texture indices as they are in the file
+  ObjScan* scan = nullptr;     ///< receives colours and materials
+};
+
+TriangleMesh parse(std::string_view bytes, std::string_view name, const ObjExtras& extras = {}) {
+  MeshFaces* faces = extras.faces;
   std::string decoded;
   const std::string_view plain = plain_text(bytes, decoded);
   require_text(plain, name, "an OBJ text file");
@@ -232,18 +263,80 @@ TriangleMesh parse(std::string_view bytes, std::string_view name, MeshFaces* fac
   if (faces != nullptr) keep_texture(std::move(scan.texture), *faces);
   keep_whole_texture(mesh);
   require_surface(mesh, name, scan.lines);
+  if (extras.scan != nullptr) *extras.scan = std::move(scan);
   return mesh;
+}
+
+/// A vertex without colour, where others have one, is white. Whole numbers above 1 go up to 255.
+std::vector<Vec3f> linear_colours(const std::vector<Vec3f>& displays) {
+  float most = 0;
+  for (const Vec3f c : displays) most = std::max({most, c.x, c.y, c.z});
+  std::vector<Vec3f> linear;
+  for (const Vec3f c : displays) {
+    const bool known = std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+    linear.push_back(known ? linear_colour((most > 1 ? 1 / 255.0F : 1.0F) * c) : Vec3f{1, 1, 1});
+  }
+  return linear;
+}
+
+using Materials = std::map<std::string, SurfaceColours::Part, std::less<>>;
+
+Materials materials_of(const ObjScan& scan, NeighbourFiles& files, SurfaceColours& colours) {
+  Materials all;
+  for (const std::string& library : scan.libraries)
+    all.merge(parse_materials(files.read(library), library, files, colours));
+  return all;
+}
+
+/// Adds the parts that faces use. @return [materials of the scan] the part of each; -1: none
+std::vector<int> add_parts(const ObjScan& scan, const Materials& known, SurfaceColours& colours) {
+  std::vector<int> part_of;
+  for (const std::string& material : scan.materials) {
+    const auto found = known.find(material);
+    part_of.push_back(found == known.end() ? -1 : static_cast<int>(colours.parts.size()));
+    if (found != known.end()) colours.parts.push_back(found->second);
+  }
+  return part_of;
+}
+
+std::array<Vec2f, 3> corners_in(const MeshFaces& faces, const Triangle& places) {
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  std::array<Vec2f, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int index = faces.texture_corners[static_cast<std::size_t>(places[k])];
+    corners[k] = index < 0 ? Vec2f{none, none} : faces.texture[static_cast<std::size_t>(index)];
+  }
+  return corners;
 }
 
 }  // namespace
 
-TriangleMesh parse_obj(std::string_view bytes, std::string_view name) {
-  return parse(bytes, name, nullptr);
+TriangleMesh parse_obj(std::string_view bytes, std::string_view name) { return parse(bytes, name); }
+
+SurfaceColours obj_colours(std::string_view bytes, std::string_view name, NeighbourFiles& files) {
+  MeshFaces faces;
+  ObjScan scan;
+  parse(bytes, name, {&faces, &scan});
+  SurfaceColours colours;
+  const std::vector<int> part_of = add_parts(scan, materials_of(scan, files, colours), colours);
+  for (std::size_t f = 0; f < faces.sizes.size(); ++f)
+    colours.part_of.insert(colours.part_of.end(), static_cast<std::size_t>(faces.sizes[f] - 2),
+                           part_of[static_cast<std::size_t>(scan.material_of[f])]);
+  const FanCorners fans = fans_of(faces);
+  if (std::any_of(scan.displays.begin(), scan.displays.end(),
+                  [](Vec3f c) { return std::isfinite(c.x); })) {
+    const std::vector<Vec3f> linear = linear_colours(scan.displays);
+    for (const auto& [a, b, c] : fans.triangles)
+      colours.corners.push_back({linear[a], linear[b], linear[c]});
+  }
+  if (faces.has_texture())
+    for (const Triangle& places : fans.places) colours.uv.push_back(corners_in(faces, places));
+  return colours;
 }
 
 MeshFile parse_obj_file(std::string_view bytes, std::string_view name) {
   MeshFile file;
-  file.mesh = parse(bytes, name, &file.faces);
+  file.mesh = parse(bytes, name, {&file.faces, nullptr});
   return file;
 }
 

@@ -7,6 +7,7 @@
 
 #include "weft/error.h"
 #include "weft/mesh.h"
+#include "weft/mesh/io/coloured_files.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/ply_format.h"
 #include "weft/mesh/io/polygon.h"
@@ -70,11 +71,32 @@ int texture_axis(std::string_view name) {
   return -1;
 }
 
-/// A file's mesh and the texture coordinates of its vertices.
+/// 0 for red, 1 for green, 2 for blue, -1 for a property that is no colour of the surface.
+int colour_axis(std::string_view name) {
+  constexpr std::array<std::string_view, 3> names{"red", "green", "blue"};
+  if (name.starts_with("diffuse_")) name.remove_prefix(8);
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+/// What the number of full light is: whole numbers go up to their type's largest, others to 1.
+double full_light(PlyType type) {
+  return type == PlyType::uint8 ? 255 : type == PlyType::uint16 ? 65535 : 1;
+}
+
+/// A file's mesh, and what its vertices have besides.
 struct PlyMesh {
   TriangleMesh mesh;
-  std::vector<Vec2f> texture;  ///< [V] or empty
+  std::vector<Vec2f> texture;   ///< [V] zeros where there are none
+  std::vector<Vec3f> displays;  ///< [V] display colours, the same
 };
+
+bool has_colours(const PlyElement& vertex) {
+  std::array<int, 3> found{};
+  for (const PlyProperty& p : vertex.properties)
+    if (const int axis = colour_axis(p.name); axis >= 0 && !p.is_list()) ++found[axis];
+  return found == std::array{1, 1, 1};
+}
 
 bool has_texture(const PlyElement& vertex) {
   std::array<int, 2> found{};
@@ -86,6 +108,7 @@ bool has_texture(const PlyElement& vertex) {
 void read_vertex(PlyValues& values, const PlyElement& element, PlyMesh& read) {
   Vec3d p;
   std::array<double, 2> uv{};
+  std::array<double, 3> display{};
   std::vector<double> ignored;
   for (const PlyProperty& property : element.properties) {
     if (property.is_list()) {
@@ -94,6 +117,8 @@ void read_vertex(PlyValues& values, const PlyElement& element, PlyMesh& read) {
     }
     const double value = values.next(property.type);
     if (const int axis = texture_axis(property.name); axis >= 0) uv[axis] = value;
+    if (const int axis = colour_axis(property.name); axis >= 0)
+      display[axis] = value / full_light(property.type);
     if (property.name != "x" && property.name != "y" && property.name != "z") continue;
     const std::string_view fault = coordinate_fault(value);
     if (!fault.empty())
@@ -103,6 +128,7 @@ void read_vertex(PlyValues& values, const PlyElement& element, PlyMesh& read) {
   }
   read.mesh.positions.push_back(p);
   read.texture.push_back({static_cast<float>(uv[0]), static_cast<float>(uv[1])});
+  read.displays.push_back(vec_cast<float>(Vec3d{display[0], display[1], display[2]}));
 }
 
 /// Copies the vertices' texture coordinates to the corners.
@@ -164,16 +190,21 @@ void read_other(PlyValues& values, const PlyElement& element, std::int64_t verti
   }
 }
 
-}  // namespace
+/// All of a file.
+struct PlyFile {
+  PlyMesh read;
+  PlyElement vertex;
+};
 
-TriangleMesh parse_ply(std::string_view bytes, std::string_view name) {
+PlyFile parse(std::string_view bytes, std::string_view name) {
   if (bytes.empty()) throw InputError(name, "is empty", "a PLY mesh is wanted");
   std::string decoded;
   LineReader reader(plain_text(bytes, decoded), name);
   const PlyHeader header = read_ply_header(reader);
   check_layout(header, name);
-  const PlyElement& vertex = *find_element(header, "vertex");
-  PlyMesh read;
+  PlyFile file{{}, *find_element(header, "vertex")};
+  const PlyElement& vertex = file.vertex;
+  PlyMesh& read = file.read;
   read.mesh.positions.reserve(vertex.count);
   PlyValues values(reader, header.format, name);
   for (const PlyElement& element : header.elements)
@@ -188,7 +219,43 @@ TriangleMesh parse_ply(std::string_view bytes, std::string_view name) {
   values.expect_end();
   const PlyElement* edge = find_element(header, "edge");
   require_surface(read.mesh, name, edge != nullptr && edge->count > 0);
-  return textured(std::move(read), has_texture(vertex));
+  return file;
+}
+
+/// The picture that a header names in a comment, as scanners and their programs write it.
+std::string picture_name(std::string_view bytes) {
+  constexpr std::string_view mark = "comment TextureFile ";
+  const std::size_t at = bytes.substr(0, bytes.find("end_header")).find(mark);
+  if (at == bytes.npos) return {};
+  const std::string_view line = bytes.substr(at + mark.size());
+  return std::string(line.substr(0, line.find_first_of("\r\n")));
+}
+
+}  // namespace
+
+TriangleMesh parse_ply(std::string_view bytes, std::string_view name) {
+  PlyFile file = parse(bytes, name);
+  return textured(std::move(file.read), has_texture(file.vertex));
+}
+
+SurfaceColours ply_colours(std::string_view bytes, std::string_view name, NeighbourFiles& files) {
+  std::string decoded;
+  const std::string_view plain = plain_text(bytes, decoded);
+  const PlyFile file = parse(plain, name);
+  const TriangleMesh& mesh = file.read.mesh;
+  const std::string picture = picture_name(plain);
+  const bool textured = !picture.empty() && has_texture(file.vertex);
+  SurfaceColours colours;
+  colours.part_of.assign(mesh.triangles.size(), textured ? 0 : -1);
+  if (textured) colours.parts.push_back({{1, 1, 1}, files.picture(picture, colours), false});
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const PlyMesh& read = file.read;
+    if (textured) colours.uv.push_back({read.texture[a], read.texture[b], read.texture[c]});
+    if (has_colours(file.vertex))
+      colours.corners.push_back({linear_colour(read.displays[a]), linear_colour(read.displays[b]),
+                                 linear_colour(read.displays[c])});
+  }
+  return colours;
 }
 
 }  // namespace weft

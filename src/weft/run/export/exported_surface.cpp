@@ -205,8 +205,9 @@ ExportedSurface::ExportedSurface(const SurfacePoints& grid, const Garment& garme
                                  const MeshFrame& files)
     : grid_(&grid), garment_(&garment), files_(files) {}
 
-ExportedSurface::ExportedSurface(const SurfacePoints& grid, const MeshFrame& files)
-    : grid_(&grid), files_(files) {}
+ExportedSurface::ExportedSurface(const SurfacePoints& grid, const GeometryImage& image,
+                                 const MeshFrame& files)
+    : grid_(&grid), image_(&image), files_(files) {}
 
 ExportedSurface::ExportedSurface(const SurfacePoints& grid, const Source& source,
                                  const MeshFrame& files)
@@ -223,6 +224,14 @@ int ExportedSurface::vertices() const {
 MeshFaces ExportedSurface::faces() const {
   if (bound_) return mesh_->faces;
   return garment_ != nullptr ? garment_faces(*grid_, garment_->texture) : image_faces(*grid_);
+}
+
+std::vector<Vec3f> ExportedSurface::colours() const {
+  std::vector<Vec3f> colours;
+  if (image_ == nullptr || !image_->has_colours()) return colours;
+  colours.reserve(grid_->sample_of.size());
+  for (const int sample : grid_->sample_of) colours.push_back(image_->colours.at(sample));
+  return colours;
 }
 
 GarmentParts ExportedSurface::parts() const {

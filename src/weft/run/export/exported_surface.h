@@ -71,8 +71,8 @@ struct GarmentParts {
 /// every format and frame.
 class ExportedSurface {
  public:
-  /// Exports the samples. @param grid  must outlive this
-  ExportedSurface(const SurfacePoints& grid, const MeshFrame& files);
+  /// Exports the samples. @param grid, image  must outlive this
+  ExportedSurface(const SurfacePoints& grid, const GeometryImage& image, const MeshFrame& files);
 
   struct Source {
     const GeometryImage* image = nullptr;
@@ -93,6 +93,8 @@ class ExportedSurface {
   [[nodiscard]] GarmentParts parts() const;
   /// Polygons and texture coordinates; computed by every call where the samples are exported.
   [[nodiscard]] MeshFaces faces() const;
+  /// Linear RGB; empty where the image has none, and where it is not its samples that are exported.
+  [[nodiscard]] std::vector<Vec3f> colours() const;
   /// Positions of the vertices for given samples, in the unit and axes of files. [vertices]
   /// @param samples  [n x n] world [m]
   [[nodiscard]] std::vector<Vec3f> points(const Planes3& samples) const;
@@ -101,6 +103,7 @@ class ExportedSurface {
 
  private:
   const SurfacePoints* grid_;
+  const GeometryImage* image_ = nullptr;
   const SourceMesh* mesh_ = nullptr;
   const Garment* garment_ = nullptr;
   std::optional<BoundVertices> bound_;

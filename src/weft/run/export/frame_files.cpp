@@ -11,6 +11,7 @@
 #include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/mesh/point_normals.h"
+#include "weft/mesh_colours.h"
 #include "weft/run/export/bytes_out.h"
 #include "weft/run/export/distinct_names.h"
 
@@ -38,12 +39,15 @@ PlyFrames::PlyFrames(const ExportedSurface& surface) {
   const bool small = std::all_of(faces.sizes.begin(), faces.sizes.end(),
                                  [](int size) { return size <= max_of_a_byte; });
   triangles_ = fans_of(faces).triangles;
+  for (const Vec3f colour : surface.colours()) colours_.push_back(display_bytes(colour));
   head_ = fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
       "property float x\nproperty float y\nproperty float z\n"
-      "property float nx\nproperty float ny\nproperty float nz\n"
+      "property float nx\nproperty float ny\nproperty float nz\n{}"
       "element face {}\nproperty list {} int vertex_indices\nend_header\n",
-      surface.vertices(), faces.sizes.size(), small ? "uchar" : "int");
+      surface.vertices(),
+      colours_.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+      faces.sizes.size(), small ? "uchar" : "int");
   std::size_t first = 0;
   for (const int size : faces.sizes) {
     if (small) {
@@ -60,10 +64,11 @@ PlyFrames::PlyFrames(const ExportedSurface& surface) {
 std::string PlyFrames::encode(const MotionFrame& frame) const {
   const std::vector<Vec3f> normals = point_normals(frame.points(), triangles_);
   std::string bytes = head_;
-  bytes.reserve(head_.size() + faces_.size() + 2 * sizeof(Vec3f) * normals.size());
+  bytes.reserve(head_.size() + faces_.size() + (2 * sizeof(Vec3f) + 3) * normals.size());
   for (std::size_t v = 0; v < normals.size(); ++v) {
     append_raw(bytes, frame.points()[v]);
     append_raw(bytes, normals[v]);
+    if (!colours_.empty()) append_raw(bytes, colours_[v]);
   }
   return bytes.append(faces_);
 }

@@ -1,14 +1,17 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "weft/run/export/exported_surface.h"
 #include "weft/run/export/motion_writer.h"
 
 namespace weft {
 
-/// PLY, binary little-endian: positions and normals as floats, polygons.
+/// PLY, binary little-endian: positions and normals as floats, colours as bytes, polygons.
 class PlyFrames {
  public:
   explicit PlyFrames(const ExportedSurface& surface);
@@ -17,6 +20,7 @@ class PlyFrames {
  private:
   std::string head_, faces_;  // the same for all frames
   std::vector<Triangle> triangles_;
+  std::vector<std::array<std::uint8_t, 3>> colours_;  // [V], or none
 };
 
 /// VTK's XML PolyData, its arrays appended raw: positions, normals, polygons, and the time of the

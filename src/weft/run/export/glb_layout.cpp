@@ -72,7 +72,11 @@ GlbMesh glb_mesh(const ExportedSurface& surface) {
   mesh.source.resize(static_cast<std::size_t>(surface.vertices()));
   std::iota(mesh.source.begin(), mesh.source.end(), 0);
   mesh.triangles = std::move(fans.triangles);
-  if (!faces.has_texture()) return mesh;
+  const std::vector<Vec3f> colours = surface.colours();
+  if (!faces.has_texture()) {
+    mesh.colours = colours;
+    return mesh;
+  }
   TexturedCopies copies(mesh);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -81,6 +85,8 @@ GlbMesh glb_mesh(const ExportedSurface& surface) {
       int& corner = mesh.triangles[t][k];
       corner = copies.with(corner, {up.x, 1 - up.y});
     }
+  if (!colours.empty())
+    for (const int vertex : mesh.source) mesh.colours.push_back(colours[vertex]);
   return mesh;
 }
 
@@ -118,6 +124,7 @@ GlbLayout::GlbLayout(const GlbMesh& mesh, const FinishedMotion& motion)
   positions_ = add_view(vector_bytes * vertices);
   normals_ = add_view(vector_bytes * vertices);
   if (!mesh.uv.empty()) uv_ = add_view(sizeof(Vec2f) * vertices);
+  if (!mesh.colours.empty()) colours_ = add_view(vector_bytes * vertices);
   triangles_ = add_view(sizeof(Triangle) * mesh.triangles.size());
   if (targets == 0) return;
   targets_ = add_view(2 * vector_bytes * vertices * targets);
@@ -150,6 +157,8 @@ Json GlbLayout::primitive(const std::vector<Extremes>& positions, GlbParts& part
               {"NORMAL", parts.add_vectors(normals_, 0, vertices, nullptr)}}},
             {"material", 0}};
   if (uv_ >= 0) json["attributes"]["TEXCOORD_0"] = parts.add(uv_, float_type, vertices, "VEC2");
+  if (colours_ >= 0)
+    json["attributes"]["COLOR_0"] = parts.add_vectors(colours_, 0, vertices, nullptr);
   json["indices"] = parts.add(triangles_, index_type, 3 * mesh_.triangles.size(), "SCALAR");
   const std::uint64_t step = vector_bytes * vertices;
   for (int k = 1; k < motion_.frames; ++k) {

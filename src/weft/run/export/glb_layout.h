@@ -16,6 +16,7 @@ struct GlbMesh {
                             ///< order
   std::vector<Vec2f> uv;    ///< [W] v runs downwards; or empty
   std::vector<Triangle> triangles;
+  std::vector<Vec3f> colours{};  ///< [W] linear RGB; or empty
 };
 GlbMesh glb_mesh(const ExportedSurface& surface);
 
@@ -27,8 +28,8 @@ Extremes extremes(const std::vector<Vec3f>& points);
 
 struct GlbParts;
 
-/// Layout of the binary part, in this order: positions, normals, uv, triangles, then positions and
-/// normals of each target, times and weights.
+/// Layout of the binary part, in this order: positions, normals, uv, colours, triangles, then
+/// positions and normals of each target, times and weights.
 class GlbLayout {
  public:
   GlbLayout(const GlbMesh& mesh, const FinishedMotion& motion);
@@ -48,8 +49,8 @@ class GlbLayout {
   const FinishedMotion& motion_;
   std::vector<std::uint64_t> starts_, sizes_;  // of each view
   std::uint64_t end_ = 0;
-  int positions_ = 0, normals_ = 0, uv_ = -1, triangles_ = 0, targets_ = -1, times_ = -1,
-      weights_ = -1;
+  int positions_ = 0, normals_ = 0, uv_ = -1, colours_ = -1, triangles_ = 0, targets_ = -1,
+      times_ = -1, weights_ = -1;
 };
 
 }  // namespace weft

@@ -48,6 +48,7 @@ class Writer {
     put(out, positions_);
     put(out, normals_);
     write_raw(out, std::span<const Vec2f>(mesh_.uv));
+    write_raw(out, std::span<const Vec3f>(mesh_.colours));
     write_raw(out, std::span<const Triangle>(mesh_.triangles));
     for (int k = 1; k < motion_.frames; ++k) {
       const std::vector<Vec3f> points = motion_.points(k);

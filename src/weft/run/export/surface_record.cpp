@@ -13,7 +13,7 @@ SurfaceRecord::SurfaceRecord(const Subject& subject, const ExportOptions& option
     : subject_(subject),
       options_(options),
       grid_(surface_points(*subject.image, options.unwelded)),
-      on_image_(grid_, options.files) {
+      on_image_(grid_, *subject.image, options.files) {
   if (subject.source != nullptr && !options.unwelded && options.on != WrittenOn::image)
     on_input_.emplace(
         grid_,
