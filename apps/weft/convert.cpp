@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/image_file.h"
+#include "weft/image_quality.h"
 
 namespace weft::app {
 namespace {
@@ -28,7 +30,8 @@ namespace fs = std::filesystem;
 struct ConvertArgs {
   std::string mesh, output, parameterizer = "stretch", component, size = "257", charts = "auto";
   MeshArgs frame;
-  int normal_map = 0, seed_triangle = -1, samples = 0;
+  int normal_map = 0, seed_triangle = -1, samples = 0, precision = 0;
+  double error = 0;  ///< [mm]; 0: by precision
   bool keep_uv = false, fit = false, colours = false;
   std::string seam;
 };
@@ -102,6 +105,38 @@ fs::path beside(const fs::path& path, const std::string& suffix) {
   return other.replace_filename(path.stem().string() + suffix + path.extension().string());
 }
 
+/// How far samples of a compressed image lie from their places at most. [mm]
+double error_of(const GeometryImage& image, int steps) {
+  return 1000 * image.world.scale * std::numbers::sqrt3 / (2 * steps);
+}
+
+bool is_compressed(const fs::path& output) { return ending_of(output) == ".weft"; }
+
+/// The steps along the unit cube that a compressed image is to have.
+int steps_of(const ConvertArgs& args, const GeometryImage& image) {
+  constexpr int default_bits = 12;
+  if (args.error == 0) return (1 << (args.precision > 0 ? args.precision : default_bits)) - 1;
+  const std::optional<int> steps = steps_for_error(image, args.error / 1000);
+  if (!steps)
+    throw UsageError("--error", fmt::format("{:.3g} mm", args.error),
+                     fmt::format("for a side of {:.3g} m at least {:.2g} mm is wanted",
+                                 image.world.scale, error_of(image, largest_step_count)));
+  return *steps;
+}
+
+/// Rounds the image to what a compressed file will hold, and measures that. @return the steps
+int round_image(const ConvertArgs& args, const ConvertOptions& options, Conversion& made) {
+  const int steps = steps_of(args, made.image);
+  made.image = quantised(made.image, steps);
+  const auto start = std::chrono::steady_clock::now();
+  made.quality =
+      measure_image(made.image, made.input.mesh, {options.threads, options.seed, options.progress});
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  made.seconds.measure += took.count();
+  made.seconds.total += took.count();
+  return steps;
+}
+
 void print_summary(const Context& context, const Conversion& c) {
   const TopologyCounts& in = c.input.counts;
   for (const std::string& repair : c.input.repairs) note(context, repair);
@@ -128,7 +163,14 @@ Json convert_one(const ConvertArgs& args, const Context& context, const NamedMes
     return convert_mesh(named.mesh, args.mesh, options);
   }();
   std::vector<fs::path> outputs{output};
-  write_image(output, conversion.image);
+  std::optional<double> error;  // of a compressed image [mm]
+  if (is_compressed(output)) {
+    const int steps = round_image(args, options, conversion);
+    error = error_of(conversion.image, steps);
+    write_compressed_image(output, conversion.image, steps);
+  } else {
+    write_image(output, conversion.image);
+  }
   if (conversion.normals) {
     outputs.push_back(beside(output, "-normals"));
     write_normal_map(outputs.back(), *conversion.normals);
@@ -145,8 +187,14 @@ Json convert_one(const ConvertArgs& args, const Context& context, const NamedMes
   conversion.warnings.insert(conversion.warnings.begin(), named.warnings.begin(),
                              named.warnings.end());
   print_summary(context, conversion);
+  if (error)
+    say(context,
+        fmt::format("file    {} bytes, samples within {:.2g} mm", fs::file_size(output), *error));
   for (const fs::path& path : outputs) say(context, "wrote   " + path.string());
-  return conversion_json(args.mesh, conversion, outputs);
+  Json report = conversion_json(args.mesh, conversion, outputs);
+  if (error) report["image"]["largest_error_mm"] = *error;
+  report["image"]["bytes"] = fs::file_size(output);
+  return report;
 }
 
 // Writes one image a component, numbered from 0, the largest first. A component that does not
@@ -187,7 +235,11 @@ void require_all(const ConvertArgs& args, const Context& context, const Json& re
 }
 
 void check_args(const ConvertArgs& args) {
-  check_output(args.output, {".exr", ".png"});
+  check_output(args.output, {".exr", ".png", ".weft"});
+  for (const auto& [option, given] :
+       {std::pair{"--precision", args.precision > 0}, {"--error", args.error > 0}})
+    if (given && !is_compressed(args.output))
+      throw UsageError(option, "of " + args.output, "a compressed image, .weft, is wanted");
   check_not_input(args.output, std::vector<fs::path>{args.mesh, args.seam});
   if (args.component != "all") return;
   for (const auto& [option, given] :
@@ -230,7 +282,8 @@ void add_convert(CLI::App& program, const Context& context) {
   command->add_option("MESH", args->mesh, "OBJ, OFF, PLY, STL or GLB file, or builtin:NAME")
       ->required();
   command
-      ->add_option("-o,--output", args->output, "IMAGE.exr (float32, exact) or IMAGE.png (16 bits)")
+      ->add_option("-o,--output", args->output,
+                   "IMAGE.exr (float32, exact), .png (16 bits) or .weft (compressed)")
       ->required();
   command
       ->add_option("--size", args->size,
@@ -254,6 +307,16 @@ void add_convert(CLI::App& program, const Context& context) {
       ->add_option("--normal-map", args->normal_map,
                    "Write a normal map of this size beside the image")
       ->check(CLI::Range(min_image_size, largest_image_size));
+  CLI::Option* precision =
+      command
+          ->add_option("--precision", args->precision,
+                       "Bits of a coordinate in a compressed image; 12 when not given")
+          ->check(CLI::Range(4, 16));
+  command
+      ->add_option("--error", args->error,
+                   "Instead of bits: how far samples of a compressed image may move [mm]")
+      ->check(CLI::PositiveNumber)
+      ->excludes(precision);
   command->add_option("--cut", args->seam,
                       "Cut along the vertex paths in this text file, one a line, counted from 0");
   command->add_flag("--fit", args->fit,

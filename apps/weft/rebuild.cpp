@@ -59,7 +59,7 @@ void add_rebuild(CLI::App& program, const Context& context) {
   auto args = std::make_shared<RebuildArgs>();
   CLI::App* command =
       program.add_subcommand("rebuild", "Turn a geometry image back into a mesh, seams closed");
-  command->add_option("IMAGE", args->image, "Geometry image, .exr or .png")->required();
+  command->add_option("IMAGE", args->image, "Geometry image: .exr, .png or .weft")->required();
   command->add_option("-o,--output", args->output, "MESH.obj or MESH.ply")->required();
   command
       ->add_option("--level", args->level, "Of every 2^L-th sample: levels of detail, seams closed")

@@ -224,7 +224,7 @@ def geometry_image(V, F, size=257, charts="auto", *, uv=None, parameterizer="str
 
 
 def load(path):
-    """Loads a geometry image, .exr or .png. Raises FileNotFoundError, InputError."""
+    """Loads a geometry image, .exr, .png or .weft. Raises FileNotFoundError, InputError."""
     return GeometryImage(_weft.read_image(_arguments.existing(path)))
 
 

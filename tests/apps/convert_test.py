@@ -72,6 +72,12 @@ class Convert(ProgramTest):
             file.writelines(f"3 {a} {b} {c}\n" for a, b, c in faces)
         return name
 
+    def points_of(self, name):
+        """Vertices of a PLY that weft wrote, without colours."""
+        head, body = (self.folder / name).read_bytes().split(b"end_header\n", 1)
+        count = int(head.split(b"element vertex ")[1].split()[0])
+        return [struct.unpack_from("<3d", body, 24 * k) for k in range(count)]
+
     def colours_of(self, name):
         """Positions and colours of a PLY that weft wrote."""
         data = (self.folder / name).read_bytes()
@@ -88,11 +94,13 @@ class Convert(ProgramTest):
         plain = self.run_json("convert", "painted.ply", "-o", "plain.exr", "--size", "65")
         self.assertEqual(plain["image"]["psnr_db"], report["image"]["psnr_db"])
         self.assertEqual(plain["outputs"], ["plain.exr"])
-        self.run_weft("rebuild", "ball.exr", "-o", "again.ply")
-        far = [(x, colour) for x, _, _, *colour in self.colours_of("again.ply") if abs(x) > 0.1]
-        self.assertGreater(len(far), 1000)
-        for x, colour in far:
-            self.assertEqual(colour, [255, 0, 0] if x < 0 else [0, 0, 255])
+        self.run_weft("convert", "painted.ply", "-o", "ball.weft", "--size", "65", "--colours")
+        for image in ("ball.exr", "ball.weft"):
+            self.run_weft("rebuild", image, "-o", "again.ply")
+            far = [(x, colour) for x, _, _, *colour in self.colours_of("again.ply") if abs(x) > 0.1]
+            self.assertGreater(len(far), 1000)
+            for x, colour in far:
+                self.assertEqual(colour, [255, 0, 0] if x < 0 else [0, 0, 255])
 
     def test_colours_that_are_not_there_are_an_error(self):
         self.run_weft("shapes", "sphere", "-o", "ball.obj")
@@ -100,6 +108,31 @@ class Convert(ProgramTest):
         self.assertIn("ball.obj: has no colours; vertex colours, or materials", line)
         self.assertIn("--colours", self.error_of("convert", "builtin:sphere", "-o", "b.exr", "--colours", code=2))
         self.assertFalse((self.folder / "b.exr").exists())
+
+    def test_compressed_images_are_small_and_keep_their_word(self):
+        whole = self.run_json("convert", "builtin:mannequin", "-o", "m.exr", "--size", "129")
+        small = self.run_json("convert", "builtin:mannequin", "-o", "m.weft", "--size", "129", "--precision", "11")
+        self.check_promises(small)
+        self.assertEqual(small["image"]["bytes"], (self.folder / "m.weft").stat().st_size)
+        self.assertLess(small["image"]["bytes"], whole["image"]["bytes"] / 6)
+        self.assertGreater(small["image"]["psnr_db"], whole["image"]["psnr_db"] - 1.5)
+        against = self.run_json("inspect", "m.weft", "--against", "builtin:mannequin")["image"]
+        self.assertAlmostEqual(against["psnr_db"], small["image"]["psnr_db"], places=9)
+        self.run_weft("rebuild", "m.weft", "-o", "m.ply")
+        self.run_weft("rebuild", "m.exr", "-o", "whole.ply")
+        apart = [math.dist(p, q) for p, q in zip(self.points_of("m.ply"), self.points_of("whole.ply"), strict=True)]
+        self.assertLess(1000 * max(apart), small["image"]["largest_error_mm"])
+        self.assertGreater(1000 * max(apart), 0.5 * small["image"]["largest_error_mm"])
+
+    def test_error_says_how_far_samples_may_move(self):
+        for error in (2, 0.1):
+            image = self.run_json("convert", "builtin:mannequin", "-o", "m.weft", "--size", "65", "--error", error)["image"]
+            self.assertLessEqual(image["largest_error_mm"], error)
+            self.assertGreater(image["largest_error_mm"], 0.98 * error)
+        line = self.error_of("convert", "builtin:mannequin", "-o", "m.weft", "--error", "1e-6", code=2)
+        self.assertIn("--error", line)
+        for option in ("--error", "--precision"):
+            self.assertIn(option, self.error_of("convert", "builtin:sphere", "-o", "m.exr", option, "8", code=2))
 
     def test_normal_map_is_written_beside(self):
         report = self.run_json("convert", "builtin:sphere", "-o", "s.png", "--size", "33", "--normal-map", "64")

@@ -7,6 +7,7 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/image/image_colours.h"
+#include "weft/image/io/compressed_image.h"
 #include "weft/image/io/exr_codec.h"
 #include "weft/image/io/metadata.h"
 #include "weft/image/io/png_codec.h"
@@ -16,6 +17,7 @@ namespace weft {
 namespace {
 
 constexpr float full_scale = 65535;
+constexpr int default_steps = 4095;  ///< of compressed images: 12 bits
 
 void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
   write_file(path, [&](std::ostream& out) {
@@ -24,7 +26,8 @@ void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
 }
 
 [[noreturn]] void refuse_ending(const std::filesystem::path& path) {
-  throw UsageError(path.string(), "an ending that is no picture format here", ".exr or .png");
+  throw UsageError(path.string(), "an ending that is no picture format here",
+                   ".exr, .png or, of images, .weft");
 }
 
 template <class Change>
@@ -94,6 +97,7 @@ void write_image(const std::filesystem::path& path, const GeometryImage& image) 
   const std::string ending = ending_of(path);
   if (ending == ".exr") return write_bytes(path, exr_bytes(image));
   if (ending == ".png") return write_bytes(path, png_bytes(image));
+  if (ending == ".weft") return write_compressed_image(path, image, default_steps);
   refuse_ending(path);
 }
 
@@ -115,6 +119,7 @@ GeometryImage parse_image(std::string_view bytes, std::string_view where) {
     const PngPicture picture = decode_png(bytes, where);
     return assemble_image(planes_of(picture), picture.text, where);
   }
+  if (bytes.starts_with(compressed_mark)) return parse_compressed_image(bytes, where);
   throw InputError(where, "neither an EXR nor a PNG file", "a geometry image");
 }
 

@@ -220,6 +220,11 @@ std::string metadata_text(const GeometryImage& image) {
   return json_text(json);
 }
 
+BorderMates mates_in(std::string_view text, int size, std::string_view where) {
+  const Fields fields(text, where);
+  return read_mates(fields, size, check_header(fields, size), where);
+}
+
 GeometryImage assemble_image(Planes3 cube, std::string_view text, std::string_view where) {
   const Fields fields(text, where);
   const int version = check_header(fields, cube.size());

@@ -23,6 +23,9 @@ std::string metadata_text(const GeometryImage& image);
 /// The samples as files hold them: those of no chart are black.
 Planes3 stored_samples(const GeometryImage& image);
 
+/// The mates that metadata tell. @throws InputError
+BorderMates mates_in(std::string_view text, int size, std::string_view where);
+
 /// Puts samples and metadata together again and checks all of it: size and version, world map,
 /// mates in range and bit-equal, samples in [0, 1], the checksum where there is one (other programs
 /// may leave it out).
