@@ -75,6 +75,7 @@ TEST_F(ColouredFiles, PlyVerticesHaveBytesOrFloats) {
                         tail + "0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0 0 0.2\n3 0 1 2\n");
   EXPECT_EQ(display_bytes(floats.at(0, third)), (Bytes{0, 0, 51}));
   EXPECT_FLOAT_EQ(floats.at(0, {0.5, 0.5, 0}).x, 0.5F) << "in linear light";
+  EXPECT_EQ(linear_colour({NAN, -1, HUGE_VALF}), (Vec3f{0, 0, 1}));
 }
 
 TEST_F(ColouredFiles, PlyNamesItsPictureInAComment) {

@@ -16,7 +16,8 @@ double fifth_root(double x) {
 
 /// The transfer function of sRGB [IEC 61966-2-1].
 double linear_of(double display) {
-  display = std::clamp(display, 0.0, 1.0);
+  if (!(display > 0)) return 0;  // what is not a number is black
+  display = std::min(display, 1.0);
   if (display <= 0.04045) return display / 12.92;
   const double base = (display + 0.055) / 1.055;
   const double root = fifth_root(base);

@@ -139,7 +139,8 @@ class PlaneWalk {
   }
 
   void code_sample(int row, int col, int h, int pass) {
-    const auto s = static_cast<std::size_t>(row * n_ + col);
+    const auto s = static_cast<std::size_t>(row) * static_cast<std::size_t>(n_) +
+                   static_cast<std::size_t>(col);
     const std::array<int, axes> guess = prediction(row, col, h, pass);
     int before = 0;  // sizes of the sample's differences so far
     for (std::size_t k = 0; k < axes; ++k) {

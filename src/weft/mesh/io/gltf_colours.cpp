@@ -23,7 +23,8 @@ bool is_clamped(const GltfObject& root, const GltfObject& texture) {
          object.integer("wrapT", 0, INT32_MAX).value_or(0) == clamp_to_edge;
 }
 
-float unit(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
+/// What is not a number is 0.
+float unit(double value) { return value > 0 ? static_cast<float>(std::min(value, 1.0)) : 0.0F; }
 
 }  // namespace
 
