@@ -148,7 +148,7 @@ struct SourceMesh {
   std::vector<Vec2d> places;
 };
 
-/// A surface to load: by name (builtin:NAME, a geometry image in .exr or .png, a mesh file, a
+/// A surface to load: by name (builtin:NAME, a geometry image in .exr, .png or .weft, a mesh file, a
 /// sewing pattern in .json), or from memory. Copies share the data in memory.
 struct Surface {
   std::string name;  ///< of a surface in memory: its name in error messages
@@ -185,7 +185,7 @@ struct LoadedSurface {
 /// @throws InputError, TopologyError, UsageError as convert_mesh, check_image and make_garment
 LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options);
 
-/// True when a name ends as geometry images do: .exr or .png.
+/// True when a name ends as geometry images do: .exr, .png or .weft.
 bool is_image_name(const std::string& name);
 
 /// True for surfaces that load_surface makes without a mesh: geometry images, and built-in shapes
