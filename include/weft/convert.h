@@ -148,8 +148,8 @@ struct SourceMesh {
   std::vector<Vec2d> places;
 };
 
-/// A surface to load: by name (builtin:NAME, a geometry image in .exr, .png or .weft, a mesh file, a
-/// sewing pattern in .json), or from memory. Copies share the data in memory.
+/// A surface to load: by name (builtin:NAME, a geometry image in .exr, .png or .weft, a mesh file,
+/// a sewing pattern in .json), or from memory. Copies share the data in memory.
 struct Surface {
   std::string name;  ///< of a surface in memory: its name in error messages
   std::shared_ptr<const TriangleMesh> mesh{};
