@@ -84,7 +84,7 @@ PARTS = (
     ("min(point.get", "max(point.get"),
     ("if len(set(t)) == 3", ""),
     ("sorted(rising)", "rising"),
-    ("zip(red, green, blue)", "zip(blue, green, red)"),
+    ("zip(line[2 * n:], line[n:], line)", "zip(line, line[n:], line[2 * n:])"),
 )
 
 

@@ -119,7 +119,8 @@ void check_texture(const TriangleMesh& mesh, const std::string& name) {
 
 bool is_image_name(const std::string& name) {
   const std::string ending = ending_of(name);
-  return !name.starts_with(builtin_prefix) && (ending == ".exr" || ending == ".png" || ending == ".weft");
+  return !name.starts_with(builtin_prefix) &&
+         (ending == ".exr" || ending == ".png" || ending == ".weft");
 }
 
 TriangleMesh load_mesh(const std::string& name) {
