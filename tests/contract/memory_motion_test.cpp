@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/contract/sheet_scene.h"
 #include "weft/error.h"
 #include "weft/mesh.h"
 #include "weft/point_cache.h"
@@ -14,6 +15,8 @@
 
 namespace weft {
 namespace {
+
+using test::hash_of;
 
 constexpr int frames = 12;
 
@@ -31,42 +34,30 @@ PointCache rising_sphere() {
   return cache;
 }
 
-Scene sheet_over(Animation animation) {
-  SceneCloth sheet;
-  sheet.size = 33;
-  sheet.placement.translate = {0, 0.55, 0};
+Scene sheet_over_ball(Animation animation) {
   SceneBody ball;
   ball.surface = "builtin:sphere";
   ball.size = 33;
   ball.animation = std::move(animation);
-  Scene scene;
-  scene.cloths = {sheet};
-  scene.bodies = {ball};
-  return scene;
-}
-
-std::string hash_of(const Scene& scene) {
-  Simulation simulation(scene, "memory", 1);
-  for (int frame = 0; frame < frames; ++frame) simulation.advance();
-  return simulation.state_hash();
+  return test::sheet_over(std::move(ball));
 }
 
 TEST(MemoryMotion, PointsInMemoryActAsTheirFileDoes) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / "weft-memory-motion.pc2";
   write_pc2(file, rising_sphere());
-  const std::string by_file = hash_of(sheet_over(file.string()));
+  const std::string by_file = hash_of(sheet_over_ball(file.string()));
   const PointCache read = read_point_cache(file);
   std::filesystem::remove(file);
   EXPECT_EQ(read.positions, rising_sphere().positions);
-  EXPECT_EQ(hash_of(sheet_over({rising_sphere(), "rising"})), by_file);
-  EXPECT_NE(hash_of(sheet_over({})), by_file);
+  EXPECT_EQ(hash_of(sheet_over_ball({rising_sphere(), "rising"})), by_file);
+  EXPECT_NE(hash_of(sheet_over_ball({})), by_file);
 }
 
 /// What a simulation says of a motion that it refuses.
 std::string refusal_of(PointCache cache) {
   try {
-    Simulation(sheet_over({std::move(cache), "given"}), "memory", 1);
+    Simulation(sheet_over_ball({std::move(cache), "given"}), "memory", 1);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::input);
     EXPECT_EQ(error.where(), "given");
@@ -92,7 +83,8 @@ TEST(MemoryMotion, BrokenMotionsAreRefused) {
 }
 
 TEST(MemoryMotion, IsNotWrittenAsAFile) {
-  EXPECT_THROW((void)scene_text(sheet_over({rising_sphere(), "given"}), "scene.json"), UsageError);
+  EXPECT_THROW((void)scene_text(sheet_over_ball({rising_sphere(), "given"}), "scene.json"),
+               UsageError);
 }
 
 TEST(MemoryMotion, IntersectionsAreCountedWhereCrossedSheetsAre) {

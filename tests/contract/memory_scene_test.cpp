@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/contract/sheet_scene.h"
 #include "weft/convert.h"
 #include "weft/error.h"
 #include "weft/geometry_image.h"
@@ -14,28 +15,16 @@
 namespace weft {
 namespace {
 
-constexpr int frames = 12;
+using test::hash_of;
 
 Scene sheet_on(Surface body) {
-  SceneCloth sheet;
-  sheet.size = 33;
-  sheet.placement.translate = {0, 0.55, 0};
   SceneBody ball;
   ball.name = "ball";
   ball.surface = std::move(body);
   ball.size = 33;
   ball.placement.translate = {0, 0.3, 0};
   ball.placement.scale = {0.5, 0.5, 0.5};
-  Scene scene;
-  scene.cloths = {sheet};
-  scene.bodies = {ball};
-  return scene;
-}
-
-std::string hash_of(const Scene& scene) {
-  Simulation simulation(scene, "memory", 1);
-  for (int frame = 0; frame < frames; ++frame) simulation.advance();
-  return simulation.state_hash();
+  return test::sheet_over(std::move(ball));
 }
 
 TEST(MemoryScene, MeshInMemoryActsAsItsNameDoes) {
@@ -50,7 +39,7 @@ TEST(MemoryScene, ImageInMemoryActsAsItsFileDoes) {
   const GeometryImage image = convert_mesh(make_shape("sphere"), "builtin:sphere", options).image;
   Simulation simulation(sheet_on({image, "ball"}), "memory", 1);
   FrameReport report;
-  for (int frame = 0; frame < frames; ++frame) report = simulation.advance();
+  for (int frame = 0; frame < 12; ++frame) report = simulation.advance();
   EXPECT_GT(report.contacts, 0);
   EXPECT_EQ(simulation.bodies()[0].image.size(), 33);
 }

@@ -10,8 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/run/exported_runs.h"
-#include "tests/support/patterns.h"
-#include "weft/files.h"
+#include "tests/support/tube_scene.h"
 #include "weft/garment.h"
 #include "weft/mesh.h"
 #include "weft/run/export/surface_points.h"
@@ -29,21 +28,11 @@ constexpr int across = 12, along = 8;      // intervals of samples: multiples of
 
 /// A tube of two panels, sewn round a ball.
 Scene tube(const fs::path& path, int frames) {
-  write_file(path, [&](std::ostream& out) { out << test::tube_pattern(width, height, 24, 100); });
   Scene scene;
   scene.frames = frames;
   scene.ground.reset();
-  SceneCloth cloth;
-  cloth.name = "tube";
-  cloth.surface = path.string();
-  cloth.spacing = 0.03;
-  scene.cloths.push_back(cloth);
-  SceneBody body;
-  body.surface = "builtin:sphere";
-  body.size = 17;
-  body.placement.scale = {0.15, 0.15, 0.15};
-  body.placement.translate = {0, 1.1, 0};
-  scene.bodies.push_back(body);
+  scene.cloths = {test::tube_cloth(path, width, height, 0.03)};
+  scene.bodies = {test::ball_in_tube(1.1, 17)};
   return scene;
 }
 

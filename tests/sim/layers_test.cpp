@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/patterns.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/files.h"
+#include "tests/support/tube_scene.h"
 #include "weft/simulation.h"
 
 namespace weft {
@@ -17,21 +16,9 @@ class Layers : public testing::Test {
  protected:
   Layers() {
     scene_.ground.reset();
-    for (const double width : {30.0, 34.0}) {
-      const std::string path = (folder_ / (std::to_string(width) + ".json")).string();
-      write_file(path, [&](std::ostream& out) { out << test::tube_pattern(width, 16, 24, 100); });
-      SceneCloth cloth;
-      cloth.name = "tube" + std::to_string(scene_.cloths.size());
-      cloth.surface = path;
-      cloth.spacing = 0.03;
-      scene_.cloths.push_back(cloth);
-    }
-    SceneBody body;
-    body.surface = "builtin:sphere";
-    body.size = 33;
-    body.placement.scale = {0.15, 0.15, 0.15};
-    body.placement.translate = {0, 1.08, 0};
-    scene_.bodies.push_back(body);
+    scene_.cloths = {test::tube_cloth(folder_ / "tube0.json", 30, 16, 0.03),
+                     test::tube_cloth(folder_ / "tube1.json", 34, 16, 0.03)};
+    scene_.bodies = {test::ball_in_tube(1.08)};
   }
   test::TemporaryFolder folder_;
   Scene scene_;

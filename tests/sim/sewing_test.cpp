@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "tests/support/patterns.h"
 #include "tests/support/temporary_folder.h"
-#include "weft/files.h"
+#include "tests/support/tube_scene.h"
 #include "weft/simulation.h"
 
 namespace weft {
@@ -12,19 +11,9 @@ namespace {
 class Sewing : public testing::Test {
  protected:
   Sewing() {
-    const std::string path = (folder_ / "tube.json").string();
-    write_file(path, [&](std::ostream& out) { out << test::tube_pattern(30, 20, 24, 100); });
     scene_.ground.reset();
-    SceneCloth cloth;
-    cloth.surface = path;
-    cloth.spacing = 0.02;
-    scene_.cloths.push_back(cloth);
-    SceneBody body;
-    body.surface = "builtin:sphere";
-    body.size = 33;
-    body.placement.scale = {0.15, 0.15, 0.15};
-    body.placement.translate = {0, 1.1, 0};
-    scene_.bodies.push_back(body);
+    scene_.cloths = {test::tube_cloth(folder_ / "tube.json", 30, 20, 0.02)};
+    scene_.bodies = {test::ball_in_tube(1.1)};
   }
   test::TemporaryFolder folder_;
   Scene scene_;
