@@ -14,7 +14,8 @@ import numpy as np
 
 import weft
 import weft.batch.jobs
-from module import ModuleTest, PROGRAM
+from module import ModuleTest
+from program import PROGRAM
 
 try:
     import distributed
@@ -65,8 +66,8 @@ class BatchTest(ModuleTest):
         if job["command"] == "convert":
             self.run_weft("convert", job["mesh"], "-o", "alone.exr", "--size", job["size"], "--quiet")
             return hashlib.sha256((self.folder / "alone.exr").read_bytes()).hexdigest()[:16]
-        report = self.run_weft("drape", job["cloth"], job["body"], "-o", "alone", "--size", job["size"], "--frames", job["frames"], "--json")
-        return json.loads(report)["state_hash"]
+        report = self.run_json("drape", job["cloth"], job["body"], "-o", "alone", "--size", job["size"], "--frames", job["frames"])
+        return report["state_hash"]
 
     def assert_each_done_once(self, jobs, folder="out"):
         done = [row for row in self.rows(folder) if row["status"] == "done"]

@@ -70,7 +70,7 @@ class Garments(ModuleTest):
             garment.places[0, 0] = 1
 
     def test_simulations_take_patterns(self):
-        told = json.loads(self.run_weft("garment", "tube.json", "--body", "builtin:sphere", "--spacing", 30, "--frames", 5, "-o", "run", "--json"))
+        told = self.run_json("garment", "tube.json", "--body", "builtin:sphere", "--spacing", 30, "--frames", 5, "-o", "run")
         simulation = weft.Simulation(threads=1)
         simulation.add_body("builtin:sphere")
         simulation.add_cloth(weft.read_pattern("tube.json"), spacing=0.03, fabric={})

@@ -1,34 +1,19 @@
-"""The module under test and the program beside it; shared by the tests of this folder."""
+"""The module under test, beside the program; shared by the tests of this folder."""
 import os
-import pathlib
-import subprocess
-import tempfile
-import unittest
 
 import numpy as np
 
 import weft
-
-PROGRAM = os.environ["WEFT_PROGRAM"]
-SHARED = pathlib.Path(os.environ["WEFT_SHARED_DIR"])
-SOURCE = pathlib.Path(os.environ["WEFT_SOURCE_DIR"])
+from program import ProgramTest
 
 
-class ModuleTest(unittest.TestCase):
-    """A test in a folder of its own, gone at its end."""
+class ModuleTest(ProgramTest):
+    """A test that stands in a folder of its own, gone at its end."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="weft-test-")
-        self.addCleanup(folder.cleanup)
+        super().setUp()
         self.addCleanup(os.chdir, os.getcwd())
-        self.folder = pathlib.Path(folder.name)
         os.chdir(self.folder)
-
-    def run_weft(self, *words):
-        """What the program says on stdout."""
-        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, cwd=self.folder)
-        self.assertEqual(done.returncode, 0, f"{words}\n{done.stderr}")
-        return done.stdout
 
 
 def small_torus(around=10, along=14):

@@ -11,7 +11,8 @@ import unittest
 import numpy as np
 
 import weft
-from module import PROGRAM, SOURCE, ModuleTest
+from module import ModuleTest
+from program import PROGRAM, SOURCE
 
 V, F = weft.read_mesh("builtin:box")
 
@@ -179,14 +180,14 @@ class Skins(ModuleTest):
             self.assertLess(np.abs(written[frame] - wanted).max(), 1e-6)
 
     def test_a_run_goes_on_with_its_animation_alone(self):
-        whole = self.run_weft("simulate", self.scene("walk"), "-o", "whole", "--json")
+        whole = self.run_json("simulate", self.scene("walk"), "-o", "whole")
         self.run_weft("simulate", "scene.json", "-o", "run", "--frames", "5", "--checkpoint", "5")
         words = [PROGRAM, "simulate", self.scene("wave", "other.json"), "-o", "run", "--resume"]
         done = subprocess.run(words, capture_output=True, text=True)
         self.assertEqual(done.returncode, 3)
         self.assertIn("bodies/0/animation", done.stderr)
-        resumed = self.run_weft("simulate", self.scene("figure.glb#walk"), "-o", "run", "--resume", "--json", "--threads", "2")
-        self.assertEqual(json.loads(resumed)["state_hash"], json.loads(whole)["state_hash"])
+        resumed = self.run_json("simulate", self.scene("figure.glb#walk"), "-o", "run", "--resume", "--threads", "2")
+        self.assertEqual(resumed["state_hash"], whole["state_hash"])
 
     def test_names_that_are_not_there_are_told_with_those_that_are(self):
         self.assertRaisesRegex(weft.InputError, "no animation 'run'; one of its 2, 'walk', 'wave'", weft.read_pc2, self.made, clip="run")

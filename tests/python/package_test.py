@@ -8,7 +8,8 @@ import sys
 import unittest
 
 import weft
-from module import ModuleTest, PROGRAM, SOURCE
+from module import ModuleTest
+from program import PROGRAM, SOURCE
 
 
 class Package(ModuleTest):
@@ -81,7 +82,7 @@ class Package(ModuleTest):
         self.assertEqual(done.stdout.split(), [str(site / "weft/__init__.py"), "9"], done.stderr)
 
     def test_version_is_the_program_s(self):
-        self.assertEqual(self.run_weft("--version"), f"weft {weft.__version__}\n")
+        self.assertEqual(self.run_weft("--version").stdout, f"weft {weft.__version__}\n")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,8 @@ import unittest
 import numpy as np
 
 import weft
-from module import ModuleTest, SOURCE
+from module import ModuleTest
+from program import SOURCE
 
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.S | re.M)
 SHAPES = {"knot": {}, "tshirt": {"charts": 4}, "double_torus": {"fit": True}, "sphere": {"parameterizer": "floater"}}
@@ -103,7 +104,7 @@ class SameBits(ModuleTest):
 
     def simulated(self):
         (self.folder / "scene.json").write_text(json.dumps(self.scene_of()))
-        return json.loads(self.run_weft("simulate", "scene.json", "-o", "run", "--on", "image", "--json"))
+        return self.run_json("simulate", "scene.json", "-o", "run", "--on", "image")
 
     def test_simulations_are_the_program_s(self):
         shirt = weft.builtin("tshirt", size=33)
@@ -126,7 +127,7 @@ class SameBits(ModuleTest):
         V, F = weft.read_mesh("shirt.obj")
         scene = {"version": 1, "frames": 4, "cloths": [{"surface": "shirt.obj", "size": 33, "translate": [0, 0.2, 0]}]}
         (self.folder / "scene.json").write_text(json.dumps(scene))
-        report = json.loads(self.run_weft("simulate", "scene.json", "-o", "run", "--export", "pc2", "--json"))
+        report = self.run_json("simulate", "scene.json", "-o", "run", "--export", "pc2")
         simulation = weft.Simulation()
         cloth = simulation.add_cloth((V, F), size=33, translate=(0, 0.2, 0), fabric={})
         *_, last = simulation.run(4)

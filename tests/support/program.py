@@ -1,4 +1,4 @@
-"""Runs the program under test; shared by the tests of this folder."""
+"""Runs the program under test; shared by the tests of the program and of the Python module."""
 import json
 import os
 import pathlib
