@@ -73,12 +73,15 @@ struct GarmentSeam {
   std::vector<std::array<int, 2>> pairs;  ///< [k] samples
 };
 
+/// Distance between charts that are laid flat above each other, so that no two are near. [m]
+inline constexpr float flat_distance = 0.5F;
+
 /// A pattern as an image of charts, one rectangle for each panel in the pattern's order.
 struct Garment {
   std::string name;
   GeometryImage image;  ///< panels as the pattern places them, with no mates between them
   BorderMates sewn;     ///< the same charts with the seams closed
-  Planes3 flat;         ///< [n x n] the panels laid flat, far from each other [m]
+  Planes3 flat;         ///< [n x n] the panels laid flat, flat_distance above each other [m]
   Planes3 texture;      ///< [n x n] x and y in the pattern's panel [m]
   std::vector<GarmentSeam> seams;
   std::vector<int> held;  ///< samples of edges that have a label, which say where it is worn

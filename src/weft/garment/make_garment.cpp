@@ -12,9 +12,6 @@
 namespace weft {
 namespace {
 
-/// Distance between panels that are laid flat above each other, so that no two are near. [m]
-constexpr float flat_distance = 0.5F;
-
 /// The samples of a panel, in its own axes.
 PlaneGrid samples_of(const PanelOutline& outline, const std::string& place) {
   std::optional<PlaneGrid> grid =

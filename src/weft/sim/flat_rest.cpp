@@ -7,12 +7,10 @@
 
 #include "weft/core/assert.h"
 #include "weft/error.h"
+#include "weft/garment.h"
 
 namespace weft {
 namespace {
-
-/// Distance between islands, as between the panels of a garment: no two are near. [m]
-constexpr float island_distance = 0.5F;
 
 /// Parts of the mean area of a triangle below which one has none: in the texture, where the
 /// surface has some.
@@ -81,7 +79,7 @@ Planes3 lay_flat(const BorderMates& mates, const Planes3& texture, double scale)
     const Vec3d uv = vec_cast<double>(texture.at(at));
     const Vec2d place = scale * (Vec2d{uv.x, uv.y} - (1.0 / counts[chart]) * middle[chart]);
     rest.set(s, {static_cast<float>(place.x), static_cast<float>(place.y),
-                 island_distance * static_cast<float>(chart)});
+                 flat_distance * static_cast<float>(chart)});
   }
   return rest;
 }

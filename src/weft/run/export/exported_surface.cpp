@@ -147,8 +147,6 @@ MeshFaces image_faces(const SurfacePoints& grid) {
   return faces;
 }
 
-constexpr float centimetres = 100;
-
 /// Texture coordinates are where a sample lies in its panel; samples without a face have none.
 MeshFaces garment_faces(const SurfacePoints& grid, const Planes3& texture) {
   MeshFaces faces = grid_faces(grid);
@@ -158,7 +156,7 @@ MeshFaces garment_faces(const SurfacePoints& grid, const Planes3& texture) {
     if (number[s] < 0) continue;
     number[s] = static_cast<int>(faces.texture.size());
     const Vec3f p = texture.at(static_cast<int>(s));
-    faces.texture.push_back({centimetres * p.x, centimetres * p.y});
+    faces.texture.push_back({pattern_units * p.x, pattern_units * p.y});
   }
   for (int& corner : faces.texture_corners) corner = number[corner];
   return faces;

@@ -54,6 +54,9 @@ class BoundVertices {
   std::vector<Bond> bonds_;       // [V]
 };
 
+/// Units of what is written of patterns, in a metre: centimetres.
+inline constexpr float pattern_units = 100;
+
 /// A named run of a surface's faces, or of vertices along a line.
 struct NamedRun {
   std::string name;

@@ -4,13 +4,12 @@
 
 #include "weft/image/io/image_parts.h"
 #include "weft/run/export/distinct_names.h"
+#include "weft/run/export/exported_surface.h"
 
 namespace weft {
 namespace {
 
-constexpr float centimetres = 100;
-
-/// Names of panels as names of files, which unpacking may make of them.
+/// Names of panels as names of files, which unpacking may make of them, no two alike.
 std::vector<std::string> file_names(const std::vector<Chart>& charts) {
   std::vector<std::string> names;
   DistinctNames distinct;
@@ -45,8 +44,8 @@ PanelImages panel_images(const Garment& garment, const Planes3& samples) {
     const ImagePart pattern{names[p] + ".pattern",
                             chart.rows,
                             chart.cols,
-                            {channel_of("U", chart, garment.texture.x, centimetres),
-                             channel_of("V", chart, garment.texture.y, centimetres)}};
+                            {channel_of("U", chart, garment.texture.x, pattern_units),
+                             channel_of("V", chart, garment.texture.y, pattern_units)}};
     arrays.push_back(position);
     arrays.push_back(pattern);
     ImagePart both = position;
