@@ -18,14 +18,10 @@ namespace {
 
 using Numbers = std::span<const double>;
 
-double length_of(Numbers q) {
-  return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-}
-
 /// Rotation between two of any length, the shorter way round.
 /// @param value  [4] a unit quaternion
 void between_rotations(double part, Numbers a, Numbers b, std::span<double> value) {
-  const double size_a = length_of(a), size_b = length_of(b);
+  const double size_a = quaternion_length(a), size_b = quaternion_length(b);
   double product = 0;
   for (std::size_t k = 0; k < 4; ++k) product += a[k] * b[k];
   std::array<double, 4> p{}, q{}, apart{}, sum{};
@@ -36,7 +32,7 @@ void between_rotations(double part, Numbers a, Numbers b, std::span<double> valu
     sum[k] = p[k] + q[k];
   }
   // Exact for small angles, too, where the arc cosine of the product is not.
-  const double angle = 2 * arc_tangent(length_of(apart), length_of(sum));
+  const double angle = 2 * arc_tangent(quaternion_length(apart), quaternion_length(sum));
   const double sine_of_all = sine(angle);
   const bool small = angle < 1e-9;
   const double of_p = small ? 1 - part : sine((1 - part) * angle) / sine_of_all;

@@ -11,13 +11,9 @@ Placing from_matrix(const GltfObject& node, const std::vector<double>& m) {
   return {{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}}, {m[12], m[13], m[14]}};
 }
 
-double size_of(const std::array<double, 4>& q) {
-  return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-}
-
 /// Columns of the rotation by a quaternion.
 std::array<Vec3d, 3> rotation_axes(const std::array<double, 4>& q) {
-  const double size = size_of(q);
+  const double size = quaternion_length(q);
   const double x = q[0] / size, y = q[1] / size, z = q[2] / size, w = q[3] / size;
   return {{{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
            {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
@@ -54,8 +50,12 @@ Placing after(const Placing& outer, const Placing& inner) {
           outer.point(inner.offset)};
 }
 
+double quaternion_length(std::span<const double> q) {
+  return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+}
+
 bool is_rotation(const std::array<double, 4>& quaternion) {
-  const double size = size_of(quaternion);
+  const double size = quaternion_length(quaternion);
   return size > 0 && std::isfinite(size);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "weft/mesh/io/gltf_object.h"
@@ -37,6 +38,9 @@ struct NodeTransform {
 
 /// @throws InputError for a matrix that is not affine, or a rotation without direction
 NodeTransform read_transform(const GltfObject& node);
+
+/// The norm of a quaternion. @param q  [4]
+double quaternion_length(std::span<const double> q);
 
 /// Whether a quaternion has a direction: finite, and not 0.
 bool is_rotation(const std::array<double, 4>& quaternion);
