@@ -107,4 +107,12 @@ std::string in_quotes(std::string_view text) {
   return "'" + shown + (text.size() > most ? "...'" : "'");
 }
 
+std::string quoted_list(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 12;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    list += (i == 0 ? "" : ", ") + in_quotes(names[i]);
+  return names.size() > most ? list + fmt::format(" and {} more", names.size() - most) : list;
+}
+
 }  // namespace weft

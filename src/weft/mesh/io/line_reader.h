@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace weft {
 
@@ -57,5 +58,9 @@ class LineReader {
 
 /// A piece of a file as errors may show it: in quotes, short, only printable ASCII.
 std::string in_quotes(std::string_view text);
+
+/// Names as errors list them: each in quotes; of many the first twelve, and how many more there
+/// are.
+std::string quoted_list(const std::vector<std::string>& names);
 
 }  // namespace weft

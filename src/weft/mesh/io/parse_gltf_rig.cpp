@@ -19,7 +19,6 @@ using Node = GltfRig::Node;
 using Shape = GltfRig::Shape;
 using Target = GltfRig::Target;
 
-constexpr std::size_t most_named = 12;  ///< animations that an error lists
 /// Joints and morph targets of all places of all meshes together.
 constexpr std::size_t most_numbers = 10'000'000;
 
@@ -33,15 +32,13 @@ GltfObject find_clip(const GltfObject& root, std::string_view clip) {
   const std::size_t count = root.count("animations");
   if (count == 0) root.fail("has no animation", "a file with one is wanted");
   if (clip.empty()) return root.element("animations", 0);
-  std::string names;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string name = clip_name(root, i);
-    if (name == clip) return root.element("animations", i);
-    if (i < most_named) names += (i == 0 ? "" : ", ") + in_quotes(name);
+    names.push_back(clip_name(root, i));
+    if (names.back() == clip) return root.element("animations", i);
   }
-  if (count > most_named) names += fmt::format(" and {} more", count - most_named);
   root.fail(fmt::format("has no animation {}", in_quotes(clip)),
-            fmt::format("one of its {}, {}, is wanted", count, names));
+            fmt::format("one of its {}, {}, is wanted", count, quoted_list(names)));
 }
 
 std::vector<Node> read_nodes(const GltfObject& root) {

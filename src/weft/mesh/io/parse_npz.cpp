@@ -17,8 +17,6 @@
 namespace weft {
 namespace {
 
-constexpr std::size_t most_named = 12;  ///< arrays that an error lists
-
 const ZipMember* find(const std::vector<ZipMember>& members, std::string_view array) {
   for (const ZipMember& member : members)
     if (member.name == fmt::format("{}.npy", array)) return &member;
@@ -26,10 +24,9 @@ const ZipMember* find(const std::vector<ZipMember>& members, std::string_view ar
 }
 
 std::string names_of(const std::vector<ZipMember>& members) {
-  std::string names;
-  for (std::size_t i = 0; i < std::min(members.size(), most_named); ++i)
-    names += (i == 0 ? "" : ", ") + in_quotes(members[i].name);
-  return names.empty() ? "nothing" : names;
+  std::vector<std::string> names;
+  for (const ZipMember& member : members) names.push_back(member.name);
+  return names.empty() ? "nothing" : quoted_list(names);
 }
 
 /// Frames a second, where the file says so.
