@@ -1,94 +1,18 @@
+#include "weft/cloth/kernels/isa/line_tiles.h"
 #include "weft/cloth/kernels/isa/newton_rows.h"
 
-// Block tridiagonal systems of neighbouring lines, side by side in lanes. Factors of blocks are
-// computed in double and stored in float: in light, stiff cloth the Schur complements are small
-// differences of large blocks. For springs the differences have a closed form without cancellation.
+// Factors of the block tridiagonal systems of neighbouring lines, side by side in lanes. Those of
+// blocks are computed in double and stored in float: in light, stiff cloth the Schur complements
+// are small differences of large blocks. For springs the differences have a closed form without
+// cancellation.
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// Positions that are read at a time.
-constexpr int chunk = 16;
 /// A pivot is at least what the diagonal has beyond the springs, as those alone leave none below 0,
 /// and at least this part of its entry. Rounding alone would make small pivots, or negative ones,
 /// and what lines pass on would grow from sample to sample.
 constexpr double min_pivot = 2e-7;
 constexpr float min_series_pivot = 1e-6F;
-
-using Four = float __attribute__((vector_size(16)));
-using UnalignedFour = float __attribute__((vector_size(16), aligned(4), may_alias));
-
-/// A 4 x 4 matrix, by rows, becomes its transpose.
-inline void transpose(Four* m) {
-  const Four a = __builtin_shufflevector(m[0], m[1], 0, 4, 1, 5),
-             b = __builtin_shufflevector(m[0], m[1], 2, 6, 3, 7),
-             c = __builtin_shufflevector(m[2], m[3], 0, 4, 1, 5),
-             d = __builtin_shufflevector(m[2], m[3], 2, 6, 3, 7);
-  m[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
-  m[1] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
-  m[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-  m[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
-}
-
-/// Element j of line i becomes tile[j][i]. Lanes beyond the last line get finite values.
-template <int lanes>
-inline void read_tile(const PlaneView& plane, const LineBlock& block, int position, int count,
-                      float (*tile)[lanes]) {
-  const int width = block.width;
-  if (block.along_rows) {
-    for (int i = 0; i < width; i += 4) {
-      const float* line[4];
-      for (int k = 0; k < 4; ++k)
-        line[k] =
-            plane.base + (block.first + (i + k < width ? i + k : i)) * plane.stride + position;
-      for (int j = 0; j < chunk; j += 4) {
-        Four m[4];
-        for (int k = 0; k < 4; ++k) m[k] = *reinterpret_cast<const UnalignedFour*>(line[k] + j);
-        transpose(m);
-        for (int k = 0; k < 4; ++k) *reinterpret_cast<UnalignedFour*>(&tile[j + k][i]) = m[k];
-      }
-    }
-    return;
-  }
-  for (int j = 0; j < count; ++j) {
-    const float* line = plane.base + (position + j) * plane.stride + block.first;
-    // Beyond the last line is the frame.
-#pragma omp simd
-    for (int i = 0; i < lanes; ++i) tile[j][i] = line[i];
-  }
-}
-
-template <int lanes>
-inline void write_tile(const MutablePlaneView& plane, const LineBlock& block, int position,
-                       int count, const float (*tile)[lanes], bool add) {
-  const int width = block.width;
-  if (block.along_rows) {
-    for (int i = 0; i < width; i += 4)
-      for (int j = 0; j < count; j += 4) {
-        Four m[4];
-        for (int k = 0; k < 4; ++k) m[k] = *reinterpret_cast<const UnalignedFour*>(&tile[j + k][i]);
-        transpose(m);
-        float* const first = plane.base + (block.first + i) * plane.stride + position + j;
-        const int lines = width - i < 4 ? width - i : 4;
-        for (int k = 0; k < lines; ++k) {
-          float* const line = first + k * plane.stride;
-          if (j + 4 <= count) {
-            auto* const four = reinterpret_cast<UnalignedFour*>(line);
-            *four = add ? *four + m[k] : m[k];
-          } else {
-            for (int p = 0; p < count - j; ++p) line[p] = add ? line[p] + m[k][p] : m[k][p];
-          }
-        }
-      }
-    return;
-  }
-  for (int j = 0; j < count; ++j) {
-    float* line = plane.base + (position + j) * plane.stride + block.first;
-    if (add)
-      for (int i = 0; i < width; ++i) line[i] += tile[j][i];
-    else
-      for (int i = 0; i < width; ++i) line[i] = tile[j][i];
-  }
-}
 
 /// The inverses of the Schur complements, carried from position to position.
 template <int lanes>
@@ -283,88 +207,6 @@ void factor_series(const LineBlock& block, const HeldLineMatrix& matrix, float* 
   }
 }
 
-/// out = G v for the blocks of a position
-template <int lanes>
-inline void multiply(const float* blocks, const float (*v)[lanes], float (*out)[lanes]) {
-#pragma omp simd
-  for (int i = 0; i < lanes; ++i) {
-    const float x = v[0][i], y = v[1][i], z = v[2][i];
-    const float xy = blocks[lanes + i], xz = blocks[2 * lanes + i], yz = blocks[4 * lanes + i];
-    out[0][i] = blocks[i] * x + xy * y + xz * z;
-    out[1][i] = xy * x + blocks[3 * lanes + i] * y + yz * z;
-    out[2][i] = xz * x + yz * y + blocks[5 * lanes + i] * z;
-  }
-}
-
-/// The product of a coupling block and a vector: B v for blocks, -(t v + s (s . v)) for springs.
-struct BlockPull {
-  static constexpr int entries = line_factor_entries;
-  template <int lanes>
-  static void apply(const float* blocks, const float (*v)[lanes], float (*out)[lanes]) {
-    multiply<lanes>(blocks, v, out);
-  }
-};
-struct SpringPull {
-  static constexpr int entries = held_factor_entries;
-  template <int lanes>
-  static void apply(const float* spring, const float (*v)[lanes], float (*out)[lanes]) {
-#pragma omp simd
-    for (int i = 0; i < lanes; ++i) {
-      const float t = spring[i], x = spring[lanes + i], y = spring[2 * lanes + i],
-                  z = spring[3 * lanes + i];
-      const float along = x * v[0][i] + y * v[1][i] + z * v[2][i];
-      out[0][i] = -(t * v[0][i] + along * x);
-      out[1][i] = -(t * v[1][i] + along * y);
-      out[2][i] = -(t * v[2][i] + along * z);
-    }
-  }
-};
-
-template <int lanes, class Pull>
-void solve(const LineBlock& block, const float* factors, const PlaneView* rhs, float scale,
-           bool add, float* scratch, const MutablePlaneView* out) {
-  using Vectors = float(*)[lanes];
-  constexpr std::ptrdiff_t entries = std::ptrdiff_t{Pull::entries} * lanes;
-  alignas(64) float tile[3][chunk][lanes];
-  if (block.width < lanes) __builtin_memset(tile, 0, sizeof tile);
-  alignas(64) float passed[3][lanes] = {}, right[3][lanes];
-  for (int position = 0; position < block.length; position += chunk) {
-    const int count = block.length - position < chunk ? block.length - position : chunk;
-    for (int k = 0; k < 3; ++k) read_tile<lanes>(rhs[k], block, position, count, tile[k]);
-    for (int j = 0; j < count; ++j) {
-      const std::ptrdiff_t p = position + j;
-      const float* blocks = factors + p * entries;
-      const auto here = reinterpret_cast<Vectors>(scratch + p * 3 * lanes);
-      for (int k = 0; k < 3; ++k)
-#pragma omp simd
-        for (int i = 0; i < lanes; ++i) right[k][i] = tile[k][j][i] - passed[k][i];
-      multiply<lanes>(blocks, right, here);
-      Pull::template apply<lanes>(blocks + 6 * lanes, here, passed);
-    }
-  }
-  alignas(64) float later[3][lanes] = {}, pulled[3][lanes];
-  const int last = (block.length - 1) / chunk * chunk;
-  for (int position = last; position >= 0; position -= chunk) {
-    const int count = block.length - position < chunk ? block.length - position : chunk;
-    for (int j = count - 1; j >= 0; --j) {
-      const std::ptrdiff_t p = position + j;
-      const float* blocks = factors + p * entries;
-      const auto here = reinterpret_cast<Vectors>(scratch + p * 3 * lanes);
-      Pull::template apply<lanes>(blocks + 6 * lanes, later, passed);
-      multiply<lanes>(blocks, passed, pulled);
-      for (int k = 0; k < 3; ++k)
-#pragma omp simd
-        for (int i = 0; i < lanes; ++i) {
-          later[k][i] = here[k][i] - pulled[k][i];
-          tile[k][j][i] = scale * later[k][i];
-        }
-    }
-    for (int k = 0; k < 3; ++k) write_tile<lanes>(out[k], block, position, count, tile[k], add);
-  }
-}
-
-constexpr int half_lanes = line_lanes / 2;
-
 }  // namespace
 
 void factor_lines(const LineBlock& lines, const LineMatrix& matrix, float* factors) {
@@ -387,27 +229,11 @@ void factor_spring_lines(const LineBlock& lines, const SpringLineMatrix& matrix,
   }
 }
 
-void solve_lines(const LineBlock& lines, const float* factors, const PlaneView* rhs, float scale,
-                 bool add, float* scratch, const MutablePlaneView* out) {
-  if (lines.width > half_lanes)
-    solve<line_lanes, BlockPull>(lines, factors, rhs, scale, add, scratch, out);
-  else
-    solve<half_lanes, BlockPull>(lines, factors, rhs, scale, add, scratch, out);
-}
-
 void factor_held_lines(const LineBlock& lines, const HeldLineMatrix& matrix, float* factors) {
   if (lines.width > half_lanes)
     factor_series<line_lanes>(lines, matrix, factors);
   else
     factor_series<half_lanes>(lines, matrix, factors);
-}
-
-void solve_held_lines(const LineBlock& lines, const float* factors, const PlaneView* rhs,
-                      float scale, bool add, float* scratch, const MutablePlaneView* out) {
-  if (lines.width > half_lanes)
-    solve<line_lanes, SpringPull>(lines, factors, rhs, scale, add, scratch, out);
-  else
-    solve<half_lanes, SpringPull>(lines, factors, rhs, scale, add, scratch, out);
 }
 
 }  // namespace weft::WEFT_KERNEL_SET
