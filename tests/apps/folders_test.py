@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 from program import PROGRAM, ProgramTest
-from simulate_test import SceneTest, sheet_scene
+from scenes import SceneTest, sheet_scene
 
 ALL_FORMATS = "obj,pc2,mdd,glb,ply,vtp,exr,usda"
 

@@ -14,6 +14,11 @@ inline const Material hard{
 inline const Material woven{
     .density = 0.1, .stretch = {30000, 9000}, .shear = 60, .bending = {2e-5, 4e-6}, .damping = 1};
 
+/// Pins both corners of the first row where they are.
+inline void hang(Cloth& cloth) {
+  for (const int s : {0, cloth.size - 1}) pin(cloth, s, vec_cast<double>(cloth.rest.at(s)));
+}
+
 /// A linear system as a step meets it: springs linearised at a shaken state.
 struct System {
   explicit System(const Cloth& of, double shaken = 0.2)
