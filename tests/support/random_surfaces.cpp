@@ -11,7 +11,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/random_points.h"
 #include "weft/core/math.h"
-#include "weft/mesh/shapes/polygonise.h"
+#include "weft/mesh/shapes/field.h"
 #include "weft/mesh/surface_parts.h"
 #include "weft/mesh/topology.h"
 

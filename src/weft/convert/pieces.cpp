@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "weft/mesh/edge_uses.h"
 #include "weft/mesh/surface_parts.h"
+#include "weft/mesh/topology.h"
 
 namespace weft {
 

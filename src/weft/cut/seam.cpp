@@ -11,7 +11,6 @@
 #include "weft/files.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
-#include "weft/mesh/io/text_encoding.h"
 
 namespace weft {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "weft/core/orientation.h"
-#include "weft/mesh/edge_uses.h"
+#include "weft/mesh/topology.h"
 
 namespace weft {
 namespace {

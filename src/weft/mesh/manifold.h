@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "weft/mesh.h"
-#include "weft/mesh/edge_uses.h"
+#include "weft/mesh/topology.h"
 
 namespace weft {
 

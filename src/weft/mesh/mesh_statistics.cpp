@@ -7,7 +7,6 @@
 
 #include "weft/core/disjoint_sets.h"
 #include "weft/mesh/crossings.h"
-#include "weft/mesh/edge_uses.h"
 #include "weft/mesh/surface_parts.h"
 #include "weft/mesh/topology.h"
 #include "weft/repair.h"

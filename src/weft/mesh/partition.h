@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "weft/mesh.h"
-#include "weft/mesh/edge_uses.h"
+#include "weft/mesh/topology.h"
 #include "weft/repair.h"
 
 namespace weft {

@@ -4,8 +4,8 @@
 #include "weft/camera.h"
 #include "weft/core/math.h"
 #include "weft/drawing.h"
-#include "weft/mesh/edge_uses.h"
 #include "weft/mesh/shapes/solids.h"
+#include "weft/mesh/topology.h"
 #include "weft/picture.h"
 
 namespace weft {

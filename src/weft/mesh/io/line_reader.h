@@ -63,4 +63,10 @@ std::string in_quotes(std::string_view text);
 /// are.
 std::string quoted_list(const std::vector<std::string>& names);
 
+/// A file's text without the byte-order mark that some programs put before it. UTF-16, which only
+/// its mark tells from other bytes, becomes ASCII with a ? for every other character: such stand in
+/// names and comments alone, which no reader of text keeps.
+/// @param decoded  holds what was UTF-16; must live as long as the result, a view
+std::string_view plain_text(std::string_view bytes, std::string& decoded);
+
 }  // namespace weft

@@ -14,7 +14,6 @@
 #include "weft/mesh/io/coloured_files.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
-#include "weft/mesh/io/text_encoding.h"
 
 // tinyobjloader splits the face lines. It accepts invalid input (cut lines, words as zeros, indices
 // out of range), does not round decimals correctly, and reports no line numbers. So every vertex

@@ -6,7 +6,6 @@
 #include "weft/mesh.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
-#include "weft/mesh/io/text_encoding.h"
 
 // A vertex or a face that is not whole at the end of its line goes on on the next. What follows it
 // on its last line, such as its colour, is not needed: so each begins on a line of its own.

@@ -11,7 +11,6 @@
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/ply_format.h"
 #include "weft/mesh/io/polygon.h"
-#include "weft/mesh/io/text_encoding.h"
 
 namespace weft {
 namespace {

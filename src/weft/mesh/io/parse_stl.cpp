@@ -9,7 +9,6 @@
 #include "weft/mesh/io/byte_reader.h"
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/polygon.h"
-#include "weft/mesh/io/text_encoding.h"
 #include "weft/repair.h"
 
 namespace weft {

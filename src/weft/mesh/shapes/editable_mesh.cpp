@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "weft/core/assert.h"
-#include "weft/mesh/edge_uses.h"
+#include "weft/mesh/topology.h"
 #include "weft/mesh_statistics.h"
 
 namespace weft {

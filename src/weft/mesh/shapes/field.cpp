@@ -1,10 +1,115 @@
 #include "weft/mesh/shapes/field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
+
+#include "weft/core/assert.h"
 
 namespace weft {
 namespace {
+
+/// Corners of a cube by bits: 1 for x, 2 for y, 4 for z.
+constexpr int corners = 8;
+/// The six tetrahedra that share the diagonal from corner 0 to corner 7, each with positive volume.
+constexpr std::array<std::array<int, 4>, 6> tetrahedra{
+    {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
+
+/// Even permutations of a tetrahedron's corners that begin with the corners inside: one, or two.
+constexpr std::array<std::array<int, 4>, 4> one_first{
+    {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}}};
+constexpr std::array<std::array<int, 4>, 6> two_first{
+    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
+
+class Polygoniser {
+ public:
+  Polygoniser(const Field& field, const Box3d& box, double cell);
+  TriangleMesh run();
+
+ private:
+  [[nodiscard]] int point(int i, int j, int k) const { return (k * ny_ + j) * nx_ + i; }
+  [[nodiscard]] Vec3d place(int point) const;
+  [[nodiscard]] bool inside(int point) const { return values_[point] < 0; }
+  int vertex(int cube, int corner_a, int corner_b);
+  void add_tetrahedron(int cube, const std::array<int, 4>& corner);
+
+  Vec3d lower_;
+  double cell_;
+  int nx_, ny_, nz_;
+  std::array<int, corners> step_;  // from a cube's first point to its corners
+  std::vector<double> values_;     // [points]
+  std::vector<int> vertex_of_;  // [points * corners] by the lower end and the direction of an edge
+  TriangleMesh mesh_;
+};
+
+int points_along(double extent, double cell) { return static_cast<int>(extent / cell) + 2; }
+
+Polygoniser::Polygoniser(const Field& field, const Box3d& box, double cell)
+    : lower_(box.lower),
+      cell_(cell),
+      nx_(points_along(box.extent().x, cell)),
+      ny_(points_along(box.extent().y, cell)),
+      nz_(points_along(box.extent().z, cell)),
+      step_{},
+      values_(static_cast<std::size_t>(nx_) * ny_ * nz_),
+      vertex_of_(values_.size() * corners, -1) {
+  for (int c = 0; c < corners; ++c) step_[c] = point(c & 1, c >> 1 & 1, c >> 2);
+  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = field(place(static_cast<int>(i)));
+}
+
+Vec3d Polygoniser::place(int point) const {
+  const int i = point % nx_, j = point / nx_ % ny_, k = point / (nx_ * ny_);
+  return lower_ +
+         cell_ * Vec3d{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+}
+
+int Polygoniser::vertex(int cube, int corner_a, int corner_b) {
+  const auto [low, high] = std::minmax(corner_a, corner_b);
+  const int a = cube + step_[low], b = cube + step_[high];
+  int& known = vertex_of_[static_cast<std::size_t>(a) * corners + (high - low)];
+  if (known < 0) {
+    // Kept off the ends, where many vertices would meet in one point.
+    const double t = std::clamp(values_[a] / (values_[a] - values_[b]), 0.05, 0.95);
+    known = static_cast<int>(mesh_.positions.size());
+    mesh_.positions.push_back((1 - t) * place(a) + t * place(b));
+  }
+  return known;
+}
+
+void Polygoniser::add_tetrahedron(int cube, const std::array<int, 4>& corner) {
+  std::array<bool, 4> is_inside{};
+  for (int i = 0; i < 4; ++i) is_inside[i] = inside(cube + step_[corner[i]]);
+  const auto count = std::count(is_inside.begin(), is_inside.end(), true);
+  if (count == 0 || count == 4) return;
+  const auto cut = [&](const std::array<int, 4>& order, int i, int j) {
+    return vertex(cube, corner[order[i]], corner[order[j]]);
+  };
+  if (count == 2) {
+    for (const auto& o : two_first) {
+      if (!is_inside[o[0]] || !is_inside[o[1]]) continue;
+      const int a = cut(o, 0, 2), b = cut(o, 0, 3), c = cut(o, 1, 3), d = cut(o, 1, 2);
+      mesh_.triangles.push_back({a, b, c});
+      mesh_.triangles.push_back({a, c, d});
+    }
+    return;
+  }
+  const bool lone_is_inside = count == 1;
+  const auto lone =
+      std::find(is_inside.begin(), is_inside.end(), lone_is_inside) - is_inside.begin();
+  const auto& o = one_first[lone];
+  const int a = cut(o, 0, 1), b = cut(o, 0, 2), c = cut(o, 0, 3);
+  mesh_.triangles.push_back(lone_is_inside ? Triangle{a, b, c} : Triangle{a, c, b});
+}
+
+TriangleMesh Polygoniser::run() {
+  for (int k = 0; k + 1 < nz_; ++k)
+    for (int j = 0; j + 1 < ny_; ++j)
+      for (int i = 0; i + 1 < nx_; ++i)
+        for (const auto& tetrahedron : tetrahedra) add_tetrahedron(point(i, j, k), tetrahedron);
+  return std::move(mesh_);
+}
 
 constexpr int newton_steps = 12;
 constexpr double close_enough = 1e-9;  // [m]
@@ -108,6 +213,11 @@ Vec3d project_to_curve(const Field& first, const Field& second, Vec3d point) {
     point -= ((f * gg - g * fg) / determinant) * df + ((g * ff - f * fg) / determinant) * dg;
   }
   return point;
+}
+
+TriangleMesh polygonise(const Field& field, const Box3d& box, double cell) {
+  WEFT_ASSERT(cell > 0 && !box.empty());
+  return Polygoniser(field, box, cell).run();
 }
 
 }  // namespace weft

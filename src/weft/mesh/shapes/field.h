@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "weft/mesh.h"
 #include "weft/vec.h"
 
 namespace weft {
@@ -56,5 +57,12 @@ Vec3d gradient(const Field& field, Vec3d point);
 Vec3d project_to_surface(const Field& field, Vec3d point);
 /// Moves a nearby point onto the curve where both fields vanish.
 Vec3d project_to_curve(const Field& first, const Field& second, Vec3d point);
+
+/// The surface field = 0 by marching tetrahedra: every cube of a grid is cut into six tetrahedra
+/// around its main diagonal, so that cubes fit together and the result is always a closed, oriented
+/// 2-manifold (Doi and Koide 1991). Triangles are uneven: see remesh.h.
+/// @param box   holds the surface with a margin of a cell
+/// @param cell  side of the grid's cubes [m]
+TriangleMesh polygonise(const Field& field, const Box3d& box, double cell);
 
 }  // namespace weft

@@ -6,7 +6,6 @@
 #include "weft/mesh/shapes/field.h"
 #include "weft/mesh/shapes/mannequin.h"
 #include "weft/mesh/shapes/patch.h"
-#include "weft/mesh/shapes/polygonise.h"
 #include "weft/mesh/shapes/remesh.h"
 #include "weft/mesh/shapes/rings.h"
 

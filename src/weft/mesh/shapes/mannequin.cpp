@@ -5,7 +5,6 @@
 #include <span>
 
 #include "weft/mesh/shapes/field.h"
-#include "weft/mesh/shapes/polygonise.h"
 #include "weft/mesh/shapes/remesh.h"
 #include "weft/mesh/shapes/rings.h"
 
