@@ -4,8 +4,9 @@
 
 #include "apps/figures/figures.h"
 #include "weft/convert.h"
+#include "weft/cut/cut_graph.h"
 #include "weft/cut/cut_surface.h"
-#include "weft/cut/seed_cut.h"
+#include "weft/cut/open_to_disk.h"
 #include "weft/cut/straighten.h"
 #include "weft/drawing.h"
 #include "weft/picture.h"

@@ -1,10 +1,9 @@
-#include "weft/param/disk_order.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "tests/param/disks.h"
+#include "weft/param/coarse_to_fine.h"
 
 namespace weft {
 namespace {

@@ -1,8 +1,7 @@
-#include "weft/param/sweep_schedule.h"
-
 #include <gtest/gtest.h>
 
 #include "tests/param/disks.h"
+#include "weft/param/local_newton.h"
 
 namespace weft {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "tests/param/disks.h"
 #include "weft/param/disk_geometry.h"
-#include "weft/param/edge_queue.h"
 #include "weft/param/interior_solver.h"
 
 namespace weft {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "weft/mesh/topology.h"
-#include "weft/param/edge_queue.h"
+#include "weft/param/length_queue.h"
 
 namespace weft {
 namespace {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "weft/core/math.h"
-#include "weft/param/edge_queue.h"
 
 namespace weft {
 

@@ -20,7 +20,7 @@ namespace weft {
 /// Floater's shape-preserving weights: the one-ring is laid out by a geodesic polar map, and each
 /// neighbour contributes the barycentric coordinates of the centre in the triangle it spans
 /// [floater97]. Reproduces flat convex meshes. The weights of one vertex sum to 1; not symmetric.
-/// @param sides  [F] floored lengths (weft/param/edge_queue.h)
+/// @param sides  [F] floored lengths (weft/param/disk_geometry.h)
 /// @return [3F]
 std::vector<double> shape_preserving_weights(const DiskMesh& disk, const HalfEdges& edges,
                                              std::span<const std::array<double, 3>> sides);

@@ -4,25 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "weft/mesh.h"
-
 namespace weft {
-
-/// Edge lengths of a mesh after intrinsic mollification [sharp20]: all are raised by one small
-/// amount, so that in every triangle two sides together exceed the third by at least 1e-5 of the
-/// mean edge. Zero-area triangles and coincident points then have finite angles and weights. A mesh
-/// without slivers keeps its lengths to the last bit.
-/// @return [F][3] length of the side from corner k to the next [m], all > 0
-std::vector<std::array<double, 3>> floored_lengths(std::span<const Vec3d> positions,
-                                                   std::span<const Triangle> triangles);
-
-/// Tangents of the half angles at the corners of a triangle given by its sides.
-/// @param sides  length of the side from corner k to the next
-/// @return at corner k, in (0, infinity)
-std::array<double, 3> half_angle_tangents(const std::array<double, 3>& sides);
 
 /// Bucket queue of edges, shortest first: buckets are an eighth of an octave of the squared length
 /// wide, first in first out inside. `push` and `pop` take constant time, unlike those of a heap.
