@@ -1,5 +1,5 @@
 #include "weft/cloth/kernels/isa/dot.h"
-#include "weft/cloth/kernels/isa/newton_rows.h"
+#include "weft/cloth/kernels/isa/rows.h"
 
 namespace weft::WEFT_KERNEL_SET {
 namespace {

@@ -1,4 +1,4 @@
-#include "weft/cloth/kernels/isa/filtering_rows.h"
+#include "weft/cloth/kernels/isa/rows.h"
 
 namespace weft::WEFT_KERNEL_SET {
 namespace {

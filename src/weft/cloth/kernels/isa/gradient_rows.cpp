@@ -1,4 +1,4 @@
-#include "weft/cloth/kernels/isa/implicit_rows.h"
+#include "weft/cloth/kernels/isa/rows.h"
 
 // Conjugate gradients and their preconditioner.
 

@@ -1,4 +1,4 @@
-#include "weft/cloth/kernels/isa/implicit_rows.h"
+#include "weft/cloth/kernels/isa/rows.h"
 
 // Springs as seen from one of their ends and their matrix in implicit Euler, and the start and end
 // of a step.

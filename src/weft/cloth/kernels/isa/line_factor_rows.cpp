@@ -1,5 +1,5 @@
 #include "weft/cloth/kernels/isa/line_tiles.h"
-#include "weft/cloth/kernels/isa/newton_rows.h"
+#include "weft/cloth/kernels/isa/rows.h"
 
 // Factors of the block tridiagonal systems of neighbouring lines, side by side in lanes. Those of
 // blocks are computed in double and stored in float: in light, stiff cloth the Schur complements

@@ -1,5 +1,5 @@
 #include "weft/cloth/kernels/isa/line_tiles.h"
-#include "weft/cloth/kernels/isa/newton_rows.h"
+#include "weft/cloth/kernels/isa/rows.h"
 
 // Block tridiagonal systems of neighbouring lines, solved side by side in lanes with their factors.
 namespace weft::WEFT_KERNEL_SET {

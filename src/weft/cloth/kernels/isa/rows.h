@@ -1,10 +1,14 @@
 #pragma once
 
+#include "weft/cloth/kernels/filtering_kernels.h"
+#include "weft/cloth/kernels/implicit_kernels.h"
 #include "weft/cloth/kernels/kernel_table.h"
+#include "weft/cloth/kernels/newton_kernels.h"
 
 // The kernels of one instruction set, whose name WEFT_KERNEL_SET is.
 namespace weft::WEFT_KERNEL_SET {
 
+// Of several methods.
 void springs(const SpringRun& run, Row3 lines, Row3 out, Row3 out_there);
 double spring_energy(const SpringRun& run);
 void add_differences(const DifferenceRow& row, Row3 out);
@@ -29,5 +33,72 @@ void limit(const LimitedRows& rows);
 RowMotion motion(int n, const float* mass, ConstRow3 position, ConstRow3 velocity);
 
 extern const KernelTable table;
+
+// Of methods that filter forces.
+void viscous_springs(const ViscousRow& row, Row3 force);
+void scale(int n, const float* factor, Row3 row);
+void accelerate(int n, const AcceleratedRow& row, Row3 position, Row3 velocity);
+void moments(int n, const MomentRow& row, double* sums);
+void dense_rows(int first, int last, const DenseMatrix& matrix, ConstRow3 vectors, Row3 out);
+void add_rows(int n, const float* a, const float* b, float* out);
+void patch_row(int n, const float* const* rows, const PatchWeights& patch, float* lines,
+               float* out);
+
+extern const FilteringKernels filtering;
+
+// Of implicit Euler by conjugate gradients.
+void elastic(const NeighbourSprings& row, Row3 force);
+void axial_damping(const NeighbourSprings& row, Row3 force);
+void linearise(const NeighbourSprings& row, float time_step, float* transverse, Row3 axial);
+void multiply(const NeighbourBlocks& row, Row3 out);
+void add_blocks(const NeighbourBlocks& row, const BlockRowOut& out);
+void add_mass(int n, const float* mass, ConstRow3 value, Row3 out);
+void invert_blocks(int n, const InvertedRow& row, const BlockRowOut& out);
+void multiply_blocks(int n, const BlockRow& blocks, Row3 value);
+float gradient_step(int n, const GradientStepRow& row);
+void update_direction(int n, float beta, ConstRow3 correction, Row3 direction);
+void subtract(int n, ConstRow3 value, Row3 out);
+void restrict_plane(int n, const WeighedRows& fine, float* line, float* out);
+void fall(int n, const StartRow& start, Row3 velocity);
+void right_side(int n, const StartRow& start, Row3 out);
+void move(int n, const StartRow& start, ConstRow3 velocity, Row3 position);
+void advance(int n, const StartRow& start, Row3 position, Row3 velocity);
+
+extern const ImplicitKernels implicit;
+
+// Of the default method.
+void linearise(int n, const LinearisedSprings& springs, SpringHessianRow out);
+void gradient(int n, const SpringRing& ring, const RowTriple& x, const float* mass, ConstRow3 speed,
+              ConstRow3 wanted, Row3 out);
+void diagonal(int n, const SpringRing& ring, const float* mass, MutableBlockRow6 out);
+void line_diagonals(int n, const SpringRing& ring, const float* mass, const float* extra,
+                    const LineDiagonals& out);
+void apply_springs(int n, const ConstSpringHessianRow* springs, const SpringSweep& at, Row3 out);
+double spring_energy(int n, const LinearisedSprings& springs);
+void bend(int n, const BendingRows& rows, const RowTriple& x, Row3 u);
+void unbend(int n, const BendingRows& own, const BendingRows& back, const RowTriple& u, Row3 out);
+void apply_block_stencil(int n, const BlockStencilRow& row, const RowTriple& x, Row3 out);
+void add_block_row(int n, const BlockRow6& blocks, ConstRow3 x, Row3 out);
+void spring_blocks(int n, ConstSpringHessianRow spring, const float* mask, const float* other,
+                   MutableBlockRow6 out);
+void coarsen_columns(int m, const StencilBlocks& fine, const MutableStencilBlocks& half);
+void coarsen_rows(int m, const StencilBlocks* half, const MutableStencilBlocks& coarse);
+void factor_lines(const LineBlock& lines, const LineMatrix& matrix, float* factor);
+void factor_spring_lines(const LineBlock& lines, const SpringLineMatrix& matrix, float* factor);
+void factor_held_lines(const LineBlock& lines, const HeldLineMatrix& matrix, float* factor);
+void solve_lines(const LineBlock& lines, const float* factor, const PlaneView* rhs, float scale,
+                 bool add, float* scratch, const MutablePlaneView* out);
+void solve_held_lines(const LineBlock& lines, const float* factor, const PlaneView* rhs,
+                      float scale, bool add, float* scratch, const MutablePlaneView* out);
+void restrict_row(int n, int m, const RowTriple& fine, float* line, Row3 coarse);
+void prolong_row(int n, ConstRow3 a, ConstRow3 b, float* line, Row3 fine);
+void subtract(int n, ConstRow3 a, ConstRow3 b, Row3 out);
+void scale_add(int n, ConstRow3 a, float factor, Row3 out);
+void scale_row(int n, float factor, Row3 out);
+void add_scaled(int n, float factor, ConstRow3 a, Row3 out);
+double newton_dot(int n, const float* share, ConstRow3 a, ConstRow3 b);
+float largest(int n, ConstRow3 a);
+
+extern const NewtonKernels newton;
 
 }  // namespace weft::WEFT_KERNEL_SET

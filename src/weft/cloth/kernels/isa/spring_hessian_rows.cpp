@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "weft/cloth/kernels/isa/newton_rows.h"
+#include "weft/cloth/kernels/isa/rows.h"
 
 namespace weft::WEFT_KERNEL_SET {
 namespace {

@@ -1,4 +1,4 @@
-#include "weft/cloth/kernels/isa/filtering_rows.h"
+#include "weft/cloth/kernels/isa/rows.h"
 
 // A patch is applied in two passes: a weighted sum down its columns for every distance from the
 // middle one, then a sum of these along the row. Rows are read once for several distances, and only

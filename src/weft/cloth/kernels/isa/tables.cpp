@@ -1,6 +1,3 @@
-#include "weft/cloth/kernels/isa/filtering_rows.h"
-#include "weft/cloth/kernels/isa/implicit_rows.h"
-#include "weft/cloth/kernels/isa/newton_rows.h"
 #include "weft/cloth/kernels/isa/rows.h"
 
 namespace weft::WEFT_KERNEL_SET {
