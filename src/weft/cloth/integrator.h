@@ -9,6 +9,7 @@
 
 #include "weft/cloth/cloth.h"
 #include "weft/contact.h"
+#include "weft/core/stopwatch.h"
 #include "weft/core/thread_team.h"
 #include "weft/integrators.h"
 
@@ -140,5 +141,15 @@ std::unique_ptr<Integrator> make_integrator_of(const TwoLevelOptions& options, c
                                                const StepInput& typical, ThreadTeam& team);
 std::unique_ptr<Integrator> make_integrator_of(const MultigridOptions& options, const Cloth& cloth,
                                                const StepInput& typical, ThreadTeam& team);
+
+/// Copies this worker's rows.
+void copy_rows(const ClothState& from, ClothState& to, Worker& worker);
+
+/// Puts every pinned sample at its target, with the velocity that takes it there in one step.
+void set_pins(const Cloth& cloth, const ClothState& start, double time_step, ClothState& next);
+
+/// Copies a proposal to the state, mates made equal but where seams are being sewn. Pins keep their
+/// proposed positions: a filter may have stopped them before their targets.
+void accept(const Cloth& cloth, ClothState& next, ClothState& state, ThreadTeam& team);
 
 }  // namespace weft

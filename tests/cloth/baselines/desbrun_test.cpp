@@ -3,7 +3,7 @@
 #include "tests/cloth/baselines/filter_residual.h"
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/baselines/filter_matrix.h"
-#include "weft/cloth/baselines/filtered_forces.h"
+#include "weft/cloth/baselines/filtered_integrator.h"
 #include "weft/cloth/baselines/multigrid/multigrid_preconditioner.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/measure.h"

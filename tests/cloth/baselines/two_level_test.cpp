@@ -4,7 +4,7 @@
 
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/baselines/filter_matrix.h"
-#include "weft/cloth/baselines/filtered_forces.h"
+#include "weft/cloth/baselines/filtered_integrator.h"
 #include "weft/cloth/baselines/paper_filters.h"
 #include "weft/cloth/baselines/spring_matrix.h"
 #include "weft/cloth/integrator.h"

@@ -5,9 +5,9 @@
 #include "weft/cloth/baselines/spring_matrix.h"
 #include "weft/cloth/baselines/stable_step.h"
 #include "weft/cloth/bending.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/cloth/proposal.h"
 
 namespace weft {
 namespace {

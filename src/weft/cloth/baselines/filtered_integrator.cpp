@@ -1,12 +1,102 @@
 #include "weft/cloth/baselines/filtered_integrator.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/cloth/proposal.h"
 
 namespace weft {
+namespace {
+
+Moments moments_of(const std::array<double, moment_terms>& t, Vec3f about) {
+  return {vec_cast<double>(about),
+          t[0],
+          {t[1], t[2], t[3]},
+          {t[4], t[5], t[6]},
+          {t[7], t[8], t[9]},
+          t[10],
+          t[11],
+          t[12],
+          t[13],
+          t[14],
+          t[15]};
+}
+
+struct Symmetric {
+  double xx, xy, xz, yy, yz, zz;
+};
+
+/// The solution of s w = b; zero when s is singular to working accuracy (all mass on one line).
+Vec3d solve(const Symmetric& s, Vec3d b) {
+  const Vec3d r0{s.xx, s.xy, s.xz}, r1{s.xy, s.yy, s.yz}, r2{s.xz, s.yz, s.zz};
+  const Vec3d c0 = cross(r1, r2), c1 = cross(r2, r0), c2 = cross(r0, r1);
+  const double determinant = dot(r0, c0);
+  const double trace = s.xx + s.yy + s.zz;
+  if (!(std::abs(determinant) > 1e-12 * trace * trace * trace)) return {};
+  return (1 / determinant) * (b.x * c0 + b.y * c1 + b.z * c2);
+}
+
+}  // namespace
+
+RigidAcceleration momentum_correction(const Moments& m) {
+  const Vec3d g = (1 / m.mass) * m.first;
+  const Vec3d torque = m.torque - cross(g, m.force);
+  const double xx = m.xx - m.mass * g.x * g.x, yy = m.yy - m.mass * g.y * g.y;
+  const double zz = m.zz - m.mass * g.z * g.z, xy = m.xy - m.mass * g.x * g.y;
+  const double xz = m.xz - m.mass * g.x * g.z, yz = m.yz - m.mass * g.y * g.z;
+  return {m.about + g, (-1 / m.mass) * m.force,
+          solve({yy + zz, -xy, -xz, xx + zz, -yz, xx + yy}, torque)};
+}
+
+RigidAcceleration printed_correction(const Moments& m, double time_step, double mass) {
+  // (x_G - x) x dT = r x -dT with dT = sum f x x = -(torque about the origin).
+  const Vec3d torque = m.torque + cross(m.about, m.force);
+  return {m.about + (1 / m.mass) * m.first, {}, (time_step / mass) * torque};
+}
+
+Moments MomentSums::sum(const Cloth& cloth, const Planes3& x, const Planes3& a, Worker& worker) {
+  const Vec3f about = x.at(cloth.size / 2, cloth.size / 2);
+  const Range mine = worker.share(cloth.size);
+  for (int r = mine.first; r < mine.last; ++r) {
+    rows_[r] = {};
+    kernels_.moments(cloth.size,
+                     {cloth.mass.row(r),
+                      cloth.owner.row(r),
+                      row_of(x, r),
+                      row_of(a, r),
+                      {about.x, about.y, about.z}},
+                     rows_[r].data());
+  }
+  worker.barrier();
+  std::array<double, moment_terms> total{};
+  for (const auto& row : rows_)
+    for (int i = 0; i < moment_terms; ++i) total[i] += row[i];
+  return moments_of(total, about);
+}
+
+ViscousSprings::ViscousSprings(const Cloth& cloth, const ThreadTeam& team)
+    : cloth_(cloth), kernels_(filtering_kernels_for(team.instructions())) {
+  for (int d = 0; d < spring_directions; ++d)
+    stiffness[d] = viscosity[d] = Grid<float>(cloth.size, cloth.size);
+}
+
+void ViscousSprings::gather_row(int row, const ClothState& state, Planes3& force) const {
+  const Row3 out = row_of(force, row);
+  for (float* plane : {out.x, out.y, out.z}) std::fill(plane, plane + cloth_.size, 0.0F);
+  const ConstRow3 x = row_of(state.position, row), v = row_of(state.velocity, row);
+  for (const NeighbourRow& to : NeighbourRows(cloth_.size, row)) {
+    const int d = to.direction, at = to.spring_row, shift = to.spring_shift;
+    kernels_.viscous_springs(
+        {cloth_.springs[d].rest_length.row(at) + shift, stiffness[d].row(at) + shift,
+         viscosity[d].row(at) + shift, x, v,
+         shifted(row_of(state.position, to.other_row), to.shift),
+         shifted(row_of(state.velocity, to.other_row), to.shift), to.first, to.last},
+        out);
+  }
+}
 
 FilteredIntegrator::FilteredIntegrator(const Cloth& cloth, ThreadTeam& team)
     : cloth_(cloth),

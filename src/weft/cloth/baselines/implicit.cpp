@@ -6,9 +6,9 @@
 #include "weft/cloth/baselines/conjugate_gradients.h"
 #include "weft/cloth/baselines/spring_matrix.h"
 #include "weft/cloth/bending.h"
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/cloth/proposal.h"
 #include "weft/error.h"
 
 namespace weft {

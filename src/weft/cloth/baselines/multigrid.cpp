@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "weft/cloth/baselines/nonlinear_pcg.h"
-#include "weft/cloth/proposal.h"
+#include "weft/cloth/integrator.h"
 #include "weft/error.h"
 
 namespace weft {

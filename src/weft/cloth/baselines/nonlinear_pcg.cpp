@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/mates.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/cloth/proposal.h"
 
 namespace weft {
 namespace {

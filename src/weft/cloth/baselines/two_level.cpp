@@ -5,7 +5,7 @@
 #include "weft/cloth/baselines/filtered_integrator.h"
 #include "weft/cloth/baselines/paper_filters.h"
 #include "weft/cloth/baselines/spring_matrix.h"
-#include "weft/cloth/proposal.h"
+#include "weft/cloth/integrator.h"
 #include "weft/error.h"
 
 namespace weft {

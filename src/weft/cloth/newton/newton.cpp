@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/newton/level_layout.h"
 #include "weft/cloth/newton/newton_solver.h"
-#include "weft/cloth/proposal.h"
 #include "weft/error.h"
 
 namespace weft {

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "weft/cloth/integrator.h"
 #include "weft/cloth/neighbours.h"
-#include "weft/cloth/proposal.h"
 
 namespace weft {
 namespace {
