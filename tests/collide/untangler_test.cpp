@@ -8,7 +8,6 @@
 #include "weft/collide/intersections.h"
 #include "weft/collide/moving_surface.h"
 #include "weft/collide/untangle/intersection_contours.h"
-#include "weft/collide/untangle/regions.h"
 #include "weft/collide/untangle/smooth_move.h"
 #include "weft/core/random.h"
 

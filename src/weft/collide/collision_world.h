@@ -7,8 +7,8 @@
 
 #include "weft/collide/broad_phase/coherent_pairs.h"
 #include "weft/collide/collider.h"
+#include "weft/collide/contacts/block_motion.h"
 #include "weft/collide/contacts/body_contacts.h"
-#include "weft/collide/contacts/surface_motion.h"
 
 namespace weft {
 

@@ -5,8 +5,8 @@
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
 #include "weft/collide/broad_phase/chunks.h"
+#include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/broad_phase/path_boxes.h"
-#include "weft/collide/broad_phase/slab_levels.h"
 #include "weft/collide/broad_phase/unfolded_windows.h"
 
 namespace weft {

@@ -6,7 +6,6 @@
 
 #include "weft/collide/collider.h"
 #include "weft/collide/untangle/intersection_contours.h"
-#include "weft/collide/untangle/regions.h"
 #include "weft/collide/untangle/smooth_move.h"
 #include "weft/collide/untangle/tangle_marks.h"
 

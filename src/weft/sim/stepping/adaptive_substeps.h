@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "weft/cloth/cloth.h"
-#include "weft/collide/contacts/surface_motion.h"
+#include "weft/collide/contacts/block_motion.h"
 #include "weft/grid.h"
 #include "weft/mesh.h"
 #include "weft/simulation.h"
