@@ -12,7 +12,7 @@
 #include "weft/mesh/crossings.h"
 #include "weft/run.h"
 #include "weft/run/export/cache_manifest.h"
-#include "weft/run/input_files.h"
+#include "weft/run/run_identity.h"
 #include "weft/run/run_manifest.h"
 #include "weft/run_folder.h"
 

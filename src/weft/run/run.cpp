@@ -10,7 +10,6 @@
 #include "weft/files.h"
 #include "weft/run/checkpoint.h"
 #include "weft/run/disk_reservation.h"
-#include "weft/run/input_files.h"
 #include "weft/run/recorder.h"
 #include "weft/run/run_identity.h"
 #include "weft/scene_file.h"

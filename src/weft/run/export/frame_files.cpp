@@ -12,7 +12,7 @@
 #include "weft/image/io/exr_codec.h"
 #include "weft/mesh/point_normals.h"
 #include "weft/mesh_colours.h"
-#include "weft/run/export/bytes_out.h"
+#include "weft/run/bytes.h"
 #include "weft/run/export/distinct_names.h"
 
 namespace weft {

@@ -6,7 +6,7 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/mesh/point_normals.h"
-#include "weft/run/export/bytes_out.h"
+#include "weft/run/bytes.h"
 #include "weft/run/export/glb_layout.h"
 
 namespace weft {

@@ -14,7 +14,7 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/run.h"
-#include "weft/run/export/bytes_out.h"
+#include "weft/run/bytes.h"
 #include "weft/run/export/motion_writer.h"
 
 namespace weft {

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "weft/run/export/motion_writers.h"
+#include "weft/garment.h"
+#include "weft/run/export/motion_writer.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "weft/run/export/motion_writers.h"
+#include "weft/run/export/motion_writer.h"
 
 #include <algorithm>
 #include <array>
