@@ -10,7 +10,7 @@
 #include "weft/fabric.h"
 #include "weft/files.h"
 #include "weft/scene_file.h"
-#include "weft/sim/scene_file/scene_keys.h"
+#include "weft/sim/scene_file/scene_parts.h"
 
 namespace weft {
 namespace {

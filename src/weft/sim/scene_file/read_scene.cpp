@@ -10,7 +10,6 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/scene_file.h"
-#include "weft/sim/scene_file/scene_keys.h"
 #include "weft/sim/scene_file/scene_parts.h"
 
 namespace weft {

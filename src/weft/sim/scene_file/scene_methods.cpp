@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "weft/sim/scene_file/scene_keys.h"
 #include "weft/sim/scene_file/scene_parts.h"
 
 namespace weft {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+#include <vector>
+
 #include "weft/scene.h"
 #include "weft/sim/scene_file/json_object.h"
 
@@ -24,3 +28,40 @@ SceneBody read_body(const nlohmann::json& value, const JsonPlace& place,
                     const std::filesystem::path& folder);
 
 }  // namespace weft
+
+// What each object of a scene file may hold. `docs/scene.schema.json` lists the same (a test
+// compares).
+
+namespace weft::scene_keys {
+
+inline constexpr std::array<std::string_view, 13> scene{
+    "version",    "gravity",  "frame_rate", "substeps", "frames", "ground", "wind",
+    "integrator", "collider", "unit",       "up",       "cloths", "bodies"};
+inline constexpr std::array<std::string_view, 3> wind{"velocity", "drag", "lift"};
+inline constexpr std::string_view limiter_passes = "limiter_passes";
+/// Keys of an integrator or a collider, see weft/methods.h.
+template <class Options>
+std::vector<std::string_view> of_method() {
+  std::vector<std::string_view> keys{"type"};
+  if constexpr (requires { Options::traits.has_limiter; })
+    if (Options::traits.has_limiter) keys.push_back(limiter_passes);
+  Options::visit_options(
+      [&](std::string_view key, auto /*member*/, const auto& /*range*/) { keys.push_back(key); });
+  return keys;
+}
+inline constexpr std::array<std::string_view, 16> cloth{
+    "name",     "surface",  "size",   "sew",       "layer",    "rest",
+    "uv_scale", "scale",    "rotate", "translate", "material", "self_collision",
+    "friction", "velocity", "pins",   "attach"};
+inline constexpr std::array<std::string_view, 1> sew{"spacing"};
+inline constexpr std::array<std::string_view, 10> body{
+    "name",      "surface",  "size",   "scale",     "rotate",
+    "translate", "friction", "motion", "animation", "lead_in"};
+inline constexpr std::array<std::string_view, 8> material{"density",      "stretch",      "shear",
+                                                          "bending",      "bend_springs", "damping",
+                                                          "strain_limit", "thickness"};
+inline constexpr std::array<std::string_view, 3> motion_key{"time", "rotate", "translate"};
+inline constexpr std::array<std::string_view, 4> pin{"image", "nearest", "region", "path"};
+inline constexpr std::array<std::string_view, 4> attachment{"body", "image", "nearest", "region"};
+
+}  // namespace weft::scene_keys

@@ -4,7 +4,6 @@
 #include "weft/core/names.h"
 #include "weft/fabric.h"
 #include "weft/point_cache.h"
-#include "weft/sim/scene_file/scene_keys.h"
 #include "weft/sim/scene_file/scene_parts.h"
 
 namespace weft {

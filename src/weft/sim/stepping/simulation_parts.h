@@ -16,7 +16,6 @@
 #include "weft/sim/insides.h"
 #include "weft/sim/motion/attachments.h"
 #include "weft/sim/motion/body_motion.h"
-#include "weft/sim/motion/grab.h"
 #include "weft/sim/motion/pins.h"
 #include "weft/sim/stepping/adaptive_substeps.h"
 #include "weft/sim/stepping/driven_work.h"
