@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string_view>
 #include <utility>
 
 #include <epoxy/gl.h>
 
+#include "weft/picture.h"
 #include "weft/vec.h"
 #include "weft/view/gl/matrix.h"
 
@@ -102,5 +104,19 @@ class Program {
   [[nodiscard]] GLint location(const char* name) const;
   Handle<free_program> handle_;
 };
+
+/// A framebuffer with colour and depth.
+struct Canvas {
+  Framebuffer target;
+  Renderbuffer colour, depth;
+};
+/// @param count  samples a pixel; 0 for one without averaging
+/// @param size   width and height [pixels]
+/// @throws Error when the driver cannot draw pictures of this size
+Canvas make_canvas(int count, std::array<int, 2> size);
+
+/// Reads the pixels of a framebuffer, top row first. @param name  0: the window's own
+/// @param size  width and height [pixels]
+Picture read_picture(GLuint name, std::array<int, 2> size);
 
 }  // namespace weft::gl

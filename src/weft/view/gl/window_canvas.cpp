@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "weft/camera.h"
-#include "weft/view/gl/canvas.h"
+#include "weft/view/gl/objects.h"
 #include "weft/view/gl/scene_painter.h"
 
 namespace weft {
