@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "apps/viewer/colour_by.h"
+#include "apps/viewer/colouring.h"
 #include "weft/scene.h"
 
 namespace weft::viewer {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/viewer/controls.h"
-#include "apps/viewer/stage_plot.h"
+#include "apps/viewer/panel_parts.h"
 
 namespace weft::viewer {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/viewer/colour_by.h"
+#include "apps/viewer/colouring.h"
 #include "weft/geometry_image.h"
 #include "weft/simulation.h"
 

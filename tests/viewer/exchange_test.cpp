@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/viewer/command_queue.h"
-#include "apps/viewer/triple_buffer.h"
+#include "apps/viewer/simulator.h"
 
 namespace weft::viewer {
 namespace {
