@@ -94,14 +94,14 @@ double cpu_seconds() {
 class Rise {
  public:
   void add(double value) {
-    least_ = std::min(least_, value);
+    min_ = std::min(min_, value);
     // Not a number counts as endless.
-    if (!(value - least_ <= most_)) most_ = std::isfinite(value) ? value - least_ : HUGE_VAL;
+    if (!(value - min_ <= max_)) max_ = std::isfinite(value) ? value - min_ : HUGE_VAL;
   }
-  [[nodiscard]] double most() const { return most_; }
+  [[nodiscard]] double max() const { return max_; }
 
  private:
-  double least_ = HUGE_VAL, most_ = 0;
+  double min_ = HUGE_VAL, max_ = 0;
 };
 
 /// A sheet moved by an integrator and, beside it, by tight solves.
@@ -124,7 +124,7 @@ class Comparison {
       if (compared) compare();
     }
     const double scale = energy().total_mass() * gravity * side;
-    outcome_.gained = energy_.most() / scale;
+    outcome_.gained = energy_.max() / scale;
     outcome_.rms = std::sqrt(outcome_.rms / trial_.compared_frames);
     outcome_.iterations /= trial_.frames * trial_.substeps;
     outcome_.milliseconds /= trial_.frames;
@@ -150,8 +150,8 @@ class Comparison {
     raise(outcome_.tight_strain, energy().largest_strain(tight_state_.position));
   }
 
-  static void raise(double& most, double value) {
-    if (!(value <= most)) most = value;
+  static void raise(double& max, double value) {
+    if (!(value <= max)) max = value;
   }
 
   void compare() {

@@ -119,12 +119,12 @@ double TightEnergy::elastic(const Field& position) const {
 }
 
 double TightEnergy::largest_strain(const Field& position) const {
-  double most = 0;
+  double max = 0;
   for (const Spring& spring : springs_)
     if (spring.stretch)
-      most = std::max(most,
-                      length(position[spring.to] - position[spring.from]) / spring.rest_length - 1);
-  return most;
+      max = std::max(max,
+                     length(position[spring.to] - position[spring.from]) / spring.rest_length - 1);
+  return max;
 }
 
 void TightEnergy::begin(const StepInput& input, const TightState& start) {

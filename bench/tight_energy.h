@@ -22,9 +22,9 @@ inline void add(double factor, const Field& x, Field& y) {
 }
 
 inline double largest(const Field& field) {
-  double most = 0;
-  for (const Vec3d v : field) most = std::max(most, length(v));
-  return most;
+  double max = 0;
+  for (const Vec3d v : field) max = std::max(max, length(v));
+  return max;
 }
 
 /// What moves, in double. [m], [m/s]

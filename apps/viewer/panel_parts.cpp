@@ -171,9 +171,9 @@ void StagePlot::add(int frame, const FrameReport& report) {
 }
 
 float StagePlot::largest() const {
-  float most = 0;
-  for (std::size_t i = 0; i < count_; ++i) most = std::max(most, sum(at(i)));
-  return most;
+  float max = 0;
+  for (std::size_t i = 0; i < count_; ++i) max = std::max(max, sum(at(i)));
+  return max;
 }
 
 StagePlot::Costs StagePlot::usual() const {

@@ -50,15 +50,15 @@ Box3d box_of_rows(const Planes3& positions, int row) {
 struct Search {
   const Ray& ray;
   const Planes3& positions;
-  double least = HUGE_VAL;
+  double min = HUGE_VAL;
   int sample = -1;
 
   void triangle(std::array<int, 3> samples) {
     std::array<Vec3d, 3> corners;
     for (int k = 0; k < 3; ++k) corners[k] = vec_cast<double>(positions.at(samples[k]));
     const double distance = distance_to(ray, corners);
-    if (!(distance < least)) return;
-    least = distance;
+    if (!(distance < min)) return;
+    min = distance;
     const Vec3d met = ray.from + distance * ray.direction;
     double nearest = HUGE_VAL;
     for (int k = 0; k < 3; ++k) {
@@ -76,7 +76,7 @@ std::optional<GridHit> meet_grid(const Ray& ray, const Planes3& positions) {
   Search search{ray, positions};
   const int n = positions.size();
   for (int r = 0; r + 1 < n; ++r) {
-    if (!is_near(ray, box_of_rows(positions, r), search.least)) continue;
+    if (!is_near(ray, box_of_rows(positions, r), search.min)) continue;
     for (int c = 0; c + 1 < n; ++c) {
       const int a = r * n + c;
       search.triangle({a, a + 1, a + n + 1});
@@ -84,23 +84,23 @@ std::optional<GridHit> meet_grid(const Ray& ray, const Planes3& positions) {
     }
   }
   if (search.sample < 0) return std::nullopt;
-  return GridHit{search.least, search.sample};
+  return GridHit{search.min, search.sample};
 }
 
 std::optional<ClothHit> pick_cloth(const Ray& ray, const Snapshot& snapshot) {
   std::optional<ClothHit> found;
-  double least = HUGE_VAL;
+  double min = HUGE_VAL;
   for (std::size_t i = 0; i < snapshot.cloths.size(); ++i) {
     const auto hit = meet_grid(ray, snapshot.cloths[i]);
-    if (!hit || !(hit->distance < least)) continue;
-    least = hit->distance;
+    if (!hit || !(hit->distance < min)) continue;
+    min = hit->distance;
     found = ClothHit{i, hit->sample, vec_cast<double>(snapshot.cloths[i].at(hit->sample))};
   }
   if (!found) return found;
   for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
     const SubjectSurface& body = snapshot.subject->bodies[i];
     const auto hit = meet_grid(ray, body.moves ? snapshot.bodies[i] : body.start);
-    if (hit && hit->distance < least) return std::nullopt;
+    if (hit && hit->distance < min) return std::nullopt;
   }
   return found;
 }

@@ -55,9 +55,9 @@ bool Shots::any_flat() const {
 bool Shots::any_moves() const { return frames() > 1; }
 
 int Shots::frames() const {
-  int most = 1;
-  for (const auto& subject : subjects_) most = std::max(most, subject->frames());
-  return most;
+  int max = 1;
+  for (const auto& subject : subjects_) max = std::max(max, subject->frames());
+  return max;
 }
 
 double Shots::frame_rate() const {

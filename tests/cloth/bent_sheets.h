@@ -75,10 +75,10 @@ inline Planes3 forces(const Cloth& cloth, const Planes3& position, bool change =
 }
 
 inline double largest(const Planes3& planes) {
-  double most = 0;
+  double max = 0;
   for (int s = 0; s < planes.size() * planes.size(); ++s)
-    most = std::max(most, length(vec_cast<double>(planes.at(s))));
-  return most;
+    max = std::max(max, length(vec_cast<double>(planes.at(s))));
+  return max;
 }
 
 inline double dot_product(const Cloth& cloth, const Planes3& a, const Planes3& b) {

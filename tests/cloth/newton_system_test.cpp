@@ -111,16 +111,16 @@ TEST(Newton, TheOperatorIsTheDerivativeOfTheGradient) {
 
 TEST(Newton, IterationsDoNotGrowWithTheImage) {
   for (const Material& material : {cotton, hard, woven}) {
-    int most = 0, small = 0;
+    int max = 0, small = 0;
     for (const int n : {33, 50, 65, 129}) {
       Cloth cloth = sheet_cloth(n, material);
       hang(cloth);
-      most = std::max(most, System(cloth).iterations_to_a_hundredth());
-      if (n == 33) small = most;
+      max = std::max(max, System(cloth).iterations_to_a_hundredth());
+      if (n == 33) small = max;
     }
     // Of cycles that solve each line once.
-    EXPECT_LE(most, 12);
-    EXPECT_LE(most, small + 3);
+    EXPECT_LE(max, 12);
+    EXPECT_LE(max, small + 3);
   }
 }
 

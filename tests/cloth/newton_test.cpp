@@ -91,12 +91,12 @@ TEST(Newton, HangingClothFallsAsTheTightSolveDoes) {
 
 TEST(Newton, NoMaterialAndNoStepGainsEnergy) {
   Random random(7);
-  const auto between = [&](double least, double most) {
-    double value = least;
+  const auto between = [&](double min, double max) {
+    double value = min;
     // Log-uniform without a logarithm: a random power of two, then uniform within it.
     const int doublings = static_cast<int>(random.uniform(0, 30));
-    for (int i = 0; i < doublings && 2 * value < most; ++i) value *= 2;
-    return std::min(most, value * random.uniform(1, 2));
+    for (int i = 0; i < doublings && 2 * value < max; ++i) value *= 2;
+    return std::min(max, value * random.uniform(1, 2));
   };
   for (int run_index = 0; run_index < 24; ++run_index) {
     Material material;
@@ -114,12 +114,12 @@ TEST(Newton, NoMaterialAndNoStepGainsEnergy) {
     const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
     ClothState state = rest_state(cloth);
     const StepInput input{.time_step = 1.0 / (60 * substeps)};
-    double least = energy_of(cloth, state), gained = 0;
+    double min = energy_of(cloth, state), gained = 0;
     for (int i = 0; i < 60 * substeps; ++i) {
       run(*integrator, input, 1, state);
       const double energy = energy_of(cloth, state);
-      least = std::min(least, energy);
-      gained = std::max(gained, energy - least);
+      min = std::min(min, energy);
+      gained = std::max(gained, energy - min);
     }
     EXPECT_LT(gained, 1e-3 * total_mass(cloth) * 9.81)
         << run_index << ": n " << n << ", substeps " << substeps << ", density "

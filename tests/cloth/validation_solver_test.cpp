@@ -28,10 +28,10 @@ Planes3 forces(const Cloth& cloth, const Planes3& position) {
 }
 
 double largest(const Planes3& planes) {
-  double most = 0;
+  double max = 0;
   for (int s = 0; s < planes.size() * planes.size(); ++s)
-    most = std::max(most, length(vec_cast<double>(planes.at(s))));
-  return most;
+    max = std::max(max, length(vec_cast<double>(planes.at(s))));
+  return max;
 }
 
 TEST(ValidationSolver, ForcesAreMinusTheGradientOfTheEnergy) {
@@ -83,11 +83,11 @@ double further_over_residual(Options options = {}) {
   options.max_iterations = 1000;
   options.tolerance = 1e-6;
   const Stepped converged = step_once(options);
-  double most = 0;
+  double max = 0;
   for (int s = 0; s < 33 * 33; ++s)
-    most =
-        std::max(most, length(vec_cast<double>(stopped.position.at(s) - converged.position.at(s))));
-  return most / stopped.residual;
+    max =
+        std::max(max, length(vec_cast<double>(stopped.position.at(s) - converged.position.at(s))));
+  return max / stopped.residual;
 }
 
 TEST(ValidationSolver, MoreIterationsChangeNoMoreThanTheResidualTells) {

@@ -15,15 +15,14 @@ struct Placed {
     query.place(body.positions, team);
   }
   [[nodiscard]] double brute_distance(Vec3d p) const {
-    double least = HUGE_VAL;
+    double min = HUGE_VAL;
     for (int t = 0; t < 2 * grid.cells() * grid.cells(); ++t) {
       const std::array<int, 3> s = grid.triangle(t / 2, t % 2);
       const auto corner = [&](int k) { return vec_cast<double>(body.positions.at(s[k])); };
       if (!grid.folded(s))
-        least =
-            std::min(least, length(p - closest_on_triangle(p, corner(0), corner(1), corner(2))));
+        min = std::min(min, length(p - closest_on_triangle(p, corner(0), corner(1), corner(2))));
     }
-    return least;
+    return min;
   }
   Body body;
   SurfaceGrid grid;

@@ -37,11 +37,11 @@ struct OneCell {
 };
 
 double distance(const OneCell& a, const OneCell& b, double time) {
-  double least = HUGE_VAL;
+  double min = HUGE_VAL;
   for (int i = 0; i < 4; ++i)
-    least = std::min(
-        least, closest_points(a.triangle(i / 2, time), b.triangle(i % 2, time)).squared_distance);
-  return std::sqrt(least);
+    min = std::min(
+        min, closest_points(a.triangle(i / 2, time), b.triangle(i % 2, time)).squared_distance);
+  return std::sqrt(min);
 }
 
 /// Near the origin and where single precision is coarse.
@@ -69,12 +69,12 @@ TEST(CellGaps, NoTwoPointsComeNearerThanTheMostApproach) {
   Random random(8);
   for (int round = 0; round < 5000; ++round) {
     const OneCell a(random, {}), b(random, {0.01, 0.005, 0});
-    const double most = CellGaps(a.surface(), 0, b.surface(), 0).max_approach();
-    EXPECT_GE(distance(a, b, 1), distance(a, b, 0) - most);
+    const double max = CellGaps(a.surface(), 0, b.surface(), 0).max_approach();
+    EXPECT_GE(distance(a, b, 1), distance(a, b, 0) - max);
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
         const Vec3f displacement = (a.end.at(i) - a.start.at(i)) - (b.end.at(j) - b.start.at(j));
-        EXPECT_LE(std::sqrt(squared_length(displacement)), 1.0001 * most);
+        EXPECT_LE(std::sqrt(squared_length(displacement)), 1.0001 * max);
       }
   }
 }

@@ -64,10 +64,10 @@ class Sheets {
     upper_end_ = upper_;
     lower_end_ = lower_;
   }
-  void move(float most) {
+  void move(float max) {
     for (Planes3* planes : {&upper_, &upper_end_, &lower_, &lower_end_})
       for (int s = 0; s < n * n; ++s) {
-        const auto aside = [&] { return most * static_cast<float>(2 * chance_.uniform() - 1); };
+        const auto aside = [&] { return max * static_cast<float>(2 * chance_.uniform() - 1); };
         planes->set(s, planes->at(s) + Vec3f{aside(), aside(), aside()});
       }
   }

@@ -32,8 +32,8 @@ TEST(SharpPoints, AreTheEdgesAndTipsOfAnOctahedron) {
   std::vector<int> edges;
   for (int s = 0; s < 33 * 33; ++s) {
     const Vec3f p = body.positions.at(s);
-    const float least = std::min({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    if (grid.point(s) == s && least < 1e-6F) edges.push_back(s);
+    const float min = std::min({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (grid.point(s) == s && min < 1e-6F) edges.push_back(s);
   }
   ASSERT_GT(edges.size(), 100U);
   EXPECT_EQ(sharp_points_of(body, {0.002, 0.005, 0.003}), edges);

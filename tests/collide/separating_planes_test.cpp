@@ -49,10 +49,10 @@ TEST(SeparatingPlanes, ThatDoNotTurnLeaveNoRoomForThat) {
   const MovingFeature a = riding(gap, 0.02), b = riding(0, 0.02);
   SeparatingPlane plane;
   ASSERT_EQ(separate(a, b, {1e-4, false}, plane), Separation::plane);
-  double least = HUGE_VAL;
+  double min = HUGE_VAL;
   for (std::size_t k = 0; k < 3; ++k)
-    least = std::min(least, along(plane.turned, a.safe_position[k]) - plane.still.a);
-  EXPECT_LT(least, -10 * gap);
+    min = std::min(min, along(plane.turned, a.safe_position[k]) - plane.still.a);
+  EXPECT_LT(min, -10 * gap);
 }
 
 TEST(SeparatingPlanes, WhatHeedsATurningPlaneKeepsApartAtEveryTime) {

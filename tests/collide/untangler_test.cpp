@@ -44,15 +44,15 @@ class Tangle {
       grids.push_back({&cloths_[i]->position, &triangles_[i]});
     return IntersectionCheck(grids, {}, {}).count().total();
   }
-  /// @return the step at whose end nothing crosses any more, or `most`
-  int untangle(int most, int threads = 1) {
+  /// @return the step at whose end nothing crosses any more, or `max`
+  int untangle(int max, int threads = 1) {
     make_collider();
     ThreadTeam team(threads);
-    for (int number = 1; number <= most; ++number) {
+    for (int number = 1; number <= max; ++number) {
       take_step(team);
       if (intersections() == 0) return number;
     }
-    return most;
+    return max;
   }
   void take_step(ThreadTeam& team) {
     make_collider();
@@ -116,8 +116,8 @@ Planes3 upright(int n, Vec3d centre) {
 
 /// A strip rolled by so many half turns, its end pushed on straight from there.
 Vec3d rolled(double displacement, double radius, double half_turns) {
-  const double most = half_turns * pi, turned = std::min(displacement / radius, most);
-  const double rest = std::max(0.0, displacement - radius * most);
+  const double max = half_turns * pi, turned = std::min(displacement / radius, max);
+  const double rest = std::max(0.0, displacement - radius * max);
   return {-radius * sine(turned) - rest * cosine(turned),
           radius * (1 - cosine(turned)) + rest * sine(turned), 0};
 }

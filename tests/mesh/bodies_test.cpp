@@ -108,9 +108,9 @@ TEST(Knot, IsATubeOfOneRadiusThatKeepsClearOfItself) {
   std::vector<Vec3d> line;
   for (int i = 0; i < steps; ++i) line.push_back(knot_point(static_cast<double>(i) / steps));
   for (const Vec3d p : make_shape("knot").positions) {
-    double least = HUGE_VAL;
-    for (const Vec3d q : line) least = std::min(least, length(p - q));
-    EXPECT_NEAR(least, knot_tube_radius, 5e-4);
+    double min = HUGE_VAL;
+    for (const Vec3d q : line) min = std::min(min, length(p - q));
+    EXPECT_NEAR(min, knot_tube_radius, 5e-4);
   }
   // Strands that pass each other leave room between their tubes.
   for (int i = 0; i < steps; ++i)

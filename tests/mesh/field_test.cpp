@@ -20,14 +20,14 @@ TEST(Field, RoundConeIsTheUnionOfItsBalls) {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
     const Vec3d p = random_point(random);
-    double least = HUGE_VAL;
+    double min = HUGE_VAL;
     for (int k = 0; k <= 2000; ++k) {
       const double t = k / 2000.0;
       const Vec3d centre = (1 - t) * cone.a + t * cone.b;
-      least = std::min(least, length(p - centre) - ((1 - t) * cone.radius_a + t * cone.radius_b));
+      min = std::min(min, length(p - centre) - ((1 - t) * cone.radius_a + t * cone.radius_b));
     }
-    EXPECT_NEAR(distance_to(cone, p), least, 1e-6);
-    EXPECT_LE(distance_to(cone, p), least + 1e-15);
+    EXPECT_NEAR(distance_to(cone, p), min, 1e-6);
+    EXPECT_LE(distance_to(cone, p), min + 1e-15);
   }
 }
 

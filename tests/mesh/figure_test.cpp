@@ -23,13 +23,13 @@ Box3d box_of(const TriangleMesh& mesh) {
 }
 
 void expect_fat_triangles(const TriangleMesh& mesh) {
-  double least = 1, mean = 0;
+  double min = 1, mean = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const double q = triangle_quality(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
-    least = std::min(least, q);
+    min = std::min(min, q);
     mean += q / static_cast<double>(mesh.triangles.size());
   }
-  EXPECT_GT(least, 0.4);
+  EXPECT_GT(min, 0.4);
   EXPECT_GT(mean, 0.95);
 }
 

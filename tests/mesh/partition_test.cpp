@@ -42,8 +42,8 @@ TEST(Partition, RegionsAreConnectedAndAsManyAsAsked) {
     std::vector<std::size_t> sizes;
     for (const int region : std::set<int>(regions.begin(), regions.end()))
       sizes.push_back(static_cast<std::size_t>(std::count(regions.begin(), regions.end(), region)));
-    const auto [least, most] = std::minmax_element(sizes.begin(), sizes.end());
-    EXPECT_LT(*most, 5 * *least) << count << ": no sliver beside a giant";
+    const auto [min, max] = std::minmax_element(sizes.begin(), sizes.end());
+    EXPECT_LT(*max, 5 * *min) << count << ": no sliver beside a giant";
   }
 }
 

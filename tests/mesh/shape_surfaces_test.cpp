@@ -42,15 +42,15 @@ TEST(ShapeSurfaces, GarmentsDoNotTouchTheMannequin) {
 TEST(Skirt, FitsWaistAndHipsWithAFewCentimetresOfEase) {
   const TriangleMesh skirt = make_shape("skirt"), body = make_shape("mannequin");
   const ClosestPointQuery query(body);
-  double least = 1, widest_at_hips = 0;
+  double min = 1, widest_at_hips = 0;
   for (const Vec3d p : sample_surface(skirt, 20000, 1)) {
     EXPECT_GT(mannequin_field(p), 0);
     const double gap = std::sqrt(query.closest(p).squared_distance);
-    least = std::min(least, gap);
+    min = std::min(min, gap);
     if (p.y > 0.9) widest_at_hips = std::max(widest_at_hips, gap);
   }
-  EXPECT_GT(least, 0.01);
-  EXPECT_LT(least, 0.03);
+  EXPECT_GT(min, 0.01);
+  EXPECT_LT(min, 0.03);
   EXPECT_LT(widest_at_hips, 0.05);
 }
 

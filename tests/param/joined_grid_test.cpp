@@ -104,8 +104,8 @@ class JoinedGrid {
 TEST(LayOutBorder, JoinedGridHasTheTopologyOfTheSurfaceAtEverySizeAndRotation) {
   Random random(11);
   for (const Case& c : layout_cases()) {
-    const int least = min_size(c.cut);
-    for (const int n : {least, least + 1, least + 4})
+    const int min = min_size(c.cut);
+    for (const int n : {min, min + 1, min + 4})
       for (int rotation = 0; rotation < 4 * (n - 1); ++rotation) {
         SCOPED_TRACE(c.name + ", n " + std::to_string(n) + ", rotation " +
                      std::to_string(rotation));

@@ -49,16 +49,16 @@ TEST(SquareMap, StretchIsBelowFloaters) {
 
 TEST(SquareMap, TooSmallASizeIsAnErrorThatNamesTheLeast) {
   const CutDisk disk = opened(test::torus(40, 16));
-  const int least = min_size(disk);
-  ASSERT_GT(least, 2);
+  const int min = min_size(disk);
+  ASSERT_GT(min, 2);
   try {
-    map_to_square(disk, {.size = least - 1});
+    map_to_square(disk, {.size = min - 1});
     FAIL() << "a map was made";
   } catch (const TopologyError& error) {
-    EXPECT_NE(std::string(error.what()).find(std::to_string(least)), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find(std::to_string(min)), std::string::npos)
         << error.what();
   }
-  EXPECT_EQ(map_to_square(disk, {.size = least}).quality.flipped, 0);
+  EXPECT_EQ(map_to_square(disk, {.size = min}).quality.flipped, 0);
 }
 
 TEST(SquareMap, OfOneTriangleIsValid) {

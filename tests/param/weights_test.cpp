@@ -26,12 +26,12 @@ DiskMesh bad_sheet() {
 double min_interior_weight(const DiskMesh& disk, const std::vector<double>& weights) {
   std::vector<bool> border(disk.positions.size(), false);
   for (const int v : disk.border) border[v] = true;
-  double least = HUGE_VAL;
+  double min = HUGE_VAL;
   for (int h = 0; h < static_cast<int>(weights.size()); ++h) {
     if (border[from_vertex(disk.triangles, h)]) continue;
-    least = std::isfinite(weights[h]) ? std::min(least, weights[h]) : 0.0;
+    min = std::isfinite(weights[h]) ? std::min(min, weights[h]) : 0.0;
   }
-  return least;
+  return min;
 }
 
 /// How far the map by these weights is from the flat sheet itself, [0, 1]^2.
@@ -40,10 +40,10 @@ double distance_from_identity(const DiskMesh& disk, const std::vector<double>& w
   const InteriorSolver solver(disk, geometry.edges);
   std::vector<Vec2d> uv = test::square_border(disk, 1.0);
   EXPECT_TRUE(solver.solve_general(weights, uv));
-  double most = 0;
+  double max = 0;
   for (std::size_t v = 0; v < uv.size(); ++v)
-    most = std::max(most, length(uv[v] - Vec2d{disk.positions[v].x, disk.positions[v].y}));
-  return most;
+    max = std::max(max, length(uv[v] - Vec2d{disk.positions[v].x, disk.positions[v].y}));
+  return max;
 }
 
 /// A flat sheet whose inner vertices are pushed about in the plane.

@@ -79,14 +79,14 @@ TEST_F(GarmentExports, DrapedMeshIsTheLastFrameOfTheCache) {
 TEST_F(GarmentExports, TextureIsThePatternInCentimetres) {
   const TriangleMesh mesh = read_mesh(run().folder / "tube.obj");
   double area = 0;
-  Vec2f most{};
+  Vec2f max{};
   for (const auto& [a, b, c] : mesh.corner_uv) {
     area += 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
-    for (const Vec2f p : {a, b, c}) most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+    for (const Vec2f p : {a, b, c}) max = {std::max(max.x, p.x), std::max(max.y, p.y)};
   }
   EXPECT_NEAR(area, 2 * width * height, 1e-3);
-  EXPECT_FLOAT_EQ(most.x, width);
-  EXPECT_FLOAT_EQ(most.y, height);
+  EXPECT_FLOAT_EQ(max.x, width);
+  EXPECT_FLOAT_EQ(max.y, height);
   // At the start panels are as they lie in the pattern, but for what spans the open seams.
   int same = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

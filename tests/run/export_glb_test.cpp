@@ -77,13 +77,13 @@ TEST(Exports, GlbTellsItsExtremesAndItsTrianglesAreThoseOfTheObj) {
   const auto uv = values<Vec2f>(model, primitive.attributes.at("TEXCOORD_0"));
   const auto& accessor =
       model.accessors.at(static_cast<std::size_t>(primitive.attributes.at("POSITION")));
-  Vec3f least = base[0], most = base[0];
+  Vec3f minimum = base[0], maximum = base[0];
   for (const Vec3f p : base) {
-    least = min(least, p);
-    most = max(most, p);
+    minimum = min(minimum, p);
+    maximum = max(maximum, p);
   }
-  EXPECT_EQ(accessor.minValues, (std::vector<double>{least.x, least.y, least.z}));
-  EXPECT_EQ(accessor.maxValues, (std::vector<double>{most.x, most.y, most.z}));
+  EXPECT_EQ(accessor.minValues, (std::vector<double>{minimum.x, minimum.y, minimum.z}));
+  EXPECT_EQ(accessor.maxValues, (std::vector<double>{maximum.x, maximum.y, maximum.z}));
   const TriangleMesh obj = read_mesh(run.folder / "ring.obj");
   const auto corners = values<std::uint32_t>(model, primitive.indices);
   ASSERT_EQ(corners.size(), 3 * obj.triangles.size());

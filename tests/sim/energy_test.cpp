@@ -64,8 +64,8 @@ TEST(StepEnergy, APulledSheetExpandsAgainOnceThePullEnds) {
 TEST(StepEnergy, AThrownSheetGainsNone) {
   Simulation simulation(set_down(), "set down", 1);
   const std::vector<FrameReport> reports = run(simulation, 60);
-  const double most = 0.01 * simulation.mass() * 9.81;
-  EXPECT_LT(gained(simulation, reports), most);
+  const double max = 0.01 * simulation.mass() * 9.81;
+  EXPECT_LT(gained(simulation, reports), max);
   int stopped = 0;
   for (const FrameReport& report : reports) stopped = std::max(stopped, report.stopped);
   EXPECT_GT(stopped, 0);
@@ -74,13 +74,13 @@ TEST(StepEnergy, AThrownSheetGainsNone) {
 TEST(StepEnergy, WorkOfPinsAccountsForWhatTheyPutIn) {
   Simulation simulation(pulled_sheet(), "pulled", 1);
   const std::vector<FrameReport> reports = run(simulation, 40);
-  double work = 0, most = 0;
+  double work = 0, max = 0;
   for (const FrameReport& report : reports) {
     work += report.work;
-    most = std::max(most, report.kinetic_energy + report.potential_energy);
+    max = std::max(max, report.kinetic_energy + report.potential_energy);
   }
   // Brought to 6 m/s and more, it carries a good part of what was done on it.
-  EXPECT_GT(most, 0.3 * work);
+  EXPECT_GT(max, 0.3 * work);
   EXPECT_LT(gained(simulation, reports), 0.05 * work);
 }
 

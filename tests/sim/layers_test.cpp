@@ -25,10 +25,10 @@ class Layers : public testing::Test {
 };
 
 double largest_depth(const Simulation& simulation, std::size_t cloth) {
-  double most = 0;
+  double max = 0;
   const Planes3& p = simulation.cloths()[cloth].state.position;
-  for (int s = 0; s < p.size() * p.size(); ++s) most = std::max(most, std::abs(double{p.at(s).z}));
-  return most;
+  for (int s = 0; s < p.size() * p.size(); ++s) max = std::max(max, std::abs(double{p.at(s).z}));
+  return max;
 }
 
 TEST_F(Layers, StartOutsideOfEachOtherInTheOrderOfTheScene) {

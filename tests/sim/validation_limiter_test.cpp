@@ -41,13 +41,13 @@ double largest_rise(const Swing& swing) {
   const bool soft = std::holds_alternative<TwoLevelOptions>(swing.method);
   const double weight = 9.81 * swing.material.density;
   Simulation simulation(scene, "limited", 1);
-  double least = 0, rise = 0;
+  double min = 0, rise = 0;
   for (int frame = 0; frame < 240; ++frame) {
     const FrameReport report = simulation.advance();
     const double potential = soft ? weight * report.centre_of_mass.y : report.potential_energy;
     const double energy = report.kinetic_energy + potential;
-    least = std::min(least, energy);
-    rise = std::max(rise, energy - least);
+    min = std::min(min, energy);
+    rise = std::max(rise, energy - min);
   }
   return rise / weight;
 }

@@ -190,12 +190,12 @@ void fit(const Moments& moments, int wanted, Surroundings& around) {
 /// The largest error of the weights in the first `count` conditions.
 template <class Weight>
 double largest_miss(const Surroundings& around, Column missing, int count, const Weight& weight) {
-  double most = 0;
+  double max = 0;
   for (int i = 0; i < count; ++i) {
     for (const Neighbour& at : around.ring) missing[i] -= weight(at) * column_of(at)[i];
-    most = std::max(most, std::abs(missing[i]));
+    max = std::max(max, std::abs(missing[i]));
   }
-  return most;
+  return max;
 }
 
 /// Converts weights per mean edge to weights per metre and bounds them; sets them to zero if they
@@ -207,9 +207,9 @@ void finish(Surroundings& around, double mean_spacing) {
   const bool good = std::isfinite(sum) && around.spacing > 0 &&
                     largest_miss(around, {}, 2, [](const Neighbour& at) { return at.weight; }) <=
                         affine * std::max(1.0, sum);
-  const double least = min_spacing * mean_spacing;
-  const double most = 8 / (least * least), spacing = around.spacing * around.spacing;
-  const double scale = good && sum > 0 ? std::min(1 / spacing, most / sum) : 0;
+  const double min = min_spacing * mean_spacing;
+  const double max = 8 / (min * min), spacing = around.spacing * around.spacing;
+  const double scale = good && sum > 0 ? std::min(1 / spacing, max / sum) : 0;
   for (Neighbour& at : around.ring) at.weight *= scale;
 }
 

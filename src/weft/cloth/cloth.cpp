@@ -74,11 +74,11 @@ void set_masses(Cloth& cloth, const RestShape& shape) {
   if (!(total > 0))
     throw SceneError("cloth", "a rest shape without area: its samples carry no mass",
                      "a surface, not a point or a curve, is wanted");
-  const auto least = static_cast<float>(min_relative_mass * total / cloth.particles);
+  const auto min = static_cast<float>(min_relative_mass * total / cloth.particles);
   cloth.inverse_mass = Grid<float>(n, n);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
-      cloth.mass(r, c) = std::max(cloth.mass(r, c), least);
+      cloth.mass(r, c) = std::max(cloth.mass(r, c), min);
       cloth.inverse_mass(r, c) = cloth.mates.is_hole(r * n + c) ? 0 : 1 / cloth.mass(r, c);
     }
 }

@@ -129,14 +129,14 @@ SpringPlane make_springs(const RestShape& shape, const Material& material,
   const int n = shape.size();
   const auto [down, right] = spring_offsets[direction];
   SpringPlane plane{down, right, Grid<float>(n, n, 1), Grid<float>(n, n), Grid<float>(n, n)};
-  const auto least = static_cast<float>(min_relative_length * shape.mean_spacing);
+  const auto min = static_cast<float>(min_relative_length * shape.mean_spacing);
   for (int r = 0; r + down < n; ++r)
     for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c) {
       const int from = r * n + c, to = (r + down) * n + c + right;
       if (!shape.mates.same_chart(from, to)) continue;
       if (shape.mates.representative(from) == shape.mates.representative(to)) continue;
       const float rest =
-          std::max(least, spring_length(shape.position.at(from), shape.position.at(to)));
+          std::max(min, spring_length(shape.position.at(from), shape.position.at(to)));
       plane.rest_length(r, c) = rest;
       plane.stiffness(r, c) =
           static_cast<float>(stiffness_of(shape, material, direction, {r, c, rest}));

@@ -112,17 +112,17 @@ class MovingFeature {
   [[nodiscard]] double apart_until(double time, Vec3d normal, double separation) const {
     const double size = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
     const double error = height_error * epsilon * extent_ * size;
-    const double least = separation * length(normal) * (1 + 8 * epsilon) + error;
+    const double min = separation * length(normal) * (1 + 8 * epsilon) + error;
     double until = 1;
     for (int k = 0; k < start_.count; ++k) {
       const double first = dot(normal, start_.at[k]), last = dot(normal, end_.at[k]);
-      if (last > least) continue;
+      if (last > min) continue;
       // The target height is raised by `error`, which covers the rounding of the division.
-      until = std::min(until, (first - least - error) / (first - last));
+      until = std::min(until, (first - min - error) / (first - last));
     }
     const auto all_above = [&](double t) {
       for (int k = 0; k < start_.count; ++k)
-        if (!((1 - t) * dot(normal, start_.at[k]) + t * dot(normal, end_.at[k]) > least))
+        if (!((1 - t) * dot(normal, start_.at[k]) + t * dot(normal, end_.at[k]) > min))
           return false;
       return true;
     };

@@ -109,19 +109,19 @@ double ContactPipeline::smallest_gap(std::size_t cloth, const Planes3& positions
   team.run([&](Worker& worker) {
     const Range rows = worker.share(n);
     for (int r = rows.first; r < rows.last; ++r) {
-      double least = HUGE_VAL;
+      double min = HUGE_VAL;
       for (int c = 0; c < n; ++c) {
         const Vec3d p = vec_cast<double>(positions.at(r, c));
-        if (world_.ground() != nullptr) least = std::min(least, p.y - world_.ground()->height);
+        if (world_.ground() != nullptr) min = std::min(min, p.y - world_.ground()->height);
         for (const ContactBody& body : world_.contact_bodies)
           if (const auto found = body.query->closest(p, reach)) {
             const bool kept_in = one.properties.is_kept_in(body.number - 1);
             const bool astray = body.query->closed() && body.query->behind(p, *found) != kept_in;
             const double distance = std::sqrt(found->squared_distance);
-            least = std::min(least, astray ? -distance : distance);
+            min = std::min(min, astray ? -distance : distance);
           }
       }
-      row_gaps_[r] = least;
+      row_gaps_[r] = min;
     }
   });
   return *std::min_element(row_gaps_.begin(), row_gaps_.end());

@@ -11,19 +11,19 @@ void ContactUses::clear() {
   samples_.clear();
   added_.clear();
   starts_.assign(1, 0);
-  least_ = static_cast<int>(index_.size());
-  most_ = -1;
+  min_ = static_cast<int>(index_.size());
+  max_ = -1;
 }
 
 void ContactUses::add(int sample, Use use) {
   added_.push_back({sample, use});
   ++index_[sample];
-  least_ = std::min(least_, sample);
-  most_ = std::max(most_, sample);
+  min_ = std::min(min_, sample);
+  max_ = std::max(max_, sample);
 }
 
 void ContactUses::finish() {
-  for (int sample = least_; sample <= most_; ++sample) {
+  for (int sample = min_; sample <= max_; ++sample) {
     if (index_[sample] == 0) continue;
     starts_.push_back(starts_.back() + index_[sample]);
     index_[sample] = static_cast<int>(samples_.size());

@@ -41,7 +41,7 @@ class ContactUses {
   std::vector<int> index_;  // [samples] while adding: number of uses; then: index in samples_
   std::vector<int> samples_, starts_{0};
   std::vector<Use> uses_;
-  int least_ = 0, most_ = -1;  // of the samples added
+  int min_ = 0, max_ = -1;  // of the samples added
 };
 
 }  // namespace weft

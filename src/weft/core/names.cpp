@@ -23,12 +23,12 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string_view>& candidates) {
-  int least = std::numeric_limits<int>::max();
+  int min = std::numeric_limits<int>::max();
   std::string_view nearest;
   for (const std::string_view candidate : candidates) {
     const int distance = edit_distance(name, candidate);
-    if (distance >= least) continue;
-    least = distance;
+    if (distance >= min) continue;
+    min = distance;
     nearest = candidate;
   }
   return std::string(nearest);

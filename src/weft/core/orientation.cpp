@@ -36,12 +36,12 @@ struct Scaled {
 /// The sign of the determinant of the differences of points to the last one, in integer arithmetic:
 /// coordinates are multiples of the smallest power of two among them.
 template <class Int, std::size_t Dimension>
-int sign_in(const std::array<std::array<Scaled, Dimension>, Dimension + 1>& points, int least) {
+int sign_in(const std::array<std::array<Scaled, Dimension>, Dimension + 1>& points, int min) {
   std::array<std::array<Int, Dimension>, Dimension + 1> whole;
   for (std::size_t i = 0; i <= Dimension; ++i)
     for (std::size_t k = 0; k < Dimension; ++k) {
       whole[i][k] = points[i][k].mantissa;
-      if (points[i][k].mantissa != 0) whole[i][k] *= Int(1) << (points[i][k].exponent - least);
+      if (points[i][k].mantissa != 0) whole[i][k] *= Int(1) << (points[i][k].exponent - min);
     }
   for (std::size_t i = 0; i < Dimension; ++i)
     for (std::size_t k = 0; k < Dimension; ++k) whole[i][k] -= whole[Dimension][k];
@@ -59,18 +59,18 @@ int sign_in(const std::array<std::array<Scaled, Dimension>, Dimension + 1>& poin
 
 template <std::size_t Dimension>
 int exact_sign(const std::array<std::array<Scaled, Dimension>, Dimension + 1>& points) {
-  int least = INT_MAX, largest = INT_MIN;
+  int min = INT_MAX, max = INT_MIN;
   for (const auto& point : points)
     for (const Scaled& value : point)
       if (value.mantissa != 0) {
-        least = std::min(least, value.exponent);
-        largest = std::max(largest, value.exponent);
+        min = std::min(min, value.exponent);
+        max = std::max(max, value.exponent);
       }
-  if (largest == INT_MIN) return 0;  // all coordinates are zero
+  if (max == INT_MIN) return 0;  // all coordinates are zero
   // Three factors of 53 + 64 + 1 bits, and a sum of six such products, fit 512.
   constexpr int max_shift = 64;
-  if (largest - least <= max_shift) return sign_in<FixedInt, Dimension>(points, least);
-  return sign_in<cpp_int, Dimension>(points, least);
+  if (max - min <= max_shift) return sign_in<FixedInt, Dimension>(points, min);
+  return sign_in<cpp_int, Dimension>(points, min);
 }
 
 std::array<Scaled, 2> scaled(Vec2d p) { return {Scaled(p.x), Scaled(p.y)}; }

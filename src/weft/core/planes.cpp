@@ -9,7 +9,7 @@ namespace weft {
 double largest_displacement(const Planes3& from, const Planes3& to) noexcept {
   constexpr int lanes = 16;
   const int n = from.size();
-  std::array<float, lanes> most{};
+  std::array<float, lanes> max{};
   for (int r = 0; r < n; ++r) {
     const float *ax = from.x.row(r), *ay = from.y.row(r), *az = from.z.row(r);
     const float *bx = to.x.row(r), *by = to.y.row(r), *bz = to.z.row(r);
@@ -21,10 +21,10 @@ double largest_displacement(const Planes3& from, const Planes3& to) noexcept {
     int c = 0;
     for (; c + lanes <= n; c += lanes)
 #pragma omp simd
-      for (int lane = 0; lane < lanes; ++lane) look(c + lane, most[lane]);
-    for (int lane = 0; c < n; ++c, ++lane) look(c, most[lane]);
+      for (int lane = 0; lane < lanes; ++lane) look(c + lane, max[lane]);
+    for (int lane = 0; c < n; ++c, ++lane) look(c, max[lane]);
   }
-  return std::sqrt(double{*std::max_element(most.begin(), most.end())});
+  return std::sqrt(double{*std::max_element(max.begin(), max.end())});
 }
 
 }  // namespace weft

@@ -20,8 +20,8 @@ Signs sides(const Corners& t, const Corners& corners) {
 }
 
 bool on_both_sides(const Signs& s) {
-  const auto [least, largest] = std::minmax({s[0], s[1], s[2]});
-  return least < 0 && largest > 0;
+  const auto [minimum, maximum] = std::minmax({s[0], s[1], s[2]});
+  return minimum < 0 && maximum > 0;
 }
 
 /// Rotates the corners so that the first is the only one on its side of the other triangle's plane.

@@ -107,17 +107,16 @@ class SurfaceExamination {
     std::vector<int> loop_of(3 * mesh_.triangles.size(), -1);
     for_border([&](int h) {
       int& loop = loop_of[loops.root(fans_.root(h))];
-      const int least = std::min(from(h), to(h));
+      const int min = std::min(from(h), to(h));
       if (loop < 0) {
         loop = static_cast<int>(statistics_.border_loops.size());
-        statistics_.border_loops.push_back(
-            {0, 0, parts_.part_of[HalfEdges::triangle_of(h)], least});
+        statistics_.border_loops.push_back({0, 0, parts_.part_of[HalfEdges::triangle_of(h)], min});
         ++component_at(h).boundaries;
       }
       BorderLoopStatistics& found = statistics_.border_loops[loop];
       ++found.edges;
       found.length += length(mesh_.positions[to(h)] - mesh_.positions[from(h)]);
-      found.min_vertex = std::min(found.min_vertex, least);
+      found.min_vertex = std::min(found.min_vertex, min);
     });
     std::sort(statistics_.border_loops.begin(), statistics_.border_loops.end(),
               [](const BorderLoopStatistics& a, const BorderLoopStatistics& b) {

@@ -61,7 +61,7 @@ Stretch measure_stretch(std::span<const SurfaceTriangle> surface,
 
 std::vector<double> vertex_stretch(std::span<const SurfaceTriangle> surface,
                                    std::span<const Triangle> triangles, std::span<const Vec2d> uv) {
-  constexpr double most = 1e4;
+  constexpr double max = 1e4;
   double surface_area = 0;
   double plane_area = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -76,7 +76,7 @@ std::vector<double> vertex_stretch(std::span<const SurfaceTriangle> surface,
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
     const double s = triangle_stretch(surface[t], uv[a], uv[b], uv[c]).mean_square * unit;
-    const double bounded = std::clamp(s, 1 / (most * most), most * most);
+    const double bounded = std::clamp(s, 1 / (max * max), max * max);
     for (const int v : triangles[t]) {
       square[v] += surface[t].area * bounded;
       area[v] += surface[t].area;

@@ -18,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Trial map of a cut at the best of four rotations; one of infinite energy where the size is too
 /// small for the cut.
-TrialMap judge(const TriangleMesh& mesh, const Cut& cut, const TrialOptions& options) {
+TrialMap evaluate_cut(const TriangleMesh& mesh, const Cut& cut, const TrialOptions& options) {
   const CutDisk opened = cut_open(mesh, cut);
   if (min_size(opened) > options.size) return {};
   const int step = std::max(1, (options.size - 1) / 4);
@@ -45,13 +45,13 @@ std::vector<int> candidates(const TriangleMesh& mesh, const Cut& cut, const Tria
   const bool is_valid = !trial.stretch_at.empty();
   const auto largest = [&](const auto& weight) {
     int best = -1;
-    double most = 0;
+    double max = 0;
     for (int v = 0; v < surface.vertex_count(); ++v) {
       const double stretch = is_valid ? trial.stretch_at[v] : 1;
       if (stretch <= 0 || !(tree.distance[v] < HUGE_VAL)) continue;
       const double value = weight(stretch) * tree.distance[v];
-      if (value <= most) continue;
-      most = value;
+      if (value <= max) continue;
+      max = value;
       best = v;
     }
     return best;
@@ -81,7 +81,7 @@ Plan lengthen(const TriangleMesh& mesh, const Plan& plan, const AugmentOptions& 
                         (static_cast<double>(k) + 1) / count);
     Plan next{extend_cut(mesh, plan.cut, goals[k]), plan.targets, {}};
     next.targets.push_back(goals[k]);
-    next.trial = judge(mesh, next.cut, {options.size, options.threads, &part});
+    next.trial = evaluate_cut(mesh, next.cut, {options.size, options.threads, &part});
     if (k == 0 || next.trial.energy < best.trial.energy) best = std::move(next);
   }
   return best;
@@ -91,7 +91,7 @@ Plan lengthen(const TriangleMesh& mesh, const Plan& plan, const AugmentOptions& 
 Plan plan_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& options) {
   constexpr double min_gain = 0.01;
   PartOfProgress start(options.progress, "cut", 0, 0);
-  Plan plan{cut, {}, judge(mesh, cut, {options.size, options.threads, &start})};
+  Plan plan{cut, {}, evaluate_cut(mesh, cut, {options.size, options.threads, &start})};
   Plan best = plan;
   for (int round = 0; round < options.max_rounds; ++round) {
     PartOfProgress part(options.progress, "cut", static_cast<double>(round) / options.max_rounds,

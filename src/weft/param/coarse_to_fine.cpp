@@ -86,11 +86,11 @@ Triangles::Triangles(const DiskMesh& disk, std::span<const Vec2d> uv)
 /// The triangle's metric plus a small equilateral one: a triangle without area would not be a
 /// barrier to its neighbours otherwise.
 StarTriangle Triangles::operator()(const Triangle& t) const {
-  const double least = 1e-8 * mean_area_;
+  const double min = 1e-8 * mean_area_;
   const Vec3d p = disk_.positions[t[1]] - disk_.positions[t[0]];
   const Vec3d q = disk_.positions[t[2]] - disk_.positions[t[0]];
-  const SurfaceTriangle surface{dot(p, p) + least, dot(p, q) + 0.5 * least, dot(q, q) + least,
-                                0.5 * length(cross(p, q)) + least};
+  const SurfaceTriangle surface{dot(p, p) + min, dot(p, q) + 0.5 * min, dot(q, q) + min,
+                                0.5 * length(cross(p, q)) + min};
   return {surface, (quartic_[t[0]] + quartic_[t[1]] + quartic_[t[2]]) / 3,
           inverse_unit_ * inverse_weight(surface)};
 }

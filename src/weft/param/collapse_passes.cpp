@@ -47,13 +47,13 @@ class Passes {
   Passes(CollapseHierarchy& mesh, const CollapseOrder& order, int triangles)
       : mesh_(mesh), order_(order), triangles_(triangles), resting_(mesh.vertex_count(), -1) {}
 
-  /// Runs one pass with collapses of cost up to `most`. @return how many vertices were collapsed
-  int run(double most);
+  /// Runs one pass with collapses of cost up to `max`. @return how many vertices were collapsed
+  int run(double max);
   [[nodiscard]] double min_refused() const { return min_refused_; }
   [[nodiscard]] bool is_done() const { return mesh_.triangle_count() <= triangles_; }
 
  private:
-  bool take_away(int vertex, double most);
+  bool take_away(int vertex, double max);
 
   CollapseHierarchy& mesh_;
   const CollapseOrder& order_;
@@ -64,20 +64,20 @@ class Passes {
   double min_refused_ = infinity;
 };
 
-int Passes::run(double most) {
+int Passes::run(double max) {
   ++pass_;
   min_refused_ = infinity;
   int count = 0;
   for (int v = 0; v < mesh_.vertex_count() && !is_done(); ++v)
-    if (mesh_.is_inner(v) && resting_[v] != pass_ && take_away(v, most)) ++count;
+    if (mesh_.is_inner(v) && resting_[v] != pass_ && take_away(v, max)) ++count;
   return count;
 }
 
-bool Passes::take_away(int vertex, double most) {
+bool Passes::take_away(int vertex, double max) {
   candidates_.clear();
   mesh_.around(vertex, [&](int h) {
     const double cost = order_.cost(mesh_, h);
-    if (cost <= most)
+    if (cost <= max)
       candidates_.push_back({cost, h});
     else
       min_refused_ = std::min(min_refused_, cost);
@@ -121,13 +121,13 @@ CollapseOrder min_valence_first() {
 void collapse_in_passes(CollapseHierarchy& mesh, const CollapseOrder& order,
                         const PassOptions& options) {
   Passes passes(mesh, order, options.triangles);
-  double most = options.first_cost;
+  double max = options.first_cost;
   while (!passes.is_done()) {
     const int before = mesh.triangle_count();
-    const int gone = passes.run(most);
+    const int gone = passes.run(max);
     if (gone == 0 && !(passes.min_refused() < infinity)) return;
     if (gone > before / 40) continue;
-    most = std::max(most * options.growth, gone == 0 ? passes.min_refused() : most);
+    max = std::max(max * options.growth, gone == 0 ? passes.min_refused() : max);
   }
 }
 

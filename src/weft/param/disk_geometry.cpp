@@ -97,7 +97,7 @@ std::vector<double> curvature_weights(const DiskMesh& disk, const HalfEdges& edg
                                       std::span<const SurfaceTriangle> surface) {
   constexpr double everywhere = 0.1;
   constexpr double by_curvature = 0.2;
-  constexpr double most = 20;
+  constexpr double max = 20;
   constexpr int rounds = 4;
   Density density = square_curvature(disk, edges, surface);
   const double whole = total(density.sum);
@@ -109,7 +109,7 @@ std::vector<double> curvature_weights(const DiskMesh& disk, const HalfEdges& edg
   for (std::size_t t = 0; t < curvature_weight.size(); ++t) {
     if (!(density.area[t] > 0)) continue;
     const double relative = density.sum[t] / density.area[t] * (area / whole);
-    curvature_weight[t] += by_curvature * std::min(relative, most);
+    curvature_weight[t] += by_curvature * std::min(relative, max);
   }
   return curvature_weight;
 }

@@ -28,13 +28,13 @@ constexpr double min_gain = 1e-8;
 
 /// Doubles a full step while each doubling lowers the energy by much: next to an almost degenerate
 /// triangle Newton steps are far too short.
-double longer_step_length(const VertexStar& star, Vec2d place, Vec2d step, double most) {
+double longer_step_length(const VertexStar& star, Vec2d place, Vec2d step, double max) {
   constexpr double much = 0.7;
   double step_length = 1;
   double last = star.energy(place);
   double reached = star.energy(place + step);
-  while (reached < much * last && step_length < most) {
-    const double next = std::min(2 * step_length, most);
+  while (reached < much * last && step_length < max) {
+    const double next = std::min(2 * step_length, max);
     last = reached;
     reached = star.energy(place + next * step);
     if (!(reached < last)) break;
@@ -79,13 +79,13 @@ double VertexMover::improve(int vertex, VertexStar& star) {
   const Vec2d step = curvature.solve(-1.0 * here.gradient);
   const double slope = dot(step, here.gradient);
   if (!std::isfinite(here.energy) || !(slope < -min_gain * here.energy)) return 0;
-  const double most = 0.9 * star.free_step_length(place, step);
-  double step_length = std::min(1.0, most);
+  const double max = 0.9 * star.free_step_length(place, step);
+  double step_length = std::min(1.0, max);
   for (int halving = 0; halving < 8; ++halving, step_length *= 0.5) {
     const double reached = star.energy(place + step_length * step);
     if (!(reached < here.energy + 1e-4 * step_length * slope)) continue;
     if (step_length == 1 && reached < 0.7 * here.energy)
-      step_length = longer_step_length(star, place, step, most);
+      step_length = longer_step_length(star, place, step, max);
     if (!star.is_valid(place + step_length * step)) continue;
     uv_[vertex] = place + step_length * step;
     return 1 - reached / here.energy;
@@ -122,8 +122,8 @@ bool VertexMover::improve(const BorderFreedom& freedom) {
   if (!std::isfinite(energy) || !(slope * step < -min_gain * energy)) return false;
   for (int k = 0; k < ends; ++k) {
     const double sign = step > 0 ? 1 : -1;
-    const double most = 0.9 * star[k]->free_step_length(before[k], sign * direction[k]);
-    step = std::clamp(step, -most, most);
+    const double max = 0.9 * star[k]->free_step_length(before[k], sign * direction[k]);
+    step = std::clamp(step, -max, max);
   }
   for (int halving = 0; halving < 8; ++halving, step *= 0.5) {
     uv_[freedom.vertex] = before[0] + step * direction[0];
@@ -190,14 +190,14 @@ int VertexMover::wake() {
   return count;
 }
 
-void VertexMover::sweep_restless(int most, std::span<const BorderFreedom> freedoms) {
+void VertexMover::sweep_restless(int max, std::span<const BorderFreedom> freedoms) {
   constexpr double far = 1e-3;   // share of the energy around a vertex that its turn took away
   constexpr int min_share = 16;  // a smaller part of all vertices does not pay for the barriers
   plan_sweeps();
   moved_far_.assign(mesh_.vertex_count(), 0);
   awake_.assign(mesh_.vertex_count(), 1);
   int moved = mesh_.vertex_count();
-  for (int k = 0; k < most && moved > 0; ++k) {
+  for (int k = 0; k < max && moved > 0; ++k) {
     for_each_inner(moved < mesh_.vertex_count() / min_share, [&](int v, VertexStar& star) {
       moved_far_[v] = awake_[v] && improve(v, star) > far ? 1 : 0;
     });

@@ -48,8 +48,8 @@ class VertexMover {
   void sweep(int times, std::span<const BorderFreedom> freedoms = {});
   /// Moves all inner vertices once, then again those that moved far in the last sweep and their
   /// neighbours: most of a fine mesh comes to rest at once. All freedoms move in every sweep.
-  /// @param most  number of sweeps
-  void sweep_restless(int most, std::span<const BorderFreedom> freedoms = {});
+  /// @param max  number of sweeps
+  void sweep_restless(int max, std::span<const BorderFreedom> freedoms = {});
 
  private:
   double improve(int vertex, VertexStar& star);

@@ -125,7 +125,7 @@ struct Transfer {
     const double around = 4.0 * (size - 1);
     const std::vector<double> t = border_positions(fine, lay_out_border(fine, {size, 0}));
     const std::vector<int> wanted = lay_out_border(coarse, {size, of_coarse}).first;
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     double best = 0;
     for (const double candidate : places_of(0, t)) {
       const double shift = wanted[0] - candidate;
@@ -136,8 +136,8 @@ struct Transfer {
           nearest = std::min(nearest, apart(place + shift, wanted[p], around));
         sum += nearest;
       }
-      if (sum >= least) continue;
-      least = sum;
+      if (sum >= min) continue;
+      min = sum;
       best = shift;
     }
     return static_cast<int>(std::round(best / step)) * step;

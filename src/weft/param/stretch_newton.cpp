@@ -55,8 +55,8 @@ std::vector<Vec2d> moved(const State& state, const NewtonSystem::Step& step, dou
 /// projected Hessian is too stiff along valleys, so the step length is doubled while the energy
 /// falls if the first trial is accepted.
 void line_search(State& state, const NewtonSystem::Step& step) {
-  const double most = 0.9 * free_step_length(state.geometry.disk.triangles, state.uv, step.move);
-  double step_length = std::min(1.0, most);
+  const double max = 0.9 * free_step_length(state.geometry.disk.triangles, state.uv, step.move);
+  double step_length = std::min(1.0, max);
   const auto lowers = [&](double reached) {
     return reached <= state.energy + 1e-4 * step_length * step.slope;
   };
@@ -64,7 +64,7 @@ void line_search(State& state, const NewtonSystem::Step& step) {
     std::vector<Vec2d> trial = moved(state, step, step_length);
     double reached = state.geometry.energy(trial);
     if (!lowers(reached)) continue;
-    while (halving == 0 && 2 * step_length < most) {
+    while (halving == 0 && 2 * step_length < max) {
       std::vector<Vec2d> further = moved(state, step, 2 * step_length);
       const double energy = state.geometry.energy(further);
       if (!(energy < reached)) break;

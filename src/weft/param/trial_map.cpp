@@ -38,9 +38,9 @@ std::vector<double> stretch_at(const DiskGeometry& geometry, std::span<const Vec
 }
 
 int surface_vertex_count(const CutDisk& cut) {
-  int most = -1;
-  for (const int v : cut.disk.surface_vertex) most = std::max(most, v);
-  return most + 1;
+  int max = -1;
+  for (const int v : cut.disk.surface_vertex) max = std::max(max, v);
+  return max + 1;
 }
 
 }  // namespace

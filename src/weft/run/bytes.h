@@ -53,7 +53,7 @@ class ByteReader {
   requires std::is_arithmetic_v<T>
   void read(T& value) {
     value = T{};
-    if (take(sizeof(T))) std::memcpy(&value, taken_.data(), sizeof(T));
+    if (consume(sizeof(T))) std::memcpy(&value, consumed_.data(), sizeof(T));
   }
   template <class T>
   [[nodiscard]] T next() {
@@ -62,27 +62,27 @@ class ByteReader {
     return value;
   }
   void read_floats(float* values, int count) {
-    if (take(sizeof(float) * static_cast<std::size_t>(count)))
-      std::memcpy(values, taken_.data(), taken_.size());
+    if (consume(sizeof(float) * static_cast<std::size_t>(count)))
+      std::memcpy(values, consumed_.data(), consumed_.size());
   }
   [[nodiscard]] std::string_view next_text() {
     const auto size = next<std::uint64_t>();
-    return take(size) ? taken_ : std::string_view();
+    return consume(size) ? consumed_ : std::string_view();
   }
   [[nodiscard]] bool whole() const { return whole_; }
   /// Bytes not read yet.
   [[nodiscard]] std::size_t left() const { return left_.size(); }
 
  private:
-  bool take(std::uint64_t count) {
+  bool consume(std::uint64_t count) {
     whole_ = whole_ && count <= left_.size();
     if (!whole_) return false;
-    taken_ = left_.substr(0, count);
+    consumed_ = left_.substr(0, count);
     left_.remove_prefix(count);
     return true;
   }
 
-  std::string_view left_, taken_;
+  std::string_view left_, consumed_;
   bool whole_ = true;
 };
 

@@ -61,18 +61,18 @@ std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& fi
 }  // namespace
 
 std::optional<std::uint64_t> available_memory(const fs::path& root) {
-  std::optional<std::uint64_t> least = number_in(root / "proc/meminfo", "MemAvailable:");
-  if (least) *least *= 1024;
+  std::optional<std::uint64_t> min = number_in(root / "proc/meminfo", "MemAvailable:");
+  if (min) *min *= 1024;
   for (const GroupFiles& files : versions) {
     // A limit on a group holds for all groups below it. In a container the path may lead nowhere.
     fs::path group = group_of(root, files.controller);
     for (;; group = group.parent_path()) {
       const auto left = left_in(root / files.folder / group, files);
-      if (left) least = std::min(least.value_or(*left), *left);
+      if (left) min = std::min(min.value_or(*left), *left);
       if (group.empty()) break;
     }
   }
-  return least;
+  return min;
 }
 namespace {
 

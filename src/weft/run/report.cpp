@@ -128,12 +128,12 @@ constexpr double usual_height = 1;
 }  // namespace
 
 double energy_gained(const RunReport& report) {
-  double least = report.start_energy, work = 0, gained = 0;
+  double min = report.start_energy, work = 0, gained = 0;
   for (const FrameReport& frame : report.history) {
     work += frame.work;
     const double energy = frame.kinetic_energy + frame.potential_energy - work;
-    least = std::min(least, energy);
-    gained = std::max(gained, energy - least);
+    min = std::min(min, energy);
+    gained = std::max(gained, energy - min);
   }
   return gained;
 }

@@ -191,12 +191,12 @@ void settle(const Material& material, const Cloth& cloth, const DrapeTestOptions
 
 /// Number of folds of a closed line: how often its values rise by a fifth of their range.
 int count_folds(const std::vector<double>& line) {
-  const auto [least, most] = std::minmax_element(line.begin(), line.end());
-  const double rise = 0.2 * (*most - *least);
-  if (*most - *least < 0.02 * disc_radius) return 0;
-  const auto start = static_cast<std::size_t>(least - line.begin());
+  const auto [min, max] = std::minmax_element(line.begin(), line.end());
+  const double rise = 0.2 * (*max - *min);
+  if (*max - *min < 0.02 * disc_radius) return 0;
+  const auto start = static_cast<std::size_t>(min - line.begin());
   int folds = 0;
-  double lowest = *least, highest = *least;
+  double lowest = *min, highest = *min;
   bool rising = false;
   for (std::size_t i = 0; i <= line.size(); ++i) {
     const double value = line[(start + i) % line.size()];
@@ -283,14 +283,14 @@ class Fit {
   }
 
   void check_reach(const Bracket& bracket) {
-    const double least = drape(bracket.soft).drape.coefficient;
-    const double most = drape(bracket.stiff).drape.coefficient;
-    if (wanted_ > least && wanted_ < most) return;
+    const double min = drape(bracket.soft).drape.coefficient;
+    const double max = drape(bracket.stiff).drape.coefficient;
+    if (wanted_ > min && wanted_ < max) return;
     throw InputError("drape",
                      fmt::format("{:.1f} %, which no bending stiffness of cloth gives at "
                                  "{:g} kg/m^2",
                                  100 * wanted_, material_.density),
-                     fmt::format("one of {:.1f} to {:.1f} % is wanted", 100 * least, 100 * most));
+                     fmt::format("one of {:.1f} to {:.1f} % is wanted", 100 * min, 100 * max));
   }
 
   [[nodiscard]] double miss(const FittedBending& fit) const {

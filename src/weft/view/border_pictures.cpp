@@ -69,11 +69,11 @@ std::vector<BorderBand> border_bands(const BorderMates& mates) {
   const auto other_first = [&](const MateInterval& pair) {
     return mates.along_border(pair.mate, pair.turned ? 0 : -pair.count);
   };
-  const auto least = [&](const MateInterval& pair) {
+  const auto min = [&](const MateInterval& pair) {
     return std::min(pair.first, other_first(pair));
   };
   std::sort(pairs.begin(), pairs.end(),
-            [&](const MateInterval& a, const MateInterval& b) { return least(a) < least(b); });
+            [&](const MateInterval& a, const MateInterval& b) { return min(a) < min(b); });
   std::vector<BorderBand> bands;
   for (int i = 0; i < static_cast<int>(pairs.size()); ++i) {
     bands.push_back({pairs[i].first, pairs[i].count, curve_colour(i)});

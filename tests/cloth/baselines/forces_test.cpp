@@ -30,10 +30,10 @@ void move(const Cloth& cloth, int sample, Vec3f by, Planes3& planes) {
 }
 
 double largest(const Planes3& planes) {
-  double most = 0;
+  double max = 0;
   for (int s = 0; s < planes.size() * planes.size(); ++s)
-    most = std::max(most, length(vec_cast<double>(planes.at(s))));
-  return most;
+    max = std::max(max, length(vec_cast<double>(planes.at(s))));
+  return max;
 }
 
 TEST(Forces, AreMinusTheGradientOfTheEnergy) {

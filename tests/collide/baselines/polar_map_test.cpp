@@ -16,12 +16,12 @@ using test::TestCloth;
 
 /// Distance to the surface by looking at every triangle.
 double brute_distance(const GridSurface& surface, Vec3d point) {
-  double least = HUGE_VAL;
+  double min = HUGE_VAL;
   for (const auto& [a, b, c] : surface.triangles())
-    least = std::min(
-        least, length(point - closest_on_triangle(point, surface.position(a), surface.position(b),
-                                                  surface.position(c))));
-  return least;
+    min = std::min(
+        min, length(point - closest_on_triangle(point, surface.position(a), surface.position(b),
+                                                surface.position(c))));
+  return min;
 }
 
 TEST(GridSurface, FoldedSphereIsClosedAndItsNormalsPointOutwards) {
@@ -91,9 +91,9 @@ TEST(PolarMap, WalkFindsTheClosestPoint) {
     const auto contact = map.contact(p, p, 0.01);
     if (!contact) continue;
     ++found;
-    const double least = brute_distance(surface, p);
-    exact += std::abs(std::abs(contact->gap) - least) < 1e-9 ? 1 : 0;
-    EXPECT_LT(std::abs(contact->gap), 1.1 * least + 1e-9);
+    const double min = brute_distance(surface, p);
+    exact += std::abs(std::abs(contact->gap) - min) < 1e-9 ? 1 : 0;
+    EXPECT_LT(std::abs(contact->gap), 1.1 * min + 1e-9);
     EXPECT_NEAR(length(contact->normal), 1, 1e-9);
   }
   // A walk from sample to sample may stop beside the closest triangle where cells are long and

@@ -46,8 +46,8 @@ bool ContactSprings::may_press(const Contact& contact, const Planes3& now) const
     before[side] += w * dot(n, vec_cast<double>(start_->at(contact.samples[i])));
     after[side] += w * dot(n, vec_cast<double>(now.at(contact.samples[i])));
   }
-  const double least = std::min(before[0], after[0]) + std::min(before[1], after[1]);
-  return contact.offset - least > -touching * cloth_.rest_spacing;
+  const double min = std::min(before[0], after[0]) + std::min(before[1], after[1]);
+  return contact.offset - min > -touching * cloth_.rest_spacing;
 }
 
 bool ContactSprings::update_active(const Planes3& now, const Grid<float>& inverse_diagonal,
@@ -118,17 +118,17 @@ bool ContactSprings::update_friction(int index, const Place& place) {
   if (!(compliance > 0)) return false;
   const double force = force_[index] > 0 ? double{force_[index]}
                                          : std::max(0.0, depth_at(index, place)) / compliance;
-  const double most = contact.friction * force, displacement = length(slid(index, place));
+  const double max = contact.friction * force, displacement = length(slid(index, place));
   // A contact without friction so far sticks if friction could stop it; with friction, if it hardly
   // moves.
   const bool stuck = sticks_[index] != 0;
   const double before = max_friction_[index];
   const bool sticks =
-      most > 0 && (before > 0 ? k * displacement <= most : displacement <= most * compliance);
+      max > 0 && (before > 0 ? k * displacement <= max : displacement <= max * compliance);
   sticks_[index] = sticks ? 1 : 0;
-  max_friction_[index] = static_cast<float>(most);
-  loads_.grip()[index] = sticks ? k : most > 0 ? static_cast<float>(most / displacement) : 0.0F;
-  return sticks != stuck || (!sticks && std::abs(most - before) > same_force * most);
+  max_friction_[index] = static_cast<float>(max);
+  loads_.grip()[index] = sticks ? k : max > 0 ? static_cast<float>(max / displacement) : 0.0F;
+  return sticks != stuck || (!sticks && std::abs(max - before) > same_force * max);
 }
 
 bool ContactSprings::update_friction(const Place& place, Worker& worker) {
@@ -142,13 +142,13 @@ bool ContactSprings::update_friction(const Place& place, Worker& worker) {
 }
 
 Vec3f ContactSprings::friction_at(int index, const Place& place) const {
-  const float most = max_friction_[index];
-  if (most == 0) return {};
+  const float max = max_friction_[index];
+  if (max == 0) return {};
   const Vec3d displacement = slid(index, place);
   const double k = stick_stiffness_[index], distance = length(displacement);
   // The force of a slipping contact reverses smoothly.
-  const bool spring = sticks_[index] != 0 || k * distance <= most;
-  return vec_cast<float>((spring ? -k : -most / distance) * displacement);
+  const bool spring = sticks_[index] != 0 || k * distance <= max;
+  return vec_cast<float>((spring ? -k : -max / distance) * displacement);
 }
 
 void ContactSprings::update_forces(const Place& place, Worker& worker) {

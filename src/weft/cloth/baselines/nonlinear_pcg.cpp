@@ -268,10 +268,10 @@ NonlinearPcg::SolverState NonlinearPcg::descend(const MultigridOptions& options,
   evaluate_gradient(worker);
   SolverState solver_state;
   const bool pressed = !contacts_.empty();
-  const int most = options.max_iterations * (pressed ? iterations_under_contact : 1);
+  const int max = options.max_iterations * (pressed ? iterations_under_contact : 1);
   const double tolerance = options.tolerance * (pressed ? tolerance_under_contact : 1);
   bool converged = false;
-  while (solver_state.iterations < most) {
+  while (solver_state.iterations < max) {
     const bool stale =
         solver_state.iterations > 0 && solver_state.iterations % iterations_between_restarts == 0;
     // Under contact it has converged only if an update leaves the contacts as they are.

@@ -95,14 +95,14 @@ bool GridSurface::every_edge_has_two_triangles() const {
 
 int GridSurface::nearest_sample(Vec3d point, int seed) const noexcept {
   int best = seed;
-  double least = squared_length(point - position(seed));
+  double min = squared_length(point - position(seed));
   for (int step = 0; step < max_sample_steps; ++step) {
     const int here = best;
     for (const int t : incident(here))
       for (const int corner : triangles_[t]) {
         const double squared = squared_length(point - position(corner));
-        if (squared < least) {
-          least = squared;
+        if (squared < min) {
+          min = squared;
           best = corner;
         }
       }

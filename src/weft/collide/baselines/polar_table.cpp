@@ -58,7 +58,7 @@ class Rasterizer {
 
   void cover(const Corners& p, double span) const {
     const Angles first = angles_of(p[0]);
-    double min_polar = first.polar, max_polar = first.polar, least = 0, most = 0;
+    double min_polar = first.polar, max_polar = first.polar, min = 0, max = 0;
     for (const Vec3d& corner : {p[1], p[2]}) {
       const Angles a = angles_of(corner);
       min_polar = std::min(min_polar, a.polar);
@@ -66,20 +66,20 @@ class Rasterizer {
       double turn = a.azimuth - first.azimuth;
       if (turn > pi) turn -= 2 * pi;
       if (turn < -pi) turn += 2 * pi;
-      least = std::min(least, turn);
-      most = std::max(most, turn);
+      min = std::min(min, turn);
+      max = std::max(max, turn);
     }
     // Great circles bulge towards the pole: an edge of angle s by at most s / 2, and far from the
     // poles by less than s^2 / (4 sin polar).
     const double sine_least = std::min(sine(min_polar), sine(max_polar));
     const double bulge = sine_least > 2 * span ? span * span / (4 * sine_least) : span / 2;
     // A piece that winds around a pole, or ends near it, may meet every azimuth.
-    const bool around = most - least >= 3 || min_polar - bulge <= 0 || max_polar + bulge >= pi;
+    const bool around = max - min >= 3 || min_polar - bulge <= 0 || max_polar + bulge >= pi;
     if (around && min_polar <= span) min_polar = 0;
     if (around && max_polar >= pi - span) max_polar = pi;
     visit_cells({row_of(min_polar - bulge - hair), row_of(max_polar + bulge + hair),
-                 around ? 0 : col_of(first.azimuth + least - hair),
-                 around ? size_ - 1 : col_of(first.azimuth + most + hair)});
+                 around ? 0 : col_of(first.azimuth + min - hair),
+                 around ? size_ - 1 : col_of(first.azimuth + max + hair)});
   }
 
   void visit_cells(const CellRange& range) const {
@@ -156,23 +156,23 @@ void PolarTable::sort_entries(const GridSurface& surface, Vec3d centre) {
 
 void PolarTable::find_farthest(const GridSurface& surface, Vec3d centre) {
   const auto of_cell = [&](int cell) {
-    double most = 0;
+    double max = 0;
     for (const int t : entries(cell))
       for (const int corner : surface.triangles()[t])
-        most = std::max(most, squared_length(surface.position(corner) - centre));
-    return std::sqrt(most);
+        max = std::max(max, squared_length(surface.position(corner) - centre));
+    return std::sqrt(max);
   };
   std::vector<double> own(static_cast<std::size_t>(size_) * size_);
   for (int cell = 0; cell < size_ * size_; ++cell) own[cell] = of_cell(cell);
   farthest_.resize(own.size());
   for (int row = 0; row < size_; ++row)
     for (int col = 0; col < size_; ++col) {
-      double most = 0;
+      double max = 0;
       for (int r = std::max(0, row - 1); r <= std::min(size_ - 1, row + 1); ++r)
         for (int turn = -1; turn <= 1; ++turn)
-          most = std::max(most, own[r * size_ + (col + turn + size_) % size_]);
+          max = std::max(max, own[r * size_ + (col + turn + size_) % size_]);
       // Widened so that rounding to float never cuts.
-      farthest_[row * size_ + col] = static_cast<float>(most * (1 + 1e-6));
+      farthest_[row * size_ + col] = static_cast<float>(max * (1 + 1e-6));
     }
 }
 

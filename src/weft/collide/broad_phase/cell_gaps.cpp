@@ -10,16 +10,16 @@ using Four = std::array<float, 4>;
 /// Generous bound of the rounding error of a gap, relative to the farthest coordinate.
 constexpr float rounding = 4e-6F;
 
-inline float least(float a, float b) { return a < b ? a : b; }
-inline float largest(float a, float b) { return a > b ? a : b; }
+inline float min(float a, float b) { return a < b ? a : b; }
+inline float max(float a, float b) { return a > b ? a : b; }
 
 float sum_of(const Four& of) { return (of[0] + of[1]) + (of[2] + of[3]); }
 float farthest_of(const Four& a, const Four& b, const Four& c) {
-  Four most{};
+  Four size{};
 #pragma omp simd
   for (std::size_t k = 0; k < 4; ++k)
-    most[k] = largest(largest(std::abs(a[k]), std::abs(b[k])), std::abs(c[k]));
-  return largest(largest(most[0], most[1]), largest(most[2], most[3]));
+    size[k] = max(max(std::abs(a[k]), std::abs(b[k])), std::abs(c[k]));
+  return max(max(size[0], size[1]), max(size[2], size[3]));
 }
 
 struct Bounds {
@@ -29,17 +29,16 @@ Bounds bounds(Vec3f n, const Four& x, const Four& y, const Four& z) {
   Four along{};
 #pragma omp simd
   for (std::size_t k = 0; k < 4; ++k) along[k] = n.x * x[k] + n.y * y[k] + n.z * z[k];
-  return {least(least(along[0], along[1]), least(along[2], along[3])),
-          largest(largest(along[0], along[1]), largest(along[2], along[3]))};
+  return {min(min(along[0], along[1]), min(along[2], along[3])),
+          max(max(along[0], along[1]), max(along[2], along[3]))};
 }
 
 Bounds displacement_bounds(const Four& start, const Four& end) {
   Four displacement{};
 #pragma omp simd
   for (std::size_t k = 0; k < 4; ++k) displacement[k] = end[k] - start[k];
-  return {least(least(displacement[0], displacement[1]), least(displacement[2], displacement[3])),
-          largest(largest(displacement[0], displacement[1]),
-                  largest(displacement[2], displacement[3]))};
+  return {min(min(displacement[0], displacement[1]), min(displacement[2], displacement[3])),
+          max(max(displacement[0], displacement[1]), max(displacement[2], displacement[3]))};
 }
 
 }  // namespace
@@ -62,7 +61,7 @@ CellGaps::CellGaps(const MovingSurface& a, int cell_a, const MovingSurface& b, i
   end_b_ = b.end == b.start ? start_b_ : corners(*b.end, first_b, origin);
   float farthest = 0;
   for (const Corners* of : {&start_a_, &end_a_, &start_b_, &end_b_})
-    farthest = largest(farthest, farthest_of(of->x, of->y, of->z));
+    farthest = max(farthest, farthest_of(of->x, of->y, of->z));
   margin_ = rounding * farthest;
 }
 
@@ -89,15 +88,15 @@ bool CellGaps::apart_along(Vec3f n, float at_start, float at_end) const {
 float CellGaps::gap_along(Vec3f n) const {
   const auto along = [n](const Corners& of) { return bounds(n, of.x, of.y, of.z); };
   const Bounds a = along(start_a_), b = along(start_b_), c = along(end_a_), d = along(end_b_);
-  const float above = least(a.lower - b.upper, c.lower - d.upper);
-  const float below = least(b.lower - a.upper, d.lower - c.upper);
+  const float above = min(a.lower - b.upper, c.lower - d.upper);
+  const float below = min(b.lower - a.upper, d.lower - c.upper);
   const float size = std::sqrt(squared_length(n));
-  return size > 0 ? largest(above, below) / size : 0;
+  return size > 0 ? max(above, below) / size : 0;
 }
 
 float CellGaps::certain_gap() const {
-  const float layers = largest(gap_along(normal_of(start_a_)), gap_along(normal_of(start_b_)));
-  return largest(gap_along(displacement()), layers) - margin_;
+  const float layers = max(gap_along(normal_of(start_a_)), gap_along(normal_of(start_b_)));
+  return max(gap_along(displacement()), layers) - margin_;
 }
 
 bool CellGaps::parallel(float cosine) const {
@@ -109,12 +108,12 @@ double CellGaps::max_approach() const {
   const auto along = [](const Four& start_a, const Four& end_a, const Four& start_b,
                         const Four& end_b) {
     const Bounds a = displacement_bounds(start_a, end_a), b = displacement_bounds(start_b, end_b);
-    return largest(a.upper - b.lower, b.upper - a.lower);
+    return max(a.upper - b.lower, b.upper - a.lower);
   };
-  const Vec3f most{along(start_a_.x, end_a_.x, start_b_.x, end_b_.x),
-                   along(start_a_.y, end_a_.y, start_b_.y, end_b_.y),
-                   along(start_a_.z, end_a_.z, start_b_.z, end_b_.z)};
-  return double{std::sqrt(squared_length(most))} + margin_;
+  const Vec3f max{along(start_a_.x, end_a_.x, start_b_.x, end_b_.x),
+                  along(start_a_.y, end_a_.y, start_b_.y, end_b_.y),
+                  along(start_a_.z, end_a_.z, start_b_.z, end_b_.z)};
+  return double{std::sqrt(squared_length(max))} + margin_;
 }
 
 bool CellGaps::apart(double at_start, double at_end) const {

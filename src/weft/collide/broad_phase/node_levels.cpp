@@ -36,13 +36,13 @@ Extent along(const CollideKernels& kernels, const Planes3& at, const NodeSamples
   for (int r = samples.first_row; r <= samples.last_row; ++r)
     for (int c = samples.first_col; c <= samples.last_col; ++c) {
       const float distance = dot(slab.normal, at.at(r, c) - slab.origin);
-      found = {std::min(found.least, distance), std::max(found.largest, distance)};
+      found = {std::min(found.min, distance), std::max(found.max, distance)};
     }
   return found;
 }
 
-inline float least(float a, float b) { return a < b ? a : b; }
-inline float largest(float a, float b) { return a > b ? a : b; }
+inline float min(float a, float b) { return a < b ? a : b; }
+inline float max(float a, float b) { return a > b ? a : b; }
 
 struct Coordinate {
   const Grid<float>*start, *end;
@@ -56,10 +56,10 @@ void cell_row(int cells, const Coordinate& of, int r, float* lower, float* upper
   const float *a = of.start->row(r), *b = of.start->row(r + 1);
   const float *c = of.end->row(r), *d = of.end->row(r + 1);
   for (int i = 0; i < cells; ++i) {
-    lower[i] = least(least(least(a[i], a[i + 1]), least(b[i], b[i + 1])),
-                     least(least(c[i], c[i + 1]), least(d[i], d[i + 1])));
-    upper[i] = largest(largest(largest(a[i], a[i + 1]), largest(b[i], b[i + 1])),
-                       largest(largest(c[i], c[i + 1]), largest(d[i], d[i + 1])));
+    lower[i] = min(min(min(a[i], a[i + 1]), min(b[i], b[i + 1])),
+                   min(min(c[i], c[i + 1]), min(d[i], d[i + 1])));
+    upper[i] = max(max(max(a[i], a[i + 1]), max(b[i], b[i + 1])),
+                   max(max(c[i], c[i + 1]), max(d[i], d[i + 1])));
   }
 }
 
@@ -155,10 +155,10 @@ void SlabLevels::fit_node(const CollideKernels& kernels, const MovingSurface& su
   const Extent start = along(kernels, *surface.start, samples, own);
   const Extent end =
       surface.end == surface.start ? start : along(kernels, *surface.end, samples, own);
-  own.lower_start = start.least;
-  own.upper_start = start.largest;
-  own.lower_end = end.least;
-  own.upper_end = end.largest;
+  own.lower_start = start.min;
+  own.upper_start = start.max;
+  own.lower_end = end.min;
+  own.upper_end = end.max;
 }
 
 }  // namespace weft

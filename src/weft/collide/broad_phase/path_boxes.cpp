@@ -6,23 +6,21 @@
 namespace weft {
 namespace {
 
-inline float least(float a, float b) { return a < b ? a : b; }
-inline float largest(float a, float b) { return a > b ? a : b; }
+inline float min(float a, float b) { return a < b ? a : b; }
+inline float max(float a, float b) { return a > b ? a : b; }
 /// Extents of one coordinate of the corners of a row of cells.
 void corner_extents(const Grid<float>& of, int row, float* lower, float* upper) {
   const int cells = of.cols() - 1;
   const float *a = of.row(row), *b = of.row(row + 1);
 #pragma omp simd
   for (int i = 0; i < cells; ++i) {
-    lower[i] = least(least(a[i], a[i + 1]), least(b[i], b[i + 1]));
-    upper[i] = largest(largest(a[i], a[i + 1]), largest(b[i], b[i + 1]));
+    lower[i] = min(min(a[i], a[i + 1]), min(b[i], b[i + 1]));
+    upper[i] = max(max(a[i], a[i + 1]), max(b[i], b[i + 1]));
   }
 }
 
-float min_of(const float (&of)[4]) { return least(least(of[0], of[1]), least(of[2], of[3])); }
-float largest_of(const float (&of)[4]) {
-  return largest(largest(of[0], of[1]), largest(of[2], of[3]));
-}
+float min_of(const float (&of)[4]) { return min(min(of[0], of[1]), min(of[2], of[3])); }
+float largest_of(const float (&of)[4]) { return max(max(of[0], of[1]), max(of[2], of[3])); }
 
 constexpr float far = HUGE_VALF;
 constexpr PathBox nowhere{{far, far, far}, {-far, -far, -far}, {far, far, far}, {-far, -far, -far}};
@@ -41,8 +39,8 @@ void put(const PathBox& box, int child, ChildPathBoxes& to) {
 float longest_side(const PathBox& box) {
   float longest = 0;
   for (int k = 0; k < 3; ++k)
-    longest = largest(longest, largest(box.upper_start[k], box.upper_end[k]) -
-                                   least(box.lower_start[k], box.lower_end[k]));
+    longest = max(longest, max(box.upper_start[k], box.upper_end[k]) -
+                               min(box.lower_start[k], box.lower_end[k]));
   return longest;
 }
 

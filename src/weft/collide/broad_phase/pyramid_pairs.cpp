@@ -61,10 +61,10 @@ bool PyramidPairs::apart_by_slab(const Search& search, const PlacedPair& pair) c
   const MovingSurface& cloth = surfaces_[search.a];
   const float reach = search.reach + slab_rounding * (longest_side(pair.a) + longest_side(pair.b));
   const Extent start = along_slab(search, *cloth.start, pair.nodes.a, slab);
-  const bool above = start.least - slab.upper_start >= reach;
-  if (!above && !(slab.lower_start - start.largest >= reach)) return false;
+  const bool above = start.min - slab.upper_start >= reach;
+  if (!above && !(slab.lower_start - start.max >= reach)) return false;
   const Extent end = along_slab(search, *cloth.end, pair.nodes.a, slab);
-  return (above ? end.least - slab.upper_end : slab.lower_end - end.largest) >= reach;
+  return (above ? end.min - slab.upper_end : slab.lower_end - end.max) >= reach;
 }
 
 Extent PyramidPairs::along_slab(const Search& search, const Planes3& at, const Node& node,

@@ -123,10 +123,11 @@ double BlockMotion::bound_of(const Block& block, Vec3d displacement) const {
 }
 
 double BlockMotion::approach_of(const Block& block, Vec3d displacement) const {
-  double most = 0;
-  for_points(block,
-             [&](int point) { most = std::max(most, approach_of_point(point, displacement)); });
-  return most;
+  double maximum = 0;
+  for_points(block, [&](int point) {
+    maximum = std::max(maximum, approach_of_point(point, displacement));
+  });
+  return maximum;
 }
 
 BlockMotion::Near BlockMotion::near(const Box3f& box, float reach, double enough) const {

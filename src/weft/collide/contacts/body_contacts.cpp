@@ -112,9 +112,9 @@ std::optional<BodyPoint> BodyContacts::find_closest(const ContactBody& body, con
   const double since = length(place - known.place) + (near.travelled - known.travelled);
   if (known.distance - since > reach * (1 + rounding)) return std::nullopt;
   // The search reaches farther than needed, so that the next steps can use the cached distance.
-  const double least = contact_margin * kept_.gap;
+  const double minimum = contact_margin * kept_.gap;
   const double wider =
-      std::max(reach, std::min(reach + ahead * (reach - least) + least, farthest_known()));
+      std::max(reach, std::min(reach + ahead * (reach - minimum) + minimum, farthest_known()));
   const auto found = body.query->closest(start, wider, known.triangle);
   const double distance = found ? std::sqrt(found->squared_distance) : wider;
   known.place = place;

@@ -12,8 +12,8 @@ namespace {
 double squared_distance(Vec3d p, const Box3f& box) {
   const auto outside = [](double x, float lower, float upper) {
     const double below = lower - x, above = x - upper;
-    const double most = below > above ? below : above;
-    return most > 0 ? most : 0.0;
+    const double max = below > above ? below : above;
+    return max > 0 ? max : 0.0;
   };
   const double x = outside(p.x, box.lower.x, box.upper.x);
   const double y = outside(p.y, box.lower.y, box.upper.y);
@@ -30,8 +30,8 @@ std::array<float, 4> squared_distances(const std::array<float, 3>& p, const Boxe
 #pragma omp simd
     for (std::size_t k = 0; k < 4; ++k) {
       const float below = boxes.lower[axis][k] - x, above = x - boxes.upper[axis][k];
-      const float most = below > above ? below : above;
-      const float outside = most > 0 ? most : 0.0F;
+      const float max = below > above ? below : above;
+      const float outside = max > 0 ? max : 0.0F;
       sum[k] += outside * outside;
     }
   }
@@ -145,8 +145,8 @@ struct BodyQuery::Search {
   /// Sets the limit slightly above the best distance, so that all of several equally close
   /// triangles are tested.
   void set_limit() {
-    const double most = (std::sqrt(best.squared_distance) + absolute_error) * (1 + rounding);
-    limit = static_cast<float>(std::min(most * most * (1 + rounding), double{max_finite}));
+    const double max = (std::sqrt(best.squared_distance) + absolute_error) * (1 + rounding);
+    limit = static_cast<float>(std::min(max * max * (1 + rounding), double{max_finite}));
   }
 
  private:

@@ -59,9 +59,9 @@ struct CandidateTriangle {
     constexpr float hair = 1e-3F;
     const Vec3f from = point - origin;
     if (std::abs(dot(across, from)) > near * area) return false;
-    const float least = -hair * area * area;
+    const float min = -hair * area * area;
     const float u = dot(cross(from, second), across), v = dot(cross(first, from), across);
-    return u >= least && v >= least && area * area - u - v >= least;
+    return u >= min && v >= min && area * area - u - v >= min;
   }
 };
 
@@ -85,8 +85,8 @@ struct CandidateEdge {
     const float whole = a * c - b * b;         // the square of their cross product
     if (!(whole > hair * a * c)) return true;  // nearly parallel
     const float s = b * e - c * d, t = a * e - b * d;
-    const float least = -hair * a * c, most = whole - least;
-    if (s < least || s > most || t < least || t > most) return false;
+    const float min = -hair * a * c, max = whole - min;
+    if (s < min || s > max || t < min || t > max) return false;
     const float volume = dot(cross(along, other.along), from);
     return volume * volume <= near * near * whole;
   }

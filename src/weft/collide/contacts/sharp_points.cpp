@@ -60,15 +60,15 @@ class Judge {
   /// Quick test whether the surface may fall back far enough, with the neighbours taken for points
   /// of a cone or of a sphere: it rules most points of a body out.
   [[nodiscard]] bool may_fall_back(int point, Vec3d n) const {
-    double most = 0;
+    double max = 0;
     for_neighbours(point, [&](int neighbour) {
       const Vec3d displacement = position(neighbour) - position(point);
       const double back = -dot(n, displacement), beside = length(displacement + back * n);
       if (!(back > 0)) return;
       const double times = beside > 0 ? sharpness_.aside / beside : HUGE_VAL;
-      most = std::max(most, back * std::max({1.0, times, times * times}));
+      max = std::max(max, back * std::max({1.0, times, times * times}));
     });
-    return most > sharpness_.away - sharpness_.gap;
+    return max > sharpness_.away - sharpness_.gap;
   }
   [[nodiscard]] bool away_on_both_sides(int point, Vec3d n) const {
     const Vec3d u = across(n), v = cross(n, u);

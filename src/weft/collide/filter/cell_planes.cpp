@@ -123,12 +123,10 @@ class Finder {
   /// Gap of part a beyond part b along a direction, times the direction's length.
   template <class At>
   static float gap_along(Vec3f displacement, const Part& a, const Part& b, const At& at) {
-    float least = dot(displacement, at(a, a.first)), most = dot(displacement, at(b, b.first));
-    for (std::size_t k = a.first + 1; k < 3; ++k)
-      least = std::min(least, dot(displacement, at(a, k)));
-    for (std::size_t k = b.first + 1; k < 3; ++k)
-      most = std::max(most, dot(displacement, at(b, k)));
-    return least - most;
+    float min = dot(displacement, at(a, a.first)), max = dot(displacement, at(b, b.first));
+    for (std::size_t k = a.first + 1; k < 3; ++k) min = std::min(min, dot(displacement, at(a, k)));
+    for (std::size_t k = b.first + 1; k < 3; ++k) max = std::max(max, dot(displacement, at(b, k)));
+    return min - max;
   }
 
   /// @return how many points two triangles share, 2 for more; a single one comes first in both

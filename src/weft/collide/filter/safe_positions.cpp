@@ -13,10 +13,10 @@ constexpr double rounding = 1e-6;
 template <class Measure>
 int largest(int count, const Measure& measure) {
   int best = 0;
-  double most = -HUGE_VAL;
+  double max = -HUGE_VAL;
   for (int s = 0; s < count; ++s)
-    if (const double found = measure(s); found > most) {
-      most = found;
+    if (const double found = measure(s); found > max) {
+      max = found;
       best = s;
     }
   return best;

@@ -20,9 +20,9 @@ constexpr double min_cosine = 0.5;
 using FeaturePlaces = std::array<Vec3d, 3> MovingFeature::*;
 
 double min_along(Vec3d n, const std::array<Vec3d, 3>& corners, int count) {
-  double least = dot(n, corners[0]);
-  for (int i = 1; i < count; ++i) least = std::min(least, dot(n, corners[i]));
-  return least;
+  double min = dot(n, corners[0]);
+  for (int i = 1; i < count; ++i) min = std::min(min, dot(n, corners[i]));
+  return min;
 }
 double max_along(Vec3d n, const std::array<Vec3d, 3>& corners, int count) {
   return -min_along(-n, corners, count);
@@ -102,8 +102,8 @@ Reaches reaches(Vec3d n, const MovingFeature& a, const MovingFeature& b, Feature
 /// Margin on either side of a plane between features with these extents. [m]
 double margin_for(const MovingFeature& b, Reaches near) {
   const double size = std::max(std::abs(near.a), std::abs(near.b));
-  const double most = b.body ? max_margin_before_body : max_margin;
-  return std::min(rounding * (1 + size), most * std::max(0.0, near.a - near.b));
+  const double max = b.body ? max_margin_before_body : max_margin;
+  return std::min(rounding * (1 + size), max * std::max(0.0, near.a - near.b));
 }
 
 /// Levels of a plane: in the middle between two cloths, at the surface before a body.

@@ -105,16 +105,16 @@ void StepFilter::add_planes(bool all, double farthest, ThreadTeam& team) {
 void StepFilter::add_ground_planes(std::span<const MovingCloth> moving) {
   ground_planes_ = planes_.size();
   if (world_.ground() == nullptr) return;
-  const double least = world_.ground()->height + ground_margin;
+  const double min = world_.ground()->height + ground_margin;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const WorldCloth& one = world_.cloths[i];
     for (int s = 0; s < one.properties.size * one.properties.size; ++s) {
-      if (one.grid.point(s) != s || moving[i].position.at(s).y >= least + world_.slack() ||
-          moving[i].start.at(s).y < least)
+      if (one.grid.point(s) != s || moving[i].position.at(s).y >= min + world_.slack() ||
+          moving[i].start.at(s).y < min)
         continue;
       SeparatingPlane plane;
       plane.normal = plane.turned = {0, 1, 0};
-      plane.at_end.a = plane.still.a = least;
+      plane.at_end.a = plane.still.a = min;
       plane.points[0] = one.first_point + s;
       plane.count_a = 1;
       planes_.push_back(plane);

@@ -30,7 +30,7 @@ struct SampleBlock {
 };
 /// Least and largest. [m]
 struct Extent {
-  float least, largest;
+  float min, max;
 };
 
 /// Kernels of the broad phase. Extents have twelve planes: of edges along rows least x, y, z and

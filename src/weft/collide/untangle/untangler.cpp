@@ -94,8 +94,8 @@ void Untangler::vote(const StandingPair& standing, const ContourNode& node,
   const Vec3d normal = frame.normals[1 - node.layer];
   verdict.turns[node.layer] += (p_is_right ? 1 : -1) * sign(dot(normal, displacement));
   int& size = verdict.sizes[node.layer];
-  const int least = std::min(size_p, size_q);
-  size = size == 0 ? least : std::min(size, least);
+  const int min = std::min(size_p, size_q);
+  size = size == 0 ? min : std::min(size, min);
 }
 
 void Untangler::choose_directions(const StandingPair& standing, const Pair& pair) {
@@ -163,11 +163,11 @@ Vec3d Untangler::shortening(const StandingPair& standing, const ContourNode& nod
   const double through = dot(edge, normal);
   if (through == 0) return {};
   const Vec3d displacement = node.onwards - (dot(edge, node.onwards) / through) * normal;
-  const double most = std::max(1.0, length(displacement) / max_shortening);
-  return ((node.layer == 0 ? 1 : -1) / most) * displacement;
+  const double max = std::max(1.0, length(displacement) / max_shortening);
+  return ((node.layer == 0 ? 1 : -1) / max) * displacement;
 }
 
-void Untangler::find_ways(const StandingPair& standing, double most, double margin, Pair& pair) {
+void Untangler::find_ways(const StandingPair& standing, double max, double margin, Pair& pair) {
   pair.ways.clear();
   for (const ContourNode& node : pair.contours.nodes()) {
     Way displacement;
@@ -181,7 +181,7 @@ void Untangler::find_ways(const StandingPair& standing, double most, double marg
       if (height * slope < 0) depth = std::abs(height);
     }
     displacement.amount =
-        std::abs(slope) > min_slope ? std::min(most, (depth + margin) / std::abs(slope)) : most;
+        std::abs(slope) > min_slope ? std::min(max, (depth + margin) / std::abs(slope)) : max;
     if (!verdicts_[node.contour].is_settled()) displacement.weight = light;
     pair.ways.push_back(displacement);
   }
@@ -268,14 +268,13 @@ void Untangler::move(std::span<const MovingCloth> cloths, double time_step) {
   for (std::size_t a = 0; a < grids_.size(); ++a)
     for (std::size_t b = a; b < grids_.size(); ++b) {
       const Pair& moved = pair(a, b);
-      const double most = std::min(max_spacings, spacings_a_second * time_step) *
-                          std::min(properties_[a].rest_spacing, properties_[b].rest_spacing);
+      const double max = std::min(max_spacings, spacings_a_second * time_step) *
+                         std::min(properties_[a].rest_spacing, properties_[b].rest_spacing);
       for (std::size_t k = 0; k < moved.ways.size() && moved.crossings > 0; ++k) {
         const ContourNode& node = moved.contours.nodes()[k];
         const bool of_b = node.crossing.side == 1;
         const bool triangle_of_b = node.triangle_side(a == b) == 1;
-        want(node,
-             {moved.ways[k].apart, std::min(most, moved.ways[k].amount), moved.ways[k].weight},
+        want(node, {moved.ways[k].apart, std::min(max, moved.ways[k].amount), moved.ways[k].weight},
              {of_b ? b : a, triangle_of_b ? b : a}, cloths);
       }
     }
@@ -290,8 +289,8 @@ void Untangler::move(std::span<const MovingCloth> cloths, double time_step) {
       cloths[i].position.set(s, cloths[i].position.at(s) + vec_cast<float>(whole));
       const Vec3d was = vec_cast<double>(cloths[i].velocity.at(s));
       Vec3d now = was + (1 / time_step) * hold;
-      const double speed = length(now), most = length(was);
-      if (speed > most) now = (most / speed) * now;
+      const double speed = length(now), max = length(was);
+      if (speed > max) now = (max / speed) * now;
       cloths[i].velocity.set(s, vec_cast<float>(now));
     }
   }

@@ -91,7 +91,7 @@ class Untangler {
   void add_lying(double side);
   void vote(const StandingPair& standing, const ContourNode& node, Verdict& verdict) const;
   void mark(const StandingPair& standing, Pair& pair);
-  void find_ways(const StandingPair& standing, double most, double margin, Pair& pair);
+  void find_ways(const StandingPair& standing, double max, double margin, Pair& pair);
   [[nodiscard]] Vec3d direction(const StandingPair& standing, const ContourNode& node) const;
   /// Displacement of the first layer relative to the second that shortens the contour most at a
   /// node.

@@ -101,13 +101,13 @@ double LineReader::coordinate() {
   return *value;
 }
 
-std::int64_t LineReader::integer(std::string_view what, std::int64_t least, std::int64_t most) {
+std::int64_t LineReader::integer(std::string_view what, std::int64_t min, std::int64_t max) {
   const std::string_view field = next_field();
   if (field.empty()) fail(fmt::format("the line ends before {}", what), "an integer is wanted");
   const std::optional<std::int64_t> value = to_integer(field);
-  if (!value || *value < least || *value > most)
+  if (!value || *value < min || *value > max)
     fail(fmt::format("{} is {}", what, in_quotes(field)),
-         fmt::format("an integer from {} to {} is wanted", least, most));
+         fmt::format("an integer from {} to {} is wanted", min, max));
   return *value;
 }
 
@@ -116,19 +116,19 @@ void LineReader::fail(std::string_view found, std::string_view wanted) const {
 }
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::size_t most = 32;
-  std::string shown(text.substr(0, most));
+  constexpr std::size_t max = 32;
+  std::string shown(text.substr(0, max));
   for (char& c : shown)
     if (c < ' ' || c > '~') c = '?';
-  return "'" + shown + (text.size() > most ? "...'" : "'");
+  return "'" + shown + (text.size() > max ? "...'" : "'");
 }
 
 std::string quoted_list(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 12;
+  constexpr std::size_t max = 12;
   std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+  for (std::size_t i = 0; i < std::min(names.size(), max); ++i)
     list += (i == 0 ? "" : ", ") + in_quotes(names[i]);
-  return names.size() > most ? list + fmt::format(" and {} more", names.size() - most) : list;
+  return names.size() > max ? list + fmt::format(" and {} more", names.size() - max) : list;
 }
 
 std::string_view plain_text(std::string_view bytes, std::string& decoded) {

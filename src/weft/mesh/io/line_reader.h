@@ -41,9 +41,9 @@ class LineReader {
 
   /// The next field as a finite coordinate. @throws InputError
   double coordinate();
-  /// The next field as an integer in [least, most]. @param what  names it in errors @throws
+  /// The next field as an integer in [min, max]. @param what  names it in errors @throws
   /// InputError
-  std::int64_t integer(std::string_view what, std::int64_t least, std::int64_t most);
+  std::int64_t integer(std::string_view what, std::int64_t min, std::int64_t max);
 
   [[nodiscard]] int line_number() const { return number_; }
   /// @throws InputError at the current line

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_digits = 9;
+constexpr std::size_t max_digits = 9;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -29,10 +29,10 @@ std::optional<int> number_in(const std::string& file, const SequenceName& name) 
     return std::nullopt;
   const std::string digits =
       file.substr(name.before.size(), file.size() - name.before.size() - name.behind.size());
-  const auto least = static_cast<std::size_t>(name.digits);
+  const auto min = static_cast<std::size_t>(name.digits);
   const bool plain = std::all_of(digits.begin(), digits.end(), is_digit);
-  if (!plain || digits.size() < least || digits.size() > most_digits) return std::nullopt;
-  if (digits.size() > least && digits[0] == '0') return std::nullopt;
+  if (!plain || digits.size() < min || digits.size() > max_digits) return std::nullopt;
+  if (digits.size() > min && digits[0] == '0') return std::nullopt;
   return static_cast<int>(*to_integer(digits));
 }
 

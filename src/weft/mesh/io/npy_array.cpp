@@ -14,7 +14,7 @@ namespace weft {
 namespace {
 
 constexpr std::string_view signature{"\x93NUMPY", 6};
-constexpr std::size_t most_axes = 32;  ///< of numpy before 2.0, which has 64; three are of use
+constexpr std::size_t max_axes = 32;  ///< of numpy before 2.0, which has 64; three are of use
 constexpr std::string_view header_wanted = "a header as numpy writes it is wanted";
 
 /// Reads the header: a Python dictionary of three keys, of which only what numpy writes is known.
@@ -24,7 +24,7 @@ class HeaderReader {
 
   void read(NpyArray& array) {
     want('{');
-    while (!take('}')) {
+    while (!consume('}')) {
       const std::string key(quoted());
       if (std::find(found_.begin(), found_.end(), key) != found_.end())
         fail(fmt::format("the key {} twice", in_quotes(key)));
@@ -38,7 +38,7 @@ class HeaderReader {
       else
         fail(fmt::format("the key {}", in_quotes(key)));
       found_.push_back(key);
-      if (!take(',') && !at('}')) fail("an entry without end");
+      if (!consume(',') && !at('}')) fail("an entry without end");
     }
     if (found_.size() != 3) fail(fmt::format("{} keys of 3", found_.size()));
   }
@@ -51,13 +51,13 @@ class HeaderReader {
     while (!text_.empty() && (text_[0] == ' ' || text_[0] == '\n')) text_.remove_prefix(1);
     return !text_.empty() && text_[0] == c;
   }
-  bool take(char c) {
+  bool consume(char c) {
     const bool there = at(c);
     if (there) text_.remove_prefix(1);
     return there;
   }
   void want(char c) {
-    if (!take(c)) fail(fmt::format("no '{}'", c));
+    if (!consume(c)) fail(fmt::format("no '{}'", c));
   }
   std::string_view quoted() {
     const char quote = at('"') ? '"' : '\'';
@@ -102,15 +102,15 @@ class HeaderReader {
 
   void read_shape(NpyArray& array) {
     want('(');
-    while (!take(')')) {
+    while (!consume(')')) {
       at(' ');
       std::size_t digits = 0;
       while (digits < text_.size() && text_[digits] >= '0' && text_[digits] <= '9') ++digits;
       const std::optional<std::int64_t> length = to_integer(text_.substr(0, digits));
-      if (!length || array.shape.size() == most_axes) fail("a shape that is none");
+      if (!length || array.shape.size() == max_axes) fail("a shape that is none");
       text_.remove_prefix(digits);
       array.shape.push_back(static_cast<std::size_t>(*length));
-      if (!take(',') && !at(')')) fail("a shape without end");
+      if (!consume(',') && !at(')')) fail("a shape without end");
     }
   }
 

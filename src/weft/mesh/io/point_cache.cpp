@@ -31,8 +31,8 @@ struct Counts {
 /// @param bytes_per_sample  besides its points
 void check_length(std::string_view bytes, std::string_view name, Counts counts, std::size_t header,
                   std::size_t bytes_per_sample) {
-  constexpr std::uint64_t most = INT32_MAX;
-  if (counts.points < 1 || counts.points > most || counts.samples < 1 || counts.samples > most)
+  constexpr std::uint64_t max = INT32_MAX;
+  if (counts.points < 1 || counts.points > max || counts.samples < 1 || counts.samples > max)
     throw InputError(name, fmt::format("{} points and {} samples", counts.points, counts.samples),
                      "at least one of each is wanted");
   const std::uint64_t sample_bytes = bytes_per_sample + point_size * counts.points;

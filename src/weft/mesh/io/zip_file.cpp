@@ -21,7 +21,7 @@ constexpr std::string_view local_mark{"PK\3\4", 4};
 constexpr std::size_t end_size = 22, end64_size = 56, locator_size = 20, entry_size = 46;
 constexpr std::size_t local_size = 30, largest_comment = 65535;
 constexpr std::uint32_t in_extra = 0xffffffff;  ///< says that a 64-bit extra field has the number
-constexpr std::uint64_t most_deflated = 1032;   ///< bytes that one byte of deflate can become
+constexpr std::uint64_t max_deflated = 1032;    ///< bytes that one byte of deflate can become
 
 std::uint64_t u16(std::string_view bytes, std::size_t at) {
   return load_integer<std::uint16_t>(bytes.substr(at), false);
@@ -165,7 +165,7 @@ std::vector<ZipMember> zip_members(std::string_view bytes, std::string_view name
 
 std::string unpack(const ZipMember& member, std::string_view name) {
   const std::string quoted = in_quotes(member.name);
-  const bool fits = member.deflated ? member.size / most_deflated <= member.data.size()
+  const bool fits = member.deflated ? member.size / max_deflated <= member.data.size()
                                     : member.size == member.data.size();
   if (!fits)
     fail(name, fmt::format("{} tells {} bytes, of which {} stand there", quoted, member.size,

@@ -167,9 +167,9 @@ Limb::Limb(std::span<const Joint> joints) {
 }
 
 double distance_to(const Limb& limb, Vec3d point) {
-  double least = HUGE_VAL;
-  for (const RoundCone& cone : limb.cones) least = std::min(least, distance_to(cone, point));
-  return least;
+  double min = HUGE_VAL;
+  for (const RoundCone& cone : limb.cones) min = std::min(min, distance_to(cone, point));
+  return min;
 }
 
 double distance_to(const Box3d& box, Vec3d point) {

@@ -93,7 +93,7 @@ GlbMesh glb_mesh(const ExportedSurface& surface) {
 Extremes extremes(const std::vector<Vec3f>& points) {
   Extremes found;
   if (!points.empty()) found = {points[0], points[0]};
-  for (const Vec3f p : points) found = {min(found.least, p), max(found.most, p)};
+  for (const Vec3f p : points) found = {min(found.min, p), max(found.max, p)};
   return found;
 }
 
@@ -110,8 +110,8 @@ struct GlbParts {
     const int number = add(view, float_type, count, "VEC3");
     accessors.back()["byteOffset"] = offset;
     if (range != nullptr) {
-      accessors.back()["min"] = list(range->least);
-      accessors.back()["max"] = list(range->most);
+      accessors.back()["min"] = list(range->min);
+      accessors.back()["max"] = list(range->max);
     }
     return number;
   }

@@ -22,7 +22,7 @@ GlbMesh glb_mesh(const ExportedSurface& surface);
 
 /// Smallest and largest coordinates, which the format requires.
 struct Extremes {
-  Vec3f least, most;
+  Vec3f min, max;
 };
 Extremes extremes(const std::vector<Vec3f>& points);
 

@@ -51,7 +51,7 @@ struct Left {
   int frames = 0;
 };
 
-Left look_at(const fs::path& path, int frames, std::span<const Vec3f> last) {
+Left examine(const fs::path& path, int frames, std::span<const Vec3f> last) {
   std::ifstream in(path, std::ios::binary);
   std::array<char, header_bytes> header{};
   if (!in.read(header.data(), header.size())) return {};
@@ -80,7 +80,7 @@ Pc2Writer::Pc2Writer(const fs::path& path, int points, TemporaryName name)
 
 void Pc2Writer::check_resumable(const fs::path& path, int frames, std::span<const Vec3f> last) {
   for (const fs::path& left : {unfinished(path), path})
-    if (look_at(left, frames, last).holds) return;
+    if (examine(left, frames, last).holds) return;
   throw InputError(path.string(),
                    fmt::format("does not hold the {} frames that the checkpoint follows", frames),
                    "the file that the run left, or a run without --resume, is wanted");
@@ -88,7 +88,7 @@ void Pc2Writer::check_resumable(const fs::path& path, int frames, std::span<cons
 
 Pc2Writer Pc2Writer::resume(const fs::path& path, int frames, std::span<const Vec3f> last) {
   check_resumable(path, frames, last);
-  const bool goes_on = look_at(unfinished(path), frames, last).holds;
+  const bool goes_on = examine(unfinished(path), frames, last).holds;
   auto file = std::make_unique<NewFile>(path, TemporaryName::of_the_file);
   file->keep_unfinished();
   std::error_code error;
@@ -158,7 +158,7 @@ void Pc2Writer::finish() {
 }
 
 bool is_whole_pc2(const fs::path& path, int frames, std::span<const Vec3f> last) {
-  const Left left = look_at(path, frames, last);
+  const Left left = examine(path, frames, last);
   std::error_code ignored;
   return left.holds && left.frames == frames &&
          fs::file_size(path, ignored) ==

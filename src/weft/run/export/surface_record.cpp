@@ -4,8 +4,6 @@
 #include <ostream>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "weft/files.h"
 #include "weft/image/io/image_parts.h"
 #include "weft/run/export/distinct_names.h"

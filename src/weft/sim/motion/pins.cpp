@@ -19,10 +19,10 @@ constexpr double max_speed = 3;
 /// stretch a little.
 constexpr double max_stretch = 1.08;
 
-/// Moves a towards b, by at most `most`.
-Vec3d towards(Vec3d a, Vec3d b, double most) {
+/// Moves a towards b, by at most `max`.
+Vec3d towards(Vec3d a, Vec3d b, double max) {
   const double distance = length(b - a);
-  return distance > most ? a + (most / distance) * (b - a) : b;
+  return distance > max ? a + (max / distance) * (b - a) : b;
 }
 
 /// Next position of a pin, limited so that it overstretches no spring to the neighbours of its
@@ -67,12 +67,12 @@ struct Pinner {
 
   void operator()(const NearestPin& at) const {
     int nearest = 0;
-    double least = HUGE_VAL;
+    double min = HUGE_VAL;
     for (int s = 0; s < cloth.size * cloth.size; ++s) {
       const double squared =
           squared_length(vec_cast<double>(cloth.start_positions().at(s)) - at.point);
-      if (squared < least) {
-        least = squared;
+      if (squared < min) {
+        min = squared;
         nearest = s;
       }
     }

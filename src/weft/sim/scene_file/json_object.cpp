@@ -22,10 +22,10 @@ std::string shown(const nlohmann::json& value) {
 }
 
 std::string described(NumberRange range) {
-  if (range.most < HUGE_VAL)
-    return fmt::format("a number from {} to {} is wanted", range.least, range.most);
-  if (range.least > -HUGE_VAL)
-    return fmt::format("a number {} {} is wanted", range.min_excluded ? ">" : ">=", range.least);
+  if (range.max < HUGE_VAL)
+    return fmt::format("a number from {} to {} is wanted", range.min, range.max);
+  if (range.min > -HUGE_VAL)
+    return fmt::format("a number {} {} is wanted", range.min_excluded ? ">" : ">=", range.min);
   return "a finite number is wanted";
 }
 
@@ -73,19 +73,19 @@ double JsonObject::number(std::string_view key, double fallback, NumberRange ran
   if (value == nullptr) return fallback;
   const bool is_number = value->is_number();
   const double x = is_number ? value->get<double>() : 0;
-  const bool within = std::isfinite(x) && x <= range.most &&
-                      (range.min_excluded ? x > range.least : x >= range.least);
+  const bool within =
+      std::isfinite(x) && x <= range.max && (range.min_excluded ? x > range.min : x >= range.min);
   if (!is_number || !within) place_.key(key).fail(shown(*value), described(range));
   return x;
 }
 
-int JsonObject::integer(std::string_view key, int fallback, int least, int most) const {
+int JsonObject::integer(std::string_view key, int fallback, int min, int max) const {
   const nlohmann::json* value = find(key);
   if (value == nullptr) return fallback;
   const bool whole = value->is_number_integer();
-  if (!whole || value->get<double>() < least || value->get<double>() > most)
+  if (!whole || value->get<double>() < min || value->get<double>() > max)
     place_.key(key).fail(shown(*value),
-                         fmt::format("a whole number from {} to {} is wanted", least, most));
+                         fmt::format("a whole number from {} to {} is wanted", min, max));
   return value->get<int>();
 }
 

@@ -15,8 +15,8 @@ namespace weft {
 
 /// Values that a number may take.
 struct NumberRange {
-  double least = -HUGE_VAL;
-  double most = HUGE_VAL;
+  double min = -HUGE_VAL;
+  double max = HUGE_VAL;
   bool min_excluded = false;
 };
 inline constexpr NumberRange positive{0, HUGE_VAL, true};
@@ -44,7 +44,7 @@ class JsonObject {
   [[nodiscard]] const nlohmann::json* find(std::string_view key) const;
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
   [[nodiscard]] double number(std::string_view key, double fallback, NumberRange range = {}) const;
-  [[nodiscard]] int integer(std::string_view key, int fallback, int least, int most) const;
+  [[nodiscard]] int integer(std::string_view key, int fallback, int min, int max) const;
   [[nodiscard]] bool boolean(std::string_view key, bool fallback) const;
   [[nodiscard]] std::string text(std::string_view key, std::string_view fallback) const;
   [[nodiscard]] Vec3d vector(std::string_view key, Vec3d fallback) const;

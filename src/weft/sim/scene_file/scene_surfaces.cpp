@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr NumberRange friction_range{0, 10, false};
-constexpr int most_layers = 20;
+constexpr int max_layers = 20;
 
 std::string resolved(const std::string& surface, const fs::path& folder) {
   if (surface.starts_with("builtin:")) return surface;
@@ -143,7 +143,7 @@ SceneCloth read_cloth(const nlohmann::json& value, const JsonPlace& place, const
   if (const nlohmann::json* sew = object.find("sew"))
     cloth.spacing = JsonObject(*sew, place.key("sew"), scene_keys::sew)
                         .number("spacing", cloth.spacing, {0.0001, 1, false});
-  if (object.has("layer")) cloth.layer = object.integer("layer", 0, 0, most_layers);
+  if (object.has("layer")) cloth.layer = object.integer("layer", 0, 0, max_layers);
   cloth.rest = read_rest(object);
   cloth.placement = read_placement(object);
   if (const nlohmann::json* material = object.find("material"))

@@ -32,15 +32,14 @@ constexpr double held = 1e30;
 
 CoarseFactor::CoarseFactor(const FilterLevel& level) {
   const int n = level.size();
-  std::vector<int> least(static_cast<std::size_t>(n) * n);
-  for (int s = 0; s < n * n; ++s) least[s] = s;
+  std::vector<int> min(static_cast<std::size_t>(n) * n);
+  for (int s = 0; s < n * n; ++s) min[s] = s;
   for (int index = 0; index < level.mates.class_count(); ++index)
-    for (const int s : level.mates.mates(index)) least[s] = level.mates.mates(index).front();
-  unknown_of_.resize(least.size());
+    for (const int s : level.mates.mates(index)) min[s] = level.mates.mates(index).front();
+  unknown_of_.resize(min.size());
   for (int s = 0; s < n * n; ++s) {
-    if (least[s] == s) sample_of_.push_back(s);
-    unknown_of_[s] =
-        least[s] == s ? static_cast<int>(sample_of_.size()) - 1 : unknown_of_[least[s]];
+    if (min[s] == s) sample_of_.push_back(s);
+    unknown_of_[s] = min[s] == s ? static_cast<int>(sample_of_.size()) - 1 : unknown_of_[min[s]];
   }
   std::vector<Row> rows(sample_of_.size());
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].first = static_cast<int>(i);

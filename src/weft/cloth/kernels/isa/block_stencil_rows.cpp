@@ -194,14 +194,14 @@ double newton_dot(int n, const float* share, ConstRow3 a, ConstRow3 b) {
 }
 
 float largest(int n, ConstRow3 a) {
-  float most = 0;
+  float maximum = 0;
   // The largest is the same in any order.
-#pragma omp simd reduction(max : most)
+#pragma omp simd reduction(max : maximum)
   for (int c = 0; c < n; ++c) {
     const float squared = a.x[c] * a.x[c] + a.y[c] * a.y[c] + a.z[c] * a.z[c];
-    most = squared > most ? squared : most;
+    maximum = squared > maximum ? squared : maximum;
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace weft::WEFT_KERNEL_SET

@@ -69,10 +69,10 @@ void step_residual(int n, float step_length, ConstRow3 far, Row3 residual) {
 namespace {
 
 /// Largest finite float. A value that compares as greater, or not at all, is not finite.
-constexpr float most = 3.40282347e38F;
+constexpr float maximum = 3.40282347e38F;
 
 inline __attribute__((always_inline)) int not_finite(float value) {
-  return static_cast<int>(!(__builtin_fabsf(value) <= most));
+  return static_cast<int>(!(__builtin_fabsf(value) <= maximum));
 }
 
 }  // namespace

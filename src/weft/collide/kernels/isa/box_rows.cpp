@@ -14,10 +14,10 @@ inline void widen(const Axis& a, const ChildPathBoxes& b, int axis, float* gap) 
 #pragma omp simd
   for (int k = 0; k < 4; ++k) {
     const float above =
-        least(a.lower_start - b.upper_start[axis][k], a.lower_end - b.upper_end[axis][k]);
+        min(a.lower_start - b.upper_start[axis][k], a.lower_end - b.upper_end[axis][k]);
     const float below =
-        least(b.lower_start[axis][k] - a.upper_start, b.lower_end[axis][k] - a.upper_end);
-    gap[k] = largest(gap[k], largest(above, below));
+        min(b.lower_start[axis][k] - a.upper_start, b.lower_end[axis][k] - a.upper_end);
+    gap[k] = max(gap[k], max(above, below));
   }
 }
 
@@ -29,8 +29,8 @@ inline void widen_along(const SampleBlock& samples, long first, const float* ori
   for (int k = 0; k < 4; ++k) {
     const float distance = direction[0] * (x[k] - origin[0]) + direction[1] * (y[k] - origin[1]) +
                            direction[2] * (z[k] - origin[2]);
-    lower[k] = least(lower[k], distance);
-    upper[k] = largest(upper[k], distance);
+    lower[k] = min(lower[k], distance);
+    upper[k] = max(upper[k], distance);
   }
 }
 
@@ -70,8 +70,8 @@ Extent along(const SampleBlock& samples, const float* origin, const float* direc
     if (samples.cols % 4 != 0)
       widen_along(samples, first + samples.cols - 4, origin, direction, lower, upper);
   }
-  return {least(least(lower[0], lower[1]), least(lower[2], lower[3])),
-          largest(largest(upper[0], upper[1]), largest(upper[2], upper[3]))};
+  return {min(min(lower[0], lower[1]), min(lower[2], lower[3])),
+          max(max(upper[0], upper[1]), max(upper[2], upper[3]))};
 }
 
 }  // namespace weft::WEFT_KERNEL_SET

@@ -22,8 +22,8 @@ void differences(int n, const float* const (&from)[4], const float* const (&to)[
 #pragma omp simd
   for (int i = 0; i < n; ++i) {
     const float p = e[i] - a[i], q = f[i] - b[i], s = g[i] - c[i], t = h[i] - d[i];
-    lower[i] = least(least(p, q), least(s, t));
-    upper[i] = largest(largest(p, q), largest(s, t));
+    lower[i] = min(min(p, q), min(s, t));
+    upper[i] = max(max(p, q), max(s, t));
   }
 }
 
@@ -51,9 +51,9 @@ void edges(int n, const EdgeRows& rows, float* const* out) {
 void join_windows(int n, const float* const* a, const float* const* b, float* const* out) {
   for (int k = 0; k < planes; ++k) {
     if (is_lower(k)) {
-      join_neighbours(n, a[k], b[k], out[k], [](float p, float q) { return least(p, q); });
+      join_neighbours(n, a[k], b[k], out[k], [](float p, float q) { return min(p, q); });
     } else {
-      join_neighbours(n, a[k], b[k], out[k], [](float p, float q) { return largest(p, q); });
+      join_neighbours(n, a[k], b[k], out[k], [](float p, float q) { return max(p, q); });
     }
   }
 }
@@ -61,9 +61,9 @@ void join_windows(int n, const float* const* a, const float* const* b, float* co
 void join_twos(int n, const float* const* a, const float* const* b, float* const* out) {
   for (int k = 0; k < planes; ++k) {
     if (is_lower(k)) {
-      join_pairs(n, a[k], b[k], out[k], [](float p, float q) { return least(p, q); });
+      join_pairs(n, a[k], b[k], out[k], [](float p, float q) { return min(p, q); });
     } else {
-      join_pairs(n, a[k], b[k], out[k], [](float p, float q) { return largest(p, q); });
+      join_pairs(n, a[k], b[k], out[k], [](float p, float q) { return max(p, q); });
     }
   }
 }

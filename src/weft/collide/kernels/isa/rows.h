@@ -6,8 +6,8 @@
 namespace weft::WEFT_KERNEL_SET {
 
 namespace {
-inline float least(float a, float b) { return a < b ? a : b; }
-inline float largest(float a, float b) { return a > b ? a : b; }
+inline float min(float a, float b) { return a < b ? a : b; }
+inline float max(float a, float b) { return a > b ? a : b; }
 }  // namespace
 
 void edges(int n, const EdgeRows& rows, float* const* out);
