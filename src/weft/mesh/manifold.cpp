@@ -60,14 +60,14 @@ class Orienter {
     for (std::size_t i = 0; i < queue_.size(); ++i)
       for (int k = 0; k < 3; ++k) {
         const int edge = edge_of_[3 * queue_[i] + k];
-        if (edges_.of(edge).size() != 2 || settle(edge, queue_[i])) continue;
+        if (edges_.of(edge).size() != 2 || orient(edge, queue_[i])) continue;
         if (parted_ == nullptr) return edge;
         (*parted_)[edge] = true;
       }
     return -1;
   }
   /// Decides on the triangle across the edge. @return false if it was decided otherwise before
-  bool settle(int edge, int triangle) {
+  bool orient(int edge, int triangle) {
     const std::span<const int> uses = edges_.of(edge);
     const int other = uses[0] / 3 == triangle ? uses[1] / 3 : uses[0] / 3;
     const bool differs = same_direction(triangles_, uses);

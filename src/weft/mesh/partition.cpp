@@ -67,9 +67,9 @@ class ShortestPaths {
     queue_.emplace(distance, triangle);
   }
   /// Goes on to all that becomes nearer. @param step  its cost, from a triangle to the next
-  /// @param settle  told of each step that was the shortest so far
-  template <class Step, class Settle>
-  void run(const Step& step, const Settle& settle) {
+  /// @param relax  told of each step that was the shortest so far
+  template <class Step, class Relax>
+  void run(const Step& step, const Relax& relax) {
     while (!queue_.empty()) {
       const auto [distance, at] = queue_.top();
       queue_.pop();
@@ -79,7 +79,7 @@ class ShortestPaths {
         if (next < 0) continue;
         const double there = distance + step(at, next);
         if (!(there < distance_[next])) continue;
-        settle(at, next);
+        relax(at, next);
         start(next, there);
       }
     }

@@ -133,7 +133,7 @@ class Run {
     fs::remove(path_, ignored);
     make_recorder().start();
     reserve();
-    look_at_start();
+    tell_start();
     simulation_.save(point_.state);
     if (options_.resume)
       report_.notes.push_back(
@@ -143,7 +143,7 @@ class Run {
   void resume(const Checkpoint& from) {
     check(from);
     Recorder& recorder = make_recorder();
-    look_at_start();
+    tell_start();
     simulation_.restore(from.state);
     recorder.resume(from.state.frame == scene_.frames);
     reserve();
@@ -165,7 +165,7 @@ class Run {
 
   RunReport go() {
     try {
-      while (simulation_.frame() < scene_.frames) take_frame();
+      while (simulation_.frame() < scene_.frames) advance();
       update(options_.progress, "simulate", 1);
       if (!options_.verify) {
         report_.intersections = {};
@@ -228,7 +228,7 @@ class Run {
                        fmt::format("at least {} frames are wanted", from.state.frame));
   }
 
-  void look_at_start() {
+  void tell_start() {
     for (const StartInside& found : report_.start_insides)
       if (options_.tell) options_.tell(start_inside_text(found));
     const IntersectionCounts counts = simulation_.intersections();
@@ -245,7 +245,7 @@ class Run {
 
   /// Counts intersections: in every frame with verify, else only while cloths are known to cross,
   /// by an earlier count or by the collider.
-  void look_at_frame() {
+  void count_intersections() {
     const bool tangled = !report_.untangled_frame || simulation_.crossings() > 0;
     if (!options_.verify && !tangled) return;
     const IntersectionCounts counts = simulation_.intersections();
@@ -293,11 +293,11 @@ class Run {
       report_.intersections = {simulation_.frame(), counts};
   }
 
-  void take_frame() {
+  void advance() {
     const FrameReport done = simulation_.advance();
     recorder_->add_frame();
     add_to_report(report_, done);
-    look_at_frame();
+    count_intersections();
     if (clock_.off()) return;
     simulation_.save(point_.state);
     if (!clock_.is_due(report_.frames)) return;

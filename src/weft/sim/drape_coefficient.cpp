@@ -25,7 +25,7 @@ constexpr double push_speed = 0.05;
 /// A disc is at rest when its kinetic energy is below this part of m g times its diameter.
 constexpr double still_energy = 1e-9;
 /// Time between two tests for rest [s].
-constexpr double time_between_looks = 0.25;
+constexpr double time_between_checks = 0.25;
 /// Time over which gravity rises to its full value [s].
 constexpr double seconds_of_lowering = 1;
 /// Damping rate of velocities [1/s]. It affects how soon a disc comes to rest, not where.
@@ -151,7 +151,7 @@ void fall(const Cloth& cloth, const DrapeTestOptions& options, double lowering_s
   const StepInput input{options.time_step, {0, -static_cast<float>(standard_gravity), 0}};
   const auto integrator = make_integrator(options.integrator, cloth, input, team);
   const int steps = static_cast<int>(options.seconds / options.time_step + 0.5);
-  const int look = std::max(1, static_cast<int>(time_between_looks / options.time_step));
+  const int interval = std::max(1, static_cast<int>(time_between_checks / options.time_step));
   const auto kept = static_cast<float>(1 - air_drag * options.time_step);
   const double disc_mass = pi * disc_radius * disc_radius * cloth.material.density;
   const double still = still_energy * disc_mass * standard_gravity * 2 * disc_radius;
@@ -162,7 +162,7 @@ void fall(const Cloth& cloth, const DrapeTestOptions& options, double lowering_s
     integrator->iterate({});
     integrator->end(state);
     if (!rested) slow_down(kept, state);
-    if (i % look != 0) continue;
+    if (i % interval != 0) continue;
     progress.update("", static_cast<double>(i) / steps);
     const bool rests = seconds > lowering_seconds && kinetic_energy(cloth, state) < still;
     if (rests && rested) return;
@@ -173,8 +173,8 @@ void fall(const Cloth& cloth, const DrapeTestOptions& options, double lowering_s
 /// Finds the rest state of a disc from coarse to fine: lets it down on a grid of about 33 samples a
 /// side, where that is cheap, and continues on grids of twice the resolution. Folds take long to
 /// slide and merge on any grid.
-void settle(const Material& material, const Cloth& cloth, const DrapeTestOptions& options,
-            Random& random, Progress& progress, ClothState& state) {
+void find_rest_state(const Material& material, const Cloth& cloth, const DrapeTestOptions& options,
+                     Random& random, Progress& progress, ClothState& state) {
   const int coarse_size = (cloth.size + 1) / 2;
   if (coarse_size < min_start_size || coarse_size % 2 == 0) {
     state = pushed_disc(cloth, random);
@@ -184,7 +184,7 @@ void settle(const Material& material, const Cloth& cloth, const DrapeTestOptions
   const Cloth coarse_cloth = pinned_disc(material, coarse_size);
   PartOfProgress first(&progress, "", 0, 0.5), second(&progress, "", 0.5, 1);
   ClothState coarse;
-  settle(material, coarse_cloth, options, random, first, coarse);
+  find_rest_state(material, coarse_cloth, options, random, first, coarse);
   state = refined(cloth, coarse_cloth, coarse);
   fall(cloth, options, 0, second, state);
 }
@@ -319,7 +319,7 @@ DrapeResult measure_drape(const Material& material, const DrapeTestOptions& opti
     PartOfProgress part(options.progress, "draping discs", double(i) / options.starts,
                         double(i + 1) / options.starts);
     ClothState state;
-    settle(material, cloth, options, random, part, state);
+    find_rest_state(material, cloth, options, random, part, state);
     result.discs.push_back(measure_disc(cloth, state));
   }
   summarise(result);

@@ -59,7 +59,7 @@ CoarseLevels::CoarseLevels(const Cloth& cloth, InstructionSet instructions)
 
 /// Takes a row of the finest level's masses and blocks. Of pinned particles only the spring blocks
 /// count on coarser levels, since their share is 0.
-void CoarseLevels::take_row(const Blocks& diagonal, int row) {
+void CoarseLevels::set_row(const Blocks& diagonal, int row) {
   for (int c = 0; c < cloth_.size; ++c) {
     moves_(row, c) = cloth_.inverse_mass(row, c) > 0 ? 1.0F : 0.0F;
     finest_.share(row, c) = moves_(row, c) * share_(row, c);
@@ -72,7 +72,7 @@ void CoarseLevels::take_row(const Blocks& diagonal, int row) {
   }
 }
 
-void CoarseLevels::take_contacts_row(const ContactTerms& contacts, int row) {
+void CoarseLevels::add_contacts_row(const ContactTerms& contacts, int row) {
   for (int i = 0; i < 6; ++i) {
     const float* block = contacts.blocks()[i].row(row);
     std::copy(block, block + cloth_.size, finest_.contact[i].row(row));
@@ -118,8 +118,8 @@ void CoarseLevels::prepare(const Blocks& diagonal, const ContactTerms& contacts,
   const bool held = !contacts.empty();
   const Range rows = worker.share(cloth_.size);
   for (int r = rows.first; r < rows.last; ++r) {
-    take_row(diagonal, r);
-    if (held) take_contacts_row(contacts, r);
+    set_row(diagonal, r);
+    if (held) add_contacts_row(contacts, r);
   }
   worker.barrier();
   const Level* fine = &finest_;

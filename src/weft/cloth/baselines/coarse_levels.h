@@ -55,8 +55,8 @@ class CoarseLevels {
   void restrict_row(const Level& fine, const Planes3& in, Level& coarse, int row) const;
   void coarsen_row(const Level& fine, bool contacts, Level& coarse, int row) const;
   static void sum_level(Level& level, bool contacts, Worker& worker);
-  void take_row(const Blocks& diagonal, int row);
-  void take_contacts_row(const ContactTerms& contacts, int row);
+  void set_row(const Blocks& diagonal, int row);
+  void add_contacts_row(const ContactTerms& contacts, int row);
   void solve_below();
 
   [[nodiscard]] Row3 interpolation_lines(Level& level, int row) const;

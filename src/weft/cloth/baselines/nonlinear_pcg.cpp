@@ -100,7 +100,7 @@ void NonlinearPcg::run(std::span<const Contact> contacts, const MultigridOptions
     const auto pending = static_cast<float>(pending_step_length_);
     for (int r = mine.first; r < mine.last; ++r) {
       accept_row(pending, r);
-      take_moved_row(r);
+      update_moved_row(r);
       place_row(0, r);
     }
     worker.barrier();
@@ -166,7 +166,7 @@ void NonlinearPcg::accept_row(float step_length, int row) {
   }
 }
 
-void NonlinearPcg::take_moved_row(int row) {
+void NonlinearPcg::update_moved_row(int row) {
   const float* inverse_mass = cloth_.inverse_mass.row(row);
   for (int c = 0; c < cloth_.size; ++c) {
     const Vec3f x = next_.position.at(row, c), y = fall_.at(row, c);
@@ -197,7 +197,7 @@ double NonlinearPcg::evaluate_gradient(Worker& worker) {
   return along;
 }
 
-void NonlinearPcg::take_residual(SolverState& solver_state, Worker& worker) {
+void NonlinearPcg::update_residual(SolverState& solver_state, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {
     const ConstRow3 far = row_of(std::as_const(far_residual_), r);
@@ -276,7 +276,7 @@ NonlinearPcg::SolverState NonlinearPcg::descend(const MultigridOptions& options,
         solver_state.iterations > 0 && solver_state.iterations % iterations_between_restarts == 0;
     // Under contact it has converged only if an update leaves the contacts as they are.
     if ((stale || converged) && !restart(solver_state, worker) && converged) break;
-    take_residual(solver_state, worker);
+    update_residual(solver_state, worker);
     advance(update_direction(solver_state, worker), solver_state, worker);
     converged = !(solver_state.correction > tolerance);
     if (converged && !pressed) break;

@@ -63,12 +63,12 @@ class NonlinearPcg {
   /// z += step_length d; d = 0.
   void accept_row(float step_length, int row);
   /// Sets z = x - y where the caller moved a sample.
-  void take_moved_row(int row);
+  void update_moved_row(int row);
   /// Computes minus the gradient at `next`, forces less inertia. Ends with a barrier.
   /// @return its dot product with d [N m]
   double evaluate_gradient(Worker& worker);
   /// Ends with a barrier.
-  void take_residual(SolverState& solver_state, Worker& worker);
+  void update_residual(SolverState& solver_state, Worker& worker);
   /// d = filtered residual + beta d, which keeps d conjugate; next = y + z + d. Ends with a
   /// barrier.
   /// @return the slope along d [N m]

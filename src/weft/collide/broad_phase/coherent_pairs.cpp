@@ -34,7 +34,7 @@ float CoherentPairs::distance_from(const Snapshot& snapshot, const MovingSurface
   return distance < 0.499 * double{skin_} ? static_cast<float>(distance) : HUGE_VALF;
 }
 
-void CoherentPairs::take(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
+void CoherentPairs::remember(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
   placed_.clear();
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     Snapshot& snapshot = snapshots_[i];
@@ -62,7 +62,7 @@ void CoherentPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& t
     snapshots_[i].distance = distance_from(snapshots_[i], surfaces[i]);
     known_ = snapshots_[i].distance < HUGE_VALF;
   }
-  if (!known_) take(surfaces, team);
+  if (!known_) remember(surfaces, team);
 }
 
 void CoherentPairs::sort(int a, int b, List& list, ThreadTeam& team) {

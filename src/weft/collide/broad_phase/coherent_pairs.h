@@ -63,7 +63,7 @@ class CoherentPairs {
   };
   /// Largest displacement of a surface from its snapshot; infinite where it exceeds half the skin.
   [[nodiscard]] float distance_from(const Snapshot& snapshot, const MovingSurface& now) const;
-  void take(std::span<const MovingSurface> surfaces, ThreadTeam& team);
+  void remember(std::span<const MovingSurface> surfaces, ThreadTeam& team);
   List& list_of(int a, int b) {
     return lists_[static_cast<std::size_t>(a) * snapshots_.size() + b];
   }

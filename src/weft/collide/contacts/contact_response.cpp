@@ -47,7 +47,7 @@ void ContactResponse::collect(const MovingCloth& cloth, const PressedContacts& p
   samples_ = n * n;
   uses_->clear();
   points_.resize(pressed.contacts.size());
-  for (int i = 0; i < count; ++i) take_contact(i, pressed.contacts[i]);
+  for (int i = 0; i < count; ++i) add_contact(i, pressed.contacts[i]);
   uses_->finish();
   particles_.resize(uses_->samples().size());
   for (std::size_t p = 0; p < particles_.size(); ++p) {
@@ -66,7 +66,7 @@ void ContactResponse::collect(const MovingCloth& cloth, const PressedContacts& p
 
 /// Adds a contact's point, whose particles are representative samples as yet. Samples of one class
 /// are one particle of added weights.
-void ContactResponse::take_contact(int index, const Contact& contact) {
+void ContactResponse::add_contact(int index, const Contact& contact) {
   Point& point = points_[index] = {};
   for (std::size_t i = 0; i < contact.samples.size(); ++i) {
     if (contact.weights[i] == 0) continue;

@@ -66,7 +66,7 @@ class ContactResponse {
   using Field = Vec3d Particle::*;
 
   void collect(const MovingCloth& cloth, const PressedContacts& pressed, double time_step);
-  void take_contact(int index, const Contact& contact);
+  void add_contact(int index, const Contact& contact);
   void place_point(const Contact& contact, double force_squared_step, Point& point) const;
   /// Parameters of the relaxation passes.
   struct RelaxationPasses {

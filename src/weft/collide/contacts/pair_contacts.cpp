@@ -57,7 +57,7 @@ class Finder {
  public:
   Finder(const ClothPair& pair, const PairLists& lists) : pair_(pair), lists_(lists) {}
 
-  void look_at(const CandidatePair& cells) {
+  void find(const CandidatePair& cells) {
     const CandidateCell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
     const bool crease = pair_.same() && adjacent(a, b);
     if (pair_.same() && (crease ? !pair_.creases : beside(a, b))) return;
@@ -269,7 +269,7 @@ void PairContacts::find(const ClothPair& pair, std::span<const CandidatePair> ce
   team.run([&](Worker& worker) {
     found_.fill(static_cast<int>(cells.size()), worker, [&](int i, Found& mine) {
       const PairLists out{mine.of_a, mine.of_b, lists.shared != nullptr ? &mine.shared : nullptr};
-      Finder(pair, out).look_at(cells[i]);
+      Finder(pair, out).find(cells[i]);
     });
   });
   for (const Found& mine : found_.lists()) {

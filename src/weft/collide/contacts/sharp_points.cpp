@@ -18,13 +18,13 @@ Vec3d across(Vec3d n) {
   return normalized(cross(n, axis));
 }
 
-class Judge {
+class SharpnessTest {
  public:
-  Judge(const SurfaceGrid& grid, const BodyQuery& body, const Planes3& positions,
-        const Sharpness& sharpness)
+  SharpnessTest(const SurfaceGrid& grid, const BodyQuery& body, const Planes3& positions,
+                const Sharpness& sharpness)
       : grid_(grid), body_(body), positions_(positions), sharpness_(sharpness) {}
 
-  [[nodiscard]] bool sharp(int point) const {
+  [[nodiscard]] bool is_sharp(int point) const {
     if (body_.triangles_around(point).empty()) return false;
     if (on_rim(point)) return true;
     BodyPoint at;
@@ -92,10 +92,10 @@ class Judge {
 
 std::vector<int> find_sharp_points(const SurfaceGrid& grid, const BodyQuery& body,
                                    const Planes3& positions, const Sharpness& sharpness) {
-  const Judge judge(grid, body, positions, sharpness);
+  const SharpnessTest test(grid, body, positions, sharpness);
   std::vector<int> found;
   for (int s = 0; s < grid.size() * grid.size(); ++s)
-    if (grid.point(s) == s && judge.sharp(s)) found.push_back(s);
+    if (grid.point(s) == s && test.is_sharp(s)) found.push_back(s);
   return found;
 }
 

@@ -31,7 +31,7 @@ class Finder {
   Finder(const PlaneSearch& search, std::vector<SeparatingPlane>& out)
       : search_(search), out_(out) {}
 
-  void look_at(const CandidatePair& cells) {
+  void find(const CandidatePair& cells) {
     if (search_.new_points != nullptr && !is_new(search_.a, cells.a) && !is_new(search_.b, cells.b))
       return;
     const CellGaps gaps(search_.a.surface, cells.a, search_.b.surface, cells.b);
@@ -84,14 +84,14 @@ class Finder {
     const int shared = search_.same ? bring_shared_first(a, b) : 0;
     if (shared > 1) return;
     const Part part_a{&search_.a, false, a}, part_b{&search_.b, true, b};
-    if (shared == 0) return look_at(gaps, part_a, part_b);
+    if (shared == 0) return find(gaps, part_a, part_b);
     // Both triangles have their shared point first: each one's opposite edge with the other as a
     // whole.
-    look_at(gaps, {part_a.side, false, a, 1}, part_b);
-    look_at(gaps, {part_b.side, true, b, 1}, part_a);
+    find(gaps, {part_a.side, false, a, 1}, part_b);
+    find(gaps, {part_b.side, true, b, 1}, part_a);
   }
 
-  void look_at(const CellGaps& gaps, const Part& a, const Part& b) {
+  void find(const CellGaps& gaps, const Part& a, const Part& b) {
     if (!beside(gaps, a, b)) add(feature_of(a), feature_of(b));
   }
   [[nodiscard]] MovingFeature feature_of(const Part& part) const {
@@ -175,7 +175,7 @@ void CellPlanes::find(const PlaneSearch& search, std::span<const CandidatePair> 
   team.run([&](Worker& worker) {
     found_.fill(
         static_cast<int>(cells.size()), worker,
-        [&](int i, std::vector<SeparatingPlane>& mine) { Finder(search, mine).look_at(cells[i]); });
+        [&](int i, std::vector<SeparatingPlane>& mine) { Finder(search, mine).find(cells[i]); });
   });
   append(found_, out);
 }

@@ -157,7 +157,7 @@ SeparatingPlaneFilter::Result StepFilter::hold(std::span<const MovingCloth> movi
 
 void StepFilter::fall_back_to_safe_positions(std::span<const MovingCloth> moving, int around,
                                              bool all) {
-  const auto take = [&](std::size_t cloth, int row, int col) {
+  const auto put_back = [&](std::size_t cloth, int row, int col) {
     const WorldCloth& one = world_.cloths[cloth];
     const int sample = one.grid.point(row * one.properties.size + col);
     put_end(moving[cloth], one.first_point + sample, cloths_[cloth].safe_position->at(sample));
@@ -165,7 +165,7 @@ void StepFilter::fall_back_to_safe_positions(std::span<const MovingCloth> moving
   };
   for (std::size_t i = 0; all && i < moving.size(); ++i)
     for (int r = 0; r < world_.cloths[i].properties.size; ++r)
-      for (int c = 0; c < world_.cloths[i].properties.size; ++c) take(i, r, c);
+      for (int c = 0; c < world_.cloths[i].properties.size; ++c) put_back(i, r, c);
   if (all) return;
   for (const int point : plane_filter_.stopped()) {
     const std::size_t cloth = world_.cloth_of(point);
@@ -174,7 +174,7 @@ void StepFilter::fall_back_to_safe_positions(std::span<const MovingCloth> moving
     const int row = sample / n, col = sample % n;
     for (int r = std::max(0, row - around); r <= std::min(n - 1, row + around); ++r)
       for (int c = std::max(0, col - around); c <= std::min(n - 1, col + around); ++c)
-        take(cloth, r, c);
+        put_back(cloth, r, c);
   }
 }
 

@@ -83,8 +83,8 @@ void IntersectionContours::cross(const StandingPair& pair, const SegmentEnd& edg
   }
 }
 
-void IntersectionContours::look_at(const StandingPair& pair, const CandidatePair& cells,
-                                   std::vector<Segment>& out) {
+void IntersectionContours::find_segments(const StandingPair& pair, const CandidatePair& cells,
+                                         std::vector<Segment>& out) {
   const int second_side = pair.same ? 0 : 1;
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {
@@ -170,7 +170,7 @@ void IntersectionContours::find(const StandingPair& pair, std::span<const Candid
                                 ThreadTeam& team) {
   team.run([&](Worker& worker) {
     found_.fill(static_cast<int>(cells.size()), worker,
-                [&](int i, std::vector<Segment>& mine) { look_at(pair, cells[i], mine); });
+                [&](int i, std::vector<Segment>& mine) { find_segments(pair, cells[i], mine); });
   });
   segments_.clear();
   append(found_, segments_);

@@ -71,8 +71,8 @@ class IntersectionContours {
       if (count < 2) ends[static_cast<std::size_t>(count++)] = end;
     }
   };
-  static void look_at(const StandingPair& pair, const CandidatePair& cells,
-                      std::vector<Segment>& out);
+  static void find_segments(const StandingPair& pair, const CandidatePair& cells,
+                            std::vector<Segment>& out);
   static void cross(const StandingPair& pair, const SegmentEnd& edge, Segment& out);
   void collect_nodes(const StandingPair& pair);
   void join();

@@ -23,14 +23,14 @@ class TextFacets {
   TextFacets(std::string_view bytes, std::string_view name) : reader_(bytes, name) {}
 
   TriangleMesh read() {
-    while (reader_.next_filled_line()) take_line(lower_case(reader_.next_field()));
+    while (reader_.next_filled_line()) parse_line(lower_case(reader_.next_field()));
     if (inside_) reader_.fail("the file ends inside a solid", "endsolid is wanted");
     return std::move(mesh_);
   }
 
  private:
-  void take_line(const std::string& keyword) {
-    if (keyword == "vertex") return take_vertex();
+  void parse_line(const std::string& keyword) {
+    if (keyword == "vertex") return parse_vertex();
     if (keyword == "endloop") return end_loop();
     if (!loop_.empty())
       reader_.fail(in_quotes(keyword) + " inside a loop", "vertex or endloop is wanted");
@@ -42,7 +42,7 @@ class TextFacets {
     }
   }
 
-  void take_vertex() {
+  void parse_vertex() {
     const double x = reader_.coordinate();
     const double y = reader_.coordinate();
     const double z = reader_.coordinate();

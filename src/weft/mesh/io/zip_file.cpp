@@ -99,8 +99,8 @@ std::string_view data_of(std::string_view bytes, const Extent& extent, std::stri
   return part(bytes, extent.at + local_size + u16(head, 26) + u16(head, 28), extent.packed, name);
 }
 
-/// Takes the first entry from the rest of a directory.
-ZipMember take_entry(std::string_view bytes, std::string_view& rest, std::string_view name) {
+/// Parses the first entry of the rest of a directory, and goes on to what follows it.
+ZipMember parse_entry(std::string_view bytes, std::string_view& rest, std::string_view name) {
   const std::string_view head = part(rest, 0, entry_size, name);
   if (!head.starts_with(entry_mark)) fail(name, "has a damaged directory");
   const std::uint64_t name_size = u16(head, 28), extra_size = u16(head, 30);
@@ -159,7 +159,7 @@ std::vector<ZipMember> zip_members(std::string_view bytes, std::string_view name
   std::string_view rest = part(bytes, directory.at, directory.size, name);
   std::vector<ZipMember> members;
   for (std::uint64_t i = 0; i < directory.count; ++i)
-    members.push_back(take_entry(bytes, rest, name));
+    members.push_back(parse_entry(bytes, rest, name));
   return members;
 }
 

@@ -67,7 +67,7 @@ void ContactBlocks::touch_row(int row) {
   }
 }
 
-void ContactBlocks::take_row(const ContactLoads& contacts, int row) {
+void ContactBlocks::set_row(const ContactLoads& contacts, int row) {
   clear_row(row);
   if (!contacts.row(row)) return;
   contacts.add_blocks(row, {own_[0].row(row), own_[1].row(row), own_[2].row(row), own_[3].row(row),

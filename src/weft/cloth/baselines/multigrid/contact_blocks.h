@@ -23,7 +23,7 @@ class ContactBlocks {
   [[nodiscard]] bool row(int r) const { return rows_[static_cast<std::size_t>(r)] != 0; }
 
   // To be called row by row, by any team, in this order and with barriers between.
-  void take_row(const ContactLoads& contacts, int row);
+  void set_row(const ContactLoads& contacts, int row);
   void restrict_row(const ContactBlocks& fine, int row, float* line);
   /// Computes (D + C)^-1 of the row's samples; for samples with mates it is wrong until join_mates.
   /// @param inverse_diagonal  [n] D^-1, 0 where held

@@ -102,7 +102,7 @@ void MultigridPreconditioner::renew_contacts(const ContactLoads& contacts, Worke
     const Range mine = worker.share(level.size());
     for (int r = mine.first; r < mine.last; ++r) {
       if (i == 0)
-        level.contacts.take_row(contacts, r);
+        level.contacts.set_row(contacts, r);
       else
         level.contacts.restrict_row(levels_[i - 1].contacts, r, lines(worker, 3).x);
       level.contacts.invert_row(r, level.inverse_diagonal.row(r));
