@@ -8,10 +8,10 @@
 
 namespace weft::test {
 
-/// Numbers as they lie in a little-endian file.
+/// A number as it lies in a little-endian file, in any number of bytes.
 inline std::string little_endian(std::uint64_t value, std::size_t size) {
   std::string bytes;
-  for (std::size_t i = 0; i < size; ++i) bytes.push_back(static_cast<char>(value >> (8 * i)));
+  for (std::size_t i = 0; i < size; ++i, value >>= 8) bytes.push_back(static_cast<char>(value));
   return bytes;
 }
 
