@@ -36,7 +36,14 @@ void* operator new(std::size_t size) { return counted_memory(size, alignof(std::
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return counted_memory(size, static_cast<std::size_t>(alignment));
 }
+// As of std::stable_sort; the default calls the one above, but for that of a sanitizer.
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept try {
+  return counted_memory(size, alignof(std::max_align_t));
+} catch (const std::bad_alloc&) {
+  return nullptr;
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
