@@ -25,6 +25,7 @@ const ZipMember* find(const std::vector<ZipMember>& members, std::string_view ar
 
 std::string names_of(const std::vector<ZipMember>& members) {
   std::vector<std::string> names;
+  names.reserve(members.size());
   for (const ZipMember& member : members) names.push_back(member.name);
   return names.empty() ? "nothing" : quoted_list(names);
 }

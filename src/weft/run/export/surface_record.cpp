@@ -193,7 +193,7 @@ void SurfaceRecord::write_draped() {
   const PanelImages panels = panel_images(*subject_.garment, *subject_.now);
   for (const auto& [ending, bytes] :
        {std::pair{".panels.exr", panels.exr}, {".panels.npz", panels.npz}}) {
-    write_file(named(ending), [&](std::ostream& out) { out << bytes; });
+    write_file(named(ending), [&text = bytes](std::ostream& out) { out << text; });
     images_.push_back(named(ending));
   }
 }
