@@ -25,6 +25,7 @@ SOURCES = {
     "ccd": ("src/weft/collide/ccd.cpp", "src/weft/collide/ccd.h"), "polar_map": ("src/weft/collide",),
     "broad_phases": ("src/weft/collide/broad_phase",),
     "validate": (*SIMULATION, "tests/cloth", "tests/sim"), "self_cost": SIMULATION, "scenes": SIMULATION, "soak": SIMULATION,
+    "patterns": (*SIMULATION, "src/weft/garment"),
     "drape": (*CLOTH, "src/weft/sim/drape_coefficient.cpp", "src/weft/sim/materials.cpp"),
 }
 LINE = re.compile(r"`(?P<command>[^`]+)` at commit `(?P<commit>[0-9a-f]+)(?P<dirty>\+?)`, (?P<date>\d{4}-\d\d-\d\d), on "
