@@ -1,17 +1,14 @@
 """The contract of convert, rebuild, inspect and shapes: fields, exit codes, errors, files."""
 import json
 import math
-import os
-import pathlib
 import resource
-import shutil
 import signal
 import struct
 import subprocess
 import time
 import unittest
 
-from program import PROGRAM, ProgramTest, SHARED
+from program import PROGRAM, ProgramTest
 
 INPUT_FIELDS = ["path", "vertices", "triangles", "components", "boundaries", "genus", "euler", "repairs"]
 TOP_FIELDS = {

@@ -1,5 +1,7 @@
 """Scenes that are refused, draped ones and their pictures, and the examples."""
 import json
+import resource
+import signal
 import subprocess
 import sys
 import unittest
