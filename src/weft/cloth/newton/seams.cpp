@@ -39,10 +39,10 @@ Seams::Seams(const BorderMates& mates, const LevelLayout& layout) : size_(mates.
   for (int i = 0; i < mates.class_count(); ++i)
     if (const std::span<const int> copies = mates.copies(i); copies.size() > 1)
       classes.emplace_back(copies.begin(), copies.end());
-  set_classes(std::move(classes), layout);
+  set_classes(classes, layout);
 }
 
-void Seams::set_classes(std::vector<std::vector<int>> classes, const LevelLayout& layout) {
+void Seams::set_classes(const std::vector<std::vector<int>>& classes, const LevelLayout& layout) {
   for (const std::vector<int>& members : classes) {
     samples_.insert(samples_.end(), members.begin(), members.end());
     starts_.push_back(static_cast<int>(samples_.size()));
@@ -122,7 +122,7 @@ Seams Seams::coarsened(const LevelLayout& fine, const LevelLayout& coarse) const
     if (one.size() > 1) classes.push_back(std::move(one));
   Seams result;
   result.size_ = m;
-  result.set_classes(std::move(classes), coarse);
+  result.set_classes(classes, coarse);
   return result;
 }
 

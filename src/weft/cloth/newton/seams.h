@@ -55,7 +55,7 @@ class Seams {
   void share(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
 
  private:
-  void set_classes(std::vector<std::vector<int>> classes, const LevelLayout& layout);
+  void set_classes(const std::vector<std::vector<int>>& classes, const LevelLayout& layout);
   void find_edges(const LevelLayout& layout);
 
   int size_ = 0;
