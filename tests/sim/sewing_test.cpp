@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"
@@ -110,6 +113,43 @@ TEST_F(Sewing, PairsThatMetStayTogether) {
     before = together();
   }
   EXPECT_GT(before, 0);
+}
+
+TEST_F(Sewing, SlidesOverWhatIsInTheWay) {
+  // Pulled into the ball, points would stay where the filter stops them, and their neighbours go on.
+  Simulation simulation(scene_, "scene", 1);
+  double strain = 0;
+  for (int frame = 0; frame < 60; ++frame)
+    strain = std::max(strain, simulation.advance().strain.max);
+  EXPECT_LT(strain, 0.2);
+}
+
+TEST_F(Sewing, StopsWhereItIsTooNarrow) {
+  // A tube of 60 cm cannot close round a box of 120 cm: its seams wait, open.
+  scene_.bodies[0].surface = "builtin:box";
+  scene_.bodies[0].placement.scale = {0.55, 1.5, 0.55};
+  Simulation simulation(scene_, "scene", 1);
+  double strain = 0;
+  FrameReport report;
+  for (int frame = 0; frame < 150; ++frame) {
+    report = simulation.advance();
+    strain = std::max(strain, report.strain.max);
+  }
+  EXPECT_EQ(simulation.intersections().total(), 0);
+  EXPECT_GT(report.seam_gap, 0.01);
+  printf("strain %g gap %g y %g ke %g\n", strain, report.seam_gap, report.centre_of_mass.y, report.kinetic_energy);
+  EXPECT_LT(strain, 0.3);
+}
+
+TEST_F(Sewing, PanelsBeginAboveTheGround) {
+  scene_.bodies.clear();
+  scene_.ground = 1.05;
+  const Simulation simulation(scene_, "scene", 1);
+  EXPECT_EQ(simulation.intersections().total(), 0);
+  EXPECT_NEAR(simulation.centre_of_mass().y, 1.16, 1e-3);
+  ASSERT_EQ(simulation.notes().size(), 1);
+  EXPECT_NE(simulation.notes()[0].find("2 of 2 panels reached below the ground"),
+            std::string::npos);
 }
 
 TEST_F(Sewing, GivesTheSameBitsOnAllThreads) {

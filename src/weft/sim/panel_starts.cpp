@@ -136,4 +136,15 @@ int move_out_of_bodies(const BorderMates& mates, std::span<const PlacedBody> bod
   return static_cast<int>(std::count(out.begin(), out.end(), true));
 }
 
+int lift_above_ground(const BorderMates& mates, double ground, Planes3& placed) {
+  std::vector<Vec3d> lift(mates.charts().size());
+  for (int s = 0; s < placed.size() * placed.size(); ++s) {
+    double& height = lift[chart_of(mates, s)].y;
+    height = std::max(height, ground - placed.at(s).y);
+  }
+  move(mates, lift, placed);
+  return static_cast<int>(
+      std::count_if(lift.begin(), lift.end(), [](Vec3d by) { return by.y > 0; }));
+}
+
 }  // namespace weft

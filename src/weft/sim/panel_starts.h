@@ -20,4 +20,9 @@ void put_round_layers(const BorderMates& mates, int layer, Planes3& placed);
 int move_out_of_bodies(const BorderMates& mates, std::span<const PlacedBody> bodies,
                        ThreadTeam& team, Planes3& placed);
 
+/// Lifts panels of which a part begins below the ground, each as a whole.
+/// @param ground  height of the ground, and what samples keep from it [m]
+/// @return how many panels were lifted
+int lift_above_ground(const BorderMates& mates, double ground, Planes3& placed);
+
 }  // namespace weft

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "weft/cloth/cloth.h"
+#include "weft/contact.h"
 #include "weft/garment.h"
 
 namespace weft {
@@ -10,9 +14,16 @@ namespace weft {
 /// the cloth between needs to stretch nowhere. What is held back, by a body or other cloth, is then
 /// closed from where its seam is closed already, as a zip is; it is let go and pulled again in
 /// turn, so that cloth that was pulled into a crease, or to the wrong side of a limb, comes out of
-/// it.
+/// it. Nothing is pulled into a body that it touches: seams slide over it.
 class Sewing {
  public:
+  /// The step that seams are pulled together in.
+  struct Step {
+    double length = 0;                        ///< [s]
+    double seconds = 0;                       ///< at its start, since the run's
+    std::span<const PastContact> contacts{};  ///< of the cloth in the last step
+  };
+
   /// @param garment  kept by reference
   /// @param start  where its panels begin [n x n] [m]
   Sewing(const Garment& garment, const Planes3& start);
@@ -20,7 +31,11 @@ class Sewing {
   /// Sets the velocities of a cloth for the next step: in each class those of the mean, and towards
   /// each other. All are damped, as only the seams are to move the cloth.
   /// @param seconds  since the start
-  void pull(double time_step, double seconds, ClothState& state);
+  void pull(const Step& step, ClothState& state);
+
+  /// The bending stiffness of a fabric while it is sewn: that of paper at least, so that panels
+  /// come together as they are, instead of crumpling at their edges.
+  [[nodiscard]] static WarpWeft bending_for(const Material& material);
 
   /// The part of gravity that acts on the cloth: none while seams close, but not for ever.
   [[nodiscard]] double gravity_part(double seconds) const;
@@ -37,9 +52,14 @@ class Sewing {
   [[nodiscard]] std::vector<double> gaps(const Planes3& position) const;
 
  private:
+  static constexpr int max_blocking = 3;  // normals that a sample heeds
   void find_classes_along_seams();
   void measure(const Planes3& position);
-  /// The velocity towards its mates that sewing gives a sample of a class.
+  void find_blocked(std::span<const PastContact> contacts);
+  void find_inward(const Planes3& flat);
+  /// Whether the cloth beside a class is stretched so far that its seam has to wait.
+  [[nodiscard]] bool is_taut(int index, const Planes3& position) const;
+  /// The velocity towards its mates that sewing gives a sample of a class: not into a body.
   [[nodiscard]] Vec3d pull_of(int index, int sample, const Planes3& position,
                               std::size_t step) const;
   /// Finds the mean of these velocities over the seams of each panel.
@@ -61,6 +81,11 @@ class Sewing {
   std::vector<int> panel_pulled_;        // of each panel, how many samples are in seams
   std::vector<std::vector<int>> along_;  // the classes along each seam
   std::vector<char> next_;               // of each class: whether it is pulled late
+  std::vector<std::array<Vec3f, max_blocking>> blocked_;  // of each sample, normals of bodies that
+                                                          // it touches; 0 where there are fewer
+  std::vector<int> inward_;                               // of each sample of a seam, the next one
+                                                          // inside its panel; else -1
+  std::vector<float> inward_length_;                      // distance of both at rest [m]
 };
 
 }  // namespace weft

@@ -139,6 +139,9 @@ ChartChoice charts_for(bool several) {
   return several ? ChartChoice::automatic : ChartChoice::pieces;
 }
 
+/// What panels keep from the ground at the start. [m]
+constexpr double above_ground = 0.01;
+
 }  // namespace
 
 Planes3 Simulation::Parts::place(const SceneCloth& wanted, const LoadedSurface& loaded,
@@ -152,6 +155,11 @@ Planes3 Simulation::Parts::place(const SceneCloth& wanted, const LoadedSurface& 
   if (const int moved = move_out_of_bodies(loaded.image.mates, bodies, team, placed))
     notes.push_back(fmt::format("{}: {} of {} panels were in a body and begin farther outside",
                                 wanted.name, moved, loaded.image.mates.charts().size()));
+  if (!scene.ground) return placed;
+  const double height = *scene.ground + above_ground;
+  if (const int lifted = lift_above_ground(loaded.image.mates, height, placed))
+    notes.push_back(fmt::format("{}: {} of {} panels reached below the ground and begin higher",
+                                wanted.name, lifted, loaded.image.mates.charts().size()));
   return placed;
 }
 
@@ -172,6 +180,12 @@ void Simulation::Parts::load_cloths() {
     const Planes3 placed = place(wanted, loaded, garments);
     if (loaded.garment) ++garments;
     Cloth cloth = make(wanted, placed, loaded);
+    BendingPlanes& bending = other_bending.emplace_back();
+    if (loaded.garment) {
+      SceneCloth sewn = wanted;
+      sewn.material.bending = Sewing::bending_for(wanted.material);
+      bending = std::exchange(cloth.bending, make(sewn, placed, loaded).bending);
+    }
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
     sewing.push_back(loaded.garment

@@ -74,7 +74,10 @@ struct Simulation::Parts {
   void load_cloths();
   /// Ties cloths to bodies, at the initial positions of both.
   void tie_cloths();
+  [[nodiscard]] Mover make_mover(std::size_t index);
   void make_movers();
+  /// Solves all cloths as one system, where the method can.
+  void join_movers();
   /// Finds the closed bodies that cloths begin inside of, at the initial positions of both.
   void find_insides();
   /// Refuses cloths that begin in the same place.
@@ -92,11 +95,14 @@ struct Simulation::Parts {
   double work_of_sewing();
   /// Puts samples of seams in one place that the proposals bring next to each other.
   void bring_seams_together();
-  /// Whether a cloth has no friction: seams that close slide over what is between them, until
-  /// gravity acts on what stays open.
+  /// Whether a cloth has no friction and is stiff: seams that close slide over what is between
+  /// them, and panels do not crumple, until gravity acts on what stays open.
   [[nodiscard]] bool slides(std::size_t index) const;
-  /// Makes the collider anew where other samples than before are joined, or friction begins.
+  /// Makes the collider anew where other samples than before are joined, or friction begins, and
+  /// gives garments the bending of their fabric then.
   void follow_sewing();
+  /// Makes movers anew, for fabrics that resist bending in another way.
+  void renew_movers();
   /// Ends the step: bodies take their end positions.
   void bodies_arrive();
   /// Advances by one substep, in as many steps as fast bodies and collisions require.
@@ -220,12 +226,13 @@ struct Simulation::Parts {
   std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
   std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
   std::vector<std::optional<Sewing>> sewing;        // of each cloth; none: it is no garment
+  std::vector<BendingPlanes> other_bending;         // of each garment: unused as long as it slides
   std::vector<Mover> movers;                        // one a cloth
   std::unique_ptr<JointIntegrator> joint;           // of all; null: each is solved by itself
   std::vector<std::span<const Contact>> own_contacts;
   std::unique_ptr<Collider> collider;
-  std::vector<char> sliding;  // of each cloth: whether the collider's friction is none
-  std::vector<MovingCloth> moving;                       // of this step
+  std::vector<char> sliding;        // of each cloth: whether the collider's friction is none
+  std::vector<MovingCloth> moving;  // of this step
   std::vector<std::vector<Triangle>> checked_triangles;  // of cloths, then bodies
   std::optional<IntersectionCheck> check;                // of what they and the ground cross
   Grab grab;

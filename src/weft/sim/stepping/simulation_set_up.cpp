@@ -143,26 +143,37 @@ void Simulation::Parts::note_too_fast() {
       std::ceil(driven.fastest() / (scene.frame_rate * max_pieces * max_approach_in_step))));
 }
 
-void Simulation::Parts::make_movers() {
-  const StepInput typical{time_step, vec_cast<float>(scene.gravity)};
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    const SimulatedCloth& cloth = cloths[i];
-    movers.push_back(
-        {make_integrator(scene.integrator, *cloth.model, typical, solvers()),
-         scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, *cloth.model) : std::nullopt,
-         RunawayCheck(*cloth.model, cloth.state, scene.gravity, drive_of(i)),
-         StrainLimit(*cloth.model, solvers()),
-         soft ? std::optional<CoarseLimit>(std::in_place, *cloth.model, solvers()) : std::nullopt,
-         EnergyMeter(*cloth.model, scene.gravity, solvers(), stiffens()),
-         DrivenWork(*cloth.model, scene.gravity, solvers(), stiffens()), Energy{}, Energy{},
-         Energy{}, Planes3(scene.wind || cloth.garment ? cloth.model->size : 0),
-         Planes3(cloth.model->size)});
-    if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
-      notes.push_back(fmt::format("{}: {}", cloth.name, caution));
-  }
+Mover Simulation::Parts::make_mover(std::size_t index) {
+  const SimulatedCloth& cloth = cloths[index];
+  const Cloth& model = *cloth.model;
+  const StepInput typical{substep_time, vec_cast<float>(scene.gravity)};
+  return {make_integrator(scene.integrator, model, typical, solvers()),
+          scene.wind ? std::optional<Wind>(std::in_place, *scene.wind, model) : std::nullopt,
+          RunawayCheck(model, cloth.state, scene.gravity, drive_of(index)),
+          StrainLimit(model, solvers()),
+          soft ? std::optional<CoarseLimit>(std::in_place, model, solvers()) : std::nullopt,
+          EnergyMeter(model, scene.gravity, solvers(), stiffens()),
+          DrivenWork(model, scene.gravity, solvers(), stiffens()),
+          Energy{},
+          Energy{},
+          Energy{},
+          Planes3(scene.wind || cloth.garment ? model.size : 0),
+          Planes3(model.size)};
+}
+
+void Simulation::Parts::join_movers() {
   std::vector<Integrator*> all;
   for (const Mover& mover : movers) all.push_back(mover.integrator.get());
   if (all.size() > 1) joint = all.front()->join(all, team);
+}
+
+void Simulation::Parts::make_movers() {
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    movers.push_back(make_mover(i));
+    if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
+      notes.push_back(fmt::format("{}: {}", cloths[i].name, caution));
+  }
+  join_movers();
   own_contacts.reserve(cloths.size());
   moving.reserve(cloths.size());
   int largest = min_image_size;

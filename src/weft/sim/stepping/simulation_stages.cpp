@@ -91,7 +91,8 @@ void Simulation::Parts::propose(std::size_t index) {
 
 void Simulation::Parts::sew(std::size_t index) {
   known_energy = false;
-  sewing[index]->pull(time_step, step_start, cloths[index].state);
+  sewing[index]->pull({time_step, step_start, movers[index].integrator->past_contacts()},
+                      cloths[index].state);
   movers[index].integrator->forget();
 }
 
@@ -111,7 +112,7 @@ bool Simulation::Parts::slides(std::size_t index) const {
 }
 
 void Simulation::Parts::follow_sewing() {
-  bool changed = false;
+  bool changed = false, other_fabric = false;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     if (!sewing[i]) continue;
     Cloth& model = *cloths[i].model;
@@ -121,14 +122,29 @@ void Simulation::Parts::follow_sewing() {
     const bool same = apart.has_value() == model.apart.has_value() &&
                       (!apart || apart->intervals() == model.apart->intervals());
     if (!same) model.apart = std::move(apart);
-    changed = changed || !same || slides(i) != (sliding[i] != 0);
+    const bool other_stage = slides(i) != (sliding[i] != 0);
+    if (other_stage) std::swap(model.bending, other_bending[i]);
+    other_fabric = other_fabric || other_stage;
+    changed = changed || !same || other_stage;
   }
+  if (other_fabric) renew_movers();
   if (!changed) return;
   std::vector<std::vector<int>> marks(cloths.size());
   for (std::size_t i = 0; i < cloths.size(); ++i) collider->save_marks(i, marks[i]);
   make_collider_of_scene();
   for (std::size_t i = 0; i < cloths.size(); ++i) collider->restore_marks(i, marks[i]);
   known_energy = false;
+}
+
+void Simulation::Parts::renew_movers() {
+  std::vector<Mover> old;
+  old.swap(movers);
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    movers.push_back(make_mover(i));
+    movers[i].runaway = old[i].runaway;
+    movers[i].integrator->restore_past(old[i].integrator->past_contacts());
+  }
+  join_movers();
 }
 
 bool Simulation::Parts::is_pulled(std::size_t index) const {
