@@ -81,6 +81,8 @@ class NewtonSolver {
   /// E at the state, which is at a part `length` of the step [J].
   double energy(float length, Worker& worker);
   void move_state(float length, Worker& worker);
+  /// Energy that rounding alone may seem to add [J].
+  [[nodiscard]] double rounding() const;
   /// Takes an excess [J] out of velocities.
   void calm(double excess, Worker& worker);
 
