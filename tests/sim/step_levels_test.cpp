@@ -80,5 +80,17 @@ TEST(StepLevels, BodiesThatAskForShortStepsGetThem) {
   EXPECT_EQ(walk.next({1, 2}).first, 0);
 }
 
+TEST(StepLevels, TheRestOfASubstepIsDividedFurtherWhereABodyIsFaster) {
+  StepWalk walk(1, {});
+  walk.accept(StepVerdict::calm);
+  walk.require(3);
+  EXPECT_EQ(walk.subdivisions(), 8);
+  EXPECT_EQ(walk.index(), 4);
+  EXPECT_FALSE(walk.is_shortened());
+  for (int i = 0; i < 4; ++i) walk.accept(StepVerdict::calm);
+  EXPECT_TRUE(walk.done());
+  EXPECT_EQ(walk.next({}), StepLevels{});
+}
+
 }  // namespace
 }  // namespace weft

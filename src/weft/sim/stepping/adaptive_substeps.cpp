@@ -80,6 +80,13 @@ StepWalk::StepWalk(int least, const StepLevels& levels)
       level_(first_),
       most_(std::max(first_, levels.most)) {}
 
+void StepWalk::require(int level) {
+  least_ = std::max(least_, level);
+  first_ = std::max(first_, least_);
+  level_ = std::max(level_, first_);
+  most_ = std::max(most_, first_);
+}
+
 void StepWalk::halve() {
   ++level_;
   halved_ = true;

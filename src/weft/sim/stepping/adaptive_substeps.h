@@ -56,6 +56,13 @@ double wanted_subdivisions(const BodyStep& body, const ClothReach& cloth,
 /// Rounds up to a power of 2, at most max_pieces.
 int whole_subdivisions(double wanted) noexcept;
 
+/// Exponent of a power of 2.
+constexpr int level_of(int subdivisions) {
+  int level = 0;
+  while (1 << level < subdivisions) ++level;
+  return level;
+}
+
 /// Whether levels are consistent, so that a StepWalk can begin with them.
 constexpr bool is_valid(const StepLevels& levels) {
   return levels.first >= 0 && levels.first <= levels.most && levels.most >= 1 &&
@@ -83,6 +90,9 @@ class StepWalk {
   [[nodiscard]] bool may_halve() const { return level_ < most_; }
   /// Whether the step is shorter than moving bodies require.
   [[nodiscard]] bool is_shortened() const { return level_ > least_; }
+  /// Goes on at this level or a deeper one: a body is faster in a part of the substep than over the
+  /// whole of it.
+  void require(int level);
   void halve();
   void accept(StepVerdict verdict);
   /// Levels of the next substep: it begins at the last level of this one where steps were halved,

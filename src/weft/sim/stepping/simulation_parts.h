@@ -110,6 +110,13 @@ struct Simulation::Parts {
   void substep(int number, FrameReport& report);
   /// Number of steps, a power of 2, that moving bodies require of a substep ending at `seconds`.
   [[nodiscard]] int subdivisions_until(double seconds);
+  /// The level that moving bodies require of the rest of a substep where they are faster in this
+  /// step than over the whole of it, as at a key of their path; -1 where the step is short enough.
+  /// @param subdivisions  of the substep by the length of this step
+  [[nodiscard]] int required_level(int subdivisions);
+  /// Number of parts that moving bodies require of this step, for which they have been moved.
+  double wanted_parts();
+  void check_speed(double subdivisions) const;
   /// Outcome of a trial step.
   struct Tried {
     bool refused = false;

@@ -54,6 +54,10 @@ constexpr double harmless_depth = 0.75;
 /// A guess that moves less than next_to_start passes through nothing that is not closer.
 constexpr double same_place = 0.25, next_to_start = 0.05;
 
+/// Approach of a body in a step, as a part of that which its substep was divided for, beyond which
+/// the step is divided further. The mean over a substep hides no more in smooth motion.
+constexpr double max_excess_approach = 1.5;
+
 }  // namespace
 
 void Simulation::Parts::bodies_arrive() {
@@ -211,26 +215,42 @@ void Simulation::Parts::gather_moving() {
   }
 }
 
-int Simulation::Parts::subdivisions_until(double seconds) {
-  if (!driven.any_moves()) return 1;
-  driven.move_to(seconds, team);
+double Simulation::Parts::wanted_parts() {
   double wanted = 1;
   for (const SimulatedCloth& cloth : cloths) {
-    reach.place(cloth.state, substep_time, gap_of(*cloth.model));
+    reach.place(cloth.state, time_step, gap_of(*cloth.model));
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if (bodies[i].moves)
         wanted = std::max(
             wanted, wanted_subdivisions({bodies[i].positions, *driven.ends()[i], body_triangles[i]},
                                         reach, max_approach_in_step, body_motion, team));
   }
-  if (wanted > max_pieces)
+  return wanted;
+}
+
+void Simulation::Parts::check_speed(double subdivisions) const {
+  if (subdivisions > max_pieces)
     throw SceneError(name,
                      fmt::format("bodies pass cloth at up to {:.4g} m/s in frame {}, faster than "
                                  "it can be kept from them",
                                  driven.fastest(), frame + 1),
                      fmt::format("{} substeps or more are wanted",
-                                 std::ceil(scene.substeps * wanted / max_pieces)));
+                                 std::ceil(scene.substeps * subdivisions / max_pieces)));
+}
+
+int Simulation::Parts::subdivisions_until(double seconds) {
+  if (!driven.any_moves()) return 1;
+  driven.move_to(seconds, team);
+  const double wanted = wanted_parts();
+  check_speed(wanted);
   return whole_subdivisions(wanted);
+}
+
+int Simulation::Parts::required_level(int subdivisions) {
+  const double wanted = driven.any_moves() ? wanted_parts() : 1;
+  if (wanted <= max_excess_approach) return -1;
+  check_speed(wanted * subdivisions);
+  return level_of(whole_subdivisions(wanted * subdivisions));
 }
 
 bool Simulation::Parts::check_for_runaway(double seconds, bool may_refuse) {

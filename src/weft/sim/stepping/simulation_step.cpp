@@ -24,17 +24,12 @@ namespace {
 /// for what the filter held back.
 constexpr int max_repeats = 2;
 
-int level_of(int subdivisions) {
-  int level = 0;
-  while (1 << level < subdivisions) ++level;
-  return level;
-}
-
 }  // namespace
 
 void Simulation::Parts::substep(int number, FrameReport& report) {
   const double begin = substep_time * number, end = substep_time * (number + 1);
   int repeats = 0;
+  time_step = substep_time;
   StepWalk walk(level_of(subdivisions_until(end)), levels);
   while (!walk.done()) {
     time_step = substep_time / walk.subdivisions();
@@ -43,6 +38,10 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
     const double seconds = piece < walk.subdivisions() ? begin + time_step * piece : end;
     step_start = seconds - time_step;
     move_driven(seconds);
+    if (const int level = required_level(walk.subdivisions()); level >= 0) {
+      walk.require(level);
+      continue;
+    }
     const Tried tried =
         try_step(seconds, {walk.may_halve(), may_solve_again() && repeats < max_repeats}, report);
     if (tried.refused) refuse_step();
