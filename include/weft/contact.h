@@ -25,6 +25,8 @@ struct Contact {
   /// Stiffness of a soft contact: the solve leaves a depth of force over stiffness, which is not
   /// corrected afterwards. 0: hard [N/m].
   float stiffness = 0;
+  /// Factor on the stiffness that a solve gives a hard contact.
+  float firmness = 1;
 };
 
 /// The forces of a contact at the end of a step, kept for the next one.

@@ -150,6 +150,26 @@ TEST(Newton, ThreadsAndInstructionSetsGiveTheSameBits) {
   }
 }
 
+/// A point is pushed along its sheet, by 3 mm in a step of a millisecond.
+TEST(Newton, AFirmContactHoldsAgainstSpringsThatAreStretched) {
+  const Cloth cloth = sheet_cloth(17, cotton);
+  const int middle = 8 * 17 + 8;
+  const auto way_with = [&](float firmness) {
+    ThreadTeam team(1);
+    const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
+    Contact contact;
+    contact.samples[0] = middle;
+    contact.normal = {1, 0, 0};
+    contact.offset = 0.003F;
+    contact.surface_displacement = {0.003F, 0, 0};
+    contact.firmness = firmness;
+    integrator->begin({.time_step = 1e-3, .gravity = {}}, rest_state(cloth));
+    return integrator->iterate(std::array{contact}).position.at(middle).x;
+  };
+  EXPECT_LT(way_with(1), 0.0012F);
+  EXPECT_GT(way_with(64), 0.002F);
+}
+
 TEST(Newton, AStrainLimitHoldsWhatStretchesFar) {
   const auto stretch_of = [](double limit) {
     Cloth cloth =

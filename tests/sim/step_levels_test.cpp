@@ -92,5 +92,22 @@ TEST(StepLevels, TheRestOfASubstepIsDividedFurtherWhereABodyIsFaster) {
   EXPECT_EQ(walk.next({}), StepLevels{});
 }
 
+TEST(StepLevels, WherePointsFallBackBodiesAreGivenShorterStepsAllTheSame) {
+  StepWalk walk(3, {1, 2});
+  EXPECT_FALSE(walk.may_halve());
+  for (const int subdivisions : {8, 16, 32}) {
+    EXPECT_EQ(walk.subdivisions(), subdivisions);
+    EXPECT_TRUE(walk.may_halve_fallen());
+    walk.halve();
+  }
+  EXPECT_FALSE(walk.may_halve_fallen());
+  walk.accept(StepVerdict::fallen);
+  // It was no help: the rest of the substep is not tried again.
+  while (!walk.done()) {
+    EXPECT_FALSE(walk.may_halve_fallen() && walk.subdivisions() == 64);
+    walk.accept(StepVerdict::calm);
+  }
+}
+
 }  // namespace
 }  // namespace weft

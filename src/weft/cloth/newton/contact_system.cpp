@@ -161,9 +161,10 @@ void ContactSystem::place(Fields position, Worker& worker) {
     const Contact& contact = contacts_[i];
     const bool soft = contact.stiffness > 0;
     const double yields = compliance(i, held_);
-    work_stiffness_[i] = soft         ? contact.stiffness
-                         : yields > 0 ? static_cast<float>(relative_stiffness * (1 / yields))
-                                      : 0.0F;
+    work_stiffness_[i] =
+        soft         ? contact.stiffness
+        : yields > 0 ? static_cast<float>(contact.firmness * relative_stiffness * (1 / yields))
+                     : 0.0F;
     lift_[i] = soft ? 0 : std::min(double{contact.lift}, lifting_speed * input_.time_step);
     if (first_) recall(i);
     locate(i, position);

@@ -9,6 +9,11 @@
 namespace weft {
 namespace {
 
+/// Firmness of contacts with bodies. A body that hits stiff cloth draws points out of it: their
+/// springs pull harder than a contact of the usual stiffness can press within its small depth, so
+/// every solve would let them through the body, and the filter would stretch the springs again.
+constexpr float body_firmness = 64;
+
 auto key_of(const StruckContact& one) {
   std::array<char, 4> sides{};
   for (std::size_t k = 0; k < sides.size(); ++k) {
@@ -30,6 +35,7 @@ StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
   Contact& contact = out.shared.contact;
   contact.weights = {};
   out.body = plane.body;
+  if (plane.body >= 0) contact.firmness = body_firmness;
   std::size_t count = 0;
   Vec3d apart;
   for (int k = 0; k < plane.count_a + plane.count_b; ++k) {

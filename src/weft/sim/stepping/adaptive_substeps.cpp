@@ -10,6 +10,8 @@ namespace {
 
 /// Samples a side of a block.
 constexpr int block_size = 16;
+/// Levels beyond those that bodies require, to which steps may be halved where points fall back.
+constexpr int levels_for_fallen = 3;
 
 Box3d padded(const Box3d& box, double by) {
   const Vec3d aside{by, by, by};
@@ -78,13 +80,15 @@ StepWalk::StepWalk(int least, const StepLevels& levels)
     : least_(least),
       first_(std::max(least, levels.first)),
       level_(first_),
-      most_(std::max(first_, levels.most)) {}
+      most_(std::max(first_, levels.most)),
+      most_fallen_(std::max(most_, least_ + levels_for_fallen)) {}
 
 void StepWalk::require(int level) {
   least_ = std::max(least_, level);
   first_ = std::max(first_, least_);
   level_ = std::max(level_, first_);
   most_ = std::max(most_, first_);
+  most_fallen_ = std::max(most_, least_ + levels_for_fallen);
 }
 
 void StepWalk::halve() {
@@ -96,7 +100,8 @@ void StepWalk::halve() {
 void StepWalk::accept(StepVerdict verdict) {
   done_ += whole >> level_;
   calm_ = calm_ && verdict == StepVerdict::calm;
-  if (verdict == StepVerdict::forced) {
+  if (verdict == StepVerdict::fallen) most_fallen_ = level_;
+  if (verdict == StepVerdict::forced || verdict == StepVerdict::fallen) {
     // Halving has not helped: the rest of the substep is halved no further.
     forced_ = true;
     most_ = level_;

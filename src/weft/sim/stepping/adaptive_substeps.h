@@ -74,6 +74,7 @@ enum class StepVerdict {
   calm,    ///< far from being refused
   near,    ///< accepted, but not calm
   forced,  ///< accepted only because it may not be halved
+  fallen,  ///< the same, and points fell back to where the step began
 };
 
 /// Divides a substep into steps of changing levels, of length 2^-level: a refused step is replaced
@@ -88,6 +89,11 @@ class StepWalk {
   /// Number of steps of the current length before this one.
   [[nodiscard]] int index() const { return done_ >> (finest_level - level_); }
   [[nodiscard]] bool may_halve() const { return level_ < most_; }
+  /// The same for a step in which points fall back while bodies move: the shorter, the less these
+  /// push them, even where halving has not helped against other faults.
+  [[nodiscard]] bool may_halve_fallen() const {
+    return level_ < std::min(most_fallen_, finest_level);
+  }
   /// Whether the step is shorter than moving bodies require.
   [[nodiscard]] bool is_shortened() const { return level_ > least_; }
   /// Goes on at this level or a deeper one: a body is faster in a part of the substep than over the
@@ -101,7 +107,7 @@ class StepWalk {
 
  private:
   static constexpr int whole = max_pieces;
-  int least_, first_, level_, most_;
+  int least_, first_, level_, most_, most_fallen_;
   int done_ = 0;  // in units of the shortest step
   bool calm_ = true, forced_ = false, halved_ = false;
 };

@@ -101,9 +101,12 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   const double fault = std::max(end.elastic - solved.elastic, gained);
   const bool bad =
       tried.filtered.fell_back > 0 || (!sewn && (!(fault <= limit) || unpaid || solve_is_lost()));
-  tried.repeat = bad && !sewn && !choices.halve && choices.repeat && collider->learn_struck(moving);
-  tried.refused = tried.repeat || (bad && choices.halve);
-  tried.verdict = bad                         ? StepVerdict::forced
+  const bool fallen = tried.filtered.fell_back > 0;
+  const bool halve = choices.halve || (fallen && choices.halve_fallen);
+  tried.repeat = bad && !sewn && !halve && choices.repeat && collider->learn_struck(moving);
+  tried.refused = tried.repeat || (bad && halve);
+  tried.verdict = fallen                      ? StepVerdict::fallen
+                  : bad                       ? StepVerdict::forced
                   : fault < calm_part * limit ? StepVerdict::calm
                                               : StepVerdict::near;
   // Bodies do work by way of the filter, too.

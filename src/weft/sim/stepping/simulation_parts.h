@@ -129,8 +129,9 @@ struct Simulation::Parts {
   };
   /// What may become of a trial step that is bad; halving comes first.
   struct StepChoices {
-    bool halve = false;   // it may be halved
-    bool repeat = false;  // it may be solved again
+    bool halve = false;         // it may be halved
+    bool halve_fallen = false;  // it may be halved if points fell back while bodies moved
+    bool repeat = false;        // it may be solved again
   };
   /// Computes a trial step of all cloths, to be finished or refused by the caller.
   /// @param seconds  at the end of the step

@@ -42,8 +42,10 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
       walk.require(level);
       continue;
     }
-    const Tried tried =
-        try_step(seconds, {walk.may_halve(), may_solve_again() && repeats < max_repeats}, report);
+    const Tried tried = try_step(seconds,
+                                 {walk.may_halve(), driven.any_moves() && walk.may_halve_fallen(),
+                                  may_solve_again() && repeats < max_repeats},
+                                 report);
     if (tried.refused) refuse_step();
     if (tried.repeat) {
       ++repeats;
