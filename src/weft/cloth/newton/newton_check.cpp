@@ -17,6 +17,9 @@ constexpr double harmless_part = 0.25;
 /// is touched: positions are rounded to 2^-24 of them. Losses by rounding are not given back: were
 /// such gains taken out, small swings would be slowed, and stopped where they turn.
 constexpr double rounding_part = 0x1p-24;
+/// Steps longer than this are linearised again until particles end within good_way of where the
+/// energy is least: the error of one linearisation grows with the square of the step [s], [m].
+constexpr double long_step = 1.0 / 220, good_way = 3e-5;
 /// Largest number of linearisations in a run, and of halvings of a step that raises the energy.
 constexpr int max_linearisations = 4, max_halvings = 5;
 
@@ -119,8 +122,19 @@ double NewtonSolver::error_of(const Progress& progress, double known, Worker& wo
   return now - known - (contacts_.active() > 0 ? contacts_.work(steps_, worker) : 0);
 }
 
-/// One linearisation is enough for smooth motion. It is repeated where its energy error is large,
-/// as after an impact.
+bool NewtonSolver::is_long() const {
+  return contacts_.empty() && parts_.front()->input().time_step > long_step;
+}
+
+/// How far particles are from the end of the step, as their inertia takes the energy by which the
+/// linearisation was wrong [m].
+double NewtonSolver::missed_way(const Progress& progress, Worker& worker) {
+  const double missed = std::abs(energy(1, worker) - progress.before + progress.promised);
+  return parts_.front()->input().time_step * std::sqrt(2 * missed / mass_);
+}
+
+/// One linearisation is enough for smooth motion in short steps. It is repeated where its energy
+/// error is large, as after an impact.
 void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Worker& worker) {
   const double kinetic = total(worker, [&](std::size_t i, Worker& own) {
     return carried_ ? parts_[i]->start_kinetic_beside(pin_velocity(), own)
@@ -137,10 +151,12 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
   const double allowed =
       harmless_gain * (kinetic + 0.5 * mass_ * fall * fall) + harmless_part * lent;
   double error = HUGE_VAL;
-  for (int i = 0; i < max_linearisations && error > allowed; ++i) {
+  bool again = true;
+  for (int i = 0; i < max_linearisations && (error > allowed || again); ++i) {
     advance(options, progress, worker);
     error = error_of(progress, known, worker);
     if (error > allowed && shorten_step(worker)) error = error_of(progress, known, worker);
+    again = is_long() && missed_way(progress, worker) > good_way;
   }
   if (worker.rank() == 0) missed_ = error > allowed ? error : 0;
   if (is_pulled_unlike())

@@ -41,13 +41,13 @@ NewtonPart::Contacts NewtonSolver::contacts_of(std::size_t part) const {
   return {contacts_.gather(part), contacts_.springs(), contacts_.loads(), contacts_.active() > 0};
 }
 
-void NewtonSolver::drift(Worker& worker) {
+double NewtonSolver::drift(Worker& worker) {
   const auto flies = [&](std::size_t i) {
     return parts_[i]->cloth().pins.empty() && !contacts_.is_held(i);
   };
   bool all_fly = contacts_.is_shared();
   for (std::size_t i = 0; i < parts_.size(); ++i) all_fly = all_fly && flies(i);
-  if (contacts_.is_shared() && !all_fly) return;
+  if (contacts_.is_shared() && !all_fly) return 0;
   each(worker, [&](std::size_t i, Worker& own) {
     const Vec3d force = parts_[i]->force(own);
     if (own.rank() == 0) forces_[i] = force;
@@ -62,6 +62,11 @@ void NewtonSolver::drift(Worker& worker) {
     else if (flies(i))
       parts_[i]->drift(h * h / parts_[i]->mass() * forces_[i], own);
   });
+  if (all_fly) return 0.5 * h * h / mass_ * squared_length(sum);
+  double decrease = 0;
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    if (flies(i)) decrease += 0.5 * h * h / parts_[i]->mass() * squared_length(forces_[i]);
+  return decrease;
 }
 
 void NewtonSolver::linearise(Worker& worker) {
@@ -147,9 +152,8 @@ void NewtonSolver::move_state(float length, Worker& worker) {
 void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Worker& worker) {
   linearise(worker);
   choose_contacts(worker);
-  progress.promised = 0;
-  if (is_pulled_unlike()) progress.before = energy(0, worker);
-  drift(worker);
+  if (is_pulled_unlike() || is_long()) progress.before = energy(0, worker);
+  progress.promised = drift(worker);
   for (int round = 0; round < max_contact_rounds; ++round) {
     each(worker, [&](std::size_t i, Worker& own) { parts_[i]->set_up(contacts_of(i), own); });
     solve(options, progress, worker);
@@ -157,7 +161,7 @@ void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Wor
     if (!choose_contacts(worker)) break;
   }
   // Removes the net force that the iterations left, so that few of them lose no momentum.
-  drift(worker);
+  progress.promised += drift(worker);
   each(worker, [&](std::size_t i, Worker& own) { parts_[i]->clear_pins(own); });
   move_state(1, worker);
 }

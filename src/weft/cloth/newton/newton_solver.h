@@ -39,7 +39,7 @@ class NewtonSolver {
     double slope = 0;      ///< residual . direction [N m]
     double curvature = 0;  ///< direction . A direction; 0: there is none yet [N m]
     double force = 0;      ///< of the last correction, over particles' weight
-    double before = 0;     ///< energy at the linearisation, if pins move [J]
+    double before = 0;     ///< energy at the linearisation, if pins move or the step is long [J]
     double promised = 0;   ///< decrease of that by the linearisation [J]
     int iterations = 0;
   };
@@ -53,7 +53,8 @@ class NewtonSolver {
   [[nodiscard]] NewtonPart::Contacts contacts_of(std::size_t part) const;
   /// Moves free cloths as a whole by their net force, like one particle, so that free fall is
   /// exact: each on its own, or all together where some are in contact with each other.
-  void drift(Worker& worker);
+  /// @return the decrease of the energy by that [J]
+  double drift(Worker& worker);
   void linearise(Worker& worker);
   void add_contact_forces(float sign, Worker& worker);
   bool choose_contacts(Worker& worker);
@@ -65,6 +66,10 @@ class NewtonSolver {
   /// Advances until the energy error is acceptable, then takes out the energy gained.
   void descend(const NewtonOptions& options, Progress& progress, Worker& worker);
   bool shorten_step(Worker& worker);
+  /// Whether the step is so long that one linearisation may miss its end, though it gains nothing.
+  [[nodiscard]] bool is_long() const;
+  /// How far from there the last linearisation ended [m].
+  double missed_way(const Progress& progress, Worker& worker);
   /// Energy error of the last linearisation [J].
   double error_of(const Progress& progress, double known, Worker& worker);
   /// The energy that the cloths gained, as who moves with the pins sees it [J].
