@@ -10,8 +10,10 @@ namespace weft {
 namespace {
 
 constexpr std::array<std::array<int, 3>, 3> entry_of{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
-/// A pivot below this fraction of its diagonal entry belongs to an unknown that does not move.
-constexpr double min_pivot = 1e-10;
+/// A pivot is at least this part of its diagonal entry: three times what the entries, which are
+/// floats, are rounded by. Smaller ones would be made by rounding alone, and what they are divided
+/// into would grow without bound.
+constexpr double min_pivot = 3 * 0x1p-24;
 
 }  // namespace
 
@@ -82,7 +84,8 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
     double pivot = before;
     for (int k = first_[j]; k < j; ++k) pivot -= at(j, k) * at(j, k) * at(k, k);
     // The diagonal keeps D, 0 for unknowns that do not move.
-    const bool moves = pivot > min_pivot * before && pivot > 0;
+    pivot = std::max(pivot, min_pivot * before);
+    const bool moves = pivot > 0;
     for (int i = j + 1; i < unknowns_; ++i) {
       if (first_[i] > j) continue;
       double sum = at(i, j);
