@@ -171,7 +171,8 @@ void Sewing::find_inward(const Planes3& flat) {
   }
 }
 
-bool Sewing::is_taut(int index, const Planes3& position) const {
+bool Sewing::waits(int index, double seconds, const Planes3& position) const {
+  if (seconds < time_to_close_) return false;
   const std::span<const int> samples = garment_.sewn.copies(index);
   return std::any_of(samples.begin(), samples.end(), [&](int s) {
     return inward_[s] >= 0 && length(position.at(inward_[s]) - position.at(s)) >
@@ -186,7 +187,8 @@ void Sewing::pull(const Step& now, ClothState& state) {
   find_next();
   const auto step = static_cast<std::size_t>(std::llround(seconds / time_step));
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
-    rate_[k] = seconds >= time_to_close_ && is_taut(k, state.position) ? 0 : (1 - kept_part(k, time_step, seconds)) / time_step;
+    rate_[k] =
+        waits(k, seconds, state.position) ? 0 : (1 - kept_part(k, time_step, seconds)) / time_step;
   find_panel_pulls(state.position, step);
   carry_panels(time_step, seconds, state.velocity);
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {

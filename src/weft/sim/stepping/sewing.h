@@ -55,10 +55,12 @@ class Sewing {
   static constexpr int max_blocking = 3;  // normals that a sample heeds
   void find_classes_along_seams();
   void measure(const Planes3& position);
+  /// Finds the normals of the bodies that samples touch.
   void find_blocked(std::span<const PastContact> contacts);
   void find_inward(const Planes3& flat);
-  /// Whether the cloth beside a class is stretched so far that its seam has to wait.
-  [[nodiscard]] bool is_taut(int index, const Planes3& position) const;
+  /// Whether a class is not pulled, once the seams should have closed, as the cloth beside it is
+  /// stretched too far.
+  [[nodiscard]] bool waits(int index, double seconds, const Planes3& position) const;
   /// The velocity towards its mates that sewing gives a sample of a class: not into a body.
   [[nodiscard]] Vec3d pull_of(int index, int sample, const Planes3& position,
                               std::size_t step) const;
