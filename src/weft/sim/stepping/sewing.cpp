@@ -26,8 +26,6 @@ constexpr int zip_reach = 3;
 /// behind, the edges would come together before it, and seams end on the wrong side of a limb.
 /// Much higher, panels would be pressed onto bodies and stick. [1/s]
 constexpr double damping = 6;
-/// Stretch of the cloth beside a seam from which on it is not pulled farther.
-constexpr double largest_stretch = 0.1;
 /// Bending stiffness of panels while they are sewn, that of paper; limp, they would crumple at
 /// their edges and come to lie between others. [N m]
 constexpr double least_bending = 1e-3;
@@ -65,14 +63,11 @@ Sewing::Sewing(const Garment& garment, const Planes3& start)
       panel_pull_(garment.sewn.charts().size()),
       panel_pulled_(garment.sewn.charts().size()),
       next_(garment.sewn.class_count()),
-      blocked_(start.size() * start.size()),
-      inward_(blocked_.size(), -1),
-      inward_length_(blocked_.size()) {
+      blocked_(start.size() * start.size()) {
   const std::vector<int>& charts = garment_.image.mates.chart_of();
   for (int s = 0; s < start.size() * start.size(); ++s)
     panel_of_.push_back(charts.empty() ? 0 : charts[garment_.image.mates.representative(s)]);
   find_classes_along_seams();
-  find_inward(garment.flat);
   measure(start);
   const double farthest = away_.empty() ? 0 : *std::max_element(away_.begin(), away_.end());
   // part_left is steepest in the middle, by 1.5.
@@ -151,35 +146,6 @@ void Sewing::find_blocked(std::span<const PastContact> contacts) {
   }
 }
 
-void Sewing::find_inward(const Planes3& flat) {
-  for (const Chart& chart : garment_.sewn.charts()) {
-    const int n = flat.size(), last_row = chart.row + chart.rows - 1,
-              last_col = chart.col + chart.cols - 1;
-    const auto set = [&](int row, int col, int down, int right) {
-      const int s = row * n + col;
-      inward_[s] = s + down * n + right;
-      inward_length_[s] = length(flat.at(inward_[s]) - flat.at(s));
-    };
-    for (int c = chart.col + 1; c < last_col; ++c) {
-      set(chart.row, c, 1, 0);
-      set(last_row, c, -1, 0);
-    }
-    for (int r = chart.row + 1; r < last_row; ++r) {
-      set(r, chart.col, 0, 1);
-      set(r, last_col, 0, -1);
-    }
-  }
-}
-
-bool Sewing::waits(int index, double seconds, const Planes3& position) const {
-  if (seconds < time_to_close_) return false;
-  const std::span<const int> samples = garment_.sewn.copies(index);
-  return std::any_of(samples.begin(), samples.end(), [&](int s) {
-    return inward_[s] >= 0 && length(position.at(inward_[s]) - position.at(s)) >
-                                  (1 + largest_stretch) * inward_length_[s];
-  });
-}
-
 void Sewing::pull(const Step& now, ClothState& state) {
   const double time_step = now.length, seconds = now.seconds;
   measure(state.position);
@@ -187,8 +153,7 @@ void Sewing::pull(const Step& now, ClothState& state) {
   find_next();
   const auto step = static_cast<std::size_t>(std::llround(seconds / time_step));
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
-    rate_[k] =
-        waits(k, seconds, state.position) ? 0 : (1 - kept_part(k, time_step, seconds)) / time_step;
+    rate_[k] = (1 - kept_part(k, time_step, seconds)) / time_step;
   find_panel_pulls(state.position, step);
   carry_panels(time_step, seconds, state.velocity);
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {

@@ -57,10 +57,6 @@ class Sewing {
   void measure(const Planes3& position);
   /// Finds the normals of the bodies that samples touch.
   void find_blocked(std::span<const PastContact> contacts);
-  void find_inward(const Planes3& flat);
-  /// Whether a class is not pulled, once the seams should have closed, as the cloth beside it is
-  /// stretched too far.
-  [[nodiscard]] bool waits(int index, double seconds, const Planes3& position) const;
   /// The velocity towards its mates that sewing gives a sample of a class: not into a body.
   [[nodiscard]] Vec3d pull_of(int index, int sample, const Planes3& position,
                               std::size_t step) const;
@@ -85,9 +81,6 @@ class Sewing {
   std::vector<char> next_;               // of each class: whether it is pulled late
   std::vector<std::array<Vec3f, max_blocking>> blocked_;  // of each sample, normals of bodies that
                                                           // it touches; 0 where there are fewer
-  std::vector<int> inward_;                               // of each sample of a seam, the next one
-                                                          // inside its panel; else -1
-  std::vector<float> inward_length_;                      // distance of both at rest [m]
 };
 
 }  // namespace weft
