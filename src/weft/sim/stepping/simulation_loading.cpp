@@ -1,4 +1,6 @@
 // Loading of a simulation's surfaces: cloths, garments and bodies.
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "weft/cloth/cloth.h"
@@ -152,14 +154,13 @@ Planes3 Simulation::Parts::place(const SceneCloth& wanted, const LoadedSurface& 
   // Baselines take the start as it is, and pins and ties are where the pattern puts its panels.
   if (!Colliders::traits_of(scene.collider).containers) return placed;
   if (!wanted.pins.empty() || !wanted.attach.empty()) return placed;
-  if (const int moved = move_out_of_bodies(loaded.image.mates, bodies, team, placed))
-    notes.push_back(fmt::format("{}: {} of {} panels were in a body and begin farther outside",
-                                wanted.name, moved, loaded.image.mates.charts().size()));
-  if (!scene.ground) return placed;
-  const double height = *scene.ground + above_ground;
+  const double height = scene.ground ? *scene.ground + above_ground : -HUGE_VAL;
   if (const int lifted = lift_above_ground(loaded.image.mates, height, placed))
     notes.push_back(fmt::format("{}: {} of {} panels reached below the ground and begin higher",
                                 wanted.name, lifted, loaded.image.mates.charts().size()));
+  if (const int moved = move_out_of_bodies(loaded.image.mates, bodies, team, placed))
+    notes.push_back(fmt::format("{}: {} of {} panels were in a body and begin farther outside",
+                                wanted.name, moved, loaded.image.mates.charts().size()));
   return placed;
 }
 
