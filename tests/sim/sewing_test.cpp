@@ -115,16 +115,6 @@ TEST_F(Sewing, PairsThatMetStayTogether) {
   EXPECT_GT(before, 0);
 }
 
-TEST_F(Sewing, SlidesOverWhatIsInTheWay) {
-  // Pulled into the ball, points would stay where the filter stops them, and their neighbours go
-  // on.
-  Simulation simulation(scene_, "scene", 1);
-  double strain = 0;
-  for (int frame = 0; frame < 60; ++frame)
-    strain = std::max(strain, simulation.advance().strain.max);
-  EXPECT_LT(strain, 0.2);
-}
-
 TEST_F(Sewing, TearsNothingWhereItIsTooNarrow) {
   // A tube of 60 cm about a ball of 94 cm that it cannot slide off, as a column goes through it.
   SceneBody column;
