@@ -15,7 +15,7 @@ TEST(SewingPull, LeavesOutWhatGoesIntoABody) {
   for (int s = 0; s < n * n; ++s)
     start.position.set(s, vec_cast<float>(garment.image.world_position(s / n, s % n)));
   const auto [a, b] = garment.seams.front().pairs[3];
-  const auto velocity_with = [&](std::vector<PastContact> contacts) {
+  const auto velocity_with = [&](const std::vector<PastContact>& contacts) {
     Sewing sewing(garment, start.position);
     ClothState state = start;
     sewing.pull({1.0 / 240, 0.1, contacts}, state);

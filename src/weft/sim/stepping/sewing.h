@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,6 @@ class Sewing {
 
   /// Sets the velocities of a cloth for the next step: in each class those of the mean, and towards
   /// each other. All are damped, as only the seams are to move the cloth.
-  /// @param seconds  since the start
   void pull(const Step& step, ClothState& state);
 
   /// The bending stiffness of a fabric while it is sewn: that of paper at least, so that panels

@@ -1,5 +1,6 @@
 // Loading of a simulation's surfaces: cloths, garments and bodies.
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -164,6 +165,12 @@ Planes3 Simulation::Parts::place(const SceneCloth& wanted, const LoadedSurface& 
   return placed;
 }
 
+BendingPlanes Simulation::Parts::stiffen(SceneCloth wanted, const Planes3& placed,
+                                         const LoadedSurface& loaded, Cloth& cloth) {
+  wanted.material.bending = Sewing::bending_for(wanted.material);
+  return std::exchange(cloth.bending, make(wanted, placed, loaded).bending);
+}
+
 void Simulation::Parts::load_cloths() {
   const bool several = Colliders::traits_of(scene.collider).several_charts &&
                        Integrators::traits_of(scene.integrator).several_charts;
@@ -181,12 +188,8 @@ void Simulation::Parts::load_cloths() {
     const Planes3 placed = place(wanted, loaded, garments);
     if (loaded.garment) ++garments;
     Cloth cloth = make(wanted, placed, loaded);
-    BendingPlanes& bending = other_bending.emplace_back();
-    if (loaded.garment) {
-      SceneCloth sewn = wanted;
-      sewn.material.bending = Sewing::bending_for(wanted.material);
-      bending = std::exchange(cloth.bending, make(sewn, placed, loaded).bending);
-    }
+    other_bending.push_back(loaded.garment ? stiffen(wanted, placed, loaded, cloth)
+                                           : BendingPlanes());
     pin_motions.push_back(pin_places(cloth, wanted.pins));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
     sewing.push_back(loaded.garment

@@ -67,6 +67,9 @@ struct Simulation::Parts {
   void check_collider(const char* kind, const BorderMates& mates, const std::string& what) const;
   void check_charts(const BorderMates& mates, const std::string& what) const;
   Cloth make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded);
+  /// Gives a garment the bending of panels that are sewn. @return that of its fabric
+  BendingPlanes stiffen(SceneCloth wanted, const Planes3& placed, const LoadedSurface& loaded,
+                        Cloth& cloth);
   /// Where the samples of a cloth begin. @param garment  how many garments come before it
   Planes3 place(const SceneCloth& wanted, const LoadedSurface& loaded, int garment);
   void load_bodies();
@@ -74,6 +77,7 @@ struct Simulation::Parts {
   void load_cloths();
   /// Ties cloths to bodies, at the initial positions of both.
   void tie_cloths();
+  /// Makes what moves a cloth, by the fabric that it has now.
   [[nodiscard]] Mover make_mover(std::size_t index);
   void make_movers();
   /// Solves all cloths as one system, where the method can.
@@ -116,6 +120,7 @@ struct Simulation::Parts {
   [[nodiscard]] int required_level(int subdivisions);
   /// Number of parts that moving bodies require of this step, for which they have been moved.
   double wanted_parts();
+  /// Refuses bodies too fast for so many subdivisions of a substep. @throws SceneError
   void check_speed(double subdivisions) const;
   /// Outcome of a trial step.
   struct Tried {
@@ -234,9 +239,11 @@ struct Simulation::Parts {
   std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
   std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
   std::vector<std::optional<Sewing>> sewing;        // of each cloth; none: it is no garment
-  std::vector<BendingPlanes> other_bending;         // of each garment: unused as long as it slides
-  std::vector<Mover> movers;                        // one a cloth
-  std::unique_ptr<JointIntegrator> joint;           // of all; null: each is solved by itself
+  /// Of each cloth, the bending that is not in use: of a garment that slides that of its fabric,
+  /// later that of stiff panels; of other cloths none.
+  std::vector<BendingPlanes> other_bending;
+  std::vector<Mover> movers;               // one a cloth
+  std::unique_ptr<JointIntegrator> joint;  // of all; null: each is solved by itself
   std::vector<std::span<const Contact>> own_contacts;
   std::unique_ptr<Collider> collider;
   std::vector<char> sliding;        // of each cloth: whether the collider's friction is none
