@@ -76,6 +76,9 @@ struct GarmentSeam {
 /// Distance between charts that are laid flat above each other, so that no two are near. [m]
 inline constexpr float flat_distance = 0.5F;
 
+/// What holds a panel up while it is sewn.
+enum class PanelHold : char { other_panels, waist, shoulders };
+
 /// A pattern as an image of charts, one rectangle for each panel in the pattern's order.
 struct Garment {
   std::string name;
@@ -84,7 +87,8 @@ struct Garment {
   Planes3 flat;         ///< [n x n] the panels laid flat, flat_distance above each other [m]
   Planes3 texture;      ///< [n x n] x and y in the pattern's panel [m]
   std::vector<GarmentSeam> seams;
-  std::vector<int> held;  ///< samples of edges that have a label, which say where it is worn
+  std::vector<PanelHold> hold;  ///< of each panel, by the labels of its edges
+  std::vector<int> held;        ///< samples of edges that have a label, which say where it is worn
 };
 
 /// Makes charts of a pattern's panels. Edges that are sewn together get as many samples as the

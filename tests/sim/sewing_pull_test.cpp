@@ -7,26 +7,62 @@
 namespace weft {
 namespace {
 
+/// A garment where its pattern places it, at rest.
+struct Placed {
+  explicit Placed(const std::string& pattern)
+      : garment(make_garment(parse_pattern(pattern, "pattern"), "pattern", 0.02)),
+        state{Planes3(garment.flat.size()), Planes3(garment.flat.size())} {
+    const int n = garment.flat.size();
+    for (int s = 0; s < n * n; ++s)
+      state.position.set(s, vec_cast<float>(garment.image.world_position(s / n, s % n)));
+  }
+  /// The velocities that sewing gives it after it was moved.
+  [[nodiscard]] Planes3 pulled(Vec3f moved, const std::vector<PastContact>& contacts) const {
+    Sewing sewing(garment, state.position);
+    ClothState now = state;
+    for (int s = 0; s < now.position.size() * now.position.size(); ++s)
+      now.position.set(s, now.position.at(s) + moved);
+    sewing.pull({1.0 / 240, 0.1, contacts}, now);
+    return now.velocity;
+  }
+  Garment garment;
+  ClothState state;
+};
+
 TEST(SewingPull, LeavesOutWhatGoesIntoABody) {
-  const Garment garment =
-      make_garment(parse_pattern(test::tube_pattern(30, 20, 24, 100), "tube"), "tube", 0.02);
-  const int n = garment.flat.size();
-  ClothState start{Planes3(n), Planes3(n)};
-  for (int s = 0; s < n * n; ++s)
-    start.position.set(s, vec_cast<float>(garment.image.world_position(s / n, s % n)));
-  const auto [a, b] = garment.seams.front().pairs[3];
-  const auto velocity_with = [&](const std::vector<PastContact>& contacts) {
-    Sewing sewing(garment, start.position);
-    ClothState state = start;
-    sewing.pull({1.0 / 240, 0.1, contacts}, state);
-    return state.velocity.at(a);
-  };
-  const Vec3f towards = normalized(start.position.at(b) - start.position.at(a));
-  EXPECT_GT(dot(velocity_with({}), towards), 0.1);
+  const Placed tube(test::tube_pattern(30, 20, 24, 100));
+  const auto [a, b] = tube.garment.seams.front().pairs[3];
+  const Vec3f towards = normalized(tube.state.position.at(b) - tube.state.position.at(a));
+  EXPECT_GT(dot(tube.pulled({}, {}).at(a), towards), 0.1);
   PastContact against;
   against.samples = {a, -1, -1, -1};
   against.normal = -1.0F * towards;
-  EXPECT_NEAR(dot(velocity_with({against}), towards), 0, 1e-3);
+  EXPECT_NEAR(dot(tube.pulled({}, {against}).at(a), towards), 0, 1e-3);
+}
+
+TEST(SewingPull, KeepsPanelsWithALabelAtTheirHeight) {
+  const Placed free(test::tube_pattern(30, 20, 24, 100));
+  const Placed held(test::tube_pattern(30, 20, 24, 100, "lower_interface"));
+  const int sample = free.garment.seams.front().pairs[3][0];
+  EXPECT_NEAR(free.pulled({0, -0.02F, 0}, {}).at(sample).y, 0, 1e-4);
+  EXPECT_GT(held.pulled({0, -0.02F, 0}, {}).at(sample).y, 0.1);
+  // They may rise.
+  EXPECT_NEAR(held.pulled({0, 0.02F, 0}, {}).at(sample).y, 0, 1e-4);
+}
+
+TEST(SewingPull, SkirtsComeToTops) {
+  const auto rise_of_seam = [](const std::string& top, const std::string& skirt) {
+    const Placed placed(test::top_and_skirt(top, skirt));
+    const auto [a, b] = placed.garment.seams.front().pairs[3];
+    const Planes3 velocity = placed.pulled({}, {});
+    return std::array<float, 2>{velocity.at(a).y, velocity.at(b).y};
+  };
+  const auto [top, skirt] = rise_of_seam("left_collar", "lower_interface");
+  EXPECT_NEAR(top, 0, 1e-4);
+  EXPECT_GT(skirt, 0.1);
+  const auto [upper, lower] = rise_of_seam("", "");
+  EXPECT_LT(upper, -0.05);
+  EXPECT_NEAR(upper, -lower, 1e-3);
 }
 
 }  // namespace

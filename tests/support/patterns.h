@@ -6,15 +6,18 @@ namespace weft::test {
 
 /// Two rectangles, `width` by `height` centimetres, that face each other `apart` centimetres apart
 /// about the y axis, from `low` up, sewn to a tube along both sides.
-inline std::string tube_pattern(double width, double height, double apart, double low) {
+/// @param label  of both upper edges; may be empty
+inline std::string tube_pattern(double width, double height, double apart, double low,
+                                const std::string& label = "") {
+  const std::string upper = label.empty() ? "" : R"(,"label":")" + label + '"';
   const auto panel = [&](double z, bool back) {
     const std::string w = std::to_string(width), h = std::to_string(height);
     const std::string corners = back ? "[[0,0],[0," + h + "],[" + w + "," + h + "],[" + w + ",0]]"
                                      : "[[0,0],[" + w + ",0],[" + w + "," + h + "],[0," + h + "]]";
-    return R"({"vertices":)" + corners +
-           R"(,"edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},{"endpoints":[3,0]}],)" +
-           R"("translation":[)" + std::to_string(-width / 2) + "," + std::to_string(low) + "," +
-           std::to_string(z) + R"(],"rotation":[0,0,0]})";
+    return R"({"vertices":)" + corners + R"(,"edges":[{"endpoints":[0,1]},{"endpoints":[1,2])" +
+           (back ? upper : "") + R"(},{"endpoints":[2,3])" + (back ? "" : upper) +
+           R"(},{"endpoints":[3,0]}],)" + R"("translation":[)" + std::to_string(-width / 2) + "," +
+           std::to_string(low) + "," + std::to_string(z) + R"(],"rotation":[0,0,0]})";
   };
   return R"({"pattern":{"panels":{"back":)" + panel(-apart / 2, true) + R"(,"front":)" +
          panel(apart / 2, false) +
@@ -36,6 +39,34 @@ inline std::string godet_pattern() {
       "translation":[-8,100,5],"rotation":[0,0,0]}},
     "stitches":[[{"panel":"godet","edge":2},{"panel":"skirt","edge":1}],
                 [{"panel":"godet","edge":1},{"panel":"skirt","edge":2}]]},
+    "properties":{"units_in_meter":100}})";
+}
+
+/// Two rectangles one above the other, 10 cm apart, to be sewn together: a top with the label of
+/// its upper edge, and a skirt with that of its own.
+inline std::string top_and_skirt(const std::string& top, const std::string& skirt) {
+  const auto panel = [](double low, const std::string& label) {
+    return R"({"vertices":[[0,0],[20,0],[20,20],[0,20]],"edges":[{"endpoints":[0,1]},)"
+           R"({"endpoints":[1,2]},{"endpoints":[2,3],"label":")" +
+           label + R"("},{"endpoints":[3,0]}],"translation":[0,)" + std::to_string(low) +
+           R"(,0],"rotation":[0,0,0]})";
+  };
+  return R"({"pattern":{"panels":{"top":)" + panel(130, top) + R"(,"skirt":)" + panel(100, skirt) +
+         R"(},"stitches":[[{"panel":"top","edge":0},{"panel":"skirt","edge":2}]]},)" +
+         R"("properties":{"units_in_meter":100}})";
+}
+
+/// Two rectangles in one plane that touch along the y axis, the right one 3 cm higher, to be sewn
+/// together there.
+inline std::string panels_side_by_side() {
+  return R"({"pattern":{"panels":{
+    "left":{"vertices":[[0,0],[20,0],[20,40],[0,40]],
+      "edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},{"endpoints":[3,0]}],
+      "translation":[-20,100,0],"rotation":[0,0,0]},
+    "right":{"vertices":[[0,0],[20,0],[20,40],[0,40]],
+      "edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},{"endpoints":[3,0]}],
+      "translation":[0,103,0],"rotation":[0,0,0]}},
+    "stitches":[[{"panel":"left","edge":1},{"panel":"right","edge":3}]]},
     "properties":{"units_in_meter":100}})";
 }
 

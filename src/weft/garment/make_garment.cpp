@@ -30,6 +30,17 @@ int position_of(const PanelOutline& outline, int point) {
   return (point - outline.start + count) % count;
 }
 
+/// Skirts and trousers hang from edges that are labelled as an interface, tops from all others:
+/// collars, armholes, the upper edge of what has no straps.
+PanelHold hold_of(const PatternPanel& panel) {
+  PanelHold hold = PanelHold::other_panels;
+  for (const PatternEdge& edge : panel.edges)
+    if (!edge.label.empty())
+      hold =
+          std::max(hold, edge.label == "lower_interface" ? PanelHold::waist : PanelHold::shoulders);
+  return hold;
+}
+
 class Maker {
  public:
   Maker(const Pattern& pattern, const std::string& name, double spacing)
@@ -49,6 +60,7 @@ class Maker {
     for (std::size_t p = 0; p < charts.size(); ++p) lay(p, charts[p], garment);
     sew(charts, garment);
     find_held(garment);
+    for (const PatternPanel& panel : pattern_.panels) garment.hold.push_back(hold_of(panel));
     fill_holes(garment);
     set_positions(garment.image);
     garment.image.source = name_;

@@ -4,13 +4,19 @@
 #include <vector>
 
 #include "weft/geometry_image.h"
+#include "weft/mesh/crossings.h"
 #include "weft/sim/insides.h"
+#include "weft/sim/panel_touching.h"
 
 namespace weft {
 namespace {
 
 /// How much farther outside the panels of a garment start than those of the one below it. [m]
 constexpr double layer_distance = 0.05;
+
+/// Panels leave others that they touch in steps of this length, up to this many. [m]
+constexpr double step_apart = 0.003;
+constexpr int max_steps_apart = 20;
 
 /// Panels leave bodies in steps of this length, up to this many. [m]
 constexpr double step_out = 0.02;
@@ -40,15 +46,33 @@ void move(const BorderMates& mates, const std::vector<Vec3d>& shift, Planes3& pl
     placed.set(s, placed.at(s) + vec_cast<float>(shift[chart_of(mates, s)]));
 }
 
-/// Marks the charts of which a part is inside a body.
+std::vector<Corners> corners_of(std::span<const Triangle> triangles, const Planes3& positions) {
+  std::vector<Corners> corners;
+  for (const Triangle& t : triangles)
+    corners.push_back({vec_cast<double>(positions.at(t[0])), vec_cast<double>(positions.at(t[1])),
+                       vec_cast<double>(positions.at(t[2]))});
+  return corners;
+}
+
+/// The triangles of each chart.
+std::vector<std::vector<Triangle>> triangles_by_chart(const GeometryImage& panels) {
+  std::vector<std::vector<Triangle>> charts(panels.mates.charts().size());
+  for (const Triangle& t : joined_triangles(panels))
+    charts[chart_of(panels.mates, t[0])].push_back(t);
+  return charts;
+}
+
+/// Marks the charts of which a part is inside a body, or passes through its surface.
 class InsideCharts {
  public:
-  InsideCharts(const BorderMates& mates, std::span<const PlacedBody> bodies, ThreadTeam& team,
+  InsideCharts(const GeometryImage& panels, std::span<const PlacedBody> bodies, ThreadTeam& team,
                const Planes3& placed)
-      : mates_(mates), team_(team) {
+      : mates_(panels.mates), triangles_(triangles_by_chart(panels)), team_(team) {
     for (const PlacedBody& body : bodies) {
       ClosedBody closed(body.image, body.positions);
-      if (closed.closed() && !holds_all(closed, placed)) bodies_.push_back(std::move(closed));
+      if (!closed.closed() || holds_all(closed, placed)) continue;
+      bodies_.push_back(std::move(closed));
+      skins_.emplace_back(corners_of(joined_triangles(body.image), body.positions));
     }
   }
 
@@ -59,28 +83,39 @@ class InsideCharts {
       for (std::size_t s = 0; s < inside_.size(); ++s)
         if (inside_[s] != 0) found[chart_of(mates_, static_cast<int>(s))] = true;
     }
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (!found[i] && !skins_.empty()) found[i] = passes_through(triangles_[i], placed);
     return found;
   }
 
  private:
+  [[nodiscard]] bool passes_through(std::span<const Triangle> triangles,
+                                    const Planes3& placed) const {
+    const CrossingSurface panel(corners_of(triangles, placed));
+    return std::any_of(skins_.begin(), skins_.end(), [&](const CrossingSurface& skin) {
+      return panel.count_crossings(skin) > 0;
+    });
+  }
   bool holds_all(const ClosedBody& body, const Planes3& placed) {
     body.mark_inside(placed, team_, inside_);
     return std::find(inside_.begin(), inside_.end(), 0) == inside_.end();
   }
 
   const BorderMates& mates_;
+  std::vector<std::vector<Triangle>> triangles_;  // of each chart
   ThreadTeam& team_;
-  std::vector<ClosedBody> bodies_;  // that panels are to leave
-  std::vector<char> inside_;        // [n * n]
+  std::vector<ClosedBody> bodies_;      // that panels are to leave
+  std::vector<CrossingSurface> skins_;  // of each of them
+  std::vector<char> inside_;            // [n * n]
 };
 
 /// Moves panels outwards, step by step.
 class StepsOut {
  public:
-  /// @param placed  kept by reference
-  StepsOut(const BorderMates& mates, Planes3& placed)
+  /// @param length  of a step [m]  @param placed  kept by reference
+  StepsOut(const BorderMates& mates, double length, Planes3& placed)
       : mates_(mates), start_(placed), placed_(placed), moved_(mates.charts().size()) {
-    for (const Chart& chart : mates.charts()) step_.push_back(step_out * outer_side(chart, placed));
+    for (const Chart& chart : mates.charts()) step_.push_back(length * outer_side(chart, placed));
   }
   void go(const std::vector<bool>& those) {
     for (std::size_t i = 0; i < those.size(); ++i)
@@ -118,12 +153,12 @@ void put_round_layers(const BorderMates& mates, int layer, Planes3& placed) {
   move(mates, shift, placed);
 }
 
-int move_out_of_bodies(const BorderMates& mates, std::span<const PlacedBody> bodies,
+int move_out_of_bodies(const GeometryImage& panels, std::span<const PlacedBody> bodies,
                        ThreadTeam& team, Planes3& placed) {
-  InsideCharts inside(mates, bodies, team, placed);
+  InsideCharts inside(panels, bodies, team, placed);
   const std::vector<bool> first = inside.find(placed);
   if (!any(first)) return 0;
-  StepsOut steps(mates, placed);
+  StepsOut steps(panels.mates, step_out, placed);
   std::vector<bool> left = first;
   for (int i = 0; i < max_steps_out && any(left); ++i) {
     steps.go(left);
@@ -134,6 +169,25 @@ int move_out_of_bodies(const BorderMates& mates, std::span<const PlacedBody> bod
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = first[i] && !left[i];
   steps.go(out);
   return static_cast<int>(std::count(out.begin(), out.end(), true));
+}
+
+int part_panels(const BorderMates& sewn, Planes3& placed) {
+  StepsOut steps(sewn, step_apart, placed);
+  const auto count = static_cast<int>(sewn.charts().size());
+  int moved = 0;
+  for (int i = 0; i < count; ++i) {
+    std::vector<bool> this_one(count);
+    this_one[i] = true;
+    const auto touches_earlier = [&] {
+      for (int k = 0; k < i; ++k)
+        if (panels_touch(sewn, i, k, placed)) return true;
+      return false;
+    };
+    int step = 0;
+    for (; step < max_steps_apart && touches_earlier(); ++step) steps.go(this_one);
+    moved += step > 0 ? 1 : 0;
+  }
+  return moved;
 }
 
 int lift_above_ground(const BorderMates& mates, double ground, Planes3& placed) {

@@ -13,12 +13,18 @@ namespace weft {
 /// @param layer   from 0, the innermost  @param placed  samples of the panels [n x n] [m]
 void put_round_layers(const BorderMates& mates, int layer, Planes3& placed);
 
-/// Moves panels that begin inside a closed body outwards, each as a whole along its outer side, as
-/// far as it takes to come out and then a little. A body that holds all panels stays round them,
-/// and panels that half a metre does not bring out stay where they are.
+/// Moves panels that begin inside a closed body or across it outwards, each as a whole along its
+/// outer side, as far as it takes to come out and then a little. A body that holds all panels stays
+/// round them, and panels that half a metre does not bring out stay where they are.
+/// @param panels  gives the triangles, by charts
 /// @return how many panels were moved
-int move_out_of_bodies(const BorderMates& mates, std::span<const PlacedBody> bodies,
+int move_out_of_bodies(const GeometryImage& panels, std::span<const PlacedBody> bodies,
                        ThreadTeam& team, Planes3& placed);
+
+/// Moves panels outwards by millimetres that touch others elsewhere than along their seams: side by
+/// side in one plane they would overlap after a step.
+/// @return how many panels were moved
+int part_panels(const BorderMates& sewn, Planes3& placed);
 
 /// Lifts panels of which a part begins below the ground, each as a whole.
 /// @param ground  height of the ground, and what samples keep from it [m]

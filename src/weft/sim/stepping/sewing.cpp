@@ -12,6 +12,10 @@ namespace {
 constexpr double fastest = 1, least_time = 0.2;
 /// Speed of samples that were held back. [m/s]
 constexpr double late_speed = 0.25;
+/// Panels that are stretched by this along their seams, by the median, are not pulled on, and less
+/// and less from half of it on: the garment is too narrow. Parts of a seam may be stretched as they
+/// are caught in a crease, and are to be pulled out.
+constexpr double most_stretch = 0.5;
 /// What was held back is let go in the last part of each such time. [s]
 constexpr double let_go_for = 0.08, let_go_every = 0.2;
 /// Distance up to which the samples of a class take turns in being where the others go to: where
@@ -21,11 +25,6 @@ constexpr double turns_within = 0.005;
 /// up to so many samples along the seam from where it has met. [m]
 constexpr double met = 0.002, far = 0.02;
 constexpr int zip_reach = 3;
-/// Rate at which a cloth comes to rest while it is sewn; until its seams should have closed, at
-/// which a panel takes their mean velocity. Pulled along at its edges alone, its middle would lag
-/// behind, the edges would come together before it, and seams end on the wrong side of a limb.
-/// Much higher, panels would be pressed onto bodies and stick. [1/s]
-constexpr double damping = 6;
 /// Bending stiffness of panels while they are sewn, that of paper; limp, they would crumple at
 /// their edges and come to lie between others. [N m]
 constexpr double least_bending = 1e-3;
@@ -57,17 +56,17 @@ double part_left(double seconds, double time_to_close) {
 
 Sewing::Sewing(const Garment& garment, const Planes3& start)
     : garment_(garment),
+      panels_(garment, start),
       middle_(garment.sewn.class_count()),
       away_(garment.sewn.class_count()),
       rate_(garment.sewn.class_count()),
-      panel_pull_(garment.sewn.charts().size()),
-      panel_pulled_(garment.sewn.charts().size()),
+      stretches_(garment.hold.size()),
+      slack_(garment.hold.size(), 1.0),
       next_(garment.sewn.class_count()),
       blocked_(start.size() * start.size()) {
-  const std::vector<int>& charts = garment_.image.mates.chart_of();
-  for (int s = 0; s < start.size() * start.size(); ++s)
-    panel_of_.push_back(charts.empty() ? 0 : charts[garment_.image.mates.representative(s)]);
   find_classes_along_seams();
+  find_leaders();
+  find_slack(start);  // takes the memory that steps need
   measure(start);
   const double farthest = away_.empty() ? 0 : *std::max_element(away_.begin(), away_.end());
   // part_left is steepest in the middle, by 1.5.
@@ -87,11 +86,27 @@ void Sewing::find_classes_along_seams() {
   }
 }
 
+void Sewing::find_leaders() {
+  for (int k = 0; k < garment_.sewn.class_count(); ++k) {
+    std::vector<int>& leaders = leaders_.emplace_back();
+    PanelHold hold = PanelHold::other_panels;
+    for (const int s : garment_.sewn.copies(k)) hold = std::max(hold, panels_.hold_of(s));
+    for (const int s : garment_.sewn.copies(k))
+      if (panels_.hold_of(s) == hold) leaders.push_back(s);
+  }
+}
+
+Vec3d Sewing::mean_of_class(int index, const Planes3& planes) const {
+  Vec3d mean = mean_of(planes, garment_.sewn.copies(index));
+  mean.y = mean_of(planes, leaders_[index]).y;
+  return mean;
+}
+
 void Sewing::measure(const Planes3& position) {
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> samples = garment_.sewn.copies(k);
     if (samples.size() < 2) continue;
-    middle_[k] = mean_of(position, samples);
+    middle_[k] = mean_of_class(k, position);
     away_[k] = farthest_from(middle_[k], position, samples);
   }
 }
@@ -120,7 +135,43 @@ double Sewing::kept_part(int index, double time_step, double seconds) const {
                     1 - fastest * time_step / away);
   if (next_[index] == 0) return 1;
   if (std::fmod(seconds - time_to_close_, let_go_every) >= let_go_every - let_go_for) return 1;
-  return std::max(0.0, 1 - late_speed * time_step / away);
+  return std::max(0.0, 1 - slack_of(index) * late_speed * time_step / away);
+}
+
+double Sewing::stretch_of(int index, const Planes3& position) const {
+  const int n = position.size();
+  double most = 0;
+  for (const int s : garment_.sewn.copies(index))
+    for (const int other : {s - n, s - 1, s + 1, s + n}) {
+      if (other < 0 || other >= n * n || !garment_.image.mates.same_chart(s, other)) continue;
+      const double rest = length(vec_cast<double>(garment_.flat.at(other) - garment_.flat.at(s)));
+      const double now = length(vec_cast<double>(position.at(other) - position.at(s)));
+      most = std::max(most, now / rest - 1);
+    }
+  return most;
+}
+
+void Sewing::find_slack(const Planes3& position) {
+  for (std::vector<double>& stretches : stretches_) stretches.clear();
+  for (int k = 0; k < garment_.sewn.class_count(); ++k) {
+    if (garment_.sewn.copies(k).size() < 2) continue;
+    const double stretch = stretch_of(k, position);
+    for (const int s : garment_.sewn.copies(k)) stretches_[panels_.panel_of(s)].push_back(stretch);
+  }
+  for (std::size_t p = 0; p < slack_.size(); ++p) {
+    std::vector<double>& stretches = stretches_[p];
+    const auto middle = stretches.begin() + static_cast<std::ptrdiff_t>(stretches.size() / 2);
+    if (middle == stretches.end()) continue;
+    std::nth_element(stretches.begin(), middle, stretches.end());
+    slack_[p] = std::clamp(2 - 2 * *middle / most_stretch, 0.0, 1.0);
+  }
+}
+
+double Sewing::slack_of(int index) const {
+  double least = 1;
+  for (const int s : garment_.sewn.copies(index))
+    least = std::min(least, slack_[panels_.panel_of(s)]);
+  return least;
 }
 
 double Sewing::gravity_part(double seconds) const {
@@ -151,15 +202,17 @@ void Sewing::pull(const Step& now, ClothState& state) {
   measure(state.position);
   find_blocked(now.contacts);
   find_next();
+  if (seconds >= time_to_close_) find_slack(state.position);
   const auto step = static_cast<std::size_t>(std::llround(seconds / time_step));
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
     rate_[k] = (1 - kept_part(k, time_step, seconds)) / time_step;
   find_panel_pulls(state.position, step);
-  carry_panels(time_step, seconds, state.velocity);
+  panels_.carry(seconds < time_to_close_, time_step, state.velocity);
+  if (gravity_part(seconds) == 0) panels_.hold(state);
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> samples = garment_.sewn.copies(k);
     if (samples.size() < 2) continue;
-    const Vec3d velocity = mean_of(state.velocity, samples);
+    const Vec3d velocity = mean_of_class(k, state.velocity);
     for (const int s : samples)
       state.velocity.set(s, vec_cast<float>(velocity + pull_of(k, s, state.position, step)));
   }
@@ -181,25 +234,13 @@ Vec3d Sewing::pull_of(int index, int sample, const Planes3& position, std::size_
 }
 
 void Sewing::find_panel_pulls(const Planes3& position, std::size_t step) {
-  std::fill(panel_pull_.begin(), panel_pull_.end(), Vec3d{});
-  std::fill(panel_pulled_.begin(), panel_pulled_.end(), 0);
+  panels_.begin_step();
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> samples = garment_.sewn.copies(k);
-    for (std::size_t i = 0; samples.size() > 1 && i < samples.size(); ++i) {
-      panel_pull_[panel_of_[samples[i]]] += pull_of(k, samples[i], position, step);
-      ++panel_pulled_[panel_of_[samples[i]]];
-    }
-  }
-  for (std::size_t p = 0; p < panel_pull_.size(); ++p)
-    if (panel_pulled_[p] > 0) panel_pull_[p] = (1.0 / panel_pulled_[p]) * panel_pull_[p];
-}
-
-void Sewing::carry_panels(double time_step, double seconds, Planes3& velocity) const {
-  const bool closing = seconds < time_to_close_;
-  const double kept = 1 / (1 + damping * time_step);
-  for (int s = 0; s < velocity.size() * velocity.size(); ++s) {
-    const Vec3d wanted = closing ? panel_pull_[panel_of_[s]] : Vec3d{};
-    velocity.set(s, vec_cast<float>(wanted + kept * (vec_cast<double>(velocity.at(s)) - wanted)));
+    for (std::size_t i = 0; samples.size() > 1 && i < samples.size(); ++i)
+      panels_.add_pull(samples[i],
+                       panels_.hold_of(samples[i]) < panels_.hold_of(leaders_[k].front()),
+                       pull_of(k, samples[i], position, step));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "weft/cloth/cloth.h"
 #include "weft/contact.h"
 #include "weft/garment.h"
+#include "weft/sim/stepping/panel_motion.h"
 
 namespace weft {
 
@@ -15,7 +16,8 @@ namespace weft {
 /// the cloth between needs to stretch nowhere. What is held back, by a body or other cloth, is then
 /// closed from where its seam is closed already, as a zip is; it is let go and pulled again in
 /// turn, so that cloth that was pulled into a crease, or to the wrong side of a limb, comes out of
-/// it. Nothing is pulled into a body that it touches: seams slide over it.
+/// it. Nothing is pulled into a body that it touches: seams slide over it. At a seam between a
+/// bodice and a skirt the skirt comes to the height of the bodice.
 class Sewing {
  public:
   /// The step that seams are pulled together in.
@@ -54,6 +56,9 @@ class Sewing {
  private:
   static constexpr int max_blocking = 3;  // normals that a sample heeds
   void find_classes_along_seams();
+  void find_leaders();
+  /// The mean over the samples of a class; its height is that of those that the others come to.
+  [[nodiscard]] Vec3d mean_of_class(int index, const Planes3& planes) const;
   void measure(const Planes3& position);
   /// Finds the normals of the bodies that samples touch.
   void find_blocked(std::span<const PastContact> contacts);
@@ -62,21 +67,26 @@ class Sewing {
                               std::size_t step) const;
   /// Finds the mean of these velocities over the seams of each panel.
   void find_panel_pulls(const Planes3& position, std::size_t step);
-  /// Damps velocities towards these, or towards none once the seams should have closed.
-  void carry_panels(double time_step, double seconds, Planes3& velocity) const;
   /// Finds the classes that are pulled once the seams should have closed.
   void find_next();
+  /// How much longer the cloth is than at rest, at most, from the samples of a class to their
+  /// neighbours, as a part.
+  [[nodiscard]] double stretch_of(int index, const Planes3& position) const;
+  /// Finds by how much panels can be pulled without stretching them too far.
+  void find_slack(const Planes3& position);
+  [[nodiscard]] double slack_of(int index) const;
   /// The part of its distance that a class keeps in a step.
   [[nodiscard]] double kept_part(int index, double time_step, double seconds) const;
 
   const Garment& garment_;
-  double time_to_close_;                 // if nothing holds the seams back [s]
-  std::vector<Vec3d> middle_;            // of each class
-  std::vector<double> away_;             // distance of its farthest sample from there [m]
-  std::vector<double> rate_;             // at which it shrinks [1/s]
-  std::vector<int> panel_of_;            // of each sample
-  std::vector<Vec3d> panel_pull_;        // of each panel [m/s]
-  std::vector<int> panel_pulled_;        // of each panel, how many samples are in seams
+  PanelMotion panels_;
+  double time_to_close_;                        // if nothing holds the seams back [s]
+  std::vector<std::vector<int>> leaders_;       // of each class, the samples that set the height
+  std::vector<Vec3d> middle_;                   // of each class
+  std::vector<double> away_;                    // distance of its farthest sample from there [m]
+  std::vector<double> rate_;                    // at which it shrinks [1/s]
+  std::vector<std::vector<double>> stretches_;  // of each panel, at its seams
+  std::vector<double> slack_;            // of each panel, from 0 to 1: the part of the late speed
   std::vector<std::vector<int>> along_;  // the classes along each seam
   std::vector<char> next_;               // of each class: whether it is pulled late
   std::vector<std::array<Vec3f, max_blocking>> blocked_;  // of each sample, normals of bodies that

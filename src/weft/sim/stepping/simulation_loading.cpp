@@ -159,9 +159,12 @@ Planes3 Simulation::Parts::place(const SceneCloth& wanted, const LoadedSurface& 
   if (const int lifted = lift_above_ground(loaded.image.mates, height, placed))
     notes.push_back(fmt::format("{}: {} of {} panels reached below the ground and begin higher",
                                 wanted.name, lifted, loaded.image.mates.charts().size()));
-  if (const int moved = move_out_of_bodies(loaded.image.mates, bodies, team, placed))
+  if (const int moved = move_out_of_bodies(loaded.image, bodies, team, placed))
     notes.push_back(fmt::format("{}: {} of {} panels were in a body and begin farther outside",
                                 wanted.name, moved, loaded.image.mates.charts().size()));
+  if (const int parted = part_panels(loaded.garment->sewn, placed))
+    notes.push_back(fmt::format("{}: {} of {} panels touched others and begin farther outside",
+                                wanted.name, parted, loaded.image.mates.charts().size()));
   return placed;
 }
 
