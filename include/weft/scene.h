@@ -111,6 +111,9 @@ struct SceneBody {
   /// times. Only one of motion and animation.
   std::vector<MotionKey> motion;
   Animation animation;
+  /// Time that the body stays at its rest position before all that, so that garments are sewn on
+  /// it. [s]
+  double wait = 0;
   /// Time in which the body eases from its rest position to the start of motion or animation, which
   /// begin after it. [s]
   double lead_in = 0;

@@ -210,12 +210,13 @@ void put_surface(const py::handle& given, Surface& surface, const std::string& n
   surface = Surface(mesh_of(vertices, faces), called);
 }
 
-/// A motion in memory: None, or (positions (T, n, 3), frames a second, seconds of lead-in or None).
+/// A motion in memory: None, or (positions (T, n, 3), frames a second, seconds of wait, of lead-in).
 void put_motion(const py::handle& given, SceneBody& body) {
   if (given.is_none()) return;
-  const auto [positions, rate, lead_in] =
-      given.cast<std::tuple<Floats, double, std::optional<double>>>();
-  body.lead_in = lead_in.value_or(0);
+  const auto [positions, rate, wait, lead_in] =
+      given.cast<std::tuple<Floats, double, double, double>>();
+  body.wait = wait;
+  body.lead_in = lead_in;
   if (positions.ndim() != 3 || positions.shape(2) != 3)
     throw py::value_error("an array (T, n, 3) of positions is wanted");
   PointCache cache;

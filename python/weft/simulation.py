@@ -191,11 +191,11 @@ class Simulation:
         simulation.frame_rate = float(told.get("frame_rate", 60))
         return simulation
 
-    def add_body(self, body, *, friction=0.4, name=None, scale=1.0, rotate=(0, 0, 0), translate=(0, 0, 0), lead_in=None):
+    def add_body(self, body, *, friction=0.4, name=None, scale=1.0, rotate=(0, 0, 0), translate=(0, 0, 0), wait=0.0, lead_in=0.0):
         """Adds a `Body`, or what one is made of.
 
-        rotate: degrees about x, then y, then z. lead_in: seconds in which a body that moves is eased into its motion,
-        which begins after them.
+        rotate: degrees about x, then y, then z. wait: seconds that a body that moves stays where it is first, so that
+        garments are sewn on it. lead_in: seconds in which it is then eased into its motion, which begins after them.
         """
         self._check_open()
         if not isinstance(body, Body):
@@ -207,9 +207,10 @@ class Simulation:
             told["motion"] = body._keys
         self._scene["bodies"].append(told)
         self._body_memory.append(body._surface.memory)
-        self._motions.append(None if body._motion is None else (*body._motion, lead_in and _arguments.number(lead_in, "lead_in")))
-        if lead_in is not None and body._keys is not None:
-            told["lead_in"] = _arguments.number(lead_in, "lead_in")
+        pauses = {"wait": _arguments.number(wait, "wait"), "lead_in": _arguments.number(lead_in, "lead_in")}
+        self._motions.append(None if body._motion is None else (*body._motion, *pauses.values()))
+        if body._keys is not None:
+            told.update(pauses)
 
     def add_cloth(self, surface, *, fabric="cotton", name=None, size=129, scale=1.0, rotate=(0, 0, 0), translate=(0, 0, 0),
                   friction=0.4, velocity=(0, 0, 0), pins=(), attach=(), self_collision=None, spacing=None, rest="mesh", uv_scale=None):

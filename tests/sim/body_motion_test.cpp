@@ -68,6 +68,18 @@ TEST(BodyMotion, LeadInGoesFromRestToTheBeginningAndDelaysIt) {
   EXPECT_NEAR(risen(9), 5, 1e-6);
 }
 
+TEST(BodyMotion, WaitsBeforeTheLeadIn) {
+  SceneBody body = moved({{0, {}, {0, 4, 0}}, {1, {}, {0, 5, 0}}});
+  const LoadedSurface surface = ring_surface();
+  body.lead_in = 2;
+  const BodyMotion at_once(body, surface, {frame_rate, {}});
+  body.wait = 1.5;
+  const BodyMotion waits(body, surface, {frame_rate, {}});
+  for (const double seconds : {0.0, 0.5, 2.0, 2.5, 9.0})
+    EXPECT_EQ(place_at(waits, seconds + 1.5).at(3).y, place_at(at_once, seconds).at(3).y);
+  EXPECT_EQ(place_at(waits, 1.4).at(3).y, place_at(waits, 0).at(3).y);
+}
+
 TEST(BodyMotion, FastestBoundsEverySpeed) {
   SceneBody body = moved({{0, {}, {0, 1, 0}}, {1, {0, 90, 20}, {1, 0, 2}}, {3, {}, {}}});
   body.lead_in = 0.5;

@@ -94,6 +94,8 @@ TEST(SceneFile, MotionsThatMakeNoSenseAreRefused) {
             "s.json:bodies[0].animation: is there beside motion; one of both is wanted");
   EXPECT_EQ(error_with(R"("lead_in":1)"),
             "s.json:bodies[0].lead_in: leads to nothing; motion or animation beside it is wanted");
+  EXPECT_EQ(error_with(R"("wait":1)"),
+            "s.json:bodies[0].wait: leads to nothing; motion or animation beside it is wanted");
   EXPECT_EQ(error_with(R"("motion":[{"time":0}],"lead_in":-1)"),
             "s.json:bodies[0].lead_in: -1; a number >= 0 is wanted");
 }

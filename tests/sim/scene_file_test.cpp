@@ -49,7 +49,7 @@ TEST(SceneFile, EveryKeyIsRead) {
                 "attach": [{"body": "b", "region": [[0, 0], [1, 0]]}],
                 "pins": [{"image": [0, 1], "path": [{"time": 0}, {"time": 2, "rotate": [0, 90, 0], "translate": [1, 0, 0]}]}, {"nearest": [1, 2, 3]}, {"region": [[0, 0], [1, 0.5]]}]}],
     "bodies": [{"name": "b", "surface": "builtin:sphere", "size": 65, "scale": 2, "friction": 0.7,
-                "motion": [{"time": 1}, {"time": 2, "rotate": [1, 2, 3], "translate": [4, 5, 6]}], "lead_in": 0.5},
+                "motion": [{"time": 1}, {"time": 2, "rotate": [1, 2, 3], "translate": [4, 5, 6]}], "wait": 2, "lead_in": 0.5},
                {"name": "c", "surface": "c.obj", "animation": "c.MDD"}]})",
                                   "s.json", "");
   EXPECT_EQ(scene.gravity, (Vec3d{0, -1.6, 0}));
@@ -87,6 +87,7 @@ TEST(SceneFile, EveryKeyIsRead) {
   EXPECT_EQ(scene.bodies.at(0).placement.scale, (Vec3d{2, 2, 2}));
   ASSERT_EQ(scene.bodies[0].motion.size(), 2);
   EXPECT_EQ(scene.bodies[0].motion[1].rotate, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(scene.bodies[0].wait, 2);
   EXPECT_EQ(scene.bodies[0].lead_in, 0.5);
   EXPECT_TRUE(scene.bodies.at(1).animation.name.ends_with("/c.MDD"));
 }
@@ -230,6 +231,7 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   body.size = 65;
   body.friction = 0.2;
   body.motion = {{0.25, {}, {1, 2, 3}}, {2, {0, 90, 0}, {}}};
+  body.wait = 1.25;
   body.lead_in = 0.125;
   scene.bodies.push_back(body);
   body.name = "c";
@@ -252,6 +254,7 @@ TEST(SceneFile, WrittenSceneReadsBackTheSame) {
   EXPECT_EQ(back.cloths[0].pins[1].path.at(1).translate, (Vec3d{4, 5, 6}));
   EXPECT_EQ(back.cloths[0].attach.at(0).body, "b");
   EXPECT_EQ(back.bodies.at(0).motion.at(1).rotate, (Vec3d{0, 90, 0}));
+  EXPECT_EQ(back.bodies.at(0).wait, 1.25);
   EXPECT_EQ(back.bodies.at(0).lead_in, 0.125);
   EXPECT_EQ(back.bodies.at(1).animation.name, body.animation.name);
   ASSERT_TRUE(back.wind.has_value());

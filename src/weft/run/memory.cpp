@@ -128,8 +128,8 @@ std::uint64_t estimate_memory(const Scene& scene) {
     bytes += per_body_sample * samples;
     if (!body.motion.empty() || !body.animation.empty()) bytes += moving_bytes_per_sample * samples;
     if (!body.animation.empty())
-      bytes +=
-          animation_bytes(body.animation, {body.animation.clip, scene.frame_rate, body.lead_in});
+      bytes += animation_bytes(body.animation,
+                               {body.animation.clip, scene.frame_rate, body.wait + body.lead_in});
   }
   return static_cast<std::uint64_t>(bytes);
 }

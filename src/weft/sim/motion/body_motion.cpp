@@ -51,7 +51,7 @@ PointCache load_animation(const SceneBody& body, const BodyMotion::Files& files)
   PointCache cache =
       animation.in_memory()
           ? *animation.points
-          : read_point_cache(animation.name, {animation.clip, files.frame_rate, body.lead_in});
+          : read_point_cache(animation.name, {animation.clip, files.frame_rate, body.wait + body.lead_in});
   if (cache.times_in_frames)
     for (double& time : cache.times) time /= files.frame_rate;
   cache.times_in_frames = false;
@@ -108,6 +108,7 @@ double farthest_from(Vec3d centre, const Planes3& positions) {
 BodyMotion::BodyMotion(const SceneBody& body, const LoadedSurface& surface, const Files& files)
     : origin_(body.placement.translate),
       map_(placement_map(body.placement)),
+      wait_(body.wait),
       lead_in_(body.lead_in),
       path_(body.motion) {
   if (path_.empty() && body.animation.empty()) return;
@@ -127,6 +128,8 @@ BodyMotion::BodyMotion(const SceneBody& body, const LoadedSurface& surface, cons
     }
   }
 }
+
+double BodyMotion::since_wait(double time) const noexcept { return std::max(0.0, time - wait_); }
 
 double BodyMotion::led_in(double seconds) const noexcept {
   if (seconds >= lead_in_) return 1;
@@ -163,9 +166,9 @@ Vec3d BodyMotion::animated(const Instant& instant, const BlendedVertex& blend) c
   return map_.point(instant.part > 0 ? a + instant.part * (blended(instant.after) - a) : a);
 }
 
-void BodyMotion::place(double seconds, Planes3& positions, ThreadTeam& team) const noexcept {
+void BodyMotion::place(double time, Planes3& positions, ThreadTeam& team) const noexcept {
   const int n = rest_.size();
-  const double share = led_in(seconds);
+  const double seconds = since_wait(time), share = led_in(seconds);
   const auto set_all = [&](const auto& where) {
     team.run([&](Worker& worker) {
       const Range rows = worker.share(n);
@@ -186,10 +189,10 @@ void BodyMotion::place(double seconds, Planes3& positions, ThreadTeam& team) con
   }
 }
 
-std::vector<Vec3d> BodyMotion::vertices(double seconds, std::span<const Vec3d> rest) const {
+std::vector<Vec3d> BodyMotion::vertices(double time, std::span<const Vec3d> rest) const {
   std::vector<Vec3d> positions;
   if (!of_mesh_) return positions;
-  const double share = led_in(seconds);
+  const double seconds = since_wait(time), share = led_in(seconds);
   const Instant instant = instant_at(std::max(0.0, seconds - lead_in_));
   positions.reserve(rest.size());
   for (std::size_t v = 0; v < rest.size(); ++v) {

@@ -24,8 +24,9 @@ double fastest_on(std::span<const MotionKey> path, double reach);
 
 /// Motion of a body, a function of time alone, so that a resumed run needs no state of it. Rigid
 /// motion rotates the placed body about its placed origin; an animation moves the vertices that its
-/// samples are blended from, linearly between its time samples. Both begin after `lead_in`, which
-/// eases the body from its rest position to their start; after their end the body stands still.
+/// samples are blended from, linearly between its time samples. Both begin after `wait`, in which
+/// the body stays at its rest position, and `lead_in`, which eases it from there to their start;
+/// after their end the body stands still.
 class BodyMotion {
  public:
   /// Conventions of animation files.
@@ -42,10 +43,10 @@ class BodyMotion {
   [[nodiscard]] int size() const { return rest_.size(); }
   /// Sets the positions of all samples at a time; mates are equal.
   /// @param positions  [n x n] world [m]
-  void place(double seconds, Planes3& positions, ThreadTeam& team) const noexcept;
+  void place(double time, Planes3& positions, ThreadTeam& team) const noexcept;
   /// Where an animation of a mesh has its vertices at a time; empty for other motions.
   /// @param rest  [V] of the mesh, unplaced [m]  @return [V] world [m]
-  [[nodiscard]] std::vector<Vec3d> vertices(double seconds, std::span<const Vec3d> rest) const;
+  [[nodiscard]] std::vector<Vec3d> vertices(double time, std::span<const Vec3d> rest) const;
   /// Largest speed of any of its points. [m/s]
   [[nodiscard]] double fastest() const { return fastest_; }
 
@@ -59,13 +60,14 @@ class BodyMotion {
   [[nodiscard]] Instant instant_at(double seconds) const noexcept;
   [[nodiscard]] Vec3d animated(const Instant& instant, const BlendedVertex& blend) const noexcept;
   [[nodiscard]] double fastest_animated() const;
+  [[nodiscard]] double since_wait(double time) const noexcept;
   /// Part of the lead-in displacement that is done, 0 to 1: smooth at both ends.
   [[nodiscard]] double led_in(double seconds) const noexcept;
 
   Planes3 rest_;  // placed [m]
   Vec3d origin_;  // centre of rotation [m]
   PlacementMap map_;
-  double lead_in_ = 0, fastest_ = 0;
+  double wait_ = 0, lead_in_ = 0, fastest_ = 0;
   std::vector<MotionKey> path_;
   std::optional<PointCache> animation_;  // times in seconds
   std::vector<BlendedVertex> blends_;    // [n * n]

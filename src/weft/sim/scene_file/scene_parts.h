@@ -54,9 +54,9 @@ inline constexpr std::array<std::string_view, 16> cloth{
     "uv_scale", "scale",    "rotate", "translate", "material", "self_collision",
     "friction", "velocity", "pins",   "attach"};
 inline constexpr std::array<std::string_view, 1> sew{"spacing"};
-inline constexpr std::array<std::string_view, 10> body{
-    "name",      "surface",  "size",   "scale",     "rotate",
-    "translate", "friction", "motion", "animation", "lead_in"};
+inline constexpr std::array<std::string_view, 11> body{
+    "name",     "surface", "size",      "scale", "rotate", "translate",
+    "friction", "motion",  "animation", "wait",  "lead_in"};
 inline constexpr std::array<std::string_view, 8> material{"density",      "stretch",      "shear",
                                                           "bending",      "bend_springs", "damping",
                                                           "strain_limit", "thickness"};

@@ -168,9 +168,11 @@ SceneBody read_body(const nlohmann::json& value, const JsonPlace& place, const f
   body.animation = read_animation(object, body.surface.name, folder);
   if (!body.motion.empty() && !body.animation.empty())
     place.key("animation").fail("is there beside motion", "one of both is wanted");
+  body.wait = object.number("wait", body.wait, not_negative);
   body.lead_in = object.number("lead_in", body.lead_in, not_negative);
-  if (object.has("lead_in") && body.motion.empty() && body.animation.empty())
-    place.key("lead_in").fail("leads to nothing", "motion or animation beside it is wanted");
+  for (const char* key : {"wait", "lead_in"})
+    if (object.has(key) && body.motion.empty() && body.animation.empty())
+      place.key(key).fail("leads to nothing", "motion or animation beside it is wanted");
   return body;
 }
 

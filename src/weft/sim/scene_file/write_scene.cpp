@@ -126,7 +126,9 @@ Json body_json(const SceneBody& body, const fs::path& folder) {
   json["friction"] = body.friction;
   add_motion(json, "motion", body.motion);
   if (!body.animation.empty()) json["animation"] = animation_text(body.animation, folder);
-  if (!body.motion.empty() || !body.animation.empty()) json["lead_in"] = body.lead_in;
+  if (body.motion.empty() && body.animation.empty()) return json;
+  json["wait"] = body.wait;
+  json["lead_in"] = body.lead_in;
   return json;
 }
 
