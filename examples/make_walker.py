@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes a skinned figure (GLB): the built-in mannequin with 19 joints and the animations 'walk' and 'wave'.
 
-Usage: make_walker.py FIGURE.glb [--weft PROGRAM]     (scenes/skinned_walk.json wants it as scenes/figure.glb)
+Usage: make_walker.py FIGURE.glb [--weft PROGRAM]     (scenes/skinned_walk.json and dressed_walk.json want it as scenes/figure.glb)
 """
 import argparse
 import json
