@@ -5,64 +5,55 @@
 namespace weft {
 namespace {
 
-using Four = std::array<float, 4>;
+using Four = float __attribute__((vector_size(16)));
+using UnalignedTwo = float __attribute__((vector_size(8), aligned(4), may_alias));
 
 /// Generous bound of the rounding error of a gap, relative to the farthest coordinate.
 constexpr float rounding = 4e-6F;
 
-inline float min(float a, float b) { return a < b ? a : b; }
 inline float max(float a, float b) { return a > b ? a : b; }
+inline float min(float a, float b) { return a < b ? a : b; }
+inline Four min(Four a, Four b) { return a < b ? a : b; }
+inline Four max(Four a, Four b) { return a > b ? a : b; }
 
-float sum_of(const Four& of) { return (of[0] + of[1]) + (of[2] + of[3]); }
-float farthest_of(const Four& a, const Four& b, const Four& c) {
-  Four size{};
-#pragma omp simd
-  for (std::size_t k = 0; k < 4; ++k)
-    size[k] = max(max(std::abs(a[k]), std::abs(b[k])), std::abs(c[k]));
-  return max(max(size[0], size[1]), max(size[2], size[3]));
+/// A 4 x 4 matrix, by rows, becomes its transpose.
+inline void transpose(Four* m) {
+  const Four a = __builtin_shufflevector(m[0], m[1], 0, 4, 1, 5),
+             b = __builtin_shufflevector(m[0], m[1], 2, 6, 3, 7),
+             c = __builtin_shufflevector(m[2], m[3], 0, 4, 1, 5),
+             d = __builtin_shufflevector(m[2], m[3], 2, 6, 3, 7);
+  m[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  m[1] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  m[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  m[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-struct Bounds {
-  float lower, upper;
-};
-Bounds bounds(Vec3f n, const Four& x, const Four& y, const Four& z) {
-  Four along{};
-#pragma omp simd
-  for (std::size_t k = 0; k < 4; ++k) along[k] = n.x * x[k] + n.y * y[k] + n.z * z[k];
-  return {min(min(along[0], along[1]), min(along[2], along[3])),
-          max(max(along[0], along[1]), max(along[2], along[3]))};
-}
-
-Bounds displacement_bounds(const Four& start, const Four& end) {
-  Four displacement{};
-#pragma omp simd
-  for (std::size_t k = 0; k < 4; ++k) displacement[k] = end[k] - start[k];
-  return {min(min(displacement[0], displacement[1]), min(displacement[2], displacement[3])),
-          max(max(displacement[0], displacement[1]), max(displacement[2], displacement[3]))};
-}
+inline float sum_of(Four of) { return (of[0] + of[1]) + (of[2] + of[3]); }
+inline Four size_of(Four a) { return max(a, -a); }
 
 }  // namespace
 
-CellGaps::Corners CellGaps::corners(const Planes3& at, int first, Vec3f origin) {
-  const int n = at.size(), row = first / n, col = first % n;
+CellGaps::Corners CellGaps::corners(const Planes3& at, int row, int col, Vec3f origin) {
   const auto four = [&](const Grid<float>& plane, float from) {
-    const float *upper = plane.row(row) + col, *lower = plane.row(row + 1) + col;
-    return Four{upper[0] - from, upper[1] - from, lower[0] - from, lower[1] - from};
+    const auto upper = *reinterpret_cast<const UnalignedTwo*>(plane.row(row) + col),
+               lower = *reinterpret_cast<const UnalignedTwo*>(plane.row(row + 1) + col);
+    return __builtin_shufflevector(upper, lower, 0, 1, 2, 3) - from;
   };
   return {four(at.x, origin.x), four(at.y, origin.y), four(at.z, origin.z)};
 }
 
 CellGaps::CellGaps(const MovingSurface& a, int cell_a, const MovingSurface& b, int cell_b) {
-  const int first_a = a.grid->first_sample(cell_a), first_b = b.grid->first_sample(cell_b);
-  const Vec3f origin = a.start->at(first_a);
-  start_a_ = corners(*a.start, first_a, origin);
-  end_a_ = corners(*a.end, first_a, origin);
-  start_b_ = corners(*b.start, first_b, origin);
-  end_b_ = b.end == b.start ? start_b_ : corners(*b.end, first_b, origin);
-  float farthest = 0;
+  const int row_a = cell_a / a.grid->cells(), col_a = cell_a % a.grid->cells(),
+            row_b = cell_b / b.grid->cells(), col_b = cell_b % b.grid->cells();
+  const Vec3f origin = a.start->at(row_a, col_a);
+  start_a_ = corners(*a.start, row_a, col_a, origin);
+  end_a_ = corners(*a.end, row_a, col_a, origin);
+  start_b_ = corners(*b.start, row_b, col_b, origin);
+  end_b_ = b.end == b.start ? start_b_ : corners(*b.end, row_b, col_b, origin);
+  Four farthest{};
   for (const Corners* of : {&start_a_, &end_a_, &start_b_, &end_b_})
-    farthest = max(farthest, farthest_of(of->x, of->y, of->z));
-  margin_ = rounding * farthest;
+    farthest = max(farthest, max(max(size_of(of->x), size_of(of->y)), size_of(of->z)));
+  margin_ = rounding * max(max(farthest[0], farthest[1]), max(farthest[2], farthest[3]));
 }
 
 Vec3f CellGaps::normal_of(const Corners& of) {
@@ -75,21 +66,32 @@ Vec3f CellGaps::displacement() const {
           sum_of(start_a_.z) - sum_of(start_b_.z)};
 }
 
+/// Extents of four rows of four. @param rows  become columns
+CellGaps::Extents CellGaps::extents_of(Four* rows) {
+  transpose(rows);
+  return {min(min(rows[0], rows[1]), min(rows[2], rows[3])),
+          max(max(rows[0], rows[1]), max(rows[2], rows[3]))};
+}
+
+CellGaps::Extents CellGaps::along(Vec3f n) const {
+  const auto heights = [n](const Corners& of) { return n.x * of.x + n.y * of.y + n.z * of.z; };
+  Four rows[4] = {heights(start_a_), heights(start_b_), heights(end_a_), heights(end_b_)};
+  return extents_of(rows);
+}
+
 bool CellGaps::apart_along(Vec3f n, float at_start, float at_end) const {
   const float size = std::sqrt(squared_length(n));
-  const auto along = [n](const Corners& of) { return bounds(n, of.x, of.y, of.z); };
-  const Bounds a = along(start_a_), b = along(start_b_);
-  const bool above = a.lower - b.upper > size * at_start;
-  if (!above && !(b.lower - a.upper > size * at_start)) return false;
-  const Bounds c = along(end_a_), d = along(end_b_);
-  return (above ? c.lower - d.upper : d.lower - c.upper) > size * at_end;
+  const auto [lower, upper] = along(n);
+  const bool above = lower[start_of_a] - upper[start_of_b] > size * at_start;
+  if (!above && !(lower[start_of_b] - upper[start_of_a] > size * at_start)) return false;
+  return (above ? lower[end_of_a] - upper[end_of_b] : lower[end_of_b] - upper[end_of_a]) >
+         size * at_end;
 }
 
 float CellGaps::gap_along(Vec3f n) const {
-  const auto along = [n](const Corners& of) { return bounds(n, of.x, of.y, of.z); };
-  const Bounds a = along(start_a_), b = along(start_b_), c = along(end_a_), d = along(end_b_);
-  const float above = min(a.lower - b.upper, c.lower - d.upper);
-  const float below = min(b.lower - a.upper, d.lower - c.upper);
+  const auto [lower, upper] = along(n);
+  const float above = min(lower[start_of_a] - upper[start_of_b], lower[end_of_a] - upper[end_of_b]);
+  const float below = min(lower[start_of_b] - upper[start_of_a], lower[end_of_b] - upper[end_of_a]);
   const float size = std::sqrt(squared_length(n));
   return size > 0 ? max(above, below) / size : 0;
 }
@@ -105,15 +107,13 @@ bool CellGaps::parallel(float cosine) const {
 }
 
 double CellGaps::max_approach() const {
-  const auto along = [](const Four& start_a, const Four& end_a, const Four& start_b,
-                        const Four& end_b) {
-    const Bounds a = displacement_bounds(start_a, end_a), b = displacement_bounds(start_b, end_b);
-    return max(a.upper - b.lower, b.upper - a.lower);
+  const auto extents = [](const Corners& start, const Corners& end) {
+    Four rows[4] = {end.x - start.x, end.y - start.y, end.z - start.z, Four{}};
+    return extents_of(rows);
   };
-  const Vec3f max{along(start_a_.x, end_a_.x, start_b_.x, end_b_.x),
-                  along(start_a_.y, end_a_.y, start_b_.y, end_b_.y),
-                  along(start_a_.z, end_a_.z, start_b_.z, end_b_.z)};
-  return double{std::sqrt(squared_length(max))} + margin_;
+  const Extents a = extents(start_a_, end_a_), b = extents(start_b_, end_b_);
+  const Four most = max(a.upper - b.lower, b.upper - a.lower);
+  return double{std::sqrt(squared_length(Vec3f{most[0], most[1], most[2]}))} + margin_;
 }
 
 bool CellGaps::apart(double at_start, double at_end) const {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "weft/collide/moving_surface.h"
 
 namespace weft {
@@ -33,15 +31,23 @@ class CellGaps {
   [[nodiscard]] double max_approach() const;
 
  private:
+  using Four = float __attribute__((vector_size(16)));
   struct Corners {
-    std::array<float, 4> x, y, z;
+    Four x, y, z;
   };
+  /// The extents of both cells along a direction, at both ends of the step.
+  struct Extents {
+    Four lower, upper;
+  };
+  /// Order of the cells in Extents.
+  enum : int { start_of_a, start_of_b, end_of_a, end_of_b };
   static Vec3f at(const Corners& of, int corner) {
-    const auto k = static_cast<std::size_t>(corner);
-    return {of.x[k], of.y[k], of.z[k]};
+    return {of.x[corner], of.y[corner], of.z[corner]};
   }
-  static Corners corners(const Planes3& at, int first, Vec3f origin);
+  static Corners corners(const Planes3& at, int row, int col, Vec3f origin);
   static Vec3f normal_of(const Corners& of);
+  static Extents extents_of(Four* rows);
+  [[nodiscard]] Extents along(Vec3f n) const;
   [[nodiscard]] Vec3f displacement() const;
   [[nodiscard]] bool apart_along(Vec3f n, float at_start, float at_end) const;
   [[nodiscard]] float gap_along(Vec3f n) const;

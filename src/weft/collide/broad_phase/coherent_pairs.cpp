@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "weft/collide/broad_phase/cell_gaps.h"
@@ -124,17 +123,20 @@ void CoherentPairs::find_unfolded(int surface, float slack, ThreadTeam& team) {
 /// no use.
 void CoherentPairs::set_smooth_aside(int surface, List& list) {
   const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
-  const auto smooth = [&](const CandidatePair& pair) { return windows.unfolded(pair); };
-  list.smooth.clear();
-  std::copy_if(list.cells.begin(), list.cells.end(), std::back_inserter(list.smooth), smooth);
-  std::erase_if(list.cells, smooth);
+  std::size_t kept = 0;
+  for (const CandidatePair& pair : list.cells) {
+    if (windows.unfolded(pair))
+      list.smooth.push_back(pair);
+    else
+      list.cells[kept++] = pair;
+  }
+  list.cells.resize(kept);
 }
 
 /// Unfolded neighbours are left out also because planes between them would hinder rotation.
 std::span<const CandidatePair> CoherentPairs::find_self(int surface, float reach, float slack,
                                                         ThreadTeam& team) {
   List& list = list_of(surface, surface);
-  find_unfolded(surface, slack, team);
   const bool known = list.known && reach <= list.reach && slack <= list.slack;
   if (!known) {
     list.reach = std::max(list.reach, reach);
@@ -144,9 +146,14 @@ std::span<const CandidatePair> CoherentPairs::find_self(int surface, float reach
     list.cells.clear();
     broad_phase_->find_self(surface, list.reach + skin_, list.slack + 0.5F * skin_, team,
                             list.cells);
+    list.smooth.clear();
+    if (list.cells.empty()) return {};
+    find_unfolded(surface, slack, team);
     set_smooth_aside(surface, list);
     return list.cells;
   }
+  if (list.cells.empty() && list.smooth.empty()) return {};
+  find_unfolded(surface, slack, team);
   const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
   const std::span<const CandidatePair> near = nearest(surface, surface, reach, team);
   folded_.clear();

@@ -7,6 +7,9 @@
 namespace weft {
 namespace {
 
+/// Levels of fewer rows of windows are left to one worker: barriers would cost more.
+constexpr int min_shared_rows = 31;
+
 std::array<float*, 12> row_of(std::array<Grid<float>, 12>& planes, int row) {
   std::array<float*, 12> rows{};
   for (std::size_t k = 0; k < 12; ++k) rows[k] = planes[k].row(row);
@@ -71,26 +74,48 @@ void UnfoldedWindows::fit(const CollideKernels& kernels, const MovingSurface& su
   worker.barrier();
 }
 
-void UnfoldedWindows::find_unfolded_rows(const CollideKernels& kernels, Level& level, float slack,
-                                         Range rows, Lines& lines) {
+void UnfoldedWindows::find_unfolded_row(const CollideKernels& kernels, Level& level, float slack,
+                                        int row, Lines& lines) {
   const int twos = level.two_unfolded.cols(), threes = level.three_unfolded.cols();
   const auto join_two = [&](int r) {
     kernels.join_windows(twos, row_of(std::as_const(level.nodes), r).data(),
                          row_of(std::as_const(level.nodes), r + 1).data(),
                          row_of(lines.twos, r % 2).data());
   };
-  const auto find_unfolded = [&](int count, const Extents& of, int row, float* out) {
-    kernels.find_unfolded(count, row_of(of, row).data(), slack, out);
+  const auto find_unfolded = [&](int count, const Extents& of, int line, float* out) {
+    kernels.find_unfolded(count, row_of(of, line).data(), slack, out);
   };
-  if (rows.first < rows.last) join_two(rows.first);
+  if (lines.joined != row) join_two(row);
+  find_unfolded(twos, lines.twos, row % 2, level.two_unfolded.row(row));
+  lines.joined = -1;
+  if (row >= level.three_unfolded.rows()) return;
+  join_two(row + 1);
+  lines.joined = row + 1;
+  kernels.join_windows(threes, row_of(std::as_const(lines.twos), row % 2).data(),
+                       row_of(std::as_const(lines.twos), (row + 1) % 2).data(),
+                       row_of(lines.threes, 0).data());
+  find_unfolded(threes, lines.threes, 0, level.three_unfolded.row(row));
+}
+
+/// Whether all windows that begin in a row of a level lie in unfolded windows of the level above.
+bool UnfoldedWindows::unfolded_above(std::size_t level, int row) const {
+  if (level + 1 == levels_.size() || levels_[level + 1].side < 2) return false;
+  const Grid<float>& marks = levels_[level + 1].two_unfolded;
+  const float* above = marks.row(std::min(row / 2, marks.rows() - 1));
+  return std::all_of(above, above + marks.cols(), [](float mark) { return mark != 0; });
+}
+
+void UnfoldedWindows::find_unfolded_rows(const CollideKernels& kernels, std::size_t index,
+                                         float slack, Range rows, Lines& lines) {
+  Level& level = levels_[index];
+  lines.joined = -1;
   for (int r = rows.first; r < rows.last; ++r) {
-    find_unfolded(twos, lines.twos, r % 2, level.two_unfolded.row(r));
-    if (r >= level.three_unfolded.rows()) continue;
-    join_two(r + 1);
-    kernels.join_windows(threes, row_of(std::as_const(lines.twos), r % 2).data(),
-                         row_of(std::as_const(lines.twos), (r + 1) % 2).data(),
-                         row_of(lines.threes, 0).data());
-    find_unfolded(threes, lines.threes, 0, level.three_unfolded.row(r));
+    if (!unfolded_above(index, r)) {
+      find_unfolded_row(kernels, level, slack, r, lines);
+      continue;
+    }
+    for (Grid<float>* marks : {&level.two_unfolded, &level.three_unfolded})
+      if (r < marks->rows()) std::fill_n(marks->row(r), marks->cols(), 1.0F);
   }
 }
 
@@ -101,10 +126,17 @@ void UnfoldedWindows::find_unfolded(const MovingSurface& surface, float slack, T
     lines_.push_back({planes(2, side), planes(1, side)});
   team.run([&](Worker& worker) {
     fit(kernels, surface, worker);
-    // Both ends of an edge may leave their paths, so edges get twice the slack.
-    for (Level& level : levels_)
-      find_unfolded_rows(kernels, level, 2 * slack, worker.share(level.two_unfolded.rows()),
-                         lines_[static_cast<std::size_t>(worker.rank())]);
+    Lines& lines = lines_[static_cast<std::size_t>(worker.rank())];
+    for (std::size_t level = levels_.size(); level-- > 0;) {
+      const int rows = levels_[level].two_unfolded.rows();
+      const bool shared = rows >= min_shared_rows;
+      // Both ends of an edge may leave their paths, so edges get twice the slack.
+      if (shared || worker.rank() == 0)
+        find_unfolded_rows(kernels, level, 2 * slack, shared ? worker.share(rows) : Range{0, rows},
+                           lines);
+      if (shared || level == 0 || levels_[level - 1].two_unfolded.rows() >= min_shared_rows)
+        worker.barrier();
+    }
   });
 }
 

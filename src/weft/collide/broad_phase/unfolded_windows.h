@@ -22,7 +22,8 @@ namespace weft {
 /// two points of the surface coincide. Unlike cones of normals this needs no test of contours.
 ///
 /// All windows of 2 x 2 and of 3 x 3 nodes on all levels of the mip pyramid are tested at once, row
-/// by row, so that a search only looks them up.
+/// by row from the coarsest level down, so that a search only looks them up. Rows within unfolded
+/// windows of the level above are unfolded, too.
 class UnfoldedWindows {
  public:
   explicit UnfoldedWindows(int cells);
@@ -59,12 +60,16 @@ class UnfoldedWindows {
   /// windows.
   struct Lines {
     std::array<Grid<float>, 12> twos, threes;  // [2 x side], [1 x side]
+    int joined = -1;                           // the row of windows that `twos` has beforehand
   };
   void fill_row(const CollideKernels& kernels, const MovingSurface& surface, int row);
   void join_row(const CollideKernels& kernels, std::size_t level, int row);
   void fit(const CollideKernels& kernels, const MovingSurface& surface, Worker& worker);
-  static void find_unfolded_rows(const CollideKernels& kernels, Level& level, float slack,
-                                 Range rows, Lines& lines);
+  static void find_unfolded_row(const CollideKernels& kernels, Level& level, float slack, int row,
+                                Lines& lines);
+  [[nodiscard]] bool unfolded_above(std::size_t level, int row) const;
+  void find_unfolded_rows(const CollideKernels& kernels, std::size_t index, float slack, Range rows,
+                          Lines& lines);
 
   std::vector<int> sides_;
   std::vector<Level> levels_;

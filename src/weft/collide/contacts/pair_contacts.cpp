@@ -67,6 +67,7 @@ class Finder {
     const CellGaps gaps(surface_a, cells.a, surface_b, cells.b);
     const double reach = contact_margin * gap_;
     if (gaps.apart(reach, reach)) return;
+    approach_ = gaps.max_approach();
     samples_with_triangles(gaps, a, b);
     samples_with_triangles(gaps, b, a);
     if (crease) return;
@@ -90,11 +91,8 @@ class Finder {
   [[nodiscard]] bool beside(const CandidateCell& a, const CandidateCell& b) const {
     if (pair_.rest == nullptr) return false;
     const double limit = beside_in_gaps * pair_.gap;
-    const int cells = a.grid->cells();
-    const int row = std::min(a.cell / cells, b.cell / cells);
-    const int last_row = std::max(a.cell / cells, b.cell / cells);
-    const int col = std::min(a.cell % cells, b.cell % cells);
-    const int last_col = std::max(a.cell % cells, b.cell % cells);
+    const auto [row, last_row] = std::minmax(a.row, b.row);
+    const auto [col, last_col] = std::minmax(a.col, b.col);
     double distance = 0;
     const auto step = [&](int r, int c, int to_r, int to_c) {
       distance += length(vec_cast<double>(pair_.rest->at(to_r, to_c) - pair_.rest->at(r, c)));
@@ -110,7 +108,7 @@ class Finder {
 
   /// Distance at the start beyond which there is no contact. [m]
   [[nodiscard]] float near(const CellGaps& gaps) const {
-    return static_cast<float>(contact_margin * gap_ + gaps.max_approach()) + gaps.margin();
+    return static_cast<float>(contact_margin * gap_ + approach_) + gaps.margin();
   }
 
   void samples_with_triangles(const CellGaps& gaps, const CandidateCell& own,
@@ -254,7 +252,8 @@ class Finder {
 
   const ClothPair& pair_;
   const PairLists& lists_;
-  double gap_ = 0;  // that contacts of the cells keep [m]
+  double gap_ = 0;       // that contacts of the cells keep [m]
+  double approach_ = 0;  // of the cells in the step, at most [m]
 };
 
 }  // namespace

@@ -11,26 +11,29 @@ namespace weft {
 /// One of the two cells of a contact search.
 struct CandidateCell {
   const SurfaceGrid* grid;
-  int cell;
+  int cell, row, col;
   bool second;  ///< whether it is the second of the two
   std::array<int, 4> samples;
 
   CandidateCell(const SurfaceGrid& of, int number, bool is_second)
-      : grid(&of), cell(number), second(is_second), samples(of.corners(number)) {}
+      : grid(&of),
+        cell(number),
+        row(number / of.cells()),
+        col(number % of.cells()),
+        second(is_second),
+        samples(of.corners(number)) {}
   [[nodiscard]] bool is_border() const {
-    const int last = grid->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
+    const int last = grid->cells() - 1;
     return row == 0 || col == 0 || row == last || col == last;
   }
   [[nodiscard]] bool next_to(const CandidateCell& other) const {
-    const int side = grid->cells();
-    return std::abs(cell / side - other.cell / side) <= 1 &&
-           std::abs(cell % side - other.cell % side) <= 1;
+    return std::abs(row - other.row) <= 1 && std::abs(col - other.col) <= 1;
   }
   /// Calls visit(corner) for the samples that belong to it: its first, and at the last row and
   /// column those that no other cell begins with.
   template <class Visit>
   void for_own_corners(const Visit& visit) const {
-    const int last = grid->cells() - 1, row = cell / (last + 1), col = cell % (last + 1);
+    const int last = grid->cells() - 1;
     const std::array<bool, 4> own{true, col == last, row == last, row == last && col == last};
     for (int k = 0; k < 4; ++k)
       if (own[k] && grid->point(samples[k]) == samples[k]) visit(k);

@@ -92,7 +92,8 @@ class Finder {
   }
 
   void find(const CellGaps& gaps, const Part& a, const Part& b) {
-    if (!beside(gaps, a, b)) add(feature_of(a), feature_of(b));
+    if (!beside(gaps, a, b) && !apart_along_face(gaps, a, a, b) && !apart_along_face(gaps, b, a, b))
+      add(feature_of(a), feature_of(b));
   }
   [[nodiscard]] MovingFeature feature_of(const Part& part) const {
     const Samples samples = pick(part.second ? samples_b_ : samples_a_, part.corners);
@@ -106,14 +107,29 @@ class Finder {
     const auto start = [&](const Part& part, std::size_t k) {
       return gaps.start(part.second, part.corners[k]);
     };
-    const Vec3f displacement = middle(a, start) - middle(b, start);
-    const float size = std::sqrt(squared_length(displacement));
-    if (!(gap_along(displacement, a, b, start) > size * gaps.margin())) return false;
+    return apart_along(gaps, middle(a, start) - middle(b, start), a, b);
+  }
+  /// The same for the normal of a part that is a triangle, in either direction.
+  [[nodiscard]] bool apart_along_face(const CellGaps& gaps, const Part& face, const Part& a,
+                                      const Part& b) const {
+    if (face.first != 0) return false;
+    const Vec3f origin = gaps.start(face.second, face.corners[0]);
+    const Vec3f normal = cross(gaps.start(face.second, face.corners[1]) - origin,
+                               gaps.start(face.second, face.corners[2]) - origin);
+    return apart_along(gaps, normal, a, b) || apart_along(gaps, normal, b, a);
+  }
+  [[nodiscard]] bool apart_along(const CellGaps& gaps, Vec3f n, const Part& a,
+                                 const Part& b) const {
+    const auto start = [&](const Part& part, std::size_t k) {
+      return gaps.start(part.second, part.corners[k]);
+    };
+    const float size = std::sqrt(squared_length(n));
+    if (!(gap_along(n, a, b, start) > size * gaps.margin())) return false;
     const auto end = [&](const Part& part, std::size_t k) {
       return gaps.end(part.second, part.corners[k]);
     };
     const auto wanted = static_cast<float>((search_.b.body ? 1 : 2) * search_.options.slack);
-    return gap_along(displacement, a, b, end) > size * (wanted + gaps.margin());
+    return gap_along(n, a, b, end) > size * (wanted + gaps.margin());
   }
   template <class At>
   static Vec3f middle(const Part& of, const At& at) {
