@@ -60,6 +60,30 @@ TEST(ThreadTeam, RunsManyRegionsInTurn) {
   EXPECT_EQ(counts, (std::array{2000, 2000, 2000}));
 }
 
+TEST(ThreadTeam, WorkersThatFellAsleepJoinTheNextRegion) {
+  ThreadTeam team(3);
+  std::array<int, 3> counts{};
+  for (int i = 0; i < 20; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(i % 3));
+    team.run([&](Worker& worker) {
+      const Range mine = worker.share(3);
+      for (int part = mine.first; part < mine.last; ++part) ++counts[part];
+    });
+  }
+  EXPECT_EQ(counts, (std::array{20, 20, 20}));
+}
+
+TEST(ThreadTeam, WorkThatIsNotWorthSharingIsTheCallersAlone) {
+  ThreadTeam team(3);
+  int calls = 0, workers = 0;
+  team.run_if(false, [&](Worker& worker) {
+    ++calls;
+    workers = worker.size();
+  });
+  EXPECT_EQ(calls, 1);
+  EXPECT_EQ(workers, 1);
+}
+
 TEST(ThreadTeam, CallerGoesAloneForAWhileWhereOthersKeepItWaiting) {
   ThreadTeam team(2);
   RowSums sums(10);

@@ -9,11 +9,20 @@ namespace weft {
 namespace {
 
 constexpr int spins_before_yield = 2000;
+/// Looks at the next region before a worker sleeps: about 20 microseconds.
+constexpr int spins_before_sleep = 1000;
 /// Waiting time in a region below which the machine does not count as crowded. [s]
 constexpr double min_loss = 2e-4;
 /// Bounds of the number of regions that the caller runs alone after a crowded one: it doubles with
 /// each crowded region and halves with each parallel one that is not.
 constexpr int min_alone = 32, max_alone = 1024;
+
+/// Tells the processor that a loop waits.
+inline void pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -48,12 +57,14 @@ void ThreadTeam::run_task(Task task) {
   }
   const Clock::time_point start = Clock::now();
   lost_seconds_ = 0;
+  bool sleepers = false;
   {
     const std::lock_guard lock(mutex_);
     task_ = task;
-    ++region_;
+    region_.fetch_add(1, std::memory_order_release);
+    sleepers = asleep_ > 0;
   }
-  wake_.notify_all();
+  if (sleepers) wake_.notify_all();
   Worker self(*this, 0, size_);
   task.call(task.context, self);
   wait_for_all(true);
@@ -68,19 +79,27 @@ void ThreadTeam::adapt_size(double seconds) {
 
 void ThreadTeam::serve(int rank) {
   std::uint64_t seen = 0;
-  while (true) {
-    Task task;
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return stop_ || region_ != seen; });
-      if (stop_) return;
-      seen = region_;
-      task = task_;
-    }
+  while (wait_for_region(seen)) {
+    const Task task = task_;
     Worker self(*this, rank, size_);
     task.call(task.context, self);
     wait_for_all(false);
   }
+}
+
+bool ThreadTeam::wait_for_region(std::uint64_t& seen) {
+  const auto has_come = [&] { return region_.load(std::memory_order_acquire) != seen; };
+  for (int spins = 0; spins < spins_before_sleep && !has_come(); ++spins) pause();
+  if (!has_come()) {
+    std::unique_lock lock(mutex_);
+    ++asleep_;
+    wake_.wait(lock, [&] { return stop_ || has_come(); });
+    --asleep_;
+  }
+  if (!has_come()) return false;
+  // The next region does not begin before this worker is done with this one.
+  ++seen;
+  return true;
 }
 
 void ThreadTeam::wait_for_all(bool caller) {

@@ -72,6 +72,14 @@ class ThreadTeam {
               const_cast<void*>(static_cast<const void*>(&body))});
   }
 
+  /// The same, or by the caller alone where there is too little to share.
+  template <class Body>
+  void run_if(bool worth_sharing, Body&& body) {
+    if (worth_sharing) return run(body);
+    Worker lone = Worker::lone();
+    body(lone);
+  }
+
  private:
   friend class Worker;
   struct Task {
@@ -80,16 +88,20 @@ class ThreadTeam {
   };
   void run_task(Task task);
   void serve(int rank);
+  /// Waits for the region after the one that a worker saw last. @return false: there is none left
+  bool wait_for_region(std::uint64_t& seen);
   void wait_for_all(bool caller);
   void adapt_size(double seconds);
 
   int size_;
   InstructionSet set_;
   Task task_;
-  // Workers sleep between regions and spin briefly, then yield, at barriers inside one.
+  // Workers spin briefly, then sleep, between regions, and spin briefly, then yield, at barriers
+  // inside one: waking a sleeper takes as long as many a region.
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::uint64_t region_ = 0;
+  std::atomic<std::uint64_t> region_{0};  // changed under the mutex, after the task
+  int asleep_ = 0;                        // workers that wait for a signal
   bool stop_ = false;
   std::atomic<int> arrived_{0};
   std::atomic<std::uint64_t> phase_{0};

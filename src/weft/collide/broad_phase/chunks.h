@@ -23,6 +23,11 @@ class ChunkedLists {
       for (int i = first(count, chunk); i < first(count, chunk + 1); ++i) visit(i, list);
     }
   }
+  /// The same by a team. Where there is nothing to visit no worker is woken.
+  template <class Visit>
+  void fill(int count, ThreadTeam& team, const Visit& visit) {
+    team.run_if(count > 1, [&](Worker& worker) { fill(count, worker, visit); });
+  }
   /// The lists of all chunks in their order.
   [[nodiscard]] const std::vector<List>& lists() const { return lists_; }
 
@@ -47,7 +52,7 @@ class SharedPairs {
   /// Calls find(i, mine) for i in 0 .. count - 1, which adds to `mine`, and adds all to `out`.
   template <class Find>
   void collect(int count, ThreadTeam& team, std::vector<CandidatePair>& out, const Find& find) {
-    team.run([&](Worker& worker) { found_.fill(count, worker, find); });
+    found_.fill(count, team, find);
     append(found_, out);
   }
 

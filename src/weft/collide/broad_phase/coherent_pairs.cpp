@@ -66,12 +66,10 @@ void CoherentPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& t
 
 void CoherentPairs::sort(int a, int b, List& list, ThreadTeam& team) {
   const float reach = list.reach + skin_, per_bucket = buckets / reach;
-  team.run([&](Worker& worker) {
-    near_.fill(static_cast<int>(list.cells.size()), worker, [&](int i, std::vector<Found>& mine) {
-      const CandidatePair cells = list.cells[i];
-      const float gap = CellGaps(placed_[a], cells.a, placed_[b], cells.b).certain_gap();
-      if (gap < reach) mine.push_back({cells, gap > 0 ? static_cast<int>(gap * per_bucket) : 0});
-    });
+  near_.fill(static_cast<int>(list.cells.size()), team, [&](int i, std::vector<Found>& mine) {
+    const CandidatePair cells = list.cells[i];
+    const float gap = CellGaps(placed_[a], cells.a, placed_[b], cells.b).certain_gap();
+    if (gap < reach) mine.push_back({cells, gap > 0 ? static_cast<int>(gap * per_bucket) : 0});
   });
   order(near_, list);
   list.sorted = true;

@@ -21,6 +21,9 @@ struct Node {
 /// How many nodes a side each level has: cells, then halves rounded up, down to 1.
 std::vector<int> level_sides(int cells);
 
+/// Fewest cells a side at which fitting a surface's levels is shared among workers.
+inline constexpr int min_shared_cells = 96;
+
 /// Calls visit(child) for a node's children, at most four, in row order.
 template <class Visit>
 void for_children(const Node& node, const std::vector<int>& sides, const Visit& visit) {

@@ -42,11 +42,17 @@ PyramidPairs::PyramidPairs(std::span<const SurfaceGrid* const> grids, std::size_
 void PyramidPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
   surfaces_.assign(surfaces.begin(), surfaces.end());
   const CollideKernels& kernels = collide_kernels_for(team.instructions());
-  team.run([&](Worker& worker) {
+  const auto is_fitted = [&](std::size_t i) {
+    return surfaces_[i].name != 0 && surfaces_[i].name == levels_[i].fitted_to;
+  };
+  bool large = false;
+  for (std::size_t i = 0; i < surfaces_.size(); ++i)
+    large = large || (!is_fitted(i) && surfaces_[i].grid->cells() >= min_shared_cells);
+  team.run_if(large, [&](Worker& worker) {
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
       const MovingSurface& of = surfaces_[i];
       Levels& levels = levels_[i];
-      if (of.name != 0 && of.name == levels.fitted_to) continue;
+      if (is_fitted(i)) continue;
       levels.boxes.fit(of, worker);
       if (i >= cloths_) levels.slabs.fit(kernels, of, worker);
     }

@@ -124,7 +124,7 @@ void UnfoldedWindows::find_unfolded(const MovingSurface& surface, float slack, T
   const int side = levels_.front().side;
   while (static_cast<int>(lines_.size()) < team.size())
     lines_.push_back({planes(2, side), planes(1, side)});
-  team.run([&](Worker& worker) {
+  team.run_if(side >= min_shared_cells, [&](Worker& worker) {
     fit(kernels, surface, worker);
     Lines& lines = lines_[static_cast<std::size_t>(worker.rank())];
     for (std::size_t level = levels_.size(); level-- > 0;) {

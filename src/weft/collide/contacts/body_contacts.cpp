@@ -187,10 +187,8 @@ void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> b
   }
   for (const ContactBody& body : bodies) find_near_blocks(cloth, body, team);
   const int n = grid_.size();
-  team.run([&](Worker& worker) {
-    found_.fill(n * n, worker, [&](int s, std::vector<Contact>& out) {
-      if (grid_.point(s) == s) find_for_sample(cloth, bodies, ground, s, out);
-    });
+  found_.fill(n * n, team, [&](int s, std::vector<Contact>& out) {
+    if (grid_.point(s) == s) find_for_sample(cloth, bodies, ground, s, out);
   });
   contacts_.clear();
   append(found_, contacts_);

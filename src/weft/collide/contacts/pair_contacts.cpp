@@ -265,11 +265,9 @@ float layer_stiffness(double compliance, double time_step) {
 
 void PairContacts::find(const ClothPair& pair, std::span<const CandidatePair> cells,
                         ThreadTeam& team, const PairLists& lists) {
-  team.run([&](Worker& worker) {
-    found_.fill(static_cast<int>(cells.size()), worker, [&](int i, Found& mine) {
-      const PairLists out{mine.of_a, mine.of_b, lists.shared != nullptr ? &mine.shared : nullptr};
-      Finder(pair, out).find(cells[i]);
-    });
+  found_.fill(static_cast<int>(cells.size()), team, [&](int i, Found& mine) {
+    const PairLists out{mine.of_a, mine.of_b, lists.shared != nullptr ? &mine.shared : nullptr};
+    Finder(pair, out).find(cells[i]);
   });
   for (const Found& mine : found_.lists()) {
     lists.of_a.insert(lists.of_a.end(), mine.of_a.begin(), mine.of_a.end());

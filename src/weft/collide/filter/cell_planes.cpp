@@ -188,10 +188,8 @@ class Finder {
 
 void CellPlanes::find(const PlaneSearch& search, std::span<const CandidatePair> cells,
                       ThreadTeam& team, std::vector<SeparatingPlane>& out) {
-  team.run([&](Worker& worker) {
-    found_.fill(
-        static_cast<int>(cells.size()), worker,
-        [&](int i, std::vector<SeparatingPlane>& mine) { Finder(search, mine).find(cells[i]); });
+  found_.fill(static_cast<int>(cells.size()), team, [&](int i, std::vector<SeparatingPlane>& mine) {
+    Finder(search, mine).find(cells[i]);
   });
   append(found_, out);
 }
