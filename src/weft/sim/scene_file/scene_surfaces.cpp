@@ -113,7 +113,7 @@ namespace {
 /// The rest shape: `mesh`, as it is placed, or `uv` with `uv_scale`.
 std::optional<TextureRest> read_rest(const JsonObject& object) {
   const std::string rest = object.text("rest", "mesh");
-  const JsonPlace place = object.place();
+  const JsonPlace& place = object.place();
   if (rest != "mesh" && rest != "uv")
     place.key("rest").fail(fmt::format("'{}'", rest), "mesh or uv is wanted");
   const nlohmann::json* scale = object.find("uv_scale");
