@@ -8,8 +8,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       weft::fuzz::read_or_refuse([&] { return weft::parse_npy(bytes, weft::fuzz::file_name); });
   if (array)
     for (std::size_t i = 0; i < array->count(); ++i) (void)array->at(i);
-  const auto cache = weft::fuzz::read_or_refuse(
-      [&] { return weft::parse_npz(bytes, weft::fuzz::file_name); });
+  const auto cache =
+      weft::fuzz::read_or_refuse([&] { return weft::parse_npz(bytes, weft::fuzz::file_name); });
   if (cache) weft::fuzz::require_sound(*cache);
   return 0;
 }

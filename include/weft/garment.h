@@ -76,7 +76,8 @@ struct GarmentSeam {
 /// Distance between charts that are laid flat above each other, so that no two are near. [m]
 inline constexpr float flat_distance = 0.5F;
 
-/// What holds a panel up while it is sewn.
+/// What holds a panel up while it is sewn: the panels that it is sewn to, or edges with a label, at
+/// the waist (skirts, trousers) or higher (all other labels).
 enum class PanelHold : char { other_panels, waist, shoulders };
 
 /// A pattern as an image of charts, one rectangle for each panel in the pattern's order.
@@ -87,8 +88,8 @@ struct Garment {
   Planes3 flat;         ///< [n x n] the panels laid flat, flat_distance above each other [m]
   Planes3 texture;      ///< [n x n] x and y in the pattern's panel [m]
   std::vector<GarmentSeam> seams;
-  std::vector<PanelHold> hold;  ///< of each panel, by the labels of its edges
-  std::vector<int> held;        ///< samples of edges that have a label, which say where it is worn
+  std::vector<PanelHold> panel_holds;  ///< of each panel, by the labels of its edges
+  std::vector<int> labelled;  ///< samples of edges that have a label, which say where it is worn
 };
 
 /// Makes charts of a pattern's panels. Edges that are sewn together get as many samples as the

@@ -210,7 +210,8 @@ void put_surface(const py::handle& given, Surface& surface, const std::string& n
   surface = Surface(mesh_of(vertices, faces), called);
 }
 
-/// A motion in memory: None, or (positions (T, n, 3), frames a second, seconds of wait, of lead-in).
+/// A motion in memory: None, or (positions (T, n, 3), frames a second, seconds of wait, of
+/// lead-in).
 void put_motion(const py::handle& given, SceneBody& body) {
   if (given.is_none()) return;
   const auto [positions, rate, wait, lead_in] =

@@ -74,14 +74,15 @@ def vector(given, what, length=3):
     return array.tolist()
 
 
-def number(given, what, above=None):
-    """A finite float."""
+def number(given, what, above=None, least=None):
+    """A finite float, above one limit or no less than another."""
     try:
         value = float(given)
     except (TypeError, ValueError):
         raise TypeError(f"{what}: a number is wanted, not {given!r:.60}") from None
-    if not np.isfinite(value) or (above is not None and value <= above):
-        raise ValueError(f"{what}: a finite number{'' if above is None else f' above {above}'} is wanted, not {value}")
+    if not np.isfinite(value) or (above is not None and value <= above) or (least is not None and value < least):
+        limit = f" above {above}" if above is not None else f" of at least {least}" if least is not None else ""
+        raise ValueError(f"{what}: a finite number{limit} is wanted, not {value}")
     return value
 
 

@@ -200,6 +200,9 @@ class Simulation:
         self._check_open()
         if not isinstance(body, Body):
             body = Body(body)
+        pauses = {"wait": _arguments.number(wait, "wait", least=0), "lead_in": _arguments.number(lead_in, "lead_in", least=0)}
+        if body._motion is None and body._keys is None and any(pauses.values()):
+            raise ValueError("wait and lead_in are of bodies that move: this one has no motion")
         index = len(self._scene["bodies"])
         told = {"name": name or f"body{index}" if index else name or "body", "surface": body._surface.name, "size": body._size,
                 "friction": _arguments.number(friction, "friction"), **_placement(scale, rotate, translate)}
@@ -207,7 +210,6 @@ class Simulation:
             told["motion"] = body._keys
         self._scene["bodies"].append(told)
         self._body_memory.append(body._surface.memory)
-        pauses = {"wait": _arguments.number(wait, "wait"), "lead_in": _arguments.number(lead_in, "lead_in")}
         self._motions.append(None if body._motion is None else (*body._motion, *pauses.values()))
         if body._keys is not None:
             told.update(pauses)

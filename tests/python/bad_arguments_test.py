@@ -47,9 +47,9 @@ def scene(**wrong):
     return list(simulation.run(2))
 
 
-def body(*given, friction=0.4, **wrong):
+def body(*given, friction=0.4, wait=0.0, lead_in=0.0, **wrong):
     simulation = weft.Simulation(threads=1)
-    simulation.add_body(weft.Body(*given, **wrong), friction=friction)
+    simulation.add_body(weft.Body(*given, **wrong), friction=friction, wait=wait, lead_in=lead_in)
     simulation.add_cloth("builtin:sheet", size=9)
     return simulation.start()
 
@@ -220,6 +220,10 @@ CASES = [
     (weft.SceneError, "points", lambda: body("builtin:sphere", motion=np.zeros((4, 7, 3)))),
     (Shape, "fps", lambda: body(V, F, motion=np.stack([V, V]), fps=0)),
     (Shape, "not both", lambda: body(V, F, motion=np.stack([V, V]), keys=[])),
+    (Shape, "wait", lambda: body(V, F, motion=np.stack([V, V]), wait=-1)),
+    (Shape, "lead_in", lambda: body(V, F, motion=np.stack([V, V]), lead_in=np.inf)),
+    (Shape, "no motion", lambda: body(V, F, wait=1)),
+    (Shape, "no motion", lambda: body("builtin:sphere", lead_in=0.5)),
     (Bad, "body", lambda: body(V, F + len(V))),
     (weft.SceneError, "friction", lambda: body("builtin:sphere", friction=-1)),
     (Missing, "none.obj", lambda: body("none.obj")),

@@ -59,8 +59,8 @@ class Maker {
     world_.resize(static_cast<std::size_t>(size_) * size_);
     for (std::size_t p = 0; p < charts.size(); ++p) lay(p, charts[p], garment);
     sew(charts, garment);
-    find_held(garment);
-    for (const PatternPanel& panel : pattern_.panels) garment.hold.push_back(hold_of(panel));
+    find_labelled(garment);
+    for (const PatternPanel& panel : pattern_.panels) garment.panel_holds.push_back(hold_of(panel));
     fill_holes(garment);
     set_positions(garment.image);
     garment.image.source = name_;
@@ -110,7 +110,7 @@ class Maker {
     garment.sewn = BorderMates(size_, charts, std::move(runs));
   }
 
-  void find_held(Garment& garment) const {
+  void find_labelled(Garment& garment) const {
     const BorderMates& apart = garment.image.mates;
     for (std::size_t p = 0; p < outlines_.size(); ++p)
       for (std::size_t k = 0; k < pattern_.panels[p].edges.size(); ++k) {
@@ -118,7 +118,7 @@ class Maker {
         const int first = apart.first_position(static_cast<int>(p)) +
                           position_of(outlines_[p], outlines_[p].first[k]);
         for (int i = 0; i <= outlines_[p].intervals[k]; ++i)
-          garment.held.push_back(apart.sample_at(apart.along_border(first, i)));
+          garment.labelled.push_back(apart.sample_at(apart.along_border(first, i)));
       }
   }
 

@@ -276,12 +276,12 @@ std::vector<double> Simulation::seam_gaps(std::size_t cloth) const {
 
 double Simulation::sunk(std::size_t cloth) const {
   const SimulatedCloth& worn = parts_->cloths[cloth];
-  if (!worn.garment || worn.garment->held.empty()) return 0;
+  if (!worn.garment || worn.garment->labelled.empty()) return 0;
   const Planes3& placed = worn.model->start_positions();
   double sum = 0;
-  for (const int s : worn.garment->held)
+  for (const int s : worn.garment->labelled)
     sum += double{placed.at(s).y} - double{worn.state.position.at(s).y};
-  return sum / static_cast<double>(worn.garment->held.size());
+  return sum / static_cast<double>(worn.garment->labelled.size());
 }
 
 IntersectionCounts Simulation::intersections() const {

@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "weft/core/four.h"
+
 namespace weft {
 namespace {
 
-using Four = float __attribute__((vector_size(16)));
 using UnalignedTwo = float __attribute__((vector_size(8), aligned(4), may_alias));
 
 /// Generous bound of the rounding error of a gap, relative to the farthest coordinate.
@@ -15,18 +16,6 @@ inline float max(float a, float b) { return a > b ? a : b; }
 inline float min(float a, float b) { return a < b ? a : b; }
 inline Four min(Four a, Four b) { return a < b ? a : b; }
 inline Four max(Four a, Four b) { return a > b ? a : b; }
-
-/// A 4 x 4 matrix, by rows, becomes its transpose.
-inline void transpose(Four* m) {
-  const Four a = __builtin_shufflevector(m[0], m[1], 0, 4, 1, 5),
-             b = __builtin_shufflevector(m[0], m[1], 2, 6, 3, 7),
-             c = __builtin_shufflevector(m[2], m[3], 0, 4, 1, 5),
-             d = __builtin_shufflevector(m[2], m[3], 2, 6, 3, 7);
-  m[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
-  m[1] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
-  m[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-  m[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
-}
 
 inline float sum_of(Four of) { return (of[0] + of[1]) + (of[2] + of[3]); }
 inline Four size_of(Four a) { return max(a, -a); }

@@ -48,10 +48,10 @@ constexpr double steepest = 1.5;
 PointCache load_animation(const SceneBody& body, const BodyMotion::Files& files) {
   const Animation& animation = body.animation;
   if (animation.in_memory()) check_point_cache(*animation.points, animation.name);
-  PointCache cache =
-      animation.in_memory()
-          ? *animation.points
-          : read_point_cache(animation.name, {animation.clip, files.frame_rate, body.wait + body.lead_in});
+  PointCache cache = animation.in_memory()
+                         ? *animation.points
+                         : read_point_cache(animation.name, {animation.clip, files.frame_rate,
+                                                             body.wait + body.lead_in});
   if (cache.times_in_frames)
     for (double& time : cache.times) time /= files.frame_rate;
   cache.times_in_frames = false;

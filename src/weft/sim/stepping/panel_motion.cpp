@@ -17,7 +17,7 @@ constexpr double hold_rate = 10;
 }  // namespace
 
 PanelMotion::PanelMotion(const Garment& garment, const Planes3& start)
-    : garment_(garment), panels_(garment.hold.size()) {
+    : garment_(garment), panels_(garment.panel_holds.size()) {
   const std::vector<int>& charts = garment_.image.mates.chart_of();
   for (int s = 0; s < start.size() * start.size(); ++s) {
     panel_of_.push_back(charts.empty() ? 0 : charts[garment_.image.mates.representative(s)]);

@@ -20,7 +20,9 @@ class PanelMotion {
 
   [[nodiscard]] int panel_of(int sample) const { return panel_of_[sample]; }
   /// What holds up the panel of a sample.
-  [[nodiscard]] PanelHold hold_of(int sample) const { return garment_.hold[panel_of_[sample]]; }
+  [[nodiscard]] PanelHold hold_of(int sample) const {
+    return garment_.panel_holds[panel_of_[sample]];
+  }
 
   /// Forgets the pulls of the last step.
   void begin_step();

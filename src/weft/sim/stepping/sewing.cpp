@@ -60,8 +60,8 @@ Sewing::Sewing(const Garment& garment, const Planes3& start)
       middle_(garment.sewn.class_count()),
       away_(garment.sewn.class_count()),
       rate_(garment.sewn.class_count()),
-      stretches_(garment.hold.size()),
-      slack_(garment.hold.size(), 1.0),
+      stretches_(garment.panel_holds.size()),
+      slack_(garment.panel_holds.size(), 1.0),
       next_(garment.sewn.class_count()),
       blocked_(start.size() * start.size()) {
   find_classes_along_seams();

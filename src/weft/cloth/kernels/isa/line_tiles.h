@@ -1,6 +1,7 @@
 #pragma once
 
 #include "weft/cloth/kernels/newton_kernels.h"
+#include "weft/core/four.h"
 
 namespace weft::WEFT_KERNEL_SET {
 namespace {
@@ -9,20 +10,7 @@ namespace {
 constexpr int chunk = 16;
 constexpr int half_lanes = line_lanes / 2;
 
-using Four = float __attribute__((vector_size(16)));
 using UnalignedFour = float __attribute__((vector_size(16), aligned(4), may_alias));
-
-/// A 4 x 4 matrix, by rows, becomes its transpose.
-inline void transpose(Four* m) {
-  const Four a = __builtin_shufflevector(m[0], m[1], 0, 4, 1, 5),
-             b = __builtin_shufflevector(m[0], m[1], 2, 6, 3, 7),
-             c = __builtin_shufflevector(m[2], m[3], 0, 4, 1, 5),
-             d = __builtin_shufflevector(m[2], m[3], 2, 6, 3, 7);
-  m[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
-  m[1] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
-  m[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-  m[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
-}
 
 /// Element j of line i becomes tile[j][i]. Lanes beyond the last line get finite values.
 template <int lanes>
