@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <span>
 
 namespace weft {
@@ -24,6 +23,8 @@ constexpr double turns_within = 0.005;
 /// Samples this close to their mean have met. Of samples far from theirs those are pulled that lie
 /// up to so many samples along the seam from where it has met. [m]
 constexpr double met = 0.002, far = 0.02;
+/// What is this near is pulled in any case where a seam closes as a zip. [m]
+constexpr double near_in_zip = 0.006;
 constexpr int zip_reach = 3;
 /// Bending stiffness of panels while they are sewn, that of paper; limp, they would crumple at
 /// their edges and come to lie between others. [N m]
@@ -57,12 +58,14 @@ double part_left(double seconds, double time_to_close) {
 Sewing::Sewing(const Garment& garment, const Planes3& start)
     : garment_(garment),
       panels_(garment, start),
+      unpicking_(garment),
       middle_(garment.sewn.class_count()),
       away_(garment.sewn.class_count()),
       rate_(garment.sewn.class_count()),
       stretches_(garment.panel_holds.size()),
       slack_(garment.panel_holds.size(), 1.0),
       next_(garment.sewn.class_count()),
+      stuck_(garment.sewn.class_count()),
       blocked_(start.size() * start.size()) {
   find_classes_along_seams();
   find_leaders();
@@ -74,15 +77,14 @@ Sewing::Sewing(const Garment& garment, const Planes3& start)
 }
 
 void Sewing::find_classes_along_seams() {
-  std::map<int, int> class_of;
+  const int n = garment_.flat.size();
+  class_of_.assign(static_cast<std::size_t>(n) * n, -1);
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
-    class_of[garment_.sewn.mates(k).front()] = k;
+    for (const int s : garment_.sewn.mates(k)) class_of_[s] = k;
   for (const GarmentSeam& seam : garment_.seams) {
     std::vector<int>& classes = along_.emplace_back();
-    for (const auto& [a, b] : seam.pairs) {
-      const auto found = class_of.find(garment_.sewn.representative(a));
-      if (found != class_of.end()) classes.push_back(found->second);
-    }
+    for (const auto& [a, b] : seam.pairs)
+      if (class_of_[a] >= 0) classes.push_back(class_of_[a]);
   }
 }
 
@@ -111,8 +113,24 @@ void Sewing::measure(const Planes3& position) {
   }
 }
 
+void Sewing::begin_frame(const Planes3& position, double seconds, double length) {
+  const auto since = static_cast<int>(std::lround(seconds / length)) -
+                     static_cast<int>(std::ceil(time_to_close_ / length));
+  if (!unpicking_.begin_frame(since, length)) return;
+  measure(position);
+  find_slack(position);
+  for (int k = 0; k < garment_.sewn.class_count(); ++k)
+    stuck_[k] = away_[k] > closed && away_[k] < far && slack_of(k) == 1 ? 1 : 0;
+  unpicking_.choose(along_, stuck_);
+}
+
+bool Sewing::is_unpicked(int sample) const {
+  return class_of_[sample] >= 0 && unpicking_.takes_apart(class_of_[sample]);
+}
+
 void Sewing::find_next() {
-  for (std::size_t k = 0; k < next_.size(); ++k) next_[k] = away_[k] < far ? 1 : 0;
+  const double within = unpicking_.closes_as_a_zip() ? near_in_zip : far;
+  for (std::size_t k = 0; k < next_.size(); ++k) next_[k] = away_[k] < within ? 1 : 0;
   for (const std::vector<int>& classes : along_) {
     const auto count = static_cast<int>(classes.size());
     const auto is_met = [&](int k) { return away_[k] < met; };
@@ -219,6 +237,7 @@ void Sewing::pull(const Step& now, ClothState& state) {
 }
 
 Vec3d Sewing::pull_of(int index, int sample, const Planes3& position, std::size_t step) const {
+  if (unpicking_.takes_apart(index)) return unpicking_.retreat_of(sample, position);
   const std::span<const int> samples = garment_.sewn.copies(index);
   const Vec3d goal = away_[index] < turns_within
                          ? vec_cast<double>(position.at(samples[step % samples.size()]))
@@ -264,8 +283,10 @@ BorderMates Sewing::joined(const Planes3& position) const {
   for (const MateInterval& seam : sewn.intervals()) {
     const int back = seam.turned ? 1 : -1;
     const auto is_closed = [&](int k) {
-      return position.at(sewn.sample_at(sewn.along_border(seam.first, k))) ==
-             position.at(sewn.sample_at(sewn.along_border(seam.mate, back * k)));
+      const int sample = sewn.sample_at(sewn.along_border(seam.first, k));
+      return !is_unpicked(sample) &&
+             position.at(sample) ==
+                 position.at(sewn.sample_at(sewn.along_border(seam.mate, back * k)));
     };
     for (int k = 0, begin = 0; k <= seam.count + 1; ++k) {
       if (k <= seam.count && is_closed(k)) continue;

@@ -8,6 +8,7 @@
 #include "weft/contact.h"
 #include "weft/garment.h"
 #include "weft/sim/stepping/panel_motion.h"
+#include "weft/sim/stepping/unpicking.h"
 
 namespace weft {
 
@@ -17,7 +18,8 @@ namespace weft {
 /// closed from where its seam is closed already, as a zip is; it is let go and pulled again in
 /// turn, so that cloth that was pulled into a crease, or to the wrong side of a limb, comes out of
 /// it. Nothing is pulled into a body that it touches: seams slide over it. At a seam between a
-/// bodice and a skirt the skirt comes to the height of the bodice.
+/// bodice and a skirt the skirt comes to the height of the bodice. Where cloth holds a few samples
+/// apart, the seam is taken apart next to them and closed anew.
 class Sewing {
  public:
   /// The step that seams are pulled together in.
@@ -30,6 +32,10 @@ class Sewing {
   /// @param garment  kept by reference
   /// @param start  where its panels begin [n x n] [m]
   Sewing(const Garment& garment, const Planes3& start);
+
+  /// Chooses what a frame takes apart again.
+  /// @param seconds  at its start, since the run's  @param length  of the frame [s]
+  void begin_frame(const Planes3& position, double seconds, double length);
 
   /// Sets the velocities of a cloth for the next step: in each class those of the mean, and towards
   /// each other. All are damped, as only the seams are to move the cloth.
@@ -56,6 +62,7 @@ class Sewing {
  private:
   static constexpr int max_blocking = 3;  // normals that a sample heeds
   void find_classes_along_seams();
+  [[nodiscard]] bool is_unpicked(int sample) const;
   void find_leaders();
   /// The mean over the samples of a class; its height is that of those that the others come to.
   [[nodiscard]] Vec3d mean_of_class(int index, const Planes3& planes) const;
@@ -80,6 +87,7 @@ class Sewing {
 
   const Garment& garment_;
   PanelMotion panels_;
+  Unpicking unpicking_;
   double time_to_close_;                        // if nothing holds the seams back [s]
   std::vector<std::vector<int>> leaders_;       // of each class, the samples that set the height
   std::vector<Vec3d> middle_;                   // of each class
@@ -87,8 +95,10 @@ class Sewing {
   std::vector<double> rate_;                    // at which it shrinks [1/s]
   std::vector<std::vector<double>> stretches_;  // of each panel, at its seams
   std::vector<double> slack_;            // of each panel, from 0 to 1: the part of the late speed
+  std::vector<int> class_of_;            // of each sample; -1: none
   std::vector<std::vector<int>> along_;  // the classes along each seam
   std::vector<char> next_;               // of each class: whether it is pulled late
+  std::vector<char> stuck_;              // of each class: whether cloth seems to hold it apart
   std::vector<std::array<Vec3f, max_blocking>> blocked_;  // of each sample, normals of bodies that
                                                           // it touches; 0 where there are fewer
 };

@@ -121,6 +121,8 @@ void Simulation::Parts::follow_sewing() {
     if (!sewing[i]) continue;
     Cloth& model = *cloths[i].model;
     const Planes3& position = cloths[i].state.position;
+    const double frame_time = substep_time * scene.substeps;
+    sewing[i]->begin_frame(position, frame * frame_time, frame_time);
     std::optional<BorderMates> apart;
     if (!sewing[i]->is_closed(position)) apart = sewing[i]->joined(position);
     const bool same = apart.has_value() == model.apart.has_value() &&

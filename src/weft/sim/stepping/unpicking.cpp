@@ -1,0 +1,58 @@
+#include "weft/sim/stepping/unpicking.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// Seams that are open so long after they should have closed are taken apart, and again each such
+/// time. [s]
+constexpr double first = 0.3, every = 0.4;
+/// So many samples along a seam to both sides of what is stuck are taken apart, too.
+constexpr int reach = 3;
+/// After so many attempts a garment is left as it is, so that it comes to rest.
+constexpr int most_attempts = 12;
+
+int frames_of(double seconds, double length) {
+  return std::max(2, static_cast<int>(std::lround(seconds / length)));
+}
+
+}  // namespace
+
+Unpicking::Unpicking(const Garment& garment)
+    : garment_(garment), chosen_(garment.sewn.class_count()) {}
+
+bool Unpicking::begin_frame(int since, double length) {
+  std::fill(chosen_.begin(), chosen_.end(), char{});
+  frame_length_ = length;
+  const int begun = since - frames_of(first, length), period = frames_of(every, length);
+  attempt_ = begun < 0 ? -1 : begun / period;
+  return begun >= 0 && begun % period == 0 && attempt_ < most_attempts;
+}
+
+void Unpicking::choose(std::span<const std::vector<int>> along, std::span<const char> stuck) {
+  for (const std::vector<int>& classes : along) {
+    const auto count = static_cast<int>(classes.size());
+    for (int i = 0; i < count; ++i)
+      for (int j = std::max(0, i - reach); j <= std::min(count - 1, i + reach); ++j)
+        if (stuck[classes[i]] != 0) chosen_[classes[j]] = 1;
+  }
+}
+
+Vec3d Unpicking::retreat_of(int sample, const Planes3& position) const {
+  const int n = position.size();
+  Vec3d inwards;
+  double row = 0;
+  for (const int step : {-n, -1, 1, n}) {
+    const int next = sample + step, second = next + step;
+    if (second < 0 || second >= n * n || !garment_.image.mates.same_chart(sample, second)) continue;
+    inwards += vec_cast<double>(position.at(second) - position.at(sample));
+    row = std::max(row, double{length(garment_.flat.at(next) - garment_.flat.at(sample))});
+  }
+  // By one row of samples, or by two, in turn.
+  const double way = (1 + attempt_ % 2) * row;
+  return (way / frame_length_) * normalized(inwards);
+}
+
+}  // namespace weft
