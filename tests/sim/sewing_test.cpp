@@ -191,5 +191,38 @@ TEST_F(Sewing, GoesOnFromASavedState) {
   EXPECT_EQ(whole.state_hash(), resumed.state_hash());
 }
 
+/// Opens a pair of a closed seam by 8 mm.
+void open_pair(const Simulation& simulation, SimulationState& state) {
+  const int sample = simulation.cloths()[0].garment->seams.front().pairs[5][0];
+  Planes3& position = state.cloths[0].position;
+  position.set(sample, position.at(sample) + Vec3f{0, 0, 0.008F});
+}
+
+TEST_F(Sewing, ClosesAgainWhatItTookApart) {
+  Simulation whole(scene_, "scene", 1), resumed(scene_, "scene", 1);
+  SimulationState state, opened;
+  // In most frames it just closes; in some, it is taken apart.
+  FrameReport report;
+  for (int frame = 0; frame < 60 && report.seam_gap < 0.02; ++frame) {
+    resumed.save(state);
+    opened = state;
+    if (frame >= 25) open_pair(resumed, opened);
+    whole.restore(opened);
+    report = whole.advance();
+    if (frame < 25) report.seam_gap = 0;
+    resumed.advance();
+  }
+  ASSERT_GT(report.seam_gap, 0.02);
+  whole.save(state);
+  resumed.restore(state);
+  for (int frame = 0; frame < 30; ++frame) {
+    report = whole.advance();
+    resumed.advance();
+  }
+  EXPECT_EQ(report.seam_gap, 0);
+  EXPECT_EQ(whole.intersections().total(), 0);
+  EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+}
+
 }  // namespace
 }  // namespace weft
