@@ -70,6 +70,35 @@ TEST(ChartPacking, WhatDoesNotFitIsTold) {
   EXPECT_TRUE(pack_charts(std::vector<ChartShare>{{33, 1}}, 33));
 }
 
+TEST(ChartPacking, RectanglesLieApartAndHaveTheirAspect) {
+  for (const int size : {257, 513})
+    for (const int count : {2, 5, 17}) {
+      std::vector<ChartShare> shares;
+      for (int k = 0; k < count; ++k)
+        shares.push_back({5, 1.0 / (1 + k % 7), k % 3 == 0 ? 6.0 : 1});
+      const std::optional<std::vector<Chart>> packed = pack_charts(shares, size);
+      ASSERT_TRUE(packed);
+      for (int i = 0; i < count; ++i) {
+        const Chart& chart = (*packed)[i];
+        EXPECT_EQ((chart.rows - 1) % 4 + (chart.cols - 1) % 4, 0);
+        EXPECT_LE(std::max(chart.row + chart.rows, chart.col + chart.cols), size);
+        for (int j = 0; j < i; ++j) EXPECT_FALSE(overlap(chart, (*packed)[j]));
+        // Narrow ones have more rows than they would.
+        const double aspect = (chart.cols - 1.0) / (chart.rows - 1);
+        if (chart.rows > 17) {
+          EXPECT_NEAR(aspect / shares[i].aspect, 1, 0.4) << chart.rows << " x " << chart.cols;
+        }
+      }
+    }
+}
+
+TEST(ChartPacking, AChartGrowsAlongItsLongerSideToHoldItsBorder) {
+  EXPECT_EQ(with_border(ChartSize(17, 33), 96, 257), ChartSize(17, 33));
+  EXPECT_EQ(with_border(ChartSize(17, 33), 97, 257), ChartSize(17, 37));
+  EXPECT_EQ(with_border(ChartSize(17, 33), 97, 33), ChartSize(21, 33)) << "as far as that goes";
+  EXPECT_EQ(with_border(ChartSize(17), 65, 257), ChartSize(21)) << "a square";
+}
+
 TEST(Charts, EveryPieceKeepsItsTopology) {
   const TriangleMesh mesh =
       beside({make_shape("sphere"), make_shape("torus"), make_shape("tshirt"), make_shape("knot")});

@@ -24,7 +24,7 @@ void expect_covered_once(const MappedDisk& mapped) {
 
 // Positions that are a linear function of uv, wherever the vertices lie.
 MappedDisk straightened(MappedDisk mapped) {
-  const double side = mapped.map.size - 1;
+  const double side = mapped.map.size.cols - 1;
   for (std::size_t k = 0; k < mapped.map.uv.size(); ++k)
     mapped.cut.disk.positions[k] = maps::flat(mapped.map.uv[k].x / side, mapped.map.uv[k].y / side);
   return mapped;

@@ -31,6 +31,31 @@ TEST(BorderPoint, RunsCounterClockwiseFromTheOriginThroughTheCorners) {
   EXPECT_EQ(border_point(9, 32), (Vec2d{0, 0}));
 }
 
+TEST(BorderPoint, OfARectangleHasItsCornersAndItsInverse) {
+  const ChartSize size(5, 17);
+  EXPECT_EQ(size.around(), 40);
+  EXPECT_EQ(border_point(size, 16), (Vec2d{16, 0}));
+  EXPECT_EQ(border_point(size, 20), (Vec2d{16, 4}));
+  EXPECT_EQ(border_point(size, 36), (Vec2d{0, 4}));
+  for (double t = 0; t < 40; t += 0.375)
+    EXPECT_EQ(border_position_of(size, border_point(size, t)), t);
+  for (int t = 0; t < 40; ++t) {
+    const Vec2d p = border_point(size, t);
+    EXPECT_EQ(chart_sample(size, t, 17), static_cast<int>(p.y) * 17 + static_cast<int>(p.x));
+  }
+}
+
+TEST(LayOutBorder, OfARectangleFillsItInStepsThatItsSidesHave) {
+  for (const Case& c : layout_cases()) {
+    const int side = (min_size(c.cut) + 63) / 64 * 64;
+    for (const ChartSize size : {ChartSize(65, 16 * side + 1), ChartSize(4 * side + 1, 33)}) {
+      const BorderLayout layout = lay_out_border(c.cut, {size, 7});
+      EXPECT_EQ(std::accumulate(layout.intervals.begin(), layout.intervals.end(), 0), size.around())
+          << c.name;
+    }
+  }
+}
+
 TEST(LayOutBorder, CountsFillTheSquareMatesMatchAndPathsFollowOn) {
   for (const Case& c : layout_cases()) {
     SCOPED_TRACE(c.name);

@@ -42,7 +42,7 @@ bool on_square(Vec2d p, double side) {
 /// Both mates' places along their paths add up to the paths' length, to the last bit.
 void expect_exact_mates(const CutDisk& cut, const BorderLayout& layout, std::span<const Vec2d> uv) {
   const int count = static_cast<int>(cut.disk.border.size());
-  const double around = 4.0 * (layout.size - 1);
+  const double around = layout.size.around();
   const auto place = [&](int path, int j) {
     const int v = cut.disk.border[(cut.paths[path].first + j) % count];
     const double along = border_position_of(layout.size, uv[v]) - layout.first[path];

@@ -24,7 +24,7 @@ int border_sample_at(int n, int position) {
 
 /// [n * n] the least sample that is the same point of the surface.
 std::vector<int> joined_samples(const CutDisk& cut, const BorderLayout& layout) {
-  const int n = layout.size;
+  const int n = layout.size.rows;
   std::vector<int> same(n * n);
   std::iota(same.begin(), same.end(), 0);
   const auto root = [&](int s) {
@@ -49,7 +49,7 @@ std::vector<int> joined_samples(const CutDisk& cut, const BorderLayout& layout) 
 class JoinedGrid {
  public:
   JoinedGrid(const CutDisk& cut, const BorderLayout& layout, Random& random)
-      : n_(layout.size), points_(joined_samples(cut, layout)), rising_((n_ - 1) * (n_ - 1)) {
+      : n_(layout.size.rows), points_(joined_samples(cut, layout)), rising_((n_ - 1) * (n_ - 1)) {
     for (char& rising : rising_) rising = static_cast<char>(random.index(2));
   }
 

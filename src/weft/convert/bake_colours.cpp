@@ -51,11 +51,11 @@ class ColourReader {
 /// Samples a chart into its rectangle of the map.
 void sample_chart(const ConvertedChart& chart, const ColourReader& reader, int scale,
                   Planes3& map) {
-  const int side = scale * (chart.place.rows - 1) + 1;
+  const ChartSize fine = refined(chart.mapped->map.size, scale);
   const std::vector<SurfacePlace> places =
-      surface_places(*chart.mapped, chart.piece->mesh.triangles, side);
-  for (int s = 0; s < side * side; ++s)
-    map.set(scale * chart.place.row + s / side, scale * chart.place.col + s % side,
+      surface_places(*chart.mapped, chart.piece->mesh.triangles, fine);
+  for (int s = 0; s < fine.rows * fine.cols; ++s)
+    map.set(scale * chart.place.row + s / fine.cols, scale * chart.place.col + s % fine.cols,
             reader.at(chart.piece->triangle[places[s].triangle], places[s].weights));
 }
 

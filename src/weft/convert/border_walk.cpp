@@ -9,9 +9,9 @@
 namespace weft {
 
 BorderWalk::BorderWalk(const MappedDisk& mapped)
-    : size_(mapped.map.size), path_at_(static_cast<std::size_t>(4 * (size_ - 1)), 0) {
+    : size_(mapped.map.size), path_at_(static_cast<std::size_t>(size_.around()), 0) {
   const std::vector<int>& border = mapped.cut.disk.border;
-  const int around = 4 * (size_ - 1);
+  const int around = size_.around();
   for (std::size_t p = 0; p < mapped.cut.paths.size(); ++p) {
     const BorderPath& from = mapped.cut.paths[p];
     Path path{mapped.layout.first[p], mapped.layout.intervals[p], from.mate, {}, {}};
@@ -28,16 +28,18 @@ BorderWalk::BorderWalk(const MappedDisk& mapped)
   }
 }
 
-BorderWalk::PathPoint BorderWalk::find(int index, int size) const {
-  WEFT_ASSERT(index >= 0 && index < 4 * (size - 1));
-  // In units of 1 / (size - 1) sample intervals all positions are integers.
-  const std::int64_t unit = size - 1;
-  const std::int64_t place = std::int64_t{index} * (size_ - 1);
+BorderWalk::PathPoint BorderWalk::find(int index, ChartSize size) const {
+  WEFT_ASSERT(index >= 0 && index < size.around());
+  WEFT_ASSERT((size.rows - 1) * std::int64_t{size_.cols - 1} ==
+              (size.cols - 1) * std::int64_t{size_.rows - 1});
+  // In units of 1 / around sample intervals all positions are integers.
+  const std::int64_t unit = size.around();
+  const std::int64_t place = std::int64_t{index} * size_.around();
   PathPoint point;
   point.path = point.own_path = path_at_[place / unit];
   const Path* path = &paths_[point.path];
   std::int64_t along = place - path->first * unit;
-  if (along < 0) along += 4 * (size_ - 1) * unit;
+  if (along < 0) along += size_.around() * unit;
   if (path->mate >= 0 && path->mate < point.path) {
     along = path->intervals * unit - along;
     point.path = path->mate;
@@ -52,14 +54,14 @@ BorderWalk::PathPoint BorderWalk::find(int index, int size) const {
   return point;
 }
 
-EdgePoint BorderWalk::at(int index, int size) const {
+EdgePoint BorderWalk::at(int index, ChartSize size) const {
   const PathPoint point = find(index, size);
   const std::vector<int>& vertices = paths_[point.path].vertices;
   const std::size_t last = vertices.size() - 1, edge = point.edge;
   return {vertices[edge], vertices[std::min(edge + 1, last)], point.fraction};
 }
 
-EdgePoint BorderWalk::on_own_side(int index, int size) const {
+EdgePoint BorderWalk::on_own_side(int index, ChartSize size) const {
   const PathPoint point = find(index, size);
   if (point.path == point.own_path) return at(index, size);
   // Mates have the same edges in opposite order.

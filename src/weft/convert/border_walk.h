@@ -26,13 +26,13 @@ class BorderWalk {
   /// Keeps a reference: the disk must outlive it.
   explicit BorderWalk(const MappedDisk& mapped);
 
-  /// The point at border position `index`, in 0 .. 4 (size - 1) - 1, of a map with size x size
-  /// samples over the same square.
-  [[nodiscard]] EdgePoint at(int index, int size) const;
+  /// The point at border position `index`, in 0 .. around - 1, of a grid of samples over the same
+  /// chart, as much finer or coarser along rows as along columns.
+  [[nodiscard]] EdgePoint at(int index, ChartSize size) const;
 
   /// The surface point of at(index, size), given by the disk vertices at this border position
   /// rather than those of its mate: for values that may differ on the two sides of the cut.
-  [[nodiscard]] EdgePoint on_own_side(int index, int size) const;
+  [[nodiscard]] EdgePoint on_own_side(int index, ChartSize size) const;
 
  private:
   /// A point on the path of a pair that is used for both mates: between its vertices `edge` and
@@ -42,7 +42,7 @@ class BorderWalk {
     int edge = 0;
     double fraction = 0;
   };
-  [[nodiscard]] PathPoint find(int index, int size) const;
+  [[nodiscard]] PathPoint find(int index, ChartSize size) const;
 
   struct Path {
     int first = 0;  ///< border position of its first node
@@ -51,9 +51,9 @@ class BorderWalk {
     std::vector<int> vertices;  ///< disk vertices, both end nodes included
     std::vector<double> knots;  ///< positions of the vertices along the path, 0 .. intervals
   };
-  int size_;
+  ChartSize size_;
   std::vector<Path> paths_;
-  std::vector<int> path_at_;  ///< [4 (n - 1)] the path on each interval between two samples
+  std::vector<int> path_at_;  ///< [around] the path on each interval between two samples
 };
 
 }  // namespace weft

@@ -11,6 +11,7 @@
 #include "weft/param/augment.h"
 #include "weft/param/border_curves.h"
 #include "weft/param/border_layout.h"
+#include "weft/param/rotation.h"
 #include "weft/param/square_map.h"
 
 namespace weft {
@@ -43,7 +44,7 @@ bool is_suspicious(const MappedDisk& mapped) {
 ChartConversion::ChartConversion(const Piece& piece, const RepairedMesh& input,
                                  const std::string& name, const ConvertOptions& options)
     : piece_(piece), input_(input), name_(name), options_(options), surface_(piece.mesh) {
-  cut_ = lengthened_ = first_cut();
+  cut_ = square_.cut = first_cut();
   min_side_ = min_size(cut_open(*surface_, cut_));
 }
 
@@ -70,9 +71,10 @@ int ChartConversion::suitable_side() const {
   return n;
 }
 
-MappedDisk ChartConversion::mapped_along(const Cut& cut, int side) {
+MappedDisk ChartConversion::mapped_along(const Cut& cut, ChartSize size, int unit) {
   MapOptions map;
-  map.size = side;
+  map.size = size;
+  map.rotation_unit = unit;
   map.parameterizer = options_.parameterizer;
   map.name = name_;
   map.threads = options_.threads;
@@ -84,12 +86,49 @@ MappedDisk ChartConversion::mapped_along(const Cut& cut, int side) {
 }
 
 void ChartConversion::lengthen_cut(int side) {
-  lengthened_ = cut_;
   if (!options_.augment || options_.seam) return;
   AugmentedCut augmented = augment_cut(
       *surface_, cut_, {.size = side, .threads = options_.threads, .progress = options_.progress});
-  lengthened_ = std::move(augmented.cut);
-  rounds_ = augmented.rounds;
+  square_ = {std::move(augmented.cut), augmented.rounds, {}};
+}
+
+void ChartConversion::choose_shape(int side) {
+  // A smaller square has no cells for a rectangle; and what gains less in the stretch of trial maps
+  // may lose as much by its corners and by what is lost between charts.
+  constexpr int min_side = 9;
+  constexpr double min_gain = 0.4;
+  const ShapeOptions options{.cells = static_cast<double>(side - 1) * (side - 1),
+                             .threads = options_.threads,
+                             .progress = options_.progress};
+  square_.trial.energy = 0;
+  rectangle_ = square_;
+  if (side < min_side) return;
+  const CutDisk disk = shape_proxy(piece_.mesh, square_.cut, options);
+  square_.trial = try_aspect(disk, 1, options);
+  rectangle_ = {square_.cut, square_.rounds, best_aspect(disk, options)};
+  if (square_.rounds > 0) {
+    // Paths that a square needs are seams for nothing in a rectangle that does as well without.
+    constexpr double worth_of_paths = 0.1;
+    const ShapeTrial plain = best_aspect(shape_proxy(piece_.mesh, cut_, options), options);
+    if (plain.energy < (1 + worth_of_paths) * rectangle_.trial.energy)
+      rectangle_ = {cut_, 0, plain};
+  }
+  const bool gains = rectangle_.trial.energy < (1 - min_gain) * square_.trial.energy;
+  if (!gains) rectangle_ = square_;
+}
+
+bool ChartConversion::reject_rectangle(ChartSize size) {
+  constexpr double min_gain = 0.2;
+  const TrialMap trial = try_chart(opened(rectangle_.cut), {size, options_.threads});
+  const double energy = trial.energy * (size.rows - 1) * (size.cols - 1);
+  if (energy < (1 - min_gain) * square_.trial.energy) return false;
+  rectangle_ = square_;
+  return true;
+}
+
+void ChartConversion::take_rectangle(bool taken) {
+  takes_rectangle_ = taken;
+  if (border_ == nullptr) min_side_ = min_size(opened(shape().cut));
 }
 
 CutDisk ChartConversion::opened(const Cut& cut) const {
@@ -99,29 +138,30 @@ CutDisk ChartConversion::opened(const Cut& cut) const {
 
 void ChartConversion::share(const FixedBorder& border) {
   border_ = &border;
-  const CutDisk disk = opened(lengthened_);
+  const CutDisk disk = opened(shape().cut);
   min_side_ = min_size(disk);
   shared_curves_.clear();
   min_free_intervals_ = 0;
   for (const BorderPath& path : disk.paths)
     if (path.curve >= 0) shared_curves_.push_back(path.curve);
-  border_length_ = 0;
-  for (const BorderCurve& curve : border_curves(disk))
+  border_length_ = shared_length_ = 0;
+  for (const BorderCurve& curve : border_curves(disk)) {
     border_length_ += curve.weight * curve.length;
+    if (disk.paths[curve.path].curve >= 0) shared_length_ += curve.length;
+  }
   for (const BorderCurve& curve : border_curves(disk))
     if (disk.paths[curve.path].curve < 0) min_free_intervals_ += curve.weight * curve.least;
 }
 
-void ChartConversion::map(int side) {
-  MappedDisk mapped = mapped_along(lengthened_, side);
+void ChartConversion::map(ChartSize size, int unit) {
+  MappedDisk mapped = mapped_along(shape().cut, size, unit);
   // The plain cut, where the longer one does not lower the stretch after all.
-  if (rounds_ > 0 && is_suspicious(mapped) && has_free_path(opened(cut_))) {
+  if (shape().rounds > 0 && is_suspicious(mapped) && has_free_path(opened(cut_))) {
     const CutSummary longer = cut_summary_;
-    MappedDisk plain = mapped_along(cut_, side);
+    MappedDisk plain = mapped_along(cut_, size, unit);
     if (plain.quality.stretch_l2 < mapped.quality.stretch_l2) {
       mapped = std::move(plain);
-      lengthened_ = cut_;
-      rounds_ = 0;
+      shape() = {cut_, 0, shape().trial};
     } else {
       cut_summary_ = longer;
     }

@@ -7,6 +7,8 @@
 #include <deque>
 #include <numeric>
 
+#include "weft/param/chart_shape.h"
+
 namespace weft {
 namespace {
 
@@ -19,9 +21,9 @@ class Skyline {
  public:
   explicit Skyline(int width) : depth_(static_cast<std::size_t>(width), 0) {}
 
-  /// Takes a square as high up as there is room for it, there as far left.
+  /// Takes a rectangle as high up as there is room for it, there as far left.
   /// @return its column and row, in units
-  std::array<int, 2> take(int width) {
+  std::array<int, 2> take(int width, int height) {
     int best_col = 0, best_row = INT_MAX;
     // The columns of the window whose depth no later one reaches, deepest first.
     std::deque<int> deepest;
@@ -33,7 +35,7 @@ class Skyline {
       best_row = depth_[deepest.front()];
       best_col = c + 1 - width;
     }
-    for (int c = best_col; c < best_col + width; ++c) depth_[c] = best_row + width;
+    for (int c = best_col; c < best_col + width; ++c) depth_[c] = best_row + height;
     return {best_col, best_row};
   }
 
@@ -41,44 +43,76 @@ class Skyline {
   std::vector<int> depth_;
 };
 
-/// The widest charts first.
-std::optional<std::vector<Chart>> pack_sides(std::span<const int> sides, int size) {
-  std::vector<int> order(sides.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return sides[a] > sides[b]; });
+/// Whole, with what parts it from the next. [units]
+int units_of(int samples) { return (samples + unit - 2) / unit + 1; }
+
+/// In the given order.
+std::optional<std::vector<Chart>> pack_in(std::span<const int> order,
+                                          std::span<const ChartSize> sizes, int size) {
   const int width = (size - 1) / unit + 1;
   Skyline skyline(width);
-  std::vector<Chart> charts(sides.size());
+  std::vector<Chart> charts(sizes.size());
   for (const int k : order) {
-    const int units = (sides[k] + unit - 2) / unit + 1;  // whole, with what parts it from the next
-    if (units > width) return std::nullopt;
-    const auto [col, row] = skyline.take(units);
-    if (row + units > width) return std::nullopt;
-    charts[k] = {"", unit * row, unit * col, sides[k], sides[k]};
+    const auto [rows, cols] = sizes[k];
+    if (units_of(std::max(rows, cols)) > width) return std::nullopt;
+    const auto [col, row] = skyline.take(units_of(cols), units_of(rows));
+    if (row + units_of(rows) > width) return std::nullopt;
+    charts[k] = {"", unit * row, unit * col, rows, cols};
   }
   return charts;
 }
 
-}  // namespace
-
-std::vector<int> sides_at(std::span<const ChartShare> shares, double scale) {
-  std::vector<int> sides;
-  for (const ChartShare& share : shares) {
-    const int least = whole_side(share.min_side + unit - 2);
-    sides.push_back(std::max(least, whole_side(scale * std::sqrt(share.weight) - 1)));
-  }
-  return sides;
+/// The longest charts first, or else the highest: of squares the same.
+std::optional<std::vector<Chart>> pack_sizes(std::span<const ChartSize> sizes, int size) {
+  std::vector<int> order(sizes.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto longer = [&](int k) { return std::max(sizes[k].rows, sizes[k].cols); };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return longer(a) > longer(b); });
+  std::optional<std::vector<Chart>> packed = pack_in(order, sizes, size);
+  const auto is_square = [](ChartSize chart) { return chart.is_square(); };
+  if (packed || std::all_of(sizes.begin(), sizes.end(), is_square)) return packed;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return sizes[a].rows > sizes[b].rows; });
+  return pack_in(order, sizes, size);
 }
 
-std::optional<std::vector<Chart>> pack_charts(const SidesAtScale& sides_at, double max_scale,
+}  // namespace
+
+ChartSize with_border(ChartSize chart, int around, int size) {
+  const bool is_square = chart.is_square();
+  while (chart.around() < around) {
+    const bool lengthens = is_square || chart.cols + unit <= size;
+    if (is_square || !lengthens) chart.rows += unit;
+    if (lengthens) chart.cols += unit;
+  }
+  return chart;
+}
+
+std::vector<ChartSize> sizes_at(std::span<const ChartShare> shares, double scale, int size) {
+  std::vector<ChartSize> sizes;
+  for (const ChartShare& share : shares) {
+    const double side = scale * std::sqrt(share.weight) - 1;
+    const int least = whole_side(share.min_side + unit - 2);
+    if (share.aspect > 1) {
+      const ChartSize free =
+          chart_size(std::max(side, 1.0) * std::max(side, 1.0), share.aspect, size);
+      sizes.push_back(with_border(free, 4 * (share.min_side - 1), size));
+    } else {
+      sizes.push_back(std::max(least, whole_side(side)));
+    }
+  }
+  return sizes;
+}
+
+std::optional<std::vector<Chart>> pack_charts(const SizesAtScale& sizes_at, double max_scale,
                                               int size, double* found) {
-  std::optional<std::vector<Chart>> best = pack_sides(sides_at(0), size);
+  std::optional<std::vector<Chart>> best = pack_sizes(sizes_at(0), size);
   if (!best) return std::nullopt;
   double fits = 0, too_much = max_scale;
   constexpr int halvings = 24;
   for (int i = 0; i < halvings; ++i) {
     const double scale = 0.5 * (fits + too_much);
-    std::optional<std::vector<Chart>> packed = pack_sides(sides_at(scale), size);
+    std::optional<std::vector<Chart>> packed = pack_sizes(sizes_at(scale), size);
     (packed ? fits : too_much) = scale;
     if (packed) best = std::move(packed);
   }
@@ -94,8 +128,8 @@ double max_scale(std::span<const ChartShare> shares, int size) {
 }
 
 std::optional<std::vector<Chart>> pack_charts(std::span<const ChartShare> shares, int size) {
-  return pack_charts([&](double scale) { return sides_at(shares, scale); }, max_scale(shares, size),
-                     size);
+  return pack_charts([&](double scale) { return sizes_at(shares, scale, size); },
+                     max_scale(shares, size), size);
 }
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -34,28 +35,33 @@ std::vector<ChartShare> shares_of(std::span<const Piece> pieces,
     shares.push_back(
         {charts[k].min_side(),
          by_area * pieces[k].area / area +
-             (1 - by_area) * static_cast<double>(pieces[k].triangle.size()) / triangles});
+             (1 - by_area) * static_cast<double>(pieces[k].triangle.size()) / triangles,
+         charts[k].aspect()});
   return shares;
 }
 
-/// Sides and intervals that belong together.
+/// Sizes and intervals that belong together, in an image of a given size.
 class Sizing {
  public:
   Sizing(std::span<const Piece> pieces, std::span<const ChartConversion> charts,
-         const SeamCurves& curves)
-      : charts_(charts), curves_(curves), shares_(shares_of(pieces, charts)) {}
+         const SeamCurves& curves, int size)
+      : charts_(charts), curves_(curves), shares_(shares_of(pieces, charts)), size_(size) {}
 
   [[nodiscard]] const std::vector<ChartShare>& shares() const { return shares_; }
 
-  /// [curves] the mean of what the charts beside a curve ask for.
+  /// [curves] the mean of what the charts beside a curve ask for, but no more than a rectangle
+  /// does: that may be as long as the image already.
   [[nodiscard]] std::vector<int> intervals_at(double scale) const {
-    const std::vector<int> sides = sides_at(shares_, scale);
+    const std::vector<ChartSize> sizes = sizes_at(shares_, scale, size_);
     std::vector<double> density(curves_.length.size(), 0);
+    std::vector<double> most(density.size(), std::numeric_limits<double>::infinity());
     std::vector<int> uses(density.size(), 0), least(density.size(), seam_unit);
     for (std::size_t k = 0; k < charts_.size(); ++k) {
       const std::vector<int>& shared = charts_[k].shared_curves();
       for (const int curve : shared) {
-        density[curve] += 4 * (sides[k] - 1) / charts_[k].border_length();
+        const double own = sizes[k].around() / charts_[k].border_length();
+        density[curve] += own;
+        if (shares_[k].aspect > 1) most[curve] = std::min(most[curve], own);
         ++uses[curve];
         if (charts_[k].min_free_intervals() == 0)
           least[curve] = std::max(least[curve], least_of(static_cast<int>(shared.size())));
@@ -63,28 +69,31 @@ class Sizing {
     }
     std::vector<int> intervals;
     for (std::size_t c = 0; c < density.size(); ++c)
-      intervals.push_back(
-          std::max(least[c], whole_units(curves_.length[c] * density[c] / uses[c])));
+      intervals.push_back(std::max(
+          least[c], whole_units(curves_.length[c] * std::min(most[c], density[c] / uses[c]))));
     return intervals;
   }
 
   /// [charts] large enough for the intervals of their curves; where nothing else is on a chart's
   /// border, just as large as these want.
-  [[nodiscard]] std::vector<int> sides_for(double scale, std::span<const int> intervals) const {
-    std::vector<int> sides = sides_at(shares_, scale);
+  [[nodiscard]] std::vector<ChartSize> sizes_for(double scale,
+                                                 std::span<const int> intervals) const {
+    std::vector<ChartSize> sizes = sizes_at(shares_, scale, size_);
     for (std::size_t k = 0; k < charts_.size(); ++k) {
       const std::vector<int>& shared = charts_[k].shared_curves();
       if (shared.empty()) continue;
       int sum = 0;
       for (const int curve : shared) sum += intervals[curve];
       const int free = charts_[k].min_free_intervals();
-      if (free == 0) {
-        sides[k] = sum / 4 + 1;
-        continue;
-      }
-      while (4 * (sides[k] - 1) < sum + free) sides[k] += seam_unit;
+      // A strip that has more samples along one side than along the other is skewed.
+      const double length = charts_[k].shared_length();
+      const int even = shares_[k].aspect > 1
+                           ? static_cast<int>(std::ceil(sum * charts_[k].border_length() / length))
+                           : 0;
+      sizes[k] = free == 0 ? size_around(sum, shares_[k].aspect)
+                           : with_border(sizes[k], std::max(sum + free, even), size_);
     }
-    return sides;
+    return sizes;
   }
 
  private:
@@ -94,9 +103,19 @@ class Sizing {
     return (all / curves + seam_unit - 1) / seam_unit * seam_unit;
   }
 
+  /// The chart of an aspect whose border has just so many intervals.
+  [[nodiscard]] ChartSize size_around(int intervals, double aspect) const {
+    const int half = intervals / 2, longest = (size_ - 1) / seam_unit * seam_unit;
+    const int wanted = std::max(min_shorter(half / 2), whole_units(half / (1 + aspect)));
+    const int shorter = std::max(wanted, half - longest);
+    if (aspect <= 1 || shorter >= half - shorter) return intervals / 4 + 1;
+    return {shorter + 1, half - shorter + 1};
+  }
+
   std::span<const ChartConversion> charts_;
   const SeamCurves& curves_;
   std::vector<ChartShare> shares_;
+  int size_;
 };
 
 int automatic_side(std::span<const ChartConversion> charts) {
@@ -116,20 +135,20 @@ Placement place_charts(std::span<const Piece> pieces, std::span<const ChartConve
     const int side = asked != automatic_size ? asked : charts[0].suitable_side();
     return {side, {{"", 0, 0, side, side}}, {}};
   }
-  const Sizing sizing(pieces, charts, curves);
   for (int size = asked != automatic_size ? asked : automatic_side(charts);; size = 2 * size - 1) {
     if (size > largest_image_size)
       throw TopologyError(
           "", fmt::format("{} pieces that need more samples than an image has", charts.size()),
           "fewer or simpler pieces, or --component K, are wanted");
+    const Sizing sizing(pieces, charts, curves, size);
     Placement placement{size, {}, {}};
     // Of the largest scale that fits, which is tried last of those that do.
-    const auto sides_at_scale = [&](double scale) {
-      return sizing.sides_for(scale, sizing.intervals_at(scale));
+    const auto sizes_at_scale = [&](double scale) {
+      return sizing.sizes_for(scale, sizing.intervals_at(scale));
     };
     double scale = 0;
     std::optional<std::vector<Chart>> packed =
-        pack_charts(sides_at_scale, max_scale(sizing.shares(), size), size, &scale);
+        pack_charts(sizes_at_scale, max_scale(sizing.shares(), size), size, &scale);
     if (!packed) continue;
     if (asked != automatic_size && size != asked)
       warnings.push_back(

@@ -22,18 +22,17 @@ struct SurfacePoint {
 
 std::vector<SurfacePoint> surface_points(const MappedDisk& mapped) {
   const DiskMesh& disk = mapped.cut.disk;
-  const int size = fineness * (mapped.map.size - 1) + 1;
-  std::vector<SurfacePoint> points(static_cast<std::size_t>(size) * size);
+  const ChartSize size = refined(mapped.map.size, fineness);
+  std::vector<SurfacePoint> points(static_cast<std::size_t>(size.rows) * size.cols);
   rasterise(disk, mapped.map, size, [&](int row, int col, int index) {
     const Triangle& t = disk.triangles[index];
     const CornerUv corners = corner_uv(mapped.map, t);
-    const Vec2d place{sample_place(col, size, mapped.map.size),
-                      sample_place(row, size, mapped.map.size)};
-    const std::array<double, 3> w = corner_weights(corners, place);
+    const std::array<double, 3> w =
+        corner_weights(corners, sample_place(row, col, size, mapped.map));
     const Vec3d &a = disk.positions[t[0]], b = disk.positions[t[1]], c = disk.positions[t[2]];
     const Vec3d twice_area = cross(b - a, c - a);
     const double in_square = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    points[static_cast<std::size_t>(row) * size + col] = {
+    points[static_cast<std::size_t>(row) * size.cols + col] = {
         w[0] * a + w[1] * b + w[2] * c, normalized(twice_area), length(twice_area) / in_square};
   });
   return points;
@@ -42,12 +41,13 @@ std::vector<SurfacePoint> surface_points(const MappedDisk& mapped) {
 /// [n * n] the unknown of each sample: the lowest sample of its mates, or -1 on the true border.
 std::vector<int> unknowns(const MappedDisk& mapped, const GeometryImage& image) {
   const int n = image.size();
+  const ChartSize size = mapped.map.size;
   std::vector<int> unknown(static_cast<std::size_t>(n) * n);
   std::vector<bool> fixed(unknown.size(), false);
   for (std::size_t p = 0; p < mapped.cut.paths.size(); ++p)
     for (int k = 0; k <= mapped.layout.intervals[p] && mapped.cut.paths[p].mate < 0; ++k)
       fixed[image.mates.representative(
-          border_sample(n, (mapped.layout.first[p] + k) % (4 * (n - 1))))] = true;
+          chart_sample(size, (mapped.layout.first[p] + k) % size.around(), n))] = true;
   for (int s = 0; s < n * n; ++s) {
     const int own = image.mates.representative(s);
     unknown[s] = fixed[own] ? -1 : own;
@@ -58,9 +58,13 @@ std::vector<int> unknowns(const MappedDisk& mapped, const GeometryImage& image) 
 /// The matrix-free normal equations of the fit for given diagonals.
 class Fit {
  public:
-  Fit(const std::vector<SurfacePoint>& points, const std::vector<int>& unknown,
+  Fit(ChartSize size, const std::vector<SurfacePoint>& points, const std::vector<int>& unknown,
       const Grid<Diagonal>& diagonals, double along_surface)
-      : points_(points), unknown_(unknown), diagonals_(diagonals), along_(along_surface) {}
+      : fine_(refined(size, fineness)),
+        points_(points),
+        unknown_(unknown),
+        diagonals_(diagonals),
+        along_(along_surface) {}
 
   /// The weighted residual of every unknown, and an isotropic diagonal for the preconditioner.
   struct Pull {
@@ -106,10 +110,9 @@ class Fit {
   template <class Visit>
   void for_each_point(const Visit& visit) const {
     const int n = diagonals_.rows() + 1;
-    const int size = fineness * (n - 1) + 1;
-    for (int row = 1; row < size - 1; ++row)
-      for (int col = 1; col < size - 1; ++col) {
-        const SurfacePoint& point = points_[static_cast<std::size_t>(row) * size + col];
+    for (int row = 1; row < fine_.rows - 1; ++row)
+      for (int col = 1; col < fine_.cols - 1; ++col) {
+        const SurfacePoint& point = points_[static_cast<std::size_t>(row) * fine_.cols + col];
         if (point.weight <= 0) continue;
         const int r = row / fineness;
         const int c = col / fineness;
@@ -130,6 +133,7 @@ class Fit {
       }
   }
 
+  ChartSize fine_;
   const std::vector<SurfacePoint>& points_;
   const std::vector<int>& unknown_;
   const Grid<Diagonal>& diagonals_;
@@ -202,7 +206,7 @@ GeometryImage fit_samples(const MappedDisk& mapped, const GeometryImage& image,
   for (int round = 0; round < options.rounds; ++round) {
     update(options.progress, "fit", static_cast<double>(round) / options.rounds);
     const Grid<Diagonal> diagonals = choose_diagonals(fitted);
-    const Fit fit(points, unknown, diagonals, options.along_surface);
+    const Fit fit(mapped.map.size, points, unknown, diagonals, options.along_surface);
     solve(fit, samples, unknown, options.iterations);
     fitted = with_samples(image, samples);
   }

@@ -16,6 +16,9 @@
 namespace weft {
 namespace {
 
+/// So that two coarser levels can have the nodes of cuts, too.
+constexpr int rotation_unit = 4;
+
 std::string source_name(const std::string& name) {
   return name.starts_with("builtin:") ? name : std::filesystem::path(name).filename().string();
 }
@@ -47,8 +50,8 @@ MapQuality joined_quality(const std::vector<ConvertedChart>& charts,
 
 /// Copies what was sampled of a chart into its rectangle, `scale` times as finely as positions.
 void insert(const Planes3& own, const Chart& chart, int scale, Planes3& whole) {
-  for (int r = 0; r < own.size(); ++r)
-    for (int c = 0; c < own.size(); ++c)
+  for (int r = 0; r <= scale * (chart.rows - 1); ++r)
+    for (int c = 0; c <= scale * (chart.cols - 1); ++c)
       whole.set(scale * chart.row + r, scale * chart.col + c, own.at(r, c));
 }
 
@@ -76,7 +79,12 @@ int ImageConversion::place(int most) {
 
 void ImageConversion::run() {
   Stopwatch watch;
-  for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].map(side(k));
+  // Images of squares alone keep the bits that they have always had.
+  const bool squares =
+      std::all_of(charts_.begin(), charts_.end(),
+                  [](const ChartConversion& chart) { return chart.aspect() <= 1; });
+  const int unit = squares ? 1 : rotation_unit;
+  for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].map(size_of(k), unit);
   made_.seconds.map = watch.lap();
   for (ChartConversion& chart : charts_) {
     tell("sample");
@@ -95,14 +103,65 @@ void ImageConversion::cut(int most) {
   std::vector<std::string> warnings;
   places_ = place_charts(pieces_, charts_, curves_, options_.size, warnings);
   if (places_.size > most) return;
-  for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].lengthen_cut(side(k));
-  if (!made_.input.joined.empty()) {
-    warnings.clear();
-    share_borders();
-    places_ = place_charts(pieces_, charts_, curves_, options_.size, warnings);
-    for (FixedBorder& border : curves_.borders) border.intervals = places_.intervals;
-  }
+  for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].lengthen_cut(size_of(k).rows);
+  const bool joined = !made_.input.joined.empty();
+  if (charts_.size() > 1 || joined)
+    for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].choose_shape(size_of(k).rows);
+  if (joined) places_ = placed(false, warnings);
+  if (has_rectangles()) try_rectangles();
+  for (FixedBorder& border : curves_.borders) border.intervals = places_.intervals;
   made_.warnings.insert(made_.warnings.end(), warnings.begin(), warnings.end());
+}
+
+/// Takes those that are better, where the image does not grow by them and they are worth it.
+void ImageConversion::try_rectangles() {
+  constexpr double min_gain = 0.15;
+  std::vector<std::string> warnings;
+  const double stretch = stretch_in(places_);
+  Placement with = placed(true, warnings);
+  while (with.size <= places_.size && reject_rectangles(with)) with = placed(true, warnings);
+  if (with.size <= places_.size && stretch_in(with) < (1 - min_gain) * stretch)
+    places_ = std::move(with);
+  else
+    placed(false, warnings);
+}
+
+bool ImageConversion::has_rectangles() const {
+  return std::any_of(charts_.begin(), charts_.end(),
+                     [](const ChartConversion& chart) { return chart.has_rectangle(); });
+}
+
+Placement ImageConversion::placed(bool rectangles, std::vector<std::string>& warnings) {
+  for (ChartConversion& chart : charts_) chart.take_rectangle(rectangles && chart.has_rectangle());
+  if (!made_.input.joined.empty()) share_borders();
+  warnings.clear();
+  return place_charts(pieces_, charts_, curves_, options_.size, warnings);
+}
+
+/// Of charts that share curves with others. @return whether any was given up
+bool ImageConversion::reject_rectangles(const Placement& placement) {
+  bool rejected = false;
+  for (std::size_t k = 0; k < charts_.size(); ++k) {
+    ChartConversion& chart = charts_[k];
+    if (!chart.has_rectangle() || chart.shared_curves().empty()) continue;
+    curves_.borders[k].intervals = placement.intervals;
+    if (chart.reject_rectangle({placement.charts[k].rows, placement.charts[k].cols}))
+      rejected = true;
+  }
+  return rejected;
+}
+
+/// What the stretch of all charts is worth together, in proportion to their area.
+double ImageConversion::stretch_in(const Placement& placement) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < charts_.size(); ++k) {
+    const Chart& chart = placement.charts[k];
+    const double rows = chart.rows - 1, cols = chart.cols - 1;
+    // How much more densely the chart has samples across than along: that is paid for on top.
+    const double density = charts_[k].aspect() * rows / cols;
+    sum += 0.5 * (density + 1 / density) * charts_[k].energy() / (rows * cols);
+  }
+  return sum;
 }
 
 /// Once all cuts are known: where they meet a border, curves end.
@@ -186,7 +245,7 @@ std::vector<MateInterval> ImageConversion::seams() const {
 /// Of several charts a whole number of times as fine as positions are, so that charts begin at
 /// samples of both.
 void ImageConversion::sample_normal_map() {
-  if (made_.image.has_one_chart() && side(0) == places_.size) {
+  if (made_.image.has_one_chart() && size_of(0) == ChartSize(places_.size)) {
     made_.normals = sample_normals(*charts_[0].mapped(), options_.normal_map_size);
     return;
   }
@@ -194,7 +253,7 @@ void ImageConversion::sample_normal_map() {
   made_.normals = NormalMap{Planes3(scale * (places_.size - 1) + 1)};
   made_.normals->normal.y.fill(1);
   for (std::size_t k = 0; k < charts_.size(); ++k)
-    insert(sample_normals(*charts_[k].mapped(), scale * (side(k) - 1) + 1).normal,
+    insert(sample_normals(*charts_[k].mapped(), refined(size_of(k), scale)).normal,
            places_.charts[k], scale, made_.normals->normal);
 }
 

@@ -26,10 +26,17 @@ class ImageConversion {
   void run();
 
  private:
-  [[nodiscard]] int side(std::size_t chart) const { return places_.charts[chart].rows; }
+  [[nodiscard]] ChartSize size_of(std::size_t chart) const {
+    return {places_.charts[chart].rows, places_.charts[chart].cols};
+  }
   void tell(std::string_view stage) const { update(options_.progress, stage, 0); }
   void cut(int most);
   void share_borders();
+  void try_rectangles();
+  [[nodiscard]] bool has_rectangles() const;
+  Placement placed(bool rectangles, std::vector<std::string>& warnings);
+  bool reject_rectangles(const Placement& placement);
+  [[nodiscard]] double stretch_in(const Placement& placement) const;
   void gather();
   [[nodiscard]] GeometryImage joined_image() const;
   [[nodiscard]] std::vector<MateInterval> seams() const;

@@ -24,7 +24,7 @@ std::vector<SurfacePlace> sample_places(const Conversion& made) {
   std::vector<SurfacePlace> places(static_cast<std::size_t>(n) * n);
   for (const ConvertedChart& chart : made.charts) {
     const std::vector<SurfacePlace> own =
-        surface_places(*chart.mapped, chart.piece->mesh.triangles, chart.place.rows);
+        surface_places(*chart.mapped, chart.piece->mesh.triangles, chart.mapped->map.size);
     for (int s = 0; s < chart.place.rows * chart.place.cols; ++s) {
       const int row = chart.place.row + s / chart.place.cols;
       const int col = chart.place.col + s % chart.place.cols;

@@ -66,19 +66,20 @@ CornerUv corner_uv(const SquareMap& map, const Triangle& triangle) {
   return {map.uv[triangle[0]], map.uv[triangle[1]], map.uv[triangle[2]]};
 }
 
-void rasterise(const DiskMesh& disk, const SquareMap& map, int size,
+void rasterise(const DiskMesh& disk, const SquareMap& map, ChartSize size,
                const std::function<void(int row, int col, int triangle)>& visit) {
-  const double per_unit = static_cast<double>(size - 1) / (map.size - 1);
+  const double rows_per_unit = static_cast<double>(size.rows - 1) / (map.size.rows - 1);
+  const double cols_per_unit = static_cast<double>(size.cols - 1) / (map.size.cols - 1);
   for (std::size_t t = 0; t < disk.triangles.size(); ++t) {
     const CornerUv corners = corner_uv(map, disk.triangles[t]);
     Span rows;
     for (const Vec2d uv : corners) rows.add(uv.y);
-    const SampleRange row_range(rows, per_unit, size);
+    const SampleRange row_range(rows, rows_per_unit, size.rows);
     for (int row = row_range.first; row <= row_range.last; ++row) {
-      const double v = sample_place(row, size, map.size);
-      const SampleRange col_range(row_span(corners, v), per_unit, size);
+      const double v = sample_place(row, size.rows, map.size.rows);
+      const SampleRange col_range(row_span(corners, v), cols_per_unit, size.cols);
       for (int col = col_range.first; col <= col_range.last; ++col)
-        if (covers(corners, {sample_place(col, size, map.size), v}))
+        if (covers(corners, {sample_place(col, size.cols, map.size.cols), v}))
           visit(row, col, static_cast<int>(t));
     }
   }

@@ -10,15 +10,20 @@ namespace weft {
 /// The uv of a triangle's corners.
 using CornerUv = std::array<Vec2d, 3>;
 
-/// Calls visit(row, col, triangle) for the interior samples of a size x size grid over the map's
-/// square and the triangles that cover them: sidedness by exact orientation of the doubles as they
+/// Calls visit(row, col, triangle) for the interior samples of a grid over the map's chart and the
+/// triangles that cover them: sidedness by exact orientation of the doubles as they
 /// are, samples on an edge by a top-left rule, so that a valid map visits each sample exactly once.
-void rasterise(const DiskMesh& disk, const SquareMap& map, int size,
+void rasterise(const DiskMesh& disk, const SquareMap& map, ChartSize size,
                const std::function<void(int row, int col, int triangle)>& visit);
 
-/// The position of sample k of `size` along a side of the map's square, in the map's units.
+/// The position of sample k of `size` along a side of the map's chart, in the map's units.
 inline double sample_place(int k, int size, int map_size) {
   return static_cast<double>(k) * (map_size - 1) / (size - 1);
+}
+
+/// The position of a sample of such a grid.
+inline Vec2d sample_place(int row, int col, ChartSize size, const SquareMap& map) {
+  return {sample_place(col, size.cols, map.size.cols), sample_place(row, size.rows, map.size.rows)};
 }
 
 /// Barycentric coordinates of a point in or next to a triangle: >= 0, summing to 1.

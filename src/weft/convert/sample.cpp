@@ -42,7 +42,7 @@ std::vector<Vec3d> disk_vertex_normals(const DiskMesh& disk) {
 
 BorderMates mates_of(const MappedDisk& mapped) {
   std::vector<MateInterval> intervals;
-  const int around = 4 * (mapped.layout.size - 1);
+  const int around = mapped.layout.size.around();
   for (int p = 0; p < static_cast<int>(mapped.cut.paths.size()); ++p) {
     const int mate = mapped.cut.paths[p].mate;
     if (mate <= p) continue;  // a true border, or a pair added already
@@ -50,7 +50,9 @@ BorderMates mates_of(const MappedDisk& mapped) {
     intervals.push_back(
         {mapped.layout.first[p], (mapped.layout.first[mate] + count) % around, count});
   }
-  return {mapped.layout.size, std::move(intervals)};
+  const auto [rows, cols] = mapped.layout.size;
+  if (rows == cols) return {rows, std::move(intervals)};
+  return {std::max(rows, cols), {{"", 0, 0, rows, cols}}, std::move(intervals)};
 }
 
 template <class Value>
@@ -100,19 +102,20 @@ void join_mates(GeometryImage& image) {
 
 GeometryImage sample_image(const MappedDisk& mapped) {
   const DiskMesh& disk = mapped.cut.disk;
-  const int n = mapped.map.size;
+  const ChartSize size = mapped.map.size;
+  const int n = std::max(size.rows, size.cols);
   GeometryImage image;
   image.cube = Planes3(n);
   image.mates = mates_of(mapped);
   image.world = unit_cube_map(disk.positions);
   const BorderWalk border(mapped);
-  for (int t = 0; t < 4 * (n - 1); ++t) {
-    const EdgePoint point = border.at(t, n);
+  for (int t = 0; t < size.around(); ++t) {
+    const EdgePoint point = border.at(t, size);
     const Vec3d p = interpolate(point, disk.positions[point.from], disk.positions[point.to]);
-    image.cube.set(border_sample(n, t), to_cube(image.world, p));
+    image.cube.set(chart_sample(size, t, n), to_cube(image.world, p));
   }
-  Grid<int> times(n, n);
-  rasterise(disk, mapped.map, n, [&](int row, int col, int index) {
+  Grid<int> times(size.rows, size.cols);
+  rasterise(disk, mapped.map, size, [&](int row, int col, int index) {
     const Triangle& t = disk.triangles[index];
     const std::array<double, 3> w =
         weights_at(mapped, t, {static_cast<double>(col), static_cast<double>(row)});
@@ -125,20 +128,20 @@ GeometryImage sample_image(const MappedDisk& mapped) {
   return image;
 }
 
-NormalMap sample_normals(const MappedDisk& mapped, int size) {
+NormalMap sample_normals(const MappedDisk& mapped, ChartSize size) {
   const DiskMesh& disk = mapped.cut.disk;
   const std::vector<Vec3d> normals = disk_vertex_normals(disk);
-  NormalMap map{Planes3(size)};
+  const int n = std::max(size.rows, size.cols);
+  NormalMap map{Planes3(n)};
   const BorderWalk border(mapped);
-  for (int t = 0; t < 4 * (size - 1); ++t) {
+  for (int t = 0; t < size.around(); ++t) {
     const EdgePoint point = border.at(t, size);
     const Vec3d normal = interpolate(point, normals[point.from], normals[point.to]);
-    map.normal.set(border_sample(size, t), unit_normal(normal));
+    map.normal.set(chart_sample(size, t, n), unit_normal(normal));
   }
   rasterise(disk, mapped.map, size, [&](int row, int col, int index) {
     const Triangle& t = disk.triangles[index];
-    const Vec2d place{sample_place(col, size, mapped.map.size),
-                      sample_place(row, size, mapped.map.size)};
+    const Vec2d place = sample_place(row, col, size, mapped.map);
     const Vec3d normal =
         weighted(weights_at(mapped, t, place), normals[t[0]], normals[t[1]], normals[t[2]]);
     map.normal.set(row, col, unit_normal(normal));
@@ -148,23 +151,24 @@ NormalMap sample_normals(const MappedDisk& mapped, int size) {
 
 Planes3 sample_texture(const MappedDisk& mapped, const TriangleMesh& surface) {
   WEFT_ASSERT(surface.corner_uv.size() == surface.triangles.size());
-  const int n = mapped.map.size;
-  Planes3 texture(n);
-  const std::vector<SurfacePlace> places = surface_places(mapped, surface.triangles, n);
-  for (int sample = 0; sample < n * n; ++sample) {
+  const ChartSize size = mapped.map.size;
+  Planes3 texture(std::max(size.rows, size.cols));
+  const std::vector<SurfacePlace> places = surface_places(mapped, surface.triangles, size);
+  for (int sample = 0; sample < size.rows * size.cols; ++sample) {
     const SurfacePlace& place = places[sample];
     Vec2d uv;
     for (int k = 0; k < 3; ++k) {
       const Vec2f corner = surface.corner_uv[place.triangle][k];
       uv = uv + place.weights[k] * Vec2d{corner.x, corner.y};
     }
-    texture.set(sample, {static_cast<float>(uv.x), static_cast<float>(uv.y), 0});
+    texture.set(sample / size.cols, sample % size.cols,
+                {static_cast<float>(uv.x), static_cast<float>(uv.y), 0});
   }
   return texture;
 }
 
 Grid<int> coverage(const MappedDisk& mapped) {
-  Grid<int> times(mapped.map.size, mapped.map.size);
+  Grid<int> times(mapped.map.size.rows, mapped.map.size.cols);
   rasterise(mapped.cut.disk, mapped.map, mapped.map.size,
             [&](int row, int col, int) { ++times(row, col); });
   return times;

@@ -14,17 +14,18 @@ Vec3f to_cube(const WorldMap& world, Vec3d position);
 /// Gives samples that are one surface point the bits of their representative.
 void join_mates(GeometryImage& image);
 
-/// Stage 9: samples a mapped surface at the n x n whole points of the square. Interior samples come
-/// from the triangle that covers them, by exact orientation and a top-left rule; border samples are
-/// computed once a path and written to both mates.
+/// Stage 9: samples a mapped surface at the whole points of its chart, which is the whole image
+/// where it is square; else the image has its longer side, and the chart begins at sample 0.
+/// Interior samples come from the triangle that covers them, by exact orientation and a top-left
+/// rule; border samples are computed once a path and written to both mates.
 /// @post mates_bit_equal
 /// @throws TopologyError when an interior sample is not covered exactly once: the map is not valid
 GeometryImage sample_image(const MappedDisk& mapped);
 
-/// Unit normals of the surface (angle-weighted at its vertices, interpolated), sampled at size x
-/// size points of the same square, independently of the size of the image. Mates hold the same bits
-/// wherever both are samples, always when size - 1 is a multiple of n - 1.
-NormalMap sample_normals(const MappedDisk& mapped, int size);
+/// Unit normals of the surface (angle-weighted at its vertices, interpolated), sampled at a grid of
+/// points over the same chart, placed as by sample_image. Mates hold the same bits wherever both
+/// are samples, always when rows - 1 is a multiple of the chart's.
+NormalMap sample_normals(const MappedDisk& mapped, ChartSize size);
 
 /// The mesh's own texture coordinates at the samples of the image, x = u, y = v, z = 0. Each comes
 /// from the triangle that contains the sample, so that mates differ where a seam of the texture
@@ -32,8 +33,8 @@ NormalMap sample_normals(const MappedDisk& mapped, int size);
 /// @param surface  the mesh that was cut open, with texture coordinates
 Planes3 sample_texture(const MappedDisk& mapped, const TriangleMesh& surface);
 
-/// The number of triangles that cover each interior sample under the top-left rule, [n x n], border
-/// samples 0: all ones when the map is valid. For tests and inspection.
+/// The number of triangles that cover each interior sample under the top-left rule, [rows x cols],
+/// border samples 0: all ones when the map is valid. For tests and inspection.
 Grid<int> coverage(const MappedDisk& mapped);
 
 }  // namespace weft

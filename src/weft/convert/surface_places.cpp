@@ -7,7 +7,6 @@
 #include "weft/convert/border_walk.h"
 #include "weft/convert/rasterise.h"
 #include "weft/core/assert.h"
-#include "weft/geometry_image.h"
 
 namespace weft {
 
@@ -96,20 +95,19 @@ class BorderTriangles {
 }  // namespace
 
 std::vector<SurfacePlace> surface_places(const MappedDisk& mapped,
-                                         std::span<const Triangle> surface, int size) {
+                                         std::span<const Triangle> surface, ChartSize size) {
   const DiskMesh& disk = mapped.cut.disk;
   const PlacesOnSurface places(disk, surface);
-  std::vector<SurfacePlace> found(static_cast<std::size_t>(size) * size);
+  std::vector<SurfacePlace> found(static_cast<std::size_t>(size.rows) * size.cols);
   const BorderWalk border(mapped);
   const BorderTriangles along_border(disk);
-  for (int t = 0; t < 4 * (size - 1); ++t) {
+  for (int t = 0; t < size.around(); ++t) {
     const auto [triangle, weights] = along_border.at(border.on_own_side(t, size));
-    found[border_sample(size, t)] = places.at(triangle, weights);
+    found[chart_sample(size, t, size.cols)] = places.at(triangle, weights);
   }
   rasterise(disk, mapped.map, size, [&](int row, int col, int triangle) {
-    const Vec2d place{sample_place(col, size, mapped.map.size),
-                      sample_place(row, size, mapped.map.size)};
-    found[static_cast<std::size_t>(row) * size + col] =
+    const Vec2d place = sample_place(row, col, size, mapped.map);
+    found[static_cast<std::size_t>(row) * size.cols + col] =
         places.at(triangle, corner_weights(corner_uv(mapped.map, disk.triangles[triangle]), place));
   });
   return found;

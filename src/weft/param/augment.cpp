@@ -1,14 +1,13 @@
 #include "weft/param/augment.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "weft/cut/cut_graph.h"
 #include "weft/cut/cut_surface.h"
-#include "weft/param/border_layout.h"
 #include "weft/param/proxy.h"
+#include "weft/param/rotation.h"
 #include "weft/param/trial_map.h"
 
 namespace weft {
@@ -20,9 +19,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// small for the cut.
 TrialMap evaluate_cut(const TriangleMesh& mesh, const Cut& cut, const TrialOptions& options) {
   const CutDisk opened = cut_open(mesh, cut);
-  if (min_size(opened) > options.size) return {};
-  const int step = std::max(1, (options.size - 1) / 4);
-  return try_rotations(opened, std::array{0, step, 2 * step, 3 * step}, options);
+  if (!has_room(options.size, opened)) return {};
+  return try_chart(opened, options);
 }
 
 /// Vertices to extend the cut to, each once: that of largest stretch before the Newton steps, and
@@ -129,7 +127,7 @@ AugmentedCut augment_cut(const CutSurface& surface, const Cut& cut, const Augmen
   AugmentedCut result{.cut = cut};
   for (const int target : targets) {
     Cut longer = extend_cut(surface, result.cut, target);
-    if (min_size(cut_open(surface, longer)) > options.size) break;
+    if (!has_room(options.size, cut_open(surface, longer))) break;
     result.cut = std::move(longer);
     ++result.rounds;
   }

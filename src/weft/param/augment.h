@@ -2,6 +2,7 @@
 
 #include "weft/cut/cut_surface.h"
 #include "weft/cut/open_to_disk.h"
+#include "weft/param/border_layout.h"
 #include "weft/progress.h"
 
 namespace weft {
@@ -9,7 +10,7 @@ namespace weft {
 struct AugmentOptions {
   int max_rounds = 12;
   int proxy_triangles = 1500;  ///< larger meshes are evaluated on a proxy of about this size
-  int size = 257;              ///< side of the image
+  ChartSize size = 257;        ///< of the chart
   int threads = 1;
   Progress* progress = nullptr;
 };
@@ -22,7 +23,7 @@ struct AugmentedCut {
 /// also weighted by the remaining stretch), maps each candidate at several border rotations, on a
 /// coarse proxy of a large mesh, and continues with the best. Ends after a round that gains less
 /// than a hundredth of the energy and keeps the best cut. While no map is valid, every round counts
-/// as a gain. The cut is never too long for the image size.
+/// as a gain. The cut is never too long for the chart.
 /// @pre repaired mesh
 AugmentedCut augment_cut(const TriangleMesh& mesh, const Cut& cut, const AugmentOptions& options);
 AugmentedCut augment_cut(const CutSurface& surface, const Cut& cut, const AugmentOptions& options);

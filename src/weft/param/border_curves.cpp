@@ -120,20 +120,20 @@ std::vector<double> path_places(const CutDisk& cut, int path, int intervals) {
 
 namespace {
 
-/// A border vertex this near to a corner of the square is the corner. [sample intervals]
+/// A border vertex this near to a corner of the chart is the corner. [sample intervals]
 constexpr double snap_distance = 1e-3;
 
-/// Positions along a path, in whole intervals, of the corners of the square strictly inside it or
+/// Positions along a path, in whole intervals, of the corners of the chart strictly inside it or
 /// its mate. Ascending, each once.
 std::vector<int> corner_places(const CutDisk& cut, const BorderLayout& layout, int path) {
-  const int side = layout.size - 1;
+  const int around = layout.size.around();
   const int mate = cut.paths[path].mate;
   const int intervals = layout.intervals[path];
   std::vector<int> places;
   const auto along = [&](int p, int corner) {
-    return (corner * side - layout.first[p] + 4 * side) % (4 * side);
+    return (corner - layout.first[p] + around) % around;
   };
-  for (int corner = 0; corner < 4; ++corner) {
+  for (const int corner : layout.size.corners()) {
     places.push_back(along(path, corner));
     if (mate >= 0) places.push_back(intervals - along(mate, corner));
   }
@@ -176,7 +176,7 @@ void split_at_corners(CutDisk& cut, const BorderLayout& layout) {
 
 std::vector<double> border_positions(const CutDisk& cut, const BorderLayout& layout) {
   const int size = static_cast<int>(cut.disk.border.size());
-  const double around = 4.0 * (layout.size - 1);
+  const double around = layout.size.around();
   std::vector<double> positions(size, 0);
   const auto put = [&](int path, int j, double place) {
     const double t = layout.first[path] + place;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <string>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -104,13 +106,14 @@ bool can_have(const std::vector<BorderCurve>& curves, int total) {
          (left % 2 == 0 || std::any_of(curves.begin(), curves.end(), takes_one));
 }
 
-/// Interval counts in multiples of the largest power of two that divides the side and for which
+/// Interval counts in multiples of the largest power of two that divides the sides and for which
 /// near_enough holds; any counts where there is none.
-std::vector<int> aligned_counts(const std::vector<BorderCurve>& curves, int size) {
-  const int total = 4 * (size - 1);
+std::vector<int> aligned_counts(const std::vector<BorderCurve>& curves, ChartSize size) {
+  const int total = size.around();
+  const int sides = std::gcd(size.rows - 1, size.cols - 1);
   const std::vector<double> share = shares(curves, total);
   int step = 1;
-  while ((size - 1) % (2 * step) == 0) step *= 2;
+  while (sides % (2 * step) == 0) step *= 2;
   for (; step > 1; step /= 2) {
     const std::optional<std::vector<BorderCurve>> in_steps = with_fixed_in(curves, step);
     if (!in_steps || !can_have(*in_steps, total / step)) continue;
@@ -122,27 +125,42 @@ std::vector<int> aligned_counts(const std::vector<BorderCurve>& curves, int size
   return apportion(curves, total);
 }
 
-}  // namespace
-
-Vec2d border_point(int size, double t) {
-  const double side = size - 1;
-  if (t <= side) return {t, 0};
-  if (t <= 2 * side) return {side, t - side};
-  if (t <= 3 * side) return {3 * side - t, side};
-  return {0, 4 * side - t};
+std::string text_of(ChartSize size) {
+  return size.is_square() ? std::to_string(size.rows)
+                          : fmt::format("{} x {}", size.rows, size.cols);
 }
 
-double border_position_of(int size, Vec2d point) {
-  const double side = size - 1;
-  if (point.y <= 0 && point.x < side) return point.x;
-  if (point.x >= side && point.y < side) return side + point.y;
-  if (point.y >= side && point.x > 0) return 3 * side - point.x;
-  return 4 * side - point.y;
+}  // namespace
+
+Vec2d border_point(ChartSize size, double t) {
+  const double width = size.cols - 1, height = size.rows - 1;
+  if (t <= width) return {t, 0};
+  if (t <= width + height) return {width, t - width};
+  if (t <= 2 * width + height) return {2 * width + height - t, height};
+  return {0, 2 * (width + height) - t};
+}
+
+double border_position_of(ChartSize size, Vec2d point) {
+  const double width = size.cols - 1, height = size.rows - 1;
+  if (point.y <= 0 && point.x < width) return point.x;
+  if (point.x >= width && point.y < height) return width + point.y;
+  if (point.y >= height && point.x > 0) return 2 * width + height - point.x;
+  return 2 * (width + height) - point.y;
+}
+
+int chart_sample(ChartSize size, int position, int stride) {
+  const Vec2d point = border_point(size, position);
+  return static_cast<int>(point.y) * stride + static_cast<int>(point.x);
 }
 
 int min_size(const CutDisk& cut) {
   const int total = min_total(border_curves(cut));
   return std::max(min_side, (total + 3) / 4 + 1);
+}
+
+bool has_room(ChartSize size, const CutDisk& cut) {
+  return std::min(size.rows, size.cols) >= min_side &&
+         size.around() >= min_total(border_curves(cut));
 }
 
 bool has_free_path(const CutDisk& cut) {
@@ -151,18 +169,17 @@ bool has_free_path(const CutDisk& cut) {
 }
 
 BorderLayout lay_out_border(const CutDisk& cut, const LayoutOptions& options) {
-  const int least = min_size(cut);
-  if (options.size < least)
+  if (!has_room(options.size, cut))
     throw TopologyError("",
                         fmt::format("size {} is too small for the cut's {} border paths",
-                                    options.size, cut.paths.size()),
-                        fmt::format("size {} or more", least));
-  const int total = 4 * (options.size - 1);
+                                    text_of(options.size), cut.paths.size()),
+                        fmt::format("size {} or more", min_size(cut)));
+  const int total = options.size.around();
   const std::vector<BorderCurve> curves = border_curves(cut);
   if (!has_free_path(cut) && min_total(curves) != total)
     throw TopologyError("",
-                        fmt::format("{} border intervals are fixed, a side of {} has {}",
-                                    min_total(curves), options.size, total),
+                        fmt::format("{} border intervals are fixed, a chart of {} has {}",
+                                    min_total(curves), text_of(options.size), total),
                         "a border whose intervals fit");
   const std::vector<int> counts =
       options.align ? aligned_counts(curves, options.size) : apportion(curves, total);

@@ -1,5 +1,7 @@
 #include "weft/param/border_relaxation.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "weft/param/border_curves.h"
@@ -7,18 +9,22 @@
 namespace weft {
 namespace {
 
-/// The axis of a side of the square, and its direction with growing border positions.
+/// The axis of a side of the chart, and its direction with growing border positions.
 struct Side {
   int axis = 0;
   double direction = 1;
 };
 
-Side side_at(int size, double t) {
-  const int side = static_cast<int>(t / (size - 1));
-  return {side % 2, side < 2 ? 1.0 : -1.0};
+Side side_at(ChartSize size, double t) {
+  const std::array<int, 4> corners = size.corners();
+  const auto side = std::upper_bound(corners.begin(), corners.end(), t) - corners.begin() - 1;
+  return {static_cast<int>(side % 2), side < 2 ? 1.0 : -1.0};
 }
 
-bool is_corner(int size, double t) { return std::fmod(t, size - 1) == 0; }
+bool is_corner(ChartSize size, double t) {
+  const std::array<int, 4> corners = size.corners();
+  return std::find(corners.begin(), corners.end(), t) != corners.end();
+}
 
 double& along(Vec2d& point, int axis) { return axis == 0 ? point.x : point.y; }
 
@@ -32,7 +38,7 @@ struct Finder {
   /// Distance along the border from one border vertex to the next. [sample intervals]
   [[nodiscard]] double gap(int from) const {
     const double distance = t[(from + 1) % size()] - t[from];
-    return distance < 0 ? distance + 4.0 * (layout.size - 1) : distance;
+    return distance < 0 ? distance + layout.size.around() : distance;
   }
   [[nodiscard]] bool moves(int border) const {
     constexpr double min_gap = 1e-4;

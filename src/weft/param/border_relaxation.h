@@ -7,7 +7,7 @@
 
 namespace weft {
 
-/// A border vertex that may move along its side of the square, and the mate that moves with it so
+/// A border vertex that may move along its side of the chart, and the mate that moves with it so
 /// that both stay at exactly corresponding positions.
 struct BorderFreedom {
   int vertex = 0;  ///< disk vertex
@@ -18,7 +18,7 @@ struct BorderFreedom {
   double offset = 0;  ///< a whole number
 };
 
-/// The freedom of every border vertex that is neither a node nor at a corner of the square (nor its
+/// The freedom of every border vertex that is neither a node nor at a corner of the chart (nor its
 /// mate), once for both mates. Vertices next to an edge of no length are excluded: the smallest
 /// displacement would degenerate a triangle there.
 /// @param t  [border.size()] border positions, see border_positions

@@ -4,7 +4,6 @@
 #include <exception>
 
 #include "weft/core/thread_team.h"
-#include "weft/param/border_layout.h"
 #include "weft/param/border_relaxation.h"
 #include "weft/param/chords.h"
 #include "weft/param/disk_geometry.h"

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "weft/cut/disk_mesh.h"
+#include "weft/param/border_layout.h"
 #include "weft/progress.h"
 
 namespace weft {
 
 struct TrialOptions {
-  int size = 257;
+  ChartSize size = 257;
   int threads = 1;  ///< of try_rotations
   Progress* progress = nullptr;
 };

@@ -116,9 +116,11 @@ Picture draw_map(const MappedDisk& mapped, const MapDrawing& options) {
 }
 
 Picture draw_map(const DiskMesh& disk, const SquareMap& map, const MapDrawing& options) {
-  WEFT_ASSERT(map.uv.size() == disk.positions.size() && map.size >= 2);
+  WEFT_ASSERT(map.uv.size() == disk.positions.size());
+  const int longer = std::max(map.size.rows, map.size.cols) - 1;
+  WEFT_ASSERT(longer >= 1);
   Canvas canvas(std::max(options.side, 1) * oversampling);
-  const double scale = static_cast<double>(canvas.side) / (map.size - 1);
+  const double scale = static_cast<double>(canvas.side) / longer;
   double plane = 0, surface = 0;
   for (const Triangle& t : disk.triangles) {
     const Patch patch = patch_of(disk, map, t);
