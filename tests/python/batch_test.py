@@ -4,11 +4,13 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
 import time
 import unittest
+import urllib.request
 
 import numpy as np
 
@@ -21,6 +23,7 @@ try:
     import distributed
     import h5py
     import psutil
+    import weft.batch.schedule
 except ImportError as missing:
     print(f"batch_test: skipped: {missing}; python3-distributed, python3-h5py and python3-psutil are wanted")
     sys.exit(77)
@@ -207,20 +210,42 @@ class Batch(BatchTest):
         self.assertEqual(len((self.folder / "out/results.jsonl").read_text().splitlines()), len(before.splitlines()) + 1)  # the failure
 
     def test_tasks_of_an_array_and_what_gathers_them(self):
-        jobs = self.write_jobs(conversion("torus"), conversion("knot"), conversion("sphere"))
-        self.batch(jobs, "-o", "out", "--slurm", 2)
-        script = (self.folder / "out/slurm.sh").read_text()
+        weft.write_mesh("a [1].obj", *weft.read_mesh("builtin:torus"))
+        jobs = self.write_jobs({"mesh": "a*.obj", "size": 17}, conversion("knot"), conversion("sphere"))
+        folder = self.folder / "50 % of it"
+        self.batch(jobs, "-o", folder, "--slurm", 2)
+        script = (folder / "slurm.sh").read_text()
         self.assertIn("#SBATCH --array=0-1\n", script)
-        self.assertEqual(subprocess.run(["bash", "-n", "out/slurm.sh"]).returncode, 0)
+        self.assertIn(f"#SBATCH --output='{self.folder}/50 %% of it/slurm-%a.log'\n", script)
+        self.assertEqual(subprocess.run(["bash", "-n", folder / "slurm.sh"]).returncode, 0)
         for task in range(2):  # as Slurm would
-            done = subprocess.run(["bash", "out/slurm.sh"], env={**os.environ, "SLURM_ARRAY_TASK_ID": str(task)}, capture_output=True,
+            done = subprocess.run(["bash", folder / "slurm.sh"], env={**os.environ, "SLURM_ARRAY_TASK_ID": str(task)}, capture_output=True,
                                   text=True, timeout=PATIENCE)
             self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(sorted(len((self.folder / f"out/results-{task}.jsonl").read_text().splitlines()) for task in range(2)), [1, 2])
-        self.batch("out/jobs.jsonl", "-o", "out")
-        self.assertEqual((self.folder / "out/results.jsonl").read_text(), "")
-        with open("out/index.csv", newline="", encoding="utf-8") as file:
+        self.assertEqual([len((folder / f"results-{task}.jsonl").read_text().splitlines()) for task in range(2)], [2, 1])
+        self.batch(folder / "jobs.jsonl", "-o", folder)
+        self.assertEqual(len(self.assert_each_done_once(range(3), folder)), 3)
+        self.assertEqual(list(folder.glob("results-*")), [])
+        with open(folder / "index.csv", newline="", encoding="utf-8") as file:
             self.assertEqual(len(list(csv.DictReader(file))), 3)
+
+    def test_rows_are_gathered_once_though_what_gathered_them_was_killed(self):
+        jobs = self.write_jobs(conversion("torus"), conversion("knot"))
+        for task in range(2):
+            self.batch(jobs, "-o", "out", "--part", f"{task}/2", "--quiet")
+        again = (self.folder / "out/results-1.jsonl").read_text()
+        self.batch(jobs, "-o", "out", "--quiet")
+        (self.folder / "out/results-1.jsonl").write_text(again + '{"id": "torn')  # as if it was killed before it removed them
+        self.batch(jobs, "-o", "out", "--quiet")
+        self.assert_each_done_once(range(2))
+
+    def test_a_task_of_slurm_takes_its_share_of_memory(self):
+        free = weft.batch.schedule.memory_share(1, {})
+        self.assertAlmostEqual(weft.batch.schedule.memory_share(4, {}) * 4 / free, 1, delta=0.2)
+        for given, wanted in (({"SLURM_MEM_PER_NODE": "100"}, 94.37184), ({"SLURM_MEM_PER_CPU": "20", "SLURM_CPUS_ON_NODE": "3"}, 56.623104)):
+            self.assertAlmostEqual(weft.batch.schedule.memory_share(1, given), wanted, msg=given)
+        part = weft.batch.schedule.memory_share(1, {"SLURM_CPUS_ON_NODE": "1"})
+        self.assertAlmostEqual(part / free, 1 / psutil.cpu_count(), delta=0.2)
 
 
 class BatchSurvives(BatchTest):
@@ -265,6 +290,40 @@ class BatchSurvives(BatchTest):
             (row,) = (row for row in done if row["inputs"] == words and row["options"]["size"] == job["size"])
             self.assertEqual(row["hash"], self.single_hash(job))
 
+    def test_tasks_side_by_side_leave_each_other_alone(self):
+        slow, others = drape("mannequin", 6, 33), [conversion("torus"), conversion("sphere"), conversion("knot")]
+        jobs = self.write_jobs(others[0], others[1], slow, others[2])
+        store = ("-o", "out", "--store", "hdf5", "--workers", 1)
+        task = self.begin(jobs, *store, "--part", "0/2")
+        rows = self.folder / "out/results-0.jsonl"
+        worker, *_ = self.wait_for(lambda: rows.exists() and rows.read_text() and self.workers_at_work(task), task)
+        (program,) = worker.children()
+        program.suspend()  # in mid-run while the others begin and end
+        self.addCleanup(lambda: program.is_running() and program.resume())
+        self.batch(jobs, *store, "--part", "1/2")
+        self.batch(jobs, *store, "--part", "1/3")  # whose jobs are done: one of them in the file that is being written
+        self.assertIn("another run is at work there", self.batch(jobs, *store, code=3).stderr)
+        program.resume()
+        said = task.communicate(timeout=PATIENCE)[0]
+        self.assertEqual(task.returncode, 0, said)
+        self.batch(jobs, *store)
+        done = self.assert_each_done_once([slow, *others])
+        self.assertEqual({row["attempt"] for row in done}, {1})
+        self.assertEqual(sorted(path.name for path in (self.folder / "out/shards").iterdir()), ["0-00000.h5", "1-00000.h5"])
+
+    def test_what_a_killed_task_left_is_done_and_removed(self):
+        jobs = self.write_jobs(*self.JOBS)
+        task = self.begin(jobs, "-o", "out", "--workers", 1, "--part", "1/2")
+        self.wait_for(lambda: self.workers_at_work(task), task)
+        family = psutil.Process(task.pid).children(recursive=True)
+        task.kill()
+        task.wait()
+        psutil.wait_procs(family, timeout=PATIENCE)
+        self.assertTrue(list(self.folder.glob("out/work-1/*")))
+        self.batch(jobs, "-o", "out", "--workers", 2)
+        self.assert_each_done_once(self.JOBS)
+        self.assertEqual(list(self.folder.glob("out/work*")), [])
+
     def test_ctrl_c_keeps_what_was_finished(self):
         process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--workers", 1)
         results = self.folder / "out/results.jsonl"
@@ -275,6 +334,15 @@ class BatchSurvives(BatchTest):
         self.assertIn("interrupted; what was finished is kept", said)
         self.batch("jobs.jsonl", "-o", "out", "--workers", 2)
         self.assert_each_done_once(self.JOBS)
+
+    def test_dask_serves_a_table_of_the_workers_while_they_are_at_work(self):
+        process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--workers", 2)
+        said = process.stdout.readline()
+        found = re.fullmatch(r"7 jobs; Dask tells of its workers at (http://127.0.0.1:\d+/info/main/workers.html)\n", said)
+        self.assertTrue(found, said)
+        with urllib.request.urlopen(found[1], timeout=PATIENCE) as answer:
+            rows = re.findall(r"tcp://127.0.0.1:\d+</a>", answer.read().decode())
+        self.assertEqual(len(rows), 2)
 
     def test_two_batches_do_not_share_a_folder(self):
         process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--workers", 1)

@@ -1,8 +1,10 @@
 """The command: python3 -m weft.batch JOBS -o DIR."""
 import argparse
 import csv
+import glob
 import json
 import os
+import shutil
 import sys
 
 from .. import __version__
@@ -109,15 +111,43 @@ def _take_left(folder, rows, store, ledger, wanted):
             rows[name] = row
 
 
-def _run(options, jobs):
+def _clear_work(folder, part):
+    """Removes what killed runs left in DIR/work, or in that of a part alone, as others are at work beside it; of all parts, where all are run."""
+    work = os.path.join(folder, "work" if part is None else f"work-{part}")
+    others = glob.glob(os.path.join(glob.escape(folder), "work-*")) if part is None else []
+    for left in (work, *others):
+        shutil.rmtree(left, ignore_errors=True)
+    return work
+
+
+def _run_left(options, jobs, work, take):
+    """Runs what is not done yet, and hands each row to `take`."""
     from . import schedule  # Dask takes a second to load
+    workers = min(options.workers, len(jobs))
+    limits = {"timeout": options.timeout, "threads": options.threads,
+              "memory": options.memory or schedule.memory_share(workers, os.environ)}
+    os.makedirs(work)
+    client, cluster = schedule.connect(options.scheduler, workers, options.retries, options.dashboard, work)
+    try:
+        if not options.quiet:
+            link = schedule.pages(client)
+            print(f"{len(jobs)} jobs" + (f"; Dask tells of its workers at {link}" if link else ""), file=sys.stderr, flush=True)
+        schedule.run(client, jobs, os.path.abspath(options.output), work, limits, options.retries, options.quiet, take)
+    finally:
+        client.close()
+        if cluster is not None:
+            cluster.close()
+    shutil.rmtree(work, ignore_errors=True)
+
+
+def _run(options, jobs):
     part = None if options.part is None else options.part[0]
     ledger, folder = Ledger(options.output, part), os.path.abspath(options.output)
-    store = STORES[options.store](folder, part)
-    rows = ledger.rows()
-    rows = {key: row for key, row in rows.items() if row["status"] != "done" or store.holds(row)}
-    _take_left(folder, rows, store, ledger, {job.id for job in jobs})
+    store, wanted = STORES[options.store](folder, part), {job.id for job in jobs}
+    rows = {key: row for key, row in ledger.rows().items() if key in wanted and (row["status"] != "done" or store.holds(row))}
+    _take_left(folder, rows, store, ledger, wanted)
     left = [job for job in jobs if rows.get(job.id, {}).get("status") != "done"]
+    work = _clear_work(folder, part)
     if not options.quiet and len(left) < len(jobs):
         print(f"{len(jobs) - len(left)} of {len(jobs)} jobs are done already", file=sys.stderr)
 
@@ -128,23 +158,12 @@ def _run(options, jobs):
         rows[row["id"]] = row
     try:
         if left:
-            workers = min(options.workers, len(left))
-            limits = {"timeout": options.timeout, "threads": options.threads,
-                      "memory": options.memory or schedule.memory_share(workers)}
-            client, cluster = schedule.connect(options.scheduler, workers, options.retries, options.dashboard)
-            try:
-                if not options.quiet:
-                    link = schedule.pages(client)
-                    print(f"{len(left)} jobs" + (f"; Dask tells of its workers at {link}" if link else ""), file=sys.stderr)
-                schedule.run(client, left, folder, limits, options.retries, options.quiet, take)
-            finally:
-                client.close()
-                if cluster is not None:
-                    cluster.close()
+            _run_left(options, left, work, take)
     finally:
         store.close()
         ledger.close()
-    _write_index(folder, jobs, rows)
+    if part is None:
+        _write_index(folder, jobs, rows)
     return rows
 
 
@@ -159,7 +178,7 @@ def main(given=None):
             raise Error(f"{options.jobs}: no such file; a file of jobs or a folder of meshes is wanted")
         jobs = reading.Reader(program).read(options.jobs)
         if options.slurm:
-            path = slurm.write(jobs, options.output, options.slurm, vars(options))
+            path = slurm.write(jobs, options.output, program, vars(options))
             print(f"wrote {path}: {len(jobs)} jobs")
             return DONE
         if options.part is not None:

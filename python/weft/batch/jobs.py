@@ -39,9 +39,10 @@ class Job:
         return [self.command, *self.words, "-o", place, "--json", *flags]
 
     def line(self):
-        """The job as a line of a file of jobs."""
+        """The job as a line of a file of jobs, in which its names are no patterns."""
+        words = [word if word.startswith("builtin:") else glob.escape(word) for word in self.words]
         limits = {key: value for key, value in (("timeout", self.timeout), ("memory", self.memory)) if value is not None}
-        return {"command": self.command, **dict(zip(WORDS[self.command], self.words)), **self.options, **limits}
+        return {"command": self.command, **dict(zip(WORDS[self.command], words)), **self.options, **limits}
 
 
 def _flags(key, value):

@@ -29,13 +29,13 @@ def find_program():
     return None
 
 
-def execute(job, folder, limits):
-    """Runs a job in DIR/work and moves what it made to DIR/jobs/ID, or what tells of its failure to DIR/failed/ID.
+def execute(job, folder, work, limits):
+    """Runs a job in the folder `work` and moves what it made to DIR/jobs/ID, or what tells of its failure to DIR/failed/ID.
 
     limits: {"timeout": seconds, "memory": MB, "threads"}, where the job has none of its own.
     Returns the row of results.jsonl. Raises TryAgain.
     """
-    place, attempt = _own_place(os.path.join(folder, "work"), job.id)
+    place, attempt = _own_place(work, job.id)
     began = time.time()
     _write(place, "job.json", {"id": job.id, "job": job.line(), "arguments": job.arguments(".")})
     made = os.path.join(place, "made")

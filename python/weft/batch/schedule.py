@@ -1,8 +1,6 @@
 """Jobs on the workers of Dask: sent, waited for, tried again; a row for each that ended."""
 import asyncio
-import importlib.util
 import os
-import shutil
 import sys
 import time
 
@@ -22,18 +20,21 @@ def probe():
     return {"version": __version__, "program": running.find_program() is not None}
 
 
-def _local_cluster(workers, retries, dashboard):
+def _local_cluster(workers, retries, dashboard, work):
     dask.config.set({"distributed.scheduler.allowed-failures": retries, "distributed.worker.memory.terminate": False,
                      "distributed.worker.memory.pause": False, "distributed.worker.memory.spill": False,
                      "distributed.worker.memory.target": False})
     return distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
-                                    dashboard_address=f"127.0.0.1:{dashboard}", host="127.0.0.1", silence_logs="CRITICAL")
+                                    dashboard_address=f"127.0.0.1:{dashboard}", host="127.0.0.1", silence_logs="CRITICAL",
+                                    local_directory=work)  # not /tmp, where what others left is told of
 
 
-def connect(scheduler, workers, retries, dashboard):
-    """(client, what to close after it). Raises InputError where no scheduler answers, or a worker lacks Weft."""
+def connect(scheduler, workers, retries, dashboard, work):
+    """(client, what to close after it); work: a folder for workers of this command.
+
+    Raises InputError where no scheduler answers, or a worker lacks Weft."""
     if scheduler == LOCAL:
-        cluster = _local_cluster(workers, retries, dashboard)
+        cluster = _local_cluster(workers, retries, dashboard, work)
         return distributed.Client(cluster, set_as_default=False), cluster
     try:
         client = distributed.Client(scheduler, timeout=10, set_as_default=False)
@@ -54,13 +55,23 @@ def connect(scheduler, workers, retries, dashboard):
 
 
 def pages(client):
-    """Where Dask's pages on its workers are; None where they cannot be drawn, as bokeh is not there."""
-    return client.dashboard_link if importlib.util.find_spec("bokeh") else None
+    """Where Dask's table of its workers is, which leads to its other pages; None for a scheduler that was started without any."""
+    try:
+        return client.dashboard_link.removesuffix("status") + "info/main/workers.html"
+    except KeyError:
+        return None
 
 
-def memory_share(workers):
-    """MB that each of some workers of this machine may take."""
-    return 0.9 * psutil.virtual_memory().available / 1e6 / workers
+def memory_share(workers, environment):
+    """MB that each of some workers of this machine may take. A task of Slurm has as much of it as it has been given, or as of its processors."""
+    free = psutil.virtual_memory().available / 1e6
+    processors, node, each = (int(environment.get(f"SLURM_{name}", 0)) for name in ("CPUS_ON_NODE", "MEM_PER_NODE", "MEM_PER_CPU"))
+    given = 1.048576 * (node or each * processors)
+    if given:
+        free = min(free, given)
+    elif processors:
+        free *= min(1, processors / psutil.cpu_count())
+    return 0.9 * free / workers
 
 
 class Progress:
@@ -98,14 +109,13 @@ def failed_row(job, error):
     return {"id": job.id, "command": job.command, "inputs": job.words, "options": job.options, "status": "failed", "error": text or kind}
 
 
-def run(client, jobs, folder, limits, retries, quiet, take):
-    """Runs jobs and hands each row to `take`. Failures of workers cost their job an attempt; `retries` more are given."""
-    work = os.path.join(folder, "work")
-    shutil.rmtree(work, ignore_errors=True)  # of a run that was killed
-    os.makedirs(work)
+def run(client, jobs, folder, work, limits, retries, quiet, take):
+    """Runs jobs and hands each row to `take`. Failures of workers cost their job an attempt; `retries` more are given.
+
+    work: a folder beside the results that nothing else uses."""
     progress = Progress(len(jobs), quiet)
     known = {f"weft-{job.id}": job for job in jobs}
-    futures = [client.submit(running.execute, job, folder, limits, key=key, retries=retries, pure=False) for key, job in known.items()]
+    futures = [client.submit(running.execute, job, folder, work, limits, key=key, retries=retries, pure=False) for key, job in known.items()]
     waiting = distributed.as_completed(futures, loop=client.loop)
     try:
         for future in waiting:
@@ -117,5 +127,4 @@ def run(client, jobs, folder, limits, retries, quiet, take):
             future.release()
     finally:
         client.cancel([future for future in futures if not future.done()], force=True)
-    shutil.rmtree(work, ignore_errors=True)
     return progress

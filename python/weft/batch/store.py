@@ -13,19 +13,34 @@ from ..errors import OutputError
 SHARD_JOBS = 256  # in one HDF5 file
 
 
+def _locked(folder, name, kind):
+    """A file that is locked until it is closed."""
+    file = open(os.path.join(folder, name), "a+")  # noqa: SIM115
+    try:
+        fcntl.flock(file, kind | fcntl.LOCK_NB)
+    except OSError as error:
+        file.close()
+        raise OutputError(f"{folder}: another run is at work there", where=str(folder)) from error
+    return file
+
+
 class Ledger:
-    """results.jsonl: one row a job that ended, written by one process; rows of parts of the jobs lie beside it."""
+    """results.jsonl: one row a job that ended, written by one process.
+
+    Parts of the jobs may be at work side by side, each with rows of its own in results-PART.jsonl; what runs all jobs is alone, and
+    moves those rows to its own.
+    """
 
     def __init__(self, folder, part=None):
         os.makedirs(folder, exist_ok=True)
         self.folder = folder
-        self._lock = open(os.path.join(folder, f".lock{'' if part is None else f'-{part}'}"), "w")  # noqa: SIM115
-        try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError as error:
-            raise OutputError(f"{folder}: another run is at work there", where=str(folder)) from error
+        self._locks = [_locked(folder, ".lock", fcntl.LOCK_EX if part is None else fcntl.LOCK_SH)]
+        if part is not None:
+            self._locks.append(_locked(folder, f".lock-{part}", fcntl.LOCK_EX))
         self.path = os.path.join(folder, "results.jsonl" if part is None else f"results-{part}.jsonl")
         self._drop_torn_line()
+        if part is None:
+            self._gather_parts()
         self._file = open(self.path, "a", encoding="utf-8")  # noqa: SIM115
 
     def _drop_torn_line(self):
@@ -35,6 +50,25 @@ class Ledger:
         with open(self.path, "rb+") as file:
             data = file.read()
             file.truncate(data.rfind(b"\n") + 1)
+
+    def _gather_parts(self):
+        """Killed between any two lines of it, the next one does the rest."""
+        parts = sorted(glob.glob(os.path.join(glob.escape(self.folder), "results-*.jsonl")))
+        if not parts:
+            return
+        lines = {}  # in order, each once
+        for path in (self.path, *parts):
+            if os.path.exists(path):
+                with open(path, encoding="utf-8") as file:
+                    lines |= {line: None for line in file if line.endswith("\n")}
+        temporary = f"{self.path}.tmp"
+        with open(temporary, "w", encoding="utf-8") as file:
+            file.writelines(lines)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(temporary, self.path)
+        for path in parts:
+            os.unlink(path)
 
     def rows(self):
         """The last row of each job, of all parts: {id: row}."""
@@ -55,7 +89,8 @@ class Ledger:
 
     def close(self):
         self._file.close()
-        self._lock.close()
+        for lock in self._locks:
+            lock.close()
 
 
 class Folders:
@@ -94,8 +129,11 @@ class Hdf5:
         try:
             with self._h5py.File(path, "r") as file:
                 return row["id"] in file and file[row["id"]].attrs.get("whole", False)
+        except BlockingIOError:  # another task's, at work on it; rows are told after what they tell of was written
+            return True
         except OSError:  # killed while it was written
-            os.rename(path, f"{path}.damaged")
+            if os.path.basename(path).startswith(self._prefix):
+                os.rename(path, f"{path}.damaged")
             return False
 
     def _open(self):
