@@ -23,9 +23,10 @@ try:
     import distributed
     import h5py
     import psutil
+    import zarr
     import weft.batch.schedule
 except ImportError as missing:
-    print(f"batch_test: skipped: {missing}; python3-distributed, python3-h5py and python3-psutil are wanted")
+    print(f"batch_test: skipped: {missing}; python3-distributed, python3-h5py, python3-psutil and python3-zarr are wanted")
     sys.exit(77)
 
 BATCH = [sys.executable, "-m", "weft.batch"]
@@ -183,31 +184,57 @@ class Batch(BatchTest):
         self.batch("jobs.jsonl", "-o", "out", "--workers", 0, code=2)
         self.assertFalse((self.folder / "out").exists())
 
-    def test_hdf5_holds_what_the_folders_do(self):
+    def check_arrays(self, row, group):
+        """Of a store: as what the program wrote in a folder."""
+        made = self.folder / "folders/jobs" / row["id"] / "made"
+        self.assertEqual(json.loads(group.attrs["row"])["hash"], row["hash"])
+        self.assertTrue(json.loads(group.attrs["report"])["outputs"])
+        if row["command"] == "convert":
+            np.testing.assert_array_equal(group["positions"], weft.load(made / "image.exr").positions)
+            np.testing.assert_array_equal(group["classes"], weft.load(made / "image.exr").classes)
+            return
+        caches = list(made.glob("*.pc2"))
+        self.assertTrue(caches)
+        for cache in caches:
+            np.testing.assert_array_equal(group[cache.stem], weft.read_pc2(cache)[0])
+
+    def test_stores_hold_what_the_folders_do(self):
         jobs = self.write_jobs(conversion("torus"), drape(export="pc2"), conversion("shoe"))
         self.batch(jobs, "-o", "folders", "--quiet", code=4)
-        self.batch(jobs, "-o", "out", "--store", "hdf5", "--quiet", code=4)
         folders = {row["id"]: row for row in self.rows("folders")}
-        self.assertFalse(any((self.folder / "out/jobs").glob("*")))
-        for row in self.rows():
-            self.assertEqual(row.get("hash"), folders[row["id"]].get("hash"))
-            if row["status"] == "failed":
-                continue
-            shard, name = row["place"].split(":")
-            made = self.folder / "folders/jobs" / name / "made"
-            with h5py.File(f"out/{shard}", "r") as file:
-                group = file[name]
-                self.assertEqual(json.loads(group.attrs["row"])["hash"], row["hash"])
-                if row["command"] == "convert":
-                    np.testing.assert_array_equal(group["positions"], weft.load(made / "image.exr").positions)
-                else:
-                    caches = list(made.glob("*.pc2"))
-                    self.assertTrue(caches)
-                    for cache in caches:
-                        np.testing.assert_array_equal(group[cache.stem], weft.read_pc2(cache)[0])
-        before = (self.folder / "out/results.jsonl").read_text()
-        self.batch(jobs, "-o", "out", "--store", "hdf5", "--quiet", code=4)
-        self.assertEqual(len((self.folder / "out/results.jsonl").read_text().splitlines()), len(before.splitlines()) + 1)  # the failure
+        for store in ("hdf5", "zarr"):
+            self.batch(jobs, "-o", store, "--store", store, "--quiet", code=4)
+            self.assertFalse(any((self.folder / store / "jobs").glob("*")))
+            for row in self.rows(store):
+                self.assertEqual(row.get("hash"), folders[row["id"]].get("hash"))
+                if row["status"] == "done" and store == "zarr":
+                    self.check_arrays(row, zarr.open(f"zarr/{row['place']}", "r"))
+                elif row["status"] == "done":
+                    shard, name = row["place"].split(":")
+                    with h5py.File(f"hdf5/{shard}", "r") as file:
+                        self.check_arrays(row, file[name])
+            before = len(self.rows(store))
+            self.batch(jobs, "-o", store, "--store", store, "--quiet", code=4)
+            self.assertEqual(len(self.rows(store)), before + 1)  # the failure
+
+    def test_a_group_of_zarr_that_is_not_whole_is_written_again(self):
+        jobs = self.write_jobs(conversion("torus"))
+        self.batch(jobs, "-o", "out", "--store", "zarr", "--quiet")
+        group = self.folder / "out" / self.rows()[0]["place"]
+        whole = sorted((path, path.is_file() and path.read_bytes()) for path in group.rglob("positions/*"))
+        (group / ".zattrs").unlink()  # as if it was killed in mid-write
+        (group / "positions/0.0.0").write_bytes(b"torn")
+        self.batch(jobs, "-o", "out", "--store", "zarr", "--quiet")
+        self.assertEqual([row["status"] for row in self.rows()], ["done"] * 2)
+        self.assertEqual(sorted((path, path.is_file() and path.read_bytes()) for path in group.rglob("positions/*")), whole)
+
+    def test_a_store_whose_package_is_missing_says_so(self):
+        jobs = self.write_jobs(conversion("torus"))
+        for store, package in (("hdf5", "h5py"), ("zarr", "zarr")):
+            (self.folder / f"{package}.py").write_text("raise ImportError('as if it were not there')\n")
+            said = self.batch(jobs, "-o", "out", "--store", store, code=3).stderr
+            self.assertEqual(said, f"weft.batch: error: python3-{package} is not installed, which this store wants: as if it were not there\n")
+        self.assertFalse((self.folder / "out").exists())
 
     def test_tasks_of_an_array_and_what_gathers_them(self):
         weft.write_mesh("a [1].obj", *weft.read_mesh("builtin:torus"))

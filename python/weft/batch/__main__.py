@@ -56,7 +56,7 @@ def _arguments(given):
     parser.add_argument("--timeout", type=_amount, metavar="S", help="seconds that a job may take; a job's own 'timeout' stands before it")
     parser.add_argument("--memory", type=_amount, metavar="MB",
                         help="memory that a job may take; a job's own 'memory' stands before it (default: its share of this machine's)")
-    parser.add_argument("--store", choices=tuple(STORES), default="folder", help="a folder a job, or HDF5 files (default: %(default)s)")
+    parser.add_argument("--store", choices=tuple(STORES), default="folder", help="a folder a job, HDF5 files, or groups of Zarr (default: %(default)s)")
     parser.add_argument("--slurm", type=_count, metavar="TASKS", help="write DIR/slurm.sh, an array of so many tasks, and run nothing")
     parser.add_argument("--part", type=_part, metavar="I/N", help="run every N-th job alone, from the I-th: a task of an array")
     parser.add_argument("--dashboard", type=int, default=0, metavar="PORT", help="of Dask's pages on 127.0.0.1 (default: any free one)")
@@ -142,8 +142,8 @@ def _run_left(options, jobs, work, take):
 
 def _run(options, jobs):
     part = None if options.part is None else options.part[0]
-    ledger, folder = Ledger(options.output, part), os.path.abspath(options.output)
-    store, wanted = STORES[options.store](folder, part), {job.id for job in jobs}
+    folder, wanted = os.path.abspath(options.output), {job.id for job in jobs}
+    store, ledger = STORES[options.store](folder, part), Ledger(options.output, part)
     rows = {key: row for key, row in ledger.rows().items() if key in wanted and (row["status"] != "done" or store.holds(row))}
     _take_left(folder, rows, store, ledger, wanted)
     left = [job for job in jobs if rows.get(job.id, {}).get("status") != "done"]

@@ -1,6 +1,7 @@
-"""Where results are: a folder a job, or HDF5 files of many jobs each; and the rows that tell of them."""
+"""Where results are: a folder a job, HDF5 files of many jobs each, or a group of Zarr a job; and the rows that tell of them."""
 import fcntl
 import glob
+import importlib
 import json
 import os
 import shutil
@@ -8,7 +9,7 @@ import shutil
 import numpy as np
 
 from .. import caches, images
-from ..errors import OutputError
+from ..errors import OutputError, UsageError
 
 SHARD_JOBS = 256  # in one HDF5 file
 
@@ -118,8 +119,7 @@ class Hdf5:
     """
 
     def __init__(self, folder, part=None):
-        import h5py  # only where it is asked for
-        self._h5py, self._folder, self._file, self._count = h5py, folder, None, 0
+        self._h5py, self._folder, self._file, self._count = _package("h5py"), folder, None, 0
         self._prefix = "" if part is None else f"{part}-"
 
     def holds(self, row):
@@ -157,8 +157,7 @@ class Hdf5:
         for name, array in arrays_of(os.path.join(made, "made")):
             group.create_dataset(name, data=array, compression="gzip", compression_opts=4, shuffle=True)
         group.attrs["row"] = json.dumps(row)
-        with open(os.path.join(made, "report.json"), encoding="utf-8") as report:
-            text = report.read()
+        text = _report(made)
         if len(text) < 60000:  # attributes of this format are small
             group.attrs["report"] = text
         group.attrs["whole"] = True
@@ -173,6 +172,43 @@ class Hdf5:
             self._file = None
 
 
+class Zarr:
+    """DIR/arrays.zarr: a group a job, with the arrays and attributes of `Hdf5`; every array is a folder of compressed chunks."""
+
+    def __init__(self, folder, part=None):
+        self._zarr, self._folder, self._path = _package("zarr"), folder, os.path.join(folder, "arrays.zarr")
+
+    def holds(self, row):
+        return os.path.isfile(os.path.join(self._path, row["id"], ".zattrs"))
+
+    def take(self, row):
+        made = os.path.join(self._folder, "jobs", row["id"])
+        group = self._zarr.open_group(self._path, mode="a").create_group(row["id"], overwrite=True)  # of one killed in mid-write
+        for name, array in arrays_of(os.path.join(made, "made")):
+            group.create_dataset(name, data=array)
+        group.attrs.put({"row": json.dumps(row), "report": _report(made)})  # last: they say that all is there
+        shutil.rmtree(made)
+        return os.path.join("arrays.zarr", row["id"])
+
+    def close(self):
+        """Nothing is open."""
+
+
+def _package(name):
+    """A package of Python, imported only where it is asked for."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise UsageError(f"python3-{name} is not installed, which this store wants: {error}", found="no package " + name,
+                         wanted="python3-" + name) from error
+
+
+def _report(made):
+    """What the program told of a job."""
+    with open(os.path.join(made, "report.json"), encoding="utf-8") as file:
+        return file.read()
+
+
 def arrays_of(made):
     """(name, array) of what a job made."""
     for path in sorted(glob.glob(os.path.join(glob.escape(made), "*"))):
@@ -185,4 +221,4 @@ def arrays_of(made):
             yield name[:-4], caches.read_pc2(path)[0]
 
 
-STORES = {"folder": Folders, "hdf5": Hdf5}
+STORES = {"folder": Folders, "hdf5": Hdf5, "zarr": Zarr}
