@@ -41,7 +41,7 @@ void add_inspect(CLI::App& program, const Context& context) {
 namespace {
 
 Json one_sided_json(const OneSidedDistance& distance) {
-  return {{"rms", distance.rms}, {"largest", distance.largest}};
+  return {{"mean", distance.mean}, {"rms", distance.rms}, {"largest", distance.largest}};
 }
 
 /// @param kind  what the subject is called: image, or subject

@@ -29,10 +29,10 @@ TopologyCounts count_topology(int vertex_count, std::span<const Triangle> triang
 /// borders are the connected parts that edges of one triangle make. The genus is -1: there is none.
 TopologyCounts count_complex(int vertex_count, std::span<const Triangle> triangles);
 
-/// Distances from one surface to another: the root mean square over samples of its area, the
+/// Distances from one surface to another: mean and root mean square over samples of its area, the
 /// maximum over these and all its vertices [m].
 struct OneSidedDistance {
-  double rms = 0, largest = 0;
+  double mean = 0, rms = 0, largest = 0;
 };
 
 /// A component of a mesh: triangles connected through edges. Vertices count once for each fan of

@@ -118,7 +118,8 @@ class Inspect(ProgramTest):
         (self.folder / "high.obj").write_text("v 0 0 0.01\nv 1 0 0.01\nv 1 1 0.01\nv 0 1 0.01\nf 1 2 3 4\n")
         apart = self.run_json("inspect", "low.obj", "--against", "high.obj")["against"]
         self.assertAlmostEqual(apart["psnr_db"], 20 * math.log10(2 ** 0.5 / 0.01), places=6)
-        self.assertAlmostEqual(apart["from_subject"]["largest"], 0.01, places=9)
+        for kind in ("mean", "rms", "largest"):
+            self.assertAlmostEqual(apart["from_subject"][kind], 0.01, places=9)
 
 
 if __name__ == "__main__":

@@ -134,7 +134,8 @@ TEST(SurfaceDistance, LooksBothWays) {
   EXPECT_NEAR(there.hausdorff, std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(back.hausdorff, std::sqrt(0.5), 1e-15);
   // Half of the area is missing and lies uniformly over heights up to h = sqrt(1/2) of its
-  // triangle: mean square = 1/2 * h^2 / 6.
+  // triangle: mean = 1/2 * h / 3, mean square = 1/2 * h^2 / 6.
+  EXPECT_NEAR(there.from_first.mean, std::sqrt(0.5) / 6, 0.002);
   EXPECT_NEAR(there.rms, std::sqrt(1.0 / 24), 0.002);
   EXPECT_EQ(there.from_first.rms, there.rms);
   EXPECT_NEAR(there.from_second.largest, 0, 1e-9);

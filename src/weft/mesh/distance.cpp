@@ -63,16 +63,19 @@ void append_corners(const TriangleMesh& mesh, std::vector<Vec3d>& points) {
     if (is_corner[v]) points.push_back(mesh.positions[v]);
 }
 
-/// Distances from one surface to another: the mean over area samples, the maximum over every vertex
-/// too, since tips have little area and may lie far off.
+/// Distances from one surface to another: the means over area samples, the maximum over every
+/// vertex too, since tips have little area and may lie far off.
 OneSidedDistance one_sided(const TriangleMesh& from, const ClosestPointQuery& to,
                            const DistanceOptions& options) {
   std::vector<Vec3d> points = sample_surface(from, options.samples, options.seed);
   append_corners(from, points);
   const std::vector<double> squared = squared_distances(points, to, options);
-  double sum = 0;
-  for (int i = 0; i < options.samples; ++i) sum += squared[i];
-  return {std::sqrt(sum / options.samples),
+  double sum = 0, sum_of_squares = 0;
+  for (int i = 0; i < options.samples; ++i) {
+    sum += std::sqrt(squared[i]);
+    sum_of_squares += squared[i];
+  }
+  return {sum / options.samples, std::sqrt(sum_of_squares / options.samples),
           std::sqrt(*std::max_element(squared.begin(), squared.end()))};
 }
 
