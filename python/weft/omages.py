@@ -16,7 +16,7 @@ import numpy as np
 from . import _arguments, images
 from .errors import InputError
 
-__all__ = ["arrays", "convert", "load", "save", "to_mesh"]
+__all__ = ["arrays", "convert", "image", "load", "save", "to_mesh"]
 FULL = 65535
 _GREY = (0.8, 0.8, 0.8)
 
@@ -90,24 +90,32 @@ def arrays(image, size=None, *, geometry_only=False, colour=_GREY, metal=0.0, ro
     return made
 
 
-def convert(V, F, size=64, *, geometry_only=False, **options):
-    """The array (size, size, 12) or (size, size, 4) of a mesh, by the largest image whose charts fit.
+def image(V, F, size=64, **options):
+    """The largest image of a mesh whose charts fit in (size, size) pixels: what `convert` makes the array of, with the scale that arrays lack.
 
     options: of `weft.geometry_image`, but for its size.
+    Returns a `weft.GeometryImage`. Raises InputError where the charts are too many.
     """
     size = _arguments.integer(size, "size", 8, 1 << 13)
     V, F = _arguments.vertices(V), _arguments.faces(F)
     side, options = size - 1, {"measure": False, **options}
     while True:
-        image = images.geometry_image(V, F, size=side, **options)
-        least = _least_size(image.charts)
-        if least <= size:
-            return arrays(image, size, geometry_only=geometry_only)
+        made = images.geometry_image(V, F, size=side, **options)
+        if _least_size(made.charts) <= size:
+            return made
         # Where charts become too small to hold their seams, an image is larger than was asked for.
         side -= max(1, side // 20)
         if side < 5:
-            raise InputError(f"omage: {len(image.charts)} charts are too many for {size} x {size} pixels",
-                             found=f"{len(image.charts)} charts", wanted="a larger size")
+            raise InputError(f"omage: {len(made.charts)} charts are too many for {size} x {size} pixels",
+                             found=f"{len(made.charts)} charts", wanted="a larger size")
+
+
+def convert(V, F, size=64, *, geometry_only=False, **options):
+    """The array (size, size, 12) or (size, size, 4) of a mesh, by the largest image whose charts fit.
+
+    options: of `weft.geometry_image`, but for its size.
+    """
+    return arrays(image(V, F, size, **options), size, geometry_only=geometry_only)
 
 
 def save(image, path, **options):

@@ -91,6 +91,18 @@ class Omages(ModuleTest):
         with self.assertRaises(weft.InputError):
             weft.omages.convert(V, F, 8, charts=40)
 
+    def test_the_image_of_an_array_has_its_place_and_size(self):
+        V, F = weft.read_mesh("builtin:double_torus")
+        V = 3 * V + [10, 20, 30]
+        image = weft.omages.image(V, F, 64, charts=5)
+        array = weft.omages.arrays(image, 64)
+        np.testing.assert_array_equal(array, weft.omages.convert(V, F, 64, charts=5))
+        own = image.to_mesh()[0]
+        low, high = own.min(0), own.max(0)
+        back = weft.omages.to_mesh(array)[0] * (high - low).max() / 2 + (low + high) / 2
+        # Rounded to 16 bits the vertices are those of the image, in another order.
+        np.testing.assert_allclose(np.sort(back, axis=0), np.sort(own, axis=0), atol=(high - low).max() / 65535)
+
     def test_files_are_read_back_and_others_refused(self):
         image = image_of("tshirt")
         image.save("shirt.npz", format="omages")
