@@ -20,7 +20,7 @@ SIMULATION = (*CLOTH, "src/weft/collide", "src/weft/sim", "include/weft/collider
 CONVERSION = ("src/weft/mesh", "src/weft/cut", "src/weft/param", "src/weft/image", "src/weft/convert")
 SOURCES = {
     "meshes": CONVERSION, "targets": CONVERSION, "more_charts": CONVERSION, "long_pieces": CONVERSION, "growth": CONVERSION, "compression": CONVERSION,
-    "omages": (*CONVERSION, "python/weft/omages.py"),
+    "omages": (*CONVERSION, "python/weft/omages.py"), "batch": ("python/weft/batch",), "batch_cost": ("python/weft/batch",),
     "hanging": SIMULATION, "charts": CLOTH, "table5": CLOTH, "error_129": CLOTH, "error_65": CLOTH, "kernels": CLOTH,
     "solver_fabrics": CLOTH, "solver_random": CLOTH,
     "ccd": ("src/weft/collide/ccd.cpp", "src/weft/collide/ccd.h"), "polar_map": ("src/weft/collide",),
