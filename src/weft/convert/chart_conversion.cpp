@@ -144,11 +144,9 @@ void ChartConversion::share(const FixedBorder& border) {
   min_free_intervals_ = 0;
   for (const BorderPath& path : disk.paths)
     if (path.curve >= 0) shared_curves_.push_back(path.curve);
-  border_length_ = shared_length_ = 0;
-  for (const BorderCurve& curve : border_curves(disk)) {
+  border_length_ = 0;
+  for (const BorderCurve& curve : border_curves(disk))
     border_length_ += curve.weight * curve.length;
-    if (disk.paths[curve.path].curve >= 0) shared_length_ += curve.length;
-  }
   for (const BorderCurve& curve : border_curves(disk))
     if (disk.paths[curve.path].curve < 0) min_free_intervals_ += curve.weight * curve.least;
 }

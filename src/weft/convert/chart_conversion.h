@@ -52,8 +52,7 @@ class ChartConversion {
   [[nodiscard]] const std::vector<int>& shared_curves() const { return shared_curves_; }
   /// The least number of intervals of all other paths together; 0: there is no other path.
   [[nodiscard]] int min_free_intervals() const { return min_free_intervals_; }
-  /// Of these curves, and of all paths around the chart. [m]
-  [[nodiscard]] double shared_length() const { return shared_length_; }
+  /// Of all paths around the chart. [m]
   [[nodiscard]] double border_length() const { return border_length_; }
   /// Maps the disk to such a chart. @param unit  of rotations, see RotationOptions
   /// @throws TopologyError as map_to_square
@@ -92,7 +91,7 @@ class ChartConversion {
   const FixedBorder* border_ = nullptr;
   std::vector<int> shared_curves_;
   int min_side_ = 0, min_free_intervals_ = 0;
-  double border_length_ = 0, shared_length_ = 0;
+  double border_length_ = 0;
   CutSummary cut_summary_;
   std::shared_ptr<const MappedDisk> mapped_;
   GeometryImage image_;

@@ -85,13 +85,9 @@ class Sizing {
       int sum = 0;
       for (const int curve : shared) sum += intervals[curve];
       const int free = charts_[k].min_free_intervals();
-      // A strip that has more samples along one side than along the other is skewed.
-      const double length = charts_[k].shared_length();
-      const int even = shares_[k].aspect > 1
-                           ? static_cast<int>(std::ceil(sum * charts_[k].border_length() / length))
-                           : 0;
-      sizes[k] = free == 0 ? size_around(sum, shares_[k].aspect)
-                           : with_border(sizes[k], std::max(sum + free, even), size_);
+      sizes[k] =
+          free == 0 ? size_around(sum, shares_[k].aspect)
+                    : with_border(sizes[k], std::max(sum + free, even_border(k, intervals)), size_);
     }
     return sizes;
   }
@@ -101,6 +97,21 @@ class Sizing {
   static int least_of(int curves) {
     const int all = 4 * (min_image_size - 1);
     return (all / curves + seam_unit - 1) / seam_unit * seam_unit;
+  }
+
+  /// A strip that has more samples along one side than along the other is skewed: how many it wants
+  /// around it for those of its curves. Short curves, which have the least number, ask for nothing.
+  [[nodiscard]] int even_border(std::size_t chart, std::span<const int> intervals) const {
+    if (shares_[chart].aspect <= 1) return 0;
+    double sum = 0, length = 0;
+    for (const int curve : charts_[chart].shared_curves()) {
+      if (intervals[curve] <= seam_unit) continue;
+      sum += intervals[curve];
+      length += curves_.length[curve];
+    }
+    if (!(length > 0)) return 0;
+    return static_cast<int>(
+        std::min(std::ceil(sum * charts_[chart].border_length() / length), 4.0 * size_));
   }
 
   /// The chart of an aspect whose border has just so many intervals.
@@ -129,17 +140,16 @@ int automatic_side(std::span<const ChartConversion> charts) {
 
 }  // namespace
 
-Placement place_charts(std::span<const Piece> pieces, std::span<const ChartConversion> charts,
-                       const SeamCurves& curves, int asked, std::vector<std::string>& warnings) {
+std::optional<Placement> place_charts(std::span<const Piece> pieces,
+                                      std::span<const ChartConversion> charts,
+                                      const SeamCurves& curves, int asked, int most,
+                                      std::vector<std::string>& warnings) {
   if (charts.size() == 1 && curves.length.empty()) {
     const int side = asked != automatic_size ? asked : charts[0].suitable_side();
-    return {side, {{"", 0, 0, side, side}}, {}};
+    return Placement{side, {{"", 0, 0, side, side}}, {}};
   }
   for (int size = asked != automatic_size ? asked : automatic_side(charts);; size = 2 * size - 1) {
-    if (size > largest_image_size)
-      throw TopologyError(
-          "", fmt::format("{} pieces that need more samples than an image has", charts.size()),
-          "fewer or simpler pieces, or --component K, are wanted");
+    if (size > most) return std::nullopt;
     const Sizing sizing(pieces, charts, curves, size);
     Placement placement{size, {}, {}};
     // Of the largest scale that fits, which is tried last of those that do.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,9 +23,12 @@ struct Placement {
 /// their length and the density of samples beside them, a multiple of 4. Where the charts do not
 /// fit, the image grows.
 /// @param asked     the side that is wanted, or automatic_size
+/// @param most      beyond which it does not grow
 /// @param warnings  told when the image grew
-/// @throws TopologyError when the largest image is too small
-Placement place_charts(std::span<const Piece> pieces, std::span<const ChartConversion> charts,
-                       const SeamCurves& curves, int asked, std::vector<std::string>& warnings);
+/// @return nothing where the charts do not fit into the largest image
+std::optional<Placement> place_charts(std::span<const Piece> pieces,
+                                      std::span<const ChartConversion> charts,
+                                      const SeamCurves& curves, int asked, int most,
+                                      std::vector<std::string>& warnings);
 
 }  // namespace weft

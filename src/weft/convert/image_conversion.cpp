@@ -101,13 +101,16 @@ void ImageConversion::cut(int most) {
     charts_.emplace_back(piece, made_.input, name_, options_);
   }
   std::vector<std::string> warnings;
-  places_ = place_charts(pieces_, charts_, curves_, options_.size, warnings);
+  places_ = placed_as_squares(warnings);
   if (places_.size > most) return;
   for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].lengthen_cut(size_of(k).rows);
   const bool joined = !made_.input.joined.empty();
   if (charts_.size() > 1 || joined)
     for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].choose_shape(size_of(k).rows);
-  if (joined) places_ = placed(false, warnings);
+  if (joined) {
+    share_borders();
+    places_ = placed_as_squares(warnings);
+  }
   if (has_rectangles()) try_rectangles();
   for (FixedBorder& border : curves_.borders) border.intervals = places_.intervals;
   made_.warnings.insert(made_.warnings.end(), warnings.begin(), warnings.end());
@@ -118,12 +121,12 @@ void ImageConversion::try_rectangles() {
   constexpr double min_gain = 0.15;
   std::vector<std::string> warnings;
   const double stretch = stretch_in(places_);
-  Placement with = placed(true, warnings);
-  while (with.size <= places_.size && reject_rectangles(with)) with = placed(true, warnings);
-  if (with.size <= places_.size && stretch_in(with) < (1 - min_gain) * stretch)
-    places_ = std::move(with);
+  std::optional<Placement> with = placed(true, places_.size, warnings);
+  while (with && reject_rectangles(*with)) with = placed(true, places_.size, warnings);
+  if (with && stretch_in(*with) < (1 - min_gain) * stretch)
+    places_ = *std::move(with);
   else
-    placed(false, warnings);
+    placed(false, places_.size, warnings);
 }
 
 bool ImageConversion::has_rectangles() const {
@@ -131,11 +134,23 @@ bool ImageConversion::has_rectangles() const {
                      [](const ChartConversion& chart) { return chart.has_rectangle(); });
 }
 
-Placement ImageConversion::placed(bool rectangles, std::vector<std::string>& warnings) {
+std::optional<Placement> ImageConversion::placed(bool rectangles, int most,
+                                                 std::vector<std::string>& warnings) {
   for (ChartConversion& chart : charts_) chart.take_rectangle(rectangles && chart.has_rectangle());
   if (!made_.input.joined.empty()) share_borders();
   warnings.clear();
-  return place_charts(pieces_, charts_, curves_, options_.size, warnings);
+  return place_charts(pieces_, charts_, curves_, options_.size, most, warnings);
+}
+
+Placement ImageConversion::placed_as_squares(std::vector<std::string>& warnings) const {
+  warnings.clear();
+  std::optional<Placement> found =
+      place_charts(pieces_, charts_, curves_, options_.size, largest_image_size, warnings);
+  if (!found)
+    throw TopologyError(
+        "", fmt::format("{} pieces that need more samples than an image has", charts_.size()),
+        "fewer or simpler pieces, or --component K, are wanted");
+  return *std::move(found);
 }
 
 /// Of charts that share curves with others. @return whether any was given up

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +35,8 @@ class ImageConversion {
   void share_borders();
   void try_rectangles();
   [[nodiscard]] bool has_rectangles() const;
-  Placement placed(bool rectangles, std::vector<std::string>& warnings);
+  std::optional<Placement> placed(bool rectangles, int most, std::vector<std::string>& warnings);
+  Placement placed_as_squares(std::vector<std::string>& warnings) const;
   bool reject_rectangles(const Placement& placement);
   [[nodiscard]] double stretch_in(const Placement& placement) const;
   void gather();
