@@ -6,7 +6,8 @@ SurfaceGrid::SurfaceGrid(int size, const BorderMates& mates, const Grid<Diagonal
                          const BorderMates* sewn)
     : size_(size),
       point_(static_cast<std::size_t>(size) * size),
-      diagonal_(static_cast<std::size_t>(size - 1) * (size - 1), Diagonal::rising) {
+      diagonal_(static_cast<std::size_t>(size - 1) * (size - 1), Diagonal::rising),
+      seams_(mates) {
   for (int s = 0; s < size * size; ++s) point_[s] = mates.size() > 0 ? mates.representative(s) : s;
   for (int s = 0; sewn != nullptr && s < size * size; ++s)
     joint_.push_back(sewn->representative(s));

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "weft/collide/seam_strips.h"
 #include "weft/geometry_image.h"
 #include "weft/grid.h"
 #include "weft/image/diagonals.h"
@@ -36,6 +37,8 @@ class SurfaceGrid {
   [[nodiscard]] std::array<int, 3> triangle(int row, int col, int half) const {
     return triangle_from(row * size_ + col, row * cells() + col, half);
   }
+  /// The cells on both sides of its seams.
+  [[nodiscard]] const SeamStrips& seams() const { return seams_; }
   /// Whether a cell lies in no chart: its triangles are folded, and nothing is near it.
   [[nodiscard]] bool missing(int cell) const {
     return diagonal_[static_cast<std::size_t>(cell)] == Diagonal::none;
@@ -74,6 +77,7 @@ class SurfaceGrid {
   std::vector<int> point_;          // [n * n]
   std::vector<int> joint_;          // [n * n], or none
   std::vector<Diagonal> diagonal_;  // [(n - 1)^2]
+  SeamStrips seams_;
 };
 
 /// A surface during a step: every sample moves on a straight line from start to end.

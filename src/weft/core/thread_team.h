@@ -16,6 +16,7 @@ namespace weft {
 /// A half-open range of rows, samples or the like.
 struct Range {
   int first = 0, last = 0;
+  bool operator==(const Range&) const = default;
 };
 
 class ThreadTeam;

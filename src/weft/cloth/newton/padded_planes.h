@@ -31,6 +31,11 @@ class PaddedPlane {
   [[nodiscard]] int rows() const { return rows_; }
   [[nodiscard]] int cols() const { return cols_; }
   [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
+  /// Of all planes of so many columns.
+  static std::ptrdiff_t stride_for(int cols) {
+    const std::ptrdiff_t wide = (cols + 2 * frame_cols + 15) / 16 * 16;
+    return wide % 256 == 0 ? wide + 16 : wide;
+  }
   /// @param r  from -2 to rows + 1
   [[nodiscard]] float* row(int r) { return data_.get() + offset(r); }
   [[nodiscard]] const float* row(int r) const { return data_.get() + offset(r); }
@@ -43,10 +48,6 @@ class PaddedPlane {
   struct Free {
     void operator()(float* p) const { ::operator delete(p, alignment); }
   };
-  static std::ptrdiff_t stride_for(int cols) {
-    const std::ptrdiff_t wide = (cols + 2 * frame_cols + 15) / 16 * 16;
-    return wide % 256 == 0 ? wide + 16 : wide;
-  }
   [[nodiscard]] std::ptrdiff_t offset(int r) const {
     return (r + frame_rows) * stride_ + frame_cols;
   }

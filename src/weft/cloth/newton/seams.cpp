@@ -10,8 +10,6 @@
 namespace weft {
 namespace {
 
-float& at(PaddedPlane& plane, int n, int sample) { return plane(sample / n, sample % n); }
-
 using EdgeGroup = std::vector<BorderEdge>;
 
 /// Whether an edge of one group follows one of another on a line.
@@ -45,6 +43,8 @@ Seams::Seams(const BorderMates& mates, const LevelLayout& layout) : size_(mates.
 void Seams::set_classes(const std::vector<std::vector<int>>& classes, const LevelLayout& layout) {
   for (const std::vector<int>& members : classes) {
     samples_.insert(samples_.end(), members.begin(), members.end());
+    for (const int s : members)
+      places_.push_back(s / size_ * PaddedPlane::stride_for(size_) + s % size_);
     starts_.push_back(static_cast<int>(samples_.size()));
     inverse_count_.push_back(1 / static_cast<float>(members.size()));
   }
@@ -126,39 +126,55 @@ Seams Seams::coarsened(const LevelLayout& fine, const LevelLayout& coarse) const
   return result;
 }
 
-void Seams::sum(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
+/// Sets every copy of a class to value(plane, places of the copies, class).
+template <class Value>
+void Seams::set_copies(const Workers& workers, std::initializer_list<PaddedPlane*> planes,
+                       const Value& value) const {
   const Range mine = workers.share(class_count());
-  for (int i = mine.first; i < mine.last; ++i)
+  for (int i = mine.first; i < mine.last; ++i) {
+    const std::span<const std::ptrdiff_t> places = places_of(i);
     for (PaddedPlane* plane : planes) {
-      float total = 0;
-      for (const int s : samples(i)) total += at(*plane, size_, s);
-      for (const int s : samples(i)) at(*plane, size_, s) = total;
+      float* const first = plane->row(0);
+      const float all = value(first, places, i);
+      for (const std::ptrdiff_t place : places) first[place] = all;
     }
+  }
+}
+
+namespace {
+
+float sum_of(const float* plane, std::span<const std::ptrdiff_t> places) {
+  float total = 0;
+  for (const std::ptrdiff_t place : places) total += plane[place];
+  return total;
+}
+
+}  // namespace
+
+void Seams::sum(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
+  set_copies(workers, planes, [](const float* plane, std::span<const std::ptrdiff_t> places, int) {
+    return sum_of(plane, places);
+  });
 }
 
 void Seams::average(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
-  const Range mine = workers.share(class_count());
-  for (int i = mine.first; i < mine.last; ++i)
-    for (PaddedPlane* plane : planes) {
-      float total = 0;
-      for (const int s : samples(i)) total += at(*plane, size_, s);
-      for (const int s : samples(i)) at(*plane, size_, s) = inverse_count_[i] * total;
-    }
+  set_copies(workers, planes,
+             [this](const float* plane, std::span<const std::ptrdiff_t> places, int i) {
+               return inverse_count_[i] * sum_of(plane, places);
+             });
 }
 
 void Seams::copy(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
-  const Range mine = workers.share(class_count());
-  for (int i = mine.first; i < mine.last; ++i)
-    for (PaddedPlane* plane : planes)
-      for (const int s : samples(i).subspan(1))
-        at(*plane, size_, s) = at(*plane, size_, samples(i).front());
+  set_copies(workers, planes, [](const float* plane, std::span<const std::ptrdiff_t> places, int) {
+    return plane[places.front()];
+  });
 }
 
 void Seams::share(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
   const Range mine = workers.share(class_count());
   for (int i = mine.first; i < mine.last; ++i)
     for (PaddedPlane* plane : planes)
-      for (const int s : samples(i)) at(*plane, size_, s) *= inverse_count_[i];
+      for (const std::ptrdiff_t place : places_of(i)) plane->row(0)[place] *= inverse_count_[i];
 }
 
 }  // namespace weft

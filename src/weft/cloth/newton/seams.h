@@ -57,9 +57,16 @@ class Seams {
  private:
   void set_classes(const std::vector<std::vector<int>>& classes, const LevelLayout& layout);
   void find_edges(const LevelLayout& layout);
+  template <class Value>
+  void set_copies(const Workers& workers, std::initializer_list<PaddedPlane*> planes,
+                  const Value& value) const;
+  [[nodiscard]] std::span<const std::ptrdiff_t> places_of(int index) const {
+    return std::span(places_).subspan(starts_[index], starts_[index + 1] - starts_[index]);
+  }
 
   int size_ = 0;
   std::vector<int> starts_{0}, samples_;
+  std::vector<std::ptrdiff_t> places_;  // of the samples, from the first element of a plane
   std::vector<std::vector<BorderEdge>> edges_;
   std::vector<float> inverse_count_;  // of each class
 };

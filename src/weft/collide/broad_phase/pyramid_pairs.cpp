@@ -126,6 +126,7 @@ void PyramidPairs::descend_self(const Search& search, const NodePair& pair, cons
   if (stop(pair)) return emit(pair);
   if (a.level == 0) return;  // the two triangles of a cell share an edge
   const Levels& levels = levels_[search.a];
+  const int cells = surfaces_[search.a].grid->cells();
   unsigned near =
       search.kernels->near_pairs(levels.boxes.children(a), levels.boxes.children(b), search.reach);
   if (a == b) near &= pairs_once;
@@ -135,7 +136,8 @@ void PyramidPairs::descend_self(const Search& search, const NodePair& pair, cons
     if (children.a.level == 0 && children.a == children.b) continue;
     if (levels.folds->unfolded(children.a, children.b)) continue;
     if (children.a.level == 0) {
-      emit(children);
+      const auto cell = [&](const Node& node) { return node.row * cells + node.col; };
+      if (!levels.folds->unfolded_across({cell(children.a), cell(children.b)})) emit(children);
     } else {
       descend_self(search, children, stop, emit);
     }

@@ -9,31 +9,22 @@ namespace {
 
 /// Levels of fewer rows of windows are left to one worker: barriers would cost more.
 constexpr int min_shared_rows = 31;
-
-std::array<float*, 12> row_of(std::array<Grid<float>, 12>& planes, int row) {
-  std::array<float*, 12> rows{};
-  for (std::size_t k = 0; k < 12; ++k) rows[k] = planes[k].row(row);
-  return rows;
-}
-std::array<const float*, 12> row_of(const std::array<Grid<float>, 12>& planes, int row) {
-  std::array<const float*, 12> rows{};
-  for (std::size_t k = 0; k < 12; ++k) rows[k] = planes[k].row(row);
-  return rows;
-}
-
-std::array<Grid<float>, 12> planes(int rows, int cols) {
-  std::array<Grid<float>, 12> made;
-  for (Grid<float>& plane : made) plane = Grid<float>(rows, cols);
-  return made;
-}
+/// Kernels take so many columns about as fast as one.
+constexpr int lanes = 16;
 
 }  // namespace
+
+UnfoldedWindows::Lines::Lines(int side) : twos(extents(2, side)), threes(extents(1, side)) {
+  const auto most = static_cast<std::size_t>(side / lanes + 2);
+  runs.reserve(most);
+  joined_runs.reserve(most);
+}
 
 UnfoldedWindows::UnfoldedWindows(int cells) : sides_(level_sides(cells)) {
   for (const int side : sides_) {
     const int twos = side - 1, threes = std::max(0, side - 2);
     levels_.push_back(
-        {side, planes(side, side), Grid<float>(twos, twos), Grid<float>(threes, threes)});
+        {side, extents(side, side), Grid<float>(twos, twos), Grid<float>(threes, threes)});
   }
 }
 
@@ -74,35 +65,58 @@ void UnfoldedWindows::fit(const CollideKernels& kernels, const MovingSurface& su
   worker.barrier();
 }
 
+/// Tests the windows that begin in a row and in the columns of `lines.runs`.
 void UnfoldedWindows::find_unfolded_row(const CollideKernels& kernels, Level& level, float slack,
                                         int row, Lines& lines) {
   const int twos = level.two_unfolded.cols(), threes = level.three_unfolded.cols();
-  const auto join_two = [&](int r) {
-    kernels.join_windows(twos, row_of(std::as_const(level.nodes), r).data(),
-                         row_of(std::as_const(level.nodes), r + 1).data(),
-                         row_of(lines.twos, r % 2).data());
+  const bool has_threes = row < level.three_unfolded.rows();
+  const auto join_two = [&](int r, Range cols) {
+    kernels.join_windows(cols.last - cols.first,
+                         row_of(std::as_const(level.nodes), r, cols.first).data(),
+                         row_of(std::as_const(level.nodes), r + 1, cols.first).data(),
+                         row_of(lines.twos, r % 2, cols.first).data());
   };
-  const auto find_unfolded = [&](int count, const Extents& of, int line, float* out) {
-    kernels.find_unfolded(count, row_of(of, line).data(), slack, out);
+  const auto find_unfolded = [&](Range cols, const Extents& of, int line, float* out) {
+    kernels.find_unfolded(cols.last - cols.first, row_of(of, line, cols.first).data(), slack,
+                          out + cols.first);
   };
-  if (lines.joined != row) join_two(row);
-  find_unfolded(twos, lines.twos, row % 2, level.two_unfolded.row(row));
-  lines.joined = -1;
-  if (row >= level.three_unfolded.rows()) return;
-  join_two(row + 1);
-  lines.joined = row + 1;
-  kernels.join_windows(threes, row_of(std::as_const(lines.twos), row % 2).data(),
-                       row_of(std::as_const(lines.twos), (row + 1) % 2).data(),
-                       row_of(lines.threes, 0).data());
-  find_unfolded(threes, lines.threes, 0, level.three_unfolded.row(row));
+  const bool is_joined = lines.joined == row && lines.joined_runs == lines.runs;
+  for (const Range two : lines.runs) {
+    // Windows of 3 x 3 nodes are joined from two of 2 x 2 in each row.
+    const Range both{two.first, std::min(two.last + 1, twos)};
+    if (!is_joined) join_two(row, both);
+    find_unfolded(two, lines.twos, row % 2, level.two_unfolded.row(row));
+    const Range three{two.first, std::min(two.last, threes)};
+    if (!has_threes || three.first >= three.last) continue;
+    join_two(row + 1, both);
+    kernels.join_windows(three.last - three.first,
+                         row_of(std::as_const(lines.twos), row % 2, three.first).data(),
+                         row_of(std::as_const(lines.twos), (row + 1) % 2, three.first).data(),
+                         row_of(lines.threes, 0, three.first).data());
+    find_unfolded(three, lines.threes, 0, level.three_unfolded.row(row));
+  }
+  lines.joined = has_threes ? row + 1 : -1;
+  std::swap(lines.joined_runs, lines.runs);
 }
 
-/// Whether all windows that begin in a row of a level lie in unfolded windows of the level above.
-bool UnfoldedWindows::unfolded_above(std::size_t level, int row) const {
-  if (level + 1 == levels_.size() || levels_[level + 1].side < 2) return false;
+/// The columns of a row of windows that do not lie in unfolded windows of the level above, as whole
+/// vectors.
+void UnfoldedWindows::find_runs(std::size_t level, int row, std::vector<Range>& runs) const {
+  const int cols = levels_[level].two_unfolded.cols();
+  runs.clear();
+  if (level + 1 == levels_.size() || levels_[level + 1].side < 2) return runs.push_back({0, cols});
   const Grid<float>& marks = levels_[level + 1].two_unfolded;
   const float* above = marks.row(std::min(row / 2, marks.rows() - 1));
-  return std::all_of(above, above + marks.cols(), [](float mark) { return mark != 0; });
+  for (int c = 0; c < marks.cols(); ++c) {
+    if (above[c] != 0) continue;
+    const int first = 2 * c, last = c + 1 == marks.cols() ? cols : first + 2;
+    if (!runs.empty() && last <= runs.back().last) continue;
+    const Range own{std::max(0, std::min(first, cols - lanes)), std::min(first + lanes, cols)};
+    if (!runs.empty() && own.first == runs.back().last)
+      runs.back().last = own.last;
+    else
+      runs.push_back(own);
+  }
 }
 
 void UnfoldedWindows::find_unfolded_rows(const CollideKernels& kernels, std::size_t index,
@@ -110,22 +124,24 @@ void UnfoldedWindows::find_unfolded_rows(const CollideKernels& kernels, std::siz
   Level& level = levels_[index];
   lines.joined = -1;
   for (int r = rows.first; r < rows.last; ++r) {
-    if (!unfolded_above(index, r)) {
-      find_unfolded_row(kernels, level, slack, r, lines);
-      continue;
-    }
     for (Grid<float>* marks : {&level.two_unfolded, &level.three_unfolded})
       if (r < marks->rows()) std::fill_n(marks->row(r), marks->cols(), 1.0F);
+    find_runs(index, r, lines.runs);
+    if (lines.runs.empty())
+      lines.joined = -1;
+    else
+      find_unfolded_row(kernels, level, slack, r, lines);
   }
 }
 
 void UnfoldedWindows::find_unfolded(const MovingSurface& surface, float slack, ThreadTeam& team) {
   const CollideKernels& kernels = collide_kernels_for(team.instructions());
   const int side = levels_.front().side;
-  while (static_cast<int>(lines_.size()) < team.size())
-    lines_.push_back({planes(2, side), planes(1, side)});
+  while (static_cast<int>(lines_.size()) < team.size()) lines_.push_back(Lines(side));
+  seams_.take(surface.grid->seams(), side, team.size());
   team.run_if(side >= min_shared_cells, [&](Worker& worker) {
     fit(kernels, surface, worker);
+    seams_.find_unfolded(kernels, levels_.front().nodes, 2 * slack, worker);
     Lines& lines = lines_[static_cast<std::size_t>(worker.rank())];
     for (std::size_t level = levels_.size(); level-- > 0;) {
       const int rows = levels_[level].two_unfolded.rows();
@@ -141,6 +157,7 @@ void UnfoldedWindows::find_unfolded(const MovingSurface& surface, float slack, T
 }
 
 bool UnfoldedWindows::unfolded(const CandidatePair& pair) const {
+  if (seams_.unfolded(pair)) return true;
   const int side = levels_.front().side;
   Node a{0, pair.a / side, pair.a % side}, b{0, pair.b / side, pair.b % side};
   while (std::abs(a.row - b.row) > 2 || std::abs(a.col - b.col) > 2) {

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
+#include "weft/collide/broad_phase/extents.h"
 #include "weft/collide/broad_phase/node_levels.h"
+#include "weft/collide/broad_phase/unfolded_seams.h"
 #include "weft/collide/kernels/collide_kernels.h"
 #include "weft/grid.h"
 
@@ -22,8 +24,10 @@ namespace weft {
 /// two points of the surface coincide. Unlike cones of normals this needs no test of contours.
 ///
 /// All windows of 2 x 2 and of 3 x 3 nodes on all levels of the mip pyramid are tested at once, row
-/// by row from the coarsest level down, so that a search only looks them up. Rows within unfolded
-/// windows of the level above are unfolded, too.
+/// by row from the coarsest level down, so that a search only looks them up. What lies within
+/// unfolded windows of the level above is unfolded, too.
+///
+/// Cells on both sides of a seam have windows of their own, see UnfoldedSeams.
 class UnfoldedWindows {
  public:
   explicit UnfoldedWindows(int cells);
@@ -45,12 +49,14 @@ class UnfoldedWindows {
         if (marks.row(r)[c] != 0) return true;
     return false;
   }
+  /// Whether some window across a seam that holds two cells is certainly unfolded.
+  [[nodiscard]] bool unfolded_across(const CandidatePair& cells) const {
+    return seams_.unfolded(cells);
+  }
   /// The same for two cells, on the first level that has a window for them.
   [[nodiscard]] bool unfolded(const CandidatePair& pair) const;
 
  private:
-  /// Least x, y, z and largest x, y, z of the edges along rows, then of those along columns.
-  using Extents = std::array<Grid<float>, 12>;
   struct Level {
     int side = 0;  // nodes
     Extents nodes;
@@ -59,21 +65,26 @@ class UnfoldedWindows {
   /// Scratch rows of a worker: extents of two rows of 2 x 2 windows in turn, of one of 3 x 3
   /// windows.
   struct Lines {
-    std::array<Grid<float>, 12> twos, threes;  // [2 x side], [1 x side]
-    int joined = -1;                           // the row of windows that `twos` has beforehand
+    explicit Lines(int side);
+    Extents twos, threes;     // [2 x side], [1 x side]
+    std::vector<Range> runs;  // columns of windows to be tested
+    // The row of windows that `twos` has beforehand, and its columns.
+    int joined = -1;
+    std::vector<Range> joined_runs;
   };
   void fill_row(const CollideKernels& kernels, const MovingSurface& surface, int row);
   void join_row(const CollideKernels& kernels, std::size_t level, int row);
   void fit(const CollideKernels& kernels, const MovingSurface& surface, Worker& worker);
   static void find_unfolded_row(const CollideKernels& kernels, Level& level, float slack, int row,
                                 Lines& lines);
-  [[nodiscard]] bool unfolded_above(std::size_t level, int row) const;
+  void find_runs(std::size_t level, int row, std::vector<Range>& runs) const;
   void find_unfolded_rows(const CollideKernels& kernels, std::size_t index, float slack, Range rows,
                           Lines& lines);
 
   std::vector<int> sides_;
   std::vector<Level> levels_;
   std::vector<Lines> lines_;  // one a worker
+  UnfoldedSeams seams_;
 };
 
 }  // namespace weft
