@@ -1,8 +1,7 @@
-// How far every method is off a converged run, over what it costs: as a table and as a plot.
+// How far every method is off a converged run, over what it costs.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -10,14 +9,12 @@
 #include <fmt/format.h>
 
 #include "bench/hanging_sheet.h"
-#include "bench/plot.h"
 
 namespace weft::bench {
 namespace {
 
 struct Args {
   int size = 65, threads = 1, repeats = 3;
-  std::string picture;
 };
 
 /// One setting of one method.
@@ -111,13 +108,6 @@ void print_row(const Trial& trial, const std::optional<HangingRun>& run, double 
              100 * run->strain.p99, 100 * run->strain.max);
 }
 
-void add_point(Plot& plot, const std::string& series, PlotPoint point) {
-  const auto same = [&](const PlotSeries& known) { return known.name == series; };
-  auto known = std::find_if(plot.series.begin(), plot.series.end(), same);
-  if (known == plot.series.end()) known = plot.series.insert(known, {series, {}});
-  known->points.push_back(point);
-}
-
 void measure(const Args& args) {
   const int steps = reference_substeps(args.size);
   const HangingRun reference = converged(args, steps);
@@ -131,16 +121,13 @@ void measure(const Args& args) {
       "| method | substeps | iterations | ms a frame | off by, mm | fall, m | strain p99 % | "
       "largest % |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
-  Plot plot{"ms a frame", "off by mm (rms of 30 frames)", {}};
   const Trials trials = trials_for(args);
   for (const Trial& trial : trials.list()) {
     const std::optional<HangingRun> run = median_of(args.repeats, trial);
     const double error = run ? distance_between(*run, reference) : 0;
     print_row(trial, run, error);
     (void)std::fflush(stdout);
-    if (run) add_point(plot, trial.series, {run->milliseconds, 1000 * error});
   }
-  if (!args.picture.empty()) write_png(args.picture, draw_plot(plot));
 }
 
 }  // namespace
@@ -153,7 +140,6 @@ int main(int argc, char** argv) try {
   program.add_option("--threads", args.threads)->capture_default_str();
   program.add_option("--repeats", args.repeats, "Runs whose median time counts")
       ->capture_default_str();
-  program.add_option("-o,--picture", args.picture, "PNG of the plot");
   CLI11_PARSE(program, argc, argv);
   weft::bench::measure(args);
 } catch (const std::exception& error) {

@@ -112,6 +112,8 @@ void render(RenderArgs& args, const Context& context) {
   args.shown.view.elevation = args.elevation * std::numbers::pi / 180;
   check(args);
   Shots shots = open_subjects(args, context);
+  if (!has_font())
+    warn(context, "no font for labels and legends (DejaVu Sans): they are left blank");
   if (is_movie(args))
     film(args, shots, context);
   else

@@ -23,8 +23,10 @@ Picture read_png(const std::filesystem::path& path);
 /// Part of a figure: a picture with a line of text below it.
 struct Panel {
   Picture picture;
-  std::string label;
+  std::string label;  ///< UTF-8
 };
+/// Whether the font of labels and legends (DejaVu Sans) can be read; else they are left blank.
+bool has_font();
 
 /// White between panels [pixels].
 inline constexpr int panel_gap = 14;

@@ -195,7 +195,7 @@ Legend amount_legend(const std::string& title, const std::string& largest) {
   return {title, amount_colour, {{0, "0"}, {1, largest}}};
 }
 
-int legend_height(int width) { return 38 * scale_for(width); }
+int legend_height(int width) { return 44 * scale_for(width); }
 
 void add_legend(Picture& picture, const Legend& legend) {
   const int scale = scale_for(picture.width), height = legend_height(picture.width);
@@ -207,15 +207,15 @@ void add_legend(Picture& picture, const Legend& legend) {
   const auto middle = [&](const std::string& text, int x, int y) {
     draw_text(whole, text, {x - text_width(text, scale) / 2, y, scale}, ink);
   };
-  middle(legend.title, picture.width / 2, top + 4 * scale);
-  const int bar = top + 15 * scale, bar_height = 9 * scale;
+  middle(legend.title, picture.width / 2, top + 3 * scale);
+  const int bar = top + 17 * scale, bar_height = 9 * scale;
   for (int x = 0; x <= length; ++x)
     for (int y = 0; y < bar_height; ++y)
       set_pixel(whole, left + x, bar + y, legend.colour(static_cast<double>(x) / length));
   for (const Legend::Mark& mark : legend.marks) {
     const int x = left + static_cast<int>(std::lround(mark.place * length));
     for (int y = 0; y < bar_height + 2 * scale; ++y) set_pixel(whole, x, bar + y, ink);
-    middle(mark.label, x, bar + bar_height + 4 * scale);
+    middle(mark.label, x, bar + bar_height + 3 * scale);
   }
   picture = std::move(whole);
 }

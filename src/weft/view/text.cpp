@@ -3,182 +3,140 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#define STB_TRUETYPE_IMPLEMENTATION
+#define STBTT_STATIC
+#include <stb/stb_truetype.h>
 
 #include "weft/picture.h"
 
 namespace weft {
 namespace {
 
-constexpr int columns = 5, rows = 7, advance = 6;
-/// Letters with descenders are lowered by this many rows.
-constexpr int descent = 2;
-constexpr std::string_view descending = "gjpqy,";
+constexpr int line_height = 12;  // [pixels] at scale 1
 
-/// Rows from the top; the highest of five bits is the leftmost pixel.
-struct Glyph {
-  char letter;
-  std::array<std::uint8_t, rows> bits;
+/// DejaVu Sans, read once.
+class Font {
+ public:
+  Font() {
+    std::ifstream in(WEFT_FONT, std::ios::binary);
+    bytes_.assign(std::istreambuf_iterator<char>(in), {});
+    const auto* const data = reinterpret_cast<const unsigned char*>(bytes_.data());
+    is_there_ = !bytes_.empty() && stbtt_InitFont(&info_, data, 0) != 0;
+  }
+  [[nodiscard]] bool is_there() const { return is_there_; }
+  [[nodiscard]] const stbtt_fontinfo* info() const { return &info_; }
+  /// Pixels a unit of the font. @pre it is there
+  [[nodiscard]] float unit(int scale) const {
+    return stbtt_ScaleForPixelHeight(&info_, static_cast<float>(line_height * scale));
+  }
+  /// From a line's upper edge. [pixels]
+  [[nodiscard]] int baseline(int scale) const {
+    int ascent = 0, descent = 0, gap = 0;
+    stbtt_GetFontVMetrics(&info_, &ascent, &descent, &gap);
+    return static_cast<int>(std::lround(static_cast<float>(ascent) * unit(scale)));
+  }
+
+ private:
+  std::vector<char> bytes_;
+  stbtt_fontinfo info_{};
+  bool is_there_ = false;
 };
 
-constexpr std::array glyphs{
-    Glyph{' ', {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00}},
-    Glyph{'%', {0x19, 0x1a, 0x02, 0x04, 0x08, 0x0b, 0x13}},
-    Glyph{'(', {0x02, 0x04, 0x08, 0x08, 0x08, 0x04, 0x02}},
-    Glyph{')', {0x08, 0x04, 0x02, 0x02, 0x02, 0x04, 0x08}},
-    Glyph{'+', {0x00, 0x04, 0x04, 0x1f, 0x04, 0x04, 0x00}},
-    Glyph{',', {0x00, 0x00, 0x00, 0x06, 0x06, 0x02, 0x04}},
-    Glyph{'-', {0x00, 0x00, 0x00, 0x1f, 0x00, 0x00, 0x00}},
-    Glyph{'.', {0x00, 0x00, 0x00, 0x00, 0x00, 0x06, 0x06}},
-    Glyph{'/', {0x01, 0x02, 0x02, 0x04, 0x08, 0x08, 0x10}},
-    Glyph{'0', {0x0e, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0e}},
-    Glyph{'1', {0x04, 0x0c, 0x04, 0x04, 0x04, 0x04, 0x0e}},
-    Glyph{'2', {0x0e, 0x11, 0x01, 0x06, 0x08, 0x10, 0x1f}},
-    Glyph{'3', {0x0e, 0x11, 0x01, 0x06, 0x01, 0x11, 0x0e}},
-    Glyph{'4', {0x02, 0x06, 0x0a, 0x12, 0x1f, 0x02, 0x02}},
-    Glyph{'5', {0x1f, 0x10, 0x1e, 0x01, 0x01, 0x11, 0x0e}},
-    Glyph{'6', {0x06, 0x08, 0x10, 0x1e, 0x11, 0x11, 0x0e}},
-    Glyph{'7', {0x1f, 0x01, 0x02, 0x04, 0x04, 0x08, 0x08}},
-    Glyph{'8', {0x0e, 0x11, 0x11, 0x0e, 0x11, 0x11, 0x0e}},
-    Glyph{'9', {0x0e, 0x11, 0x11, 0x0f, 0x01, 0x02, 0x0c}},
-    Glyph{':', {0x00, 0x06, 0x06, 0x00, 0x06, 0x06, 0x00}},
-    Glyph{'=', {0x00, 0x00, 0x1f, 0x00, 0x1f, 0x00, 0x00}},
-    Glyph{'A', {0x0e, 0x11, 0x11, 0x1f, 0x11, 0x11, 0x11}},
-    Glyph{'B', {0x1e, 0x11, 0x11, 0x1e, 0x11, 0x11, 0x1e}},
-    Glyph{'C', {0x0e, 0x11, 0x10, 0x10, 0x10, 0x11, 0x0e}},
-    Glyph{'D', {0x1e, 0x11, 0x11, 0x11, 0x11, 0x11, 0x1e}},
-    Glyph{'E', {0x1f, 0x10, 0x10, 0x1e, 0x10, 0x10, 0x1f}},
-    Glyph{'F', {0x1f, 0x10, 0x10, 0x1e, 0x10, 0x10, 0x10}},
-    Glyph{'G', {0x0e, 0x11, 0x10, 0x17, 0x11, 0x11, 0x0e}},
-    Glyph{'H', {0x11, 0x11, 0x11, 0x1f, 0x11, 0x11, 0x11}},
-    Glyph{'I', {0x0e, 0x04, 0x04, 0x04, 0x04, 0x04, 0x0e}},
-    Glyph{'J', {0x01, 0x01, 0x01, 0x01, 0x01, 0x11, 0x0e}},
-    Glyph{'K', {0x11, 0x12, 0x14, 0x18, 0x14, 0x12, 0x11}},
-    Glyph{'L', {0x10, 0x10, 0x10, 0x10, 0x10, 0x10, 0x1f}},
-    Glyph{'M', {0x11, 0x1b, 0x15, 0x15, 0x11, 0x11, 0x11}},
-    Glyph{'N', {0x11, 0x19, 0x15, 0x13, 0x11, 0x11, 0x11}},
-    Glyph{'O', {0x0e, 0x11, 0x11, 0x11, 0x11, 0x11, 0x0e}},
-    Glyph{'P', {0x1e, 0x11, 0x11, 0x1e, 0x10, 0x10, 0x10}},
-    Glyph{'Q', {0x0e, 0x11, 0x11, 0x11, 0x15, 0x12, 0x0d}},
-    Glyph{'R', {0x1e, 0x11, 0x11, 0x1e, 0x14, 0x12, 0x11}},
-    Glyph{'S', {0x0f, 0x10, 0x10, 0x0e, 0x01, 0x01, 0x1e}},
-    Glyph{'T', {0x1f, 0x04, 0x04, 0x04, 0x04, 0x04, 0x04}},
-    Glyph{'U', {0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x0e}},
-    Glyph{'V', {0x11, 0x11, 0x11, 0x11, 0x11, 0x0a, 0x04}},
-    Glyph{'W', {0x11, 0x11, 0x11, 0x15, 0x15, 0x1b, 0x11}},
-    Glyph{'X', {0x11, 0x11, 0x0a, 0x04, 0x0a, 0x11, 0x11}},
-    Glyph{'Y', {0x11, 0x11, 0x0a, 0x04, 0x04, 0x04, 0x04}},
-    Glyph{'Z', {0x1f, 0x01, 0x02, 0x04, 0x08, 0x10, 0x1f}},
-    Glyph{'_', {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x1f}},
-    Glyph{'a', {0x00, 0x00, 0x0e, 0x01, 0x0f, 0x11, 0x0f}},
-    Glyph{'b', {0x10, 0x10, 0x1e, 0x11, 0x11, 0x11, 0x1e}},
-    Glyph{'c', {0x00, 0x00, 0x0e, 0x10, 0x10, 0x11, 0x0e}},
-    Glyph{'d', {0x01, 0x01, 0x0f, 0x11, 0x11, 0x11, 0x0f}},
-    Glyph{'e', {0x00, 0x00, 0x0e, 0x11, 0x1f, 0x10, 0x0e}},
-    Glyph{'f', {0x06, 0x09, 0x08, 0x1c, 0x08, 0x08, 0x08}},
-    Glyph{'g', {0x0d, 0x13, 0x11, 0x13, 0x0d, 0x01, 0x0e}},
-    Glyph{'h', {0x10, 0x10, 0x16, 0x19, 0x11, 0x11, 0x11}},
-    Glyph{'i', {0x04, 0x00, 0x0c, 0x04, 0x04, 0x04, 0x0e}},
-    Glyph{'j', {0x06, 0x02, 0x02, 0x02, 0x02, 0x12, 0x0c}},
-    Glyph{'k', {0x10, 0x10, 0x12, 0x14, 0x18, 0x14, 0x12}},
-    Glyph{'l', {0x0c, 0x04, 0x04, 0x04, 0x04, 0x04, 0x0e}},
-    Glyph{'m', {0x00, 0x00, 0x1a, 0x15, 0x15, 0x15, 0x15}},
-    Glyph{'n', {0x00, 0x00, 0x16, 0x19, 0x11, 0x11, 0x11}},
-    Glyph{'o', {0x00, 0x00, 0x0e, 0x11, 0x11, 0x11, 0x0e}},
-    Glyph{'p', {0x16, 0x19, 0x11, 0x19, 0x16, 0x10, 0x10}},
-    Glyph{'q', {0x0d, 0x13, 0x11, 0x13, 0x0d, 0x01, 0x01}},
-    Glyph{'r', {0x00, 0x00, 0x16, 0x19, 0x10, 0x10, 0x10}},
-    Glyph{'s', {0x00, 0x00, 0x0f, 0x10, 0x0e, 0x01, 0x1e}},
-    Glyph{'t', {0x08, 0x08, 0x1c, 0x08, 0x08, 0x09, 0x06}},
-    Glyph{'u', {0x00, 0x00, 0x11, 0x11, 0x11, 0x13, 0x0d}},
-    Glyph{'v', {0x00, 0x00, 0x11, 0x11, 0x11, 0x0a, 0x04}},
-    Glyph{'w', {0x00, 0x00, 0x11, 0x11, 0x15, 0x15, 0x0a}},
-    Glyph{'x', {0x00, 0x00, 0x11, 0x0a, 0x04, 0x0a, 0x11}},
-    Glyph{'y', {0x11, 0x11, 0x11, 0x13, 0x0d, 0x01, 0x0e}},
-    Glyph{'z', {0x00, 0x00, 0x1f, 0x02, 0x04, 0x08, 0x1f}},
-};
-
-const Glyph* find_glyph(char letter) {
-  const auto* found = std::find_if(glyphs.begin(), glyphs.end(),
-                                   [&](const Glyph& glyph) { return glyph.letter == letter; });
-  return found == glyphs.end() ? nullptr : found;
+const Font& font() {
+  static const Font only;
+  return only;
 }
 
-bool is_set(const Glyph& glyph, int x, int y) {
-  return x >= 0 && y >= 0 && x < columns && y < rows &&
-         (glyph.bits[y] >> (columns - 1 - x) & 1) != 0;
+/// The character that begins at a byte; moves `at` behind it.
+int next_character(std::string_view text, std::size_t& at) {
+  constexpr int replacement = 0xfffd;
+  const auto lead = static_cast<unsigned char>(text[at++]);
+  if (lead < 0x80) return lead;
+  const int more = lead >= 0xf0 && lead < 0xf8   ? 3
+                   : lead >= 0xe0 && lead < 0xf0 ? 2
+                   : lead >= 0xc2 && lead < 0xe0 ? 1
+                                                 : 0;
+  if (more == 0) return replacement;
+  int character = lead & (0x3f >> more);
+  for (int k = 0; k < more; ++k) {
+    if (at >= text.size() || (static_cast<unsigned char>(text[at]) & 0xc0) != 0x80)
+      return replacement;
+    character = character << 6 | (static_cast<unsigned char>(text[at++]) & 0x3f);
+  }
+  return character;
 }
 
-double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
-  const Vec2d along = b - a;
-  const double share = std::clamp(dot(p - a, along) / dot(along, along), 0.0, 1.0);
-  const Vec2d apart = p - (a + share * along);
-  return std::sqrt(dot(apart, apart));
+/// Calls visit(character, x) with where each begins, in pixels from the line's left edge.
+/// @return where the next would begin
+template <class Visit>
+float for_characters(std::string_view text, int scale, const Visit& visit) {
+  const float unit = font().unit(scale);
+  float x = 0;
+  int before = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const int character = next_character(text, at);
+    if (before != 0)
+      x += unit *
+           static_cast<float>(stbtt_GetCodepointKernAdvance(font().info(), before, character));
+    visit(character, x);
+    int advance = 0, bearing = 0;
+    stbtt_GetCodepointHMetrics(font().info(), character, &advance, &bearing);
+    x += unit * static_cast<float>(advance);
+    before = character;
+  }
+  return x;
 }
 
-/// Distance of a point from the strokes of a glyph [glyph pixels]. Strokes join the centres of set
-/// pixels: neighbours in a row or column, and diagonal ones without such a connection.
-double distance_to_pen(const Glyph& glyph, Vec2d p) {
-  double nearest = HUGE_VAL;
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x) {
-      if (!is_set(glyph, x, y)) continue;
-      const Vec2d here{x + 0.5, y + 0.5};
-      nearest = std::min(nearest, std::sqrt(dot(p - here, p - here)));
-      const auto stroke_to = [&](int dx, int dy) {
-        nearest = std::min(nearest, distance_to_segment(p, here, {here.x + dx, here.y + dy}));
-      };
-      if (is_set(glyph, x + 1, y)) stroke_to(1, 0);
-      if (is_set(glyph, x, y + 1)) stroke_to(0, 1);
-      for (const int side : {-1, 1})
-        if (is_set(glyph, x + side, y + 1) && !is_set(glyph, x + side, y) &&
-            !is_set(glyph, x, y + 1))
-          stroke_to(side, 1);
-    }
-  return nearest;
-}
-
-void blend_pixel(Picture& picture, std::array<int, 2> at, Vec3f colour, float share) {
-  if (at[0] < 0 || at[1] < 0 || at[0] >= picture.width || at[1] >= picture.height) return;
-  const std::size_t i = std::size_t{3} * (static_cast<std::size_t>(at[1]) * picture.width + at[0]);
+void blend_pixel(Picture& picture, int x, int y, Vec3f colour, float share) {
+  if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return;
+  const std::size_t i = std::size_t{3} * (static_cast<std::size_t>(y) * picture.width + x);
   const Vec3f below = (1.0F / 255) * Vec3f{static_cast<float>(picture.rgb[i]),
                                            static_cast<float>(picture.rgb[i + 1]),
                                            static_cast<float>(picture.rgb[i + 2])};
-  set_pixel(picture, at[0], at[1], (1 - share) * below + share * colour);
+  set_pixel(picture, x, y, (1 - share) * below + share * colour);
 }
 
-/// Draws whole pixels at scale 1; above that, strokes of a round pen with smooth edges.
-void draw_glyph(Picture& picture, const Glyph& glyph, TextPlace place, Vec3f colour) {
-  constexpr double half_pen = 0.42;  // [glyph pixels]
-  const int scale = place.scale;
-  for (int y = 0; y < rows * scale; ++y)
-    for (int x = 0; x < columns * scale; ++x) {
-      double share = is_set(glyph, x, y) ? 1 : 0;
-      if (scale > 1) {
-        const double apart = distance_to_pen(glyph, {(x + 0.5) / scale, (y + 0.5) / scale});
-        share = std::clamp((half_pen - apart) * scale + 0.5, 0.0, 1.0);
-      }
-      if (share > 0)
-        blend_pixel(picture, {place.x + x, place.y + y}, colour, static_cast<float>(share));
-    }
+/// @param x  [pixels] fractions move the character between pixels  @param baseline  its row
+void draw_character(Picture& picture, int character, float x, int baseline, int scale,
+                    Vec3f colour) {
+  const float unit = font().unit(scale), whole = std::floor(x);
+  int left = 0, top = 0, right = 0, bottom = 0;
+  stbtt_GetCodepointBitmapBoxSubpixel(font().info(), character, unit, unit, x - whole, 0, &left,
+                                      &top, &right, &bottom);
+  const int width = right - left, height = bottom - top;
+  if (width <= 0 || height <= 0) return;
+  std::vector<unsigned char> cover(static_cast<std::size_t>(width) * height);
+  stbtt_MakeCodepointBitmapSubpixel(font().info(), cover.data(), width, height, width, unit, unit,
+                                    x - whole, 0, character);
+  for (int r = 0; r < height; ++r)
+    for (int c = 0; c < width; ++c)
+      if (const int share = cover[static_cast<std::size_t>(r) * width + c]; share > 0)
+        blend_pixel(picture, static_cast<int>(whole) + left + c, baseline + top + r, colour,
+                    static_cast<float>(share) / 255);
 }
 
 }  // namespace
 
+bool has_font() { return font().is_there(); }
+
 int text_width(std::string_view text, int scale) {
-  return text.empty() ? 0 : (advance * static_cast<int>(text.size()) - (advance - columns)) * scale;
+  if (!has_font()) return static_cast<int>(text.size()) * line_height * scale / 2;
+  return static_cast<int>(std::ceil(for_characters(text, scale, [](int, float) {})));
 }
 
-int text_height(int scale) { return (rows + descent) * scale; }
+int text_height(int scale) { return line_height * scale; }
 
 void draw_text(Picture& picture, std::string_view text, TextPlace place, Vec3f colour) {
-  for (const char letter : text) {
-    const int top =
-        place.y + (descending.find(letter) != std::string_view::npos ? descent * place.scale : 0);
-    if (const Glyph* glyph = find_glyph(letter))
-      draw_glyph(picture, *glyph, {place.x, top, place.scale}, colour);
-    place.x += advance * place.scale;
-  }
+  if (!has_font()) return;
+  const int baseline = place.y + font().baseline(place.scale);
+  for_characters(text, place.scale, [&](int character, float x) {
+    draw_character(picture, character, static_cast<float>(place.x) + x, baseline, place.scale,
+                   colour);
+  });
 }
 
 }  // namespace weft
