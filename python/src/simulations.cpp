@@ -1,9 +1,11 @@
 // Simulations: scenes as JSON, with the surfaces and motions that are in memory put into them.
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -56,16 +58,31 @@ class Stepper {
  public:
   Simulation simulation;
   std::atomic<bool> busy = false;
+  /// Whether the call at work was told to stop and its caller has gone on without waiting.
+  std::atomic<bool> stopping = false;
 };
 
-/// Claims a stepper for one call. @throws RuntimeError while another thread's call goes on
+/// Waits a little without the interpreter's lock. @throws py::error_already_set on a signal
+void wait_a_little() {
+  {
+    const py::gil_scoped_release released;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+/// Claims a stepper for one call, after one that is stopping.
+/// @throws RuntimeError while another thread's call goes on
 class Claim {
  public:
-  explicit Claim(std::shared_ptr<Stepper> stepper) : stepper_(std::move(stepper)) {
-    if (stepper_->busy.exchange(true)) {
-      stepper_ = nullptr;
-      throw std::runtime_error("this simulation is at work in another call");
+  explicit Claim(std::shared_ptr<Stepper> stepper) {
+    while (stepper->busy.exchange(true)) {
+      if (!stepper->stopping)
+        throw std::runtime_error("this simulation is at work in another call");
+      wait_a_little();
     }
+    stepper->stopping = false;
+    stepper_ = std::move(stepper);
   }
   Claim(const Claim&) = delete;
   Claim& operator=(const Claim&) = delete;
@@ -88,7 +105,13 @@ class Simulated {
   py::dict advance(const py::object& progress) {
     const auto claim = std::make_shared<Claim>(stepper_);
     const auto report = std::make_shared<FrameReport>();
-    run_released(progress, [claim, report](Progress& told) { *report = (*claim)->advance(told); });
+    try {
+      run_released(progress,
+                   [claim, report](Progress& told) { *report = (*claim)->advance(told); });
+    } catch (...) {
+      stepper_->stopping = true;
+      throw;
+    }
     return told_of(*report);
   }
   /// (self, cloths, bodies, ground)
