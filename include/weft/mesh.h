@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -70,13 +71,17 @@ struct MeshFaces {
   std::vector<Vec2f> texture{};        ///< [T] v runs upwards
   std::vector<int> texture_corners{};  ///< [sum of sizes] into texture, -1: none; or empty: no
                                        ///< corner has any
+  /// Of polygons that no fan covers, since they are not convex, by number: their triangles, as
+  /// places among the polygon's corners.
+  std::map<int, std::vector<Triangle>> ears{};
   [[nodiscard]] bool has_texture() const { return !texture_corners.empty(); }
 };
 
 /// The triangles of a mesh as faces; equal texture coordinates of one vertex become one.
 MeshFaces faces_of(const TriangleMesh& mesh);
 
-/// Every polygon as a fan from its first corner, the order in which readers split them.
+/// Every polygon as a fan from its first corner, or as its ears: the order in which readers split
+/// them.
 struct FanCorners {
   std::vector<Triangle> triangles;  ///< vertices
   std::vector<Triangle> places;     ///< the same corners as places in MeshFaces::corners

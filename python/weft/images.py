@@ -152,7 +152,7 @@ def _again(exr, report, normals):
 def read_mesh(path, uv=False):
     """Reads OBJ, OFF, PLY, STL, GLB or glTF, or makes the built-in shape "builtin:NAME".
 
-    Returns V (n, 3) float64 and F (m, 3) int32 as they are in the file, polygons as fans; with ``uv`` also the texture
+    Returns V (n, 3) float64 and F (m, 3) int32 as they are in the file, polygons as triangles; with ``uv`` also the texture
     coordinates of the faces' corners, (m, 3, 2) float32, or None where there are none.
     Raises FileNotFoundError, InputError (with FILE:LINE where the format has lines).
     """

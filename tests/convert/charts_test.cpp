@@ -7,10 +7,12 @@
 
 #include "tests/support/convert_options.h"
 #include "tests/support/errors.h"
+#include "tests/support/meshes.h"
 #include "weft/convert.h"
 #include "weft/convert/chart_packing.h"
 #include "weft/error.h"
 #include "weft/image_file.h"
+#include "weft/image_quality.h"
 #include "weft/mesh_statistics.h"
 #include "weft/shapes.h"
 
@@ -62,6 +64,15 @@ TEST(ChartPacking, ChartsAreApartAlignedAndAsLargeAsTheyCanBe) {
         EXPECT_GT(samples, 0.45 * size * size) << count << " in " << size;
       }
     }
+}
+
+// Of 4 x 4 quads a torus has edges that more than two of its triangles share.
+TEST(Charts, LevelsAtWhichASurfaceIsNoManifoldAreLeftOut) {
+  const TriangleMesh tori = beside(std::vector(20, test::torus(20, 8, 0.5, 0.1)));
+  const Conversion made = convert_mesh(tori, "tori", unmeasured(65));
+  ASSERT_EQ(measure_topology(made.image).euler, 0);
+  EXPECT_EQ(coarsest_level(made.image), 0);
+  EXPECT_FALSE(coarser_image(made.image, 1));
 }
 
 TEST(ChartPacking, WhatDoesNotFitIsTold) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/convert/maps.h"
+#include "tests/support/convert_options.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 #include "weft/convert/sample.h"
@@ -16,6 +17,7 @@
 #include "weft/image_file.h"
 #include "weft/image_quality.h"
 #include "weft/mesh.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {
@@ -73,6 +75,23 @@ TEST(Measure, EqualSurfacesHaveTheBestFigure) {
   const ImageQuality quality = measure_image(image, square_mesh(0));
   EXPECT_GT(quality.psnr_db, 200);
   EXPECT_LE(quality.psnr_db, best_psnr_db);
+}
+
+// Leaves of games and walls between boxes are modelled so: each side with triangles of its own.
+TEST(Measure, WhatHasTwoSidesInOnePlaceIsNotReversed) {
+  TriangleMesh leaf = make_shape("disk");
+  const TriangleMesh front = leaf;
+  const auto count = static_cast<int>(front.positions.size());
+  leaf.positions.insert(leaf.positions.end(), front.positions.begin(), front.positions.end());
+  for (const auto& [a, b, c] : front.triangles)
+    leaf.triangles.push_back({count + a, count + c, count + b});
+  const Conversion made = convert_mesh(leaf, "leaf", test::sized(65));
+  EXPECT_LT(made.quality.reversed_area, 1e-3);
+  EXPECT_TRUE(made.warnings.empty()) << made.warnings[0];
+  TriangleMesh back = front;
+  for (Triangle& t : back.triangles) std::swap(t[1], t[2]);
+  const Conversion one = convert_mesh(front, "front", test::sized(65));
+  EXPECT_GT(measure_image(one.image, back).reversed_area, 0.999);
 }
 
 TEST(Measure, MatesThatDifferAreSeen) {

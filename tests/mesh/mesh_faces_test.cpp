@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"
+#include "weft/core/math.h"
+#include "weft/core/random.h"
 #include "weft/files.h"
 #include "weft/mesh.h"
+#include "weft/mesh/io/polygon.h"
 #include "weft/mesh/point_normals.h"
 #include "weft/shapes.h"
 
@@ -22,6 +25,66 @@ TEST(MeshFaces, PolygonsOfAnObjStayWhole) {
   EXPECT_EQ(file.faces.corners, (Numbers{0, 1, 2, 3, 4, 2, 1}));
   EXPECT_FALSE(file.faces.has_texture());
   EXPECT_EQ(fans_of(file.faces).triangles, file.mesh.triangles);
+}
+
+// The shape of an L, with a corner in the middle of a side and its first corner where no fan covers
+// it.
+TEST(MeshFaces, PolygonsThatAreNotConvexDoNotFold) {
+  const MeshFile file = parse(
+      "v 0 2 0\nv 0 1 0\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\n"
+      "vt 0 1\nvt 0 .5\nvt 0 0\nvt 1 0\nvt 1 .5\nvt .5 .5\nvt .5 1\n"
+      "f 1/1 2/2 3/3 4/4 5/5 6/6 7/7\nf 1/1 3/3 2/2\n");
+  ASSERT_EQ(file.mesh.triangles.size(), 6u);
+  double area = 0;
+  for (std::size_t t = 0; t < 5; ++t) {
+    const auto& [a, b, c] = file.mesh.triangles[t];
+    const std::vector<Vec3d>& p = file.mesh.positions;
+    const double own = 0.5 * cross(p[b] - p[a], p[c] - p[a]).z;
+    EXPECT_GT(own, 0) << "triangle " << t;
+    area += own;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d at = p[static_cast<std::size_t>(file.mesh.triangles[t][k])];
+      EXPECT_EQ(file.mesh.corner_uv[t][k],
+                (Vec2f{0.5F * static_cast<float>(at.x), 0.5F * static_cast<float>(at.y)}));
+    }
+  }
+  EXPECT_EQ(area, 3);
+  EXPECT_EQ(fans_of(file.faces).triangles, file.mesh.triangles);
+}
+
+TEST(MeshFaces, EarsCoverEveryPolygonThatDoesNotCrossItself) {
+  Random random(5);
+  for (int round = 0; round < 200; ++round) {
+    // A star about the origin, in a plane that leans, some corners twice.
+    std::vector<Vec3d> corners;
+    const int count = 4 + static_cast<int>(30 * random.uniform());
+    for (int k = 0; k < count; ++k) {
+      const double a = 2 * pi * k / count, r = 0.1 + random.uniform();
+      corners.push_back({r * cosine(a), r * sine(a), 0.3 * r * cosine(a)});
+      if (random.uniform() < 0.1) corners.push_back(corners.back());
+    }
+    const auto area_of = [&](int a, int b, int c) {
+      return 0.5 * cross(corners[b] - corners[a], corners[c] - corners[a]).z;
+    };
+    double whole = 0, covered = 0;
+    for (int k = 2; k < static_cast<int>(corners.size()); ++k) whole += area_of(0, k - 1, k);
+    const Triangles split = split_polygon(corners);
+    EXPECT_EQ(split.size(), corners.size() - 2);
+    for (const auto& [a, b, c] : split) {
+      EXPECT_GE(area_of(a, b, c), 0) << round;
+      covered += area_of(a, b, c);
+    }
+    EXPECT_NEAR(covered, whole, 1e-12);
+  }
+}
+
+// Nothing is known of what lies inside of it.
+TEST(MeshFaces, APolygonThatCrossesItselfIsAFan) {
+  const std::vector<Vec3d> star{
+      {0, 1, 0}, {-0.6, -0.8, 0}, {0.95, 0.3, 0}, {-0.95, 0.3, 0}, {0.6, -0.8, 0}};
+  EXPECT_EQ(split_polygon(star), (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
+  const std::vector<Vec3d> large{{0, 0, 0}, {1e300, 0, 0}, {1e299, 1e299, 0}, {0, 1e300, 0}};
+  EXPECT_EQ(split_polygon(large), (Triangles{{0, 1, 2}, {0, 2, 3}}));
 }
 
 TEST(MeshFaces, TextureIndicesAreTheAuthorsOwn) {

@@ -1,5 +1,6 @@
 #include <optional>
 
+#include "weft/error.h"
 #include "weft/geometry_image.h"
 #include "weft/image_quality.h"
 
@@ -34,6 +35,17 @@ BorderMates coarser_mates(const GeometryImage& image, int step) {
   return {size, std::move(charts), std::move(runs)};
 }
 
+/// Of few samples a handle may close so far that its triangles meet along an edge: no level.
+bool have_same_topology(const GeometryImage& image, const GeometryImage& coarse) {
+  const ImageQuality fine = measure_topology(image);
+  try {
+    const ImageQuality found = measure_topology(coarse);
+    return fine.euler == found.euler && fine.boundaries == found.boundaries;
+  } catch (const TopologyError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::optional<GeometryImage> coarser_image(const GeometryImage& image, int level) {
@@ -56,8 +68,7 @@ std::optional<GeometryImage> coarser_image(const GeometryImage& image, int level
     coarse.cube.set(s, image.cube.at(row, col));
     if (image.has_colours()) coarse.colours.set(s, image.colours.at(row, col));
   }
-  const ImageQuality fine = measure_topology(image), found = measure_topology(coarse);
-  if (fine.euler != found.euler || fine.boundaries != found.boundaries) return std::nullopt;
+  if (!have_same_topology(image, coarse)) return std::nullopt;
   return coarse;
 }
 

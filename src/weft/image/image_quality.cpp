@@ -37,22 +37,34 @@ double area_of(const TriangleMesh& mesh) {
   return area;
 }
 
+double diagonal(const TriangleMesh& mesh) {
+  Box3d box;
+  for (const Vec3d p : mesh.positions) box.add(p);
+  return box.diagonal();
+}
+
 /// Part of a surface's area that faces the other way than the triangle of another one closest to
-/// it, by the centres of its triangles, or of evenly spread ones of many.
+/// it, by the centres of its triangles, or of evenly spread ones of many. Where walls of the other
+/// lie on each other, facing both ways, nothing is reversed.
 double reversed_part(const TriangleMesh& surface, const TriangleMesh& mesh,
                      const ClosestPointQuery& query) {
   constexpr int max_probes = 40000;
   const auto count = static_cast<int>(surface.triangles.size());
   const int step = (count + max_probes - 1) / max_probes;
+  const double rounding = 1e-6 * diagonal(mesh);
   double area = 0, reversed = 0;
   int hint = 0;
   for (int t = 0; t < count; t += step) {
     const auto& [a, b, c] = surface.triangles[t];
     const auto& p = surface.positions;
-    hint = query.closest((1.0 / 3) * (p[a] + p[b] + p[c]), hint).triangle;
-    const Vec3d own = area_vector(surface, t);
+    const Vec3d centre = (1.0 / 3) * (p[a] + p[b] + p[c]), own = area_vector(surface, t);
+    const ClosestPoint near = query.closest(centre, hint);
+    hint = near.triangle;
     area += length(own);
-    if (dot(own, area_vector(mesh, hint)) < 0) reversed += length(own);
+    const auto faces_alike = [&](int other) { return dot(own, area_vector(mesh, other)) >= 0; };
+    if (!faces_alike(hint) &&
+        !query.any_within(centre, std::sqrt(near.squared_distance) + rounding, faces_alike))
+      reversed += length(own);
   }
   return area > 0 ? reversed / area : 0;
 }
@@ -62,12 +74,6 @@ void set_folds(ImageQuality& quality, const TriangleMesh& rebuilt, const Triangl
   const double area = area_of(mesh);
   quality.area_ratio = area > 0 ? area_of(rebuilt) / area : 1;
   quality.reversed_area = reversed_part(rebuilt, mesh, query);
-}
-
-double diagonal(const TriangleMesh& mesh) {
-  Box3d box;
-  for (const Vec3d p : mesh.positions) box.add(p);
-  return box.diagonal();
 }
 
 void set_distances(ImageQuality& quality, const TriangleMesh& other, const TriangleMesh& mesh,

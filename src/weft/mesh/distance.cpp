@@ -165,6 +165,30 @@ ClosestPoint ClosestPointQuery::closest(Vec3d point, int hint) const {
   return best;
 }
 
+bool ClosestPointQuery::any_within(Vec3d point, double distance,
+                                   const std::function<bool(int triangle)>& accept) const {
+  const double squared = distance * distance;
+  const BoxTree& boxes = tree_->boxes;
+  std::vector<int> stack{0};
+  while (!stack.empty()) {
+    const int at = stack.back();
+    stack.pop_back();
+    const BoxTree::Node& node = boxes.nodes[at];
+    if (squared_distance_to_box(point, node.box) > squared) continue;
+    if (node.right >= 0) {
+      stack.insert(stack.end(), {node.right, at + 1});
+      continue;
+    }
+    for (int place = node.first; place < node.last; ++place) {
+      const auto& [a, b, c] = tree_->corners[place];
+      if (squared_length(point - closest_on_triangle(point, a, b, c)) <= squared &&
+          accept(boxes.triangle_at[place]))
+        return true;
+    }
+  }
+  return false;
+}
+
 std::vector<Vec3d> sample_surface(const TriangleMesh& mesh, int count, std::uint64_t seed) {
   WEFT_ASSERT(!mesh.triangles.empty());
   std::vector<double> area_up_to(mesh.triangles.size());

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -29,6 +30,9 @@ class ClosestPointQuery {
   /// The closest point; of several triangles equally close, the first one's.
   /// @param hint  a triangle that may be near, for speed: the answer does not depend on it
   [[nodiscard]] ClosestPoint closest(Vec3d point, int hint = 0) const;
+  /// Whether any triangle that is accepted has a point within a distance.
+  [[nodiscard]] bool any_within(Vec3d point, double distance,
+                                const std::function<bool(int triangle)>& accept) const;
 
  private:
   struct Tree;

@@ -53,15 +53,20 @@ MeshFaces faces_of(const TriangleMesh& mesh) {
 FanCorners fans_of(const MeshFaces& faces) {
   FanCorners fans;
   int first = 0;
-  for (const int size : faces.sizes) {
-    for (int k = 2; k < size; ++k) {
-      const Triangle places{first, first + k - 1, first + k};
-      fans.places.push_back(places);
-      fans.triangles.push_back({faces.corners[static_cast<std::size_t>(places[0])],
-                                faces.corners[static_cast<std::size_t>(places[1])],
-                                faces.corners[static_cast<std::size_t>(places[2])]});
-    }
-    first += size;
+  const auto add = [&](int a, int b, int c) {
+    const Triangle places{first + a, first + b, first + c};
+    fans.places.push_back(places);
+    fans.triangles.push_back({faces.corners[static_cast<std::size_t>(places[0])],
+                              faces.corners[static_cast<std::size_t>(places[1])],
+                              faces.corners[static_cast<std::size_t>(places[2])]});
+  };
+  for (std::size_t p = 0; p < faces.sizes.size(); ++p) {
+    const auto ears = faces.ears.find(static_cast<int>(p));
+    if (ears != faces.ears.end())
+      for (const auto& [a, b, c] : ears->second) add(a, b, c);
+    else
+      for (int k = 2; k < faces.sizes[p]; ++k) add(0, k - 1, k);
+    first += faces.sizes[p];
   }
   return fans;
 }

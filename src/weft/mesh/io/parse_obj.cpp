@@ -185,8 +185,9 @@ struct FaceSink {
       polygon_texture.push_back(texture_index(corner.texcoord_index));
       polygon_uv.push_back(texture_of(polygon_texture.back()));
     }
-    add_polygon(*mesh, polygon, polygon_uv);
+    std::vector<Triangle> ears = add_polygon(*mesh, polygon, polygon_uv);
     if (faces == nullptr || polygon.size() < 3) return;
+    if (!ears.empty()) faces->ears.emplace(static_cast<int>(faces->sizes.size()), std::move(ears));
     faces->sizes.push_back(static_cast<int>(polygon.size()));
     faces->corners.insert(faces->corners.end(), polygon.begin(), polygon.end());
     faces->texture_corners.insert(faces->texture_corners.end(), polygon_texture.begin(),

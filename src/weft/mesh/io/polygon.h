@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "weft/mesh.h"
 
@@ -11,10 +12,17 @@ namespace weft {
 /// Maximum number of triangles and of vertices of a mesh: half-edges are counted in int.
 inline constexpr std::int64_t max_elements = 700'000'000;
 
-/// Appends a polygon as a fan of triangles from its first corner. @pre at least three corners
-void add_polygon(TriangleMesh& mesh, std::span<const int> corners);
+/// The triangles of a polygon, as places among its corners: the fan from its first corner where
+/// that covers it, as of every convex one; else ears are cut off, seen along the mean normal
+/// [ericson04, 12.5]. A polygon that crosses itself is a fan.
+std::vector<Triangle> split_polygon(std::span<const Vec3d> corners);
+
+/// Appends the triangles of a polygon, a fan where its vertices are not known yet. @return their
+/// places where they are no fan, else nothing
+std::vector<Triangle> add_polygon(TriangleMesh& mesh, std::span<const int> corners);
 /// Appends a polygon with a texture coordinate for each corner. @pre as many of both
-void add_polygon(TriangleMesh& mesh, std::span<const int> corners, std::span<const Vec2f> uv);
+std::vector<Triangle> add_polygon(TriangleMesh& mesh, std::span<const int> corners,
+                                  std::span<const Vec2f> uv);
 /// Appends the triangles of a strip, of which every second one is turned over, so that all face the
 /// same side. Degenerate triangles, by which strips jump, are left out but count.
 void add_strip(std::vector<Triangle>& triangles, std::span<const int> corners);
