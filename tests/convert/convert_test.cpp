@@ -236,6 +236,25 @@ TEST(LoadSurface, ImageFilesAreReadAndMeshFilesConverted) {
   EXPECT_FALSE(read.normals.has_value());
 }
 
+// A scene that asks for 9 x 9 samples gets more than that, and is to know.
+TEST(LoadSurface, TellsWhatConversionWarnsOf) {
+  const test::TemporaryFolder folder;
+  TriangleMesh tori;
+  for (int k = 0; k < 6; ++k) {
+    const TriangleMesh torus = test::torus(12, 8);
+    const auto first = static_cast<int>(tori.positions.size());
+    for (const Vec3d p : torus.positions) tori.positions.push_back(p + Vec3d{3.0 * k, 0, 0});
+    for (const auto& [a, b, c] : torus.triangles)
+      tori.triangles.push_back({first + a, first + b, first + c});
+  }
+  write_mesh(folder / "tori.obj", tori);
+  const LoadedSurface loaded =
+      load_surface({(folder / "tori.obj").string()}, test::unmeasured(9));
+  ASSERT_EQ(loaded.image.size(), 33);
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_EQ(loaded.notes[0], "6 pieces do not fit into 9 x 9 samples: 33 x 33 were taken");
+}
+
 TEST(LoadSurface, UnknownNamesAreRefused) {
   EXPECT_THROW(load_surface("builtin:shpere", {}), UsageError);
   EXPECT_THROW(load_surface("no/such/mesh.obj", {}), InputError);

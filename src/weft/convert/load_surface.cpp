@@ -172,6 +172,8 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
   loaded.image = std::move(made.image);
   loaded.normals = std::move(made.normals);
   loaded.notes = std::move(made.input.repairs);
+  // Of a larger image than was asked for, say.
+  loaded.notes.insert(loaded.notes.end(), made.warnings.begin(), made.warnings.end());
   return loaded;
 }
 
