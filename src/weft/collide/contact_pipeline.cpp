@@ -25,7 +25,7 @@ void ContactPipeline::detect(std::span<const MovingCloth> cloths, double time_st
   world_.place_bodies(team);
   world_.gather_surfaces(cloths);
   world_.refit(team);
-  finder_.find_with_bodies(cloths, team);
+  finder_.find_with_bodies(cloths, time_step, team);
   find_tangles(cloths, team);
   finder_.find_between_cloths(cloths, time_step, untangler_, team);
   finder_.add_struck(struck_.found(), time_step);

@@ -147,6 +147,7 @@ void BodyContacts::find_body(const MovingCloth& cloth, const ContactBody& body, 
   at.displacement = displacement;
   at.kept_in = keeps_in(body);
   at.astray = astray;
+  at.farthest = farthest_exit_;
   if (const auto contact = contact_before(body, *found, at, kept_)) out.push_back(*contact);
 }
 

@@ -24,6 +24,8 @@ class BodyContacts {
   /// @param grid  kept by reference
   BodyContacts(const SurfaceGrid& grid, const CollidingCloth& cloth);
 
+  /// How far samples inside a body are pushed out at most in the steps to come. [m]
+  void bound_exits(double farthest) { farthest_exit_ = farthest; }
   /// @param ground  none: null
   void find(const MovingCloth& cloth, std::span<const ContactBody> bodies, const Ground* ground,
             ThreadTeam& team);
@@ -87,6 +89,7 @@ class BodyContacts {
 
   const SurfaceGrid& grid_;
   KeptGap kept_;
+  double farthest_exit_ = HUGE_VAL;
   std::vector<char> kept_in_;  // per body; empty: by none
   std::vector<Past> past_;     // of each body
   struct Marks {

@@ -66,8 +66,9 @@ std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& 
   put_offset(dot(normal, at.position + surface_displacement), gap, kept.gap, contact);
   contact.friction = static_cast<float>(pair_friction(kept.friction, body.friction));
   if (point.astray) {
-    // No force presses there: the point is on its way back, by a part of the gap in every step.
-    contact.offset += contact.lift;
+    // No force presses there: the point is on its way back, by a part of the gap in every step, or
+    // by less in a short one.
+    contact.offset += std::min(contact.lift, static_cast<float>(point.farthest));
     contact.lift = contact.friction = 0;
   }
   contact.surface_displacement = vec_cast<float>(surface_displacement);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
@@ -30,9 +31,10 @@ struct ContactBody {
 struct ClothPoint {
   std::array<int, 4> samples{};
   std::array<float, 4> weights{1, 0, 0, 0};
-  Vec3d start, displacement;  ///< [m]
-  bool kept_in = false;       ///< it belongs inside the body
-  bool astray = false;        ///< it starts on the wrong side of the body
+  Vec3d start, displacement;   ///< [m]
+  bool kept_in = false;        ///< it belongs inside the body
+  bool astray = false;         ///< it starts on the wrong side of the body
+  double farthest = HUGE_VAL;  ///< that it comes out in the step where it is astray [m]
 };
 
 /// Gap and friction of a cloth against obstacles.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/core/contact_point.h"
+
 namespace weft {
 namespace {
 
@@ -29,11 +31,13 @@ void ContactFinder::learn_corners(const Obstacles& obstacles) {
   }
 }
 
-void ContactFinder::find_with_bodies(std::span<const MovingCloth> moving, ThreadTeam& team) {
+void ContactFinder::find_with_bodies(std::span<const MovingCloth> moving, double time_step,
+                                     ThreadTeam& team) {
   near_ = false;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     BodyContacts& bodies = *world_.cloths[i].body_contacts;
     Found& one = found_[i];
+    bodies.bound_exits(max_exit_speed * time_step);
     bodies.find(moving[i], world_.contact_bodies, world_.ground(), team);
     one.corners->find({moving[i], bodies.inside(), world_.pairs().boxes(static_cast<int>(i)),
                        world_.pairs().skin()},

@@ -26,7 +26,7 @@ class ContactFinder {
   ContactFinder(CollisionWorld& world, const Obstacles& obstacles);
 
   // In this order, once the world has placed its bodies and fitted its broad phase.
-  void find_with_bodies(std::span<const MovingCloth> moving, ThreadTeam& team);
+  void find_with_bodies(std::span<const MovingCloth> moving, double time_step, ThreadTeam& team);
   /// @param untangler  knows where cloths cross
   void find_between_cloths(std::span<const MovingCloth> moving, double time_step,
                            const Untangler& untangler, ThreadTeam& team);
