@@ -237,7 +237,7 @@ void require_all(const ConvertArgs& args, const Context& context, const Json& re
 void check_args(const ConvertArgs& args) {
   check_output(args.output, {".exr", ".png", ".weft"});
   for (const auto& [option, given] :
-       {std::pair{"--precision", args.precision > 0}, {"--error", args.error > 0}})
+       {std::pair{"--precision", args.precision > 0}, {"--error", args.error != 0}})
     if (given && !is_compressed(args.output))
       throw UsageError(option, "of " + args.output, "a compressed image, .weft, is wanted");
   check_not_input(args.output, std::vector<fs::path>{args.mesh, args.seam});

@@ -130,6 +130,8 @@ class Convert(ProgramTest):
         self.assertIn("--error", line)
         for option in ("--error", "--precision"):
             self.assertIn(option, self.error_of("convert", "builtin:sphere", "-o", "m.exr", option, "8", code=2))
+        for output in ("m.exr", "m.weft"):
+            self.error_of("convert", "builtin:sphere", "-o", output, "--size", "17", "--error", "nan", code=2)
 
     def test_normal_map_is_written_beside(self):
         report = self.run_json("convert", "builtin:sphere", "-o", "s.png", "--size", "33", "--normal-map", "64")

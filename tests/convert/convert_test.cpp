@@ -248,8 +248,7 @@ TEST(LoadSurface, TellsWhatConversionWarnsOf) {
       tori.triangles.push_back({first + a, first + b, first + c});
   }
   write_mesh(folder / "tori.obj", tori);
-  const LoadedSurface loaded =
-      load_surface({(folder / "tori.obj").string()}, test::unmeasured(9));
+  const LoadedSurface loaded = load_surface({(folder / "tori.obj").string()}, test::unmeasured(9));
   ASSERT_EQ(loaded.image.size(), 33);
   ASSERT_EQ(loaded.notes.size(), 1u);
   EXPECT_EQ(loaded.notes[0], "6 pieces do not fit into 9 x 9 samples: 33 x 33 were taken");

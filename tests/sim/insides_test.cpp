@@ -99,8 +99,8 @@ TEST(Insides, AClothHalfInsideABallIsNamedAndPushedOut) {
   EXPECT_EQ(points_outside(simulation), n * n);
 }
 
-/// Steps that are refused are halved; in each a point came out by as much as in a whole one, and the
-/// run ended as a runaway.
+/// Steps that are refused are halved; in each a point came out by as much as in a whole one, and
+/// the run ended as a runaway.
 TEST(Insides, WhatBeginsInsideIsPushedOutAsSlowlyInShortSteps) {
   Simulation simulation(around("sphere", sheet({0, 0.9, 0}, 1)), "s.json", 1);
   ASSERT_EQ(simulation.start_insides().size(), 1U);
