@@ -53,6 +53,35 @@ TEST(PatternFile, LeavesOutEdgesShorterThanAnyThread) {
   EXPECT_EQ(pattern.stitches[0].b.edge, 3);
 }
 
+TEST(PatternFile, SaysWhichStitchesGoWithEdgesThatAreLeftOut) {
+  // The third edge of the panel, 2 mm long, is sewn to one of 30 cm, which then stays open.
+  const Pattern pattern = parse_pattern(
+      R"({"pattern":{"panels":{"p":{"vertices":[[0,0],[40,0],[40,30],[39.8,30],[0,30]],
+          "edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},{"endpoints":[3,4]},
+                   {"endpoints":[4,0]}]}},
+          "stitches":[[{"panel":"p","edge":2},{"panel":"p","edge":4}]]}})",
+      "p");
+  EXPECT_TRUE(pattern.stitches.empty());
+  ASSERT_EQ(pattern.notes.size(), 1U);
+  EXPECT_EQ(pattern.notes[0], "panel 'p', edge 2: left out with its stitch, it is 2 mm long");
+}
+
+TEST(PatternFile, NotesCirclesThatDoNotReachFromEndToEnd) {
+  const auto notes_with = [](const std::string& radius) {
+    return parse_pattern(replaced(tube(), R"({"endpoints":[0,1]})",
+                                  R"({"endpoints":[0,1],"curvature":{"type":"circle","params":[)" +
+                                      radius + ",0,0]}}"),
+                         "p")
+        .notes;
+  };
+  EXPECT_TRUE(notes_with("14.9999").empty());  // rounding
+  const std::vector<std::string> notes = notes_with("12");
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("panel 'back', edge 0: a half circle of radius 150 mm"),
+            std::string::npos)
+      << notes[0];
+}
+
 TEST(PatternFile, TurnsPanelsAboutXThenYThenZ) {
   PatternPanel panel;
   panel.rotate = {90, 90, 0};
@@ -136,6 +165,13 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"\"edge\":2}]", "\"edge\":2},\"wrong\"]", "right_wrong"},
         Broken{"\"units_in_meter\":100", "\"units_in_meter\":0", "units_in_meter"},
         Broken{"\"units_in_meter\":100", "\"units_in_meter\":0.001", "units_in_meter"},
+        Broken{"\"units_in_meter\":100", "\"units_in_meter\":1", "units_in_meter"},
+        Broken{"\"units_in_meter\":100", "\"units_in_meter\":100000", "units_in_meter"},
+        Broken{
+            "{\"endpoints\":[0,1]}",
+            "{\"endpoints\":[0,1],\"curvature\":{\"type\":\"quadratic\",\"params\":[[0.5,5e3]]}}",
+            "panel 'back': edge 0: curvature: a control point"},
+        Broken{"\"translation\":[", "\"translation\":[1e9,0,0],\"was\":[", "translation: a panel"},
         Broken{"{\"endpoints\":[0,1]}",
                "{\"endpoints\":[0,1],\"curvature\":{\"type\":\"spiral\",\"params\":[]}}",
                "'spiral'"},

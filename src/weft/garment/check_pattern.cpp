@@ -45,14 +45,39 @@ void drop_points(Pattern& pattern, int index) {
       if (edge.from == gone) edge.from = kept;
       if (edge.to == gone) edge.to = kept;
     }
-    pattern.notes.push_back(fmt::format("panel '{}', edge {}: left out, it is {:.2g} mm long",
-                                        panel.name, k, 1000 * length));
-    std::erase_if(pattern.stitches, [&](const Stitch& s) {
+    const std::size_t sewn = std::erase_if(pattern.stitches, [&](const Stitch& s) {
       return (s.a.panel == index && s.a.edge == k) || (s.b.panel == index && s.b.edge == k);
     });
+    pattern.notes.push_back(fmt::format("panel '{}', edge {}: left out{}, it is {:.2g} mm long",
+                                        panel.name, k, sewn > 0 ? " with its stitch" : "",
+                                        1000 * length));
     for (Stitch& stitch : pattern.stitches)
       for (PanelEdge* side : {&stitch.a, &stitch.b})
         if (side->panel == index && side->edge > k) --side->edge;
+  }
+}
+
+/// Refuses a panel of which too few edges are left.
+void check_left(const PatternPanel& panel, const std::string& name) {
+  if (panel.edges.size() < 2)
+    fail(fmt::format("{}: panel '{}'", name, panel.name),
+         fmt::format("an outline of edges shorter than {} mm", 1000 * min_edge),
+         "a larger panel is wanted (properties.units_in_meter)");
+}
+
+/// Notes arcs whose ends are farther apart than their circle is wide: they become half circles.
+/// Rounding by the program that wrote the file is no more than a thousandth.
+void note_narrow_circles(Pattern& pattern, int index) {
+  const PatternPanel& panel = pattern.panels[index];
+  for (std::size_t k = 0; k < panel.edges.size(); ++k) {
+    const PatternEdge& edge = panel.edges[k];
+    const Vec2d chord = panel.vertices[edge.to] - panel.vertices[edge.from];
+    const double half = 0.5 * std::hypot(chord.x, chord.y);
+    if (edge.curve.kind != PatternCurve::Kind::arc || edge.curve.radius > 0.999 * half) continue;
+    pattern.notes.push_back(
+        fmt::format("panel '{}', edge {}: a half circle of radius {:.3g} mm, as one of {:.3g} mm "
+                    "does not reach from end to end",
+                    panel.name, k, 1000 * half, 1000 * edge.curve.radius));
   }
 }
 
@@ -113,8 +138,9 @@ void check_pattern(Pattern& pattern, const std::string& name) {
   check_stitches(pattern, name);
   for (int k = 0; k < static_cast<int>(pattern.panels.size()); ++k) {
     check_loop(pattern, k, name);
+    note_narrow_circles(pattern, k);
     drop_points(pattern, k);
-    check_loop(pattern, k, name);
+    check_left(pattern.panels[k], name);
     check_crossings(pattern, k, name);
   }
 }

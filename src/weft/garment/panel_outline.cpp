@@ -11,13 +11,13 @@
 #include "weft/garment/check_pattern.h"
 #include "weft/garment/edge_curve.h"
 #include "weft/garment/rectangle_corners.h"
+#include "weft/geometry_image.h"
 
 namespace weft {
 namespace {
 
 /// Corners of the pattern lie at multiples of this, so that coarser grids have them, too.
 constexpr int unit = 4;
-constexpr int most_intervals = 1 << 20;
 
 /// Which panels are turned over: the two of a plain stitch alike, those of a turned one not.
 std::vector<bool> find_turned(const Pattern& pattern, const std::string& name) {
@@ -47,6 +47,8 @@ std::vector<bool> find_turned(const Pattern& pattern, const std::string& name) {
 
 std::vector<std::vector<int>> share_samples(const Pattern& pattern, const std::string& name,
                                             double spacing) {
+  // An edge longer than the four sides of the largest image fits round none.
+  constexpr int most_samples = 4 * (largest_image_size - 1);
   std::vector<std::vector<double>> wanted;
   for (const PatternPanel& panel : pattern.panels) {
     wanted.emplace_back();
@@ -61,7 +63,7 @@ std::vector<std::vector<int>> share_samples(const Pattern& pattern, const std::s
   for (std::size_t p = 0; p < wanted.size(); ++p) {
     intervals.emplace_back();
     for (std::size_t k = 0; k < wanted[p].size(); ++k) {
-      if (wanted[p][k] > most_intervals)
+      if (wanted[p][k] > most_samples)
         throw InputError(place_of(pattern, {static_cast<int>(p), static_cast<int>(k)}, name),
                          fmt::format("{:.3g} samples", wanted[p][k]), "a wider spacing is wanted");
       intervals.back().push_back(unit *

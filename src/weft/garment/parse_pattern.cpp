@@ -17,8 +17,9 @@ namespace {
 using nlohmann::json;
 
 constexpr int deepest = 32;
-/// Lengths that a panel's coordinates may have. [m]
-constexpr double largest_length = 100;
+/// How large a panel may be, and how far away it may be placed. Patterns in centimetres that are
+/// read as metres are larger. [m]
+constexpr double largest_panel = 20, farthest_place = 100;
 
 /// A value of the file and where it lies.
 struct Node {
@@ -70,6 +71,15 @@ struct Node {
   }
 };
 
+/// Refuses a point that is farther from its panel's origin than panels are large.
+void check_reach(const Node& node, const std::string& what, Vec2d p) {
+  const double away = std::hypot(p.x, p.y);
+  if (away > largest_panel)
+    node.fail(fmt::format("{} {:.3g} m away", what, away),
+              fmt::format("a panel of at most {} m is wanted (properties.units_in_meter)",
+                          largest_panel));
+}
+
 /// A control point, given along the chord and to the left of it, in chord lengths.
 Vec2d beside_chord(Vec2d from, Vec2d to, Vec2d relative) {
   const Vec2d chord = to - from;
@@ -91,7 +101,7 @@ PatternCurve read_curve(const Node& node, Vec2d from, Vec2d to, double unit) {
     curve.radius = unit * params.named("value", 0).number();
     curve.large = params.named("value", 1).number() != 0;
     curve.counterclockwise = params.named("value", 2).number() != 0;
-    if (!(curve.radius > 0) || curve.radius > 1000 * largest_length)
+    if (!(curve.radius > 0) || curve.radius > 1e5)
       params.fail(fmt::format("a circle of radius {:.3g} m", curve.radius),
                   "a positive one is wanted");
     return curve;
@@ -111,9 +121,7 @@ PatternPanel read_panel(const Node& node, const std::string& name, double unit) 
   const Node vertices = node.at("vertices");
   for (std::size_t k = 0; k < vertices.list(0).value.size(); ++k) {
     const Vec2d p = unit * vertices.named("vertex", k).pair();
-    if (std::hypot(p.x, p.y) > largest_length)
-      vertices.fail(fmt::format("a vertex {:.3g} m away", std::hypot(p.x, p.y)),
-                    "a panel of at most 100 m is wanted (properties.units_in_meter)");
+    check_reach(vertices, "a vertex", p);
     panel.vertices.push_back(p);
   }
   const Node edges = node.at("edges");
@@ -127,10 +135,18 @@ PatternPanel read_panel(const Node& node, const std::string& name, double unit) 
     if (one.value.contains("curvature") && !one.value["curvature"].is_null())
       edge.curve =
           read_curve(one.at("curvature"), panel.vertices[edge.from], panel.vertices[edge.to], unit);
+    for (const Vec2d& p : edge.curve.controls)
+      check_reach(one.at("curvature"), "a control point", p);
     panel.edges.push_back(std::move(edge));
   }
   if (node.value.contains("rotation")) panel.rotate = node.at("rotation").triple();
-  if (node.value.contains("translation")) panel.translate = unit * node.at("translation").triple();
+  if (node.value.contains("translation")) {
+    panel.translate = unit * node.at("translation").triple();
+    if (length(panel.translate) > farthest_place)
+      node.at("translation")
+          .fail(fmt::format("a panel {:.3g} m away", length(panel.translate)),
+                fmt::format("one of at most {} m is wanted", farthest_place));
+  }
   return panel;
 }
 

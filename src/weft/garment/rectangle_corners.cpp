@@ -13,7 +13,10 @@ namespace {
 
 /// What ratios of opposite sides weigh beside angles.
 constexpr double ratio_weight = 1.5;
-constexpr int step = 2, min_side = 4;
+constexpr int min_side = 4;
+/// Corners are looked for at every second sample, and at fewer of borders with more than twice so
+/// many: the time and memory that it takes grow with the square of their number.
+constexpr int many = 2048;
 /// Rectangles for which grids are tried, and how many that unfold soon are enough.
 constexpr std::size_t max_choices = 64;
 constexpr int enough_choices = 16;
@@ -64,7 +67,7 @@ struct Choice {
 
 /// The cheapest rectangles, none of them nearly the same as a cheaper one.
 std::vector<Choice> likely_choices(const Measured& measured) {
-  const int half = measured.size() / 2;
+  const int half = measured.size() / 2, step = 2 * (1 + half / many);
   std::vector<Choice> all;
   for (int start = 0; start < half; start += step)  // those beyond are the same ones turned
     for (int cols = min_side; cols <= half - min_side; cols += step)
