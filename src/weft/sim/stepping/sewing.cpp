@@ -20,12 +20,12 @@ constexpr double let_go_for = 0.08, let_go_every = 0.2;
 /// Distance up to which the samples of a class take turns in being where the others go to: where
 /// one is held back at their mean, it is free where it is. [m]
 constexpr double turns_within = 0.005;
-/// Samples this close to their mean have met. Of samples far from theirs those are pulled that lie
-/// up to so many samples along the seam from where it has met. [m]
+/// Samples this close to their mean have met; those beyond the other are far from it. [m]
 constexpr double met = 0.002, far = 0.02;
-/// What is this near is pulled in any case where a seam closes as a zip. [m]
-constexpr double near_in_zip = 0.006;
+/// A seam that is far open closes like a zip: of it those are pulled that lie up to so many samples
+/// from where it has met, and in any case what is this near. [m]
 constexpr int zip_reach = 3;
+constexpr double near_in_zip = 0.006;
 /// Bending stiffness of panels while they are sewn, that of paper; limp, they would crumple at
 /// their edges and come to lie between others. [N m]
 constexpr double least_bending = 1e-3;

@@ -1,7 +1,9 @@
 // Time stepping of a simulation.
 //
 // Each step:
-// 1. Integrators guess positions without the cloth's own forces.
+// 0. Pins, hands and bodies go to where they are at its end.
+// 1. Seams that are being sewn are pulled together, wind blows, and integrators guess positions
+//    without the cloth's own forces.
 // 2. Contacts are detected, and the collider filters the guesses, so that the solve starts without
 //    crossings. Springs know no orientation: solved from beyond a crossing, cloth comes to rest
 //    there, and the filter would stretch it back.
