@@ -1,93 +1,21 @@
-"""Batches: every job once, whatever dies; failures named; the same hashes as single runs."""
+"""Batches: every job once; failures named; the same hashes as single runs; stores, tables, arrays of tasks."""
 import csv
-import hashlib
 import json
 import os
-import pathlib
-import re
-import signal
 import subprocess
-import sys
-import time
 import unittest
-import urllib.request
 
 import numpy as np
 
 import weft
 import weft.batch.jobs
-from module import ModuleTest
+from batch_case import BATCH, PATIENCE, BatchTest, conversion, drape
 from program import PROGRAM
 
-try:
-    import distributed
-    import h5py
-    import psutil
-    import zarr
-    import weft.batch.schedule
-except ImportError as missing:
-    print(f"batch_test: skipped: {missing}; python3-distributed, python3-h5py, python3-psutil and python3-zarr are wanted")
-    sys.exit(77)
-
-BATCH = [sys.executable, "-m", "weft.batch"]
-PATIENCE = 240  # seconds for what is waited for on a crowded machine
-
-
-class BatchTest(ModuleTest):
-    def write_jobs(self, *jobs, name="jobs.jsonl"):
-        (self.folder / name).write_text("".join(json.dumps(job) + "\n" for job in jobs))
-        return name
-
-    def batch(self, *words, code=0):
-        done = subprocess.run([*BATCH, *map(str, words)], capture_output=True, text=True, timeout=PATIENCE)
-        self.assertEqual(done.returncode, code, f"{words}\n{done.stdout}\n{done.stderr}")
-        return done
-
-    def begin(self, *words):
-        process = subprocess.Popen([*BATCH, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        self.addCleanup(process.stdout.close)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return process
-
-    def wait_for(self, what, process):
-        """What is asked for, as soon as it is there."""
-        end = time.monotonic() + PATIENCE
-        while time.monotonic() < end:
-            found = what()
-            if found:
-                return found
-            if process.poll() is not None:
-                self.fail(f"ended too early with {process.returncode}: {process.stdout.read()}")
-            time.sleep(0.02)
-        self.fail("waited for too long")
-
-    def rows(self, folder="out"):
-        return [json.loads(line) for line in (self.folder / folder / "results.jsonl").read_text().splitlines()]
-
-    def single_hash(self, job):
-        """Of the same command, run alone."""
-        if job["command"] == "convert":
-            self.run_weft("convert", job["mesh"], "-o", "alone.exr", "--size", job["size"], "--quiet")
-            return hashlib.sha256((self.folder / "alone.exr").read_bytes()).hexdigest()[:16]
-        report = self.run_json("drape", job["cloth"], job["body"], "-o", "alone", "--size", job["size"], "--frames", job["frames"])
-        return report["state_hash"]
-
-    def assert_each_done_once(self, jobs, folder="out"):
-        done = [row for row in self.rows(folder) if row["status"] == "done"]
-        self.assertEqual(len(done), len({row["id"] for row in done}), "no job is done twice")
-        self.assertEqual(len(done), len(jobs))
-        by_job = {json.dumps([row["inputs"], row["options"]], sort_keys=True): row for row in done}
-        self.assertEqual(len(by_job), len(jobs))
-        return done
-
-
-def conversion(shape, size=17, **more):
-    return {"command": "convert", "mesh": f"builtin:{shape}", "size": size, **more}
-
-
-def drape(body="sphere", frames=4, size=17, **more):
-    return {"command": "drape", "cloth": "builtin:sheet", "body": f"builtin:{body}", "size": size, "frames": frames, **more}
+import h5py
+import psutil
+import weft.batch.schedule
+import zarr
 
 
 class Batch(BatchTest):
@@ -273,136 +201,6 @@ class Batch(BatchTest):
             self.assertAlmostEqual(weft.batch.schedule.memory_share(1, given), wanted, msg=given)
         part = weft.batch.schedule.memory_share(1, {"SLURM_CPUS_ON_NODE": "1"})
         self.assertAlmostEqual(part / free, 1 / psutil.cpu_count(), delta=0.2)
-
-
-class BatchSurvives(BatchTest):
-    JOBS = [conversion("knot", 129), *(conversion("mannequin", size) for size in (65, 97, 129, 161)), drape("mannequin", 6, 33),
-            conversion("torus")]
-
-    def workers_at_work(self, process):
-        """Of a batch: processes whose child is the program."""
-        try:
-            return [child.parent() for child in psutil.Process(process.pid).children(recursive=True)
-                    if child.is_running() and child.name() == "weft" and child.ppid() != process.pid]
-        except psutil.NoSuchProcess:
-            return []
-
-    def test_a_killed_worker_costs_its_job_an_attempt_and_nothing_else(self):
-        process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--workers", 2)
-        victim, *_ = self.wait_for(lambda: self.workers_at_work(process), process)
-        os.kill(victim.pid, signal.SIGKILL)
-        said = process.communicate(timeout=PATIENCE)[0]
-        self.assertEqual(process.returncode, 0, said)
-        done = self.assert_each_done_once(self.JOBS)
-        self.assertGreaterEqual(max(row["attempt"] for row in done), 2)
-
-    def test_a_killed_batch_goes_on(self):
-        words = (self.write_jobs(*self.JOBS), "-o", "out", "--workers", 2)
-        process = self.begin(*words)
-        results = self.folder / "out/results.jsonl"
-        self.wait_for(lambda: results.exists() and results.read_text().count("\n") >= 2, process)
-        family = psutil.Process(process.pid).children(recursive=True)
-        process.kill()
-        process.wait()
-        _, alive = psutil.wait_procs(family, timeout=PATIENCE)
-        self.assertEqual(alive, [], "nothing of it stays")
-        kept = len(self.rows())
-        with open(results, "a", encoding="utf-8") as file:
-            file.write('{"id": "torn')  # as if it was killed while writing
-        self.batch(*words)
-        done = self.assert_each_done_once(self.JOBS)
-        self.assertLess(kept, len(done))
-        for job in (self.JOBS[0], self.JOBS[5]):
-            words = [job[word] for word in weft.batch.jobs.WORDS[job["command"]]]
-            (row,) = (row for row in done if row["inputs"] == words and row["options"]["size"] == job["size"])
-            self.assertEqual(row["hash"], self.single_hash(job))
-
-    def test_tasks_side_by_side_leave_each_other_alone(self):
-        slow, others = drape("mannequin", 6, 33), [conversion("torus"), conversion("sphere"), conversion("knot")]
-        jobs = self.write_jobs(others[0], others[1], slow, others[2])
-        store = ("-o", "out", "--store", "hdf5", "--workers", 1)
-        task = self.begin(jobs, *store, "--part", "0/2")
-        rows = self.folder / "out/results-0.jsonl"
-        worker, *_ = self.wait_for(lambda: rows.exists() and rows.read_text() and self.workers_at_work(task), task)
-        (program,) = worker.children()
-        program.suspend()  # in mid-run while the others begin and end
-        self.addCleanup(lambda: program.is_running() and program.resume())
-        self.batch(jobs, *store, "--part", "1/2")
-        self.batch(jobs, *store, "--part", "1/3")  # whose jobs are done: one of them in the file that is being written
-        self.assertIn("another run is at work there", self.batch(jobs, *store, code=3).stderr)
-        program.resume()
-        said = task.communicate(timeout=PATIENCE)[0]
-        self.assertEqual(task.returncode, 0, said)
-        self.batch(jobs, *store)
-        done = self.assert_each_done_once([slow, *others])
-        self.assertEqual({row["attempt"] for row in done}, {1})
-        self.assertEqual(sorted(path.name for path in (self.folder / "out/shards").iterdir()), ["0-00000.h5", "1-00000.h5"])
-
-    def test_what_a_killed_task_left_is_done_and_removed(self):
-        jobs = self.write_jobs(*self.JOBS)
-        task = self.begin(jobs, "-o", "out", "--workers", 1, "--part", "1/2")
-        self.wait_for(lambda: self.workers_at_work(task), task)
-        family = psutil.Process(task.pid).children(recursive=True)
-        task.kill()
-        task.wait()
-        psutil.wait_procs(family, timeout=PATIENCE)
-        self.assertTrue(list(self.folder.glob("out/work-1/*")))
-        self.batch(jobs, "-o", "out", "--workers", 2)
-        self.assert_each_done_once(self.JOBS)
-        self.assertEqual(list(self.folder.glob("out/work*")), [])
-
-    def test_ctrl_c_keeps_what_was_finished(self):
-        process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--workers", 1)
-        results = self.folder / "out/results.jsonl"
-        self.wait_for(lambda: results.exists() and results.read_text(), process)
-        process.send_signal(signal.SIGINT)
-        said = process.communicate(timeout=PATIENCE)[0]
-        self.assertEqual(process.returncode, 130, said)
-        self.assertIn("interrupted; what was finished is kept", said)
-        self.batch("jobs.jsonl", "-o", "out", "--workers", 2)
-        self.assert_each_done_once(self.JOBS)
-
-    def test_dask_serves_a_table_of_the_workers_while_they_are_at_work(self):
-        process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--workers", 2)
-        said = process.stdout.readline()
-        found = re.fullmatch(r"7 jobs; Dask tells of its workers at (http://127.0.0.1:\d+/info/main/workers.html)\n", said)
-        self.assertTrue(found, said)
-        with urllib.request.urlopen(found[1], timeout=PATIENCE) as answer:
-            rows = re.findall(r"tcp://127.0.0.1:\d+</a>", answer.read().decode())
-        self.assertEqual(len(rows), 2)
-
-    def test_two_batches_do_not_share_a_folder(self):
-        process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--workers", 1)
-        self.wait_for((self.folder / "out/results.jsonl").exists, process)
-        self.assertIn("another run is at work there", self.batch("jobs.jsonl", "-o", "out", code=3).stderr)
-
-    def test_a_running_scheduler_takes_the_jobs(self):
-        def start(*words):
-            process = subprocess.Popen([sys.executable, "-m", *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            self.addCleanup(process.wait)
-            self.addCleanup(process.terminate)
-            return process
-        start("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", "scheduler.json")
-        end = time.monotonic() + PATIENCE
-        while not pathlib.Path("scheduler.json").exists() and time.monotonic() < end:
-            time.sleep(0.05)
-        time.sleep(0.2)
-        address = json.loads(pathlib.Path("scheduler.json").read_text())["address"]
-        for _ in range(2):
-            start("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-dashboard", "--local-directory", str(self.folder))
-        with distributed.Client(address, set_as_default=False) as client:
-            client.wait_for_workers(2, timeout=PATIENCE)
-            pids = list(client.run(os.getpid).values())
-        process = self.begin(self.write_jobs(*self.JOBS), "-o", "out", "--scheduler", address)
-
-        def at_work():
-            return [pid for pid in pids if psutil.pid_exists(pid) and psutil.Process(pid).children()]
-        victim, *_ = self.wait_for(at_work, process)
-        os.kill(victim, signal.SIGKILL)
-        said = process.communicate(timeout=PATIENCE)[0]
-        self.assertEqual(process.returncode, 0, said)
-        self.assert_each_done_once(self.JOBS)
-        self.assertIn("no scheduler answers", self.batch("jobs.jsonl", "-o", "other", "--scheduler", "tcp://127.0.0.1:9", code=3).stderr)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ namespace weft {
 namespace {
 
 /// An edge of a chart's border and the cells inwards of it.
-struct BorderEdge {
+struct EdgeCells {
   SeamStrips::Frame frame;     ///< along the edge, and inwards
   std::array<int, 2> cells{};  ///< beside the border, and behind that
 };
@@ -17,9 +17,9 @@ int cell_at(const BorderMates& mates, int row, int col) {
 }
 
 /// The edge from one sample to the next.
-BorderEdge edge_between(const BorderMates& mates, int from, int to) {
+EdgeCells edge_between(const BorderMates& mates, int from, int to) {
   const int n = mates.size(), row = from / n, col = from % n, step = to > from ? 1 : -1;
-  BorderEdge edge;
+  EdgeCells edge;
   edge.frame.along_rows = std::abs(to - from) == 1;
   edge.frame.along = step;
   const int r = std::min(row, to / n), c = std::min(col, to % n);
@@ -48,9 +48,9 @@ void SeamStrips::add(const BorderMates& mates, const MateInterval& interval) {
   };
   bool begun = false;
   for (int k = 0; k < interval.count; ++k) {
-    const BorderEdge own =
+    const EdgeCells own =
         edge_between(mates, sample(interval.first, k), sample(interval.first, k + 1));
-    const BorderEdge other =
+    const EdgeCells other =
         edge_between(mates, sample(interval.mate, back * k), sample(interval.mate, back * (k + 1)));
     Frame outwards = own.frame;
     outwards.across = -outwards.across;

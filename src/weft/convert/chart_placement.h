@@ -23,9 +23,9 @@ struct Placement {
 /// their length and the density of samples beside them, a multiple of 4. Where the charts do not
 /// fit, the image grows.
 /// @param asked     the side that is wanted, or automatic_size
-/// @param most      beyond which it does not grow
+/// @param most      the side beyond which it does not grow
 /// @param warnings  told when the image grew
-/// @return nothing where the charts do not fit into the largest image
+/// @return nothing where the charts do not fit into an image of that side
 std::optional<Placement> place_charts(std::span<const Piece> pieces,
                                       std::span<const ChartConversion> charts,
                                       const SeamCurves& curves, int asked, int most,

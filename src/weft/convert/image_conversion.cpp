@@ -121,12 +121,12 @@ void ImageConversion::try_rectangles() {
   constexpr double min_gain = 0.15;
   std::vector<std::string> warnings;
   const double stretch = stretch_in(places_);
-  std::optional<Placement> with = placed(true, places_.size, warnings);
-  while (with && reject_rectangles(*with)) with = placed(true, places_.size, warnings);
+  std::optional<Placement> with = placed_as_rectangles(warnings);
+  while (with && reject_rectangles(*with)) with = placed_as_rectangles(warnings);
   if (with && stretch_in(*with) < (1 - min_gain) * stretch)
     places_ = *std::move(with);
   else
-    placed(false, places_.size, warnings);
+    take_shapes(false);
 }
 
 bool ImageConversion::has_rectangles() const {
@@ -134,12 +134,16 @@ bool ImageConversion::has_rectangles() const {
                      [](const ChartConversion& chart) { return chart.has_rectangle(); });
 }
 
-std::optional<Placement> ImageConversion::placed(bool rectangles, int most,
-                                                 std::vector<std::string>& warnings) {
+/// Every chart takes its rectangle, if it has one, or its square.
+void ImageConversion::take_shapes(bool rectangles) {
   for (ChartConversion& chart : charts_) chart.take_rectangle(rectangles && chart.has_rectangle());
   if (!made_.input.joined.empty()) share_borders();
-  warnings.clear();
-  return place_charts(pieces_, charts_, curves_, options_.size, most, warnings);
+}
+
+/// In an image no larger than that of the squares.
+std::optional<Placement> ImageConversion::placed_as_rectangles(std::vector<std::string>& warnings) {
+  take_shapes(true);
+  return place_charts(pieces_, charts_, curves_, options_.size, places_.size, warnings);
 }
 
 Placement ImageConversion::placed_as_squares(std::vector<std::string>& warnings) const {

@@ -35,7 +35,8 @@ class ImageConversion {
   void share_borders();
   void try_rectangles();
   [[nodiscard]] bool has_rectangles() const;
-  std::optional<Placement> placed(bool rectangles, int most, std::vector<std::string>& warnings);
+  void take_shapes(bool rectangles);
+  std::optional<Placement> placed_as_rectangles(std::vector<std::string>& warnings);
   Placement placed_as_squares(std::vector<std::string>& warnings) const;
   bool reject_rectangles(const Placement& placement);
   [[nodiscard]] double stretch_in(const Placement& placement) const;

@@ -20,6 +20,8 @@ constexpr int deepest = 32;
 /// How large a panel may be, and how far away it may be placed. Patterns in centimetres that are
 /// read as metres are larger. [m]
 constexpr double largest_panel = 20, farthest_place = 100;
+/// Of an arc that is nearly straight. [m]
+constexpr double largest_radius = 1e5;
 
 /// A value of the file and where it lies.
 struct Node {
@@ -101,7 +103,7 @@ PatternCurve read_curve(const Node& node, Vec2d from, Vec2d to, double unit) {
     curve.radius = unit * params.named("value", 0).number();
     curve.large = params.named("value", 1).number() != 0;
     curve.counterclockwise = params.named("value", 2).number() != 0;
-    if (!(curve.radius > 0) || curve.radius > 1e5)
+    if (!(curve.radius > 0) || curve.radius > largest_radius)
       params.fail(fmt::format("a circle of radius {:.3g} m", curve.radius),
                   "a positive one is wanted");
     return curve;
