@@ -2,6 +2,8 @@
 // volumes of the paper's survey, on moments of running scenes, by the pairs that they leave and the
 // time that they take.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -18,7 +20,7 @@
 #include "weft/collide/baselines/image_space_pairs.h"
 #include "weft/collide/baselines/spatial_hash.h"
 #include "weft/collide/baselines/sphere_tree.h"
-#include "weft/collide/broad_phase/cell_gaps.h"
+#include "weft/collide/broad_phase/cell_tiles.h"
 #include "weft/collide/broad_phase/pyramid_pairs.h"
 #include "weft/error.h"
 #include "weft/scene_file.h"
@@ -79,14 +81,33 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
+std::size_t count_pairs(const std::vector<CandidateTile>& found) {
+  std::size_t count = 0;
+  for (const CandidateTile& one : found) count += std::popcount(one.cells);
+  return count;
+}
+
+CellTiles tiles_of(const MovingSurface& surface) {
+  ThreadTeam alone(1);
+  CellTiles tiles(*surface.grid);
+  tiles.take(surface);
+  tiles.fit(alone);
+  return tiles;
+}
+
 /// Those whose cells come as near as was asked, by the narrow phase's first test.
 std::size_t count_near(const Moment& moment, int a, int b,
-                       const std::vector<CandidatePair>& pairs) {
-  return static_cast<std::size_t>(
-      std::count_if(pairs.begin(), pairs.end(), [&](CandidatePair pair) {
-        return CellGaps(moment.surfaces[a], pair.a, moment.surfaces[b], pair.b).certain_gap() <
-               moment.reach();
-      }));
+                       const std::vector<CandidateTile>& found) {
+  const CellTiles of_a = tiles_of(moment.surfaces[a]), of_b = tiles_of(moment.surfaces[b]);
+  const CollideKernels& kernels = collide_kernels_for(InstructionSet::baseline);
+  std::size_t near = 0;
+  for (const CandidateTile& one : found) {
+    std::array<float, tile_cells> gaps;
+    kernels.tile_gaps(of_a.cell(one.cell), of_b.tile(one.tile), 0, 0, gaps.data());
+    for (unsigned left = one.cells; left != 0; left &= left - 1)
+      near += gaps[std::countr_zero(left)] < moment.reach() ? 1 : 0;
+  }
+  return near;
 }
 
 template <class Pairs>
@@ -95,7 +116,7 @@ Result measure_phase(const Moment& moment) {
   for (const SurfaceGrid& grid : moment.grids) grids.push_back(&grid);
   Pairs phase(grids, moment.cloths);
   ThreadTeam alone(1);
-  std::vector<CandidatePair> found;
+  std::vector<CandidateTile> found;
   Result result;
   for (int round = 0; round < rounds; ++round) {
     auto start = std::chrono::steady_clock::now();
@@ -111,7 +132,7 @@ Result measure_phase(const Moment& moment) {
       else
         phase.find(a, b, moment.reach(), alone, found);
       find_ms += milliseconds_since(start);
-      result.pairs += found.size();
+      result.pairs += count_pairs(found);
       if (round == 0) result.near += count_near(moment, a, b, found);
     });
     result.find_ms = std::min(result.find_ms, find_ms);

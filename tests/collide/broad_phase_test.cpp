@@ -10,7 +10,7 @@
 #include "weft/collide/baselines/image_space_pairs.h"
 #include "weft/collide/baselines/spatial_hash.h"
 #include "weft/collide/baselines/sphere_tree.h"
-#include "weft/collide/broad_phase/candidate_pairs.h"
+#include "weft/collide/broad_phase/cell_tiles.h"
 #include "weft/collide/broad_phase/pyramid_pairs.h"
 #include "weft/core/random.h"
 #include "weft/mesh/crossings.h"
@@ -87,10 +87,18 @@ bool cells_come_near(const Moving& a, int cell_a, const Moving& b, int cell_b, d
   return false;
 }
 
-std::set<std::pair<int, int>> as_set(const std::vector<CandidatePair>& pairs) {
+/// @param cells  a side of the second surface; of a cloth with itself pairs are put in order
+std::set<std::pair<int, int>> as_set(const std::vector<CandidateTile>& found, int cells,
+                                     bool same = false) {
   std::set<std::pair<int, int>> set;
-  for (const CandidatePair& pair : pairs) set.insert({pair.a, pair.b});
-  EXPECT_EQ(set.size(), pairs.size()) << "each pair once";
+  std::size_t count = 0;
+  for (const CandidateTile& one : found)
+    for_pairs(one, Tiling(cells), [&](const CandidatePair& pair) {
+      ++count;
+      const bool swap = same && pair.b < pair.a;
+      set.insert({swap ? pair.b : pair.a, swap ? pair.a : pair.b});
+    });
+  EXPECT_EQ(set.size(), count) << "each pair once";
   return set;
 }
 
@@ -98,18 +106,18 @@ class BroadPhases : public testing::TestWithParam<const char*> {
  protected:
   /// What is found by teams of every size and instruction set, which must be the same.
   template <class Find>
-  std::vector<CandidatePair> found_by_any_team(const std::vector<MovingSurface>& surfaces,
+  std::vector<CandidateTile> found_by_any_team(const std::vector<MovingSurface>& surfaces,
                                                std::size_t cloths, const Find& find) {
     std::vector<const SurfaceGrid*> grids;
     for (const MovingSurface& surface : surfaces) grids.push_back(surface.grid);
-    std::vector<CandidatePair> first;
+    std::vector<CandidateTile> first;
     std::vector<TeamOptions> teams{1, 2, 3, 7};
     for (const InstructionSet set : instruction_sets())
       if (has_instruction_set(set)) teams.emplace_back(2, set);
     for (const TeamOptions& options : teams) {
       ThreadTeam team(options);
       const std::unique_ptr<BroadPhase> phase = make(GetParam(), grids, cloths);
-      std::vector<CandidatePair> pairs;
+      std::vector<CandidateTile> pairs;
       for (int again = 0; again < 2; ++again) {
         pairs.clear();
         phase->refit(surfaces, team);
@@ -142,7 +150,7 @@ TEST_P(BroadPhases, FindAllCellsOfTwoSurfacesThatComeNear) {
                                          [&](BroadPhase& phase, ThreadTeam& team, auto& out) {
                                            phase.find(0, 1, static_cast<float>(reach), team, out);
                                          });
-    const auto found = as_set(pairs);
+    const auto found = as_set(pairs, body.grid.cells());
     int near = 0;
     for (int a = 0; a < 17 * 17; ++a)
       for (int b = 0; b < 22 * 22; ++b)
@@ -171,7 +179,7 @@ TEST_P(BroadPhases, FindAllFarCellsOfAClothThatComeNearEachOther) {
       found_by_any_team({cloth.surface()}, 1, [&](BroadPhase& phase, ThreadTeam& team, auto& out) {
         phase.find_self(0, static_cast<float>(reach), 0.001F, team, out);
       });
-  const auto found = as_set(pairs);
+  const auto found = as_set(pairs, cells, true);
   int near = 0;
   for (int a = 0; a < cells * cells; ++a)
     for (int b = a + 1; b < cells * cells; ++b) {
@@ -202,7 +210,8 @@ TEST_P(BroadPhases, FindNeighboursThatFoldAndLeaveFlatOnesOut) {
   const auto found = as_set(found_by_any_team({crumpled.surface()}, 1,
                                               [](BroadPhase& phase, ThreadTeam& team, auto& out) {
                                                 phase.find_self(0, 0.002F, 0.001F, team, out);
-                                              }));
+                                              }),
+                            cells, true);
   int crossing = 0;
   for (int a = 0; a < cells * cells; ++a)
     for (int b = a + 1; b < cells * cells; ++b)
@@ -222,9 +231,11 @@ TEST_P(BroadPhases, AreNotUpsetByFarAndUnfiniteMotion) {
     one->place([](int r, int c) { return Vec3d{0.1 * c, 0, 0.1 * r}; });
   cloth.move([](Vec3d p) { return p + Vec3d{1e6, 300, -1e9}; });
   cloth.end.set(0, {HUGE_VALF, 0, 0});
-  const auto found = as_set(found_by_any_team(
-      {cloth.surface(), body.surface()}, 1,
-      [](BroadPhase& phase, ThreadTeam& team, auto& out) { phase.find(0, 1, 0.001F, team, out); }));
+  const auto found = as_set(found_by_any_team({cloth.surface(), body.surface()}, 1,
+                                              [](BroadPhase& phase, ThreadTeam& team, auto& out) {
+                                                phase.find(0, 1, 0.001F, team, out);
+                                              }),
+                            n - 1);
   EXPECT_TRUE(found.contains({9, 9}));
 }
 

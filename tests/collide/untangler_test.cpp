@@ -272,10 +272,12 @@ TEST(Untangler, TeamsOfAnySizeGiveTheSameBits) {
 }
 
 /// All pairs of cells of two surfaces.
-std::vector<CandidatePair> all_cells(int a, int b) {
-  std::vector<CandidatePair> cells;
+std::vector<CandidateTile> all_cells(int a, int b) {
+  std::vector<CandidatePair> pairs;
   for (int i = 0; i < a * a; ++i)
-    for (int j = 0; j < b * b; ++j) cells.push_back({i, j});
+    for (int j = 0; j < b * b; ++j) pairs.push_back({i, j});
+  std::vector<CandidateTile> cells;
+  join_to_tiles(Tiling(a), Tiling(b), pairs, cells);
   return cells;
 }
 

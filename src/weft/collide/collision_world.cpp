@@ -164,7 +164,7 @@ double CollisionWorld::gap_between(std::size_t i, std::size_t j) const {
   return 0.5 * (cloths[i].properties.self_thickness + cloths[j].properties.self_thickness);
 }
 
-std::span<const CandidatePair> CollisionWorld::near_cells(std::size_t i, std::size_t j,
+std::span<const CandidateTile> CollisionWorld::near_cells(std::size_t i, std::size_t j,
                                                           ThreadTeam& team) {
   const int first = static_cast<int>(i), second = static_cast<int>(j);
   const auto reach = static_cast<float>(contact_margin * gap_between(i, j));

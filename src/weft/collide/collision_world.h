@@ -67,7 +67,7 @@ class CollisionWorld {
   /// Gap kept between two cloths, or between a cloth and itself. [m]
   [[nodiscard]] double gap_between(std::size_t i, std::size_t j) const;
   /// Candidate cell pairs of two cloths within the contact margin, valid until the next search.
-  std::span<const CandidatePair> near_cells(std::size_t i, std::size_t j, ThreadTeam& team);
+  std::span<const CandidateTile> near_cells(std::size_t i, std::size_t j, ThreadTeam& team);
   /// Largest speed of a body's sample in this step; 0 where all bodies stand still. [m/s]
   [[nodiscard]] double fastest_body(double time_step) const;
   [[nodiscard]] const BodyContacts::Ground* ground() const { return ground_ ? &*ground_ : nullptr; }

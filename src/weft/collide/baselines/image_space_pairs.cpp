@@ -159,23 +159,24 @@ void ImageSpacePairs::pair_cells(const Blocks& a, int block_a, const Blocks& b, 
 }
 
 void ImageSpacePairs::find(int surface_a, int surface_b, float reach, ThreadTeam& team,
-                           std::vector<CandidatePair>& out) {
+                           std::vector<CandidateTile>& out) {
   Blocks& a = blocks_[static_cast<std::size_t>(surface_a)];
   Blocks& b = blocks_[static_cast<std::size_t>(surface_b)];
   cull(a, b, reach, team);
   sort(b);
-  shared_.collect(a.count(), team, out, [&](int block, std::vector<CandidatePair>& mine) {
-    if (a.left[block] == 0) return;
-    for (const int other : b.order) {
-      if (b.box(other).lower.x - a.box(block).upper.x > reach) break;
-      pair_cells(a, block, b, other, reach,
-                 [&](const CandidatePair& pair) { mine.push_back(pair); });
-    }
-  });
+  shared_.collect(a.count(), {Tiling(a.boxes.sides().front()), Tiling(b.boxes.sides().front())},
+                  team, out, [&](int block, std::vector<CandidatePair>& mine) {
+                    if (a.left[block] == 0) return;
+                    for (const int other : b.order) {
+                      if (b.box(other).lower.x - a.box(block).upper.x > reach) break;
+                      pair_cells(a, block, b, other, reach,
+                                 [&](const CandidatePair& pair) { mine.push_back(pair); });
+                    }
+                  });
 }
 
 void ImageSpacePairs::find_self(int surface, float reach, float slack, ThreadTeam& team,
-                                std::vector<CandidatePair>& out) {
+                                std::vector<CandidateTile>& out) {
   Blocks& of = blocks_[static_cast<std::size_t>(surface)];
   UnfoldedWindows& folds = folds_[static_cast<std::size_t>(surface)];
   folds.find_unfolded(surfaces_[static_cast<std::size_t>(surface)], slack, team);
@@ -190,17 +191,19 @@ void ImageSpacePairs::find_self(int surface, float reach, float slack, ThreadTea
     });
   };
   const int side = of.side();
-  shared_.collect(of.count(), team, out, [&](int block, std::vector<CandidatePair>& mine) {
-    // Neighbours, which ignore each other in the images.
-    for (int r = block / side; r <= std::min(side - 1, block / side + 1); ++r)
-      for (int c = std::max(0, block % side - 1); c <= std::min(side - 1, block % side + 1); ++c)
-        if (r * side + c >= block) pair_with(block, r * side + c, mine);
-    if (of.left[block] == 0) return;
-    for (const int other : of.order) {
-      if (of.box(other).lower.x - of.box(block).upper.x > reach) break;
-      if (other > block && !touch(of, block, other)) pair_with(block, other, mine);
-    }
-  });
+  shared_.collect(of.count(), {Tiling(of.boxes.sides().front()), Tiling(of.boxes.sides().front())},
+                  team, out, [&](int block, std::vector<CandidatePair>& mine) {
+                    // Neighbours, which ignore each other in the images.
+                    for (int r = block / side; r <= std::min(side - 1, block / side + 1); ++r)
+                      for (int c = std::max(0, block % side - 1);
+                           c <= std::min(side - 1, block % side + 1); ++c)
+                        if (r * side + c >= block) pair_with(block, r * side + c, mine);
+                    if (of.left[block] == 0) return;
+                    for (const int other : of.order) {
+                      if (of.box(other).lower.x - of.box(block).upper.x > reach) break;
+                      if (other > block && !touch(of, block, other)) pair_with(block, other, mine);
+                    }
+                  });
 }
 
 std::unique_ptr<Collider> make_collider_of(const ImageSpaceOptions& /*options*/,

@@ -6,7 +6,7 @@
 
 #include "weft/collide/baselines/depth_image.h"
 #include "weft/collide/broad_phase/candidate_pairs.h"
-#include "weft/collide/broad_phase/chunks.h"
+#include "weft/collide/broad_phase/cell_tiles.h"
 #include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/broad_phase/unfolded_windows.h"
 
@@ -23,9 +23,9 @@ class ImageSpacePairs final : public BroadPhase {
 
   void refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) override;
   void find(int surface_a, int surface_b, float reach, ThreadTeam& team,
-            std::vector<CandidatePair>& out) override;
+            std::vector<CandidateTile>& out) override;
   void find_self(int surface, float reach, float slack, ThreadTeam& team,
-                 std::vector<CandidatePair>& out) override;
+                 std::vector<CandidateTile>& out) override;
 
  private:
   /// Layers of the image of a surface with itself: a block, its eight neighbours, and one more that

@@ -170,31 +170,38 @@ void SpatialHashPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam
 }
 
 void SpatialHashPairs::find(int surface_a, int surface_b, float reach, ThreadTeam& team,
-                            std::vector<CandidatePair>& out) {
+                            std::vector<CandidateTile>& out) {
   const HashedCells& a = tables_[static_cast<std::size_t>(surface_a)];
   const HashedCells& b = tables_[static_cast<std::size_t>(surface_b)];
   // Cells of the table with smaller cubes look up the one with larger cubes, as they take fewer of
   // these each.
   const bool swapped = a.side() > b.side();
   const HashedCells &small = swapped ? b : a, &large = swapped ? a : b;
-  shared_.collect(small.count(), team, out, [&](int cell, std::vector<CandidatePair>& mine) {
-    large.for_near(small.box(cell), reach, [&](int other) {
-      mine.push_back(swapped ? CandidatePair{other, cell} : CandidatePair{cell, other});
-    });
-  });
+  const auto tiling_of = [&](int surface) {
+    return Tiling(surfaces_[static_cast<std::size_t>(surface)].grid->cells());
+  };
+  shared_.collect(
+      small.count(), {tiling_of(surface_a), tiling_of(surface_b)}, team, out,
+      [&](int cell, std::vector<CandidatePair>& mine) {
+        large.for_near(small.box(cell), reach, [&](int other) {
+          mine.push_back(swapped ? CandidatePair{other, cell} : CandidatePair{cell, other});
+        });
+      });
 }
 
 void SpatialHashPairs::find_self(int surface, float reach, float slack, ThreadTeam& team,
-                                 std::vector<CandidatePair>& out) {
+                                 std::vector<CandidateTile>& out) {
   const HashedCells& table = tables_[static_cast<std::size_t>(surface)];
   UnfoldedWindows& folds = folds_[static_cast<std::size_t>(surface)];
   folds.find_unfolded(surfaces_[static_cast<std::size_t>(surface)], slack, team);
-  shared_.collect(table.count(), team, out, [&](int cell, std::vector<CandidatePair>& mine) {
-    table.for_near(table.box(cell), reach, [&](int other) {
-      if (cell < other && !folds.unfolded(CandidatePair{cell, other}))
-        mine.push_back({cell, other});
-    });
-  });
+  const Tiling tiling(surfaces_[static_cast<std::size_t>(surface)].grid->cells());
+  shared_.collect(table.count(), {tiling, tiling}, team, out,
+                  [&](int cell, std::vector<CandidatePair>& mine) {
+                    table.for_near(table.box(cell), reach, [&](int other) {
+                      if (cell < other && !folds.unfolded(CandidatePair{cell, other}))
+                        mine.push_back({cell, other});
+                    });
+                  });
 }
 
 std::unique_ptr<Collider> make_collider_of(const SpatialHashOptions& /*options*/,

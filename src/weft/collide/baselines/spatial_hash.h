@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
-#include "weft/collide/broad_phase/chunks.h"
+#include "weft/collide/broad_phase/cell_tiles.h"
 #include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/broad_phase/unfolded_windows.h"
 
@@ -72,9 +72,9 @@ class SpatialHashPairs final : public BroadPhase {
 
   void refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) override;
   void find(int surface_a, int surface_b, float reach, ThreadTeam& team,
-            std::vector<CandidatePair>& out) override;
+            std::vector<CandidateTile>& out) override;
   void find_self(int surface, float reach, float slack, ThreadTeam& team,
-                 std::vector<CandidatePair>& out) override;
+                 std::vector<CandidateTile>& out) override;
 
  private:
   std::vector<HashedCells> tables_;     // one a surface

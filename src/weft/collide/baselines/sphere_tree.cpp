@@ -143,24 +143,25 @@ void SphereTreePairs::gather_tasks(const Search& search) {
 }
 
 void SphereTreePairs::find(int surface_a, int surface_b, float reach, ThreadTeam& team,
-                           std::vector<CandidatePair>& out) {
+                           std::vector<CandidateTile>& out) {
   const Search search{&levels_[static_cast<std::size_t>(surface_a)],
                       &levels_[static_cast<std::size_t>(surface_b)], reach};
   gather_tasks(search);
   const int cells_a = search.a->sides().front(), cells_b = search.b->sides().front();
-  shared_.collect(
-      static_cast<int>(tasks_.size()), team, out, [&](int task, std::vector<CandidatePair>& mine) {
-        descend(
-            search, tasks_[static_cast<std::size_t>(task)], [](const NodePair&) { return false; },
-            [&](const NodePair& pair) {
-              mine.push_back(
-                  {pair.a.row * cells_a + pair.a.col, pair.b.row * cells_b + pair.b.col});
-            });
-      });
+  shared_.collect(static_cast<int>(tasks_.size()), {Tiling(cells_a), Tiling(cells_b)}, team, out,
+                  [&](int task, std::vector<CandidatePair>& mine) {
+                    descend(
+                        search, tasks_[static_cast<std::size_t>(task)],
+                        [](const NodePair&) { return false; },
+                        [&](const NodePair& pair) {
+                          mine.push_back({pair.a.row * cells_a + pair.a.col,
+                                          pair.b.row * cells_b + pair.b.col});
+                        });
+                  });
 }
 
 void SphereTreePairs::find_self(int surface, float reach, float slack, ThreadTeam& team,
-                                std::vector<CandidatePair>& out) {
+                                std::vector<CandidateTile>& out) {
   const SphereLevels& levels = levels_[static_cast<std::size_t>(surface)];
   UnfoldedWindows& folds = folds_[static_cast<std::size_t>(surface)];
   folds.find_unfolded(surfaces_[static_cast<std::size_t>(surface)], slack, team);
@@ -168,7 +169,8 @@ void SphereTreePairs::find_self(int surface, float reach, float slack, ThreadTea
   gather_tasks(search);
   const int cells = levels.sides().front();
   shared_.collect(
-      static_cast<int>(tasks_.size()), team, out, [&](int task, std::vector<CandidatePair>& mine) {
+      static_cast<int>(tasks_.size()), {Tiling(cells), Tiling(cells)}, team, out,
+      [&](int task, std::vector<CandidatePair>& mine) {
         descend(
             search, tasks_[static_cast<std::size_t>(task)], [](const NodePair&) { return false; },
             [&](const NodePair& pair) {

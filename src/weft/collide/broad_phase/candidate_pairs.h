@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "weft/collide/broad_phase/patch_motion.h"
 #include "weft/collide/broad_phase/path_boxes.h"
 #include "weft/collide/moving_surface.h"
 #include "weft/core/thread_team.h"
@@ -16,6 +17,24 @@ inline constexpr double contact_margin = 1.5;
 struct CandidatePair {
   int a = 0, b = 0;
   friend bool operator==(const CandidatePair&, const CandidatePair&) = default;
+};
+
+/// A cell of one surface and those of a tile of another that may meet it during a step, see
+/// Tiling; of one surface with itself each pair is in one of these.
+struct CandidateTile {
+  int cell = 0;        ///< row * (n - 1) + col
+  int tile = 0;        ///< of the second surface
+  unsigned cells = 0;  ///< bit k: the tile's cell k
+  int patch_a = 0;     ///< of the cell
+  int patch_b = 0;     ///< of the tile
+  float gap = 0;       ///< no cell of these is certainly nearer during the step [m]
+  friend bool operator==(const CandidateTile&, const CandidateTile&) = default;
+};
+
+/// What of a search is wanted: pairs of patches of which at least one has changed.
+struct ChangedPatches {
+  const PatchMotion *a = nullptr, *b = nullptr;
+  int since = 0;  ///< versions after this are changes
 };
 
 /// Finds the pairs of cells of surfaces that may meet. Nothing allocates once warmed up.
@@ -33,12 +52,21 @@ class BroadPhase {
   /// step, each once, and perhaps some that do not, in an order that does not depend on the team.
   /// Pairs that are known not to come so close may be left out.
   virtual void find(int surface_a, int surface_b, float reach, ThreadTeam& team,
-                    std::vector<CandidatePair>& out) = 0;
+                    std::vector<CandidateTile>& out) = 0;
   /// The same for a cloth with itself: all pairs of cells that can meet in more than a common
   /// corner or edge while every sample stays within `slack` of its path. Neighbours in a certainly
   /// unfolded rectangle are left out, though they may be closer than `reach`.
   virtual void find_self(int surface, float reach, float slack, ThreadTeam& team,
-                         std::vector<CandidatePair>& out) = 0;
+                         std::vector<CandidateTile>& out) = 0;
+  /// The same as find or find_self, of changed patches alone, ordered by the patches of the first
+  /// surface and then by places_in_order of those of the second.
+  /// @param slack  of a cloth with itself
+  /// @return false where the phase cannot tell parts of a search from the whole
+  virtual bool find_changed(int /*surface_a*/, int /*surface_b*/, float /*reach*/, float /*slack*/,
+                            const ChangedPatches& /*changed*/, ThreadTeam& /*team*/,
+                            std::vector<CandidateTile>& /*out*/) {
+    return false;
+  }
   /// Boxes of the nodes of a surface's mip pyramid in the step; null where there is no pyramid.
   [[nodiscard]] virtual const PathBoxLevels* boxes(int /*surface*/) const { return nullptr; }
 };

@@ -46,18 +46,4 @@ void append(const ChunkedLists<std::vector<T>>& from, std::vector<T>& to) {
   for (const std::vector<T>& list : from.lists()) to.insert(to.end(), list.begin(), list.end());
 }
 
-/// Collects pairs that a team finds, in an order that does not depend on the team.
-class SharedPairs {
- public:
-  /// Calls find(i, mine) for i in 0 .. count - 1, which adds to `mine`, and adds all to `out`.
-  template <class Find>
-  void collect(int count, ThreadTeam& team, std::vector<CandidatePair>& out, const Find& find) {
-    found_.fill(count, team, find);
-    append(found_, out);
-  }
-
- private:
-  ChunkedLists<std::vector<CandidatePair>> found_;
-};
-
 }  // namespace weft

@@ -1,113 +1,174 @@
 #include "weft/collide/broad_phase/coherent_pairs.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <utility>
-
-#include "weft/collide/broad_phase/cell_gaps.h"
 
 namespace weft {
+namespace {
+
+/// Where a pair of patches stands in lists.
+struct Place {
+  int patch_a;
+  unsigned of_b;
+  friend bool operator<(const Place& p, const Place& q) {
+    return p.patch_a != q.patch_a ? p.patch_a < q.patch_a : p.of_b < q.of_b;
+  }
+};
+Place place_of(const CandidateTile& one, int patches_of_b) {
+  return {one.patch_a, place_in_order(one.patch_b / patches_of_b, one.patch_b % patches_of_b)};
+}
+
+}  // namespace
+
 CoherentPairs::CoherentPairs(std::unique_ptr<BroadPhase> broad_phase,
                              std::span<const SurfaceGrid* const> surfaces, std::size_t cloths,
                              float skin)
     : broad_phase_(std::move(broad_phase)),
       skin_(skin),
-      snapshots_(surfaces.size()),
+      names_(surfaces.size()),
       found_slack_(cloths),
       lists_(cloths * surfaces.size()) {
+  for (const SurfaceGrid* surface : surfaces) {
+    motions_.emplace_back(surface->cells());
+    tiles_.emplace_back(*surface);
+  }
   for (const SurfaceGrid* cloth : surfaces.first(cloths)) windows_.emplace_back(cloth->cells());
 }
 
 void CoherentPairs::forget() {
-  known_ = false;
-  for (List& list : lists_) list.reach = list.slack = 0;
-}
-
-float CoherentPairs::distance_from(const Snapshot& snapshot, const MovingSurface& now) const {
-  if (now.name != 0 && now.name == snapshot.name) return 0;
-  const Planes3& end = snapshot.still ? snapshot.start : snapshot.end;
-  double distance = largest_displacement(snapshot.start, *now.start);
-  if (!snapshot.still || now.end != now.start)
-    distance = std::max(distance, largest_displacement(end, *now.end));
-  // Half the skin, less rounding.
-  return distance < 0.499 * double{skin_} ? static_cast<float>(distance) : HUGE_VALF;
-}
-
-void CoherentPairs::remember(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
-  placed_.clear();
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    Snapshot& snapshot = snapshots_[i];
-    MovingSurface placed = surfaces[i];
-    if (placed.name == 0 || placed.name != snapshot.name) {
-      snapshot.still = placed.end == placed.start;
-      snapshot.name = placed.name;
-      snapshot.start = *placed.start;
-      if (!snapshot.still) snapshot.end = *placed.end;
-    }
-    placed.start = &snapshot.start;
-    placed.end = snapshot.still ? &snapshot.start : &snapshot.end;
-    placed_.push_back(placed);
-    snapshot.distance = 0;
+  std::fill(names_.begin(), names_.end(), 0);
+  for (PatchMotion& motion : motions_) motion.forget();
+  for (List& list : lists_) {
+    list.version = -1;
+    list.reach = list.slack = 0;
   }
-  for (List& list : lists_) list.known = false;
-  broad_phase_->refit(placed_, team);
-  known_ = true;
 }
 
 void CoherentPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
   now_.assign(surfaces.begin(), surfaces.end());
+  ++version_;
+  boxes_fit_ = false;
   std::fill(found_slack_.begin(), found_slack_.end(), -1.0F);
-  for (std::size_t i = 0; known_ && i < surfaces.size(); ++i) {
-    snapshots_[i].distance = distance_from(snapshots_[i], surfaces[i]);
-    known_ = snapshots_[i].distance < HUGE_VALF;
-  }
-  if (!known_) remember(surfaces, team);
-}
-
-void CoherentPairs::sort(int a, int b, List& list, ThreadTeam& team) {
-  const float reach = list.reach + skin_, per_bucket = buckets / reach;
-  near_.fill(static_cast<int>(list.cells.size()), team, [&](int i, std::vector<Found>& mine) {
-    const CandidatePair cells = list.cells[i];
-    const float gap = CellGaps(placed_[a], cells.a, placed_[b], cells.b).certain_gap();
-    if (gap < reach) mine.push_back({cells, gap > 0 ? static_cast<int>(gap * per_bucket) : 0});
-  });
-  order(near_, list);
-  list.sorted = true;
-}
-
-void CoherentPairs::order(const ChunkedLists<std::vector<Found>>& found, List& list) {
-  list.ends.fill(0);
-  const auto bucket_of = [](const Found& one) {
-    return std::min(static_cast<std::size_t>(one.bucket), buckets - 1);
+  const auto is_measured = [&](std::size_t i) {
+    return now_[i].name != 0 && now_[i].name == names_[i];
   };
-  for (const std::vector<Found>& part : found.lists())
-    for (const Found& one : part) ++list.ends[bucket_of(one)];
-  std::size_t count = 0;
-  for (std::size_t& end : list.ends) count += std::exchange(end, count);
-  list.cells.resize(count);
-  // Each bucket's begin serves as its write position, and ends up as its end.
-  for (const std::vector<Found>& part : found.lists())
-    for (const Found& one : part) list.cells[list.ends[bucket_of(one)]++] = one.cells;
+  bool large = false;
+  for (std::size_t i = 0; i < now_.size(); ++i)
+    large = large || (!is_measured(i) && now_[i].grid->cells() >= min_shared_cells);
+  team.run_if(large, [&](Worker& worker) {
+    for (std::size_t i = 0; i < now_.size(); ++i)
+      if (!is_measured(i)) motions_[i].measure(now_[i], worker);
+  });
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    tiles_[i].take(now_[i]);
+    if (is_measured(i)) continue;
+    // Half the skin, less rounding.
+    motions_[i].renew(now_[i], 0.499F * skin_, version_);
+    names_[i] = now_[i].name;
+    boxes_known_ = boxes_known_ && motions_[i].latest() < version_;
+  }
 }
 
-std::span<const CandidatePair> CoherentPairs::nearest(int a, int b, float reach, ThreadTeam& team) {
-  List& list = list_of(a, b);
-  if (!list.sorted) sort(a, b, list, team);
-  const float far = reach + snapshots_[a].distance + snapshots_[b].distance;
-  const auto last = static_cast<std::size_t>(far * buckets / (list.reach + skin_));
-  return std::span(list.cells).first(list.ends[std::min(last, buckets - 1)]);
+void CoherentPairs::fit_boxes(ThreadTeam& team) {
+  if (!boxes_fit_) broad_phase_->refit(now_, team);
+  boxes_fit_ = boxes_known_ = true;
 }
 
-std::span<const CandidatePair> CoherentPairs::find(int surface_a, int surface_b, float reach,
+const PathBoxLevels* CoherentPairs::boxes(int surface, ThreadTeam& team) {
+  if (!boxes_known_) fit_boxes(team);
+  return broad_phase_->boxes(surface);
+}
+
+void CoherentPairs::fit_tiles(int a, int b, ThreadTeam& team) {
+  tiles_[static_cast<std::size_t>(a)].fit(team);
+  tiles_[static_cast<std::size_t>(b)].fit(team);
+}
+
+/// The surfaces' other patches may be half a skin from where they were renewed, on this side now
+/// and on that side later.
+bool CoherentPairs::search(int a, int b, const List& list, ThreadTeam& team) {
+  fit_boxes(team);
+  fresh_.clear();
+  const float reach = list.reach + 1.5F * skin_, slack = list.slack + skin_;
+  const ChangedPatches changed{&motions_[a], &motions_[b], list.version};
+  if (broad_phase_->find_changed(a, b, reach, slack, changed, team, fresh_)) return false;
+  if (a == b)
+    broad_phase_->find_self(a, reach, slack, team, fresh_);
+  else
+    broad_phase_->find(a, b, reach, team, fresh_);
+  return true;
+}
+
+void CoherentPairs::refine(int a, int b, float reach, ThreadTeam& team) {
+  if (fresh_.empty()) return;
+  fit_tiles(a, b, team);
+  const CellTiles &of_a = tiles(a), &of_b = tiles(b);
+  const CollideKernels& kernels = collide_kernels_for(team.instructions());
+  found_.fill(static_cast<int>(fresh_.size()), team, [&](int i, std::vector<CandidateTile>& mine) {
+    CandidateTile one = fresh_[i];
+    const float moved = motions_[a].distance(one.patch_a) + motions_[b].distance(one.patch_b);
+    std::array<float, tile_cells> gaps;
+    kernels.tile_gaps(of_a.cell(one.cell), of_b.tile(one.tile), 0, 0, gaps.data());
+    one.gap = HUGE_VALF;
+    for (unsigned left = one.cells; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      if (gaps[lane] - moved > reach + skin_)
+        one.cells &= ~(1U << lane);
+      else
+        one.gap = std::min(one.gap, gaps[lane] - moved);
+    }
+    if (one.cells != 0) mine.push_back(one);
+  });
+  fresh_.clear();
+  append(found_, fresh_);
+}
+
+void CoherentPairs::merge(int a, int b, int since, std::span<const CandidateTile> fresh,
+                          std::vector<CandidateTile>& tiles) {
+  const PatchMotion &of_a = motions_[a], &of_b = motions_[b];
+  const int patches = of_b.patches();
+  const auto stays = [&](const CandidateTile& one) {
+    return of_a.version(one.patch_a) <= since && of_b.version(one.patch_b) <= since;
+  };
+  merged_.clear();
+  auto next = fresh.begin();
+  for (const CandidateTile& one : tiles) {
+    if (!stays(one)) continue;
+    for (; next != fresh.end() && place_of(*next, patches) < place_of(one, patches); ++next)
+      merged_.push_back(*next);
+    merged_.push_back(one);
+  }
+  merged_.insert(merged_.end(), next, fresh.end());
+  // Copied, as buffers that were swapped would have to grow anew.
+  tiles.assign(merged_.begin(), merged_.end());
+}
+
+void CoherentPairs::collect_near(int a, int b, float reach) {
+  const PatchMotion &of_a = motions_[a], &of_b = motions_[b];
+  near_.clear();
+  for (const CandidateTile& one : list_of(a, b).tiles)
+    if (one.gap <= reach + of_a.distance(one.patch_a) + of_b.distance(one.patch_b))
+      near_.push_back(one);
+}
+
+std::span<const CandidateTile> CoherentPairs::find(int surface_a, int surface_b, float reach,
                                                    ThreadTeam& team) {
   List& list = list_of(surface_a, surface_b);
-  if (list.known && reach <= list.reach) return nearest(surface_a, surface_b, reach, team);
-  list.reach = std::max(list.reach, reach);
-  list.known = true;
-  list.sorted = false;
-  list.cells.clear();
-  broad_phase_->find(surface_a, surface_b, list.reach + skin_, team, list.cells);
-  return list.cells;
+  if (reach > list.reach) {
+    list.reach = reach;
+    list.version = -1;
+  }
+  if (!is_complete(surface_a, surface_b, list)) {
+    if (search(surface_a, surface_b, list, team)) list.version = -1;
+    refine(surface_a, surface_b, list.reach, team);
+    merge(surface_a, surface_b, list.version, fresh_, list.tiles);
+    list.version = version_;
+  }
+  collect_near(surface_a, surface_b, reach);
+  if (!near_.empty()) fit_tiles(surface_a, surface_b, team);
+  return near_;
 }
 
 void CoherentPairs::find_unfolded(int surface, float slack, ThreadTeam& team) {
@@ -117,51 +178,63 @@ void CoherentPairs::find_unfolded(int surface, float slack, ThreadTeam& team) {
   found = slack;
 }
 
-/// Sets neighbours in unfolded rectangles apart: they are most of all pairs, and their gaps are of
-/// no use.
-void CoherentPairs::set_smooth_aside(int surface, List& list) {
+/// What of a cell's pairs is in no rectangle that is unfolded now.
+CandidateTile CoherentPairs::folded_part(int surface, const CandidateTile& of) const {
   const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
-  std::size_t kept = 0;
-  for (const CandidatePair& pair : list.cells) {
-    if (windows.unfolded(pair))
-      list.smooth.push_back(pair);
-    else
-      list.cells[kept++] = pair;
+  const Tiling& tiling = tiles(surface).tiling();
+  CandidateTile folded = of;
+  for (unsigned left = of.cells; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    if (windows.unfolded(CandidatePair{of.cell, tiling.cell(of.tile, lane)}))
+      folded.cells &= ~(1U << lane);
   }
-  list.cells.resize(kept);
+  return folded;
+}
+
+/// Neighbours in unfolded rectangles are most of all pairs, and their gaps are of no use.
+void CoherentPairs::set_smooth_aside(int surface) {
+  fresh_smooth_.clear();
+  std::size_t kept = 0;
+  for (const CandidateTile& one : fresh_) {
+    const CandidateTile folded = folded_part(surface, one);
+    CandidateTile smooth = one;
+    smooth.cells = one.cells & ~folded.cells;
+    if (smooth.cells != 0) fresh_smooth_.push_back(smooth);
+    if (folded.cells != 0) fresh_[kept++] = folded;
+  }
+  fresh_.resize(kept);
 }
 
 /// Unfolded neighbours are left out also because planes between them would hinder rotation.
-std::span<const CandidatePair> CoherentPairs::find_self(int surface, float reach, float slack,
+std::span<const CandidateTile> CoherentPairs::find_self(int surface, float reach, float slack,
                                                         ThreadTeam& team) {
   List& list = list_of(surface, surface);
-  const bool known = list.known && reach <= list.reach && slack <= list.slack;
-  if (!known) {
-    list.reach = std::max(list.reach, reach);
-    list.slack = std::max(list.slack, slack);
-    list.known = true;
-    list.sorted = false;
-    list.cells.clear();
-    broad_phase_->find_self(surface, list.reach + skin_, list.slack + 0.5F * skin_, team,
-                            list.cells);
-    list.smooth.clear();
-    if (list.cells.empty()) return {};
-    find_unfolded(surface, slack, team);
-    set_smooth_aside(surface, list);
-    return list.cells;
+  if (reach > list.reach || slack > list.slack) {
+    list.reach = std::max(reach, list.reach);
+    list.slack = std::max(slack, list.slack);
+    list.version = -1;
   }
-  if (list.cells.empty() && list.smooth.empty()) return {};
+  if (!is_complete(surface, surface, list)) {
+    if (search(surface, surface, list, team)) list.version = -1;
+    if (!fresh_.empty()) find_unfolded(surface, slack, team);
+    set_smooth_aside(surface);
+    refine(surface, surface, list.reach, team);
+    merge(surface, surface, list.version, fresh_, list.tiles);
+    merge(surface, surface, list.version, fresh_smooth_, list.smooth);
+    list.version = version_;
+  }
+  if (list.tiles.empty() && list.smooth.empty()) return {};
   find_unfolded(surface, slack, team);
-  const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
-  const std::span<const CandidatePair> near = nearest(surface, surface, reach, team);
-  folded_.clear();
-  for (const std::span<const CandidatePair> cells :
-       {near, std::span<const CandidatePair>(list.smooth)})
-    shared_.collect(static_cast<int>(cells.size()), team, folded_,
-                    [&](int i, std::vector<CandidatePair>& mine) {
-                      if (!windows.unfolded(cells[i])) mine.push_back(cells[i]);
-                    });
-  return folded_;
+  collect_near(surface, surface, reach);
+  near_.insert(near_.end(), list.smooth.begin(), list.smooth.end());
+  found_.fill(static_cast<int>(near_.size()), team, [&](int i, std::vector<CandidateTile>& mine) {
+    const CandidateTile folded = folded_part(surface, near_[i]);
+    if (folded.cells != 0) mine.push_back(folded);
+  });
+  near_.clear();
+  append(found_, near_);
+  if (!near_.empty()) fit_tiles(surface, surface, team);
+  return near_;
 }
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace weft {
 namespace {
@@ -23,6 +24,7 @@ float min_of(const float (&of)[4]) { return min(min(of[0], of[1]), min(of[2], of
 float largest_of(const float (&of)[4]) { return max(max(of[0], of[1]), max(of[2], of[3])); }
 
 constexpr float far = HUGE_VALF;
+constexpr PathBox nan_box{{NAN, NAN, NAN}, {NAN, NAN, NAN}, {NAN, NAN, NAN}, {NAN, NAN, NAN}};
 constexpr PathBox nowhere{{far, far, far}, {-far, -far, -far}, {far, far, far}, {-far, -far, -far}};
 
 void put(const PathBox& box, int child, ChildPathBoxes& to) {
@@ -98,6 +100,37 @@ PathBox PathBoxLevels::box_of(const Node& node) const {
     box.upper_end[k] = largest_of(of.upper_end[k]);
   }
   return box;
+}
+
+TileBoxes PathBoxLevels::tile(int row, int col) const {
+  constexpr int tile_rows = 2, tile_cols = 4;
+  TileBoxes boxes;
+  float* const planes[4] = {boxes.lower_start[0], boxes.upper_start[0], boxes.lower_end[0],
+                            boxes.upper_end[0]};
+  const int rows = std::min(tile_rows, sides_.front() - row),
+            cols = std::min(tile_cols, sides_.front() - col);
+  for (int k = 0; k < 12; ++k) {
+    float* lanes = planes[k / 3] + k % 3 * tile_cells;
+    if (rows == tile_rows && cols == tile_cols) {
+      std::memcpy(lanes, cells_[k].row(row) + col, tile_cols * sizeof(float));
+      std::memcpy(lanes + tile_cols, cells_[k].row(row + 1) + col, tile_cols * sizeof(float));
+      continue;
+    }
+    std::fill_n(lanes, tile_cells, NAN);
+    for (int r = 0; r < rows; ++r)
+      std::copy_n(cells_[k].row(row + r) + col, cols, lanes + tile_cols * r);
+  }
+  return boxes;
+}
+
+PatchBoxes PathBoxLevels::patch(int row, int col) const {
+  constexpr int side = 4;
+  PatchBoxes boxes;
+  for (int i = 0; i < patch_cells; ++i) {
+    const int r = row + i / side, c = col + i % side;
+    boxes.cells[i] = r < sides_.front() && c < sides_.front() ? box_of({0, r, c}) : nan_box;
+  }
+  return boxes;
 }
 
 void PathBoxLevels::fit_node(const Node& node) {

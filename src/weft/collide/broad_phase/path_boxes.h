@@ -26,6 +26,11 @@ class PathBoxLevels {
   [[nodiscard]] const std::vector<int>& sides() const { return sides_; }
   [[nodiscard]] int top() const { return static_cast<int>(sides_.size()) - 1; }
   [[nodiscard]] const PathBox& root_box() const { return root_; }
+  [[nodiscard]] PathBox box_of(const Node& node) const;
+  /// Boxes of the cells of a tile, by the row and column of its first one.
+  [[nodiscard]] TileBoxes tile(int row, int col) const;
+  /// Boxes of the cells of a patch, by the row and column of its first one.
+  [[nodiscard]] PatchBoxes patch(int row, int col) const;
   /// Boxes of the children of a node above the cells.
   [[nodiscard]] const ChildPathBoxes& children(const Node& node) const {
     const auto level = static_cast<std::size_t>(node.level);
@@ -36,7 +41,6 @@ class PathBoxLevels {
   void fill_row(const MovingSurface& surface, int row);
   /// Boxes of cells that lie in no chart meet nothing.
   void hide_missing(const SurfaceGrid& grid, int row);
-  [[nodiscard]] PathBox box_of(const Node& node) const;
   void fit_node(const Node& node);
   /// Faster form of fit_node for a node of level 1 that has all four cells.
   void pack_cells(const Node& node);

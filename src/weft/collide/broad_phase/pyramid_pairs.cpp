@@ -9,19 +9,28 @@
 namespace weft {
 namespace {
 
-/// Level of the nodes whose pairs workers share as tasks: 2^4 cells a side.
-constexpr int task_level = 4;
-
-/// Nodes of a cloth are compared with slabs from this level down.
-constexpr int max_slab_level = 2;
+/// Fewest samples a side of a cloth that is compared with slabs.
+constexpr int min_slab_size = 5;
 /// Generous bound of the rounding error of a distance along a slab, relative to the nodes' sizes.
 constexpr float slab_rounding = 1e-5F;
 
 Node child_of(const Node& node, int k) {
   return {node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2};
 }
-/// Mask of near_pairs of a node with itself that keeps each pair of children once.
-constexpr unsigned pairs_once = 0x8CEF;
+Node ancestor_of(const Node& node, int level) {
+  return {level, node.row >> (level - node.level), node.col >> (level - node.level)};
+}
+Node first_cell_of(const Node& node) { return {0, node.row << node.level, node.col << node.level}; }
+bool may_meet(const PathBox& a, const PathBox& b, float reach) {
+  for (int k = 0; k < 3; ++k) {
+    const float above =
+        std::min(a.lower_start[k] - b.upper_start[k], a.lower_end[k] - b.upper_end[k]);
+    const float below =
+        std::min(b.lower_start[k] - a.upper_start[k], b.lower_end[k] - a.upper_end[k]);
+    if (std::max(above, below) > reach) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -60,16 +69,19 @@ void PyramidPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& te
   for (std::size_t i = 0; i < surfaces_.size(); ++i) levels_[i].fitted_to = surfaces_[i].name;
 }
 
-bool PyramidPairs::apart_by_slab(const Search& search, const PlacedPair& pair) const {
-  const Slab* found = levels_[search.b].slabs.find(pair.nodes.b);
+bool PyramidPairs::apart_by_slab(const Patch& patch, const Node& node, const PathBox& box) const {
+  const Search& search = patch.search;
+  if (static_cast<std::size_t>(search.b) < cloths_) return false;
+  const Slab* found = levels_[search.b].slabs.find(node);
   if (found == nullptr || found->normal == Vec3f{}) return false;
   const Slab& slab = *found;
   const MovingSurface& cloth = surfaces_[search.a];
-  const float reach = search.reach + slab_rounding * (longest_side(pair.a) + longest_side(pair.b));
-  const Extent start = along_slab(search, *cloth.start, pair.nodes.a, slab);
+  if (cloth.grid->size() < min_slab_size) return false;
+  const float reach = search.reach + slab_rounding * (longest_side(patch.box) + longest_side(box));
+  const Extent start = along_slab(search, *cloth.start, patch.node, slab);
   const bool above = start.min - slab.upper_start >= reach;
   if (!above && !(slab.lower_start - start.max >= reach)) return false;
-  const Extent end = along_slab(search, *cloth.end, pair.nodes.a, slab);
+  const Extent end = along_slab(search, *cloth.end, patch.node, slab);
   return (above ? end.min - slab.upper_end : slab.lower_end - end.max) >= reach;
 }
 
@@ -79,14 +91,6 @@ Extent PyramidPairs::along_slab(const Search& search, const Planes3& at, const N
   const float normal[3] = {slab.normal.x, slab.normal.y, slab.normal.z};
   const int n = at.size(), span = 1 << node.level;
   const int first_row = node.row * span, last_row = std::min(n - 1, first_row + span);
-  if (span == 1) {
-    const auto four = [&](const Grid<float>& plane) {
-      const float *above = plane.row(first_row) + node.col, *below = plane.row(last_row) + node.col;
-      return std::array{above[0], above[1], below[0], below[1]};
-    };
-    const std::array x = four(at.x), y = four(at.y), z = four(at.z);
-    return search.kernels->along({x.data(), y.data(), z.data(), 0, 1, 4}, origin, normal);
-  }
   // The kernel needs four columns at least, a neighbour's if need be.
   const int col = std::min(node.col * span, n - std::max(4, span + 1));
   return search.kernels->along(
@@ -95,101 +99,123 @@ Extent PyramidPairs::along_slab(const Search& search, const Planes3& at, const N
       origin, normal);
 }
 
-template <class Stop, class Emit>
-void PyramidPairs::descend(const Search& search, const PlacedPair& pair, const Stop& stop,
-                           const Emit& emit) const {
-  const auto& [a, b] = pair.nodes;
-  if (stop(pair)) return emit(pair);
-  const int a_samples = surfaces_[search.a].grid->size();
-  const bool split_b = a.level == 0 || (b.level > 0 && longest_side(pair.b) > longest_side(pair.a));
-  const bool fits_slab = a.level == 0 || (!split_b && a.level <= max_slab_level && a_samples >= 5);
-  const bool body = static_cast<std::size_t>(search.b) >= cloths_;
-  if (body && fits_slab && apart_by_slab(search, pair)) return;
-  if (a.level == 0 && b.level == 0) return emit(pair);
-  const PathBoxLevels& levels = levels_[split_b ? search.b : search.a].boxes;
-  const ChildPathBoxes& children = levels.children(split_b ? b : a);
-  unsigned near = search.kernels->near_children(split_b ? pair.a : pair.b, children, search.reach);
+bool PyramidPairs::leaves_out(const Patch& patch, const Node& node, const PathBox& box) const {
+  const Search& search = patch.search;
+  // A surface of fewer cells than a patch is one.
+  const int level = std::max(node.level, PatchMotion::level), above = level - PatchMotion::level;
+  if (!patch.changed &&
+      search.changed->b->version(Node{level, node.row, node.col}) <= search.changed->since)
+    return true;
+  if (!search.same()) return apart_by_slab(patch, node, box);
+  // Of two patches the later one is found by the earlier one.
+  const unsigned last = ((place_in_order(node.row, node.col) + 1) << (2 * above)) - 1;
+  return last < patch.place ||
+         levels_[search.a].folds->unfolded(ancestor_of(patch.node, node.level), node);
+}
+
+void PyramidPairs::descend(const Patch& patch, const Node& node, const PathBox& box) const {
+  if (leaves_out(patch, node, box)) return;
+  if (node.level <= PatchMotion::level) return pair_cells(patch, node);
+  const ChildPathBoxes& children = levels_[patch.search.b].boxes.children(node);
+  unsigned near = patch.search.kernels->near_children(patch.box, children, patch.search.reach);
   for (; near != 0; near &= near - 1) {
     const int k = std::countr_zero(near);
-    if (split_b) {
-      descend(search, {{a, child_of(b, k)}, pair.a, child_box(children, k)}, stop, emit);
-    } else {
-      descend(search, {{child_of(a, k), b}, child_box(children, k), pair.b}, stop, emit);
+    descend(patch, child_of(node, k), child_box(children, k));
+  }
+}
+
+unsigned PyramidPairs::wanted_cells(const Patch& patch, const Node& cell, int tile,
+                                    unsigned near) const {
+  const UnfoldedWindows& folds = *levels_[patch.search.a].folds;
+  const Tiling tiling(levels_[patch.search.a].boxes.sides().front());
+  const int number = cell.row * tiling.cells() + cell.col;
+  const bool same_patch = tiling.patch_of(number) == tiling.patch_of(tiling.cell(tile, 0));
+  unsigned wanted = 0;
+  for (; near != 0; near &= near - 1) {
+    const int lane = std::countr_zero(near), other = tiling.cell(tile, lane);
+    // Of a patch with itself each pair once; the two triangles of a cell share an edge.
+    if (same_patch && other <= number) continue;
+    const Node node{0, other / tiling.cells(), other % tiling.cells()};
+    if (!folds.unfolded(cell, node) &&
+        !folds.unfolded(ancestor_of(cell, 1), ancestor_of(node, 1)) &&
+        !folds.unfolded_across({number, other}))
+      wanted |= 1U << lane;
+  }
+  return wanted;
+}
+
+void PyramidPairs::pair_cells(const Patch& patch, const Node& node) const {
+  const Search& search = patch.search;
+  const PathBoxLevels& boxes = levels_[search.b].boxes;
+  const int cells = levels_[search.a].boxes.sides().front();
+  const Tiling of_b(boxes.sides().front());
+  const Node first = first_cell_of(patch.node), first_b = first_cell_of(node);
+  const int patch_a = Tiling(cells).patch_of(first.row * cells + first.col),
+            patch_b = of_b.patch_of(first_b.row * of_b.cells() + first_b.col);
+  std::array<unsigned, patch_cells> near;
+  for (int row = first_b.row; row < std::min(of_b.cells(), first_b.row + Tiling::patch_side);
+       row += Tiling::rows) {
+    const int tile = of_b.tile_of(row * of_b.cells() + first_b.col);
+    search.kernels->near_cells(patch.cells, boxes.tile(row, first_b.col), search.reach,
+                               near.data());
+    for (int i = 0; i < patch_cells; ++i) {
+      if (near[i] == 0) continue;
+      const Node cell{0, first.row + i / Tiling::patch_side, first.col + i % Tiling::patch_side};
+      const unsigned wanted = search.same() ? wanted_cells(patch, cell, tile, near[i]) : near[i];
+      if (wanted != 0)
+        patch.out.push_back({cell.row * cells + cell.col, tile, wanted, patch_a, patch_b});
     }
   }
 }
 
-template <class Stop, class Emit>
-void PyramidPairs::descend_self(const Search& search, const NodePair& pair, const Stop& stop,
-                                const Emit& emit) const {
-  const auto& [a, b] = pair;
-  if (stop(pair)) return emit(pair);
-  if (a.level == 0) return;  // the two triangles of a cell share an edge
-  const Levels& levels = levels_[search.a];
-  const int cells = surfaces_[search.a].grid->cells();
-  unsigned near =
-      search.kernels->near_pairs(levels.boxes.children(a), levels.boxes.children(b), search.reach);
-  if (a == b) near &= pairs_once;
-  for (; near != 0; near &= near - 1) {
-    const int k = std::countr_zero(near);
-    const NodePair children{child_of(a, k / 4), child_of(b, k % 4)};
-    if (children.a.level == 0 && children.a == children.b) continue;
-    if (levels.folds->unfolded(children.a, children.b)) continue;
-    if (children.a.level == 0) {
-      const auto cell = [&](const Node& node) { return node.row * cells + node.col; };
-      if (!levels.folds->unfolded_across({cell(children.a), cell(children.b)})) emit(children);
-    } else {
-      descend_self(search, children, stop, emit);
-    }
-  }
+void PyramidPairs::search_patch(const Search& search, int patch,
+                                std::vector<CandidateTile>& out) const {
+  const ChangedPatches* changed = search.changed;
+  const bool own = changed == nullptr || changed->a->version(patch) > changed->since;
+  if (!own && changed->b->latest() <= changed->since) return;
+  const PathBoxLevels &of_a = levels_[search.a].boxes, &of_b = levels_[search.b].boxes;
+  const int patches = Tiling(of_a.sides().front()).patches();
+  const Node node{std::min(PatchMotion::level, of_a.top()), patch / patches, patch % patches};
+  const PathBox box = of_a.box_of(node);
+  if (!may_meet(box, of_b.root_box(), search.reach)) return;
+  const Node first = first_cell_of(node);
+  descend({search, node, box, of_a.patch(first.row, first.col), place_in_order(node.row, node.col),
+           own, out},
+          {of_b.top(), 0, 0}, of_b.root_box());
 }
 
-template <class Descend>
-void PyramidPairs::share_out(const Search& search, int tasks, ThreadTeam& team,
-                             std::vector<CandidatePair>& out, const Descend& descend) {
-  const int cells_a = surfaces_[search.a].grid->cells();
-  const int cells_b = surfaces_[search.b].grid->cells();
-  shared_.collect(tasks, team, out, [&](int i, std::vector<CandidatePair>& mine) {
-    descend(i, [&](const NodePair& pair) {
-      const int a = pair.a.row * cells_a + pair.a.col, b = pair.b.row * cells_b + pair.b.col;
-      // For a cloth with itself the order of nodes need not be that of cells.
-      mine.push_back(search.a == search.b && b < a ? CandidatePair{b, a} : CandidatePair{a, b});
-    });
+void PyramidPairs::search_all(const Search& search, ThreadTeam& team,
+                              std::vector<CandidateTile>& out) {
+  const PathBoxLevels &a = levels_[search.a].boxes, &b = levels_[search.b].boxes;
+  if (!may_meet(a.root_box(), b.root_box(), search.reach)) return;
+  const Node root{a.top(), 0, 0};
+  if (search.same() && levels_[search.a].folds->unfolded(root, root)) return;
+  const int patches = Tiling(a.sides().front()).patches();
+  found_.fill(patches * patches, team, [&](int patch, std::vector<CandidateTile>& mine) {
+    search_patch(search, patch, mine);
   });
+  append(found_, out);
 }
 
 void PyramidPairs::find(int surface_a, int surface_b, float reach, ThreadTeam& team,
-                        std::vector<CandidatePair>& out) {
-  const Search search{&collide_kernels_for(team.instructions()), surface_a, surface_b, reach};
-  const PathBoxLevels &a = levels_[surface_a].boxes, &b = levels_[surface_b].boxes;
-  const int stop_level = std::min(task_level, a.top());
-  tasks_.clear();
-  descend(
-      search, {{{a.top(), 0, 0}, {b.top(), 0, 0}}, a.root_box(), b.root_box()},
-      [&](const PlacedPair& pair) { return pair.nodes.a.level <= stop_level; },
-      [&](const PlacedPair& pair) { tasks_.push_back(pair); });
-  share_out(search, static_cast<int>(tasks_.size()), team, out, [&](int task, const auto& emit) {
-    descend(
-        search, tasks_[task], [](const PlacedPair&) { return false; },
-        [&](const PlacedPair& pair) { emit(pair.nodes); });
-  });
+                        std::vector<CandidateTile>& out) {
+  search_all({&collide_kernels_for(team.instructions()), surface_a, surface_b, reach}, team, out);
 }
 
 void PyramidPairs::find_self(int surface, float reach, float slack, ThreadTeam& team,
-                             std::vector<CandidatePair>& out) {
+                             std::vector<CandidateTile>& out) {
   levels_[surface].folds->find_unfolded(surfaces_[surface], slack, team);
-  const Search search{&collide_kernels_for(team.instructions()), surface, surface, reach};
-  const Node root{levels_[surface].boxes.top(), 0, 0};
-  const int stop_level = std::min(task_level, root.level);
-  self_tasks_.clear();
-  descend_self(
-      search, {root, root}, [&](const NodePair& pair) { return pair.a.level <= stop_level; },
-      [&](const NodePair& pair) { self_tasks_.push_back(pair); });
-  share_out(search, static_cast<int>(self_tasks_.size()), team, out,
-            [&](int task, const auto& emit) {
-              descend_self(
-                  search, self_tasks_[task], [](const NodePair&) { return false; }, emit);
-            });
+  search_all({&collide_kernels_for(team.instructions()), surface, surface, reach}, team, out);
+}
+
+bool PyramidPairs::find_changed(int surface_a, int surface_b, float reach, float slack,
+                                const ChangedPatches& changed, ThreadTeam& team,
+                                std::vector<CandidateTile>& out) {
+  if (surface_a == surface_b)
+    levels_[surface_a].folds->find_unfolded(surfaces_[surface_a], slack, team);
+  search_all({&collide_kernels_for(team.instructions()), surface_a, surface_b, reach, &changed},
+             team, out);
+  return true;
 }
 
 std::unique_ptr<Collider> make_collider_of(const PyramidOptions& /*options*/,

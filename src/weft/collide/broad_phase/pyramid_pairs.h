@@ -3,8 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "weft/collide/broad_phase/candidate_pairs.h"
-#include "weft/collide/broad_phase/chunks.h"
+#include "weft/collide/broad_phase/cell_tiles.h"
 #include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/broad_phase/path_boxes.h"
 #include "weft/collide/broad_phase/unfolded_windows.h"
@@ -12,8 +11,9 @@
 namespace weft {
 
 /// Broad phase by the mip pyramids of the images as bounding hierarchies: boxes at both ends of the
-/// step, certainly unfolded windows for a cloth with itself, slabs for bodies. All indices are
-/// implicit; fitting takes O(N).
+/// step, certainly unfolded windows for a cloth with itself, slabs for bodies. Every patch of 4 x 4
+/// cells of the one surface descends the pyramid of the other down to its patches; there each cell
+/// is compared with whole tiles. All indices are implicit; fitting takes O(N).
 class PyramidPairs final : public BroadPhase {
  public:
   /// @param grids  of all surfaces, kept by the caller; the first `cloths` are cloths
@@ -21,9 +21,12 @@ class PyramidPairs final : public BroadPhase {
 
   void refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) override;
   void find(int surface_a, int surface_b, float reach, ThreadTeam& team,
-            std::vector<CandidatePair>& out) override;
+            std::vector<CandidateTile>& out) override;
   void find_self(int surface, float reach, float slack, ThreadTeam& team,
-                 std::vector<CandidatePair>& out) override;
+                 std::vector<CandidateTile>& out) override;
+  bool find_changed(int surface_a, int surface_b, float reach, float slack,
+                    const ChangedPatches& changed, ThreadTeam& team,
+                    std::vector<CandidateTile>& out) override;
   [[nodiscard]] const PathBoxLevels* boxes(int surface) const override {
     return &levels_[static_cast<std::size_t>(surface)].boxes;
   }
@@ -35,41 +38,44 @@ class PyramidPairs final : public BroadPhase {
     SlabLevels slabs;                      // of bodies
     int fitted_to = 0;                     // name of the motion
   };
-  struct NodePair {
-    Node a, b;
-  };
-  /// A pair of nodes with its path boxes, so that no search looks them up twice.
-  struct PlacedPair {
-    NodePair nodes;
-    PathBox a, b;
-  };
   /// Parameters of one search.
   struct Search {
     const CollideKernels* kernels;
     int a = 0, b = 0;
     float reach = 0;
+    const ChangedPatches* changed = nullptr;  // null: all are wanted
+    [[nodiscard]] bool same() const { return a == b; }
+  };
+  /// A patch of the first surface, or the whole of a smaller one.
+  struct Patch {
+    const Search& search;
+    Node node;
+    PathBox box;
+    PatchBoxes cells;
+    unsigned place;  // see place_in_order
+    bool changed;
+    std::vector<CandidateTile>& out;
   };
 
-  [[nodiscard]] bool apart_by_slab(const Search& search, const PlacedPair& pair) const;
+  void search_all(const Search& search, ThreadTeam& team, std::vector<CandidateTile>& out);
+  void search_patch(const Search& search, int patch, std::vector<CandidateTile>& out) const;
+  /// Descends the second surface's pyramid from a node, and adds the pairs that may meet.
+  void descend(const Patch& patch, const Node& node, const PathBox& box) const;
+  /// Whether no pair of a patch and a node's parts is wanted, or one that may meet.
+  [[nodiscard]] bool leaves_out(const Patch& patch, const Node& node, const PathBox& box) const;
+  [[nodiscard]] bool apart_by_slab(const Patch& patch, const Node& node, const PathBox& box) const;
   [[nodiscard]] Extent along_slab(const Search& search, const Planes3& at, const Node& node,
                                   const Slab& slab) const;
-  /// Descends from a near pair until `stop(pair)` holds and emits the pairs that may meet.
-  template <class Stop, class Emit>
-  void descend(const Search& search, const PlacedPair& pair, const Stop& stop,
-               const Emit& emit) const;
-  template <class Stop, class Emit>
-  void descend_self(const Search& search, const NodePair& pair, const Stop& stop,
-                    const Emit& emit) const;
-  template <class Descend>
-  void share_out(const Search& search, int tasks, ThreadTeam& team, std::vector<CandidatePair>& out,
-                 const Descend& descend);
+  /// Adds the pairs of cells of a patch and of a node that is one.
+  void pair_cells(const Patch& patch, const Node& node) const;
+  /// Those cells of a tile of the same surface that are to be paired with a cell of the patch.
+  [[nodiscard]] unsigned wanted_cells(const Patch& patch, const Node& cell, int tile,
+                                      unsigned near) const;
 
   std::size_t cloths_;
   std::vector<Levels> levels_;  // one a surface
   std::vector<MovingSurface> surfaces_;
-  std::vector<PlacedPair> tasks_;  // of two surfaces
-  std::vector<NodePair> self_tasks_;
-  SharedPairs shared_;
+  ChunkedLists<std::vector<CandidateTile>> found_;
 };
 
 }  // namespace weft

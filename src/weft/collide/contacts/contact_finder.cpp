@@ -39,9 +39,10 @@ void ContactFinder::find_with_bodies(std::span<const MovingCloth> moving, double
     Found& one = found_[i];
     bodies.bound_exits(max_exit_speed * time_step);
     bodies.find(moving[i], world_.contact_bodies, world_.ground(), team);
-    one.corners->find({moving[i], bodies.inside(), world_.pairs().boxes(static_cast<int>(i)),
-                       world_.pairs().skin()},
-                      world_.contact_bodies, team);
+    if (one.corners->any_sharp())
+      one.corners->find({moving[i], bodies.inside(),
+                         world_.pairs().boxes(static_cast<int>(i), team), world_.pairs().skin()},
+                        world_.contact_bodies, team);
     one.contacts.clear();
     for (const std::span<const Contact> found : {bodies.contacts(), one.corners->contacts()})
       one.contacts.insert(one.contacts.end(), found.begin(), found.end());
@@ -65,14 +66,15 @@ void ContactFinder::find_between_cloths(std::span<const MovingCloth> moving, dou
       const WorldCloth &a = world_.cloths[i], &b = world_.cloths[j];
       if (i == j && !a.properties.self_collision) continue;
       const double gap = world_.gap_between(i, j);
-      const std::span<const CandidatePair> cells = world_.near_cells(i, j, team);
-      near_ = near_ || !cells.empty();
-      pair_contacts_.find(
-          {&a.grid, &b.grid, &moving[i], &moving[j], static_cast<int>(i), static_cast<int>(j),
+      const std::span<const CandidateTile> cells = world_.near_cells(i, j, team);
+      const bool near = pair_contacts_.find(
+          {&a.grid, &b.grid, &moving[i], &moving[j], &world_.pairs().tiles(static_cast<int>(i)),
+           &world_.pairs().tiles(static_cast<int>(j)), static_cast<int>(i), static_cast<int>(j),
            a.properties.rest, gap, std::sqrt(a.properties.friction * b.properties.friction),
            time_step, i == j && a.properties.rest_spacing >= min_crease_in_gaps * gap,
            untangler.marks(i, j)},
           cells, team, {found_[i].contacts, found_[j].contacts, shares_ ? &shared_ : nullptr});
+      near_ = near_ || near;
     }
   self_contacts_ = count() - with_bodies;
 }

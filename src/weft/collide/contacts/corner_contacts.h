@@ -23,6 +23,9 @@ class CornerContacts {
   /// Learns the sharp points of the next body. @param body  placed at `shape`
   void add_body(const SurfaceGrid& grid, const BodyQuery& body, const Planes3& shape);
 
+  /// Whether any body has sharp points.
+  [[nodiscard]] bool any_sharp() const { return any_sharp_; }
+
   /// State of the cloth in a step.
   struct Step {
     const MovingCloth& cloth;

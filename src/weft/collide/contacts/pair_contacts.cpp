@@ -1,10 +1,11 @@
 #include "weft/collide/contacts/pair_contacts.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdlib>
 
 #include "weft/collide/contacts/closest.h"
-#include "weft/collide/contacts/seen_cells.h"
 
 namespace weft {
 namespace {
@@ -13,10 +14,8 @@ namespace {
 /// contacts of many layers, linearised anew each step, could hardly be satisfied together and
 /// strained the cloth by several percent. The filter stops what these soft ones do not.
 constexpr double softness = 100;
-/// Cosine between the normals of cells from which on layers count as lying flat on each other; and
-/// the part of the gap kept by edges of such layers, which samples and triangles hold apart as a
-/// rule, and by the two sides of a crease, which bending holds apart.
-constexpr float flat = 0.8F;
+/// The part of the gap kept by edges of layers that lie flat on each other, which samples and
+/// triangles hold apart as a rule, and by the two sides of a crease, which bending holds apart.
 constexpr double worn = 0.5;
 /// Cells no farther apart along the cloth than this many gaps get no contact: the cloth would have
 /// to turn within half a gap to lie on itself, which bending prevents.
@@ -52,43 +51,101 @@ struct Plane {
   Vec3d surface_displacement;
 };
 
-/// Collects the contacts of one pair of cells after the other.
+/// A cell of one side of the search.
+struct Cell {
+  const SurfaceGrid* grid = nullptr;
+  int cell = 0, row = 0, col = 0;
+
+  Cell() = default;
+  Cell(const SurfaceGrid& of, int number)
+      : grid(&of), cell(number), row(number / of.cells()), col(number % of.cells()) {}
+  [[nodiscard]] int sample(int corner) const {
+    return (row + corner / 2) * grid->size() + col + corner % 2;
+  }
+  [[nodiscard]] bool is_border() const {
+    const int last = grid->cells() - 1;
+    return row == 0 || col == 0 || row == last || col == last;
+  }
+  /// Whether a corner belongs to it: its first, and at the last row and column those that no other
+  /// cell begins with.
+  [[nodiscard]] bool owns(int corner) const {
+    const int last = grid->cells() - 1;
+    return (corner % 2 == 0 || col == last) && (corner < 2 || row == last) &&
+           grid->point(sample(corner)) == sample(corner);
+  }
+  /// The edges that belong to it, in the kernels' order.
+  [[nodiscard]] std::array<int, 2> edge(int number) const {
+    if (number < 2) return {sample(0), sample(number + 1)};
+    const bool falling = grid->triangle_corners(cell, 0)[2] == 2;
+    return falling ? std::array{sample(1), sample(2)} : std::array{sample(0), sample(3)};
+  }
+  [[nodiscard]] bool shares_corner(const Cell& other) const {
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        if (grid->joint(sample(i)) == grid->joint(other.sample(j))) return true;
+    return false;
+  }
+};
+
+/// Collects the contacts of one cell with those of a tile after the other.
 class Finder {
  public:
-  Finder(const ClothPair& pair, const PairLists& lists) : pair_(pair), lists_(lists) {}
+  Finder(const ClothPair& pair, const CollideKernels& kernels, const PairLists& lists)
+      : pair_(pair), kernels_(kernels), lists_(lists) {}
 
-  void find(const CandidatePair& cells) {
-    const CandidateCell a(*pair_.grid_a, cells.a, false), b(*pair_.grid_b, cells.b, true);
-    const bool crease = pair_.same() && adjacent(a, b);
-    if (pair_.same() && (crease ? !pair_.creases : beside(a, b))) return;
-    gap_ = crease ? worn * pair_.gap : pair_.gap;
-    const MovingSurface surface_a{pair_.grid_a, &pair_.a->start, &pair_.a->position};
-    const MovingSurface surface_b{pair_.grid_b, &pair_.b->start, &pair_.b->position};
-    const CellGaps gaps(surface_a, cells.a, surface_b, cells.b);
-    const double reach = contact_margin * gap_;
-    if (gaps.apart(reach, reach)) return;
-    approach_ = gaps.max_approach();
-    samples_with_triangles(gaps, a, b);
-    samples_with_triangles(gaps, b, a);
-    if (crease) return;
-    if (gaps.parallel(flat)) gap_ = worn * pair_.gap;
-    edges(gaps, a, b);
+  /// @return whether any cells may come within the contact margin
+  bool find(const CandidateTile& found) {
+    const Cell own(*pair_.grid_a, found.cell);
+    const CellCorners corners = pair_.tiles_a->cell(found.cell);
+    const TileCorners& tile = pair_.tiles_b->tile(found.tile);
+    const bool near = gather(own, corners, tile, found);
+    if (count_ == 0) return near;
+    const auto reach = static_cast<float>(contact_margin * pair_.gap);
+    kernels_.tile_reaches(corners, tile, reach, static_cast<float>(worn) * reach, near_.data(),
+                          near_edges_.data());
+    for (int corner = 0; corner < 4; ++corner) {
+      own_corner(own, corners, tile, corner);
+      tile_corner(own, corners, tile, corner);
+    }
+    edges(own, corners, tile);
+    return near;
   }
 
  private:
-  /// Whether two cells share a corner: they fold onto each other at the crease only.
-  static bool adjacent(const CandidateCell& a, const CandidateCell& b) {
-    if (a.next_to(b)) return true;
-    if (!a.is_border() || !b.is_border()) return false;
-    return std::any_of(a.samples.begin(), a.samples.end(), [&](int s) {
-      return std::any_of(b.samples.begin(), b.samples.end(),
-                         [&](int t) { return a.grid->joint(s) == a.grid->joint(t); });
-    });
+  /// A cell of the tile that may come near.
+  struct Other {
+    Cell cell;
+    int lane = 0;
+    bool crease = false;  ///< whether both share a corner: they fold there alone
+  };
+
+  bool gather(const Cell& own, const CellCorners& corners, const TileCorners& tile,
+              const CandidateTile& found) {
+    std::array<float, tile_cells> gaps;
+    const auto reach = static_cast<float>(contact_margin * pair_.gap);
+    kernels_.tile_gaps(corners, tile, reach, reach, gaps.data());
+    count_ = 0;
+    bool near = false;
+    for (unsigned left = found.cells; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      if (gaps[lane] > 0) continue;
+      near = true;
+      const Cell cell(*pair_.grid_b, pair_.tiles_b->tiling().cell(found.tile, lane));
+      const bool crease = pair_.same() && adjacent(own, cell);
+      if (pair_.same() && (crease ? !pair_.creases : beside(own, cell))) continue;
+      others_[count_++] = {cell, lane, crease};
+    }
+    return near;
+  }
+
+  static bool adjacent(const Cell& a, const Cell& b) {
+    if (std::abs(a.row - b.row) <= 1 && std::abs(a.col - b.col) <= 1) return true;
+    return a.is_border() && b.is_border() && a.shares_corner(b);
   }
 
   /// Whether the distance between two cells along a row and a column at rest is at most
   /// beside_in_gaps.
-  [[nodiscard]] bool beside(const CandidateCell& a, const CandidateCell& b) const {
+  [[nodiscard]] bool beside(const Cell& a, const Cell& b) const {
     if (pair_.rest == nullptr) return false;
     const double limit = beside_in_gaps * pair_.gap;
     const auto [row, last_row] = std::minmax(a.row, b.row);
@@ -106,24 +163,34 @@ class Finder {
 
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }
 
-  /// Distance at the start beyond which there is no contact. [m]
-  [[nodiscard]] float near(const CellGaps& gaps) const {
-    return static_cast<float>(contact_margin * gap_ + approach_) + gaps.margin();
+  /// A corner of the cell with the tile's triangles.
+  void own_corner(const Cell& own, const CellCorners& corners, const TileCorners& tile,
+                  int corner) {
+    if (!own.owns(corner)) return;
+    kernels_.corner_over_tile(corners, corner, tile, near_.data(), found_.data());
+    for (int i = 0; i < count_; ++i)
+      samples_with_triangles(own.sample(corner), others_[i].cell, others_[i], false);
   }
 
-  void samples_with_triangles(const CellGaps& gaps, const CandidateCell& own,
-                              const CandidateCell& other) {
-    const float farthest = near(gaps);
+  /// That corner of the tile's cells with the cell's triangles.
+  void tile_corner(const Cell& own, const CellCorners& corners, const TileCorners& tile,
+                   int corner) {
+    const auto owns = [&](const Other& other) { return other.cell.owns(corner); };
+    if (std::none_of(others_.begin(), others_.begin() + count_, owns)) return;
+    kernels_.tile_over_cell(corners, tile, corner, near_.data(), found_.data());
+    for (int i = 0; i < count_; ++i)
+      if (owns(others_[i]))
+        samples_with_triangles(others_[i].cell.sample(corner), own, others_[i], true);
+  }
+
+  /// @param swapped  whether the sample is of the second cloth
+  void samples_with_triangles(int sample, const Cell& with, const Other& other, bool swapped) {
+    const int halves = found_[other.lane];
+    gap_ = other.crease ? worn * pair_.gap : pair_.gap;
     for (int half = 0; half < 2; ++half) {
-      const std::array<int, 3> corners = other.grid->triangle_corners(other.cell, half);
-      const CandidateTriangle seen(gaps, other.second, corners);
-      own.for_own_corners([&](int k) {
-        if (!seen.may_hold(gaps.start(own.second, k), farthest)) return;
-        const std::array<int, 3> triangle{other.samples[corners[0]], other.samples[corners[1]],
-                                          other.samples[corners[2]]};
-        if (!other.grid->folded(triangle))
-          sample_with_triangle(own.samples[k], triangle, own.second);
-      });
+      if ((halves >> half & 1) == 0) continue;
+      const std::array<int, 3> triangle = with.grid->triangle(with.cell, half);
+      if (!with.grid->folded(triangle)) sample_with_triangle(sample, triangle, swapped);
     }
   }
 
@@ -147,18 +214,17 @@ class Finder {
                        [&](int corner) { return grid.joint(corner) == grid.joint(sample); });
   }
 
-  void edges(const CellGaps& gaps, const CandidateCell& a, const CandidateCell& b) {
-    const float reach = near(gaps);
-    const auto seen = [&](const CandidateCell& cell) {
-      std::array<CandidateEdge, 3> edges{};
-      const auto corners = cell.own_edges();
-      for (std::size_t i = 0; i < 3; ++i) edges[i] = CandidateEdge::of(gaps, cell, corners[i]);
-      return edges;
-    };
-    const std::array<CandidateEdge, 3> of_b = seen(b);
-    for (const CandidateEdge& p : seen(a))
-      for (const CandidateEdge& q : of_b)
-        if (p.may_cross(q, reach)) add_edges(p.samples, q.samples);
+  void edges(const Cell& own, const CellCorners& corners, const TileCorners& tile) {
+    kernels_.tile_edges(corners, tile, near_edges_.data(), found_.data());
+    for (int i = 0; i < count_; ++i) {
+      const Other& other = others_[i];
+      if (other.crease) continue;
+      gap_ = near_edges_[other.lane] < near_[other.lane] ? worn * pair_.gap : pair_.gap;
+      for (auto left = static_cast<unsigned>(found_[other.lane]); left != 0; left &= left - 1) {
+        const int pair = std::countr_zero(left);
+        add_edges(own.edge(pair / 3), other.cell.edge(pair % 3));
+      }
+    }
   }
 
   void add_edges(const std::array<int, 2>& p, const std::array<int, 2>& q) {
@@ -251,9 +317,14 @@ class Finder {
   }
 
   const ClothPair& pair_;
+  const CollideKernels& kernels_;
   const PairLists& lists_;
-  double gap_ = 0;       // that contacts of the cells keep [m]
-  double approach_ = 0;  // of the cells in the step, at most [m]
+  double gap_ = 0;  // that contacts of two cells keep [m]
+  // Of one cell and a tile:
+  std::array<Other, tile_cells> others_;
+  int count_ = 0;
+  std::array<float, tile_cells> near_{}, near_edges_{};  // see CollideKernels::tile_reaches [m]
+  std::array<int, tile_cells> found_{};
 };
 
 }  // namespace
@@ -263,18 +334,22 @@ float layer_stiffness(double compliance, double time_step) {
   return static_cast<float>(softness * inertia);
 }
 
-void PairContacts::find(const ClothPair& pair, std::span<const CandidatePair> cells,
+bool PairContacts::find(const ClothPair& pair, std::span<const CandidateTile> cells,
                         ThreadTeam& team, const PairLists& lists) {
+  const CollideKernels& kernels = collide_kernels_for(team.instructions());
   found_.fill(static_cast<int>(cells.size()), team, [&](int i, Found& mine) {
     const PairLists out{mine.of_a, mine.of_b, lists.shared != nullptr ? &mine.shared : nullptr};
-    Finder(pair, out).find(cells[i]);
+    if (Finder(pair, kernels, out).find(cells[i])) mine.near = true;
   });
+  bool near = false;
   for (const Found& mine : found_.lists()) {
+    near = near || mine.near;
     lists.of_a.insert(lists.of_a.end(), mine.of_a.begin(), mine.of_a.end());
     lists.of_b.insert(lists.of_b.end(), mine.of_b.begin(), mine.of_b.end());
     if (lists.shared != nullptr)
       lists.shared->insert(lists.shared->end(), mine.shared.begin(), mine.shared.end());
   }
+  return near;
 }
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
+#include "weft/collide/broad_phase/cell_tiles.h"
 #include "weft/collide/broad_phase/chunks.h"
 #include "weft/collide/collider.h"
 #include "weft/collide/untangle/tangle_marks.h"
@@ -19,6 +20,7 @@ namespace weft {
 struct ClothPair {
   const SurfaceGrid *grid_a = nullptr, *grid_b = nullptr;
   const MovingCloth *a = nullptr, *b = nullptr;
+  const CellTiles *tiles_a = nullptr, *tiles_b = nullptr;
   int number_a = 0, number_b = 0;       ///< of the cloths; equal: one and the same
   const Planes3* rest = nullptr;        ///< of a cloth with itself, see CollidingCloth [m]
   double gap = 0;                       ///< that is kept [m]
@@ -44,14 +46,17 @@ class PairContacts {
   /// Appends contacts. Those of a cloth with itself go to `of_a` with both sides in them; those of
   /// two cloths are shared, or each cloth gets a half-space that moves with the mean motion of both
   /// sides.
-  void find(const ClothPair& pair, std::span<const CandidatePair> cells, ThreadTeam& team,
+  /// @return whether any cells may come within the contact margin
+  bool find(const ClothPair& pair, std::span<const CandidateTile> cells, ThreadTeam& team,
             const PairLists& lists);
 
  private:
   struct Found {
     std::vector<Contact> of_a, of_b;
     std::vector<SharedContact> shared;
+    bool near = false;
     void clear() {
+      near = false;
       of_a.clear();
       of_b.clear();
       shared.clear();

@@ -1,9 +1,8 @@
 #include "weft/collide/filter/cell_planes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-
-#include "weft/collide/broad_phase/cell_gaps.h"
 
 namespace weft {
 namespace {
@@ -24,19 +23,86 @@ MovingFeature moving_feature(const PlaneSide& side, const Samples& samples, int 
 }
 
 /// Numbers of a triangle's corners in its cell.
-using CellCorners = std::array<int, 3>;
+using TriangleCorners = std::array<int, 3>;
+
+/// Two cells in single precision, relative to a corner of the first, for tests that spare the exact
+/// one.
+class PlacedCells {
+ public:
+  PlacedCells(const CellCorners& a, const TileCorners& tile, int lane) {
+    const Vec3f origin{a.start[0][0], a.start[1][0], a.start[2][0]};
+    float farthest = 0;
+    const auto place = [&](Vec3f at) {
+      const Vec3f placed = at - origin;
+      for (const float x : {placed.x, placed.y, placed.z})
+        farthest = std::max(farthest, std::abs(x));
+      return placed;
+    };
+    const auto corner = [&](const auto& of, int k) { return Vec3f{of[0][k], of[1][k], of[2][k]}; };
+    const auto lane_corner = [&](const auto& of, int k) {
+      return Vec3f{of[0][k][lane], of[1][k][lane], of[2][k][lane]};
+    };
+    for (int k = 0; k < 4; ++k) {
+      start_[0][k] = place(corner(a.start, k));
+      end_[0][k] = place(corner(a.end, k));
+      start_[1][k] = place(lane_corner(tile.start, k));
+      end_[1][k] = place(lane_corner(tile.end, k));
+    }
+    margin_ = rounding * farthest;
+  }
+  [[nodiscard]] Vec3f start(bool second, int corner) const {
+    return start_[second ? 1 : 0][corner];
+  }
+  [[nodiscard]] Vec3f end(bool second, int corner) const { return end_[second ? 1 : 0][corner]; }
+  /// Generous bound of the rounding error of a gap. [m]
+  [[nodiscard]] float margin() const { return margin_; }
+
+ private:
+  /// Relative to the farthest coordinate.
+  static constexpr float rounding = 4e-6F;
+  std::array<std::array<Vec3f, 4>, 2> start_{}, end_{};
+  float margin_ = 0;
+};
 
 class Finder {
  public:
   Finder(const PlaneSearch& search, std::vector<SeparatingPlane>& out)
       : search_(search), out_(out) {}
 
-  void find(const CandidatePair& cells) {
-    if (search_.new_points != nullptr && !is_new(search_.a, cells.a) && !is_new(search_.b, cells.b))
-      return;
-    const CellGaps gaps(search_.a.surface, cells.a, search_.b.surface, cells.b);
+  void find(const CandidateTile& found, const CollideKernels& kernels) {
+    const unsigned cells = with_new_corners(found);
+    if (cells == 0) return;
     // Cells that stay apart within the slack need no test of their triangles.
-    if (gaps.apart(0, (search_.b.body ? 1 : 2) * search_.options.slack)) return;
+    std::array<float, tile_cells> gaps;
+    const CellCorners own = search_.a.tiles->cell(found.cell);
+    const TileCorners& tile = search_.b.tiles->tile(found.tile);
+    kernels.tile_gaps(own, tile, 0, wanted(), gaps.data());
+    for (unsigned left = cells; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      if (!(gaps[lane] > 0))
+        find({found.cell, search_.b.tiles->tiling().cell(found.tile, lane)},
+             PlacedCells(own, tile, lane));
+    }
+  }
+
+ private:
+  /// Gap of the ends that no displacement within the slack uses up. [m]
+  [[nodiscard]] float wanted() const {
+    return static_cast<float>((search_.b.body ? 1 : 2) * search_.options.slack);
+  }
+
+  /// The cells of a tile that have to be looked at with a cell.
+  [[nodiscard]] unsigned with_new_corners(const CandidateTile& found) const {
+    if (search_.new_points == nullptr || is_new(search_.a, found.cell)) return found.cells;
+    unsigned cells = 0;
+    for (unsigned left = found.cells; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      if (is_new(search_.b, search_.b.tiles->tiling().cell(found.tile, lane))) cells |= 1U << lane;
+    }
+    return cells;
+  }
+
+  void find(const CandidatePair& cells, const PlacedCells& placed) {
     const SurfaceGrid &a = *search_.a.surface.grid, &b = *search_.b.surface.grid;
     samples_a_ = a.corners(cells.a);
     samples_b_ = b.corners(cells.b);
@@ -48,11 +114,10 @@ class Finder {
     }
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j)
-        triangles(gaps, a.triangle_corners(cells.a, i), b.triangle_corners(cells.b, j));
+        triangles(placed, a.triangle_corners(cells.a, i), b.triangle_corners(cells.b, j));
   }
 
- private:
-  static Samples pick(const std::array<int, 4>& samples, const CellCorners& corners) {
+  static Samples pick(const std::array<int, 4>& samples, const TriangleCorners& corners) {
     return {samples[corners[0]], samples[corners[1]], samples[corners[2]]};
   }
 
@@ -60,7 +125,7 @@ class Finder {
     return side.new_cells != nullptr && side.new_cells[cell] != 0;
   }
   [[nodiscard]] bool has_new(const PlaneSide& side, const std::array<int, 4>& points,
-                             const CellCorners& corners) const {
+                             const TriangleCorners& corners) const {
     return !side.body && std::any_of(corners.begin(), corners.end(), [&](int k) {
       return search_.new_points[side.first_point + points[k]] != 0;
     });
@@ -70,11 +135,11 @@ class Finder {
   struct Part {
     const PlaneSide* side;
     bool second;  // of the two cells
-    CellCorners corners;
+    TriangleCorners corners;
     std::size_t first = 0;
   };
 
-  void triangles(const CellGaps& gaps, CellCorners a, CellCorners b) {
+  void triangles(const PlacedCells& placed, TriangleCorners a, TriangleCorners b) {
     if (search_.new_points != nullptr && !has_new(search_.a, points_a_, a) &&
         !has_new(search_.b, points_b_, b))
       return;
@@ -84,15 +149,16 @@ class Finder {
     const int shared = search_.same ? bring_shared_first(a, b) : 0;
     if (shared > 1) return;
     const Part part_a{&search_.a, false, a}, part_b{&search_.b, true, b};
-    if (shared == 0) return find(gaps, part_a, part_b);
+    if (shared == 0) return find(placed, part_a, part_b);
     // Both triangles have their shared point first: each one's opposite edge with the other as a
     // whole.
-    find(gaps, {part_a.side, false, a, 1}, part_b);
-    find(gaps, {part_b.side, true, b, 1}, part_a);
+    find(placed, {part_a.side, false, a, 1}, part_b);
+    find(placed, {part_b.side, true, b, 1}, part_a);
   }
 
-  void find(const CellGaps& gaps, const Part& a, const Part& b) {
-    if (!beside(gaps, a, b) && !apart_along_face(gaps, a, a, b) && !apart_along_face(gaps, b, a, b))
+  void find(const PlacedCells& placed, const Part& a, const Part& b) {
+    if (!beside(placed, a, b) && !apart_along_face(placed, a, a, b) &&
+        !apart_along_face(placed, b, a, b))
       add(feature_of(a), feature_of(b));
   }
   [[nodiscard]] MovingFeature feature_of(const Part& part) const {
@@ -103,33 +169,32 @@ class Finder {
 
   /// Whether the direction between their centroids certainly separates two parts, as it nearly
   /// always does for neighbours in a layer; tested in single precision.
-  [[nodiscard]] bool beside(const CellGaps& gaps, const Part& a, const Part& b) const {
+  [[nodiscard]] bool beside(const PlacedCells& placed, const Part& a, const Part& b) const {
     const auto start = [&](const Part& part, std::size_t k) {
-      return gaps.start(part.second, part.corners[k]);
+      return placed.start(part.second, part.corners[k]);
     };
-    return apart_along(gaps, middle(a, start) - middle(b, start), a, b);
+    return apart_along(placed, middle(a, start) - middle(b, start), a, b);
   }
   /// The same for the normal of a part that is a triangle, in either direction.
-  [[nodiscard]] bool apart_along_face(const CellGaps& gaps, const Part& face, const Part& a,
+  [[nodiscard]] bool apart_along_face(const PlacedCells& placed, const Part& face, const Part& a,
                                       const Part& b) const {
     if (face.first != 0) return false;
-    const Vec3f origin = gaps.start(face.second, face.corners[0]);
-    const Vec3f normal = cross(gaps.start(face.second, face.corners[1]) - origin,
-                               gaps.start(face.second, face.corners[2]) - origin);
-    return apart_along(gaps, normal, a, b) || apart_along(gaps, normal, b, a);
+    const Vec3f origin = placed.start(face.second, face.corners[0]);
+    const Vec3f normal = cross(placed.start(face.second, face.corners[1]) - origin,
+                               placed.start(face.second, face.corners[2]) - origin);
+    return apart_along(placed, normal, a, b) || apart_along(placed, normal, b, a);
   }
-  [[nodiscard]] bool apart_along(const CellGaps& gaps, Vec3f n, const Part& a,
+  [[nodiscard]] bool apart_along(const PlacedCells& placed, Vec3f n, const Part& a,
                                  const Part& b) const {
     const auto start = [&](const Part& part, std::size_t k) {
-      return gaps.start(part.second, part.corners[k]);
+      return placed.start(part.second, part.corners[k]);
     };
     const float size = std::sqrt(squared_length(n));
-    if (!(gap_along(n, a, b, start) > size * gaps.margin())) return false;
+    if (!(gap_along(n, a, b, start) > size * placed.margin())) return false;
     const auto end = [&](const Part& part, std::size_t k) {
-      return gaps.end(part.second, part.corners[k]);
+      return placed.end(part.second, part.corners[k]);
     };
-    const auto wanted = static_cast<float>((search_.b.body ? 1 : 2) * search_.options.slack);
-    return gap_along(n, a, b, end) > size * (wanted + gaps.margin());
+    return gap_along(n, a, b, end) > size * (wanted() + placed.margin());
   }
   template <class At>
   static Vec3f middle(const Part& of, const At& at) {
@@ -146,7 +211,7 @@ class Finder {
   }
 
   /// @return how many points two triangles share, 2 for more; a single one comes first in both
-  int bring_shared_first(CellCorners& a, CellCorners& b) const {
+  int bring_shared_first(TriangleCorners& a, TriangleCorners& b) const {
     int shared = 0;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
@@ -186,10 +251,11 @@ class Finder {
 
 }  // namespace
 
-void CellPlanes::find(const PlaneSearch& search, std::span<const CandidatePair> cells,
+void CellPlanes::find(const PlaneSearch& search, std::span<const CandidateTile> cells,
                       ThreadTeam& team, std::vector<SeparatingPlane>& out) {
+  const CollideKernels& kernels = collide_kernels_for(team.instructions());
   found_.fill(static_cast<int>(cells.size()), team, [&](int i, std::vector<SeparatingPlane>& mine) {
-    Finder(search, mine).find(cells[i]);
+    Finder(search, mine).find(cells[i], kernels);
   });
   append(found_, out);
 }

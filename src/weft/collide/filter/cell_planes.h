@@ -3,8 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/collide/broad_phase/candidate_pairs.h"
-#include "weft/collide/broad_phase/chunks.h"
+#include "weft/collide/broad_phase/cell_tiles.h"
 #include "weft/collide/contacts/body_contacts.h"
 #include "weft/collide/filter/separating_planes.h"
 #include "weft/collide/untangle/tangle_marks.h"
@@ -15,6 +14,7 @@ namespace weft {
 /// One surface of a search for separating planes.
 struct PlaneSide {
   MovingSurface surface;
+  const CellTiles* tiles = nullptr;
   int first_point = 0;  ///< number of its sample 0 among all cloths' samples
   bool body = false;
   const Planes3* safe_position = nullptr;  ///< of its samples, see SafePositions [n x n] [m]
@@ -42,7 +42,7 @@ class CellPlanes {
  public:
   /// Appends the planes to `out`, in an order that does not depend on the team. Features that meet
   /// at the start of the step get no plane, as none separates them.
-  void find(const PlaneSearch& search, std::span<const CandidatePair> cells, ThreadTeam& team,
+  void find(const PlaneSearch& search, std::span<const CandidateTile> cells, ThreadTeam& team,
             std::vector<SeparatingPlane>& out);
 
  private:

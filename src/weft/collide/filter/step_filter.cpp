@@ -36,7 +36,10 @@ StepFilter::StepFilter(CollisionWorld& world, const Untangler& untangler)
 
 PlaneSide StepFilter::side_of(std::size_t surface) const {
   const bool body = surface >= cloths_.size();
-  return {world_.surfaces[surface], body ? 0 : world_.cloths[surface].first_point, body,
+  return {world_.surfaces[surface],
+          &world_.pairs().tiles(static_cast<int>(surface)),
+          body ? 0 : world_.cloths[surface].first_point,
+          body,
           body ? world_.surfaces[surface].end : cloths_[surface].safe_position,
           body ? nullptr : cloths_[surface].new_cells.data()};
 }
@@ -88,7 +91,7 @@ void StepFilter::add_planes(bool all, double farthest, ThreadTeam& team) {
     for (std::size_t j = i; j < world_.surfaces.size(); ++j) {
       if (i == j && !world_.cloths[i].properties.self_collision) continue;
       const int first = static_cast<int>(i), second = static_cast<int>(j);
-      const std::span<const CandidatePair> cells =
+      const std::span<const CandidateTile> cells =
           i == j ? world_.pairs().find_self(first, reach, slack, team)
                  : world_.pairs().find(first, second, reach, team);
       PlaneSearch search{side_of(i), side_of(j), i == j, {world_.slack(), carried_}};

@@ -22,6 +22,32 @@ struct alignas(64) ChildPathBoxes {
   float lower_start[3][4], upper_start[3][4], lower_end[3][4], upper_end[3][4];
 };
 
+/// Number of cells in a tile, 2 x 4, numbered row by row; and in a patch, 4 x 4.
+inline constexpr int tile_cells = 8, patch_cells = 16;
+
+/// Path boxes of a tile's cells, axis by axis; NaN where the surface has no cell. [m]
+struct alignas(64) TileBoxes {
+  float lower_start[3][tile_cells], upper_start[3][tile_cells];
+  float lower_end[3][tile_cells], upper_end[3][tile_cells];
+};
+
+/// Path boxes of a patch's cells, row by row; NaN where the surface has no cell.
+struct PatchBoxes {
+  PathBox cells[patch_cells];
+};
+
+/// The four corners of a tile's cells at both ends of a step, axis by axis and corner by corner;
+/// NaN where the surface has no cell. [m]
+struct alignas(64) TileCorners {
+  float start[3][4][tile_cells], end[3][4][tile_cells];
+  int falling[tile_cells];  ///< 1 where a cell's diagonal joins its corners 1 and 2, else 0
+};
+/// The same of one cell.
+struct CellCorners {
+  float start[3][4], end[3][4];
+  int falling;
+};
+
 /// A block of samples, at least four columns, `stride` apart from row to row.
 struct SampleBlock {
   const float *x, *y, *z;
@@ -53,6 +79,31 @@ struct CollideKernels {
   unsigned (*near_children)(const PathBox& node, const ChildPathBoxes& children, float reach);
   /// The same for the pairs of two nodes' children (1 << (4 i + k) for i of a, k of b).
   unsigned (*near_pairs)(const ChildPathBoxes& a, const ChildPathBoxes& b, float reach);
+  /// For each cell of a patch, mask (1 << k) of a tile's cells that may come within `reach` of it,
+  /// as near_children.
+  void (*near_cells)(const PatchBoxes& patch, const TileBoxes& tile, float reach, unsigned* out);
+  /// For each of a tile's cells: by how much it certainly keeps farther from a cell than `at_start`
+  /// at the start and `at_end` at the end of the step, in the same order along one direction, as
+  /// the smaller of both; the largest over the direction between the cells and both normals. Where
+  /// it is positive the cells never meet. NaN where the tile has no cell. [m]
+  void (*tile_gaps)(const CellCorners& cell, const TileCorners& tile, float at_start, float at_end,
+                    float* out);
+  /// For each of a tile's cells, up to which distance at the start features of it and of a cell may
+  /// come within `reach` during the step; and the same of edges, for which `flat_reach` counts
+  /// where both cells are nearly parallel. [m]
+  void (*tile_reaches)(const CellCorners& cell, const TileCorners& tile, float reach,
+                       float flat_reach, float* near, float* near_edges);
+  /// Which triangles of a tile's cells may have a cell's corner above or below their inside, within
+  /// `near` at the start, rounding allowed for: bits 0 and 1 for both halves of each.
+  void (*corner_over_tile)(const CellCorners& cell, int corner, const TileCorners& tile,
+                           const float* near, int* out);
+  /// The same of that corner of each of a tile's cells, and the two triangles of a cell.
+  void (*tile_over_cell)(const CellCorners& cell, const TileCorners& tile, int corner,
+                         const float* near, int* out);
+  /// Which edges may have their closest points inside both, within `near` at the start, or are
+  /// nearly parallel: bit 3 p + q for edges p of the cell and q of each of the tile's, from corner
+  /// 0 to 1, from 0 to 2, and the diagonal.
+  void (*tile_edges)(const CellCorners& cell, const TileCorners& tile, const float* near, int* out);
   /// Extent of samples along a direction, relative to an origin (three coordinates each).
   Extent (*along)(const SampleBlock& samples, const float* origin, const float* direction);
 };

@@ -166,11 +166,14 @@ void IntersectionContours::name_contours() {
   }
 }
 
-void IntersectionContours::find(const StandingPair& pair, std::span<const CandidatePair> cells,
+void IntersectionContours::find(const StandingPair& pair, std::span<const CandidateTile> cells,
                                 ThreadTeam& team) {
+  const Tiling tiling(pair.grids[1]->cells());
   team.run([&](Worker& worker) {
-    found_.fill(static_cast<int>(cells.size()), worker,
-                [&](int i, std::vector<Segment>& mine) { find_segments(pair, cells[i], mine); });
+    found_.fill(static_cast<int>(cells.size()), worker, [&](int i, std::vector<Segment>& mine) {
+      for_pairs(cells[i], tiling,
+                [&](const CandidatePair& one) { find_segments(pair, one, mine); });
+    });
   });
   segments_.clear();
   append(found_, segments_);

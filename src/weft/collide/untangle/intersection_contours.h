@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/collide/broad_phase/candidate_pairs.h"
-#include "weft/collide/broad_phase/chunks.h"
+#include "weft/collide/broad_phase/cell_tiles.h"
 #include "weft/collide/moving_surface.h"
 #include "weft/core/disjoint_sets.h"
 #include "weft/core/thread_team.h"
@@ -53,7 +52,7 @@ struct ContourNode {
 class IntersectionContours {
  public:
   /// @param cells  all candidate pairs; their order does not matter
-  void find(const StandingPair& pair, std::span<const CandidatePair> cells, ThreadTeam& team);
+  void find(const StandingPair& pair, std::span<const CandidateTile> cells, ThreadTeam& team);
   [[nodiscard]] std::span<const ContourNode> nodes() const { return nodes_; }
   [[nodiscard]] int count() const { return contours_; }
 

@@ -115,24 +115,33 @@ void Untangler::choose_directions(const StandingPair& standing, const Pair& pair
   }
 }
 
-double Untangler::lying(const StandingPair& standing, std::span<const CandidatePair> cells,
-                        double reach) {
-  int above = 0, below = 0;
-  for (const CandidatePair& pair : cells) {
-    const Vec3d point = standing.at(0, standing.grids[0]->first_sample(pair.a));
-    for (int half = 0; half < 2; ++half) {
-      const std::array<int, 3> triangle = standing.grids[1]->triangle(pair.b, half);
-      const Vec3d a = standing.at(1, triangle[0]), b = standing.at(1, triangle[1]),
-                  c = standing.at(1, triangle[2]), normal = standing.normal(1, triangle);
-      const auto left_of = [&](Vec3d from, Vec3d to) {
-        return dot(cross(to - from, point - from), normal) > 0;
-      };
-      if (!left_of(a, b) || !left_of(b, c) || !left_of(c, a)) continue;
-      const double height = dot(normal, point - a);
-      if (std::abs(height) > reach) continue;
-      ++(height > 0 ? above : below);
-    }
+int Untangler::side_of(const StandingPair& standing, const CandidatePair& cells, double reach) {
+  const Vec3d point = standing.at(0, standing.grids[0]->first_sample(cells.a));
+  int side = 0;
+  for (int half = 0; half < 2; ++half) {
+    const std::array<int, 3> triangle = standing.grids[1]->triangle(cells.b, half);
+    const Vec3d a = standing.at(1, triangle[0]), b = standing.at(1, triangle[1]),
+                c = standing.at(1, triangle[2]), normal = standing.normal(1, triangle);
+    const auto left_of = [&](Vec3d from, Vec3d to) {
+      return dot(cross(to - from, point - from), normal) > 0;
+    };
+    if (!left_of(a, b) || !left_of(b, c) || !left_of(c, a)) continue;
+    const double height = dot(normal, point - a);
+    if (std::abs(height) <= reach) side = height > 0 ? 1 : -1;
   }
+  return side;
+}
+
+double Untangler::lying(const StandingPair& standing, std::span<const CandidateTile> cells,
+                        double reach) {
+  const Tiling tiling(standing.grids[1]->cells());
+  int above = 0, below = 0;
+  for (const CandidateTile& one : cells)
+    for_pairs(one, tiling, [&](const CandidatePair& pair) {
+      const int side = side_of(standing, pair, reach);
+      above += side > 0 ? 1 : 0;
+      below += side < 0 ? 1 : 0;
+    });
   const int all = above + below;
   return all >= min_lying ? static_cast<double>(above - below) / all : 0;
 }
@@ -211,7 +220,7 @@ void Untangler::mark(const StandingPair& standing, Pair& pair) {
 }
 
 void Untangler::find_crossings(std::size_t a, std::size_t b, std::span<const MovingCloth> cloths,
-                               std::span<const CandidatePair> cells, ThreadTeam& team) {
+                               std::span<const CandidateTile> cells, ThreadTeam& team) {
   Pair& looked = pair(a, b);
   const StandingPair standing{{grids_[a], grids_[b]}, {&cloths[a].start, &cloths[b].start}, a == b};
   looked.contours.find(standing, cells, team);

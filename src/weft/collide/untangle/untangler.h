@@ -27,7 +27,7 @@ class Untangler {
   /// Finds the crossings of a pair at the start of a step; closes the pair where there are none.
   /// @param cells  all candidate pairs
   void find_crossings(std::size_t a, std::size_t b, std::span<const MovingCloth> cloths,
-                      std::span<const CandidatePair> cells, ThreadTeam& team);
+                      std::span<const CandidateTile> cells, ThreadTeam& team);
   /// Marks of a pair that the last find_crossings found tangled; else null.
   [[nodiscard]] const TangleMarks* marks(std::size_t a, std::size_t b) const {
     return pair(a, b).crossings > 0 ? &pair(a, b).marks : nullptr;
@@ -86,7 +86,11 @@ class Untangler {
   /// Side of the second cloth on which most of the first lies where they rest on each other: from
   /// 1, where normals point to, to -1; 0 where it is unknown.
   [[nodiscard]] static double lying(const StandingPair& standing,
-                                    std::span<const CandidatePair> cells, double reach);
+                                    std::span<const CandidateTile> cells, double reach);
+  /// The side on which a cell of the first cloth begins over one of the second: 1, -1, or 0 where
+  /// it does not.
+  [[nodiscard]] static int side_of(const StandingPair& standing, const CandidatePair& cells,
+                                   double reach);
   /// Chooses the direction of contours that cut no region off, by the side that `lying` found.
   void add_lying(double side);
   void vote(const StandingPair& standing, const ContourNode& node, Verdict& verdict) const;

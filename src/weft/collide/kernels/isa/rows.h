@@ -17,6 +17,16 @@ void find_unfolded(int n, const float* const* extents, float slack, float* out);
 unsigned near_children(const PathBox& node, const ChildPathBoxes& children, float reach);
 unsigned near_pairs(const ChildPathBoxes& a, const ChildPathBoxes& b, float reach);
 Extent along(const SampleBlock& samples, const float* origin, const float* direction);
+void near_cells(const PatchBoxes& patch, const TileBoxes& tile, float reach, unsigned* out);
+void tile_gaps(const CellCorners& cell, const TileCorners& tile, float at_start, float at_end,
+               float* out);
+void tile_reaches(const CellCorners& cell, const TileCorners& tile, float reach, float flat_reach,
+                  float* near, float* near_edges);
+void corner_over_tile(const CellCorners& cell, int corner, const TileCorners& tile,
+                      const float* near, int* out);
+void tile_over_cell(const CellCorners& cell, const TileCorners& tile, int corner, const float* near,
+                    int* out);
+void tile_edges(const CellCorners& cell, const TileCorners& tile, const float* near, int* out);
 
 extern const CollideKernels collide_kernels;
 
