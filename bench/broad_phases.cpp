@@ -103,9 +103,9 @@ std::size_t count_near(const Moment& moment, int a, int b,
   std::size_t near = 0;
   for (const CandidateTile& one : found) {
     std::array<float, tile_cells> gaps;
-    kernels.tile_gaps(of_a.cell(one.cell), of_b.tile(one.tile), 0, 0, gaps.data());
-    for (unsigned left = one.cells; left != 0; left &= left - 1)
-      near += gaps[std::countr_zero(left)] < moment.reach() ? 1 : 0;
+    kernels.tile_gaps(of_a.cell(one.row_a, one.col_a), of_b.tile(of_b.tiling().tile_b(one)), 0, 0,
+                      gaps.data());
+    for_lanes(one.cells, [&](int lane) { near += gaps[lane] < moment.reach() ? 1 : 0; });
   }
   return near;
 }

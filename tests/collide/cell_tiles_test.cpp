@@ -98,7 +98,8 @@ struct Pair {
     for (int lane = 0; lane < tile_cells; ++lane)
       if (tiling.first_row(tile) + lane / Tiling::cols < 6 &&
           tiling.first_col(tile) + lane % Tiling::cols < 6)
-        visit(lane, tiling.cell(tile, lane));
+        visit(lane, tiling.cell_at(tiling.first_row(tile) + lane / Tiling::cols,
+                                   tiling.first_col(tile) + lane % Tiling::cols));
   }
 };
 
@@ -108,13 +109,16 @@ TEST(Tiling, EveryCellHasAPlaceInOneTile) {
   for (const int cells : {1, 3, 4, 7, 16}) {
     const Tiling tiling(cells);
     std::set<std::pair<int, int>> places;
-    for (int cell = 0; cell < cells * cells; ++cell) {
-      const int tile = tiling.tile_of(cell), lane = tiling.lane_of(cell);
-      EXPECT_EQ(tiling.cell(tile, lane), cell);
-      EXPECT_LT(tile, tiling.count());
-      EXPECT_EQ(tiling.patch_of(cell), tiling.patch_of(tiling.cell(tile, 0)));
-      places.insert({tile, lane});
-    }
+    for (int r = 0; r < cells; ++r)
+      for (int c = 0; c < cells; ++c) {
+        const int tile = tiling.tile_at(r, c), lane = Tiling::lane_at(r, c);
+        const int row = tiling.first_row(tile), col = tiling.first_col(tile);
+        EXPECT_EQ(row + lane / Tiling::cols, r);
+        EXPECT_EQ(col + lane % Tiling::cols, c);
+        EXPECT_LT(tile, tiling.count());
+        EXPECT_EQ(tiling.patch_at(r, c), tiling.patch_at(row, col));
+        places.insert({tile, lane});
+      }
     EXPECT_EQ(places.size(), static_cast<std::size_t>(cells * cells));
   }
 }
@@ -137,13 +141,11 @@ TEST(Tiling, PairsThatAreJoinedToTilesComeOutOnce) {
   for (const auto& [p, q] : given) pairs.push_back({p, q});
   std::vector<CandidateTile> tiles;
   join_to_tiles(a, b, pairs, tiles);
-  for (const CandidateTile& one : tiles) {
-    EXPECT_EQ(one.patch_a, a.patch_of(one.cell));
-    for_pairs(one, b, [&](const CandidatePair& pair) {
-      EXPECT_EQ(one.patch_b, b.patch_of(pair.b));
+  for (const CandidateTile& one : tiles)
+    for_pairs(one, a, b, [&](const CandidatePair& pair) {
+      EXPECT_EQ(b.tile_b(one), b.tile_at(pair.b / 13, pair.b % 13));
       EXPECT_TRUE(found.insert({pair.a, pair.b}).second);
     });
-  }
   EXPECT_EQ(found, given);
   EXPECT_LT(tiles.size(), given.size());
 }
@@ -159,8 +161,8 @@ TEST(TileGaps, WhatIsApartKeepsItsGapsAtBothEndsAndNeverMeets) {
                  at_end = static_cast<float>(random.uniform(0, 0.004));
       pair.for_tiles([&](int cell, int tile) {
         std::array<float, tile_cells> gaps;
-        baseline().tile_gaps(pair.tiles_a.cell(cell), pair.tiles_b.tile(tile), at_start, at_end,
-                             gaps.data());
+        baseline().tile_gaps(pair.tiles_a.cell(cell / 5, cell % 5), pair.tiles_b.tile(tile),
+                             at_start, at_end, gaps.data());
         pair.for_lanes(tile, [&](int lane, int other) {
           ++all;
           if (!(gaps[lane] > 0)) return;
@@ -181,7 +183,8 @@ TEST(TileGaps, LanesWithoutACellAreNeverNear) {
   const Pair pair(random, {}, 0);
   pair.for_tiles([&](int cell, int tile) {
     std::array<float, tile_cells> gaps;
-    baseline().tile_gaps(pair.tiles_a.cell(cell), pair.tiles_b.tile(tile), 0, 0, gaps.data());
+    baseline().tile_gaps(pair.tiles_a.cell(cell / 5, cell % 5), pair.tiles_b.tile(tile), 0, 0,
+                         gaps.data());
     std::set<int> there;
     pair.for_lanes(tile, [&](int lane, int /*other*/) { there.insert(lane); });
     for (int lane = 0; lane < tile_cells; ++lane)
@@ -213,8 +216,8 @@ class TileFeatures : public testing::Test {
       const Pair pair(random, {}, random.uniform(0, 0.008));
       pair.for_tiles([&](int cell, int tile) {
         std::array<float, tile_cells> near, near_edges;
-        baseline().tile_reaches(pair.tiles_a.cell(cell), pair.tiles_b.tile(tile), reach,
-                                0.5F * reach, near.data(), near_edges.data());
+        baseline().tile_reaches(pair.tiles_a.cell(cell / 5, cell % 5), pair.tiles_b.tile(tile),
+                                reach, 0.5F * reach, near.data(), near_edges.data());
         visit(pair, cell, tile, near, near_edges);
       });
     }
@@ -243,7 +246,7 @@ TEST_F(TileFeatures, WhatIsNearAtTheEndIsWithinTheReachAtTheStart) {
 TEST_F(TileFeatures, CornersOverTrianglesAreFoundBothWays) {
   Count count;
   for_rounds([&](const Pair& pair, int cell, int tile, const auto& near, const auto& /*edges*/) {
-    const CellCorners own = pair.tiles_a.cell(cell);
+    const CellCorners own = pair.tiles_a.cell(cell / 5, cell % 5);
     for (int corner = 0; corner < 4; ++corner) {
       std::array<int, tile_cells> over_tile, over_cell;
       baseline().corner_over_tile(own, corner, pair.tiles_b.tile(tile), near.data(),
@@ -279,8 +282,8 @@ TEST_F(TileFeatures, EdgesThatCrossAreFound) {
   Count count;
   for_rounds([&](const Pair& pair, int cell, int tile, const auto& near, const auto& /*edges*/) {
     std::array<int, tile_cells> crossing;
-    baseline().tile_edges(pair.tiles_a.cell(cell), pair.tiles_b.tile(tile), near.data(),
-                          crossing.data());
+    baseline().tile_edges(pair.tiles_a.cell(cell / 5, cell % 5), pair.tiles_b.tile(tile),
+                          near.data(), crossing.data());
     pair.for_lanes(tile, [&](int lane, int other) {
       for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q) {
@@ -304,7 +307,7 @@ TEST_F(TileFeatures, AreTheSameByEveryInstructionSet) {
     if (!has_instruction_set(set)) continue;
     const CollideKernels& kernels = collide_kernels_for(set);
     for_rounds([&](const Pair& pair, int cell, int tile, const auto& near, const auto& edges) {
-      const CellCorners own = pair.tiles_a.cell(cell);
+      const CellCorners own = pair.tiles_a.cell(cell / 5, cell % 5);
       const TileCorners& other = pair.tiles_b.tile(tile);
       std::array<float, tile_cells> gaps[2], reaches[2];
       std::array<int, tile_cells> over_tile[2], over_cell[2], crossing[2];

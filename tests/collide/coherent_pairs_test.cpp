@@ -23,7 +23,7 @@ constexpr int n = 33;
 Pairs set_of(std::span<const CandidateTile> found) {
   Pairs pairs;
   for (const CandidateTile& one : found)
-    for_pairs(one, Tiling(n - 1), [&](const CandidatePair& pair) {
+    for_pairs(one, Tiling(n - 1), Tiling(n - 1), [&](const CandidatePair& pair) {
       pairs.insert({pair.a, pair.b});
     });
   return pairs;
@@ -72,15 +72,17 @@ class NearCells {
     const Tiling& tiling = b_.tiling();
     std::array<float, tile_cells> gaps;
     collide_kernels_for(InstructionSet::baseline)
-        .tile_gaps(a_.cell(pair.a), b_.tile(tiling.tile_of(pair.b)), reach, reach, gaps.data());
-    return !(gaps[tiling.lane_of(pair.b)] > 0);
+        .tile_gaps(a_.cell(pair.a / (n - 1), pair.a % (n - 1)),
+                   b_.tile(tiling.tile_at(pair.b / (n - 1), pair.b % (n - 1))), reach, reach,
+                   gaps.data());
+    return !(gaps[Tiling::lane_at(pair.b / (n - 1), pair.b % (n - 1))] > 0);
   }
   /// Those of a list, in its order.
   [[nodiscard]] std::vector<std::pair<int, int>> of(std::span<const CandidateTile> found,
                                                     float reach) const {
     std::vector<std::pair<int, int>> near;
     for (const CandidateTile& one : found)
-      for_pairs(one, b_.tiling(), [&](const CandidatePair& pair) {
+      for_pairs(one, a_.tiling(), b_.tiling(), [&](const CandidatePair& pair) {
         if (has(pair, reach)) near.emplace_back(pair.a, pair.b);
       });
     return near;

@@ -249,6 +249,54 @@ TEST(ContactPipeline, WhatTheFilterHeldBackIsAContactOfTheNextSolve) {
   EXPECT_TRUE(collider->contacts(0).empty()) << "they are of one step";
 }
 
+/// Two flat sheets near each other, whose other proposals differ at one corner.
+TEST(ContactPipeline, FoundAgainAreContactsOfWhatEndsElsewhereAlone) {
+  constexpr int n = 17;
+  const BorderMates none;
+  const CollidingCloth each = statistics(none, n);
+  const std::array properties{each, each};
+  const auto collider = make_collider(PyramidOptions{}, {}, properties);
+  TestCloth low(n), high(n);
+  low.place([](int r, int c) { return Vec3d{0.1 * c, 0, 0.1 * r}; });
+  high.place([](int r, int c) { return Vec3d{0.03 + 0.1 * c, 0.007, 0.02 + 0.1 * r}; });
+  ThreadTeam team(2);
+  const std::array moving{low.moving(), high.moving()};
+  collider->share_contacts(true);
+  const auto shared = [&] {
+    const std::span<const SharedContact> found = collider->shared_contacts();
+    return std::vector<SharedContact>(found.begin(), found.end());
+  };
+  const auto among = [](const SharedContact& one, const std::vector<SharedContact>& all) {
+    return std::any_of(all.begin(), all.end(), [&](const SharedContact& other) {
+      return one.contact.samples == other.contact.samples &&
+             one.contact.normal == other.contact.normal;
+    });
+  };
+  collider->detect(moving, step, team);
+  EXPECT_TRUE(shared().empty()) << "it stays farther away than the contact margin";
+  high.position.set(0, high.start.at(0) - Vec3f{0, 0.004F, 0});
+  collider->detect_again(moving, step, team);
+  const std::vector<SharedContact> at_corner = shared();
+  ASSERT_FALSE(at_corner.empty());
+  for (const SharedContact& one : at_corner)
+    for (std::size_t k = 0; k < 4; ++k)
+      if (one.contact.weights[k] != 0) {
+        EXPECT_LT(one.contact.samples[k] / n, 9);
+        EXPECT_LT(one.contact.samples[k] % n, 9);
+      }
+  // What a detection finds that knows nothing of the one before.
+  collider->detect(moving, step, team);
+  EXPECT_EQ(shared().size(), at_corner.size());
+  for (const SharedContact& one : shared()) EXPECT_TRUE(among(one, at_corner));
+  // Within a quarter of the gap contacts stay, where a search would drop them.
+  high.position.set(0, high.start.at(0) - Vec3f{0, 0.0035F, 0});
+  collider->detect_again(moving, step, team);
+  EXPECT_EQ(shared().size(), at_corner.size());
+  high.position.set(0, high.start.at(0));
+  collider->detect_again(moving, step, team);
+  EXPECT_TRUE(shared().empty());
+}
+
 TEST(ContactPipeline, PinsAreStoppedToo) {
   constexpr int n = 5;
   const BorderMates none;

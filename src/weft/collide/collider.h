@@ -100,6 +100,12 @@ class Collider {
   /// Finds the contacts of a step from the proposals.
   virtual void detect(std::span<const MovingCloth> cloths, double time_step,
                       ThreadTeam& team) noexcept = 0;
+  /// The same for other proposals of the same step; contacts may stay where these end near those
+  /// that filter_guess left, or detect was given.
+  virtual void detect_again(std::span<const MovingCloth> cloths, double time_step,
+                            ThreadTeam& team) noexcept {
+    detect(cloths, time_step, team);
+  }
   /// Contacts of one cloth that the last detect found, for its integrator.
   [[nodiscard]] virtual std::span<const Contact> contacts(std::size_t cloth) const noexcept = 0;
   /// Chooses the form of contacts between two cloths: shared contacts, which contacts() then lacks,

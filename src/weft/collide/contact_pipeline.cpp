@@ -29,6 +29,17 @@ void ContactPipeline::detect(std::span<const MovingCloth> cloths, double time_st
   find_tangles(cloths, team);
   finder_.find_between_cloths(cloths, time_step, untangler_, team);
   finder_.add_struck(struck_.found(), time_step);
+  finder_.take_ends(cloths);
+}
+
+/// What crosses at the start of the step does so still.
+void ContactPipeline::detect_again(std::span<const MovingCloth> cloths, double time_step,
+                                   ThreadTeam& team) noexcept {
+  world_.gather_surfaces(cloths);
+  world_.refit(team);
+  finder_.find_with_bodies(cloths, time_step, team);
+  finder_.find_where_moved(cloths, time_step, untangler_, team);
+  finder_.add_struck(struck_.found(), time_step);
 }
 
 void ContactPipeline::find_tangles(std::span<const MovingCloth> cloths, ThreadTeam& team) {
@@ -42,7 +53,9 @@ void ContactPipeline::find_tangles(std::span<const MovingCloth> cloths, ThreadTe
 
 int ContactPipeline::filter_guess(std::span<const MovingCloth> cloths, double time_step,
                                   ThreadTeam& team) noexcept {
-  return filter_.run(cloths, time_step, StepFilter::Pass::guess, team).moved;
+  const int moved = filter_.run(cloths, time_step, StepFilter::Pass::guess, team).moved;
+  finder_.take_ends(cloths);
+  return moved;
 }
 
 int ContactPipeline::correct(std::size_t cloth, const MovingCloth& moving,

@@ -27,6 +27,8 @@ class ContactPipeline final : public Collider {
   }
   void detect(std::span<const MovingCloth> cloths, double time_step,
               ThreadTeam& team) noexcept override;
+  void detect_again(std::span<const MovingCloth> cloths, double time_step,
+                    ThreadTeam& team) noexcept override;
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const noexcept override {
     return finder_.contacts(cloth);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -22,12 +23,10 @@ struct CandidatePair {
 /// A cell of one surface and those of a tile of another that may meet it during a step, see
 /// Tiling; of one surface with itself each pair is in one of these.
 struct CandidateTile {
-  int cell = 0;        ///< row * (n - 1) + col
-  int tile = 0;        ///< of the second surface
-  unsigned cells = 0;  ///< bit k: the tile's cell k
-  int patch_a = 0;     ///< of the cell
-  int patch_b = 0;     ///< of the tile
-  float gap = 0;       ///< no cell of these is certainly nearer during the step [m]
+  std::uint16_t row_a = 0, col_a = 0;  ///< of the cell
+  std::uint16_t row_b = 0, col_b = 0;  ///< of the tile's first cell
+  std::uint8_t cells = 0;              ///< bit k: the tile's cell k
+  float gap = 0;                       ///< none of these is certainly nearer in the step [m]
   friend bool operator==(const CandidateTile&, const CandidateTile&) = default;
 };
 

@@ -24,26 +24,36 @@ unsigned place_in_order(int row, int col) {
   return spread(row) << 1 | spread(col);
 }
 
-void join_to_tiles(const Tiling& of_first, const Tiling& of_second,
-                   std::vector<CandidatePair>& pairs, std::vector<CandidateTile>& out) {
-  const auto tile = [&](const CandidatePair& pair) { return of_second.tile_of(pair.b); };
+void join_to_tiles(const Tiling& of_a, const Tiling& of_b, std::vector<CandidatePair>& pairs,
+                   std::vector<CandidateTile>& out) {
+  const auto tile = [&](const CandidatePair& pair) {
+    return of_b.tile_at(pair.b / of_b.cells(), pair.b % of_b.cells());
+  };
   std::sort(pairs.begin(), pairs.end(), [&](const CandidatePair& p, const CandidatePair& q) {
     if (p.a != q.a) return p.a < q.a;
     return tile(p) != tile(q) ? tile(p) < tile(q) : p.b < q.b;
   });
-  const std::size_t first = out.size();
+  int cell = -1, last = -1;
   for (const CandidatePair& pair : pairs) {
-    if (out.size() == first || out.back().cell != pair.a || out.back().tile != tile(pair))
-      out.push_back({pair.a, tile(pair), 0, of_first.patch_of(pair.a), of_second.patch_of(pair.b)});
-    out.back().cells |= 1U << of_second.lane_of(pair.b);
+    const int row_a = pair.a / of_a.cells(), col_a = pair.a % of_a.cells();
+    const int row_b = pair.b / of_b.cells(), col_b = pair.b % of_b.cells();
+    if (pair.a != cell || tile(pair) != last) {
+      cell = pair.a;
+      last = tile(pair);
+      out.push_back({static_cast<std::uint16_t>(row_a), static_cast<std::uint16_t>(col_a),
+                     static_cast<std::uint16_t>(of_b.first_row(last)),
+                     static_cast<std::uint16_t>(of_b.first_col(last))});
+    }
+    out.back().cells |= static_cast<std::uint8_t>(1U << Tiling::lane_at(row_b, col_b));
   }
 }
 
 CellTiles::CellTiles(const SurfaceGrid& grid)
     : grid_(&grid), tiling_(grid.cells()), corners_(static_cast<std::size_t>(tiling_.count())) {
-  for (int cell = 0; cell < grid.cells() * grid.cells(); ++cell)
-    corners_[tiling_.tile_of(cell)].falling[tiling_.lane_of(cell)] =
-        grid.triangle_corners(cell, 0)[2] == 2 ? 1 : 0;
+  for (int r = 0; r < grid.cells(); ++r)
+    for (int c = 0; c < grid.cells(); ++c)
+      corners_[tiling_.tile_at(r, c)].falling[Tiling::lane_at(r, c)] =
+          grid.triangle_corners(tiling_.cell_at(r, c), 0)[2] == 2 ? 1 : 0;
 }
 
 void CellTiles::fit_tile(int number) {
@@ -77,7 +87,9 @@ void CellTiles::hide_missing(int number, int rows, int cols) {
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < cols; ++c) {
       const int lane = r * Tiling::cols + c;
-      if (!grid_->missing(tiling_.cell(number, lane))) continue;
+      if (!grid_->missing(
+              tiling_.cell_at(tiling_.first_row(number) + r, tiling_.first_col(number) + c)))
+        continue;
       for (int axis = 0; axis < 3; ++axis)
         for (int corner = 0; corner < 4; ++corner)
           to.start[axis][corner][lane] = to.end[axis][corner][lane] =
@@ -94,9 +106,9 @@ void CellTiles::fit(ThreadTeam& team) {
   });
 }
 
-CellCorners CellTiles::cell(int number) const {
-  const TileCorners& of = corners_[tiling_.tile_of(number)];
-  const int lane = tiling_.lane_of(number);
+CellCorners CellTiles::cell(int row, int col) const {
+  const TileCorners& of = corners_[tiling_.tile_at(row, col)];
+  const int lane = Tiling::lane_at(row, col);
   CellCorners cell{};
   for (int axis = 0; axis < 3; ++axis)
     for (int corner = 0; corner < 4; ++corner) {

@@ -26,41 +26,55 @@ class Tiling {
   [[nodiscard]] int cells() const { return cells_; }                 ///< a side
   [[nodiscard]] int count() const { return tile_rows_ * patches_; }  ///< of tiles
   [[nodiscard]] int patches() const { return patches_; }             ///< a side
-  [[nodiscard]] int tile_of(int cell) const {
-    return cell / cells_ / rows * patches_ + cell % cells_ / cols;
+  /// Numbers of a cell, of the tile and the patch that it is in, and its place in the tile.
+  [[nodiscard]] int cell_at(int row, int col) const { return row * cells_ + col; }
+  [[nodiscard]] int tile_at(int row, int col) const { return row / rows * patches_ + col / cols; }
+  [[nodiscard]] int patch_at(int row, int col) const {
+    return row / patch_side * patches_ + col / patch_side;
   }
-  /// Place of a cell in its tile, row by row.
-  [[nodiscard]] int lane_of(int cell) const {
-    return cell / cells_ % rows * cols + cell % cells_ % cols;
-  }
-  [[nodiscard]] int cell(int tile, int lane) const {
-    return (first_row(tile) + lane / cols) * cells_ + first_col(tile) + lane % cols;
-  }
+  static int lane_at(int row, int col) { return row % rows * cols + col % cols; }
+  /// Row and column of a tile's first cell.
   [[nodiscard]] int first_row(int tile) const { return tile / patches_ * rows; }
   [[nodiscard]] int first_col(int tile) const { return tile % patches_ * cols; }
-  [[nodiscard]] int patch_of(int cell) const {
-    return cell / cells_ / patch_side * patches_ + cell % cells_ / patch_side;
+  /// The patches of a candidate's cell and tile, and its tile, if this is the tiling of their
+  /// surface.
+  [[nodiscard]] int patch_a(const CandidateTile& one) const {
+    return patch_at(one.row_a, one.col_a);
+  }
+  [[nodiscard]] int patch_b(const CandidateTile& one) const {
+    return patch_at(one.row_b, one.col_b);
+  }
+  [[nodiscard]] int tile_b(const CandidateTile& one) const { return tile_at(one.row_b, one.col_b); }
+  /// Number of a cell of a candidate's tile.
+  [[nodiscard]] int cell_b(const CandidateTile& one, int lane) const {
+    return cell_at(one.row_b + lane / cols, one.col_b + lane % cols);
   }
 
  private:
   int cells_ = 0, tile_rows_ = 0, patches_ = 0;
 };
 
+/// Calls visit(lane) for the cells of a candidate's tile.
+template <class Visit>
+void for_lanes(unsigned cells, const Visit& visit) {
+  for (; cells != 0; cells &= cells - 1) visit(std::countr_zero(cells));
+}
+/// Calls visit(pair) for the pairs of a candidate.
+template <class Visit>
+void for_pairs(const CandidateTile& found, const Tiling& of_a, const Tiling& of_b,
+               const Visit& visit) {
+  for_lanes(found.cells, [&](int lane) {
+    visit(CandidatePair{of_a.cell_at(found.row_a, found.col_a), of_b.cell_b(found, lane)});
+  });
+}
+
 /// Place of a node among those of its level in the order in which a pyramid is descended.
 [[nodiscard]] unsigned place_in_order(int row, int col);
 
-/// Calls visit(pair) for the pairs of a cell with cells of a tile.
-/// @param of_tile  the tiling of the tile's surface
-template <class Visit>
-void for_pairs(const CandidateTile& found, const Tiling& of_tile, const Visit& visit) {
-  for (unsigned left = found.cells; left != 0; left &= left - 1)
-    visit(CandidatePair{found.cell, of_tile.cell(found.tile, std::countr_zero(left))});
-}
-
 /// Joins pairs of cells into tiles, ordered by cells, then tiles.
 /// @param pairs  each once; reordered
-void join_to_tiles(const Tiling& of_first, const Tiling& of_second,
-                   std::vector<CandidatePair>& pairs, std::vector<CandidateTile>& out);
+void join_to_tiles(const Tiling& of_a, const Tiling& of_b, std::vector<CandidatePair>& pairs,
+                   std::vector<CandidateTile>& out);
 
 /// Collects pairs that a team finds, as tiles.
 class SharedPairs {
@@ -97,7 +111,7 @@ class CellTiles {
 
   [[nodiscard]] const Tiling& tiling() const { return tiling_; }
   [[nodiscard]] const TileCorners& tile(int number) const { return corners_[number]; }
-  [[nodiscard]] CellCorners cell(int number) const;
+  [[nodiscard]] CellCorners cell(int row, int col) const;
 
  private:
   void fit_tile(int number);

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 namespace weft {
 namespace {
 
-/// Where a pair of patches stands in lists.
+/// Where the pair of a candidate's patches stands in lists.
 struct Place {
   int patch_a;
   unsigned of_b;
@@ -16,8 +15,9 @@ struct Place {
     return p.patch_a != q.patch_a ? p.patch_a < q.patch_a : p.of_b < q.of_b;
   }
 };
-Place place_of(const CandidateTile& one, int patches_of_b) {
-  return {one.patch_a, place_in_order(one.patch_b / patches_of_b, one.patch_b % patches_of_b)};
+Place place_of(const CandidateTile& one, const Tiling& of_a) {
+  return {of_a.patch_a(one),
+          place_in_order(one.row_b / Tiling::patch_side, one.col_b / Tiling::patch_side)};
 }
 
 }  // namespace
@@ -108,17 +108,18 @@ void CoherentPairs::refine(int a, int b, float reach, ThreadTeam& team) {
   const CollideKernels& kernels = collide_kernels_for(team.instructions());
   found_.fill(static_cast<int>(fresh_.size()), team, [&](int i, std::vector<CandidateTile>& mine) {
     CandidateTile one = fresh_[i];
-    const float moved = motions_[a].distance(one.patch_a) + motions_[b].distance(one.patch_b);
+    const float moved = motions_[a].distance(of_a.tiling().patch_a(one)) +
+                        motions_[b].distance(of_b.tiling().patch_b(one));
     std::array<float, tile_cells> gaps;
-    kernels.tile_gaps(of_a.cell(one.cell), of_b.tile(one.tile), 0, 0, gaps.data());
+    kernels.tile_gaps(of_a.cell(one.row_a, one.col_a), of_b.tile(of_b.tiling().tile_b(one)), 0, 0,
+                      gaps.data());
     one.gap = HUGE_VALF;
-    for (unsigned left = one.cells; left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
+    for_lanes(one.cells, [&](int lane) {
       if (gaps[lane] - moved > reach + skin_)
-        one.cells &= ~(1U << lane);
+        one.cells &= static_cast<std::uint8_t>(~(1U << lane));
       else
         one.gap = std::min(one.gap, gaps[lane] - moved);
-    }
+    });
     if (one.cells != 0) mine.push_back(one);
   });
   fresh_.clear();
@@ -128,15 +129,17 @@ void CoherentPairs::refine(int a, int b, float reach, ThreadTeam& team) {
 void CoherentPairs::merge(int a, int b, int since, std::span<const CandidateTile> fresh,
                           std::vector<CandidateTile>& tiles) {
   const PatchMotion &of_a = motions_[a], &of_b = motions_[b];
-  const int patches = of_b.patches();
+  const Tiling &tiling_a = tiles_[static_cast<std::size_t>(a)].tiling(),
+               &tiling_b = tiles_[static_cast<std::size_t>(b)].tiling();
   const auto stays = [&](const CandidateTile& one) {
-    return of_a.version(one.patch_a) <= since && of_b.version(one.patch_b) <= since;
+    return of_a.version(tiling_a.patch_a(one)) <= since &&
+           of_b.version(tiling_b.patch_b(one)) <= since;
   };
   merged_.clear();
   auto next = fresh.begin();
   for (const CandidateTile& one : tiles) {
     if (!stays(one)) continue;
-    for (; next != fresh.end() && place_of(*next, patches) < place_of(one, patches); ++next)
+    for (; next != fresh.end() && place_of(*next, tiling_a) < place_of(one, tiling_a); ++next)
       merged_.push_back(*next);
     merged_.push_back(one);
   }
@@ -147,9 +150,11 @@ void CoherentPairs::merge(int a, int b, int since, std::span<const CandidateTile
 
 void CoherentPairs::collect_near(int a, int b, float reach) {
   const PatchMotion &of_a = motions_[a], &of_b = motions_[b];
+  const Tiling &tiling_a = tiles(a).tiling(), &tiling_b = tiles(b).tiling();
   near_.clear();
   for (const CandidateTile& one : list_of(a, b).tiles)
-    if (one.gap <= reach + of_a.distance(one.patch_a) + of_b.distance(one.patch_b))
+    if (one.gap <=
+        reach + of_a.distance(tiling_a.patch_a(one)) + of_b.distance(tiling_b.patch_b(one)))
       near_.push_back(one);
 }
 
@@ -182,12 +187,17 @@ void CoherentPairs::find_unfolded(int surface, float slack, ThreadTeam& team) {
 CandidateTile CoherentPairs::folded_part(int surface, const CandidateTile& of) const {
   const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
   const Tiling& tiling = tiles(surface).tiling();
+  const auto patch = [](int row, int col) {
+    return Node{PatchMotion::level, row / Tiling::patch_side, col / Tiling::patch_side};
+  };
   CandidateTile folded = of;
-  for (unsigned left = of.cells; left != 0; left &= left - 1) {
-    const int lane = std::countr_zero(left);
-    if (windows.unfolded(CandidatePair{of.cell, tiling.cell(of.tile, lane)}))
-      folded.cells &= ~(1U << lane);
-  }
+  // Windows of patches hold those of their cells.
+  if (windows.unfolded(patch(of.row_a, of.col_a), patch(of.row_b, of.col_b))) folded.cells = 0;
+  for_pairs(folded, tiling, tiling, [&](const CandidatePair& pair) {
+    if (windows.unfolded(pair))
+      folded.cells &= static_cast<std::uint8_t>(
+          ~(1U << Tiling::lane_at(pair.b / tiling.cells(), pair.b % tiling.cells())));
+  });
   return folded;
 }
 
@@ -198,7 +208,7 @@ void CoherentPairs::set_smooth_aside(int surface) {
   for (const CandidateTile& one : fresh_) {
     const CandidateTile folded = folded_part(surface, one);
     CandidateTile smooth = one;
-    smooth.cells = one.cells & ~folded.cells;
+    smooth.cells = static_cast<std::uint8_t>(one.cells & ~folded.cells);
     if (smooth.cells != 0) fresh_smooth_.push_back(smooth);
     if (folded.cells != 0) fresh_[kept++] = folded;
   }

@@ -104,7 +104,7 @@ void PatchMotion::renew(const MovingSurface& now, float limit, int version) {
   bool any = false;
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
-      if (blocks_[static_cast<std::size_t>(r) * n + c] <= limit) continue;
+      if (known_ && blocks_[static_cast<std::size_t>(r) * n + c] <= limit) continue;
       any = true;
       renew_block(now, r, c);
       for (int i = std::max(0, r - 1); i <= std::min(r, patches_ - 1); ++i)

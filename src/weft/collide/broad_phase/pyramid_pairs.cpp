@@ -124,46 +124,45 @@ void PyramidPairs::descend(const Patch& patch, const Node& node, const PathBox& 
   }
 }
 
-unsigned PyramidPairs::wanted_cells(const Patch& patch, const Node& cell, int tile,
+unsigned PyramidPairs::wanted_cells(int surface, const Node& cell, const Node& tile,
                                     unsigned near) const {
-  const UnfoldedWindows& folds = *levels_[patch.search.a].folds;
-  const Tiling tiling(levels_[patch.search.a].boxes.sides().front());
-  const int number = cell.row * tiling.cells() + cell.col;
-  const bool same_patch = tiling.patch_of(number) == tiling.patch_of(tiling.cell(tile, 0));
+  const UnfoldedWindows& folds = *levels_[surface].folds;
+  const int cells = levels_[surface].boxes.sides().front(), number = cell.row * cells + cell.col;
+  const bool same_patch =
+      ancestor_of(cell, PatchMotion::level) == ancestor_of(tile, PatchMotion::level);
   unsigned wanted = 0;
-  for (; near != 0; near &= near - 1) {
-    const int lane = std::countr_zero(near), other = tiling.cell(tile, lane);
+  for_lanes(near, [&](int lane) {
+    const Node node{0, tile.row + lane / Tiling::cols, tile.col + lane % Tiling::cols};
+    const int other = node.row * cells + node.col;
     // Of a patch with itself each pair once; the two triangles of a cell share an edge.
-    if (same_patch && other <= number) continue;
-    const Node node{0, other / tiling.cells(), other % tiling.cells()};
+    if (same_patch && other <= number) return;
     if (!folds.unfolded(cell, node) &&
         !folds.unfolded(ancestor_of(cell, 1), ancestor_of(node, 1)) &&
         !folds.unfolded_across({number, other}))
       wanted |= 1U << lane;
-  }
+  });
   return wanted;
 }
 
 void PyramidPairs::pair_cells(const Patch& patch, const Node& node) const {
   const Search& search = patch.search;
   const PathBoxLevels& boxes = levels_[search.b].boxes;
-  const int cells = levels_[search.a].boxes.sides().front();
-  const Tiling of_b(boxes.sides().front());
   const Node first = first_cell_of(patch.node), first_b = first_cell_of(node);
-  const int patch_a = Tiling(cells).patch_of(first.row * cells + first.col),
-            patch_b = of_b.patch_of(first_b.row * of_b.cells() + first_b.col);
+  const int last_row = std::min(boxes.sides().front(), first_b.row + Tiling::patch_side);
   std::array<unsigned, patch_cells> near;
-  for (int row = first_b.row; row < std::min(of_b.cells(), first_b.row + Tiling::patch_side);
-       row += Tiling::rows) {
-    const int tile = of_b.tile_of(row * of_b.cells() + first_b.col);
+  for (int row = first_b.row; row < last_row; row += Tiling::rows) {
     search.kernels->near_cells(patch.cells, boxes.tile(row, first_b.col), search.reach,
                                near.data());
     for (int i = 0; i < patch_cells; ++i) {
       if (near[i] == 0) continue;
       const Node cell{0, first.row + i / Tiling::patch_side, first.col + i % Tiling::patch_side};
-      const unsigned wanted = search.same() ? wanted_cells(patch, cell, tile, near[i]) : near[i];
+      const Node tile{0, row, first_b.col};
+      const unsigned wanted = search.same() ? wanted_cells(search.a, cell, tile, near[i]) : near[i];
       if (wanted != 0)
-        patch.out.push_back({cell.row * cells + cell.col, tile, wanted, patch_a, patch_b});
+        patch.out.push_back(
+            {static_cast<std::uint16_t>(cell.row), static_cast<std::uint16_t>(cell.col),
+             static_cast<std::uint16_t>(tile.row), static_cast<std::uint16_t>(tile.col),
+             static_cast<std::uint8_t>(wanted)});
     }
   }
 }

@@ -68,8 +68,9 @@ class PyramidPairs final : public BroadPhase {
                                   const Slab& slab) const;
   /// Adds the pairs of cells of a patch and of a node that is one.
   void pair_cells(const Patch& patch, const Node& node) const;
-  /// Those cells of a tile of the same surface that are to be paired with a cell of the patch.
-  [[nodiscard]] unsigned wanted_cells(const Patch& patch, const Node& cell, int tile,
+  /// Those of a tile's cells, which begins at a cell of the same surface, that are to be paired
+  /// with a cell.
+  [[nodiscard]] unsigned wanted_cells(int surface, const Node& cell, const Node& tile,
                                       unsigned near) const;
 
   std::size_t cloths_;

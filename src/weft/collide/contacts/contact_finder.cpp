@@ -11,12 +11,17 @@ namespace {
 /// Smallest rest spacing, in gaps, at which cells that share a corner get contacts: finer cloth
 /// bends round its thickness over several cells.
 constexpr double min_crease_in_gaps = 3;
+/// Distance in gaps up to which ends of other proposals count as the same: contacts are found from
+/// half a gap before they press.
+constexpr float same_place_in_gaps = 0.25F;
 
 }  // namespace
 
 ContactFinder::ContactFinder(CollisionWorld& world, const Obstacles& obstacles) : world_(world) {
   for (const WorldCloth& cloth : world.cloths)
-    found_.push_back({std::make_unique<CornerContacts>(cloth.grid, cloth.properties)});
+    found_.emplace_back(std::make_unique<CornerContacts>(cloth.grid, cloth.properties),
+                        cloth.grid.cells());
+  pair_contacts_ = std::vector<PairContacts>(found_.size() * found_.size());
   learn_corners(obstacles);
 }
 
@@ -57,25 +62,92 @@ int ContactFinder::count() const {
   return count;
 }
 
+template <class Visit>
+void ContactFinder::for_pairs_of_cloths(const Visit& visit) const {
+  for (std::size_t i = 0; i < found_.size(); ++i)
+    for (std::size_t j = i; j < found_.size(); ++j)
+      if (i != j || world_.cloths[i].properties.self_collision) visit(i, j);
+}
+
+ClothPair ContactFinder::pair_of(std::size_t i, std::size_t j, std::span<const MovingCloth> moving,
+                                 double time_step, const Untangler& untangler) const {
+  const WorldCloth &a = world_.cloths[i], &b = world_.cloths[j];
+  ClothPair pair;
+  pair.grid_a = &a.grid;
+  pair.grid_b = &b.grid;
+  pair.a = &moving[i];
+  pair.b = &moving[j];
+  pair.number_a = static_cast<int>(i);
+  pair.number_b = static_cast<int>(j);
+  pair.tiles_a = &world_.pairs().tiles(pair.number_a);
+  pair.tiles_b = &world_.pairs().tiles(pair.number_b);
+  pair.rest = a.properties.rest;
+  pair.gap = world_.gap_between(i, j);
+  pair.friction = std::sqrt(a.properties.friction * b.properties.friction);
+  pair.time_step = time_step;
+  pair.creases = i == j && a.properties.rest_spacing >= min_crease_in_gaps * pair.gap;
+  pair.tangle = untangler.marks(i, j);
+  return pair;
+}
+
+void ContactFinder::add_found(std::size_t i, std::size_t j) {
+  const PairFound& found = contacts_of(i, j).found();
+  const auto add = [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  add(found.of_a, found_[i].contacts);
+  add(found.of_b, found_[j].contacts);
+  add(found.shared, shared_);
+  near_ = near_ || found.near;
+}
+
 void ContactFinder::find_between_cloths(std::span<const MovingCloth> moving, double time_step,
                                         const Untangler& untangler, ThreadTeam& team) {
   shared_.clear();
   const int with_bodies = count();
-  for (std::size_t i = 0; i < moving.size(); ++i)
-    for (std::size_t j = i; j < moving.size(); ++j) {
-      const WorldCloth &a = world_.cloths[i], &b = world_.cloths[j];
-      if (i == j && !a.properties.self_collision) continue;
-      const double gap = world_.gap_between(i, j);
+  for_pairs_of_cloths([&](std::size_t i, std::size_t j) {
+    const std::span<const CandidateTile> cells = world_.near_cells(i, j, team);
+    contacts_of(i, j).find(pair_of(i, j, moving, time_step, untangler), cells, shares_, team);
+    add_found(i, j);
+  });
+  self_contacts_ = count() - with_bodies;
+}
+
+void ContactFinder::take_ends(std::span<const MovingCloth> moving) {
+  if (!near_) return;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    found_[i].ends.forget();
+    found_[i].ends.renew({nullptr, &moving[i].start, &moving[i].position}, HUGE_VALF, 0);
+  }
+}
+
+void ContactFinder::mark_moved(std::size_t cloth, const MovingCloth& moving) {
+  Found& one = found_[cloth];
+  Worker alone = Worker::lone();
+  one.ends.measure({nullptr, &moving.start, &moving.position}, alone);
+  const auto same = static_cast<float>(same_place_in_gaps * world_.gap_between(cloth, cloth));
+  const int patches = one.ends.patches() * one.ends.patches();
+  one.moved.resize(static_cast<std::size_t>(patches));
+  one.any_moved = false;
+  for (int patch = 0; patch < patches; ++patch) {
+    one.moved[patch] = one.ends.distance(patch) > same ? 1 : 0;
+    one.any_moved = one.any_moved || one.moved[patch] != 0;
+  }
+}
+
+void ContactFinder::find_where_moved(std::span<const MovingCloth> moving, double time_step,
+                                     const Untangler& untangler, ThreadTeam& team) {
+  for (std::size_t i = 0; i < moving.size(); ++i) mark_moved(i, moving[i]);
+  shared_.clear();
+  const int with_bodies = count();
+  for_pairs_of_cloths([&](std::size_t i, std::size_t j) {
+    if (found_[i].any_moved || found_[j].any_moved) {
       const std::span<const CandidateTile> cells = world_.near_cells(i, j, team);
-      const bool near = pair_contacts_.find(
-          {&a.grid, &b.grid, &moving[i], &moving[j], &world_.pairs().tiles(static_cast<int>(i)),
-           &world_.pairs().tiles(static_cast<int>(j)), static_cast<int>(i), static_cast<int>(j),
-           a.properties.rest, gap, std::sqrt(a.properties.friction * b.properties.friction),
-           time_step, i == j && a.properties.rest_spacing >= min_crease_in_gaps * gap,
-           untangler.marks(i, j)},
-          cells, team, {found_[i].contacts, found_[j].contacts, shares_ ? &shared_ : nullptr});
-      near_ = near_ || near;
+      contacts_of(i, j).find_again(pair_of(i, j, moving, time_step, untangler), cells,
+                                   {found_[i].moved, found_[j].moved}, shares_, team);
     }
+    add_found(i, j);
+  });
   self_contacts_ = count() - with_bodies;
 }
 

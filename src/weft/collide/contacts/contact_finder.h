@@ -30,6 +30,12 @@ class ContactFinder {
   /// @param untangler  knows where cloths cross
   void find_between_cloths(std::span<const MovingCloth> moving, double time_step,
                            const Untangler& untangler, ThreadTeam& team);
+  /// The same for other proposals of the step: contacts stay where both sides end near the ends
+  /// that were taken last.
+  void find_where_moved(std::span<const MovingCloth> moving, double time_step,
+                        const Untangler& untangler, ThreadTeam& team);
+  /// Takes the proposals' ends.
+  void take_ends(std::span<const MovingCloth> moving);
   /// Adds contacts of an earlier solve of the step.
   void add_struck(std::span<const StruckContact> struck, double time_step);
 
@@ -49,17 +55,33 @@ class ContactFinder {
  private:
   /// Contacts of one cloth.
   struct Found {
+    explicit Found(std::unique_ptr<CornerContacts> of_corners, int cells)
+        : corners(std::move(of_corners)), ends(cells) {}
     std::unique_ptr<CornerContacts> corners;
+    PatchMotion ends;           // from those that were taken
+    std::vector<char> moved{};  // [patches] whether they are far from there
+    bool any_moved = false;
     std::vector<Contact> contacts{};  // hard ones first
     std::size_t hard = 0;
   };
   void learn_corners(const Obstacles& obstacles);
+  [[nodiscard]] ClothPair pair_of(std::size_t i, std::size_t j, std::span<const MovingCloth> moving,
+                                  double time_step, const Untangler& untangler) const;
+  PairContacts& contacts_of(std::size_t i, std::size_t j) {
+    return pair_contacts_[i * found_.size() + j];
+  }
+  /// Calls visit(i, j) for the pairs of cloths that may touch.
+  template <class Visit>
+  void for_pairs_of_cloths(const Visit& visit) const;
+  void mark_moved(std::size_t cloth, const MovingCloth& moving);
+  /// Adds what was found between cloths to the contacts with bodies.
+  void add_found(std::size_t i, std::size_t j);
   [[nodiscard]] int count() const;
 
   CollisionWorld& world_;
   std::vector<Found> found_;  // of each cloth
   std::vector<SharedContact> shared_;
-  PairContacts pair_contacts_;
+  std::vector<PairContacts> pair_contacts_;  // [cloths x cloths]
   int self_contacts_ = 0;
   bool near_ = false, shares_ = false;
 };

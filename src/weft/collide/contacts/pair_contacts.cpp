@@ -57,8 +57,8 @@ struct Cell {
   int cell = 0, row = 0, col = 0;
 
   Cell() = default;
-  Cell(const SurfaceGrid& of, int number)
-      : grid(&of), cell(number), row(number / of.cells()), col(number % of.cells()) {}
+  Cell(const SurfaceGrid& of, int own_row, int own_col)
+      : grid(&of), cell(own_row * of.cells() + own_col), row(own_row), col(own_col) {}
   [[nodiscard]] int sample(int corner) const {
     return (row + corner / 2) * grid->size() + col + corner % 2;
   }
@@ -90,16 +90,16 @@ struct Cell {
 /// Collects the contacts of one cell with those of a tile after the other.
 class Finder {
  public:
-  Finder(const ClothPair& pair, const CollideKernels& kernels, const PairLists& lists)
-      : pair_(pair), kernels_(kernels), lists_(lists) {}
+  Finder(const ClothPair& pair, const CollideKernels& kernels, bool share, PairFound& out)
+      : pair_(pair), kernels_(kernels), share_(share), out_(out) {}
 
-  /// @return whether any cells may come within the contact margin
-  bool find(const CandidateTile& found) {
-    const Cell own(*pair_.grid_a, found.cell);
-    const CellCorners corners = pair_.tiles_a->cell(found.cell);
-    const TileCorners& tile = pair_.tiles_b->tile(found.tile);
-    const bool near = gather(own, corners, tile, found);
-    if (count_ == 0) return near;
+  void find(const CandidateTile& found) {
+    const Cell own(*pair_.grid_a, found.row_a, found.col_a);
+    const CellCorners corners = pair_.tiles_a->cell(found.row_a, found.col_a);
+    const TileCorners& tile = pair_.tiles_b->tile(pair_.tiles_b->tiling().tile_b(found));
+    gather(own, corners, tile, found);
+    if (count_ == 0) return;
+    patches_ = {pair_.tiles_a->tiling().patch_a(found), pair_.tiles_b->tiling().patch_b(found)};
     const auto reach = static_cast<float>(contact_margin * pair_.gap);
     kernels_.tile_reaches(corners, tile, reach, static_cast<float>(worn) * reach, near_.data(),
                           near_edges_.data());
@@ -108,7 +108,6 @@ class Finder {
       tile_corner(own, corners, tile, corner);
     }
     edges(own, corners, tile);
-    return near;
   }
 
  private:
@@ -119,23 +118,21 @@ class Finder {
     bool crease = false;  ///< whether both share a corner: they fold there alone
   };
 
-  bool gather(const Cell& own, const CellCorners& corners, const TileCorners& tile,
+  void gather(const Cell& own, const CellCorners& corners, const TileCorners& tile,
               const CandidateTile& found) {
     std::array<float, tile_cells> gaps;
     const auto reach = static_cast<float>(contact_margin * pair_.gap);
     kernels_.tile_gaps(corners, tile, reach, reach, gaps.data());
     count_ = 0;
-    bool near = false;
-    for (unsigned left = found.cells; left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
-      if (gaps[lane] > 0) continue;
-      near = true;
-      const Cell cell(*pair_.grid_b, pair_.tiles_b->tiling().cell(found.tile, lane));
+    for_lanes(found.cells, [&](int lane) {
+      if (gaps[lane] > 0) return;
+      out_.near = true;
+      const Cell cell(*pair_.grid_b, found.row_b + lane / Tiling::cols,
+                      found.col_b + lane % Tiling::cols);
       const bool crease = pair_.same() && adjacent(own, cell);
-      if (pair_.same() && (crease ? !pair_.creases : beside(own, cell))) continue;
+      if (pair_.same() && (crease ? !pair_.creases : beside(own, cell))) return;
       others_[count_++] = {cell, lane, crease};
-    }
-    return near;
+    });
   }
 
   static bool adjacent(const Cell& a, const Cell& b) {
@@ -261,19 +258,18 @@ class Finder {
     const Vec3d own_displacement = own.displacement(), other_displacement = other.displacement();
     if (distance + dot(normal, own_displacement - other_displacement) >= contact_margin * gap_)
       return;
+    out_.patches.push_back(patches_);
     if (pair_.same()) {
-      lists_.of_a.push_back(joint(own, other, normal));
-    } else if (lists_.shared != nullptr) {
+      out_.of_a.push_back(joint(own, other, normal));
+    } else if (share_) {
       const int a = pair_.number_a, b = pair_.number_b;
-      lists_.shared->push_back({joint(own, other, normal), swapped ? b : a, swapped ? a : b});
+      out_.shared.push_back({joint(own, other, normal), swapped ? b : a, swapped ? a : b});
     } else {
       const Vec3d middle =
           0.5 * (own.start() + other.start() + own_displacement + other_displacement);
       const double half = 0.5 * gap_, along = dot(normal, middle);
-      add_half(own, normal, {along + half, other_displacement},
-               swapped ? lists_.of_b : lists_.of_a);
-      add_half(other, -normal, {-along + half, own_displacement},
-               swapped ? lists_.of_a : lists_.of_b);
+      add_half(own, normal, {along + half, other_displacement}, swapped ? out_.of_b : out_.of_a);
+      add_half(other, -normal, {-along + half, own_displacement}, swapped ? out_.of_a : out_.of_b);
     }
   }
 
@@ -318,9 +314,11 @@ class Finder {
 
   const ClothPair& pair_;
   const CollideKernels& kernels_;
-  const PairLists& lists_;
+  bool share_;
+  PairFound& out_;
   double gap_ = 0;  // that contacts of two cells keep [m]
   // Of one cell and a tile:
+  ContactPatches patches_;
   std::array<Other, tile_cells> others_;
   int count_ = 0;
   std::array<float, tile_cells> near_{}, near_edges_{};  // see CollideKernels::tile_reaches [m]
@@ -334,22 +332,60 @@ float layer_stiffness(double compliance, double time_step) {
   return static_cast<float>(softness * inertia);
 }
 
-bool PairContacts::find(const ClothPair& pair, std::span<const CandidateTile> cells,
-                        ThreadTeam& team, const PairLists& lists) {
+void PairFound::clear() {
+  of_a.clear();
+  of_b.clear();
+  shared.clear();
+  patches.clear();
+  near = false;
+}
+
+void PairFound::append(const PairFound& other) {
+  of_a.insert(of_a.end(), other.of_a.begin(), other.of_a.end());
+  of_b.insert(of_b.end(), other.of_b.begin(), other.of_b.end());
+  shared.insert(shared.end(), other.shared.begin(), other.shared.end());
+  patches.insert(patches.end(), other.patches.begin(), other.patches.end());
+  near = near || other.near;
+}
+
+void PairContacts::find(const ClothPair& pair, std::span<const CandidateTile> cells, bool share,
+                        ThreadTeam& team) {
   const CollideKernels& kernels = collide_kernels_for(team.instructions());
-  found_.fill(static_cast<int>(cells.size()), team, [&](int i, Found& mine) {
-    const PairLists out{mine.of_a, mine.of_b, lists.shared != nullptr ? &mine.shared : nullptr};
-    if (Finder(pair, kernels, out).find(cells[i])) mine.near = true;
-  });
-  bool near = false;
-  for (const Found& mine : found_.lists()) {
-    near = near || mine.near;
-    lists.of_a.insert(lists.of_a.end(), mine.of_a.begin(), mine.of_a.end());
-    lists.of_b.insert(lists.of_b.end(), mine.of_b.begin(), mine.of_b.end());
-    if (lists.shared != nullptr)
-      lists.shared->insert(lists.shared->end(), mine.shared.begin(), mine.shared.end());
+  parts_.fill(static_cast<int>(cells.size()), team,
+              [&](int i, PairFound& mine) { Finder(pair, kernels, share, mine).find(cells[i]); });
+  found_.clear();
+  for (const PairFound& part : parts_.lists()) found_.append(part);
+}
+
+void PairContacts::keep_unmoved(const MovedPatches& moved) {
+  std::size_t kept = 0;
+  const auto keep = [&](auto& list, std::size_t i) {
+    if (!list.empty()) list[kept] = list[i];
+  };
+  for (std::size_t i = 0; i < found_.patches.size(); ++i) {
+    if (moved.a[found_.patches[i].a] != 0 || moved.b[found_.patches[i].b] != 0) continue;
+    keep(found_.of_a, i);
+    keep(found_.of_b, i);
+    keep(found_.shared, i);
+    found_.patches[kept++] = found_.patches[i];
   }
-  return near;
+  const auto cut = [&](auto& list) { list.resize(std::min(list.size(), kept)); };
+  cut(found_.of_a);
+  cut(found_.of_b);
+  cut(found_.shared);
+  cut(found_.patches);
+}
+
+void PairContacts::find_again(const ClothPair& pair, std::span<const CandidateTile> cells,
+                              const MovedPatches& moved, bool share, ThreadTeam& team) {
+  keep_unmoved(moved);
+  const CollideKernels& kernels = collide_kernels_for(team.instructions());
+  const Tiling &of_a = pair.tiles_a->tiling(), &of_b = pair.tiles_b->tiling();
+  parts_.fill(static_cast<int>(cells.size()), team, [&](int i, PairFound& mine) {
+    if (moved.a[of_a.patch_a(cells[i])] != 0 || moved.b[of_b.patch_b(cells[i])] != 0)
+      Finder(pair, kernels, share, mine).find(cells[i]);
+  });
+  for (const PairFound& part : parts_.lists()) found_.append(part);
 }
 
 }  // namespace weft

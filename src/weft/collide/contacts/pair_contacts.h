@@ -31,10 +31,26 @@ struct ClothPair {
   [[nodiscard]] bool same() const { return number_a == number_b; }
 };
 
-/// Output lists for the contacts of a pair.
-struct PairLists {
-  std::vector<Contact>&of_a, &of_b;
-  std::vector<SharedContact>* shared = nullptr;  ///< null: each cloth gets a half-space
+/// The patches of both sides of a contact.
+struct ContactPatches {
+  int a = 0, b = 0;
+};
+
+/// The contacts of a pair. Those of a cloth with itself are in `of_a` with both sides in them;
+/// those of two cloths are shared, or each cloth has a half-space that moves with the mean motion
+/// of both sides.
+struct PairFound {
+  std::vector<Contact> of_a, of_b;
+  std::vector<SharedContact> shared;
+  std::vector<ContactPatches> patches;  ///< one for each contact of the lists that have any
+  bool near = false;                    ///< whether any cells may come within the contact margin
+  void clear();
+  void append(const PairFound& other);
+};
+
+/// Marks of patches, of both cloths of a pair.
+struct MovedPatches {
+  std::span<const char> a, b;
 };
 
 /// Finds contacts between parts of cloths that come closer than the contact margin during a step:
@@ -43,26 +59,19 @@ struct PairLists {
 /// that they begin.
 class PairContacts {
  public:
-  /// Appends contacts. Those of a cloth with itself go to `of_a` with both sides in them; those of
-  /// two cloths are shared, or each cloth gets a half-space that moves with the mean motion of both
-  /// sides.
-  /// @return whether any cells may come within the contact margin
-  bool find(const ClothPair& pair, std::span<const CandidateTile> cells, ThreadTeam& team,
-            const PairLists& lists);
+  /// @param share  whether contacts of two cloths are shared
+  void find(const ClothPair& pair, std::span<const CandidateTile> cells, bool share,
+            ThreadTeam& team);
+  /// Finds contacts anew that have a moved patch, and keeps the others.
+  void find_again(const ClothPair& pair, std::span<const CandidateTile> cells,
+                  const MovedPatches& moved, bool share, ThreadTeam& team);
+  [[nodiscard]] const PairFound& found() const { return found_; }
 
  private:
-  struct Found {
-    std::vector<Contact> of_a, of_b;
-    std::vector<SharedContact> shared;
-    bool near = false;
-    void clear() {
-      near = false;
-      of_a.clear();
-      of_b.clear();
-      shared.clear();
-    }
-  };
-  ChunkedLists<Found> found_;
+  void keep_unmoved(const MovedPatches& moved);
+
+  PairFound found_;
+  ChunkedLists<PairFound> parts_;
 };
 
 }  // namespace weft

@@ -1,7 +1,6 @@
 #include "weft/collide/filter/cell_planes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace weft {
@@ -74,15 +73,15 @@ class Finder {
     if (cells == 0) return;
     // Cells that stay apart within the slack need no test of their triangles.
     std::array<float, tile_cells> gaps;
-    const CellCorners own = search_.a.tiles->cell(found.cell);
-    const TileCorners& tile = search_.b.tiles->tile(found.tile);
+    const Tiling &of_a = search_.a.tiles->tiling(), &of_b = search_.b.tiles->tiling();
+    const CellCorners own = search_.a.tiles->cell(found.row_a, found.col_a);
+    const TileCorners& tile = search_.b.tiles->tile(of_b.tile_b(found));
     kernels.tile_gaps(own, tile, 0, wanted(), gaps.data());
-    for (unsigned left = cells; left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
+    for_lanes(cells, [&](int lane) {
       if (!(gaps[lane] > 0))
-        find({found.cell, search_.b.tiles->tiling().cell(found.tile, lane)},
+        find({of_a.cell_at(found.row_a, found.col_a), of_b.cell_b(found, lane)},
              PlacedCells(own, tile, lane));
-    }
+    });
   }
 
  private:
@@ -93,12 +92,13 @@ class Finder {
 
   /// The cells of a tile that have to be looked at with a cell.
   [[nodiscard]] unsigned with_new_corners(const CandidateTile& found) const {
-    if (search_.new_points == nullptr || is_new(search_.a, found.cell)) return found.cells;
+    const Tiling &of_a = search_.a.tiles->tiling(), &of_b = search_.b.tiles->tiling();
+    if (search_.new_points == nullptr || is_new(search_.a, of_a.cell_at(found.row_a, found.col_a)))
+      return found.cells;
     unsigned cells = 0;
-    for (unsigned left = found.cells; left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
-      if (is_new(search_.b, search_.b.tiles->tiling().cell(found.tile, lane))) cells |= 1U << lane;
-    }
+    for_lanes(found.cells, [&](int lane) {
+      if (is_new(search_.b, of_b.cell_b(found, lane))) cells |= 1U << lane;
+    });
     return cells;
   }
 

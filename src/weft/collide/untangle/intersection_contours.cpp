@@ -168,10 +168,10 @@ void IntersectionContours::name_contours() {
 
 void IntersectionContours::find(const StandingPair& pair, std::span<const CandidateTile> cells,
                                 ThreadTeam& team) {
-  const Tiling tiling(pair.grids[1]->cells());
+  const Tiling of_a(pair.grids[0]->cells()), of_b(pair.grids[1]->cells());
   team.run([&](Worker& worker) {
     found_.fill(static_cast<int>(cells.size()), worker, [&](int i, std::vector<Segment>& mine) {
-      for_pairs(cells[i], tiling,
+      for_pairs(cells[i], of_a, of_b,
                 [&](const CandidatePair& one) { find_segments(pair, one, mine); });
     });
   });

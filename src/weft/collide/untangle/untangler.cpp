@@ -134,10 +134,10 @@ int Untangler::side_of(const StandingPair& standing, const CandidatePair& cells,
 
 double Untangler::lying(const StandingPair& standing, std::span<const CandidateTile> cells,
                         double reach) {
-  const Tiling tiling(standing.grids[1]->cells());
+  const Tiling of_a(standing.grids[0]->cells()), of_b(standing.grids[1]->cells());
   int above = 0, below = 0;
   for (const CandidateTile& one : cells)
-    for_pairs(one, tiling, [&](const CandidatePair& pair) {
+    for_pairs(one, of_a, of_b, [&](const CandidatePair& pair) {
       const int side = side_of(standing, pair, reach);
       above += side > 0 ? 1 : 0;
       below += side < 0 ? 1 : 0;

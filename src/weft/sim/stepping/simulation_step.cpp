@@ -109,7 +109,7 @@ void Simulation::Parts::solve_all(FrameReport& report) {
   gather_moving();
   if (!watched || !solves_go_far()) return;
   clock.lap_ms();
-  collider->detect(moving, time_step, team);
+  collider->detect_again(moving, time_step, team);
   report.collide_ms += clock.lap_ms();
   iterate_all();
 }
