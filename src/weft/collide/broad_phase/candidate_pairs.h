@@ -58,7 +58,8 @@ class BroadPhase {
   virtual void find_self(int surface, float reach, float slack, ThreadTeam& team,
                          std::vector<CandidateTile>& out) = 0;
   /// The same as find or find_self, of changed patches alone, ordered by the patches of the first
-  /// surface and then by places_in_order of those of the second.
+  /// surface and then by place_in_order of those of the second. A cloth's neighbours along itself
+  /// are left out, see UnfoldedWindows::neighbours.
   /// @param slack  of a cloth with itself
   /// @return false where the phase cannot tell parts of a search from the whole
   virtual bool find_changed(int /*surface_a*/, int /*surface_b*/, float /*reach*/, float /*slack*/,

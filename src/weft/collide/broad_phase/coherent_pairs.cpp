@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace weft {
 namespace {
@@ -187,35 +188,32 @@ void CoherentPairs::find_unfolded(int surface, float slack, ThreadTeam& team) {
 CandidateTile CoherentPairs::folded_part(int surface, const CandidateTile& of) const {
   const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
   const Tiling& tiling = tiles(surface).tiling();
-  const auto patch = [](int row, int col) {
-    return Node{PatchMotion::level, row / Tiling::patch_side, col / Tiling::patch_side};
-  };
   CandidateTile folded = of;
-  // Windows of patches hold those of their cells.
-  if (windows.unfolded(patch(of.row_a, of.col_a), patch(of.row_b, of.col_b))) folded.cells = 0;
-  for_pairs(folded, tiling, tiling, [&](const CandidatePair& pair) {
-    if (windows.unfolded(pair))
-      folded.cells &= static_cast<std::uint8_t>(
-          ~(1U << Tiling::lane_at(pair.b / tiling.cells(), pair.b % tiling.cells())));
+  const int cell = tiling.cell_at(of.row_a, of.col_a);
+  for_lanes(of.cells, [&](int lane) {
+    if (windows.unfolded(CandidatePair{cell, tiling.cell_b(of, lane)}))
+      folded.cells &= static_cast<std::uint8_t>(~(1U << lane));
   });
   return folded;
 }
 
-/// Neighbours in unfolded rectangles are most of all pairs, and their gaps are of no use.
-void CoherentPairs::set_smooth_aside(int surface) {
-  fresh_smooth_.clear();
+void CoherentPairs::drop_neighbours() {
   std::size_t kept = 0;
-  for (const CandidateTile& one : fresh_) {
-    const CandidateTile folded = folded_part(surface, one);
-    CandidateTile smooth = one;
-    smooth.cells = static_cast<std::uint8_t>(one.cells & ~folded.cells);
-    if (smooth.cells != 0) fresh_smooth_.push_back(smooth);
-    if (folded.cells != 0) fresh_[kept++] = folded;
+  for (CandidateTile one : fresh_) {
+    for_lanes(one.cells, [&](int lane) {
+      const int row = one.row_b + lane / Tiling::cols, col = one.col_b + lane % Tiling::cols;
+      if (std::abs(row - one.row_a) <= UnfoldedWindows::neighbours &&
+          std::abs(col - one.col_a) <= UnfoldedWindows::neighbours)
+        one.cells &= static_cast<std::uint8_t>(~(1U << lane));
+    });
+    if (one.cells != 0) fresh_[kept++] = one;
   }
   fresh_.resize(kept);
 }
 
-/// Unfolded neighbours are left out also because planes between them would hinder rotation.
+/// Neighbours along the cloth are most of all pairs that are near, and their gaps are of no use:
+/// those in folded windows are told anew each time. Unfolded ones are left out also because planes
+/// between them would hinder rotation.
 std::span<const CandidateTile> CoherentPairs::find_self(int surface, float reach, float slack,
                                                         ThreadTeam& team) {
   List& list = list_of(surface, surface);
@@ -225,24 +223,30 @@ std::span<const CandidateTile> CoherentPairs::find_self(int surface, float reach
     list.version = -1;
   }
   if (!is_complete(surface, surface, list)) {
-    if (search(surface, surface, list, team)) list.version = -1;
-    if (!fresh_.empty()) find_unfolded(surface, slack, team);
-    set_smooth_aside(surface);
+    if (search(surface, surface, list, team)) {
+      list.version = -1;
+      drop_neighbours();
+    }
     refine(surface, surface, list.reach, team);
     merge(surface, surface, list.version, fresh_, list.tiles);
-    merge(surface, surface, list.version, fresh_smooth_, list.smooth);
     list.version = version_;
   }
-  if (list.tiles.empty() && list.smooth.empty()) return {};
   find_unfolded(surface, slack, team);
   collect_near(surface, surface, reach);
-  near_.insert(near_.end(), list.smooth.begin(), list.smooth.end());
-  found_.fill(static_cast<int>(near_.size()), team, [&](int i, std::vector<CandidateTile>& mine) {
-    const CandidateTile folded = folded_part(surface, near_[i]);
-    if (folded.cells != 0) mine.push_back(folded);
-  });
-  near_.clear();
-  append(found_, near_);
+  const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
+  fresh_.clear();
+  if (!windows.all_unfolded()) {
+    found_.fill(static_cast<int>(near_.size()), team, [&](int i, std::vector<CandidateTile>& mine) {
+      const CandidateTile folded = folded_part(surface, near_[i]);
+      if (folded.cells != 0) mine.push_back(folded);
+    });
+    append(found_, fresh_);
+    found_.fill(now_[surface].grid->cells(), team, [&](int row, std::vector<CandidateTile>& mine) {
+      windows.find_folded_neighbours(row, mine);
+    });
+    append(found_, fresh_);
+  }
+  std::swap(near_, fresh_);
   if (!near_.empty()) fit_tiles(surface, surface, team);
   return near_;
 }

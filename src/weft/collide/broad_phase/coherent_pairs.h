@@ -50,7 +50,6 @@ class CoherentPairs {
     float reach = 0, slack = 0;  // largest that were asked for
     int version = -1;            // of patches, up to which it is complete
     std::vector<CandidateTile> tiles;
-    std::vector<CandidateTile> smooth;  // neighbours whose rectangle was unfolded, without gaps
   };
   List& list_of(int a, int b) { return lists_[static_cast<std::size_t>(a) * motions_.size() + b]; }
   [[nodiscard]] bool is_complete(int a, int b, const List& list) const {
@@ -68,8 +67,8 @@ class CoherentPairs {
              std::vector<CandidateTile>& tiles);
   void find_unfolded(int surface, float slack, ThreadTeam& team);
   [[nodiscard]] CandidateTile folded_part(int surface, const CandidateTile& of) const;
-  /// Moves neighbours in unfolded rectangles from fresh_ to fresh_smooth_.
-  void set_smooth_aside(int surface);
+  /// Drops neighbours along a cloth from fresh_: which of them are folded is told by windows.
+  void drop_neighbours();
   /// Fills near_ with those pairs of a list that may come closer than `reach` now.
   void collect_near(int a, int b, float reach);
 
@@ -81,7 +80,7 @@ class CoherentPairs {
   std::vector<CellTiles> tiles_;          // now
   std::vector<UnfoldedWindows> windows_;  // of each cloth, now
   std::vector<float> found_slack_;        // per cloth, the slack of its windows; -1: none
-  std::vector<CandidateTile> near_, fresh_, fresh_smooth_, merged_;
+  std::vector<CandidateTile> near_, fresh_, merged_;
   std::vector<List> lists_;  // [surfaces x surfaces]
   ChunkedLists<std::vector<CandidateTile>> found_;
   int version_ = 0;           // of patches that are renewed now

@@ -38,25 +38,6 @@ void put(const PathBox& box, int child, ChildPathBoxes& to) {
 
 }  // namespace
 
-float longest_side(const PathBox& box) {
-  float longest = 0;
-  for (int k = 0; k < 3; ++k)
-    longest = max(longest, max(box.upper_start[k], box.upper_end[k]) -
-                               min(box.lower_start[k], box.lower_end[k]));
-  return longest;
-}
-
-PathBox child_box(const ChildPathBoxes& of, int child) {
-  PathBox box{};
-  for (int k = 0; k < 3; ++k) {
-    box.lower_start[k] = of.lower_start[k][child];
-    box.upper_start[k] = of.upper_start[k][child];
-    box.lower_end[k] = of.lower_end[k][child];
-    box.upper_end[k] = of.upper_end[k][child];
-  }
-  return box;
-}
-
 PathBoxLevels::PathBoxLevels(int cells) : sides_(level_sides(cells)) {
   for (Grid<float>& plane : cells_) plane = Grid<float>(cells, cells);
   children_.resize(sides_.size());

@@ -11,10 +11,6 @@
 
 namespace weft {
 
-/// Longest side of the box that a node sweeps in a step. [m]
-float longest_side(const PathBox& box);
-PathBox child_box(const ChildPathBoxes& of, int child);
-
 /// The path boxes of all nodes of a surface's mip pyramid.
 class PathBoxLevels {
  public:

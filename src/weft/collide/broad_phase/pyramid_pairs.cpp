@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 
 #include "weft/collide/contact_pipeline.h"
 
 namespace weft {
 namespace {
-
-/// Fewest samples a side of a cloth that is compared with slabs.
-constexpr int min_slab_size = 5;
-/// Generous bound of the rounding error of a distance along a slab, relative to the nodes' sizes.
-constexpr float slab_rounding = 1e-5F;
 
 Node child_of(const Node& node, int k) {
   return {node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2};
@@ -21,6 +17,18 @@ Node ancestor_of(const Node& node, int level) {
   return {level, node.row >> (level - node.level), node.col >> (level - node.level)};
 }
 Node first_cell_of(const Node& node) { return {0, node.row << node.level, node.col << node.level}; }
+/// Those cells of a tile, which begins at a cell, that are neighbours of a cell along the surface.
+unsigned neighbours_in(const Node& cell, const Node& tile) {
+  constexpr int near = UnfoldedWindows::neighbours;
+  const int first = std::max(0, cell.col - near - tile.col),
+            last = std::min(Tiling::cols - 1, cell.col + near - tile.col);
+  if (last < first) return 0;
+  const unsigned cols = ((1U << (last - first + 1)) - 1) << first;
+  unsigned found = 0;
+  for (int r = 0; r < Tiling::rows; ++r)
+    if (std::abs(tile.row + r - cell.row) <= near) found |= cols << (Tiling::cols * r);
+  return found;
+}
 bool may_meet(const PathBox& a, const PathBox& b, float reach) {
   for (int k = 0; k < 3; ++k) {
     const float above =
@@ -34,23 +42,17 @@ bool may_meet(const PathBox& a, const PathBox& b, float reach) {
 
 }  // namespace
 
-PyramidPairs::PyramidPairs(std::span<const SurfaceGrid* const> grids, std::size_t cloths)
-    : cloths_(cloths) {
+PyramidPairs::PyramidPairs(std::span<const SurfaceGrid* const> grids, std::size_t cloths) {
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const int cells = grids[i]->cells();
     levels_.emplace_back();
     levels_.back().boxes = PathBoxLevels(cells);
-    if (i < cloths) {
-      levels_.back().folds.emplace(cells);
-    } else {
-      levels_.back().slabs = SlabLevels(cells);
-    }
+    if (i < cloths) levels_.back().folds.emplace(cells);
   }
 }
 
 void PyramidPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& team) {
   surfaces_.assign(surfaces.begin(), surfaces.end());
-  const CollideKernels& kernels = collide_kernels_for(team.instructions());
   const auto is_fitted = [&](std::size_t i) {
     return surfaces_[i].name != 0 && surfaces_[i].name == levels_[i].fitted_to;
   };
@@ -63,64 +65,33 @@ void PyramidPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& te
       Levels& levels = levels_[i];
       if (is_fitted(i)) continue;
       levels.boxes.fit(of, worker);
-      if (i >= cloths_) levels.slabs.fit(kernels, of, worker);
     }
   });
   for (std::size_t i = 0; i < surfaces_.size(); ++i) levels_[i].fitted_to = surfaces_[i].name;
 }
 
-bool PyramidPairs::apart_by_slab(const Patch& patch, const Node& node, const PathBox& box) const {
-  const Search& search = patch.search;
-  if (static_cast<std::size_t>(search.b) < cloths_) return false;
-  const Slab* found = levels_[search.b].slabs.find(node);
-  if (found == nullptr || found->normal == Vec3f{}) return false;
-  const Slab& slab = *found;
-  const MovingSurface& cloth = surfaces_[search.a];
-  if (cloth.grid->size() < min_slab_size) return false;
-  const float reach = search.reach + slab_rounding * (longest_side(patch.box) + longest_side(box));
-  const Extent start = along_slab(search, *cloth.start, patch.node, slab);
-  const bool above = start.min - slab.upper_start >= reach;
-  if (!above && !(slab.lower_start - start.max >= reach)) return false;
-  const Extent end = along_slab(search, *cloth.end, patch.node, slab);
-  return (above ? end.min - slab.upper_end : slab.lower_end - end.max) >= reach;
-}
-
-Extent PyramidPairs::along_slab(const Search& search, const Planes3& at, const Node& node,
-                                const Slab& slab) const {
-  const float origin[3] = {slab.origin.x, slab.origin.y, slab.origin.z};
-  const float normal[3] = {slab.normal.x, slab.normal.y, slab.normal.z};
-  const int n = at.size(), span = 1 << node.level;
-  const int first_row = node.row * span, last_row = std::min(n - 1, first_row + span);
-  // The kernel needs four columns at least, a neighbour's if need be.
-  const int col = std::min(node.col * span, n - std::max(4, span + 1));
-  return search.kernels->along(
-      {at.x.row(first_row) + col, at.y.row(first_row) + col, at.z.row(first_row) + col,
-       static_cast<long>(at.x.stride()), last_row - first_row + 1, std::max(4, span + 1)},
-      origin, normal);
-}
-
-bool PyramidPairs::leaves_out(const Patch& patch, const Node& node, const PathBox& box) const {
+bool PyramidPairs::leaves_out(const Patch& patch, const Node& node) const {
   const Search& search = patch.search;
   // A surface of fewer cells than a patch is one.
   const int level = std::max(node.level, PatchMotion::level), above = level - PatchMotion::level;
   if (!patch.changed &&
       search.changed->b->version(Node{level, node.row, node.col}) <= search.changed->since)
     return true;
-  if (!search.same()) return apart_by_slab(patch, node, box);
+  if (!search.same()) return false;
   // Of two patches the later one is found by the earlier one.
   const unsigned last = ((place_in_order(node.row, node.col) + 1) << (2 * above)) - 1;
   return last < patch.place ||
          levels_[search.a].folds->unfolded(ancestor_of(patch.node, node.level), node);
 }
 
-void PyramidPairs::descend(const Patch& patch, const Node& node, const PathBox& box) const {
-  if (leaves_out(patch, node, box)) return;
+void PyramidPairs::descend(const Patch& patch, const Node& node) const {
+  if (leaves_out(patch, node)) return;
   if (node.level <= PatchMotion::level) return pair_cells(patch, node);
   const ChildPathBoxes& children = levels_[patch.search.b].boxes.children(node);
   unsigned near = patch.search.kernels->near_children(patch.box, children, patch.search.reach);
   for (; near != 0; near &= near - 1) {
     const int k = std::countr_zero(near);
-    descend(patch, child_of(node, k), child_box(children, k));
+    descend(patch, child_of(node, k));
   }
 }
 
@@ -131,13 +102,12 @@ unsigned PyramidPairs::wanted_cells(int surface, const Node& cell, const Node& t
   const bool same_patch =
       ancestor_of(cell, PatchMotion::level) == ancestor_of(tile, PatchMotion::level);
   unsigned wanted = 0;
-  for_lanes(near, [&](int lane) {
+  for_lanes(near & ~neighbours_in(cell, tile), [&](int lane) {
     const Node node{0, tile.row + lane / Tiling::cols, tile.col + lane % Tiling::cols};
     const int other = node.row * cells + node.col;
-    // Of a patch with itself each pair once; the two triangles of a cell share an edge.
-    if (same_patch && other <= number) return;
-    if (!folds.unfolded(cell, node) &&
-        !folds.unfolded(ancestor_of(cell, 1), ancestor_of(node, 1)) &&
+    // Of a patch with itself each pair once.
+    if (same_patch && other < number) return;
+    if (!folds.unfolded(ancestor_of(cell, 1), ancestor_of(node, 1)) &&
         !folds.unfolded_across({number, other}))
       wanted |= 1U << lane;
   });
@@ -180,15 +150,14 @@ void PyramidPairs::search_patch(const Search& search, int patch,
   const Node first = first_cell_of(node);
   descend({search, node, box, of_a.patch(first.row, first.col), place_in_order(node.row, node.col),
            own, out},
-          {of_b.top(), 0, 0}, of_b.root_box());
+          {of_b.top(), 0, 0});
 }
 
 void PyramidPairs::search_all(const Search& search, ThreadTeam& team,
                               std::vector<CandidateTile>& out) {
   const PathBoxLevels &a = levels_[search.a].boxes, &b = levels_[search.b].boxes;
   if (!may_meet(a.root_box(), b.root_box(), search.reach)) return;
-  const Node root{a.top(), 0, 0};
-  if (search.same() && levels_[search.a].folds->unfolded(root, root)) return;
+  if (search.same() && levels_[search.a].folds->all_unfolded()) return;
   const int patches = Tiling(a.sides().front()).patches();
   found_.fill(patches * patches, team, [&](int patch, std::vector<CandidateTile>& mine) {
     search_patch(search, patch, mine);
@@ -205,6 +174,11 @@ void PyramidPairs::find_self(int surface, float reach, float slack, ThreadTeam& 
                              std::vector<CandidateTile>& out) {
   levels_[surface].folds->find_unfolded(surfaces_[surface], slack, team);
   search_all({&collide_kernels_for(team.instructions()), surface, surface, reach}, team, out);
+  const UnfoldedWindows& folds = *levels_[surface].folds;
+  found_.fill(
+      levels_[surface].boxes.sides().front(), team,
+      [&](int row, std::vector<CandidateTile>& mine) { folds.find_folded_neighbours(row, mine); });
+  append(found_, out);
 }
 
 bool PyramidPairs::find_changed(int surface_a, int surface_b, float reach, float slack,

@@ -11,7 +11,7 @@
 namespace weft {
 
 /// Broad phase by the mip pyramids of the images as bounding hierarchies: boxes at both ends of the
-/// step, certainly unfolded windows for a cloth with itself, slabs for bodies. Every patch of 4 x 4
+/// step, certainly unfolded windows for a cloth with itself. Every patch of 4 x 4
 /// cells of the one surface descends the pyramid of the other down to its patches; there each cell
 /// is compared with whole tiles. All indices are implicit; fitting takes O(N).
 class PyramidPairs final : public BroadPhase {
@@ -35,7 +35,6 @@ class PyramidPairs final : public BroadPhase {
   struct Levels {
     PathBoxLevels boxes;
     std::optional<UnfoldedWindows> folds;  // of cloths
-    SlabLevels slabs;                      // of bodies
     int fitted_to = 0;                     // name of the motion
   };
   /// Parameters of one search.
@@ -60,12 +59,9 @@ class PyramidPairs final : public BroadPhase {
   void search_all(const Search& search, ThreadTeam& team, std::vector<CandidateTile>& out);
   void search_patch(const Search& search, int patch, std::vector<CandidateTile>& out) const;
   /// Descends the second surface's pyramid from a node, and adds the pairs that may meet.
-  void descend(const Patch& patch, const Node& node, const PathBox& box) const;
+  void descend(const Patch& patch, const Node& node) const;
   /// Whether no pair of a patch and a node's parts is wanted, or one that may meet.
-  [[nodiscard]] bool leaves_out(const Patch& patch, const Node& node, const PathBox& box) const;
-  [[nodiscard]] bool apart_by_slab(const Patch& patch, const Node& node, const PathBox& box) const;
-  [[nodiscard]] Extent along_slab(const Search& search, const Planes3& at, const Node& node,
-                                  const Slab& slab) const;
+  [[nodiscard]] bool leaves_out(const Patch& patch, const Node& node) const;
   /// Adds the pairs of cells of a patch and of a node that is one.
   void pair_cells(const Patch& patch, const Node& node) const;
   /// Those of a tile's cells, which begins at a cell of the same surface, that are to be paired
@@ -73,7 +69,6 @@ class PyramidPairs final : public BroadPhase {
   [[nodiscard]] unsigned wanted_cells(int surface, const Node& cell, const Node& tile,
                                       unsigned near) const;
 
-  std::size_t cloths_;
   std::vector<Levels> levels_;  // one a surface
   std::vector<MovingSurface> surfaces_;
   ChunkedLists<std::vector<CandidateTile>> found_;

@@ -167,4 +167,39 @@ bool UnfoldedWindows::unfolded(const CandidatePair& pair) const {
   return unfolded(a, b);
 }
 
+bool UnfoldedWindows::is_smooth(int row, int col) const {
+  const Level& cells = levels_.front();
+  const Grid<float>&twos = cells.two_unfolded, &threes = cells.three_unfolded;
+  // All of these windows lie within the image.
+  return row < threes.rows() && col >= neighbours && col < threes.cols() &&
+         twos.row(row)[col] != 0 && twos.row(row)[col - 1] != 0 && threes.row(row)[col] != 0 &&
+         threes.row(row)[col - neighbours] != 0;
+}
+
+void UnfoldedWindows::find_folded_neighbours(int row, std::vector<CandidateTile>& out) const {
+  const int side = levels_.front().side, last_row = std::min(side - 1, row + neighbours);
+  for (int col = 0; col < side; ++col) {
+    if (is_smooth(row, col)) continue;
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    const Node cell{0, row, col};
+    const auto add = [&](int r, int c) {
+      const auto tile_row = static_cast<std::uint16_t>(r / Tiling::rows * Tiling::rows),
+                 tile_col = static_cast<std::uint16_t>(c / Tiling::cols * Tiling::cols);
+      const auto found = std::find_if(out.begin() + first, out.end(), [&](const auto& one) {
+        return one.row_b == tile_row && one.col_b == tile_col;
+      });
+      const auto lane = static_cast<std::uint8_t>(1U << Tiling::lane_at(r, c));
+      if (found == out.end())
+        out.push_back({static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(col), tile_row,
+                       tile_col, lane});
+      else
+        found->cells |= lane;
+    };
+    for (int r = row; r <= last_row; ++r)
+      for (int c = r == row ? col + 1 : std::max(0, col - neighbours);
+           c <= std::min(side - 1, col + neighbours); ++c)
+        if (!unfolded(cell, Node{0, r, c})) add(r, c);
+  }
+}
+
 }  // namespace weft

@@ -7,6 +7,7 @@
 #include "weft/collide/broad_phase/candidate_pairs.h"
 #include "weft/collide/broad_phase/extents.h"
 #include "weft/collide/broad_phase/node_levels.h"
+#include "weft/collide/broad_phase/tiling.h"
 #include "weft/collide/broad_phase/unfolded_seams.h"
 #include "weft/collide/kernels/collide_kernels.h"
 #include "weft/grid.h"
@@ -49,12 +50,22 @@ class UnfoldedWindows {
         if (marks.row(r)[c] != 0) return true;
     return false;
   }
+  /// Whether the whole image is certainly unfolded.
+  [[nodiscard]] bool all_unfolded() const {
+    return levels_.size() < 2 || levels_[levels_.size() - 2].two_unfolded.row(0)[0] != 0;
+  }
   /// Whether some window across a seam that holds two cells is certainly unfolded.
   [[nodiscard]] bool unfolded_across(const CandidatePair& cells) const {
     return seams_.unfolded(cells);
   }
   /// The same for two cells, on the first level that has a window for them.
   [[nodiscard]] bool unfolded(const CandidatePair& pair) const;
+  /// Two cells at most so far apart along rows and along columns are neighbours, which a window of
+  /// cells may hold.
+  static constexpr int neighbours = 2;
+  /// Adds the pairs of neighbours that are in no unfolded window, of the cells of a row with what
+  /// is behind them or below.
+  void find_folded_neighbours(int row, std::vector<CandidateTile>& out) const;
 
  private:
   struct Level {
@@ -72,6 +83,8 @@ class UnfoldedWindows {
     int joined = -1;
     std::vector<Range> joined_runs;
   };
+  /// Whether all neighbours behind a cell or below are certainly in unfolded windows with it.
+  [[nodiscard]] bool is_smooth(int row, int col) const;
   void fill_row(const CollideKernels& kernels, const MovingSurface& surface, int row);
   void join_row(const CollideKernels& kernels, std::size_t level, int row);
   void fit(const CollideKernels& kernels, const MovingSurface& surface, Worker& worker);

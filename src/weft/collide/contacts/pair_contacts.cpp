@@ -125,7 +125,7 @@ class Finder {
     kernels_.tile_gaps(corners, tile, reach, reach, gaps.data());
     count_ = 0;
     for_lanes(found.cells, [&](int lane) {
-      if (gaps[lane] > 0) return;
+      if (!(gaps[lane] <= 0)) return;
       out_.near = true;
       const Cell cell(*pair_.grid_b, found.row_b + lane / Tiling::cols,
                       found.col_b + lane % Tiling::cols);

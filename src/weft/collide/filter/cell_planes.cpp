@@ -78,7 +78,7 @@ class Finder {
     const TileCorners& tile = search_.b.tiles->tile(of_b.tile_b(found));
     kernels.tile_gaps(own, tile, 0, wanted(), gaps.data());
     for_lanes(cells, [&](int lane) {
-      if (!(gaps[lane] > 0))
+      if (gaps[lane] <= 0)
         find({of_a.cell_at(found.row_a, found.col_a), of_b.cell_b(found, lane)},
              PlacedCells(own, tile, lane));
     });

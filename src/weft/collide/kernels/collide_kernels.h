@@ -48,18 +48,7 @@ struct CellCorners {
   int falling;
 };
 
-/// A block of samples, at least four columns, `stride` apart from row to row.
-struct SampleBlock {
-  const float *x, *y, *z;
-  long stride;
-  int rows, cols;
-};
-/// Least and largest. [m]
-struct Extent {
-  float min, max;
-};
-
-/// Kernels of the broad phase. Extents have twelve planes: of edges along rows least x, y, z and
+/// Kernels of collision. Extents have twelve planes: of edges along rows least x, y, z and
 /// largest x, y, z, then the same of edges along columns. A row of them is twelve pointers.
 struct CollideKernels {
   /// Extents of one coordinate of the edges of n cells: least and largest along rows, then along
@@ -77,8 +66,6 @@ struct CollideKernels {
   /// separates in the same order at both ends of the step. Common motion does not widen the boxes,
   /// as nothing is swept. Boxes that are NaN on all axes are near nothing.
   unsigned (*near_children)(const PathBox& node, const ChildPathBoxes& children, float reach);
-  /// The same for the pairs of two nodes' children (1 << (4 i + k) for i of a, k of b).
-  unsigned (*near_pairs)(const ChildPathBoxes& a, const ChildPathBoxes& b, float reach);
   /// For each cell of a patch, mask (1 << k) of a tile's cells that may come within `reach` of it,
   /// as near_children.
   void (*near_cells)(const PatchBoxes& patch, const TileBoxes& tile, float reach, unsigned* out);
@@ -104,8 +91,6 @@ struct CollideKernels {
   /// nearly parallel: bit 3 p + q for edges p of the cell and q of each of the tile's, from corner
   /// 0 to 1, from 0 to 2, and the diagonal.
   void (*tile_edges)(const CellCorners& cell, const TileCorners& tile, const float* near, int* out);
-  /// Extent of samples along a direction, relative to an origin (three coordinates each).
-  Extent (*along)(const SampleBlock& samples, const float* origin, const float* direction);
 };
 
 /// The kernels of an instruction set; the processor must have it to run them.

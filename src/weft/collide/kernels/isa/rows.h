@@ -15,8 +15,6 @@ void join_windows(int n, const float* const* a, const float* const* b, float* co
 void join_twos(int n, const float* const* a, const float* const* b, float* const* out);
 void find_unfolded(int n, const float* const* extents, float slack, float* out);
 unsigned near_children(const PathBox& node, const ChildPathBoxes& children, float reach);
-unsigned near_pairs(const ChildPathBoxes& a, const ChildPathBoxes& b, float reach);
-Extent along(const SampleBlock& samples, const float* origin, const float* direction);
 void near_cells(const PatchBoxes& patch, const TileBoxes& tile, float reach, unsigned* out);
 void tile_gaps(const CellCorners& cell, const TileCorners& tile, float at_start, float at_end,
                float* out);
