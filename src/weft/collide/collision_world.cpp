@@ -104,6 +104,7 @@ void CollisionWorld::commit() {
     body.max_moved = body.max_approach = 0;
     body.goes_far = false;
     body.moved = true;
+    ++body.placement;
     ++body.motion;
   }
 }
@@ -142,10 +143,10 @@ void CollisionWorld::place_bodies(ThreadTeam& team) {
       body.query_at_end->place(*body.end, team);
       body.end_placed = body.motion;
     }
-    contact_bodies.push_back({static_cast<int>(contact_bodies.size()) + 1, body.query.get(),
-                              &body.start, body.end, body.friction,
-                              body.goes_far ? body.query_at_end.get() : nullptr, body.max_approach,
-                              body.end == &body.start ? nullptr : &body.blocks, body.motion});
+    contact_bodies.push_back(
+        {static_cast<int>(contact_bodies.size()) + 1, body.query.get(), &body.start, body.end,
+         body.friction, body.goes_far ? body.query_at_end.get() : nullptr, body.max_approach,
+         body.end == &body.start ? nullptr : &body.blocks, body.motion, body.placement});
   }
 }
 

@@ -36,6 +36,7 @@ struct WorldBody {
   bool goes_far = false;              ///< in this step
   bool moved = true;                  ///< since its query was placed
   int motion = 1;                     ///< see MovingSurface::name
+  int placement = 1;                  ///< see ContactBody
   int end_placed = 0;                 ///< motion at whose end query_at_end is placed
 };
 

@@ -68,7 +68,6 @@ class ContactPipeline final : public Collider {
   StepFilter filter_;
   StruckContacts struck_;
   bool keeps_struck_ = false;  // of any cloth
-  std::vector<double> row_gaps_;
 };
 
 /// Makes the pipeline with the broad phase `Pairs`.
