@@ -162,7 +162,8 @@ TEST(MovingContacts, BlocksNearAPlaceTellHowTheyMove) {
   ThreadTeam team(2);
   BlockMotion motion;
   motion.measure(grid, ball.positions, end, nullptr, team);
-  const auto near = [&](Vec3f at) { return motion.near({at, at}, 0.01F, 0); };
+  std::vector<int> list;
+  const auto near = [&](Vec3f at) { return motion.near({at, at}, 0.01F, 0, list); };
   EXPECT_EQ(near({-0.25F, 0, 0}).approach, 0) << "the side that stands still";
   EXPECT_EQ(length(near({-0.25F, 0, 0}).displacement), 0);
   const BlockMotion::Near edge = near({0.1F, 0.22F, 0});

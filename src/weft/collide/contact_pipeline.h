@@ -25,6 +25,9 @@ class ContactPipeline final : public Collider {
   void move_bodies(std::span<const Planes3* const> ends, ThreadTeam& team) noexcept override {
     world_.move_bodies(ends, team);
   }
+  [[nodiscard]] const BlockMotion* motion_of(std::size_t body) const noexcept override {
+    return world_.motion_of(body);
+  }
   void detect(std::span<const MovingCloth> cloths, double time_step,
               ThreadTeam& team) noexcept override;
   [[nodiscard]] std::span<const Contact> contacts(std::size_t cloth) const noexcept override {

@@ -60,13 +60,17 @@ void BodyQuery::find_leaves() {
   }
 }
 
-void BodyQuery::place(const Planes3& positions, ThreadTeam& team) {
+void BodyQuery::follow(const Planes3& positions) {
   positions_ = &positions;
-  kernels_ = &body_kernels_for(team.instructions());
   tree_.x = positions.x.row(0);
   tree_.y = positions.y.row(0);
   tree_.z = positions.z.row(0);
   tree_.stride = positions.x.stride();
+}
+
+void BodyQuery::place(const Planes3& positions, ThreadTeam& team) {
+  kernels_ = &body_kernels_for(team.instructions());
+  follow(positions);
   const auto side = static_cast<std::size_t>(tree_.leaf_side);
   extents_.resize(2 * side * side);
   team.run([&](Worker& worker) {

@@ -47,6 +47,8 @@ class BodyQuery {
   /// Fits the boxes to the body's positions.
   /// @param positions  [n x n] [m], kept by pointer
   void place(const Planes3& positions, ThreadTeam& team);
+  /// Takes the same positions from somewhere else.
+  void follow(const Planes3& positions);
 
   /// The closest point of the body, or nothing where it is not closer than `reach`. Of equally
   /// close points that of the first triangle.

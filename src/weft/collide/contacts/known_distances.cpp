@@ -9,7 +9,7 @@ namespace {
 /// Bounds are kept up to this many gaps.
 constexpr double known_gaps = 6;
 /// Approaches of bodies below this part of a gap need no sharper bound.
-constexpr double known_well = 0.05;
+constexpr double known_well = 0.5;
 /// Generous bound of the relative rounding error of distances in single precision.
 constexpr double rounding = 1e-6;
 
@@ -57,13 +57,18 @@ Box3f KnownDistances::box_of_block(const Planes3& at, int block) const {
 void KnownDistances::begin(const MovingCloth& cloth, const ContactBody& body, ThreadTeam& team) {
   if (motion_ == body.motion) return;
   motion_ = body.motion;
+  if (body.blocks == nullptr) {
+    for (Block& block : blocks_) block.now = {};
+    return;
+  }
   const auto reach = static_cast<float>(3 * known_gaps * gap_);
+  lists_.resize(static_cast<std::size_t>(team.size()));
   team.run([&](Worker& worker) {
     const Range mine = worker.share(static_cast<int>(blocks_.size()));
+    std::vector<int>& list = lists_[static_cast<std::size_t>(worker.rank())];
     for (int b = mine.first; b < mine.last; ++b)
-      blocks_[b].now = body.blocks != nullptr ? body.blocks->near(box_of_block(cloth.start, b),
-                                                                  reach, known_well * gap_)
-                                              : BlockMotion::Near{};
+      blocks_[static_cast<std::size_t>(b)].now =
+          body.blocks->near(box_of_block(cloth.start, b), reach, known_well * gap_, list);
   });
 }
 

@@ -66,11 +66,12 @@ class KnownDistances {
   int size_, blocks_a_side_;
   double gap_;
   std::vector<Block> blocks_;
-  int motion_ = 0;              // to which the blocks' `now` belongs
-  Planes3 place_, seen_;        // start less `carried`, and start, when last looked at [m]
-  Grid<float> travelled_;       // Block::travelled then [m]
-  Grid<float> distance_;        // at least; 0: unknown [m]
-  std::vector<int> triangles_;  // [n * n]
+  std::vector<std::vector<int>> lists_;  // of each worker, scratch
+  int motion_ = 0;                       // to which the blocks' `now` belongs
+  Planes3 place_, seen_;                 // start less `carried`, and start, when last looked at [m]
+  Grid<float> travelled_;                // Block::travelled then [m]
+  Grid<float> distance_;                 // at least; 0: unknown [m]
+  std::vector<int> triangles_;           // [n * n]
 };
 
 }  // namespace weft
