@@ -13,7 +13,7 @@ using test::octahedral_sphere;
 
 constexpr int cloth_size = 17, body_size = 33;
 constexpr double step = 1.0 / 240, radius = 0.25;
-constexpr float gap = 0.001F;
+constexpr float gap_kept = 0.001F;
 
 /// Where a point goes that flies on and swings to and fro on one side.
 Vec3d carried(Vec3d p, double time) {
@@ -46,10 +46,10 @@ Planes3 cloth_at(double time, Random& random) {
 CollidingCloth statistics(const BorderMates& mates) {
   return {.mates = mates,
           .size = cloth_size,
-          .thickness = gap,
+          .thickness = gap_kept,
           .rest_spacing = 0.02,
           .self_collision = false,
-          .self_thickness = gap};
+          .self_thickness = gap_kept};
 }
 
 /// A collider and what it looks at, from one step to the next.
@@ -113,6 +113,46 @@ TEST(MovingContacts, WhatIsRememberedHidesNone) {
   EXPECT_GT(found, samples / 100);
 }
 
+TEST(MovingContacts, ASecondLookSeesOtherEnds) {
+  const BorderMates none;
+  Obstacles obstacles;
+  obstacles.bodies.push_back(octahedral_sphere(body_size, radius, {}));
+  const Planes3 rest = obstacles.bodies[0].positions, body_end = ball_at(rest, step);
+  Random random(6);
+  const Planes3 start = cloth_at(0, random);
+  const Planes3 guess = cloth_at(step, random);
+  Planes3 end = guess;
+  for (int s = 0; s < cloth_size * cloth_size; ++s)
+    end.set(s, end.at(s) + Vec3f{0, s % 3 == 0 ? -0.004F : 0.001F, 0});
+  Watch watch(obstacles, none);
+  const std::size_t first = watch.contacts(start, guess, body_end).size();
+  const std::vector<Contact> second = watch.contacts(start, end, body_end);
+  const std::vector<Contact> fresh = Watch(obstacles, none).contacts(start, end, body_end);
+  EXPECT_TRUE(std::equal(second.begin(), second.end(), fresh.begin(), fresh.end(), same));
+  EXPECT_NE(first, second.size());
+}
+
+TEST(MovingContacts, TheSmallestGapIsThatOfAllSamples) {
+  const BorderMates none;
+  Obstacles obstacles;
+  obstacles.bodies.push_back(octahedral_sphere(body_size, radius, {}));
+  const Planes3 rest = obstacles.bodies[0].positions;
+  Random random(8);
+  Watch watch(obstacles, none);
+  for (int i = 0; i < 8; ++i) {
+    const Planes3 start = cloth_at(i * step, random), end = cloth_at((i + 1) * step, random);
+    const Planes3 body_end = ball_at(rest, (i + 1) * step);
+    watch.contacts(start, end, body_end);
+    watch.collider->commit();
+    Obstacles now = obstacles;
+    now.bodies[0].positions = body_end;
+    const double gap = watch.collider->smallest_gap(0, end, watch.team);
+    EXPECT_EQ(gap, Watch(now, none).collider->smallest_gap(0, end, watch.team));
+    EXPECT_LT(gap, 2 * gap_kept);
+    EXPECT_GT(gap, -gap_kept);
+  }
+}
+
 TEST(MovingContacts, BlocksNearAPlaceTellHowTheyMove) {
   const Body ball = octahedral_sphere(body_size, radius, {});
   const SurfaceGrid grid(body_size, ball.mates, {});
@@ -122,7 +162,8 @@ TEST(MovingContacts, BlocksNearAPlaceTellHowTheyMove) {
   ThreadTeam team(2);
   BlockMotion motion;
   motion.measure(grid, ball.positions, end, nullptr, team);
-  const auto near = [&](Vec3f at) { return motion.near({at, at}, 0.01F, 0); };
+  std::vector<int> list;
+  const auto near = [&](Vec3f at) { return motion.near({at, at}, 0.01F, 0, list); };
   EXPECT_EQ(near({-0.25F, 0, 0}).approach, 0) << "the side that stands still";
   EXPECT_EQ(length(near({-0.25F, 0, 0}).displacement), 0);
   const BlockMotion::Near edge = near({0.1F, 0.22F, 0});

@@ -10,20 +10,6 @@ namespace {
 constexpr int body_size = 17;
 constexpr double max_way = 0.004;
 
-/// Of a sphere's image, mates joined: which diagonals does not matter here.
-std::vector<Triangle> triangles_of(int n) {
-  const BorderMates mates = test::octahedral_sphere(n, 1, {}).mates;
-  const auto point = [&](int sample) { return mates.representative(sample); };
-  std::vector<Triangle> triangles;
-  for (int r = 0; r + 1 < n; ++r)
-    for (int c = 0; c + 1 < n; ++c) {
-      const int s = r * n + c;
-      triangles.push_back({point(s), point(s + 1), point(s + n + 1)});
-      triangles.push_back({point(s), point(s + n + 1), point(s + n)});
-    }
-  return triangles;
-}
-
 template <class Motion>
 Planes3 moved(const Planes3& from, const Motion& motion) {
   Planes3 to(from.size());
@@ -62,11 +48,16 @@ ClothReach sheet_at(Vec3d middle, double half = 0.5) {
   return reach;
 }
 
+/// Of a body with the image of a sphere.
 double pieces_of(const Planes3& start, const Planes3& end, const ClothReach& cloth) {
-  const std::vector<Triangle> triangles = triangles_of(start.size());
-  SurfaceMotion motion;
+  const BorderMates mates = test::octahedral_sphere(start.size(), 1, {}).mates;
+  const SurfaceGrid grid(start.size(), mates, {});
   ThreadTeam team(2);
-  return wanted_subdivisions({start, end, triangles}, cloth, max_way, motion, team);
+  SurfaceMotion surface(grid);
+  surface.measure(start, end, team);
+  BlockMotion motion;
+  motion.measure(grid, start, end, &surface, team);
+  return wanted_subdivisions(motion, cloth, max_way);
 }
 
 TEST(AdaptiveSubsteps, ArePowersOfTwo) {

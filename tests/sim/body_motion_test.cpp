@@ -26,7 +26,8 @@ SceneBody moved(std::vector<MotionKey> motion) {
   return body;
 }
 
-Planes3 place_at(const BodyMotion& motion, double seconds, int n = size) {
+/// By a motion that has placed nothing yet.
+Planes3 place_at(BodyMotion motion, double seconds, int n = size) {
   Planes3 places(n);
   ThreadTeam team(2);
   motion.place(seconds, places, team);
@@ -126,6 +127,15 @@ TEST(BodyMotion, AnimationCarriesTheSamplesOfAMesh) {
         EXPECT_EQ(there.at(mate), there.at(surface.image.mates.mates(i)[0]));
   }
   EXPECT_NEAR(motion.fastest(), 20 * std::sqrt(1 + 0.2 * 0.2), 1e-3);
+  // What was placed before makes no difference.
+  BodyMotion used = motion;
+  Planes3 there(33);
+  ThreadTeam team(2);
+  for (const double seconds : {0.15, 0.02, 0.1, 0.13, 9.0, 0.04}) {
+    used.place(seconds, there, team);
+    const Planes3 fresh = place_at(motion, seconds, 33);
+    for (int s = 0; s < 33 * 33; ++s) ASSERT_EQ(there.at(s), fresh.at(s)) << seconds;
+  }
 }
 
 TEST(BodyMotion, AnimationOfAnImageHasItsSamplesOrItsVertices) {

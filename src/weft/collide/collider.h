@@ -16,6 +16,8 @@
 
 namespace weft {
 
+class BlockMotion;
+
 /// A body as placed in the scene.
 struct Body {
   Planes3 positions;  ///< [n x n] world [m]
@@ -97,6 +99,10 @@ class Collider {
   /// @param ends  of each body [n x n] world [m], mates equal, valid until commit or rollback; null
   /// where it stands still
   virtual void move_bodies(std::span<const Planes3* const> ends, ThreadTeam& team) noexcept = 0;
+  /// Motion of a body in the step; null where it stands still, and for methods whose bodies do.
+  [[nodiscard]] virtual const BlockMotion* motion_of(std::size_t /*body*/) const noexcept {
+    return nullptr;
+  }
   /// Finds the contacts of a step from the proposals.
   virtual void detect(std::span<const MovingCloth> cloths, double time_step,
                       ThreadTeam& team) noexcept = 0;

@@ -1,6 +1,7 @@
 #include "weft/collide/collision_world.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace weft {
 namespace {
@@ -11,16 +12,8 @@ constexpr double aside_in_spacings = 1;
 /// Skin of cached pairs, in gaps kept to bodies: surfaces may move by half of it before pairs are
 /// searched anew.
 constexpr double skin_in_gaps = 0.5;
-
-std::vector<Triangle> triangles_by_points(const SurfaceGrid& grid) {
-  std::vector<Triangle> triangles;
-  for (int t = 0; t < 2 * grid.cells() * grid.cells(); ++t) {
-    const std::array<int, 3> samples = grid.triangle(t / 2, t % 2);
-    if (!grid.folded(samples))
-      triangles.push_back({grid.point(samples[0]), grid.point(samples[1]), grid.point(samples[2])});
-  }
-  return triangles;
-}
+/// Bodies that move farther than this in a step, in gaps kept to them, approach along normals.
+constexpr double slides_in_gaps = 0.75;
 
 }  // namespace
 
@@ -46,7 +39,6 @@ CollisionWorld::CollisionWorld(MakeBroadPhase make_broad_phase, const Obstacles&
   for (WorldBody& body : bodies) {
     body.query = std::make_unique<BodyQuery>(body.grid);
     body.end = &body.start;
-    body.triangles = triangles_by_points(body.grid);
   }
   if (obstacles.ground) ground_ = {*obstacles.ground, obstacles.ground_friction};
   std::vector<const SurfaceGrid*> grids;
@@ -61,61 +53,67 @@ bool CollisionWorld::needs_boxes() const {
   return !lonely || cloths.front().properties.self_collision;
 }
 
+void CollisionWorld::stand_still(WorldBody& body) {
+  body.end = &body.start;
+  body.max_moved = 0;
+  body.goes_far = false;
+}
+
 void CollisionWorld::move_bodies(std::span<const Planes3* const> ends, ThreadTeam& team) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     WorldBody& body = bodies[i];
-    body.end = ends[i] != nullptr ? ends[i] : &body.start;
-    body.max_moved = body.max_approach = 0;
-    body.goes_far = false;
-    if (body.end == &body.start) continue;
-    body.max_moved = largest_displacement(body.start, *body.end);
-    if (body.max_moved == 0) {
-      body.end = &body.start;
-      continue;
-    }
+    stand_still(body);
+    const double max_moved = ends[i] != nullptr ? largest_displacement(body.start, *ends[i]) : 0;
+    if (max_moved == 0) continue;
+    body.end = ends[i];
+    body.max_moved = max_moved;
+    body.goes_far = max_moved > slides_in_gaps * min_gap_;
     ++body.motion;
     measure_motion(body, team);
   }
 }
 
-/// Bodies that move farther than the gap mostly slide along themselves, so their approach is
-/// measured along surface normals and not by the displacements of points.
+/// Bodies that go far mostly slide along themselves, so their approach is measured along surface
+/// normals and not by the displacements of points.
 void CollisionWorld::measure_motion(WorldBody& body, ThreadTeam& team) const {
-  body.max_approach = body.max_moved;
-  body.goes_far = body.max_moved > min_gap_;
-  if (body.goes_far) body.surface.measure(body.start, *body.end, body.triangles, team);
-  body.blocks.measure(body.grid, body.start, *body.end, body.goes_far ? &body.surface : nullptr,
-                      team);
-  if (!body.goes_far) return;
-  body.max_approach = 0;
-  for (const Triangle& t : body.triangles)
-    for (const int corner : t)
-      body.max_approach = std::max(body.max_approach, body.surface.approach(corner));
+  if (body.goes_far && !body.surface) body.surface = std::make_unique<SurfaceMotion>(body.grid);
+  if (body.goes_far) body.surface->measure(body.start, *body.end, team);
+  body.blocks.measure(body.grid, body.start, *body.end,
+                      body.goes_far ? body.surface.get() : nullptr, team);
 }
 
 void CollisionWorld::commit() {
   for (WorldCloth& cloth : cloths) cloth.body_contacts->commit();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     WorldBody& body = bodies[i];
-    if (body.end == &body.start) continue;
+    if (!body.moves()) continue;
     for (WorldCloth& cloth : cloths) cloth.body_contacts->arrive(i, body.motion);
     body.start = *body.end;
-    body.end = &body.start;
-    body.max_moved = body.max_approach = 0;
-    body.goes_far = false;
-    body.moved = true;
+    if (body.goes_far)
+      body.surface->arrive();
+    else if (body.surface)
+      body.surface->forget();
+    body.moved = !take_query_over(body);
+    ++body.placement;
     ++body.motion;
+    stand_still(body);
   }
+}
+
+/// What was fitted to a body's end is fitted to where it starts next.
+bool CollisionWorld::take_query_over(WorldBody& body) {
+  if (!body.goes_far || body.end_placed != body.motion) return false;
+  std::swap(body.query, body.query_at_end);
+  body.query->follow(body.start);
+  return true;
 }
 
 void CollisionWorld::rollback() {
   for (WorldCloth& cloth : cloths) cloth.body_contacts->rollback();
   for (WorldBody& body : bodies) {
-    if (body.end == &body.start) continue;
-    body.end = &body.start;
-    body.max_moved = body.max_approach = 0;
-    body.goes_far = false;
+    if (!body.moves()) continue;
     ++body.motion;
+    stand_still(body);
   }
 }
 
@@ -144,8 +142,9 @@ void CollisionWorld::place_bodies(ThreadTeam& team) {
     }
     contact_bodies.push_back({static_cast<int>(contact_bodies.size()) + 1, body.query.get(),
                               &body.start, body.end, body.friction,
-                              body.goes_far ? body.query_at_end.get() : nullptr, body.max_approach,
-                              body.end == &body.start ? nullptr : &body.blocks, body.motion});
+                              body.goes_far ? body.query_at_end.get() : nullptr,
+                              body.moves() ? body.blocks.max_approach() : 0,
+                              body.moves() ? &body.blocks : nullptr, body.motion, body.placement});
   }
 }
 

@@ -28,15 +28,16 @@ struct WorldBody {
   Planes3 start;                            ///< where the last step left it
   const Planes3* end = nullptr;             ///< of this step; start where it stands still
   double friction = 0;
-  double max_moved = 0;               ///< largest displacement of a sample in this step [m]
-  double max_approach = 0;            ///< see ContactBody [m]
-  std::vector<Triangle> triangles{};  ///< corners as representative samples
-  SurfaceMotion surface{};            ///< of this step, where it goes far
-  BlockMotion blocks{};               ///< of this step, where it moves
-  bool goes_far = false;              ///< in this step
-  bool moved = true;                  ///< since its query was placed
-  int motion = 1;                     ///< see MovingSurface::name
-  int end_placed = 0;                 ///< motion at whose end query_at_end is placed
+  double max_moved = 0;                      ///< largest displacement of a sample in this step [m]
+  std::unique_ptr<SurfaceMotion> surface{};  ///< made once it has gone far
+  BlockMotion blocks{};                      ///< of this step, where it moves
+  bool goes_far = false;                     ///< in this step
+  bool moved = true;                         ///< since its query was placed
+  int motion = 1;                            ///< see MovingSurface::name
+  int placement = 1;                         ///< see ContactBody
+  int end_placed = 0;                        ///< motion at whose end query_at_end is placed
+
+  [[nodiscard]] bool moves() const { return end != &start; }
 };
 
 /// Cloths, bodies and ground of a scene with their broad phase, shared by the stages of the contact
@@ -68,6 +69,10 @@ class CollisionWorld {
   [[nodiscard]] double gap_between(std::size_t i, std::size_t j) const;
   /// Candidate cell pairs of two cloths within the contact margin, valid until the next search.
   std::span<const CandidateTile> near_cells(std::size_t i, std::size_t j, ThreadTeam& team);
+  /// Motion of a body in this step; null where it stands still.
+  [[nodiscard]] const BlockMotion* motion_of(std::size_t body) const {
+    return bodies[body].moves() ? &bodies[body].blocks : nullptr;
+  }
   /// Largest speed of a body's sample in this step; 0 where all bodies stand still. [m/s]
   [[nodiscard]] double fastest_body(double time_step) const;
   [[nodiscard]] const BodyContacts::Ground* ground() const { return ground_ ? &*ground_ : nullptr; }
@@ -88,6 +93,8 @@ class CollisionWorld {
 
  private:
   void measure_motion(WorldBody& body, ThreadTeam& team) const;
+  static void stand_still(WorldBody& body);
+  static bool take_query_over(WorldBody& body);
   /// Whether there is anything for the broad phase to find.
   [[nodiscard]] bool needs_boxes() const;
 

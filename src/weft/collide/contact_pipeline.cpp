@@ -114,30 +114,17 @@ void ContactPipeline::restore_marks(std::size_t cloth, std::span<const int> mark
 
 double ContactPipeline::smallest_gap(std::size_t cloth, const Planes3& positions,
                                      ThreadTeam& team) noexcept {
-  const WorldCloth& one = world_.cloths[cloth];
+  WorldCloth& one = world_.cloths[cloth];
   world_.place_bodies(team);
+  double least = HUGE_VAL;
+  for (const ContactBody& body : world_.contact_bodies)
+    least = std::min(least, one.body_contacts->smallest_gap(positions, body,
+                                                            2 * one.properties.thickness, team));
   const int n = positions.size();
-  row_gaps_.resize(static_cast<std::size_t>(n));
-  const double reach = 2 * one.properties.thickness;
-  team.run([&](Worker& worker) {
-    const Range rows = worker.share(n);
-    for (int r = rows.first; r < rows.last; ++r) {
-      double min = HUGE_VAL;
-      for (int c = 0; c < n; ++c) {
-        const Vec3d p = vec_cast<double>(positions.at(r, c));
-        if (world_.ground() != nullptr) min = std::min(min, p.y - world_.ground()->height);
-        for (const ContactBody& body : world_.contact_bodies)
-          if (const auto found = body.query->closest(p, reach)) {
-            const bool kept_in = one.properties.is_kept_in(body.number - 1);
-            const bool astray = body.query->closed() && body.query->behind(p, *found) != kept_in;
-            const double distance = std::sqrt(found->squared_distance);
-            min = std::min(min, astray ? -distance : distance);
-          }
-      }
-      row_gaps_[r] = min;
-    }
-  });
-  return *std::min_element(row_gaps_.begin(), row_gaps_.end());
+  for (int r = 0; world_.ground() != nullptr && r < n; ++r)
+    for (int c = 0; c < n; ++c)
+      least = std::min(least, double{positions.y(r, c)} - world_.ground()->height);
+  return least;
 }
 
 }  // namespace weft

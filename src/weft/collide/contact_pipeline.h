@@ -25,6 +25,9 @@ class ContactPipeline final : public Collider {
   void move_bodies(std::span<const Planes3* const> ends, ThreadTeam& team) noexcept override {
     world_.move_bodies(ends, team);
   }
+  [[nodiscard]] const BlockMotion* motion_of(std::size_t body) const noexcept override {
+    return world_.motion_of(body);
+  }
   void detect(std::span<const MovingCloth> cloths, double time_step,
               ThreadTeam& team) noexcept override;
   void detect_again(std::span<const MovingCloth> cloths, double time_step,
@@ -70,7 +73,6 @@ class ContactPipeline final : public Collider {
   StepFilter filter_;
   StruckContacts struck_;
   bool keeps_struck_ = false;  // of any cloth
-  std::vector<double> row_gaps_;
 };
 
 /// Makes the pipeline with the broad phase `Pairs`.

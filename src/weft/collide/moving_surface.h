@@ -43,7 +43,11 @@ class SurfaceGrid {
   [[nodiscard]] bool missing(int cell) const {
     return diagonal_[static_cast<std::size_t>(cell)] == Diagonal::none;
   }
-  /// Whether any cell does.
+  /// Whether a cell is divided by its rising diagonal.
+  [[nodiscard]] bool rises(int cell) const {
+    return diagonal_[static_cast<std::size_t>(cell)] == Diagonal::rising;
+  }
+  /// Whether any cell lies in no chart.
   [[nodiscard]] bool has_missing() const { return has_missing_; }
   /// Which of a cell's corners its two triangles have.
   [[nodiscard]] std::array<int, 3> triangle_corners(int cell, int half) const {

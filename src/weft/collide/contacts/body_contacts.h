@@ -5,6 +5,7 @@
 #include "weft/collide/broad_phase/chunks.h"
 #include "weft/collide/collider.h"
 #include "weft/collide/contacts/contact_body.h"
+#include "weft/collide/contacts/near_samples.h"
 #include "weft/contact.h"
 
 namespace weft {
@@ -32,7 +33,10 @@ class BodyContacts {
   [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
   [[nodiscard]] const InsideMarks& inside() const { return marks_.inside; }
   /// Marks a sample as doubtful: a body moved onto it in the last step, so it may be inside now.
-  void doubt(int sample) { marks_.doubted[sample] = 1; }
+  void doubt(int sample) {
+    marks_.doubted[sample] = 1;
+    marks_.any = true;
+  }
   /// Saves the inside mark and the doubt of every sample, for resuming a run. Empty before the
   /// marks are known.
   void save(std::vector<int>& marks) const;
@@ -43,61 +47,36 @@ class BodyContacts {
   /// @param body  from 0
   void arrive(std::size_t body, int motion);
   void rollback() { marks_ = kept_marks_; }
+  /// The smallest signed distance of a sample to a body that is nearer than `reach`, see
+  /// NearSamples. [m]
+  double smallest_gap(const Planes3& positions, const ContactBody& body, double reach,
+                      ThreadTeam& team);
 
  private:
-  void find_for_sample(const MovingCloth& cloth, std::span<const ContactBody> bodies,
-                       const Ground* ground, int sample, std::vector<Contact>& out);
-  void find_body(const MovingCloth& cloth, const ContactBody& body, bool deep, int sample,
-                 std::vector<Contact>& out);
-  [[nodiscard]] bool keeps_in(const ContactBody& body) const {
-    return !kept_in_.empty() && kept_in_[body.number - 1] != 0;
-  }
-  void find_ground(const MovingCloth& cloth, const Ground& ground, int sample,
+  [[nodiscard]] NearSamples& near(const ContactBody& body);
+  [[nodiscard]] std::span<const char> find_deep(const ContactBody& body);
+  void find_row(const MovingCloth& cloth, std::span<const ContactBody> bodies, const Ground* ground,
+                int row, std::vector<Contact>& out) const;
+  void find_ground(const MovingCloth& cloth, const Ground& ground, int row, int col,
                    std::vector<Contact>& out) const;
-  /// Motion of a body near a block of the cloth: summed over past steps, and in the present step.
-  /// [m]
-  struct NearBlock {
-    Vec3d carried;
-    double travelled = 0;
-    BlockMotion::Near now;
-  };
-  /// Cached lower bound of the distance of a sample to a body, and the place where it was measured,
-  /// less the displacement that the body had carried the place along by.
-  struct Known {
-    Vec3d place;
-    Vec3f seen;            // position at the last query [m]
-    double travelled = 0;  // NearBlock::travelled at that time [m]
-    float distance = 0;    // at least; 0: unknown [m]
-    int triangle = -1;     // the closest one
-  };
-  struct Past {
-    std::vector<Known> samples;     // [n * n]
-    std::vector<NearBlock> blocks;  // of the cloth
-    int motion = 0;                 // of the body, to which `now` belongs
-  };
-  void find_near_blocks(const MovingCloth& cloth, const ContactBody& body, ThreadTeam& team);
-  [[nodiscard]] Box3f box_of_block(const Planes3& at, int block) const;
-  [[nodiscard]] int blocks_a_side() const;
-  [[nodiscard]] const NearBlock& block_of(const Past& past, int sample) const;
-  [[nodiscard]] BlockMotion::Near near_of(const ContactBody& body, const NearBlock& block,
-                                          Vec3d displacement) const;
-  /// Largest distance that is cached. [m]
-  [[nodiscard]] double farthest_known() const;
-  /// The closest point of a body within `reach`, if any; updates the cached distance.
-  std::optional<BodyPoint> find_closest(const ContactBody& body, const NearBlock& near, Vec3d start,
-                                        double reach, Known& known) const;
+  void mark_inside(std::span<const ContactBody> bodies);
+  [[nodiscard]] bool keeps_in(std::size_t body) const {
+    return !kept_in_.empty() && kept_in_[body] != 0;
+  }
 
   const SurfaceGrid& grid_;
   KeptGap kept_;
   double farthest_exit_ = HUGE_VAL;
-  std::vector<char> kept_in_;  // per body; empty: by none
-  std::vector<Past> past_;     // of each body
+  std::vector<char> kept_in_;      // per body; empty: by none
+  std::vector<NearSamples> near_;  // of each body
   struct Marks {
     InsideMarks inside;         // [n * n]
     std::vector<char> doubted;  // [n * n]
     bool looked = false;
+    bool any = false;  // a sample is inside or doubted
   };
   Marks marks_, kept_marks_;
+  std::vector<char> deep_;  // [n * n] scratch
   ChunkedLists<std::vector<Contact>> found_;
   std::vector<Contact> contacts_;
 };

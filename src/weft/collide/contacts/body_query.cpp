@@ -9,92 +9,112 @@
 namespace weft {
 namespace {
 
-double squared_distance(Vec3d p, const Box3f& box) {
-  const auto outside = [](double x, float lower, float upper) {
-    const double below = lower - x, above = x - upper;
-    const double max = below > above ? below : above;
-    return max > 0 ? max : 0.0;
-  };
-  const double x = outside(p.x, box.lower.x, box.upper.x);
-  const double y = outside(p.y, box.lower.y, box.upper.y);
-  const double z = outside(p.z, box.lower.z, box.upper.z);
-  return x * x + y * y + z * z;
-}
-
-/// Squared distances to four boxes at once, in single precision.
-template <class Boxes>
-std::array<float, 4> squared_distances(const std::array<float, 3>& p, const Boxes& boxes) {
-  std::array<float, 4> sum{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float x = p[axis];
-#pragma omp simd
-    for (std::size_t k = 0; k < 4; ++k) {
-      const float below = boxes.lower[axis][k] - x, above = x - boxes.upper[axis][k];
-      const float max = below > above ? below : above;
-      const float outside = max > 0 ? max : 0.0F;
-      sum[k] += outside * outside;
-    }
-  }
-  return sum;
-}
-
 double angle_between(Vec3d a, Vec3d b) {
   const double lengths = length(a) * length(b);
   return lengths > 0 ? arc_cosine(std::clamp(dot(a, b) / lengths, -1.0, 1.0)) : 0;
 }
 
-/// Boxes of cells that lie in no chart are near to nothing.
-void hide_missing(const SurfaceGrid& grid, ExtentLevels& boxes, const Worker& worker) {
-  const Range mine = worker.share(grid.cells());
-  for (int r = mine.first; r < mine.last; ++r)
-    for (int c = 0; c < grid.cells(); ++c)
-      for (std::size_t k = 0; k < 6 && grid.missing(r * grid.cells() + c); ++k)
-        boxes.finest()[k](r, c) = k < 3 ? HUGE_VALF : -HUGE_VALF;
+BodyNode nothing() {
+  BodyNode node{};
+  for (int axis = 0; axis < 3; ++axis) {
+    std::fill_n(node.lower[axis], 16, far_away);
+    std::fill_n(node.upper[axis], 16, -far_away);
+  }
+  return node;
+}
+
+/// Several times the rounding of single precision.
+constexpr double rounding = 1e-6;
+/// That of a point's coordinates. [m]
+float off_by(Vec3f at) {
+  return static_cast<float>(rounding) * (std::abs(at.x) + std::abs(at.y) + std::abs(at.z));
 }
 
 }  // namespace
 
-BodyQuery::BodyQuery(const SurfaceGrid& grid) : grid_(&grid), boxes_(grid.cells()) {
-  for (const int side : boxes_.sides())
-    children_.emplace_back(static_cast<std::size_t>(side) * side);
+BodyQuery::BodyQuery(const SurfaceGrid& grid) : grid_(&grid) {
+  tree_.size = grid.size();
+  tree_.leaf_side = (grid.cells() + 1) / 2;
+  for (int side = (tree_.leaf_side + 3) / 4;; side = (side + 3) / 4) {
+    nodes_.emplace_back(static_cast<std::size_t>(side) * side, nothing());
+    tree_.sides[tree_.levels++] = side;
+    if (side == 1) break;
+  }
+  for (int level = 0; level < tree_.levels; ++level) tree_.nodes[level] = nodes_[level].data();
+  find_leaves();
   find_incident();
 }
 
-void BodyQuery::place(const Planes3& positions, ThreadTeam& team) {
+/// Finds which triangles the leaves have, each in one leaf.
+void BodyQuery::find_leaves() {
+  const int side = tree_.leaf_side, cells = grid_->cells();
+  leaves_.resize(static_cast<std::size_t>(side) * side);
+  tree_.leaves = leaves_.data();
+  for (int cell = 0; cell < cells * cells; ++cell) {
+    const int row = cell / cells, col = cell % cells;
+    BodyLeaf& leaf = leaves_[static_cast<std::size_t>(row / 2) * side + col / 2];
+    const int k = 2 * (row - tree_.first_cell(row / 2)) + col - tree_.first_cell(col / 2);
+    if (grid_->rises(cell)) leaf.rising |= 1U << k;
+    for (const int half : {0, 1})
+      if (!grid_->folded(grid_->triangle(cell, half))) leaf.there |= 1U << (k + 4 * half);
+  }
+}
+
+void BodyQuery::follow(const Planes3& positions) {
   positions_ = &positions;
+  tree_.x = positions.x.row(0);
+  tree_.y = positions.y.row(0);
+  tree_.z = positions.z.row(0);
+  tree_.stride = positions.x.stride();
+}
+
+void BodyQuery::place(const Planes3& positions, ThreadTeam& team) {
+  kernels_ = &body_kernels_for(team.instructions());
+  follow(positions);
+  const auto side = static_cast<std::size_t>(tree_.leaf_side);
+  extents_.resize(2 * side * side);
   team.run([&](Worker& worker) {
-    fill_position_extents(positions, positions, boxes_, worker);
-    if (grid_->has_missing()) {
-      hide_missing(*grid_, boxes_, worker);
-      worker.barrier();
-    }
-    boxes_.fit(worker);
-    for (int level = 1; level <= boxes_.top(); ++level) {
-      const Range mine = worker.share(boxes_.sides()[level]);
-      for (int r = mine.first; r < mine.last; ++r) pack_row(level, r);
-    }
+    const Range mine = worker.share(tree_.leaf_side);
+    for (int r = mine.first; r < mine.last; ++r)
+      fit_leaf_row(r, std::span(extents_).subspan(2 * side * r, 2 * side));
+    worker.barrier();
+    if (worker.rank() != 0) return;
+    for (int level = 1; level < tree_.levels; ++level) fit_level(level);
   });
 }
 
-void BodyQuery::pack_row(int level, int row) {
-  const int side = boxes_.sides()[level], below = boxes_.sides()[level - 1];
-  for (int c = 0; c < side; ++c) {
-    ChildBoxes& packed = children_[level][static_cast<std::size_t>(row) * side + c];
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Node child{level - 1, 2 * row + static_cast<int>(k / 2),
-                       2 * c + static_cast<int>(k % 2)};
-      constexpr float far = HUGE_VALF;
-      const Box3f box = child.row < below && child.col < below
-                            ? boxes_.at(child)
-                            : Box3f{{far, far, far}, {far, far, far}};
-      const std::array lower{box.lower.x, box.lower.y, box.lower.z};
-      const std::array upper{box.upper.x, box.upper.y, box.upper.z};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        packed.lower[axis][k] = lower[axis];
-        packed.upper[axis][k] = upper[axis];
+void BodyQuery::fit_leaf_row(int row, std::span<float> extents) {
+  const int side = tree_.leaf_side, last = tree_.size - 1;
+  float *lower = extents.data(), *upper = lower + side;
+  const std::array planes{&positions_->x, &positions_->y, &positions_->z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<const float*, 3> rows{};
+    for (int k = 0; k < 3; ++k) rows[k] = planes[axis]->row(std::min(2 * row + k, last));
+    kernels_->leaf_extents(side, last, rows.data(), lower, upper);
+    for (int c = 0; c < side; ++c) {
+      if (leaves_[static_cast<std::size_t>(row) * side + c].there == 0) {
+        lower[c] = far_away;
+        upper[c] = -far_away;
       }
+      BodyNode& node = nodes_[0][static_cast<std::size_t>(row / 4) * tree_.sides[0] + c / 4];
+      node.lower[axis][4 * (row % 4) + c % 4] = lower[c];
+      node.upper[axis][4 * (row % 4) + c % 4] = upper[c];
     }
   }
+}
+
+void BodyQuery::fit_level(int level) {
+  const int side = tree_.sides[level], below = tree_.sides[level - 1];
+  for (int row = 0; row < below; ++row)
+    for (int col = 0; col < below; ++col) {
+      const BodyNode& child = nodes_[level - 1][static_cast<std::size_t>(row) * below + col];
+      BodyNode& node = nodes_[level][static_cast<std::size_t>(row / 4) * side + col / 4];
+      const int k = 4 * (row % 4) + col % 4;
+      for (int axis = 0; axis < 3; ++axis) {
+        node.lower[axis][k] = *std::min_element(child.lower[axis], child.lower[axis] + 16);
+        node.upper[axis][k] = *std::max_element(child.upper[axis], child.upper[axis] + 16);
+      }
+    }
 }
 
 void BodyQuery::find_incident() {
@@ -126,82 +146,106 @@ void BodyQuery::find_incident() {
   }
 }
 
-/// One search for a closest point.
-struct BodyQuery::Search {
-  Vec3d point;
-  std::array<float, 3> rounded{};
-  float absolute_error = 0;  // of a distance to a box [m]
-  BodyPoint best;
-  float limit = 0;  // boxes beyond this squared distance, in single precision, hold nothing closer
-
-  Search(Vec3d at, double squared_reach)
-      : point(at),
-        rounded{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)},
-        absolute_error(
-            static_cast<float>(rounding * (std::abs(at.x) + std::abs(at.y) + std::abs(at.z)))) {
-    best.squared_distance = squared_reach;
-    set_limit();
-  }
-  /// Sets the limit slightly above the best distance, so that all of several equally close
-  /// triangles are tested.
-  void set_limit() {
-    const double max = (std::sqrt(best.squared_distance) + absolute_error) * (1 + rounding);
-    limit = static_cast<float>(std::min(max * max * (1 + rounding), double{max_finite}));
-  }
-
- private:
-  /// Several times the rounding of single precision.
-  static constexpr double rounding = 1e-6;
-  /// Less than the infinite distance of missing children.
-  static constexpr float max_finite = 1e38F;
-};
-
-void BodyQuery::try_triangle(int row, int col, int half, Search& search) const noexcept {
-  const std::array<int, 3> samples = grid_->triangle(row, col, half);
-  const std::array<Vec3d, 3> corners{position(samples[0]), position(samples[1]),
-                                     position(samples[2])};
-  const std::array<double, 3> w = closest_weights(search.point, corners);
+BodyPoint BodyQuery::point_of(Vec3d point, int triangle) const noexcept {
+  const std::array<int, 3> samples = grid_->triangle(triangle / 2, triangle % 2);
+  const int first = grid_->first_sample(triangle / 2), row = first / grid_->size();
+  // Corners lie in this row and the next one.
+  const auto corner = [&](int sample) {
+    const int below = sample >= (row + 1) * grid_->size() ? 1 : 0;
+    return vec_cast<double>(positions_->at(row + below, sample - (row + below) * grid_->size()));
+  };
+  const std::array<Vec3d, 3> corners{corner(samples[0]), corner(samples[1]), corner(samples[2])};
+  const std::array<double, 3> w = closest_weights(point, corners);
   const Vec3d at = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
-  const double squared = squared_length(search.point - at);
-  const int triangle = 2 * (row * grid_->cells() + col) + half;
-  const BodyPoint& best = search.best;
-  const bool closer = squared < best.squared_distance ||
-                      (squared == best.squared_distance && triangle < best.triangle);
-  if (!closer || grid_->folded(samples)) return;
-  search.best = {squared, triangle, samples, w, at};
-  search.set_limit();
+  return {squared_length(point - at), triangle, samples, w, at};
 }
 
-void BodyQuery::search(const Node& node, Search& search) const noexcept {
-  if (node.level == 0) {
-    const int cell = node.row * grid_->cells() + node.col;
-    for (const int half : {0, 1})
-      if (2 * cell + half != search.best.triangle) try_triangle(node.row, node.col, half, search);
-    return;
+/// The closest of several points.
+struct BodyQuery::Closest {
+  BodyPoint best;
+
+  void add(const BodyPoint& found) {
+    if (found.squared_distance < best.squared_distance ||
+        (found.squared_distance == best.squared_distance && found.triangle < best.triangle))
+      best = found;
   }
-  const int side = boxes_.sides()[node.level];
-  const std::array<float, 4> squared = squared_distances(
-      search.rounded, children_[node.level][static_cast<std::size_t>(node.row) * side + node.col]);
-  const auto visit = [&](int k) {
-    if (squared[k] <= search.limit)
-      this->search({node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2}, search);
-  };
-  const int nearest =
-      static_cast<int>(std::min_element(squared.begin(), squared.end()) - squared.begin());
-  visit(nearest);
-  for (int k = 0; k < 4; ++k)
-    if (k != nearest) visit(k);
+};
+
+/// The closest point as far as a hint tells it, if any is given.
+BodyQuery::Closest BodyQuery::begin(Vec3d point, double reach, int hint) const noexcept {
+  Closest closest;
+  closest.best.squared_distance = reach * reach;
+  if (hint >= 0 && !grid_->folded(grid_->triangle(hint / 2, hint % 2)))
+    closest.add(point_of(point, hint));
+  return closest;
+}
+
+float BodyQuery::reach_of(const Closest& closest, float off) {
+  const double reach = (std::sqrt(closest.best.squared_distance) + off) * (1 + rounding);
+  return static_cast<float>(std::min(reach, double{far_away}));
+}
+
+void BodyQuery::search_one(Vec3d point, Closest& closest) const noexcept {
+  const Vec3f at = vec_cast<float>(point);
+  const float off = off_by(at);
+  NearTriangles near;
+  kernels_->find_near(tree_, {{at.x, at.y, at.z}, reach_of(closest, off), off}, near);
+  if (near.count > NearTriangles::capacity) return add_all(point, closest);
+  for (int k = 0; k < near.count; ++k)
+    if (near.found[k] != closest.best.triangle) closest.add(point_of(point, near.found[k]));
 }
 
 std::optional<BodyPoint> BodyQuery::closest(Vec3d point, double reach, int hint) const noexcept {
-  const Node root{boxes_.top(), 0, 0};
-  if (!(squared_distance(point, boxes_.at(root)) < reach * reach)) return std::nullopt;
-  Search search(point, reach * reach);
-  const int cells = grid_->cells();
-  if (hint >= 0) try_triangle(hint / 2 / cells, hint / 2 % cells, hint % 2, search);
-  this->search(root, search);
-  if (search.best.triangle < 0) return std::nullopt;
-  return search.best;
+  Closest closest = begin(point, reach, hint);
+  search_one(point, closest);
+  if (closest.best.triangle < 0) return std::nullopt;
+  return closest.best;
+}
+
+/// The points first .. last - 1 of a tile. Where too much is near them their halves are asked for.
+void BodyQuery::refine(const NearestTile& tile, Range points,
+                       std::span<Closest> closest) const noexcept {
+  NearTile search;
+  search.count = points.last - points.first;
+  search.rounding = 0;
+  for (int k = points.first; k < points.last; ++k)
+    search.rounding = std::max(search.rounding, off_by(tile.at[k]));
+  for (int i = 0; i < search.count; ++i) {
+    const int k = points.first + i;
+    search.at[0][i] = tile.at[k].x;
+    search.at[1][i] = tile.at[k].y;
+    search.at[2][i] = tile.at[k].z;
+    search.reach[i] = reach_of(closest[k], search.rounding);
+  }
+  TileTriangles near;
+  kernels_->find_near_tile(tree_, search, near);
+  if (near.count > TileTriangles::capacity) {
+    const int middle = (points.first + points.last) / 2;
+    if (search.count == 1)
+      return search_one(vec_cast<double>(tile.at[points.first]), closest[points.first]);
+    refine(tile, {points.first, middle}, closest);
+    refine(tile, {middle, points.last}, closest);
+    return;
+  }
+  for (int i = 0; i < near.count; ++i) {
+    const int k = points.first + near.found[i].point, triangle = near.found[i].triangle;
+    if (triangle != closest[k].best.triangle)
+      closest[k].add(point_of(vec_cast<double>(tile.at[k]), triangle));
+  }
+}
+
+void BodyQuery::closest(const NearestTile& tile, NearestPoints& found) const noexcept {
+  std::array<Closest, NearestTile::capacity> closest;
+  for (int k = 0; k < tile.count; ++k)
+    closest[k] = begin(vec_cast<double>(tile.at[k]), tile.reach[k], tile.hint[k]);
+  if (tile.count > 0) refine(tile, {0, tile.count}, closest);
+  for (int k = 0; k < tile.count; ++k) found[k] = closest[k].best;
+}
+
+/// For points that are as far from very many triangles, as the middle of a ball.
+void BodyQuery::add_all(Vec3d point, Closest& closest) const noexcept {
+  for (int t = 0; t < 2 * grid_->cells() * grid_->cells(); ++t)
+    if (!grid_->folded(grid_->triangle(t / 2, t % 2))) closest.add(point_of(point, t));
 }
 
 Vec3d BodyQuery::face_normal(const std::array<int, 3>& samples) const noexcept {

@@ -5,8 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "weft/collide/broad_phase/node_levels.h"
+#include "weft/collide/kernels/body_kernels.h"
 #include "weft/collide/moving_surface.h"
+#include "weft/core/thread_team.h"
 
 namespace weft {
 
@@ -19,14 +20,35 @@ struct BodyPoint {
   Vec3d position;                      ///< [m]
 };
 
-/// Closest-point queries on one body, by the mip pyramid of boxes of its image.
+/// Searches for the closest points of several points that lie next to each other.
+struct NearestTile {
+  static constexpr int capacity = NearTile::capacity;
+  int count = 0;
+  std::array<Vec3f, capacity> at;      ///< [m]
+  std::array<double, capacity> reach;  ///< nothing beyond is found [m]
+  std::array<int, capacity> hint;      ///< triangles that may be near, see closest()
+  void add(Vec3f point, double within, int triangle) {
+    at[count] = point;
+    reach[count] = within;
+    hint[count++] = triangle;
+  }
+};
+/// Their closest points, with no triangle where nothing is within reach.
+using NearestPoints = std::array<BodyPoint, NearestTile::capacity>;
+
+/// Closest-point queries on one body, by a tree of boxes over its image.
 class BodyQuery {
  public:
-  /// @param grid  kept by reference
+  /// @param grid  kept by reference, of 3 x 3 samples or more
   explicit BodyQuery(const SurfaceGrid& grid);
+  BodyQuery(const BodyQuery&) = delete;
+  BodyQuery& operator=(const BodyQuery&) = delete;
+  ~BodyQuery() = default;
   /// Fits the boxes to the body's positions.
   /// @param positions  [n x n] [m], kept by pointer
   void place(const Planes3& positions, ThreadTeam& team);
+  /// Takes the same positions from somewhere else.
+  void follow(const Planes3& positions);
 
   /// The closest point of the body, or nothing where it is not closer than `reach`. Of equally
   /// close points that of the first triangle.
@@ -34,6 +56,10 @@ class BodyQuery {
   /// none
   [[nodiscard]] std::optional<BodyPoint> closest(Vec3d point, double reach,
                                                  int hint = -1) const noexcept;
+  /// The same for several points at once, several times as fast.
+  void closest(const NearestTile& tile, NearestPoints& found) const noexcept;
+  /// The closest point of one triangle.
+  [[nodiscard]] BodyPoint point_of(Vec3d point, int triangle) const noexcept;
   /// Whether a point lies behind the surface at its closest point, by the angle-weighted normal
   /// there [baerentzen05]: exact for closed surfaces.
   [[nodiscard]] bool behind(Vec3d point, const BodyPoint& closest) const noexcept;
@@ -48,26 +74,29 @@ class BodyQuery {
   }
 
  private:
-  /// Boxes of a node's children side by side: least x, y, z, then largest; a missing child is
-  /// infinitely far.
-  struct ChildBoxes {
-    std::array<std::array<float, 4>, 3> lower, upper;
-  };
+  struct Closest;
+  [[nodiscard]] Closest begin(Vec3d point, double reach, int hint) const noexcept;
+  [[nodiscard]] static float reach_of(const Closest& closest, float off);
+  void search_one(Vec3d point, Closest& closest) const noexcept;
+  void refine(const NearestTile& tile, Range points, std::span<Closest> closest) const noexcept;
+  void add_all(Vec3d point, Closest& closest) const noexcept;
   void find_incident();
-  void pack_row(int level, int row);
+  void find_leaves();
+  void fit_leaf_row(int row, std::span<float> extents);
+  void fit_level(int level);
   [[nodiscard]] Vec3d position(int sample) const {
     return vec_cast<double>(positions_->at(sample));
   }
   [[nodiscard]] Vec3d face_normal(const std::array<int, 3>& samples) const noexcept;
-  struct Search;
-  void search(const Node& node, Search& search) const noexcept;
-  void try_triangle(int row, int col, int half, Search& search) const noexcept;
 
   const SurfaceGrid* grid_;
   const Planes3* positions_ = nullptr;
-  ExtentLevels boxes_;
-  std::vector<std::vector<ChildBoxes>> children_;  // of each level from 1 on [side * side]
-  std::vector<int> starts_, incident_;             // triangles (2 * cell + half) around each point
+  const BodyKernels* kernels_ = nullptr;
+  std::vector<BodyLeaf> leaves_;
+  std::vector<std::vector<BodyNode>> nodes_;  // of each level [side * side]
+  BodyTree tree_;
+  std::vector<float> extents_;          // scratch of each leaf row
+  std::vector<int> starts_, incident_;  // triangles (2 * cell + half) around each point
   bool closed_ = false;
 };
 

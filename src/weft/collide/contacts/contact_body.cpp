@@ -10,18 +10,6 @@ namespace {
 /// out slowly.
 constexpr double max_recovery = 0.25;
 
-/// Approach of a body's surface to a place along a normal. A surface that slides or turns in place
-/// does not approach, though its points move. Nothing where the surface is out of reach at the end.
-/// [m]
-std::optional<double> approach_of(const ContactBody& body, const BodyPoint& at, Vec3d place,
-                                  Vec3d normal, double reach) {
-  const auto then = body.at_end->closest(place, reach);
-  if (!then) return std::nullopt;
-  const double before = dot(normal, place - at.position);
-  const double after = std::sqrt(then->squared_distance);
-  return before - (dot(normal, place - then->position) < 0 ? -after : after);
-}
-
 }  // namespace
 
 Vec3d displacement_of(const ContactBody& body, const BodyPoint& at) {
@@ -40,30 +28,42 @@ void put_offset(double surface, double gap_at_start, double gap, Contact& contac
   contact.lift = static_cast<float>(std::clamp(gap - gap_at_start, 0.0, max_recovery * gap));
 }
 
-std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& at,
-                                      const ClothPoint& point, const KeptGap& kept) {
+PlaceBefore place_before(const ContactBody& body, const BodyPoint& at, const ClothPoint& point) {
   const double distance = std::sqrt(at.squared_distance);
   // On the surface itself rounding would choose the direction.
   constexpr double touching = 1e-9;
   const Vec3d normal = distance > touching
                            ? ((point.astray ? -1 : 1) / distance) * (point.start - at.position)
                            : (point.kept_in ? -1.0 : 1.0) * body.query->normal_at(at);
-  const double gap = point.astray ? -distance : distance;
-  Vec3d surface_displacement = displacement_of(body, at);
-  if (body.at_end != nullptr) {
-    const auto approach = approach_of(
-        body, at, point.start, normal,
-        std::abs(gap) + body.max_approach + contact_margin * kept.gap + length(point.displacement));
-    if (approach)
-      surface_displacement += std::max(0.0, *approach - dot(normal, surface_displacement)) * normal;
-  }
-  if (gap + dot(normal, point.displacement - surface_displacement) >= contact_margin * kept.gap)
-    return std::nullopt;
+  return {normal, point.astray ? -distance : distance};
+}
+
+/// A surface that slides or turns in place does not approach, though its points move.
+Vec3d surface_displacement(const ContactBody& body, const BodyPoint& at, const BodyPoint* at_end,
+                           const PlaceBefore& before, Vec3d place) {
+  const Vec3d moved = displacement_of(body, at);
+  if (at_end == nullptr) return moved;
+  const double after = std::sqrt(at_end->squared_distance);
+  const bool passed = dot(before.normal, place - at_end->position) < 0;
+  const double approach = dot(before.normal, place - at.position) - (passed ? -after : after);
+  return moved + std::max(0.0, approach - dot(before.normal, moved)) * before.normal;
+}
+
+double reach_at_end(const PlaceBefore& before, double approach) {
+  return std::abs(before.gap) + approach;
+}
+
+bool comes_near(const PlaceBefore& before, Vec3d displacement, double along, const KeptGap& kept) {
+  return before.gap + dot(before.normal, displacement) - along < contact_margin * kept.gap;
+}
+
+Contact contact_at(const ContactBody& body, const BodyPoint& at, const ClothPoint& point,
+                   const PlaceBefore& before, Vec3d surface_displacement, const KeptGap& kept) {
   Contact contact;
   contact.samples = point.samples;
   contact.weights = point.weights;
-  contact.normal = vec_cast<float>(normal);
-  put_offset(dot(normal, at.position + surface_displacement), gap, kept.gap, contact);
+  contact.normal = vec_cast<float>(before.normal);
+  put_offset(dot(before.normal, at.position + surface_displacement), before.gap, kept.gap, contact);
   contact.friction = static_cast<float>(pair_friction(kept.friction, body.friction));
   if (point.astray) {
     // No force presses there: the point is on its way back, by a part of the gap in every step, or
@@ -73,6 +73,20 @@ std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& 
   }
   contact.surface_displacement = vec_cast<float>(surface_displacement);
   return contact;
+}
+
+std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& at,
+                                      const ClothPoint& point, const KeptGap& kept) {
+  const PlaceBefore before = place_before(body, at, point);
+  std::optional<BodyPoint> at_end;
+  if (body.at_end != nullptr)
+    at_end = body.at_end->closest(
+        point.start, reach_at_end(before, body.max_approach) + contact_margin * kept.gap,
+        at.triangle);
+  const Vec3d moved =
+      surface_displacement(body, at, at_end ? &*at_end : nullptr, before, point.start);
+  if (!comes_near(before, point.displacement, dot(before.normal, moved), kept)) return std::nullopt;
+  return contact_at(body, at, point, before, moved, kept);
 }
 
 }  // namespace weft

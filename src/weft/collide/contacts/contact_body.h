@@ -22,6 +22,7 @@ struct ContactBody {
   double max_approach = 0;              ///< upper bound of its approach to anything in the step [m]
   const BlockMotion* blocks = nullptr;  ///< its motion by blocks; null where it stands still
   int motion = 0;                       ///< identifier of this motion of the body
+  int placement = 0;                    ///< identifier of where it is at the start
 };
 
 /// Displacement of a point of a body's surface during the step. [m]
@@ -42,6 +43,35 @@ struct KeptGap {
   double gap = 0;       ///< [m]
   double friction = 0;  ///< of the cloth
 };
+
+/// A place of a cloth before a body: along the normal from the body point that is closest at the
+/// start of a step. Where the place starts on the wrong side of the body, the normal leads out.
+struct PlaceBefore {
+  Vec3d normal;    ///< unit
+  double gap = 0;  ///< at the start, < 0 on the wrong side [m]
+};
+[[nodiscard]] PlaceBefore place_before(const ContactBody& body, const BodyPoint& at,
+                                       const ClothPoint& point);
+
+/// Displacement of the surface before a place: that of the body point closest at the start, and
+/// along the normal at least by what the surface approaches.
+/// @param at_end  the body point that is closest to the place at the end of the step, or null where
+/// the body does not go far, or is out of reach then [m]
+[[nodiscard]] Vec3d surface_displacement(const ContactBody& body, const BodyPoint& at,
+                                         const BodyPoint* at_end, const PlaceBefore& before,
+                                         Vec3d place);
+/// How far from a place the surface may be at the end of a step. [m]
+[[nodiscard]] double reach_at_end(const PlaceBefore& before, double approach);
+
+/// Whether a point that moves by `displacement` comes near the surface, which moves by `along`
+/// along the normal. [m]
+[[nodiscard]] bool comes_near(const PlaceBefore& before, Vec3d displacement, double along,
+                              const KeptGap& kept);
+
+/// The contact of a point before a body, wherever the point goes.
+[[nodiscard]] Contact contact_at(const ContactBody& body, const BodyPoint& at,
+                                 const ClothPoint& point, const PlaceBefore& before,
+                                 Vec3d surface_displacement, const KeptGap& kept);
 
 /// Contact of a cloth point with a body: the half-space before the body point closest to it at the
 /// start of the step; nothing where the proposal does not lead near it.

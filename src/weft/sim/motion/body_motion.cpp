@@ -1,6 +1,7 @@
 #include "weft/sim/motion/body_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -116,6 +117,7 @@ BodyMotion::BodyMotion(const SceneBody& body, const LoadedSurface& surface, cons
   if (!body.animation.empty()) {
     animation_ = load_animation(body, files);
     blends_ = blends_of(surface, body, animation_->points);
+    for (Key* key : {&before_, &after_}) key->positions = Planes3(rest_.size());
     of_mesh_ = surface.follows.has_value();
     fastest_ = fastest_animated();
   } else {
@@ -166,27 +168,73 @@ Vec3d BodyMotion::animated(const Instant& instant, const BlendedVertex& blend) c
   return map_.point(instant.part > 0 ? a + instant.part * (blended(instant.after) - a) : a);
 }
 
-void BodyMotion::place(double time, Planes3& positions, ThreadTeam& team) const noexcept {
+void BodyMotion::set_key(int sample, Key& key, ThreadTeam& team) const noexcept {
+  if (key.sample == sample) return;
+  key.sample = sample;
   const int n = rest_.size();
-  const double seconds = since_wait(time), share = led_in(seconds);
-  const auto set_all = [&](const auto& where) {
-    team.run([&](Worker& worker) {
-      const Range rows = worker.share(n);
-      for (int s = rows.first * n; s < rows.last * n; ++s)
-        positions.set(s, vec_cast<float>(where(s, vec_cast<double>(rest_.at(s)))));
-    });
-  };
-  if (animation_) {
-    const Instant instant = instant_at(std::max(0.0, seconds - lead_in_));
-    set_all([&](int s, Vec3d rest) {
-      const Vec3d there = animated(instant, blends_[static_cast<std::size_t>(s)]);
-      return share < 1 ? rest + share * (there - rest) : there;
-    });
-  } else {
-    const MotionKey key = key_now(seconds);
-    const PlacementMap turn = placement_map({{1, 1, 1}, key.rotate, key.translate});
-    set_all([&](int, Vec3d rest) { return origin_ + turn.point(rest - origin_); });
-  }
+  team.run([&](Worker& worker) {
+    const Range rows = worker.share(n);
+    for (int r = rows.first; r < rows.last; ++r)
+      for (int c = 0; c < n; ++c)
+        key.positions.set(r, c,
+                          vec_cast<float>(animated({sample, sample, 0},
+                                                   blends_[static_cast<std::size_t>(r) * n + c])));
+  });
+}
+
+namespace {
+
+/// Goes a part of the way from one row to another.
+void go_between(const float* from, const float* to, float part, int count, float* out) {
+#pragma omp simd
+  for (int c = 0; c < count; ++c) out[c] = from[c] + part * (to[c] - from[c]);
+}
+
+std::array<float*, 3> rows_of(Planes3& planes, int row) {
+  return {planes.x.row(row), planes.y.row(row), planes.z.row(row)};
+}
+}  // namespace
+
+void BodyMotion::place_animated(double seconds, Planes3& positions, ThreadTeam& team) noexcept {
+  const Instant instant = instant_at(std::max(0.0, seconds - lead_in_));
+  if (after_.sample == instant.before) std::swap(before_, after_);
+  set_key(instant.before, before_, team);
+  set_key(instant.after, after_, team);
+  const int n = rest_.size();
+  const auto part = static_cast<float>(instant.part), share = static_cast<float>(led_in(seconds));
+  team.run([&](Worker& worker) {
+    const Range rows = worker.share(n);
+    for (int r = rows.first; r < rows.last; ++r) {
+      const auto from = rows_of(before_.positions, r), to = rows_of(after_.positions, r),
+                 rest = rows_of(rest_, r);
+      const std::array<float*, 3> out = rows_of(positions, r);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        go_between(from[axis], to[axis], part, n, out[axis]);
+        if (share < 1) go_between(rest[axis], out[axis], share, n, out[axis]);
+      }
+    }
+  });
+}
+
+void BodyMotion::place_rigid(double seconds, Planes3& positions, ThreadTeam& team) const noexcept {
+  const MotionKey key = key_now(seconds);
+  const PlacementMap turn = placement_map({{1, 1, 1}, key.rotate, key.translate});
+  const int n = rest_.size();
+  team.run([&](Worker& worker) {
+    const Range rows = worker.share(n);
+    for (int r = rows.first; r < rows.last; ++r)
+      for (int c = 0; c < n; ++c) {
+        const Vec3d rest = vec_cast<double>(rest_.at(r, c));
+        positions.set(r, c, vec_cast<float>(origin_ + turn.point(rest - origin_)));
+      }
+  });
+}
+
+void BodyMotion::place(double time, Planes3& positions, ThreadTeam& team) noexcept {
+  if (animation_)
+    place_animated(since_wait(time), positions, team);
+  else
+    place_rigid(since_wait(time), positions, team);
 }
 
 std::vector<Vec3d> BodyMotion::vertices(double time, std::span<const Vec3d> rest) const {

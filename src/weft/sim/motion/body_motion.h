@@ -43,7 +43,7 @@ class BodyMotion {
   [[nodiscard]] int size() const { return rest_.size(); }
   /// Sets the positions of all samples at a time; mates are equal.
   /// @param positions  [n x n] world [m]
-  void place(double time, Planes3& positions, ThreadTeam& team) const noexcept;
+  void place(double time, Planes3& positions, ThreadTeam& team) noexcept;
   /// Where an animation of a mesh has its vertices at a time; empty for other motions.
   /// @param rest  [V] of the mesh, unplaced [m]  @return [V] world [m]
   [[nodiscard]] std::vector<Vec3d> vertices(double time, std::span<const Vec3d> rest) const;
@@ -56,6 +56,15 @@ class BodyMotion {
     int before = 0, after = 0;
     double part = 0;
   };
+  /// Positions of all samples at a time sample of the animation; they are kept, as long as they lie
+  /// next to the time.
+  struct Key {
+    int sample = -1;
+    Planes3 positions;  // world [m]
+  };
+  void set_key(int sample, Key& key, ThreadTeam& team) const noexcept;
+  void place_animated(double seconds, Planes3& positions, ThreadTeam& team) noexcept;
+  void place_rigid(double seconds, Planes3& positions, ThreadTeam& team) const noexcept;
   [[nodiscard]] MotionKey key_now(double seconds) const noexcept;
   [[nodiscard]] Instant instant_at(double seconds) const noexcept;
   [[nodiscard]] Vec3d animated(const Instant& instant, const BlendedVertex& blend) const noexcept;
@@ -71,6 +80,7 @@ class BodyMotion {
   std::vector<MotionKey> path_;
   std::optional<PointCache> animation_;  // times in seconds
   std::vector<BlendedVertex> blends_;    // [n * n]
+  Key before_, after_;                   // the keys around the time that was placed last
   bool of_mesh_ = false;                 // whether the animation moves a mesh's vertices
 };
 

@@ -1,6 +1,7 @@
 #include "weft/sim/stepping/adaptive_substeps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "weft/mesh/box_tree.h"
@@ -21,28 +22,56 @@ Box3d padded(const Box3d& box, double by) {
 }  // namespace
 
 ClothReach::ClothReach(int size) {
-  const auto blocks = static_cast<std::size_t>((size - 2) / block_size + 1);
+  const std::size_t blocks = static_cast<std::size_t>(size - 2) / block_size + 1;
   blocks_.reserve(blocks * blocks);
+  columns_.reserve(6 * static_cast<std::size_t>(size));
+}
+
+/// Widens the extents of one coordinate of a row's samples, where they are and where they fly to.
+void ClothReach::widen(const float* position, const float* velocity, float seconds, int size,
+                       float* lower, float* upper) {
+#pragma omp simd
+  for (int c = 0; c < size; ++c) {
+    const float from = position[c], to = from + seconds * velocity[c];
+    const float less = from < to ? from : to, more = from < to ? to : from;
+    lower[c] = lower[c] < less ? lower[c] : less;
+    upper[c] = upper[c] > more ? upper[c] : more;
+  }
 }
 
 void ClothReach::place(const ClothState& cloth, double seconds, double padding) noexcept {
   const int n = cloth.position.size();
+  const auto samples = static_cast<std::size_t>(n);
+  const std::array positions{&cloth.position.x, &cloth.position.y, &cloth.position.z};
+  const std::array velocities{&cloth.velocity.x, &cloth.velocity.y, &cloth.velocity.z};
   blocks_.clear();
   whole_ = {};
-  for (int row = 0; row + 1 < n; row += block_size)
-    for (int col = 0; col + 1 < n; col += block_size) {
-      Box3d box;
-      // Includes the first samples of the next blocks, so that no gap is left between blocks.
-      for (int r = row; r <= std::min(n - 1, row + block_size); ++r)
-        for (int c = col; c <= std::min(n - 1, col + block_size); ++c) {
-          const Vec3d at = vec_cast<double>(cloth.position.at(r, c));
-          box.add(at);
-          box.add(at + seconds * vec_cast<double>(cloth.velocity.at(r, c)));
-        }
-      blocks_.push_back(padded(box, padding));
-      whole_.add(blocks_.back().lower);
-      whole_.add(blocks_.back().upper);
-    }
+  for (int row = 0; row + 1 < n; row += block_size) {
+    columns_.assign(3 * samples, HUGE_VALF);
+    columns_.resize(6 * samples, -HUGE_VALF);
+    float *lower = columns_.data(), *upper = lower + 3 * samples;
+    // Includes the first samples of the next blocks, so that no gap is left between blocks.
+    for (int r = row; r <= std::min(n - 1, row + block_size); ++r)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        widen(positions[axis]->row(r), velocities[axis]->row(r), static_cast<float>(seconds), n,
+              lower + axis * samples, upper + axis * samples);
+    for (int col = 0; col + 1 < n; col += block_size) add_block(lower, upper, col, n, padding);
+  }
+}
+
+/// Adds the block of some columns. @param lower, upper  [3 x n] of columns
+void ClothReach::add_block(const float* lower, const float* upper, int col, int size,
+                           double padding) {
+  const int last = std::min(size, col + block_size + 1);
+  const auto least = [&](int axis) {
+    return double{*std::min_element(lower + axis * size + col, lower + axis * size + last)};
+  };
+  const auto most = [&](int axis) {
+    return double{*std::max_element(upper + axis * size + col, upper + axis * size + last)};
+  };
+  blocks_.push_back(padded({{least(0), least(1), least(2)}, {most(0), most(1), most(2)}}, padding));
+  whole_.add(blocks_.back().lower);
+  whole_.add(blocks_.back().upper);
 }
 
 bool ClothReach::meets(const Box3d& box) const noexcept {
@@ -50,22 +79,63 @@ bool ClothReach::meets(const Box3d& box) const noexcept {
                                              [&](const Box3d& b) { return overlap(b, box); });
 }
 
-double wanted_subdivisions(const BodyStep& body, const ClothReach& cloth,
-                           double max_approach_in_step, SurfaceMotion& motion,
-                           ThreadTeam& team) noexcept {
+namespace {
+
+/// The steps that a part of a body asks for.
+struct StepNeed {
+  const BlockMotion& motion;
+  double max_approach_in_step;
+
+  [[nodiscard]] double of(double approach, double turn) const {
+    return std::max(approach / max_approach_in_step, turn / max_turn);
+  }
+  [[nodiscard]] double of_sample(int row, int col) const {
+    if (const SurfaceMotion* surface = motion.surface())
+      return of(surface->approach(row, col), surface->turn(row, col));
+    return of(length(motion.end().at(row, col) - motion.start().at(row, col)), 0);
+  }
+};
+
+/// The most that a triangle near the cloth asks for, of those of a block, if it is more than
+/// `wanted`.
+double wanted_by(const BlockMotion::Block& block, const StepNeed& need, const ClothReach& cloth,
+                 double wanted) {
+  constexpr int wide = BlockMotion::block_size + 1;
+  std::array<std::array<double, wide>, wide> needs{};
+  for (int r = block.first_row; r <= block.last_row; ++r)
+    for (int c = block.first_col; c <= block.last_col; ++c)
+      needs[r - block.first_row][c - block.first_col] = need.of_sample(r, c);
+  const SurfaceGrid& grid = need.motion.grid();
+  for (int r = block.first_row; r < block.last_row; ++r)
+    for (int c = block.first_col; c < block.last_col; ++c)
+      for (const int half : {0, 1}) {
+        const std::array<int, 3> corners = grid.triangle(r, c, half);
+        double own = 0;
+        Box3d way;
+        for (const int s : corners) {
+          own = std::max(
+              own, needs[s / grid.size() - block.first_row][s % grid.size() - block.first_col]);
+          for (const Planes3* at : {&need.motion.start(), &need.motion.end()})
+            way.add(vec_cast<double>(at->at(s)));
+        }
+        if (own > wanted && !grid.folded(corners) && cloth.meets(way)) wanted = own;
+      }
+  return wanted;
+}
+
+}  // namespace
+
+double wanted_subdivisions(const BlockMotion& motion, const ClothReach& cloth,
+                           double max_approach_in_step) noexcept {
   double wanted = 1;
-  if (largest_displacement(body.start, body.end) <= max_approach_in_step) return wanted;
-  motion.measure(body.start, body.end, body.triangles, team);
-  for (const Triangle& t : body.triangles) {
-    double own = 0;
-    for (const int corner : t)
-      own = std::max(
-          {own, motion.approach(corner) / max_approach_in_step, motion.turn(corner) / max_turn});
-    if (own <= wanted) continue;
-    Box3d way;
-    for (const Planes3* at : {&body.start, &body.end})
-      for (const int corner : t) way.add(vec_cast<double>(at->at(corner)));
-    if (cloth.meets(way)) wanted = own;
+  if (motion.max_moved() <= max_approach_in_step) return wanted;
+  const StepNeed need{motion, max_approach_in_step};
+  for (const BlockMotion::Block& block : motion.blocks()) {
+    // What single samples ask for may round to a little more.
+    constexpr double rounding = 1e-5;
+    if ((1 + rounding) * need.of(block.approach, block.turn) <= wanted) continue;
+    const Box3d way{vec_cast<double>(block.swept.lower), vec_cast<double>(block.swept.upper)};
+    if (cloth.meets(way)) wanted = wanted_by(block, need, cloth, wanted);
   }
   return wanted;
 }

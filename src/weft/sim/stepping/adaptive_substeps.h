@@ -35,23 +35,21 @@ class ClothReach {
   [[nodiscard]] bool meets(const Box3d& box) const noexcept;
 
  private:
+  static void widen(const float* position, const float* velocity, float seconds, int size,
+                    float* lower, float* upper);
+  void add_block(const float* lower, const float* upper, int col, int size, double padding);
+
   Box3d whole_;
   std::vector<Box3d> blocks_;
-};
-
-/// Motion of the surface of a body in a substep.
-struct BodyStep {
-  const Planes3 &start, &end;           ///< [n x n] [m]
-  std::span<const Triangle> triangles;  ///< by representatives of classes of mates
+  std::vector<float> columns_;  // [6 x n] extents of the samples of a row of blocks, scratch [m]
 };
 
 /// Number of steps of equal length that a moving body requires of a substep: wherever its path is
 /// near cloth, it approaches or recedes by at most `max_approach_in_step` along its normals in a
 /// step, and its normals rotate by at most max_turn. Sliding past cloth requires no more.
-/// @param motion  scratch space
-double wanted_subdivisions(const BodyStep& body, const ClothReach& cloth,
-                           double max_approach_in_step, SurfaceMotion& motion,
-                           ThreadTeam& team) noexcept;
+/// @param motion  of the body in the substep
+double wanted_subdivisions(const BlockMotion& motion, const ClothReach& cloth,
+                           double max_approach_in_step) noexcept;
 
 /// Rounds up to a power of 2, at most max_pieces.
 int whole_subdivisions(double wanted) noexcept;

@@ -226,7 +226,6 @@ void Simulation::Parts::load_bodies() {
     body.image_normals = std::move(loaded.normals);
     body.positions = placed_positions(loaded.image, map);
     body.image = std::move(loaded.image);
-    body_triangles.push_back(body.moves ? joined_triangles(body.image) : std::vector<Triangle>());
     body.source = std::move(loaded.source);
     driven.add(std::move(motion));
     bodies.push_back(std::move(body));

@@ -91,6 +91,8 @@ struct Simulation::Parts {
   void note_too_fast();
   /// The speed that wind, bodies and moving pins may lend a cloth [m/s].
   [[nodiscard]] double drive_of(std::size_t index) const;
+  /// Sets the end positions of bodies for a step, or a substep, that ends at `seconds`.
+  void move_bodies(double seconds);
   /// Begins a step that ends at `seconds`: sets the end positions of bodies, pins and the grab.
   void move_driven(double seconds);
   /// Pulls the seams of a garment together that is not sewn yet.
@@ -227,12 +229,11 @@ struct Simulation::Parts {
   double step_start = 0;            // time at which the step begins [s]
   double max_approach_in_step = 0;  // of a body towards cloth [m]
   ClothReach reach;                 // of one cloth in a substep
-  SurfaceMotion body_motion;        // of one body in a substep
   bool soft;                        // springs that leave all stretch to the limiter
   std::vector<SimulatedCloth> cloths;
   std::vector<PlacedBody> bodies;
-  std::vector<std::vector<Triangle>> body_triangles;  // of those that move
   DrivenBodies driven;
+  std::optional<double> moved_to;  // where the collider knows bodies to go [s]
   std::vector<std::string> notes;
   std::vector<StartInside> insides;
   std::vector<StartSides> start_sides;              // of each cloth

@@ -61,13 +61,20 @@ constexpr double max_excess_approach = 1.5;
 }  // namespace
 
 void Simulation::Parts::bodies_arrive() {
+  moved_to.reset();
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].moves) bodies[i].positions = *driven.ends()[i];
 }
 
-void Simulation::Parts::move_driven(double seconds) {
+void Simulation::Parts::move_bodies(double seconds) {
+  if (!driven.any_moves() || moved_to == seconds) return;
   driven.move_to(seconds, team);
-  if (driven.any_moves()) collider->move_bodies(driven.ends(), team);
+  collider->move_bodies(driven.ends(), team);
+  moved_to = seconds;
+}
+
+void Simulation::Parts::move_driven(double seconds) {
+  move_bodies(seconds);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     move_pins(pin_motions[i], seconds, *cloths[i].model);
     move_tied(tied_pins[i], driven.ends(), *cloths[i].model);
@@ -222,10 +229,8 @@ double Simulation::Parts::wanted_parts() {
   for (const SimulatedCloth& cloth : cloths) {
     reach.place(cloth.state, time_step, gap_of(*cloth.model));
     for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (bodies[i].moves)
-        wanted = std::max(
-            wanted, wanted_subdivisions({bodies[i].positions, *driven.ends()[i], body_triangles[i]},
-                                        reach, max_approach_in_step, body_motion, team));
+      if (const BlockMotion* motion = collider->motion_of(i))
+        wanted = std::max(wanted, wanted_subdivisions(*motion, reach, max_approach_in_step));
   }
   return wanted;
 }
@@ -242,7 +247,7 @@ void Simulation::Parts::check_speed(double subdivisions) const {
 
 int Simulation::Parts::subdivisions_until(double seconds) {
   if (!driven.any_moves()) return 1;
-  driven.move_to(seconds, team);
+  move_bodies(seconds);
   const double wanted = wanted_parts();
   check_speed(wanted);
   return whole_subdivisions(wanted);

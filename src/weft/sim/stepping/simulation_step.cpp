@@ -116,6 +116,7 @@ void Simulation::Parts::solve_all(FrameReport& report) {
 
 void Simulation::Parts::refuse_step() {
   collider->rollback();
+  moved_to.reset();
   for (std::size_t i = 0; i < cloths.size(); ++i)
     if (movers[i].wind || cloths[i].model->apart)
       cloths[i].state.velocity = movers[i].calm_velocity;

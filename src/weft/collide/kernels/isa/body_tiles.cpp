@@ -1,0 +1,218 @@
+// The same for the points of a tile. The leaves that are near any of them are found and prepared
+// once; then each point looks at those that are near it.
+#include <cmath>
+
+#include "weft/collide/kernels/isa/body_leaf.h"
+
+namespace weft::WEFT_KERNEL_SET {
+namespace {
+
+/// A box in single precision. [m]
+struct Box {
+  float lower[3], upper[3];
+};
+
+/// The leaves near a tile.
+struct Leaves {
+  static constexpr int capacity = 64;
+  alignas(64) float lower[3][capacity];
+  alignas(64) float upper[3][capacity];
+  unsigned place[capacity];
+  bool ready[capacity];  // whether it is prepared
+  PreparedLeaf prepared[capacity];
+  int count = 0;
+  bool full = false;
+};
+
+/// Squared distances of a box to those of a node's children.
+inline void distances(const Box& box, const BodyNode& node, float* squared) {
+#pragma omp simd
+  for (int k = 0; k < 16; ++k) {
+    const float x = max(max(node.lower[0][k] - box.upper[0], box.lower[0] - node.upper[0][k]), 0);
+    const float y = max(max(node.lower[1][k] - box.upper[1], box.lower[1] - node.upper[1][k]), 0);
+    const float z = max(max(node.lower[2][k] - box.upper[2], box.lower[2] - node.upper[2][k]), 0);
+    squared[k] = x * x + y * y + z * z;
+  }
+}
+
+inline unsigned within_node(const float* squared, float limit) {
+  unsigned found = 0;
+#pragma omp simd reduction(| : found)
+  for (int k = 0; k < 16; ++k) found |= squared[k] <= limit ? bits[k] : 0U;
+  return found;
+}
+
+/// Adds the leaves below a node that are near.
+void collect(const BodyTree& tree, const Box& box, float limit, unsigned place, Leaves& out) {
+  const int level = level_of(place), row = row_of(place), col = col_of(place);
+  const BodyNode& node = tree.nodes[level][static_cast<long>(row) * tree.sides[level] + col];
+  float squared[16];
+  distances(box, node, squared);
+  unsigned near = within_node(squared, limit);
+  for (; near != 0 && !out.full; near &= near - 1) {
+    const int k = __builtin_ctz(near);
+    const unsigned child = place_of(level - 1, 4 * row + k / 4, 4 * col + k % 4);
+    if (level > 0) {
+      collect(tree, box, limit, child, out);
+      continue;
+    }
+    out.full = out.count == Leaves::capacity;
+    if (out.full) return;
+    const int at = out.count++;
+    for (int axis = 0; axis < 3; ++axis) {
+      out.lower[axis][at] = node.lower[axis][k];
+      out.upper[axis][at] = node.upper[axis][k];
+    }
+    out.place[at] = child;
+    out.ready[at] = false;
+  }
+}
+
+/// Fills up to a whole number of vectors with what is far from everything.
+void pad(Leaves& leaves) {
+  for (int k = leaves.count; k % 16 != 0; ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      leaves.lower[axis][k] = far_away;
+      leaves.upper[axis][k] = -far_away;
+    }
+}
+
+/// Squared distances of a point to sixteen leaves' boxes; `least` becomes the least, lane by lane.
+inline void distances(const Leaves& leaves, int first, const float* at, float* squared,
+                      float* least) {
+  const float *lx = leaves.lower[0] + first, *hx = leaves.upper[0] + first;
+  const float *ly = leaves.lower[1] + first, *hy = leaves.upper[1] + first;
+  const float *lz = leaves.lower[2] + first, *hz = leaves.upper[2] + first;
+  const float px = at[0], py = at[1], pz = at[2];
+#pragma omp simd
+  for (int k = 0; k < 16; ++k) {
+    const float below_x = lx[k] - px, below_y = ly[k] - py, below_z = lz[k] - pz;
+    const float above_x = px - hx[k], above_y = py - hy[k], above_z = pz - hz[k];
+    const float x = max(max(below_x, above_x), 0), y = max(max(below_y, above_y), 0),
+                z = max(max(below_z, above_z), 0);
+    const float all = x * x + y * y + z * z, before = least[k];
+    squared[k] = all;
+    least[k] = min(before, all);
+  }
+}
+
+/// Those to all leaves' boxes. @return the least
+float distances(const Leaves& leaves, const float* at, float* squared) {
+  alignas(64) float least[16];
+  for (float& one : least) one = far_away * far_away;
+  for (int first = 0; first < leaves.count; first += 16)
+    distances(leaves, first, at, squared + first, least);
+  float eight[lanes];
+  for (int k = 0; k < lanes; ++k) eight[k] = min(least[k], least[k + 8]);
+  return least_of(eight);
+}
+
+/// One point and what is near it.
+class PointSearch {
+ public:
+  PointSearch(const BodyTree& tree, Leaves& leaves, const NearTile& tile, int point);
+  void run(TileTriangles& out);
+
+ private:
+  void set_limit(float squared);
+  void look_at(int leaf);
+  void list(TileTriangles& out);
+
+  const BodyTree& tree_;
+  Leaves& leaves_;
+  const NearTile& tile_;
+  int point_;
+  float at_[3];
+  float rounding_;                               // of squared distances [m^2]
+  float limit_, box_limit_;                      // see body_tree.cpp
+  alignas(64) float squared_[Leaves::capacity];  // of the leaves' boxes [m^2]
+  LeafBounds bounds_[Leaves::capacity];          // of the leaves that were looked at
+  int seen_[Leaves::capacity];                   // their indices
+  int count_ = 0;
+};
+
+PointSearch::PointSearch(const BodyTree& tree, Leaves& leaves, const NearTile& tile, int point)
+    : tree_(tree),
+      leaves_(leaves),
+      tile_(tile),
+      point_(point),
+      at_{tile.at[0][point], tile.at[1][point], tile.at[2][point]},
+      rounding_(of_rounding * tile.rounding * tile.rounding) {
+  set_limit(tile.reach[point] * tile.reach[point] * (1 + part_of_distance));
+}
+
+void PointSearch::set_limit(float squared) {
+  limit_ = squared;
+  const float far = std::sqrt(squared) + 2 * tile_.rounding;
+  box_limit_ = far * far * (1 + part_of_distance);
+}
+
+void PointSearch::look_at(int leaf) {
+  LeafBounds& bounds = bounds_[count_];
+  seen_[count_++] = leaf;
+  if (!leaves_.ready[leaf])
+    prepare(tree_, row_of(leaves_.place[leaf]), col_of(leaves_.place[leaf]),
+            leaves_.prepared[leaf]);
+  leaves_.ready[leaf] = true;
+  bound(leaves_.prepared[leaf], at_, bounds);
+  const float least = least_of(bounds.upper) + rounding_;
+  if (least < limit_) set_limit(least);
+}
+
+/// The nearest leaf first, since it is likely to put most of the others out of the question.
+void PointSearch::run(TileTriangles& out) {
+  const float least = distances(leaves_, at_, squared_);
+  int first = -1;
+  for (int l = 0; first < 0 && l < leaves_.count; ++l)
+    if (squared_[l] == least) first = l;
+  if (first >= 0 && least <= box_limit_) look_at(first);
+  for (int begin = 0; begin < leaves_.count; begin += 16) {
+    unsigned near = within_node(squared_ + begin, box_limit_);
+    for (; near != 0; near &= near - 1) {
+      const int l = begin + __builtin_ctz(near);
+      if (l != first && squared_[l] <= box_limit_) look_at(l);
+    }
+  }
+  list(out);
+}
+
+void PointSearch::list(TileTriangles& out) {
+  for (int i = 0; i < count_; ++i) {
+    const unsigned place = leaves_.place[seen_[i]];
+    unsigned near = within(bounds_[i].lower, limit_);
+    for (; near != 0; near &= near - 1) {
+      if (out.count < TileTriangles::capacity)
+        out.found[out.count] = {
+            point_, triangle_of(tree_, row_of(place), col_of(place), __builtin_ctz(near))};
+      ++out.count;
+    }
+  }
+}
+
+}  // namespace
+
+void find_near_tile(const BodyTree& tree, const NearTile& tile, TileTriangles& out) {
+  Box box{{far_away, far_away, far_away}, {-far_away, -far_away, -far_away}};
+  float reach = 0;
+  for (int k = 0; k < tile.count; ++k) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = min(box.lower[axis], tile.at[axis][k]);
+      box.upper[axis] = max(box.upper[axis], tile.at[axis][k]);
+    }
+    reach = max(reach, tile.reach[k]);
+  }
+  const float far = reach + 3 * tile.rounding;
+  Leaves leaves;
+  out.count = 0;
+  if (far < far_away)
+    collect(tree, box, far * far * (1 + 2 * part_of_distance), place_of(tree.levels - 1, 0, 0),
+            leaves);
+  if (leaves.full || !(far < far_away)) {
+    out.count = TileTriangles::capacity + 1;
+    return;
+  }
+  pad(leaves);
+  for (int k = 0; k < tile.count; ++k) PointSearch(tree, leaves, tile, k).run(out);
+}
+
+}  // namespace weft::WEFT_KERNEL_SET

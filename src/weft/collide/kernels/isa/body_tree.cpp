@@ -1,0 +1,165 @@
+// The search for the triangles of a body that may be closest to a point.
+#include <cmath>
+
+#include "weft/collide/kernels/isa/body_leaf.h"
+
+namespace weft::WEFT_KERNEL_SET {
+namespace {
+
+/// Squared distances of a point to the boxes of a node's children.
+inline void distances(const float* at, const BodyNode& node, float* squared) {
+#pragma omp simd
+  for (int k = 0; k < 16; ++k) {
+    const float x = max(max(node.lower[0][k] - at[0], at[0] - node.upper[0][k]), 0);
+    const float y = max(max(node.lower[1][k] - at[1], at[1] - node.upper[1][k]), 0);
+    const float z = max(max(node.lower[2][k] - at[2], at[2] - node.upper[2][k]), 0);
+    squared[k] = x * x + y * y + z * z;
+  }
+}
+
+/// Mask of the children within a limit.
+inline unsigned within_node(const float* squared, float limit) {
+  unsigned found = 0;
+#pragma omp simd reduction(| : found)
+  for (int k = 0; k < 16; ++k) found |= squared[k] <= limit ? bits[k] : 0U;
+  return found;
+}
+
+/// A search on its way down the tree.
+class Descent {
+ public:
+  Descent(const BodyTree& tree, const NearSearch& search, NearTriangles& out);
+  void run();
+
+ private:
+  void set_limit(float squared);
+  void push(const Waiting& one, int first);
+  void look_below(unsigned place);
+  void look_at_leaf(unsigned place);
+  void add(int triangle, float squared);
+  void drop_far();
+
+  const BodyTree& tree_;
+  const NearSearch& search_;
+  NearTriangles& out_;
+  float rounding_;                          // of squared distances [m^2]
+  float limit_ = 0;                         // triangles beyond are not the closest, squared [m^2]
+  float box_limit_ = 0;                     // boxes beyond are not looked into, squared [m^2]
+  float squared_[NearTriangles::capacity];  // lower bounds of what was found [m^2]
+  Waiting waiting_[16 * BodyTree::most_levels + 1];  // of children, the nearest on top
+  int count_ = 0;
+};
+
+Descent::Descent(const BodyTree& tree, const NearSearch& search, NearTriangles& out)
+    : tree_(tree),
+      search_(search),
+      out_(out),
+      rounding_(of_rounding * search.rounding * search.rounding) {
+  set_limit(search.reach < far_away ? search.reach * search.reach * (1 + part_of_distance)
+                                    : far_away * far_away);
+  out.count = 0;
+}
+
+void Descent::set_limit(float squared) {
+  limit_ = squared;
+  const float far = std::sqrt(squared) + 2 * search_.rounding;
+  box_limit_ = far < far_away ? far * far * (1 + part_of_distance) : far_away * far_away;
+}
+
+/// Below those that were pushed since there were `first` and are nearer.
+void Descent::push(const Waiting& one, int first) {
+  int at = count_++;
+  for (; at > first && waiting_[at - 1].squared < one.squared; --at)
+    waiting_[at] = waiting_[at - 1];
+  waiting_[at] = one;
+}
+
+/// Forgets what later findings have put out of the question.
+void Descent::drop_far() {
+  int kept = 0;
+  for (int k = 0; k < out_.count; ++k) {
+    if (!(squared_[k] <= limit_)) continue;
+    squared_[kept] = squared_[k];
+    out_.found[kept++] = out_.found[k];
+  }
+  out_.count = kept;
+}
+
+void Descent::add(int triangle, float squared) {
+  if (out_.count >= NearTriangles::capacity) drop_far();
+  if (out_.count < NearTriangles::capacity) {
+    out_.found[out_.count] = triangle;
+    squared_[out_.count] = squared;
+  }
+  ++out_.count;
+}
+
+void Descent::look_at_leaf(unsigned place) {
+  const int row = row_of(place), col = col_of(place);
+  PreparedLeaf leaf;
+  prepare(tree_, row, col, leaf);
+  LeafBounds bounds;
+  bound(leaf, search_.at, bounds);
+  const float least = least_of(bounds.upper) + rounding_;
+  if (least < limit_) set_limit(least);
+  unsigned near = within(bounds.lower, limit_);
+  for (; near != 0; near &= near - 1) {
+    const int k = __builtin_ctz(near);
+    add(triangle_of(tree_, row, col, k), bounds.lower[k]);
+  }
+}
+
+void Descent::look_below(unsigned place) {
+  const int level = level_of(place), row = row_of(place), col = col_of(place);
+  float squared[16];
+  distances(search_.at, tree_.nodes[level][static_cast<long>(row) * tree_.sides[level] + col],
+            squared);
+  unsigned near = within_node(squared, box_limit_);
+  const int first = count_;
+  for (; near != 0; near &= near - 1) {
+    const int k = __builtin_ctz(near);
+    push({squared[k], place_of(level - 1, 4 * row + k / 4, 4 * col + k % 4)}, first);
+  }
+}
+
+void Descent::run() {
+  push({0, place_of(tree_.levels - 1, 0, 0)}, 0);
+  while (count_ > 0) {
+    const Waiting next = waiting_[--count_];
+    if (!(next.squared <= box_limit_)) continue;
+    if (level_of(next.place) < 0)
+      look_at_leaf(next.place);
+    else
+      look_below(next.place);
+  }
+  if (out_.count <= NearTriangles::capacity) drop_far();
+}
+
+}  // namespace
+
+void find_near(const BodyTree& tree, const NearSearch& search, NearTriangles& out) {
+  Descent(tree, search, out).run();
+}
+
+void leaf_extents(int leaves, int last, const float* const* rows, float* lower, float* upper) {
+  const float *a = rows[0], *b = rows[1], *c = rows[2];
+  const auto least = [](float x, float y, float z) { return min(x, min(y, z)); };
+  const auto most = [](float x, float y, float z) { return max(x, max(y, z)); };
+#pragma omp simd
+  for (int k = 0; k < leaves - 1; ++k) {
+    const int s = 2 * k;
+    lower[k] = least(least(a[s], b[s], c[s]), least(a[s + 1], b[s + 1], c[s + 1]),
+                     least(a[s + 2], b[s + 2], c[s + 2]));
+    upper[k] = most(most(a[s], b[s], c[s]), most(a[s + 1], b[s + 1], c[s + 1]),
+                    most(a[s + 2], b[s + 2], c[s + 2]));
+  }
+  const int k = leaves - 1;
+  lower[k] = far_away;
+  upper[k] = -far_away;
+  for (int s = 2 * k; s <= last; ++s) {
+    lower[k] = min(lower[k], least(a[s], b[s], c[s]));
+    upper[k] = max(upper[k], most(a[s], b[s], c[s]));
+  }
+}
+
+}  // namespace weft::WEFT_KERNEL_SET
