@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <set>
@@ -45,12 +46,13 @@ class Counted final : public BroadPhase {
                  std::vector<CandidateTile>& out) override {
     pyramid_.find_self(a, reach, slack, team, out);
   }
-  bool find_changed(int a, int b, float reach, float slack, const ChangedPatches& changed,
-                    ThreadTeam& team, std::vector<CandidateTile>& out) override {
+  bool find_changed(int a, int b, float reach, const UnfoldedWindows* unfolded,
+                    const ChangedPatches& changed, ThreadTeam& team,
+                    std::vector<CandidateTile>& out) override {
     ++searches_;
     for (int p = 0; p < changed.a->patches() * changed.a->patches(); ++p)
-      patches_ += changed.a->version(p) > changed.since ? 1 : 0;
-    return pyramid_.find_changed(a, b, reach, slack, changed, team, out);
+      patches_ += changed.a->of(p) > changed.since ? 1 : 0;
+    return pyramid_.find_changed(a, b, reach, unfolded, changed, team, out);
   }
 
  private:
@@ -228,6 +230,51 @@ TEST(CoherentPairs, AreInAnOrderThatDoesNotDependOnWhenTheyWereFound) {
     EXPECT_GT(both.size(), anew.size() * 99 / 100);
     EXPECT_EQ(known, both);
   }
+}
+
+/// A sheet with a pleat on the left; on the right its samples go to and fro along rows by so much.
+Planes3 crimped(float by) {
+  Planes3 sheet(n);
+  constexpr float spacing = 0.001F;
+  constexpr std::array to_and_fro{0.0F, 1.0F, 0.0F, -1.0F};
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const float x = spacing * static_cast<float>(c), pleat = c >= 2 && c < 8 ? 2 * spacing : 0;
+      sheet.set(r, c,
+                {c < n / 2 ? std::fabs(x - 5 * spacing) : x + by * to_and_fro[c % 4],
+                 c < n / 2 && c < 5 ? pleat : 0, spacing * static_cast<float>(r)});
+    }
+  return sheet;
+}
+
+TEST(CoherentPairs, AreLookedForAnewInWindowsThatFold) {
+  constexpr float skin = 0.004F, slack = 0.0001F, reach = 0.001F;
+  const SurfaceGrid grid(n, BorderMates(), {});
+  const std::array<const SurfaceGrid*, 1> grids{&grid};
+  ThreadTeam alone(1);
+  CoherentPairs pairs(std::make_unique<PyramidPairs>(grids, 1), grids, 1, skin);
+  Planes3 now = crimped(0);
+  const std::array placed{MovingSurface{&grid, &now, &now}};
+  const auto found = [&] {
+    pairs.refit(placed, alone);
+    return set_of(pairs.find_self(0, reach, slack, alone));
+  };
+  const auto on_the_right = [](const Pairs& of) {
+    return std::count_if(of.begin(), of.end(), [](const auto& pair) {
+      return pair.first % (n - 1) > n / 2 &&
+             pair.second % (n - 1) - pair.first % (n - 1) > UnfoldedWindows::neighbours;
+    });
+  };
+  const Pairs flat = found();
+  EXPECT_FALSE(flat.empty());
+  EXPECT_EQ(on_the_right(flat), 0);
+  // All move by less than half the skin.
+  now = crimped(0.0019F);
+  const Pairs known = found();
+  pairs.forget();
+  const Pairs anew = found();
+  EXPECT_GT(on_the_right(anew), n);
+  EXPECT_TRUE(std::includes(known.begin(), known.end(), anew.begin(), anew.end()));
 }
 
 TEST(CoherentPairs, AskedForMoreAreLookedForAnew) {

@@ -31,9 +31,9 @@ class PatchMotionTest : public testing::Test {
 };
 
 TEST_F(PatchMotionTest, IsRenewedWholeAtFirst) {
-  EXPECT_EQ(motion_.patches(), patches);
+  EXPECT_EQ(motion_.versions().patches(), patches);
   for (int patch = 0; patch < patches * patches; ++patch) {
-    EXPECT_EQ(motion_.version(patch), 1);
+    EXPECT_EQ(motion_.versions().of(patch), 1);
     EXPECT_EQ(motion_.distance(patch), 0);
   }
 }
@@ -54,11 +54,11 @@ TEST_F(PatchMotionTest, OnlyWhatWentFarIsRenewed) {
   motion_.renew(surface(), limit, 7);
   for (int patch = 0; patch < patches * patches; ++patch) {
     const bool beside = patch / patches >= 2 && patch % patches >= 2;
-    EXPECT_EQ(motion_.version(patch), beside ? 7 : 1) << patch;
+    EXPECT_EQ(motion_.versions().of(patch), beside ? 7 : 1) << patch;
   }
-  EXPECT_EQ(motion_.latest(), 7);
-  EXPECT_EQ(motion_.version(Node{3, 0, 1}), 1);
-  EXPECT_EQ(motion_.version(Node{3, 1, 1}), 7);
+  EXPECT_EQ(motion_.versions().latest(), 7);
+  EXPECT_EQ(motion_.versions().of(Node{3, 0, 1}), 1);
+  EXPECT_EQ(motion_.versions().of(Node{3, 1, 1}), 7);
   measure();
   EXPECT_EQ(motion_.distance(15), 0);
   EXPECT_NEAR(motion_.distance(0), 0.004F, 1e-8F) << "which rests where it was";
@@ -68,15 +68,15 @@ TEST_F(PatchMotionTest, WhatIsNotFiniteIsRenewed) {
   end_.set(5, 5, {HUGE_VALF, 0, 0});
   measure();
   motion_.renew(surface(), limit, 2);
-  EXPECT_EQ(motion_.version(5), 2);
-  EXPECT_EQ(motion_.version(2), 1);
+  EXPECT_EQ(motion_.versions().of(5), 2);
+  EXPECT_EQ(motion_.versions().of(2), 1);
 }
 
 TEST_F(PatchMotionTest, WhatIsForgottenIsRenewedWhole) {
   motion_.forget();
   measure();
   motion_.renew(surface(), limit, 3);
-  for (int patch = 0; patch < patches * patches; ++patch) EXPECT_EQ(motion_.version(patch), 3);
+  for (int patch = 0; patch < patches * patches; ++patch) EXPECT_EQ(motion_.versions().of(patch), 3);
 }
 
 }  // namespace

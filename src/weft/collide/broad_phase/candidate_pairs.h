@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "weft/collide/broad_phase/patch_motion.h"
+#include "weft/collide/broad_phase/patch_versions.h"
 #include "weft/collide/broad_phase/path_boxes.h"
 #include "weft/collide/moving_surface.h"
 #include "weft/core/thread_team.h"
@@ -30,9 +30,11 @@ struct CandidateTile {
   friend bool operator==(const CandidateTile&, const CandidateTile&) = default;
 };
 
+class UnfoldedWindows;
+
 /// What of a search is wanted: pairs of patches of which at least one has changed.
 struct ChangedPatches {
-  const PatchMotion *a = nullptr, *b = nullptr;
+  const PatchVersions *a = nullptr, *b = nullptr;
   int since = 0;  ///< versions after this are changes
 };
 
@@ -60,11 +62,11 @@ class BroadPhase {
   /// The same as find or find_self, of changed patches alone, ordered by the patches of the first
   /// surface and then by place_in_order of those of the second. A cloth's neighbours along itself
   /// are left out, see UnfoldedWindows::neighbours.
-  /// @param slack  of a cloth with itself
+  /// @param unfolded  of a cloth with itself: pairs in its windows above the cells may be left out
   /// @return false where the phase cannot tell parts of a search from the whole
-  virtual bool find_changed(int /*surface_a*/, int /*surface_b*/, float /*reach*/, float /*slack*/,
-                            const ChangedPatches& /*changed*/, ThreadTeam& /*team*/,
-                            std::vector<CandidateTile>& /*out*/) {
+  virtual bool find_changed(int /*surface_a*/, int /*surface_b*/, float /*reach*/,
+                            const UnfoldedWindows* /*unfolded*/, const ChangedPatches& /*changed*/,
+                            ThreadTeam& /*team*/, std::vector<CandidateTile>& /*out*/) {
     return false;
   }
   /// Boxes of the nodes of a surface's mip pyramid in the step; null where there is no pyramid.

@@ -35,7 +35,10 @@ CoherentPairs::CoherentPairs(std::unique_ptr<BroadPhase> broad_phase,
     motions_.emplace_back(surface->cells());
     tiles_.emplace_back(*surface);
   }
-  for (const SurfaceGrid* cloth : surfaces.first(cloths)) windows_.emplace_back(cloth->cells());
+  for (const SurfaceGrid* cloth : surfaces.first(cloths)) {
+    windows_.emplace_back(cloth->cells());
+    self_versions_.emplace_back(cloth->cells());
+  }
 }
 
 void CoherentPairs::forget() {
@@ -43,7 +46,7 @@ void CoherentPairs::forget() {
   for (PatchMotion& motion : motions_) motion.forget();
   for (List& list : lists_) {
     list.version = -1;
-    list.reach = list.slack = 0;
+    list.reach = 0;
   }
 }
 
@@ -68,7 +71,9 @@ void CoherentPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& t
     // Half the skin, less rounding.
     motions_[i].renew(now_[i], 0.499F * skin_, version_);
     names_[i] = now_[i].name;
-    boxes_known_ = boxes_known_ && motions_[i].latest() < version_;
+    if (motions_[i].versions().latest() < version_) continue;
+    boxes_known_ = false;
+    if (i < self_versions_.size()) self_versions_[i].take(motions_[i].versions(), version_);
   }
 }
 
@@ -89,17 +94,36 @@ void CoherentPairs::fit_tiles(int a, int b, ThreadTeam& team) {
 
 /// The surfaces' other patches may be half a skin from where they were renewed, on this side now
 /// and on that side later.
-bool CoherentPairs::search(int a, int b, const List& list, ThreadTeam& team) {
+bool CoherentPairs::search(int a, int b, const List& list, float slack, ThreadTeam& team) {
   fit_boxes(team);
   fresh_.clear();
-  const float reach = list.reach + 1.5F * skin_, slack = list.slack + skin_;
-  const ChangedPatches changed{&motions_[a], &motions_[b], list.version};
-  if (broad_phase_->find_changed(a, b, reach, slack, changed, team, fresh_)) return false;
-  if (a == b)
-    broad_phase_->find_self(a, reach, slack, team, fresh_);
-  else
+  const float reach = list.reach + 1.5F * skin_;
+  const bool self = a == b;
+  const ChangedPatches changed{&versions(a, self), &versions(b, self), list.version};
+  const UnfoldedWindows* unfolded = self ? &windows_[static_cast<std::size_t>(a)] : nullptr;
+  if (broad_phase_->find_changed(a, b, reach, unfolded, changed, team, fresh_)) return false;
+  if (self) {
+    broad_phase_->find_self(a, reach, slack + skin_, team, fresh_);
+    drop_neighbours();
+  } else {
     broad_phase_->find(a, b, reach, team, fresh_);
+  }
   return true;
+}
+
+void CoherentPairs::widen(List& list, float reach) {
+  if (reach <= list.reach) return;
+  list.reach = reach;
+  list.version = -1;
+}
+
+void CoherentPairs::complete(int a, int b, List& list, float slack, ThreadTeam& team) {
+  const bool self = a == b;
+  if (std::max(versions(a, self).latest(), versions(b, self).latest()) <= list.version) return;
+  if (search(a, b, list, slack, team)) list.version = -1;
+  refine(a, b, list.reach, team);
+  merge(a, b, list.version, fresh_, list.tiles);
+  list.version = version_;
 }
 
 void CoherentPairs::refine(int a, int b, float reach, ThreadTeam& team) {
@@ -129,12 +153,11 @@ void CoherentPairs::refine(int a, int b, float reach, ThreadTeam& team) {
 
 void CoherentPairs::merge(int a, int b, int since, std::span<const CandidateTile> fresh,
                           std::vector<CandidateTile>& tiles) {
-  const PatchMotion &of_a = motions_[a], &of_b = motions_[b];
+  const PatchVersions &of_a = versions(a, a == b), &of_b = versions(b, a == b);
   const Tiling &tiling_a = tiles_[static_cast<std::size_t>(a)].tiling(),
                &tiling_b = tiles_[static_cast<std::size_t>(b)].tiling();
   const auto stays = [&](const CandidateTile& one) {
-    return of_a.version(tiling_a.patch_a(one)) <= since &&
-           of_b.version(tiling_b.patch_b(one)) <= since;
+    return of_a.of(tiling_a.patch_a(one)) <= since && of_b.of(tiling_b.patch_b(one)) <= since;
   };
   merged_.clear();
   auto next = fresh.begin();
@@ -162,16 +185,8 @@ void CoherentPairs::collect_near(int a, int b, float reach) {
 std::span<const CandidateTile> CoherentPairs::find(int surface_a, int surface_b, float reach,
                                                    ThreadTeam& team) {
   List& list = list_of(surface_a, surface_b);
-  if (reach > list.reach) {
-    list.reach = reach;
-    list.version = -1;
-  }
-  if (!is_complete(surface_a, surface_b, list)) {
-    if (search(surface_a, surface_b, list, team)) list.version = -1;
-    refine(surface_a, surface_b, list.reach, team);
-    merge(surface_a, surface_b, list.version, fresh_, list.tiles);
-    list.version = version_;
-  }
+  widen(list, reach);
+  complete(surface_a, surface_b, list, 0, team);
   collect_near(surface_a, surface_b, reach);
   if (!near_.empty()) fit_tiles(surface_a, surface_b, team);
   return near_;
@@ -182,6 +197,14 @@ void CoherentPairs::find_unfolded(int surface, float slack, ThreadTeam& team) {
   if (found != slack)
     windows_[static_cast<std::size_t>(surface)].find_unfolded(now_[surface], slack, team);
   found = slack;
+}
+
+void CoherentPairs::take_refolded(int surface) {
+  PatchVersions& of = self_versions_[static_cast<std::size_t>(surface)];
+  const int next = version_ + 1;
+  windows_[static_cast<std::size_t>(surface)].for_refolded(
+      [&](const Node& first, int span) { of.set_square(first, span, next); });
+  if (of.latest() == next) version_ = next;
 }
 
 /// What of a cell's pairs is in no rectangle that is unfolded now.
@@ -216,36 +239,24 @@ void CoherentPairs::drop_neighbours() {
 /// between them would hinder rotation.
 std::span<const CandidateTile> CoherentPairs::find_self(int surface, float reach, float slack,
                                                         ThreadTeam& team) {
-  List& list = list_of(surface, surface);
-  if (reach > list.reach || slack > list.slack) {
-    list.reach = std::max(reach, list.reach);
-    list.slack = std::max(slack, list.slack);
-    list.version = -1;
-  }
-  if (!is_complete(surface, surface, list)) {
-    if (search(surface, surface, list, team)) {
-      list.version = -1;
-      drop_neighbours();
-    }
-    refine(surface, surface, list.reach, team);
-    merge(surface, surface, list.version, fresh_, list.tiles);
-    list.version = version_;
-  }
   find_unfolded(surface, slack, team);
-  collect_near(surface, surface, reach);
   const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
+  if (windows.all_unfolded()) return {};
+  take_refolded(surface);
+  List& list = list_of(surface, surface);
+  widen(list, reach);
+  complete(surface, surface, list, slack, team);
+  collect_near(surface, surface, reach);
   fresh_.clear();
-  if (!windows.all_unfolded()) {
-    found_.fill(static_cast<int>(near_.size()), team, [&](int i, std::vector<CandidateTile>& mine) {
-      const CandidateTile folded = folded_part(surface, near_[i]);
-      if (folded.cells != 0) mine.push_back(folded);
-    });
-    append(found_, fresh_);
-    found_.fill(now_[surface].grid->cells(), team, [&](int row, std::vector<CandidateTile>& mine) {
-      windows.find_folded_neighbours(row, mine);
-    });
-    append(found_, fresh_);
-  }
+  found_.fill(static_cast<int>(near_.size()), team, [&](int i, std::vector<CandidateTile>& mine) {
+    const CandidateTile folded = folded_part(surface, near_[i]);
+    if (folded.cells != 0) mine.push_back(folded);
+  });
+  append(found_, fresh_);
+  found_.fill(now_[surface].grid->cells(), team, [&](int row, std::vector<CandidateTile>& mine) {
+    windows.find_folded_neighbours(row, mine);
+  });
+  append(found_, fresh_);
   std::swap(near_, fresh_);
   if (!near_.empty()) fit_tiles(surface, surface, team);
   return near_;

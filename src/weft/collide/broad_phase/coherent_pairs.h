@@ -15,6 +15,7 @@ namespace weft {
 /// Cache of candidate pairs that stay valid while surfaces move little, as neighbour lists of
 /// particle codes do [verlet67]. Pairs are searched with a skin around the reach. A patch that
 /// moved by more than half the skin is renewed: its pairs are searched anew, those of others stay.
+/// So are those of a cloth's patches with itself where a window that was unfolded no longer is.
 /// What was found is kept with its gap, so that queries return only what may have come near since.
 /// Lists are in an order that does not depend on when their parts were found.
 class CoherentPairs {
@@ -47,25 +48,33 @@ class CoherentPairs {
  private:
   /// Pairs of two surfaces.
   struct List {
-    float reach = 0, slack = 0;  // largest that were asked for
-    int version = -1;            // of patches, up to which it is complete
+    float reach = 0;   // largest that was asked for
+    int version = -1;  // of patches, up to which it is complete
     std::vector<CandidateTile> tiles;
   };
   List& list_of(int a, int b) { return lists_[static_cast<std::size_t>(a) * motions_.size() + b]; }
-  [[nodiscard]] bool is_complete(int a, int b, const List& list) const {
-    return std::max(motions_[a].latest(), motions_[b].latest()) <= list.version;
+  /// What changes pairs of a surface with itself, or with others.
+  [[nodiscard]] const PatchVersions& versions(int surface, bool self) const {
+    return self ? self_versions_[static_cast<std::size_t>(surface)] : motions_[surface].versions();
   }
+  /// Drops a list that is of a smaller reach.
+  static void widen(List& list, float reach);
+  /// Searches what a list lacks.
+  /// @param slack  of a cloth with itself
+  void complete(int a, int b, List& list, float slack, ThreadTeam& team);
   void fit_boxes(ThreadTeam& team);
   void fit_tiles(int a, int b, ThreadTeam& team);
   /// Searches what changed since a list was completed, into fresh_.
   /// @return whether that is all of the list
-  bool search(int a, int b, const List& list, ThreadTeam& team);
+  bool search(int a, int b, const List& list, float slack, ThreadTeam& team);
   /// Drops cells of fresh_ that are certainly apart; what is left has its gaps.
   void refine(int a, int b, float reach, ThreadTeam& team);
   /// Replaces what of a list has changed by fresh pairs.
   void merge(int a, int b, int since, std::span<const CandidateTile> fresh,
              std::vector<CandidateTile>& tiles);
   void find_unfolded(int surface, float slack, ThreadTeam& team);
+  /// Changes a cloth's patches in windows that are no longer unfolded.
+  void take_refolded(int surface);
   [[nodiscard]] CandidateTile folded_part(int surface, const CandidateTile& of) const;
   /// Drops neighbours along a cloth from fresh_: which of them are folded is told by windows.
   void drop_neighbours();
@@ -77,9 +86,10 @@ class CoherentPairs {
   std::vector<MovingSurface> now_;
   std::vector<int> names_;  // of the motions that were measured last
   std::vector<PatchMotion> motions_;
-  std::vector<CellTiles> tiles_;          // now
-  std::vector<UnfoldedWindows> windows_;  // of each cloth, now
-  std::vector<float> found_slack_;        // per cloth, the slack of its windows; -1: none
+  std::vector<PatchVersions> self_versions_;  // of each cloth
+  std::vector<CellTiles> tiles_;              // now
+  std::vector<UnfoldedWindows> windows_;      // of each cloth, now
+  std::vector<float> found_slack_;            // per cloth, the slack of its windows; -1: none
   std::vector<CandidateTile> near_, fresh_, merged_;
   std::vector<List> lists_;  // [surfaces x surfaces]
   ChunkedLists<std::vector<CandidateTile>> found_;

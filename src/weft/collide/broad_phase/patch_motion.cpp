@@ -39,13 +39,8 @@ PatchMotion::PatchMotion(int cells)
       end_(size_),
       squared_(blocks(), size_),
       blocks_(static_cast<std::size_t>(blocks()) * blocks(), HUGE_VALF),
-      distances_(static_cast<std::size_t>(patches_) * patches_, HUGE_VALF) {
-  for (int nodes = patches_;; nodes = (nodes + 1) / 2) {
-    sides_.push_back(nodes);
-    versions_.emplace_back(static_cast<std::size_t>(nodes) * nodes, -1);
-    if (nodes == 1) break;
-  }
-}
+      distances_(static_cast<std::size_t>(patches_) * patches_, HUGE_VALF),
+      versions_(cells) {}
 
 void PatchMotion::measure_blocks(const MovingSurface& now, int row) {
   float* squared = squared_.row(row);
@@ -94,11 +89,6 @@ void PatchMotion::renew_block(const MovingSurface& now, int row, int col) {
   blocks_[static_cast<std::size_t>(row) * blocks() + col] = 0;
 }
 
-void PatchMotion::set_version(int row, int col, int version) {
-  for (std::size_t l = 0; l < sides_.size(); ++l, row /= 2, col /= 2)
-    versions_[l][static_cast<std::size_t>(row) * sides_[l] + col] = version;
-}
-
 void PatchMotion::renew(const MovingSurface& now, float limit, int version) {
   const int n = blocks();
   bool any = false;
@@ -109,7 +99,7 @@ void PatchMotion::renew(const MovingSurface& now, float limit, int version) {
       renew_block(now, r, c);
       for (int i = std::max(0, r - 1); i <= std::min(r, patches_ - 1); ++i)
         for (int j = std::max(0, c - 1); j <= std::min(c, patches_ - 1); ++j)
-          set_version(i, j, version);
+          versions_.set(i, j, version);
     }
   known_ = true;
   for (int r = 0; any && r < patches_; ++r) join_distances(r);

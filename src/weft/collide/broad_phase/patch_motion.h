@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "weft/collide/broad_phase/node_levels.h"
+#include "weft/collide/broad_phase/patch_versions.h"
 #include "weft/collide/moving_surface.h"
 #include "weft/core/thread_team.h"
 #include "weft/grid.h"
@@ -13,8 +13,7 @@ namespace weft {
 /// the same patch may be renewed often while others rest.
 class PatchMotion {
  public:
-  /// Level of patches in the mip pyramid.
-  static constexpr int level = 2, side = 1 << level;
+  static constexpr int side = PatchVersions::side;
 
   explicit PatchMotion(int cells);
   /// Measures a step's motion. To be called by every worker; ends with a barrier.
@@ -26,25 +25,16 @@ class PatchMotion {
   /// The next renewal is one of all patches.
   void forget();
 
-  [[nodiscard]] int patches() const { return patches_; }  ///< a side
   /// Upper bound of the displacement of a patch's samples, at the start and at the end. [m]
   [[nodiscard]] float distance(int patch) const { return distances_[patch]; }
-  /// Version of a patch.
-  [[nodiscard]] int version(int patch) const { return versions_.front()[patch]; }
-  /// The latest version of the patches in a node; patches and coarser nodes have one.
-  [[nodiscard]] int version(const Node& node) const {
-    const auto index = static_cast<std::size_t>(node.level - level);
-    return versions_[index][static_cast<std::size_t>(node.row) * sides_[index] + node.col];
-  }
-  /// The latest version of all.
-  [[nodiscard]] int latest() const { return versions_.back().front(); }
+  /// Versions of the renewals.
+  [[nodiscard]] const PatchVersions& versions() const { return versions_; }
 
  private:
   [[nodiscard]] int blocks() const { return (size_ + side - 1) / side; }
   void measure_blocks(const MovingSurface& now, int row);
   void join_distances(int row);
   void renew_block(const MovingSurface& now, int row, int col);
-  void set_version(int row, int col, int version);
 
   int size_, patches_;            // samples and patches a side
   Planes3 start_, end_;           // of the last renewal, by blocks of 4 x 4 samples
@@ -52,8 +42,7 @@ class PatchMotion {
   Grid<float> squared_;           // per block row: of its samples, the largest [m^2]
   std::vector<float> blocks_;     // [blocks x blocks] distances [m]
   std::vector<float> distances_;  // [patches x patches] [m]
-  std::vector<int> sides_;        // of levels, from patches up
-  std::vector<std::vector<int>> versions_;
+  PatchVersions versions_;
 };
 
 }  // namespace weft

@@ -29,6 +29,21 @@ unsigned neighbours_in(const Node& cell, const Node& tile) {
     if (std::abs(tile.row + r - cell.row) <= near) found |= cols << (Tiling::cols * r);
   return found;
 }
+/// Drops pairs in unfolded windows across seams. @param first  of the candidates
+void drop_unfolded_across(const UnfoldedWindows& folds, int cells, std::size_t first,
+                          std::vector<CandidateTile>& out) {
+  const Tiling tiling(cells);
+  for (std::size_t i = first; i < out.size(); ++i) {
+    CandidateTile& one = out[i];
+    for_lanes(one.cells, [&](int lane) {
+      if (folds.unfolded_across({tiling.cell_at(one.row_a, one.col_a), tiling.cell_b(one, lane)}))
+        one.cells &= static_cast<std::uint8_t>(~(1U << lane));
+    });
+  }
+  out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
+                           [](const CandidateTile& one) { return one.cells == 0; }),
+            out.end());
+}
 bool may_meet(const PathBox& a, const PathBox& b, float reach) {
   for (int k = 0; k < 3; ++k) {
     const float above =
@@ -73,20 +88,20 @@ void PyramidPairs::refit(std::span<const MovingSurface> surfaces, ThreadTeam& te
 bool PyramidPairs::leaves_out(const Patch& patch, const Node& node) const {
   const Search& search = patch.search;
   // A surface of fewer cells than a patch is one.
-  const int level = std::max(node.level, PatchMotion::level), above = level - PatchMotion::level;
+  const int level = std::max(node.level, PatchVersions::level),
+            above = level - PatchVersions::level;
   if (!patch.changed &&
-      search.changed->b->version(Node{level, node.row, node.col}) <= search.changed->since)
+      search.changed->b->of(Node{level, node.row, node.col}) <= search.changed->since)
     return true;
   if (!search.same()) return false;
   // Of two patches the later one is found by the earlier one.
   const unsigned last = ((place_in_order(node.row, node.col) + 1) << (2 * above)) - 1;
-  return last < patch.place ||
-         levels_[search.a].folds->unfolded(ancestor_of(patch.node, node.level), node);
+  return last < patch.place || search.unfolded->unfolded(ancestor_of(patch.node, node.level), node);
 }
 
 void PyramidPairs::descend(const Patch& patch, const Node& node) const {
   if (leaves_out(patch, node)) return;
-  if (node.level <= PatchMotion::level) return pair_cells(patch, node);
+  if (node.level <= PatchVersions::level) return pair_cells(patch, node);
   const ChildPathBoxes& children = levels_[patch.search.b].boxes.children(node);
   unsigned near = patch.search.kernels->near_children(patch.box, children, patch.search.reach);
   for (; near != 0; near &= near - 1) {
@@ -95,21 +110,16 @@ void PyramidPairs::descend(const Patch& patch, const Node& node) const {
   }
 }
 
-unsigned PyramidPairs::wanted_cells(int surface, const Node& cell, const Node& tile,
-                                    unsigned near) const {
-  const UnfoldedWindows& folds = *levels_[surface].folds;
-  const int cells = levels_[surface].boxes.sides().front(), number = cell.row * cells + cell.col;
+unsigned PyramidPairs::wanted_cells(const UnfoldedWindows& unfolded, const Node& cell,
+                                    const Node& tile, unsigned near) {
   const bool same_patch =
-      ancestor_of(cell, PatchMotion::level) == ancestor_of(tile, PatchMotion::level);
+      ancestor_of(cell, PatchVersions::level) == ancestor_of(tile, PatchVersions::level);
   unsigned wanted = 0;
   for_lanes(near & ~neighbours_in(cell, tile), [&](int lane) {
     const Node node{0, tile.row + lane / Tiling::cols, tile.col + lane % Tiling::cols};
-    const int other = node.row * cells + node.col;
     // Of a patch with itself each pair once.
-    if (same_patch && other < number) return;
-    if (!folds.unfolded(ancestor_of(cell, 1), ancestor_of(node, 1)) &&
-        !folds.unfolded_across({number, other}))
-      wanted |= 1U << lane;
+    if (same_patch && std::pair(node.row, node.col) < std::pair(cell.row, cell.col)) return;
+    if (!unfolded.unfolded(ancestor_of(cell, 1), ancestor_of(node, 1))) wanted |= 1U << lane;
   });
   return wanted;
 }
@@ -127,7 +137,8 @@ void PyramidPairs::pair_cells(const Patch& patch, const Node& node) const {
       if (near[i] == 0) continue;
       const Node cell{0, first.row + i / Tiling::patch_side, first.col + i % Tiling::patch_side};
       const Node tile{0, row, first_b.col};
-      const unsigned wanted = search.same() ? wanted_cells(search.a, cell, tile, near[i]) : near[i];
+      const unsigned wanted =
+          search.same() ? wanted_cells(*search.unfolded, cell, tile, near[i]) : near[i];
       if (wanted != 0)
         patch.out.push_back(
             {static_cast<std::uint16_t>(cell.row), static_cast<std::uint16_t>(cell.col),
@@ -140,11 +151,11 @@ void PyramidPairs::pair_cells(const Patch& patch, const Node& node) const {
 void PyramidPairs::search_patch(const Search& search, int patch,
                                 std::vector<CandidateTile>& out) const {
   const ChangedPatches* changed = search.changed;
-  const bool own = changed == nullptr || changed->a->version(patch) > changed->since;
+  const bool own = changed == nullptr || changed->a->of(patch) > changed->since;
   if (!own && changed->b->latest() <= changed->since) return;
   const PathBoxLevels &of_a = levels_[search.a].boxes, &of_b = levels_[search.b].boxes;
   const int patches = Tiling(of_a.sides().front()).patches();
-  const Node node{std::min(PatchMotion::level, of_a.top()), patch / patches, patch % patches};
+  const Node node{std::min(PatchVersions::level, of_a.top()), patch / patches, patch % patches};
   const PathBox box = of_a.box_of(node);
   if (!may_meet(box, of_b.root_box(), search.reach)) return;
   const Node first = first_cell_of(node);
@@ -157,7 +168,7 @@ void PyramidPairs::search_all(const Search& search, ThreadTeam& team,
                               std::vector<CandidateTile>& out) {
   const PathBoxLevels &a = levels_[search.a].boxes, &b = levels_[search.b].boxes;
   if (!may_meet(a.root_box(), b.root_box(), search.reach)) return;
-  if (search.same() && levels_[search.a].folds->all_unfolded()) return;
+  if (search.same() && search.unfolded->all_unfolded()) return;
   const int patches = Tiling(a.sides().front()).patches();
   found_.fill(patches * patches, team, [&](int patch, std::vector<CandidateTile>& mine) {
     search_patch(search, patch, mine);
@@ -172,22 +183,24 @@ void PyramidPairs::find(int surface_a, int surface_b, float reach, ThreadTeam& t
 
 void PyramidPairs::find_self(int surface, float reach, float slack, ThreadTeam& team,
                              std::vector<CandidateTile>& out) {
-  levels_[surface].folds->find_unfolded(surfaces_[surface], slack, team);
-  search_all({&collide_kernels_for(team.instructions()), surface, surface, reach}, team, out);
-  const UnfoldedWindows& folds = *levels_[surface].folds;
+  UnfoldedWindows& folds = *levels_[surface].folds;
+  folds.find_unfolded(surfaces_[surface], slack, team);
+  const std::size_t first = out.size();
+  search_all({&collide_kernels_for(team.instructions()), surface, surface, reach, &folds}, team,
+             out);
+  drop_unfolded_across(folds, levels_[surface].boxes.sides().front(), first, out);
   found_.fill(
       levels_[surface].boxes.sides().front(), team,
       [&](int row, std::vector<CandidateTile>& mine) { folds.find_folded_neighbours(row, mine); });
   append(found_, out);
 }
 
-bool PyramidPairs::find_changed(int surface_a, int surface_b, float reach, float slack,
-                                const ChangedPatches& changed, ThreadTeam& team,
-                                std::vector<CandidateTile>& out) {
-  if (surface_a == surface_b)
-    levels_[surface_a].folds->find_unfolded(surfaces_[surface_a], slack, team);
-  search_all({&collide_kernels_for(team.instructions()), surface_a, surface_b, reach, &changed},
-             team, out);
+bool PyramidPairs::find_changed(int surface_a, int surface_b, float reach,
+                                const UnfoldedWindows* unfolded, const ChangedPatches& changed,
+                                ThreadTeam& team, std::vector<CandidateTile>& out) {
+  search_all(
+      {&collide_kernels_for(team.instructions()), surface_a, surface_b, reach, unfolded, &changed},
+      team, out);
   return true;
 }
 

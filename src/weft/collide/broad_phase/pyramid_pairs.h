@@ -24,7 +24,7 @@ class PyramidPairs final : public BroadPhase {
             std::vector<CandidateTile>& out) override;
   void find_self(int surface, float reach, float slack, ThreadTeam& team,
                  std::vector<CandidateTile>& out) override;
-  bool find_changed(int surface_a, int surface_b, float reach, float slack,
+  bool find_changed(int surface_a, int surface_b, float reach, const UnfoldedWindows* unfolded,
                     const ChangedPatches& changed, ThreadTeam& team,
                     std::vector<CandidateTile>& out) override;
   [[nodiscard]] const PathBoxLevels* boxes(int surface) const override {
@@ -42,7 +42,8 @@ class PyramidPairs final : public BroadPhase {
     const CollideKernels* kernels;
     int a = 0, b = 0;
     float reach = 0;
-    const ChangedPatches* changed = nullptr;  // null: all are wanted
+    const UnfoldedWindows* unfolded = nullptr;  // of a cloth with itself
+    const ChangedPatches* changed = nullptr;    // null: all are wanted
     [[nodiscard]] bool same() const { return a == b; }
   };
   /// A patch of the first surface, or the whole of a smaller one.
@@ -66,8 +67,8 @@ class PyramidPairs final : public BroadPhase {
   void pair_cells(const Patch& patch, const Node& node) const;
   /// Those of a tile's cells, which begins at a cell of the same surface, that are to be paired
   /// with a cell.
-  [[nodiscard]] unsigned wanted_cells(int surface, const Node& cell, const Node& tile,
-                                      unsigned near) const;
+  [[nodiscard]] static unsigned wanted_cells(const UnfoldedWindows& unfolded, const Node& cell,
+                                             const Node& tile, unsigned near);
 
   std::vector<Levels> levels_;  // one a surface
   std::vector<MovingSurface> surfaces_;

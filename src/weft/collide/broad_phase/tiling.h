@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
-#include "weft/collide/broad_phase/patch_motion.h"
+#include "weft/collide/broad_phase/patch_versions.h"
 
 namespace weft {
 
@@ -11,7 +11,7 @@ namespace weft {
 /// cells that hold two tiles.
 class Tiling {
  public:
-  static constexpr int rows = 2, cols = 4, patch_side = PatchMotion::side;
+  static constexpr int rows = 2, cols = 4, patch_side = PatchVersions::side;
   Tiling() = default;
   /// @param cells  a side
   explicit Tiling(int cells)

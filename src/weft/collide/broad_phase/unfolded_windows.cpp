@@ -23,8 +23,11 @@ UnfoldedWindows::Lines::Lines(int side) : twos(extents(2, side)), threes(extents
 UnfoldedWindows::UnfoldedWindows(int cells) : sides_(level_sides(cells)) {
   for (const int side : sides_) {
     const int twos = side - 1, threes = std::max(0, side - 2);
-    levels_.push_back(
-        {side, extents(side, side), Grid<float>(twos, twos), Grid<float>(threes, threes)});
+    // Those of cells are not remembered.
+    const bool cells = levels_.empty();
+    levels_.push_back({side, extents(side, side), Grid<float>(twos, twos),
+                       Grid<float>(threes, threes), cells ? Grid<float>() : Grid<float>(twos, twos),
+                       cells ? Grid<float>() : Grid<float>(threes, threes)});
   }
 }
 

@@ -58,6 +58,19 @@ class UnfoldedWindows {
   [[nodiscard]] bool unfolded_across(const CandidatePair& cells) const {
     return seams_.unfolded(cells);
   }
+  /// Calls visit(first node, nodes a side) for windows above the cells that were unfolded when
+  /// this was called last and are not now.
+  template <class Visit>
+  void for_refolded(const Visit& visit) {
+    for (std::size_t level = 1; level < levels_.size(); ++level) {
+      Level& of = levels_[level];
+      for (int r = 0; r < of.two_unfolded.rows(); ++r)
+        for_refolded_row({static_cast<int>(level), r, 0}, 2, of.two_unfolded, of.two_known, visit);
+      for (int r = 0; r < of.three_unfolded.rows(); ++r)
+        for_refolded_row({static_cast<int>(level), r, 0}, 3, of.three_unfolded, of.three_known,
+                         visit);
+    }
+  }
   /// The same for two cells, on the first level that has a window for them.
   [[nodiscard]] bool unfolded(const CandidatePair& pair) const;
   /// Two cells at most so far apart along rows and along columns are neighbours, which a window of
@@ -72,6 +85,7 @@ class UnfoldedWindows {
     int side = 0;  // nodes
     Extents nodes;
     Grid<float> two_unfolded, three_unfolded;  // 1 where the window that begins here is
+    Grid<float> two_known, three_known;        // the same when refolded ones were asked for last
   };
   /// Scratch rows of a worker: extents of two rows of 2 x 2 windows in turn, of one of 3 x 3
   /// windows.
@@ -83,6 +97,16 @@ class UnfoldedWindows {
     int joined = -1;
     std::vector<Range> joined_runs;
   };
+  template <class Visit>
+  static void for_refolded_row(Node first, int span, const Grid<float>& now, Grid<float>& known,
+                               const Visit& visit) {
+    const float* marks = now.row(first.row);
+    float* before = known.row(first.row);
+    if (std::equal(marks, marks + now.cols(), before)) return;
+    for (; first.col < now.cols(); ++first.col)
+      if (marks[first.col] == 0 && before[first.col] != 0) visit(first, span);
+    std::copy_n(marks, now.cols(), before);
+  }
   /// Whether all neighbours behind a cell or below are certainly in unfolded windows with it.
   [[nodiscard]] bool is_smooth(int row, int col) const;
   void fill_row(const CollideKernels& kernels, const MovingSurface& surface, int row);

@@ -126,7 +126,7 @@ void ContactFinder::mark_moved(std::size_t cloth, const MovingCloth& moving) {
   Worker alone = Worker::lone();
   one.ends.measure({nullptr, &moving.start, &moving.position}, alone);
   const auto same = static_cast<float>(same_place_in_gaps * world_.gap_between(cloth, cloth));
-  const int patches = one.ends.patches() * one.ends.patches();
+  const int patches = one.ends.versions().patches() * one.ends.versions().patches();
   one.moved.resize(static_cast<std::size_t>(patches));
   one.any_moved = false;
   for (int patch = 0; patch < patches; ++patch) {
