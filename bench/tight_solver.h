@@ -40,6 +40,7 @@ class TightSolver {
   SpringHessian springs_;
   BlockMultigrid multigrid_;
   PaddedState state_;
+  PaddedVectors wanted_, unused_;  // arguments of the linearisation
   Field gradient_, step_, residual_, before_, direction_, product_, value_, trial_;
 };
 

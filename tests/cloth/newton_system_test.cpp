@@ -90,8 +90,7 @@ TEST(Newton, TheOperatorIsTheDerivativeOfTheGradient) {
           state.velocity.z(r, c) = static_cast<float>(length / step) * direction.z(r, c);
         }
       system.team.run([&](Worker& worker) {
-        for (int r = 0; r < cloth.size; ++r) system.springs.linearise_row(state, 0.1F, r);
-        for (int r = 0; r < cloth.size; ++r) system.springs.gradient_row(state, wanted, r, out);
+        system.springs.linearise({state, wanted, 0.1F}, out, worker);
         system.multigrid.add_bending_gradient(state.position, out, worker);
       });
     };
@@ -179,7 +178,7 @@ double difference_of_factors(int n, bool along_rows, double stiffness, Instructi
   Random random(11);
   const NewtonKernels& kernels = newton_kernels_for(set);
   const RandomSprings springs(n, along_rows, stiffness, random);
-  PaddedBlocks held(n, n), whole(n, n), coupling(n, n);
+  PlaneSet held(n, n, block_entries), whole(n, n, block_entries), coupling(n, n, block_entries);
   PaddedPlane extra(n, n);
   PaddedVectors rhs(n, n), one(n, n), other(n, n);
   for (int r = 0; r < n; ++r)
@@ -191,9 +190,9 @@ double difference_of_factors(int n, bool along_rows, double stiffness, Instructi
       for (int k = 0; k < 6; ++k) {
         const double own =
             k == 0 || k == 3 || k == 5 ? random.uniform(2, 5) : random.uniform(-1, 1);
-        held.entry[k](r, c) = static_cast<float>(own);
-        whole.entry[k](r, c) = static_cast<float>(own + after[k] + before[k]);
-        coupling.entry[k](r, c) = static_cast<float>(-after[k]);
+        held(r, c, k) = static_cast<float>(own);
+        whole(r, c, k) = static_cast<float>(own + after[k] + before[k]);
+        coupling(r, c, k) = static_cast<float>(-after[k]);
       }
       rhs.x(r, c) = static_cast<float>(random.uniform(-1, 1));
       rhs.y(r, c) = static_cast<float>(random.uniform(-1, 1));
@@ -203,17 +202,17 @@ double difference_of_factors(int n, bool along_rows, double stiffness, Instructi
       {}, {view_of(springs.t), view_of(springs.x), view_of(springs.y), view_of(springs.z)}};
   LineMatrix blocks{{}, view_of(extra), {}};
   for (int k = 0; k < 6; ++k) {
-    series.held[k] = view_of(held.entry[k]);
-    blocks.diagonal[k] = view_of(whole.entry[k]);
-    blocks.coupling[k] = view_of(coupling.entry[k]);
+    series.held[k] = held.view(k);
+    blocks.diagonal[k] = whole.view(k);
+    blocks.coupling[k] = coupling.view(k);
   }
   LineFactor as_series(n, along_rows, true), as_blocks(n, along_rows, false);
   std::vector<float> scratch(LineFactor::scratch_size(n));
   for (int b = 0; b < as_series.blocks(); ++b) {
     as_series.factor(b, series, kernels);
     as_blocks.factor(b, blocks, kernels);
-    as_series.solve(b, rhs, {}, scratch, one, kernels);
-    as_blocks.solve(b, rhs, {}, scratch, other, kernels);
+    as_series.solve(b, rhs, {}, scratch.data(), one, kernels);
+    as_blocks.solve(b, rhs, {}, scratch.data(), other, kernels);
   }
   double largest = 0, apart = 0;
   for (int r = 0; r < n; ++r)

@@ -1,7 +1,6 @@
 #include "weft/cloth/newton/newton_part.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <utility>
 
@@ -32,7 +31,7 @@ void add_row(int n, ConstRow3 a, float factor, ConstRow3 b, Row3 out) {
 NewtonPart::NewtonPart(const Cloth& cloth, int workers, InstructionSet instructions)
     : cloth_(cloth),
       kernels_(newton_kernels_for(instructions)),
-      springs_(cloth, kernels_),
+      springs_(cloth, workers, kernels_),
       multigrid_(cloth, workers, kernels_),
       curved_(cloth, instructions),
       start_(rest_state(cloth)),
@@ -46,8 +45,6 @@ NewtonPart::NewtonPart(const Cloth& cloth, int workers, InstructionSet instructi
       residual_(multigrid_.rhs()),
       share_(cloth.size, cloth.size),
       own_mass_(cloth.size, cloth.size),
-      contact_blocks_(cloth.size, cloth.size),
-      contact_rows_(static_cast<std::size_t>(cloth.size)),
       sums_(cloth.size),
       row_parts_(static_cast<std::size_t>(cloth.size)),
       known_rows_(static_cast<std::size_t>(cloth.size)),
@@ -57,7 +54,6 @@ NewtonPart::NewtonPart(const Cloth& cloth, int workers, InstructionSet instructi
       share_(r, c) = cloth.mates.is_hole(r * cloth.size + c) ? 0.0F : 1.0F;
   Worker alone = Worker::lone();
   multigrid_.seams().share(Workers(alone, true), {&share_});
-  multigrid_.set_contacts({&contact_blocks_, contact_rows_.data()});
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c) own_mass_(r, c) = share_(r, c) * cloth.mass(r, c);
   find_mass();
@@ -176,9 +172,7 @@ void NewtonPart::clear_step(Worker& worker) {
 
 void NewtonPart::linearise(float guessed_share, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) springs_.linearise_row(state_, guessed_share, r);
-  worker.barrier();
-  for (int r = mine.first; r < mine.last; ++r) springs_.gradient_row(state_, wanted_, r, residual_);
+  springs_.linearise({state_, wanted_, guessed_share}, residual_, worker);
   if (curved_.active()) {
     take_plain(state_.position, worker);
     curved_.set_position(plain_, worker);
@@ -191,7 +185,7 @@ void NewtonPart::linearise(float guessed_share, Worker& worker) {
   multigrid_.complete(residual_, worker);
 }
 
-const PaddedBlocks& NewtonPart::diagonal(Worker& worker) {
+const PlaneSet& NewtonPart::diagonal(Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) multigrid_.fill_diagonals(springs_, r);
   worker.barrier();
@@ -204,25 +198,18 @@ void NewtonPart::set_up(const Contacts& contacts, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {
     multigrid_.fill_diagonals(springs_, r);
-    const bool touched = contacts.press && contacts.gather.row(r);
-    contact_rows_[r] = touched ? 1 : 0;
-    if (!touched) continue;
-    std::array<float*, 6> blocks{};
-    for (int k = 0; k < 6; ++k) {
-      blocks[k] = contact_blocks_.entry[k].row(r);
-      std::fill_n(blocks[k], cloth_.size, 0.0F);
-    }
-    contacts.gather.add_blocks(r, contacts.springs, blocks);
-    BlockRow6 added{};
-    std::copy(blocks.begin(), blocks.end(), added.entry);
-    multigrid_.add_to_diagonals(added, r);
+    if (contacts.product == nullptr || !contacts.product->touches(contacts.cloth, r)) continue;
+    contacts.product->for_blocks(contacts.cloth, r,
+                                 [&](int col, const ContactProduct::Blocks& blocks) {
+                                   multigrid_.add_to_diagonals(blocks, r, col);
+                                 });
   }
   worker.barrier();
   multigrid_.set_up(springs_, worker);
 }
 
-void NewtonPart::add_contact_forces(const Contacts& contacts, float sign, Worker& worker) {
-  multigrid_.add_loads(contacts.gather, contacts.loads, sign, residual_, worker);
+void NewtonPart::add_loads(const Contacts& contacts, Worker& worker) {
+  multigrid_.add_loads(exact(contacts), residual_, worker);
 }
 
 void NewtonPart::move_state(float length, Worker& worker) {
