@@ -23,7 +23,7 @@ inline void hang(Cloth& cloth) {
 struct System {
   explicit System(const Cloth& of, double shaken = 0.2)
       : cloth(of),
-        springs(of, 1, kernels),
+        springs(of, kernels),
         multigrid(of, 1, kernels),
         state(of.size),
         scratch(of.size, of.size) {
@@ -38,7 +38,7 @@ struct System {
       }
     springs.set_time_step(step);
     team.run([&](Worker& worker) {
-      springs.linearise({state, PaddedVectors(of.size, of.size), 0.1F}, scratch, worker);
+      multigrid.linearise({state, Planes3(of.size), {}, 0.1F}, nullptr, springs, scratch, worker);
       for (int r = 0; r < of.size; ++r) multigrid.fill_diagonals(springs, r);
       multigrid.set_up(springs, worker);
     });

@@ -77,10 +77,25 @@ struct Passing {
   Row3 carry;         ///< to the row below
 };
 
-/// Inertia's part of the gradient.
+/// Inertia, which holds the velocity v against v0 + h g.
 struct InertiaRow {
-  const float* mass;        ///< over h [kg/s]
-  ConstRow3 speed, wanted;  ///< v, and v0 + h g [m/s]
+  const float* mass;       ///< over h [kg/s]
+  ConstRow3 speed, start;  ///< v, v0 [m/s]
+  float gained[3];         ///< h g [m/s]
+};
+
+/// The start of a step, of `count` columns.
+struct StepStartRow {
+  int count;
+  float time_step;               ///< [s]
+  ConstRow3 position, velocity;  ///< [m], [m/s]
+  ConstRow3 velocity_before;     ///< at the start of the last step; null: there is none
+  ConstRow3 known;               ///< positions to compare with
+};
+struct StepGuessRow {
+  Row3 start, start_velocity;  ///< what it starts from
+  Row3 position, velocity;     ///< extrapolated
+  Row3 gained;                 ///< the velocity change of the last step
 };
 
 /// A product with a symmetric matrix whose rows are computed one after another.
@@ -143,10 +158,17 @@ struct NewtonKernels {
   /// The energy of springs plus half of what damping dissipates in a step, if `step` is not 0 [J].
   double (*far_energy)(int n, const LinearisedSprings& springs);
 
-  /// The Hessian of near springs, and the gradient of inertia and springs,
-  /// mass (v - w) / h - sum of f (x_j - x_i), row after row.
+  /// Copies the start of a step and extrapolates it.
+  /// @return whether the positions are those known
+  bool (*begin_step)(const StepStartRow& start, const StepGuessRow& out);
+  /// Copies a guess. Where it is not start + h velocity, its velocity becomes the displacement over
+  /// h. @param n  columns
+  void (*follow_guess)(int n, float time_step, ConstRow3 start, ConstRow3 guess, ConstRow3 velocity,
+                       Row3 position, Row3 velocity_out);
+  /// The Hessian of near springs, and the forces of springs and inertia,
+  /// sum of f (x_j - x_i) - mass (v - v0 - h g) / h, row after row.
   void (*linearise)(int n, const NearSprings& springs, const InertiaRow& inertia,
-                    MutablePlaneRows hessian, const Passing& passing, Row3 gradient);
+                    MutablePlaneRows hessian, const Passing& passing, Row3 force);
   double (*near_energy)(int n, const NearSprings& springs);
   /// The diagonal blocks of mass / h^2 and near springs, and those without the line's own springs.
   /// @param springs, above  Hessians of those that start from the row and from the one above
@@ -188,10 +210,10 @@ struct NewtonKernels {
   void (*solve_held_lines)(const LineBlock& lines, const float* factor, const PlaneView* rhs,
                            float scale, bool add, float* scratch, const MutablePlaneView* out);
 
-  /// A coarse row: the transpose of bilinear interpolation. @param line  [n + 3] scratch
-  void (*restrict_row)(int n, int m, const RowTriple& fine, float* line, Row3 coarse);
-  /// fine += interpolated mean of two coarse rows. @param line  [m + 1] scratch
-  void (*prolong_row)(int n, ConstRow3 a, ConstRow3 b, float* line, Row3 fine);
+  /// A coarse row of m columns: the transpose of bilinear interpolation.
+  void (*restrict_row)(int m, const RowTriple& fine, Row3 coarse);
+  /// fine += interpolated mean of two coarse rows. @param n  fine columns
+  void (*prolong_row)(int n, ConstRow3 a, ConstRow3 b, Row3 fine);
 
   /// out = a - b.
   void (*subtract)(int n, ConstRow3 a, ConstRow3 b, Row3 out);

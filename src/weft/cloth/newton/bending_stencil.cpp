@@ -90,12 +90,12 @@ void CurvedBending::change(const PaddedVectors& direction, Worker& worker) {
   pass_.curve_change(direction_, worker);
 }
 
-void CurvedBending::add_row(int row, PaddedVectors& out) {
+void CurvedBending::add_row(float factor, int row, PaddedVectors& out) {
   const Row3 force = row_of(force_, row), sum = out.row(row);
   std::fill_n(force.x, cloth_.size, 0.0F);
   std::fill_n(force.y, cloth_.size, 0.0F);
   std::fill_n(force.z, cloth_.size, 0.0F);
-  pass_.add_row(-1, row, force_);
+  pass_.add_row(-factor, row, force_);
   for (int c = 0; c < cloth_.size; ++c) {
     sum.x[c] += force.x[c];
     sum.y[c] += force.y[c];

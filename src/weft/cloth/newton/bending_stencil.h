@@ -55,9 +55,9 @@ class CurvedBending {
   /// The energy at the last position, by rank 0 alone [J].
   [[nodiscard]] double energy() const { return pass_.energy(); }
 
-  /// Adds a row's own part of the gradient after set_position, of the Hessian's product after
-  /// change.
-  void add_row(int row, PaddedVectors& out);
+  /// Adds factor times a row's own part of the gradient after set_position, of the Hessian's
+  /// product after change.
+  void add_row(float factor, int row, PaddedVectors& out);
 
  private:
   const Cloth& cloth_;

@@ -74,8 +74,7 @@ void BlockMultigrid::restrict_residual(BlockLevel& fine, BlockLevel& coarse,
     for (const ChartRow& part : coarse.layout.rows.row(q)) {
       const Chart &from = fine.layout.charts[part.chart], &to = coarse.layout.charts[part.chart];
       const RowTriple rows = rows_around(fine.residual, from.row + 2 * (q - to.row), from.col);
-      kernels_->restrict_row(from.cols, to.cols, rows, scratch(workers),
-                             shifted(coarse.rhs.row(q), to.col));
+      kernels_->restrict_row(to.cols, rows, shifted(coarse.rhs.row(q), to.col));
     }
   workers.barrier();
   if (coarse.seams.empty()) return;
@@ -93,7 +92,7 @@ void BlockMultigrid::prolong(const BlockLevel& coarse, std::size_t fine_index,
       const int row = r - to.row;
       kernels_->prolong_row(to.cols, shifted(coarse.value.row(from.row + row / 2), from.col),
                             shifted(coarse.value.row(from.row + (row + 1) / 2), from.col),
-                            scratch(workers), shifted(fine.value.row(r), to.col));
+                            shifted(fine.value.row(r), to.col));
     }
     if (fine_index == 0) clear_pins_of_row(r, fine.value);
   }

@@ -70,6 +70,7 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
   for (int i = 0; i < workers; ++i)
     scratch_.emplace_back(1, static_cast<int>(LineFactor::scratch_size(cloth.size)));
   find_bending_rates();
+  find_border_springs();
   parted_.reserve(static_cast<std::size_t>(4) * cloth.size * 6);
   renew_pins();
 }
@@ -104,6 +105,30 @@ bool BlockMultigrid::renew_pins() {
 }
 
 float* BlockMultigrid::scratch(const Workers& workers) { return scratch_[workers.rank()].row(0); }
+
+void BlockMultigrid::find_border_springs() {
+  const BorderBending& border = cloth_.bending.border;
+  if (border.starts.empty() || !seams().empty()) return;
+  border_starts_.push_back(0);
+  for (int r = 0; r < cloth_.size; ++r) {
+    for (int i = border.starts[r]; i < border.starts[r + 1]; ++i) {
+      const BorderBending::Edge& edge = border.edges[i];
+      for (int d = 0; d < near_directions; ++d)
+        if (edge.other_row == r + spring_offsets[d].down &&
+            edge.other_col == edge.col + spring_offsets[d].right)
+          border_.push_back({d * spring_entries, edge.col, edge.stiffness});
+    }
+    border_starts_.push_back(static_cast<int>(border_.size()));
+  }
+}
+
+void BlockMultigrid::stiffen_border(int row, SpringHessian& springs) const {
+  if (border_starts_.empty()) return;
+  for (int i = border_starts_[row]; i < border_starts_[row + 1]; ++i) {
+    const BorderStiffness& added = border_[i];
+    springs.near()(row, added.col, added.plane) += added.value;
+  }
+}
 
 void BlockMultigrid::find_bending_rates() {
   PaddedPlane mass(cloth_.size, cloth_.size);
@@ -175,15 +200,17 @@ void BlockMultigrid::add_bending(BlockLevel& level, const Bent& bent, PaddedVect
   }
 }
 
-void BlockMultigrid::add_border_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
+void BlockMultigrid::add_border_row(const PaddedVectors& x, int row, float factor,
+                                    PaddedVectors& out) const {
   const BorderBending& border = cloth_.bending.border;
   if (border.starts.empty()) return;
   for (int i = border.starts[row]; i < border.starts[row + 1]; ++i) {
     const BorderBending::Edge& edge = border.edges[i];
     const int c = edge.col, r2 = edge.other_row, c2 = edge.other_col;
-    out.x(row, c) += edge.stiffness * (x.x(row, c) - x.x(r2, c2));
-    out.y(row, c) += edge.stiffness * (x.y(row, c) - x.y(r2, c2));
-    out.z(row, c) += edge.stiffness * (x.z(row, c) - x.z(r2, c2));
+    const float stiffness = factor * edge.stiffness;
+    out.x(row, c) += stiffness * (x.x(row, c) - x.x(r2, c2));
+    out.y(row, c) += stiffness * (x.y(row, c) - x.y(r2, c2));
+    out.z(row, c) += stiffness * (x.z(row, c) - x.z(r2, c2));
   }
 }
 
@@ -224,13 +251,13 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
     const Range mine = all.share(level.size);
     for (int r = mine.first; r < mine.last; ++r) {
       springs_->apply_row(x, r, sweep, nullptr, out);
-      parts.curved->add_row(r, out);
+      parts.curved->add_row(1, r, out);
       finish(r);
     }
   } else {
     const auto begin = [&](int r) {
       springs_->apply_row(x, r, sweep, nullptr, out);
-      add_border_row(x, r, out);
+      if (border_starts_.empty()) add_border_row(x, r, 1, out);
     };
     add_bending(level, {x}, out, all, begin, finish);
   }
@@ -260,12 +287,32 @@ void BlockMultigrid::add_loads(const Loads& contacts, PaddedVectors& field, Work
   worker.barrier();
 }
 
-void BlockMultigrid::add_bending_gradient(const PaddedVectors& position, PaddedVectors& gradient,
-                                          Worker& worker) {
-  add_bending(
-      levels_.front(), {position}, gradient, Workers(worker, false),
-      [&](int r) { add_border_row(position, r, gradient); }, [](int) {});
-  worker.barrier();
+void BlockMultigrid::linearise(const SpringHessian::Point& point, CurvedBending* curved,
+                               SpringHessian& springs, PaddedVectors& force, Worker& worker) {
+  const Workers all(worker, false);
+  BlockLevel& level = levels_.front();
+  const Range mine = all.share(level.size);
+  RowSweep& sweep = sweeps_[worker.rank()];
+  sweep.restart();
+  const auto begin = [&](int r) {
+    springs.linearise_row(point, r, sweep, force);
+    stiffen_border(r, springs);
+  };
+  if (curved != nullptr) {
+    for (int r = mine.first; r < mine.last; ++r) {
+      begin(r);
+      curved->add_row(-1, r, force);
+    }
+  } else {
+    add_bending(level, {point.at.position, -1}, force, all, begin,
+                [&](int r) { add_border_row(point.at.position, r, -1, force); });
+  }
+  if (springs.has_far()) {
+    worker.barrier();
+    for (int r = mine.first; r < mine.last; ++r)
+      springs.add_far_forces(point.at.position, r, force);
+  }
+  complete(0, force, all);
 }
 
 double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& sums,

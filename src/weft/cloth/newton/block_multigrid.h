@@ -56,8 +56,10 @@ class BlockMultigrid {
   /// Sums the centres of the finest level over seam copies, for its diagonal().
   void join_centres(Worker& worker) { join_centres(levels_.front(), Workers(worker, false)); }
 
-  /// Adds the gradient of flat bending at positions to a gradient's own part.
-  void add_bending_gradient(const PaddedVectors& position, PaddedVectors& gradient, Worker& worker);
+  /// Linearises springs and computes the forces of inertia, springs and bending, seam copies equal,
+  /// 0 where pinned. @param curved  instead of flat bending, at the same positions; null: none
+  void linearise(const SpringHessian::Point& point, CurvedBending* curved, SpringHessian& springs,
+                 PaddedVectors& force, Worker& worker);
   /// Energy of flat bending at positions; all workers get it [J].
   double bending_energy(const PaddedVectors& position, RowSums& sums, const PaddedPlane& share,
                         Worker& worker);
@@ -124,7 +126,9 @@ class BlockMultigrid {
   void part_edges(std::size_t index);
   void join_centres(BlockLevel& level, const Workers& workers);
   void clear_pins(PaddedVectors& field, const Workers& workers) const;
-  void add_border_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
+  void add_border_row(const PaddedVectors& x, int row, float factor, PaddedVectors& out) const;
+  void find_border_springs();
+  void stiffen_border(int row, SpringHessian& springs) const;
   [[nodiscard]] float* scratch(const Workers& workers);
 
   const Cloth& cloth_;
@@ -139,7 +143,15 @@ class BlockMultigrid {
   std::vector<int> pin_starts_;  // [n + 1] first pinned sample of each row, in pinned_
   std::vector<PaddedPlane> scratch_;
   std::vector<RowSweep> sweeps_;  // of each worker
-  std::vector<float> parted_;     // own blocks of border edges while the edges hold sums
+  /// The free-border edges of bending are like springs to near neighbours without a direction: on a
+  /// sheet without seams they are added to those.
+  struct BorderStiffness {
+    int plane = 0, col = 0;  // of a spring's t
+    float value = 0;
+  };
+  std::vector<BorderStiffness> border_;
+  std::vector<int> border_starts_;  // [n + 1] first of each row; empty: none
+  std::vector<float> parted_;       // own blocks of border edges while the edges hold sums
 };
 
 }  // namespace weft

@@ -46,9 +46,9 @@ ContactSystem::Motion ContactSystem::motion_of(int index, Fields position) const
     const double w = contacts_[index].weights[k];
     if (w == 0) continue;
     const Place& at = places_[index][k];
-    const PaddedVectors& x = *position[at.cloth];
+    const PaddedVectors &x = *position[at.cloth], &x0 = *starts_[at.cloth];
     const Vec3d now{x.x(at.row, at.col), x.y(at.row, at.col), x.z(at.row, at.col)},
-        start = vec_cast<double>(starts_[at.cloth]->at(at.row, at.col));
+        start{x0.x(at.row, at.col), x0.y(at.row, at.col), x0.z(at.row, at.col)};
     motion.start += w * start;
     motion.displacement += w * (now - start);
   }

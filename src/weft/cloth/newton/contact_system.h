@@ -27,7 +27,7 @@ class ContactSystem {
   /// One cloth's own contacts, its positions at the start of the step and its contact history.
   struct Own {
     std::span<const Contact> contacts;
-    const Planes3* start = nullptr;           ///< valid until the last use [m]
+    const PaddedVectors* start = nullptr;     ///< valid until the last use [m]
     const ContactHistory* history = nullptr;  ///< also of shared contacts, see remember
   };
   /// Replaces all contacts.
@@ -124,7 +124,7 @@ class ContactSystem {
   ContactProduct product_;
   std::vector<Grid<float>> inverse_diagonals_;    // the same [m/N]
   std::vector<const Grid<float>*> held_, loose_;  // pointers to those, and to inverse masses [1/kg]
-  std::vector<const Planes3*> starts_;            // of each cloth [m]
+  std::vector<const PaddedVectors*> starts_;      // of each cloth [m]
   std::vector<const ContactHistory*> histories_;  // the same
   std::vector<std::size_t> firsts_;  // first of each cloth's own contacts, and of the shared ones
   StepInput input_;

@@ -32,7 +32,8 @@ class NewtonPart {
   /// Drops the last velocity change: the next solve starts without a direction.
   void forget() { has_last_ = false; }
   [[nodiscard]] ClothState& next() { return next_; }
-  [[nodiscard]] const Planes3& start() const { return start_.position; }
+  /// Positions at the step's start [m].
+  [[nodiscard]] const PaddedVectors& start() const { return state_.start; }
   [[nodiscard]] const StepInput& input() const { return input_; }
   /// Mass of all particles that are not pinned [kg].
   [[nodiscard]] double mass() const { return mass_; }
@@ -140,14 +141,14 @@ class NewtonPart {
   [[nodiscard]] static BlockMultigrid::Loads exact(const Contacts& contacts) {
     return {contacts.product, contacts.cloth};
   }
-  void begin_row(const ClothState& state, bool go_on, int row);
-  void follow_guess(int row);
+  bool begin_row(const ClothState& state, bool go_on, int row);
+  void read_row(int row);
   void find_mass();
   void take_plain(const PaddedVectors& position, Worker& worker);
   [[nodiscard]] const float* shares_of(int row) const {
     return multigrid_.seams().empty() ? nullptr : share_.row(row);
   }
-  void look_at_pins();
+  void look_at_pins(const Planes3& start);
   template <class Velocity>
   double kinetic_of(const Velocity& row_of_velocity, Worker& worker);
   template <class Velocity>
@@ -161,10 +162,10 @@ class NewtonPart {
   BlockMultigrid multigrid_;
   CurvedBending curved_;
   StepInput input_;
-  ClothState start_, next_;
+  Planes3 start_velocity_;  // [m/s]
+  ClothState next_;
   PaddedState state_;                         // next_ and the start's positions, in padded planes
   Planes3 plain_;                             // unpadded positions, for curved bending
-  PaddedVectors wanted_;                      // v0 + h g [m/s]
   PaddedVectors step_, direction_, product_;  // [m], [m], [N]
   PaddedVectors& residual_;                   // [N]
   PaddedPlane share_;                         // 1 / number of copies
@@ -181,7 +182,7 @@ class NewtonPart {
   std::optional<Vec3d> pin_step_;
   double last_length_ = 0;  // of the last advance along the direction
   bool pulled_ = false;
-  bool has_last_ = false;  // whether start_ and next_ are those of the step before
+  bool has_last_ = false;  // whether start_velocity_ and next_ are those of the step before
 };
 
 }  // namespace weft

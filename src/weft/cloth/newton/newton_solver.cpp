@@ -46,9 +46,12 @@ double NewtonSolver::drift(Worker& worker) {
   const auto flies = [&](std::size_t i) {
     return parts_[i]->cloth().pins.empty() && !contacts_.is_held(i);
   };
-  bool all_fly = contacts_.is_shared();
-  for (std::size_t i = 0; i < parts_.size(); ++i) all_fly = all_fly && flies(i);
-  if (contacts_.is_shared() && !all_fly) return 0;
+  bool all_fly = contacts_.is_shared(), any_flies = false;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    all_fly = all_fly && flies(i);
+    any_flies = any_flies || flies(i);
+  }
+  if (!any_flies || (contacts_.is_shared() && !all_fly)) return 0;
   each(worker, [&](std::size_t i, Worker& own) {
     const Vec3d force = parts_[i]->force(own);
     if (own.rank() == 0) forces_[i] = force;

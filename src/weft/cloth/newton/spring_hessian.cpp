@@ -17,7 +17,7 @@ void RowSweep::start(int row) {
   next_ = row;
 }
 
-SpringHessian::SpringHessian(const Cloth& cloth, int workers, const NewtonKernels& kernels)
+SpringHessian::SpringHessian(const Cloth& cloth, const NewtonKernels& kernels)
     : cloth_(cloth),
       kernels_(&kernels),
       directions_(cloth.material.bend_springs > 0 ? int{spring_directions} : near_directions),
@@ -37,7 +37,6 @@ SpringHessian::SpringHessian(const Cloth& cloth, int workers, const NewtonKernel
     Direction& one = far_[d - near_directions];
     for (PaddedPlane* plane : {&one.t, &one.x, &one.y, &one.z, &one.f}) *plane = PaddedPlane(n, n);
   }
-  for (int i = 0; i < workers; ++i) scratch_.emplace_back(n);
 }
 
 void SpringHessian::set_time_step(double time_step) {
@@ -96,25 +95,15 @@ NearSprings SpringHessian::near_at(const PaddedState& state, int row) const {
           limit > 0 ? strain_limit_factor : 0.0F};
 }
 
-/// A row of near springs.
-void SpringHessian::linearise_row(const Linearised& state, int row, Scratch& own,
-                                  MutablePlaneRows hessian, Row3 gradient) const {
-  NearSprings springs = near_at(state.at, row);
-  springs.guessed_share = state.guessed_share;
-  kernels_->linearise(whole_vectors(cloth_.size), springs,
-                      {momentum_.row(row), state.at.velocity.row(row), state.wanted.row(row)},
-                      hessian, own.sweep.passing(row), gradient);
-}
-
-void SpringHessian::linearise_far_row(const Linearised& state, int row) {
+void SpringHessian::linearise_far_row(const Point& point, int row) {
   for (int d = near_directions; d < directions_; ++d) {
-    LinearisedSprings springs = far_at(d, state.at.position, row);
+    LinearisedSprings springs = far_at(d, point.at.position, row);
     const SpringPlane& plane = cloth_.springs[d];
-    springs.speed_here = state.at.velocity.row(row);
-    springs.speed_there = shifted(state.at.velocity.row(row + plane.down), plane.right);
-    springs.guessed_share = state.guessed_share;
-    springs.start_here = state.at.start.row(row);
-    springs.start_there = shifted(state.at.start.row(row + plane.down), plane.right);
+    springs.speed_here = point.at.velocity.row(row);
+    springs.speed_there = shifted(point.at.velocity.row(row + plane.down), plane.right);
+    springs.guessed_share = point.guessed_share;
+    springs.start_here = point.at.start.row(row);
+    springs.start_there = shifted(point.at.start.row(row + plane.down), plane.right);
     Direction& out = far_[d - near_directions];
     kernels_->linearise_far(
         cloth_.size, springs,
@@ -122,21 +111,25 @@ void SpringHessian::linearise_far_row(const Linearised& state, int row) {
   }
 }
 
-void SpringHessian::linearise(const Linearised& state, PaddedVectors& gradient, Worker& worker) {
-  const Range mine = worker.share(cloth_.size);
-  Scratch& own = scratch_[worker.rank()];
-  // The row above belongs to another worker: what its springs pull this row by is computed again.
-  own.sweep.start(std::max(mine.first - 1, 0));
-  if (mine.first > 0 && mine.first < mine.last)
-    linearise_row(state, mine.first - 1, own, rows_of(own.row, 0), own.sweep.scratch());
-  for (int r = mine.first; r < mine.last; ++r) {
-    linearise_row(state, r, own, rows_of(near_, r), gradient.row(r));
-    linearise_far_row(state, r);
+void SpringHessian::linearise_row(const Point& point, int row, RowSweep& sweep,
+                                  PaddedVectors& force) {
+  const auto linearise = [&](int r, MutablePlaneRows hessian, Row3 out) {
+    NearSprings springs = near_at(point.at, r);
+    springs.guessed_share = point.guessed_share;
+    kernels_->linearise(whole_vectors(cloth_.size), springs,
+                        {momentum_.row(r),
+                         point.at.velocity.row(r),
+                         row_of(point.start_velocity, r),
+                         {point.gained.x, point.gained.y, point.gained.z}},
+                        hessian, sweep.passing(r), out);
+  };
+  if (!sweep.goes_on_at(row)) {
+    // The row above belongs to another worker: what its springs pull this row by is computed again.
+    sweep.start(std::max(row - 1, 0));
+    if (row > 0) linearise(row - 1, sweep.spring_scratch(), sweep.scratch());
   }
-  worker.barrier();
-  if (directions_ == near_directions) return;
-  for (int r = mine.first; r < mine.last; ++r) add_far_gradient(state.at.position, r, gradient);
-  worker.barrier();
+  linearise(row, rows_of(near_, row), force.row(row));
+  linearise_far_row(point, row);
 }
 
 double SpringHessian::far_energy_row(const PaddedVectors& position, int row) const {
@@ -196,11 +189,11 @@ void SpringHessian::for_far_springs(int row, const Visit& visit) const {
     }
 }
 
-void SpringHessian::add_far_gradient(const PaddedVectors& at, int row, PaddedVectors& out) const {
+void SpringHessian::add_far_forces(const PaddedVectors& at, int row, PaddedVectors& force) const {
   for_far_springs(row, [&](int c, const ConstSpringHessianRow& springs, int s, int r2, int c2) {
-    out.x(row, c) -= springs.f[s] * (at.x(r2, c2) - at.x(row, c));
-    out.y(row, c) -= springs.f[s] * (at.y(r2, c2) - at.y(row, c));
-    out.z(row, c) -= springs.f[s] * (at.z(r2, c2) - at.z(row, c));
+    force.x(row, c) += springs.f[s] * (at.x(r2, c2) - at.x(row, c));
+    force.y(row, c) += springs.f[s] * (at.y(r2, c2) - at.y(row, c));
+    force.z(row, c) += springs.f[s] * (at.z(r2, c2) - at.z(row, c));
   });
 }
 

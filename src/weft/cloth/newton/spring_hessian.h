@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/kernels/newton_kernels.h"
@@ -20,7 +19,8 @@ struct PaddedState {
 /// row on.
 class RowSweep {
  public:
-  explicit RowSweep(int cols) : carried_(3, cols) {}
+  explicit RowSweep(int cols)
+      : carried_(3, cols), springs_(1, cols, near_directions * spring_entries) {}
   /// Begins another product.
   void restart() { next_ = -1; }
   /// Whether the row above was the last one.
@@ -29,11 +29,13 @@ class RowSweep {
   void start(int row);
   /// @param row  the next one
   [[nodiscard]] Passing passing(int row);
-  /// A row of scratch.
+  // Rows of scratch.
   [[nodiscard]] Row3 scratch() { return carried_.row(2); }
+  [[nodiscard]] MutablePlaneRows spring_scratch() { return rows_of(springs_, 0); }
 
  private:
   PaddedVectors carried_;  // forces on the next row, in turn, and scratch [N]
+  PlaneSet springs_;
   int next_ = -1;
 };
 
@@ -42,24 +44,30 @@ class RowSweep {
 /// true one; damping of the relative motion along springs adds its rate over h along them.
 class SpringHessian {
  public:
-  /// @param cloth  kept by reference  @param workers  the largest number of callers at once
-  SpringHessian(const Cloth& cloth, int workers, const NewtonKernels& kernels);
+  /// @param cloth  kept by reference
+  SpringHessian(const Cloth& cloth, const NewtonKernels& kernels);
 
   void set_time_step(double time_step);
   [[nodiscard]] double time_step() const { return time_step_; }
 
-  /// Linearises the springs that start from a worker's rows, and computes these rows' own part of
-  /// the gradient of inertia and springs. The transverse stiffness of a spring is its tension at
-  /// the start of the step, or a part of its tension at the positions if that is more. A guess
-  /// extrapolates along straight lines, which lengthens the springs of rotating cloth: their full
-  /// tension there would hold light, stiff cloth back. Without any of it, impacts are linearised
-  /// too softly. Ends with a barrier.
-  struct Linearised {
+  /// Where springs are linearised.
+  struct Point {
     const PaddedState& at;
-    const PaddedVectors& wanted;  ///< velocities without internal forces [m/s]
-    float guessed_share;          ///< that part
+    const Planes3& start_velocity;  ///< v0 [m/s]
+    Vec3f gained;                   ///< h g [m/s]
+    /// Least transverse stiffness of a spring over its tension at the positions.
+    float guessed_share;
   };
-  void linearise(const Linearised& state, PaddedVectors& gradient, Worker& worker);
+  /// Linearises the springs that start from a row, and computes its own part of the forces of
+  /// springs and inertia. The transverse stiffness of a spring is its tension at the start of the
+  /// step, or a part of its tension at the positions if that is more. A guess extrapolates along
+  /// straight lines, which lengthens the springs of rotating cloth: their full tension there would
+  /// hold light, stiff cloth back. Without any of it, impacts are linearised too softly. Rows in
+  /// ascending order, none left out. @param sweep  restarted before the first
+  void linearise_row(const Point& point, int row, RowSweep& sweep, PaddedVectors& force);
+  /// Whether there are second-neighbour springs, whose forces are still to be added.
+  [[nodiscard]] bool has_far() const { return directions_ > near_directions; }
+  void add_far_forces(const PaddedVectors& position, int row, PaddedVectors& force) const;
   /// The energy of the springs that start from a row [J].
   [[nodiscard]] double energy_row(const PaddedVectors& position, int row) const;
   /// The same plus half of what damping dissipates in a step, which the step minimises [J].
@@ -85,21 +93,13 @@ class SpringHessian {
   struct Direction {
     PaddedPlane t, x, y, z, f;
   };
-  struct Scratch {
-    RowSweep sweep;
-    PlaneSet row;  // [1 x n] Hessians of a row that is another worker's
-    explicit Scratch(int n) : sweep(n), row(1, n, near_directions * spring_entries) {}
-  };
   template <class Visit>
   void for_far_springs(int row, const Visit& visit) const;
   [[nodiscard]] NearSprings near_at(const PaddedState& state, int row) const;
   [[nodiscard]] LinearisedSprings far_at(int direction, const PaddedVectors& position,
                                          int row) const;
   [[nodiscard]] double far_energy_row(const PaddedVectors& position, int row) const;
-  void linearise_row(const Linearised& state, int row, Scratch& own, MutablePlaneRows hessian,
-                     Row3 gradient) const;
-  void linearise_far_row(const Linearised& state, int row);
-  void add_far_gradient(const PaddedVectors& position, int row, PaddedVectors& gradient) const;
+  void linearise_far_row(const Point& point, int row);
 
   const Cloth& cloth_;
   const NewtonKernels* kernels_;
@@ -109,7 +109,6 @@ class SpringHessian {
   PlaneSet near_;
   std::array<Direction, spring_directions - near_directions> far_;
   PaddedPlane inertia_, momentum_;  // own parts of M / h^2, M / h
-  std::vector<Scratch> scratch_;    // of each worker
 };
 
 }  // namespace weft

@@ -52,7 +52,7 @@ void transposed(int n, const BendingRows& weights, const RowTriple& u, float fac
       sum = sum + (back(weights.below, 5, u.below, 1) + back(weights.above, 4, u.above, -1)) +
             (back(weights.below, 7, u.below, -1) + back(weights.above, 6, u.above, 1));
     }
-    store(load(ConstRow3{out.x, out.y, out.z}, c) + by * (sum - own * load(u.here, c)), out, c);
+    store(load(constant(out), c) + by * (sum - own * load(u.here, c)), out, c);
   }
 }
 

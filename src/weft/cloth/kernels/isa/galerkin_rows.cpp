@@ -1,9 +1,8 @@
 #include "weft/cloth/kernels/isa/packs.h"
 #include "weft/cloth/kernels/isa/rows.h"
 
-// Galerkin products of bilinear interpolation, along rows and then across them, and the
-// interpolation itself. Stencils have the blocks of a sample in the order centre, right, below,
-// below right, below left.
+// Galerkin products of bilinear interpolation, along rows and then across them. Stencils have the
+// blocks of a sample in the order centre, right, below, below right, below left.
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
@@ -89,11 +88,6 @@ struct SpringBlocks {
         below_left(springs, 3, c, load(mask + c) * load(mask_below + c - 1)) {}
 };
 
-/// out[0 .. count - 1], the rest stays.
-inline void store_part(Pack value, float* to, int count) {
-  for (int i = 0; i < count; ++i) to[i] = value[i];
-}
-
 }  // namespace
 
 void coarsen_columns(int m, PlaneRows fine, MutablePlaneRows half) {
@@ -155,43 +149,9 @@ void coarsen_rows(int m, const PlaneRows* half, MutablePlaneRows coarse) {
       sums[4] = by_half * (at(1, 4) + at(2, 4)) + by_quarter * at(2, 1, -1);
       float* to = coarse.first + k * coarse.pitch + q;
       for (int which = 0; which < stencil_blocks; ++which)
-        if (q + width <= m)
-          store(sums[which], to + which * coarse_block);
-        else
-          store_part(sums[which], to + which * coarse_block, m - q);
+        store_first(m - q, sums[which], to + which * coarse_block);
     }
   clear_ends(m, coarse.first, coarse.pitch);
-}
-
-void restrict_row(int n, int m, const RowTriple& fine, float* line, Row3 coarse) {
-  const float* const above[3] = {fine.above.x, fine.above.y, fine.above.z};
-  const float* const here[3] = {fine.here.x, fine.here.y, fine.here.z};
-  const float* const below[3] = {fine.below.x, fine.below.y, fine.below.z};
-  float* const out[3] = {coarse.x, coarse.y, coarse.z};
-  for (int k = 0; k < 3; ++k) {
-    float* sum = line + 1;  // from column -1 to n + 1
-#pragma omp simd
-    for (int c = -1; c < n + 2; ++c) sum[c] = here[k][c] + 0.5F * (above[k][c] + below[k][c]);
-#pragma omp simd
-    for (int q = 0; q < m; ++q) out[k][q] = sum[2 * q] + 0.5F * (sum[2 * q - 1] + sum[2 * q + 1]);
-  }
-}
-
-void prolong_row(int n, ConstRow3 a, ConstRow3 b, float* line, Row3 fine) {
-  const float* const first[3] = {a.x, a.y, a.z};
-  const float* const second[3] = {b.x, b.y, b.z};
-  float* const out[3] = {fine.x, fine.y, fine.z};
-  const int pairs = n / 2, m = pairs + 1;
-  for (int k = 0; k < 3; ++k) {
-#pragma omp simd
-    for (int q = 0; q < m; ++q) line[q] = 0.5F * (first[k][q] + second[k][q]);
-#pragma omp simd
-    for (int q = 0; q < pairs; ++q) {
-      out[k][2 * q] += line[q];
-      out[k][2 * q + 1] += 0.5F * (line[q] + line[q + 1]);
-    }
-    if (n % 2 != 0) out[k][n - 1] += line[m - 1];
-  }
 }
 
 }  // namespace weft::WEFT_KERNEL_SET

@@ -196,21 +196,36 @@ struct Series {
     block.zz += load(&held[5][j][i]);
   }
 
-  /// Positions 0 .. count - 1 of the tiles, lanes i on. @param out  factors of the first
-  void advance(int count, int i, float* out) {
-    Block block{load(&passed[0][i]), load(&passed[1][i]), load(&passed[2][i]),
-                load(&passed[3][i]), load(&passed[4][i]), load(&passed[5][i])};
-    for (int j = 0; j < count; ++j, out += held_factor_entries * lanes) {
-      const Pack t = load(&spring[0][j][i]);
-      const Pack3 s{load(&spring[1][j][i]), load(&spring[2][j][i]), load(&spring[3][j][i])};
-      add_held(j, i, block);
-      const Block inverse = pass_on(t, s, block);
-      const Pack values[held_factor_entries] = {
-          inverse.xx, inverse.xy, inverse.xz, inverse.yy, inverse.yz, inverse.zz, t, s.x, s.y, s.z};
-      for (int k = 0; k < held_factor_entries; ++k) store(values[k], out + k * lanes);
-    }
+  /// Packs that are worked on in turn: a lone one would wait for its own results.
+  static constexpr int packs = lanes / width < 2 ? lanes / width : 2;
+
+  [[gnu::always_inline]] void advance_one(int j, int i, Block& block, float* out) const {
+    const Pack t = load(&spring[0][j][i]);
+    const Pack3 s{load(&spring[1][j][i]), load(&spring[2][j][i]), load(&spring[3][j][i])};
+    add_held(j, i, block);
+    const Block inverse = pass_on(t, s, block);
+    const Pack values[held_factor_entries] = {
+        inverse.xx, inverse.xy, inverse.xz, inverse.yy, inverse.yz, inverse.zz, t, s.x, s.y, s.z};
+    for (int k = 0; k < held_factor_entries; ++k) store(values[k], out + k * lanes + i);
+  }
+  [[gnu::always_inline]] Block passed_to(int i) const {
+    return {load(&passed[0][i]), load(&passed[1][i]), load(&passed[2][i]),
+            load(&passed[3][i]), load(&passed[4][i]), load(&passed[5][i])};
+  }
+  [[gnu::always_inline]] void pass(const Block& block, int i) {
     const Pack values[6] = {block.xx, block.xy, block.xz, block.yy, block.yz, block.zz};
     for (int k = 0; k < 6; ++k) store(values[k], &passed[k][i]);
+  }
+
+  /// Positions 0 .. count - 1 of the tiles, lanes i on. @param out  factors of the first
+  void advance(int count, int i, float* out) {
+    Block block = passed_to(i), other = passed_to(i + (packs - 1) * width);
+    for (int j = 0; j < count; ++j, out += held_factor_entries * lanes) {
+      advance_one(j, i, block, out);
+      if constexpr (packs > 1) advance_one(j, i + width, other, out);
+    }
+    pass(block, i);
+    if constexpr (packs > 1) pass(other, i + width);
   }
 };
 
@@ -227,8 +242,8 @@ void factor_series(const LineBlock& block, const HeldLineMatrix& matrix, float* 
     for (int j = 0; j < count; ++j)
       for (int i = block.width; i < lanes; ++i)
         state.held[0][j][i] = state.held[3][j][i] = state.held[5][j][i] = 1;
-    for (int i = 0; i < lanes; i += width)
-      state.advance(count, i, factors + std::ptrdiff_t{position} * held_factor_entries * lanes + i);
+    for (int i = 0; i < lanes; i += Series<lanes>::packs * width)
+      state.advance(count, i, factors + std::ptrdiff_t{position} * held_factor_entries * lanes);
   }
 }
 

@@ -93,12 +93,10 @@ inline void write_tile(const MutablePlaneView& plane, const LineBlock& block, in
   }
   for (int j = 0; j < count; ++j) {
     float* line = plane.base + (position + j) * plane.stride + block.first;
-    if (add)
-#pragma omp simd
-      for (int i = 0; i < lines; ++i) line[i] += tile[j][i];
-    else
-#pragma omp simd
-      for (int i = 0; i < lines; ++i) line[i] = tile[j][i];
+    const int whole = lines / width * width;
+    for (int i = 0; i < whole; i += width)
+      store(add ? load(line + i) + load(tile[j] + i) : load(tile[j] + i), line + i);
+    for (int i = whole; i < lines; ++i) line[i] = add ? line[i] + tile[j][i] : tile[j][i];
   }
 }
 

@@ -71,6 +71,34 @@ using LoosePack = float __attribute__((vector_size(4 * width), aligned(4), may_a
 #endif
 }
 
+/// The columns of two packs in turn, a's first.
+struct PackPair {
+  Pack first, second;
+};
+[[gnu::always_inline]] inline PackPair interleaved(Pack a, Pack b) {
+#if defined __AVX512F__
+  return {
+      __builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23),
+      __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31)};
+#elif defined __AVX2__
+  return {__builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11),
+          __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15)};
+#else
+  return {__builtin_shufflevector(a, b, 0, 4, 1, 5), __builtin_shufflevector(a, b, 2, 6, 3, 7)};
+#endif
+}
+
+/// The first `count` columns of a, the rest of b.
+[[gnu::always_inline]] inline Pack first_columns(int count, Pack a, Pack b) {
+  Pack column;
+  for (int i = 0; i < width; ++i) column[i] = static_cast<float>(i);
+  return column < static_cast<float>(count) ? a : b;
+}
+/// Stores no more than the first `count` columns.
+[[gnu::always_inline]] inline void store_first(int count, Pack value, float* to) {
+  store(count < width ? first_columns(count, value, load(to)) : value, to);
+}
+
 /// A vector of three coordinates at each of neighbouring columns.
 struct Pack3 {
   Pack x, y, z;
@@ -83,6 +111,12 @@ struct Pack3 {
   store(value.y, to.y + c);
   store(value.z, to.z + c);
 }
+[[gnu::always_inline]] inline void store_first(int count, Pack3 value, Row3 to, int c) {
+  store_first(count, value.x, to.x + c);
+  store_first(count, value.y, to.y + c);
+  store_first(count, value.z, to.z + c);
+}
+[[gnu::always_inline]] inline ConstRow3 constant(Row3 row) { return {row.x, row.y, row.z}; }
 [[gnu::always_inline]] inline Pack3 operator+(Pack3 a, Pack3 b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }

@@ -70,7 +70,10 @@ extern const ImplicitKernels implicit;
 void linearise_far(int n, const LinearisedSprings& springs, SpringHessianRow out);
 double far_energy(int n, const LinearisedSprings& springs);
 void linearise(int n, const NearSprings& springs, const InertiaRow& inertia,
-               MutablePlaneRows hessian, const Passing& passing, Row3 gradient);
+               MutablePlaneRows hessian, const Passing& passing, Row3 force);
+bool begin_step(const StepStartRow& start, const StepGuessRow& out);
+void follow_guess(int n, float time_step, ConstRow3 start, ConstRow3 guess, ConstRow3 velocity,
+                  Row3 position, Row3 velocity_out);
 double near_energy(int n, const NearSprings& springs);
 void line_diagonals(int n, PlaneRows springs, PlaneRows above, const float* mass,
                     const float* extra, const LineDiagonals& out);
@@ -90,8 +93,8 @@ void solve_lines(const LineBlock& lines, const float* factor, const PlaneView* r
                  bool add, float* scratch, const MutablePlaneView* out);
 void solve_held_lines(const LineBlock& lines, const float* factor, const PlaneView* rhs,
                       float scale, bool add, float* scratch, const MutablePlaneView* out);
-void restrict_row(int n, int m, const RowTriple& fine, float* line, Row3 coarse);
-void prolong_row(int n, ConstRow3 a, ConstRow3 b, float* line, Row3 fine);
+void restrict_row(int m, const RowTriple& fine, Row3 coarse);
+void prolong_row(int n, ConstRow3 a, ConstRow3 b, Row3 fine);
 void subtract(int n, ConstRow3 a, ConstRow3 b, Row3 out);
 void scale_add(int n, ConstRow3 a, float factor, Row3 out);
 void scale_row(int n, float factor, Row3 out);

@@ -61,17 +61,20 @@ template <class T>
 }  // namespace
 
 void linearise(int n, const NearSprings& springs, const InertiaRow& inertia,
-               MutablePlaneRows hessian, const Passing& passing, Row3 gradient) {
+               MutablePlaneRows hessian, const Passing& passing, Row3 force) {
   const Pack3 none{};
+  const Pack3 gained{none.x + inertia.gained[0], none.x + inertia.gained[1],
+                     none.x + inertia.gained[2]};
   Pack3 right_before = none, diagonal_before = none, left_before = none, pending = none;
   for (int c = 0; c < n; c += width) {
     const Pack3 right = linearise_direction(springs, directions[0], c, hessian),
                 down = linearise_direction(springs, directions[1], c, hessian),
                 diagonal = linearise_direction(springs, directions[2], c, hessian),
                 left = linearise_direction(springs, directions[3], c, hessian);
-    const Pack3 moved = load(inertia.mass + c) * (load(inertia.speed, c) - load(inertia.wanted, c));
+    const Pack3 held =
+        load(inertia.mass + c) * (load(inertia.speed, c) - load(inertia.start, c) - gained);
     const Pack3 pulled = (right + down) + (diagonal + left) - to_the_left(right_before, right);
-    store(moved - (pulled + load(passing.carried, c)), gradient, c);
+    store(pulled + load(passing.carried, c) - held, force, c);
     // What the springs to the row below pull it by, once all three that end in a column are known.
     if (c > 0) store(none - (pending + to_the_right(left_before, left)), passing.carry, c - width);
     pending = down + to_the_left(diagonal_before, diagonal);

@@ -118,7 +118,7 @@ void add_block_row(int n, PlaneRows blocks, float factor, ConstRow3 x, Row3 out)
   const Planes block{blocks.first, blocks.pitch};
   const Pack by = Pack{} + factor;
   for (int c = 0; c < n; c += width)
-    store(load(ConstRow3{out.x, out.y, out.z}, c) + by * block_times(block, c, load(x, c)), out, c);
+    store(load(constant(out), c) + by * block_times(block, c, load(x, c)), out, c);
 }
 
 }  // namespace weft::WEFT_KERNEL_SET

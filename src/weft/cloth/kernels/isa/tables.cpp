@@ -21,6 +21,8 @@ const ImplicitKernels implicit{elastic,       axial_damping,    linearise,     m
 
 const NewtonKernels newton{linearise_far,
                            far_energy,
+                           begin_step,
+                           follow_guess,
                            linearise,
                            near_energy,
                            line_diagonals,
