@@ -26,7 +26,9 @@ TightSolver::TightSolver(const Cloth& cloth, const TightOptions& options)
       kernels_(newton_kernels_for(team_.instructions())),
       springs_(cloth, kernels_),
       multigrid_(cloth, 1, kernels_),
-      state_(cloth.size) {
+      state_(cloth.size),
+      still_(cloth.size),
+      unused_(cloth.size, cloth.size) {
   for (Field* field :
        {&gradient_, &step_, &residual_, &before_, &direction_, &product_, &value_, &trial_})
     field->resize(std::size_t(cloth.size) * cloth.size);
@@ -52,7 +54,7 @@ void TightSolver::set_up_preconditioner(const Field& position) {
   write(position, state_.position);
   write(position, state_.start);
   team_.run([&](Worker& worker) {
-    for (int r = 0; r < cloth_.size; ++r) springs_.linearise_row(state_, 1, r);
+    multigrid_.linearise({state_, still_, {}, 1}, nullptr, springs_, unused_, worker);
     for (int r = 0; r < cloth_.size; ++r) multigrid_.fill_diagonals(springs_, r);
     multigrid_.set_up(springs_, worker);
   });

@@ -40,6 +40,8 @@ class TightSolver {
   SpringHessian springs_;
   BlockMultigrid multigrid_;
   PaddedState state_;
+  Planes3 still_;         // velocities
+  PaddedVectors unused_;  // forces
   Field gradient_, step_, residual_, before_, direction_, product_, value_, trial_;
 };
 

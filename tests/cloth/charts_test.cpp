@@ -22,13 +22,13 @@ struct Case {
   std::string name;
   std::vector<Chart> (*parts)(int samples);
   int samples;
-  /// Seams that fall between coarse nodes cost iterations, and what these leave differs.
-  double iterations, centre;
+  /// Seams that fall between coarse nodes cost iterations.
+  double iterations;
 };
 
-const std::vector<Case> cases{{"quarters", quarters, 65, 1.2, 0.001},
-                              {"pinwheel", pinwheel, 65, 1.2, 0.001},
-                              {"odd_pinwheel", pinwheel, 54, 2, 0.003}};
+const std::vector<Case> cases{{"quarters", quarters, 65, 1.2},
+                              {"pinwheel", pinwheel, 65, 1.2},
+                              {"odd_pinwheel", pinwheel, 54, 2}};
 
 /// An uncut sheet and the same in charts, shaken alike.
 struct Pair {
@@ -112,14 +112,17 @@ TEST(ClothCharts, HangingSheetsFallAlike) {
     const auto b = make_integrator(NewtonOptions{}, cloth, {}, team);
     ClothState at = rest_state(whole), here = rest_state(cloth);
     const StepInput input{.time_step = step};
-    for (int frame = 0; frame < 30; ++frame) {
+    // Later folds snap, when by chance: a sheet then differs from itself started a micrometre away.
+    for (int frame = 0; frame < 14; ++frame) {
       run(*a, input, 4, at);
       run(*b, input, 4, here);
-      EXPECT_NEAR(length(centre_of_mass(cloth, here) - centre_of_mass(whole, at)), 0, one.centre)
+      EXPECT_NEAR(length(centre_of_mass(cloth, here) - centre_of_mass(whole, at)), 0, 3e-4)
           << one.name << ' ' << frame;
       ASSERT_TRUE(mates_equal(cloth, here)) << one.name;
+      if (frame != 11) continue;
+      EXPECT_NEAR(measure_strain(cloth, here).p99 / measure_strain(whole, at).p99, 1, 0.1)
+          << one.name;
     }
-    EXPECT_LT(measure_strain(cloth, here).p99, 1.5 * measure_strain(whole, at).p99) << one.name;
   }
 }
 

@@ -16,8 +16,11 @@ BlockLevel level_of(const Cloth& cloth) {
   return {{layout, false, 1}, Seams(cloth.mates, layout), BendingStencil{}};
 }
 
-void put(PaddedBlocks& blocks, int row, int col, double value) {
-  for (const int entry : {0, 3, 5}) blocks.entry[entry](row, col) = static_cast<float>(value);
+/// @param block  of the stencil: centre, right, below
+void put(BlockLevel& level, int block, int sample, double value) {
+  for (const int entry : {0, 3, 5})
+    level.stencil(sample / n, sample % n, block * block_entries + entry) =
+        static_cast<float>(value);
 }
 
 void set_all(PaddedPlane& plane, double value) {
@@ -28,17 +31,17 @@ void set_all(PaddedPlane& plane, double value) {
 /// masses holds is about as large as what all diagonals together are rounded by.
 void fill(BlockLevel& level, double mass, Random& random) {
   double diagonal[n * n] = {};
-  const auto couple = [&](PaddedBlocks& blocks, int from, int to) {
+  const auto couple = [&](int block, int from, int to) {
     const double stiffness = static_cast<float>(random.uniform(0.5, 1.5));
-    put(blocks, from / n, from % n, -stiffness);
+    put(level, block, from, -stiffness);
     diagonal[from] += stiffness;
     diagonal[to] += stiffness;
   };
   for (int s = 0; s < n * n; ++s) {
-    if (s % n + 1 < n) couple(level.stencil.right, s, s + 1);
-    if (s + n < n * n) couple(level.stencil.below, s, s + n);
+    if (s % n + 1 < n) couple(1, s, s + 1);
+    if (s + n < n * n) couple(2, s, s + n);
   }
-  for (int s = 0; s < n * n; ++s) put(level.stencil.centre, s / n, s % n, diagonal[s] + mass);
+  for (int s = 0; s < n * n; ++s) put(level, 0, s, diagonal[s] + mass);
 }
 
 TEST(CoarsestSolver, RoundedEntriesMoveNothingFartherThanTheExactOnes) {

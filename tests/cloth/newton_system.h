@@ -22,7 +22,11 @@ inline void hang(Cloth& cloth) {
 /// A linear system as a step meets it: springs linearised at a shaken state.
 struct System {
   explicit System(const Cloth& of, double shaken = 0.2)
-      : cloth(of), springs(of, kernels), multigrid(of, 1, kernels), state(of.size) {
+      : cloth(of),
+        springs(of, kernels),
+        multigrid(of, 1, kernels),
+        state(of.size),
+        scratch(of.size, of.size) {
     Planes3 at = of.rest;
     shake(of, shaken * of.rest_spacing, at);
     for (int r = 0; r < of.size; ++r)
@@ -34,7 +38,7 @@ struct System {
       }
     springs.set_time_step(step);
     team.run([&](Worker& worker) {
-      for (int r = 0; r < of.size; ++r) springs.linearise_row(state, 0.1F, r);
+      multigrid.linearise({state, Planes3(of.size), {}, 0.1F}, nullptr, springs, scratch, worker);
       for (int r = 0; r < of.size; ++r) multigrid.fill_diagonals(springs, r);
       multigrid.set_up(springs, worker);
     });
@@ -114,6 +118,7 @@ struct System {
   SpringHessian springs;
   BlockMultigrid multigrid;
   PaddedState state;
+  PaddedVectors scratch;
 };
 
 }  // namespace weft::testing

@@ -248,21 +248,23 @@ TEST(Newton, WhatIsForgottenShowsNowhere) {
 }
 
 TEST(Newton, ThePathBeforeSavesIterations) {
-  Cloth cloth = sheet_cloth(33, cotton);
-  hang(cloth);
   ThreadTeam team(1);
   int iterations[2]{};
-  for (const bool forgets : {false, true}) {
-    const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
-    ClothState state = rest_state(cloth);
-    for (int i = 0; i < 60; ++i) {
-      if (forgets) integrator->forget();
-      integrator->begin({.time_step = step}, state);
-      integrator->iterate({});
-      iterations[forgets ? 1 : 0] += integrator->end(state).iterations;
+  for (const Material& material : {cotton, hard, woven}) {
+    Cloth cloth = sheet_cloth(33, material);
+    hang(cloth);
+    for (const bool forgets : {false, true}) {
+      const auto integrator = make_integrator(NewtonOptions{}, cloth, {}, team);
+      ClothState state = rest_state(cloth);
+      for (int i = 0; i < 60; ++i) {
+        if (forgets) integrator->forget();
+        integrator->begin({.time_step = step}, state);
+        integrator->iterate({});
+        iterations[forgets ? 1 : 0] += integrator->end(state).iterations;
+      }
     }
   }
-  EXPECT_LT(iterations[0], 0.9 * iterations[1]);
+  EXPECT_LT(iterations[0], 0.8 * iterations[1]);
 }
 
 TEST(Newton, RefusesOptionsOutOfRange) {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "weft/cloth/baselines/contact_gather.h"
 #include "weft/cloth/baselines/spring_matrix.h"
-#include "weft/cloth/newton/contact_gather.h"
 #include "weft/contact.h"
 
 namespace weft {

@@ -33,58 +33,88 @@ struct ConstSpringHessianRow {
   const float *t, *x, *y, *z, *f;
 };
 
-/// The eight springs around the particles of a row: right, left, below, above, below right, above
-/// left, below left, above right, each shifted so that column c is the spring of particle c.
-inline constexpr int ring_size = 8;
-struct SpringRing {
-  ConstSpringHessianRow spring[ring_size];
+/// A row of several planes: that of plane k begins at first + k * pitch.
+struct PlaneRows {
+  const float* first;
+  std::ptrdiff_t pitch;
 };
+struct MutablePlaneRows {
+  float* first;
+  std::ptrdiff_t pitch;
+};
+
+/// Directions of springs to near neighbours, in the order of spring_offsets: to the right, down,
+/// below right, below left.
+inline constexpr int near_directions = 4;
+/// Planes of near springs: rest length, stiffness and damping of each direction; t, x, y and z of
+/// each direction's Hessian.
+inline constexpr int spring_constants = 3, spring_entries = 4;
+/// Planes of a symmetric 3 x 3 block: xx, xy, xz, yy, yz, zz.
+inline constexpr int block_entries = 6;
+/// Blocks of a nine-point stencil that start from a sample: its centre, and those to the neighbours
+/// of near springs.
+inline constexpr int stencil_blocks = 1 + near_directions;
 
 /// Three rows of a field around one, with their frame.
 struct RowTriple {
   ConstRow3 above, here, below;
 };
-
-/// A row of a field and the one below, and the spring forces passed from row to row. [N]
-struct SpringSweep {
+/// A row of a field and the one below.
+struct RowPair {
   ConstRow3 here, below;
-  const float* mass;                    ///< over h^2 [N/m]
-  ConstRow3 carried;                    ///< forces of the row above's springs on this row
-  Row3 carry;                           ///< forces of this row's springs on the row below
-  Row3 right, below_right, below_left;  ///< scratch with a frame
 };
 
-/// Weights of bending's second difference for a row.
+/// The near springs that start from a row, with the states of the row and of the one below.
+struct NearSprings {
+  PlaneRows constants;             ///< [near_directions x spring_constants]
+  RowPair position, speed, start;  ///< as in LinearisedSprings
+  float per_step, step, guessed_share, limit, limit_factor;
+};
+
+/// Forces that a row passes to the one below while rows are computed one after another. [N]
+struct Passing {
+  ConstRow3 carried;  ///< from the row above
+  Row3 carry;         ///< to the row below
+};
+
+/// Inertia, which holds the velocity v against v0 + h g.
+struct InertiaRow {
+  const float* mass;       ///< over h [kg/s]
+  ConstRow3 speed, start;  ///< v, v0 [m/s]
+  float gained[3];         ///< h g [m/s]
+};
+
+/// The start of a step, of `count` columns.
+struct StepStartRow {
+  int count;
+  float time_step;               ///< [s]
+  ConstRow3 position, velocity;  ///< [m], [m/s]
+  ConstRow3 velocity_before;     ///< at the start of the last step; null: there is none
+  ConstRow3 known;               ///< positions to compare with
+};
+struct StepGuessRow {
+  Row3 start, start_velocity;  ///< what it starts from
+  Row3 position, velocity;     ///< extrapolated
+  Row3 gained;                 ///< the velocity change of the last step
+};
+
+/// A product with a symmetric matrix whose rows are computed one after another.
+struct ProductRow {
+  ConstRow3 here, below;  ///< the row of the factor and the one below
+  Passing passing;
+  ConstRow3 rhs;  ///< the product is subtracted from this; null: the product itself
+};
+
+/// Weights of bending's second differences: right, left, below, above, then diagonals as
+/// bending_offsets.
 struct BendingRows {
-  const float* weight[ring_size];  ///< right, left, below, above, then diagonals as bending_offsets
-  int neighbours;                  ///< 4 or 8
-};
-
-/// Rows of symmetric blocks.
-struct BlockRow6 {
-  const float* entry[6];
-};
-struct MutableBlockRow6 {
-  float* entry[6];
+  PlaneRows above, here, below;
+  int neighbours;  ///< 4 or 8
 };
 
 /// Diagonal blocks of a row: whole, without the springs along rows, without those down columns.
 struct LineDiagonals {
-  MutableBlockRow6 whole, rows, cols;
-};
-
-/// A row of a nine-point stencil of blocks: centre, right, below left, below, below right, and
-/// those that lead back: left, above right, above, above left, shifted to the particle.
-struct BlockStencilRow {
-  BlockRow6 centre, right, below_left, below, below_right, left, above_right, above, above_left;
-};
-
-/// The five rows of blocks that start from a row.
-struct StencilBlocks {
-  BlockRow6 centre, right, below_left, below, below_right;
-};
-struct MutableStencilBlocks {
-  MutableBlockRow6 centre, right, below_left, below, below_right;
+  MutablePlaneRows whole, rows, cols;  ///< rows and cols null: whole alone
 };
 
 /// Planes that lines are read from: element (r, c) at base + r * stride + c.
@@ -123,42 +153,50 @@ struct HeldLineMatrix {
 inline constexpr int line_factor_entries = 12, held_factor_entries = 10;
 
 struct NewtonKernels {
-  void (*linearise)(int n, const LinearisedSprings& springs, SpringHessianRow out);
-  /// out = mass (v - w) / h - sum of f (x_j - x_i): the gradient of inertia and springs.
-  /// @param mass  times 1 / h [kg/s]  @param speed  v  @param wanted  v0 + h g, w [m/s]
-  void (*gradient)(int n, const SpringRing& ring, const RowTriple& x, const float* mass,
-                   ConstRow3 speed, ConstRow3 wanted, Row3 out);
-  /// The diagonal blocks of mass / h^2 and springs.
-  void (*diagonal)(int n, const SpringRing& ring, const float* mass, MutableBlockRow6 out);
-  /// The diagonal blocks, and those without the line's own springs, along rows and down columns.
-  /// @param extra  added to the latter on the diagonal
-  void (*line_diagonals)(int n, const SpringRing& ring, const float* mass, const float* extra,
-                         const LineDiagonals& out);
-  /// out = (mass / h^2 + springs) x, each spring evaluated once, row after row.
-  /// @param springs  that start from the row: to the right, down, below right, below left
-  void (*apply_springs)(int n, const ConstSpringHessianRow* springs, const SpringSweep& at,
-                        Row3 out);
+  /// Of second neighbours, which come last.
+  void (*linearise_far)(int n, const LinearisedSprings& springs, SpringHessianRow out);
   /// The energy of springs plus half of what damping dissipates in a step, if `step` is not 0 [J].
-  double (*spring_energy)(int n, const LinearisedSprings& springs);
+  double (*far_energy)(int n, const LinearisedSprings& springs);
+
+  /// Copies the start of a step and extrapolates it.
+  /// @return whether the positions are those known
+  bool (*begin_step)(const StepStartRow& start, const StepGuessRow& out);
+  /// Copies a guess. Where it is not start + h velocity, its velocity becomes the displacement over
+  /// h. @param n  columns
+  void (*follow_guess)(int n, float time_step, ConstRow3 start, ConstRow3 guess, ConstRow3 velocity,
+                       Row3 position, Row3 velocity_out);
+  /// The Hessian of near springs, and the forces of springs and inertia,
+  /// sum of f (x_j - x_i) - mass (v - v0 - h g) / h, row after row.
+  void (*linearise)(int n, const NearSprings& springs, const InertiaRow& inertia,
+                    MutablePlaneRows hessian, const Passing& passing, Row3 force);
+  double (*near_energy)(int n, const NearSprings& springs);
+  /// The diagonal blocks of mass / h^2 and near springs, and those without the line's own springs.
+  /// @param springs, above  Hessians of those that start from the row and from the one above
+  /// @param extra  added to the blocks without a line's springs
+  void (*line_diagonals)(int n, PlaneRows springs, PlaneRows above, const float* mass,
+                         const float* extra, const LineDiagonals& out);
+  /// (mass / h^2 + near springs) x.
+  void (*apply_springs)(int n, PlaneRows springs, const float* mass, const ProductRow& row,
+                        Row3 out);
+  /// A nine-point stencil times x.
+  void (*apply_stencil)(int n, PlaneRows stencil, const ProductRow& row, Row3 out);
+  /// out += factor B x.
+  void (*add_blocks)(int n, PlaneRows blocks, float factor, ConstRow3 x, Row3 out);
   /// u = sum of weight (x_j - x_i).
-  void (*bend)(int n, const BendingRows& rows, const RowTriple& x, Row3 u);
-  /// out += sum of weight_back u_j - weight u_i, the transpose; `back` are the weights by which
-  /// each neighbour sees this particle, shifted to it.
-  void (*unbend)(int n, const BendingRows& own, const BendingRows& back, const RowTriple& u,
-                 Row3 out);
-  /// out = stencil x.
-  void (*apply_blocks)(int n, const BlockStencilRow& row, const RowTriple& x, Row3 out);
-  /// out += B x.
-  void (*add_blocks)(int n, const BlockRow6& blocks, ConstRow3 x, Row3 out);
-  /// -(t 1 + s s^T) times both masks. @param mask  of this end  @param other  of the other, shifted
-  void (*spring_blocks)(int n, ConstSpringHessianRow spring, const float* mask, const float* other,
-                        MutableBlockRow6 out);
-  /// The Galerkin product along rows: every second column of a fine row of n. Reads one column
-  /// beyond either end. @param m  coarse columns
-  void (*coarsen_columns)(int m, const StencilBlocks& fine, const MutableStencilBlocks& half);
+  void (*bend)(int n, PlaneRows weights, int neighbours, const RowTriple& x, Row3 u);
+  /// out += factor times the transpose of bend.
+  void (*unbend)(int n, const BendingRows& weights, const RowTriple& u, float factor, Row3 out);
+
+  /// The Galerkin product along rows: every second column of a fine row. Reads one column beyond
+  /// either end. @param m  coarse columns
+  void (*coarsen_columns)(int m, PlaneRows fine, MutablePlaneRows half);
+  /// The same of near springs. @param centre  diagonal blocks
+  /// @param mask, mask_below  1 where a sample moves, of the row and the one below
+  void (*coarsen_springs)(int m, PlaneRows centre, PlaneRows springs, const float* mask,
+                          const float* mask_below, MutablePlaneRows half);
   /// The Galerkin product across rows: a coarse row from the half-coarsened rows 2 q - 1, 2 q, 2 q
   /// + 1.
-  void (*coarsen_rows)(int m, const StencilBlocks* half, const MutableStencilBlocks& coarse);
+  void (*coarsen_rows)(int m, const PlaneRows* half, MutablePlaneRows coarse);
 
   /// Factors a block of lines. @param factor  [length x line_factor_entries x line_lanes]
   void (*factor_lines)(const LineBlock& lines, const LineMatrix& matrix, float* factor);
@@ -172,10 +210,10 @@ struct NewtonKernels {
   void (*solve_held_lines)(const LineBlock& lines, const float* factor, const PlaneView* rhs,
                            float scale, bool add, float* scratch, const MutablePlaneView* out);
 
-  /// A coarse row: the transpose of bilinear interpolation. @param line  [n + 3] scratch
-  void (*restrict_row)(int n, int m, const RowTriple& fine, float* line, Row3 coarse);
-  /// fine += interpolated mean of two coarse rows. @param line  [m + 1] scratch
-  void (*prolong_row)(int n, ConstRow3 a, ConstRow3 b, float* line, Row3 fine);
+  /// A coarse row of m columns: the transpose of bilinear interpolation.
+  void (*restrict_row)(int m, const RowTriple& fine, Row3 coarse);
+  /// fine += interpolated mean of two coarse rows. @param n  fine columns
+  void (*prolong_row)(int n, ConstRow3 a, ConstRow3 b, Row3 fine);
 
   /// out = a - b.
   void (*subtract)(int n, ConstRow3 a, ConstRow3 b, Row3 out);
@@ -187,8 +225,12 @@ struct NewtonKernels {
   void (*add_scaled)(int n, float factor, ConstRow3 a, Row3 out);
   /// Sum of share a . b; share null: 1.
   double (*dot)(int n, const float* share, ConstRow3 a, ConstRow3 b);
-  /// The largest |a|^2.
-  float (*largest)(int n, ConstRow3 a);
+  /// direction = z + factor direction. @return the sum of share residual . direction
+  double (*update)(int n, const float* share, ConstRow3 z, float factor, ConstRow3 residual,
+                   Row3 direction);
+  /// step += length direction, residual -= length product. @return the largest |direction|^2
+  float (*advance)(int n, float length, ConstRow3 direction, ConstRow3 product, Row3 step,
+                   Row3 residual);
 };
 
 /// The kernels of an instruction set; the processor must have it to run them.

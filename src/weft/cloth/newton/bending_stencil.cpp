@@ -10,46 +10,39 @@ BendingStencil::BendingStencil(const BendingPlanes& bending) {
   if (!bending.active) return;
   neighbours_ = bending.diagonals ? bending_neighbours : straight_bending_neighbours;
   const int n = bending.weight[0].rows();
-  for (int k = 0; k < neighbours_; ++k) {
-    weights_[k] = PaddedPlane(n, n);
-    for (int r = 0; r < n; ++r)
-      for (int c = 0; c < n; ++c) weights_[k](r, c) = bending.weight[k](r, c);
-  }
+  weights_ = PlaneSet(n, n, neighbours_);
+  for (int k = 0; k < neighbours_; ++k)
+    for (int r = 0; r < n; ++r) std::copy_n(bending.weight[k].row(r), n, weights_.row(r, k));
 }
 
 BendingStencil BendingStencil::coarsened(const LevelLayout& fine, const LevelLayout& coarse) const {
   BendingStencil result;
   if (!active()) return result;
   result.neighbours_ = neighbours_;
-  for (int k = 0; k < neighbours_; ++k) {
-    result.weights_[k] = PaddedPlane(coarse.size, coarse.size);
+  result.weights_ = PlaneSet(coarse.size, coarse.size, neighbours_);
+  for (int k = 0; k < neighbours_; ++k)
     for (std::size_t i = 0; i < fine.charts.size(); ++i) {
       const Chart &from = fine.charts[i], &to = coarse.charts[i];
       for (int r = 0; 2 * r < from.rows; ++r)
         for (int c = 0; 2 * c < from.cols; ++c)
-          result.weights_[k](to.row + r, to.col + c) =
-              0.5F * weights_[k](from.row + 2 * r, from.col + 2 * c);
+          result.weights_(to.row + r, to.col + c, k) =
+              0.5F * weights_(from.row + 2 * r, from.col + 2 * c, k);
     }
-  }
   return result;
 }
 
 void BendingStencil::bend_row(const PaddedVectors& x, int row, const NewtonKernels& kernels,
                               Row3 u) const {
-  BendingRows rows{{}, neighbours_};
-  for (int k = 0; k < neighbours_; ++k) rows.weight[k] = weights_[k].row(row);
-  kernels.bend(whole_vectors(x.x.cols()), rows, rows_around(x, row), u);
+  kernels.bend(whole_vectors(x.x.cols()), rows_of(weights_, row), neighbours_, rows_around(x, row),
+               u);
 }
 
-void BendingStencil::unbend_row(const RowTriple& u, int row, const NewtonKernels& kernels,
-                                Row3 out) const {
-  BendingRows own{{}, neighbours_}, back{{}, neighbours_};
-  for (int k = 0; k < neighbours_; ++k) {
-    const BendingOffset to = bending_offsets[k];
-    own.weight[k] = weights_[k].row(row);
-    back.weight[k] = weights_[k ^ 1].row(row + to.down) + to.right;
-  }
-  kernels.unbend(whole_vectors(weights_[0].cols()), own, back, u, out);
+void BendingStencil::unbend_row(const RowTriple& u, int row, float factor,
+                                const NewtonKernels& kernels, Row3 out) const {
+  kernels.unbend(
+      whole_vectors(weights_.cols()),
+      {rows_of(weights_, row - 1), rows_of(weights_, row), rows_of(weights_, row + 1), neighbours_},
+      u, factor, out);
 }
 
 PaddedPlane BendingStencil::diagonal(const Seams& seams) const {
@@ -60,8 +53,8 @@ PaddedPlane BendingStencil::diagonal(const Seams& seams) const {
     for (int c = 0; c < n; ++c)
       for (int k = 0; k < neighbours_; ++k) {
         const BendingOffset to = bending_offsets[k];
-        const float back = weights_[k ^ 1].row(r + to.down)[c + to.right];
-        own(r, c) += weights_[k](r, c);
+        const float back = weights_(r + to.down, c + to.right, k ^ 1);
+        own(r, c) += weights_(r, c, k);
         others(r, c) += back * back;
       }
   ThreadTeam lone(1);
@@ -97,12 +90,12 @@ void CurvedBending::change(const PaddedVectors& direction, Worker& worker) {
   pass_.curve_change(direction_, worker);
 }
 
-void CurvedBending::add_row(int row, PaddedVectors& out) {
+void CurvedBending::add_row(float factor, int row, PaddedVectors& out) {
   const Row3 force = row_of(force_, row), sum = out.row(row);
   std::fill_n(force.x, cloth_.size, 0.0F);
   std::fill_n(force.y, cloth_.size, 0.0F);
   std::fill_n(force.z, cloth_.size, 0.0F);
-  pass_.add_row(-1, row, force_);
+  pass_.add_row(-factor, row, force_);
   for (int c = 0; c < cloth_.size; ++c) {
     sum.x[c] += force.x[c];
     sum.y[c] += force.y[c];

@@ -23,19 +23,20 @@ class BendingStencil {
   [[nodiscard]] bool active() const { return neighbours_ > 0; }
   /// u = M x, own part of a row. @param row  from -1 to n
   void bend_row(const PaddedVectors& x, int row, const NewtonKernels& kernels, Row3 u) const;
-  /// out += M^T u, own part of a row. @param u  around the row, summed over seam copies
-  void unbend_row(const RowTriple& u, int row, const NewtonKernels& kernels, Row3 out) const;
+  /// out += factor M^T u, own part of a row. @param u  around the row, summed over seam copies
+  void unbend_row(const RowTriple& u, int row, float factor, const NewtonKernels& kernels,
+                  Row3 out) const;
   /// The diagonal of M^T M, summed over seam copies. [N/m]
   [[nodiscard]] PaddedPlane diagonal(const Seams& seams) const;
   /// The weight of a neighbour of sample (row, col) in M.
   [[nodiscard]] float weight(int neighbour, int row, int col) const {
-    return weights_[neighbour](row, col);
+    return weights_(row, col, neighbour);
   }
   [[nodiscard]] int neighbours() const { return neighbours_; }
 
  private:
   int neighbours_ = 0;  // 0, 4 or 8
-  std::array<PaddedPlane, bending_neighbours> weights_;
+  PlaneSet weights_;    // of each neighbour
 };
 
 /// Bending of cloth with a curved rest shape: the exact gradient and the Gauss-Newton Hessian of
@@ -54,9 +55,9 @@ class CurvedBending {
   /// The energy at the last position, by rank 0 alone [J].
   [[nodiscard]] double energy() const { return pass_.energy(); }
 
-  /// Adds a row's own part of the gradient after set_position, of the Hessian's product after
-  /// change.
-  void add_row(int row, PaddedVectors& out);
+  /// Adds factor times a row's own part of the gradient after set_position, of the Hessian's
+  /// product after change.
+  void add_row(float factor, int row, PaddedVectors& out);
 
  private:
   const Cloth& cloth_;

@@ -25,14 +25,23 @@ void BlockMultigrid::solve_lines(const LineFactor& lines, const PaddedVectors& r
   workers.barrier();
 }
 
-void BlockMultigrid::smooth(std::size_t index, Direction direction, bool from_zero,
-                            const Workers& workers) {
-  BlockLevel& level = levels_[index];
-  if (!from_zero) residual(index, workers);
+void BlockMultigrid::relax(BlockLevel& level, Direction direction, bool from_zero,
+                           const Workers& workers) {
   const LineFactor& lines = direction == Direction::rows ? level.rows : level.cols;
   if (!level.seams.empty()) return smooth_seamed(level, lines, from_zero, workers);
   solve_lines(lines, from_zero ? level.rhs : level.residual, {damping, !from_zero}, level.value,
               workers);
+}
+
+void BlockMultigrid::smooth_from_zero(std::size_t index, Direction direction,
+                                      const Workers& workers) {
+  relax(levels_[index], direction, true, workers);
+}
+
+void BlockMultigrid::smooth(std::size_t index, Direction direction, const Loads& contacts,
+                            const Workers& workers) {
+  residual(index, contacts, workers);
+  relax(levels_[index], direction, false, workers);
 }
 
 /// Smooths a level with seams. A particle is solved for on the line of its first copy; on the lines
@@ -65,8 +74,7 @@ void BlockMultigrid::restrict_residual(BlockLevel& fine, BlockLevel& coarse,
     for (const ChartRow& part : coarse.layout.rows.row(q)) {
       const Chart &from = fine.layout.charts[part.chart], &to = coarse.layout.charts[part.chart];
       const RowTriple rows = rows_around(fine.residual, from.row + 2 * (q - to.row), from.col);
-      kernels_->restrict_row(from.cols, to.cols, rows, scratch(workers).data(),
-                             shifted(coarse.rhs.row(q), to.col));
+      kernels_->restrict_row(to.cols, rows, shifted(coarse.rhs.row(q), to.col));
     }
   workers.barrier();
   if (coarse.seams.empty()) return;
@@ -84,7 +92,7 @@ void BlockMultigrid::prolong(const BlockLevel& coarse, std::size_t fine_index,
       const int row = r - to.row;
       kernels_->prolong_row(to.cols, shifted(coarse.value.row(from.row + row / 2), from.col),
                             shifted(coarse.value.row(from.row + (row + 1) / 2), from.col),
-                            scratch(workers).data(), shifted(fine.value.row(r), to.col));
+                            shifted(fine.value.row(r), to.col));
     }
     if (fine_index == 0) clear_pins_of_row(r, fine.value);
   }
@@ -100,9 +108,17 @@ void BlockMultigrid::cycle_coarsest(std::size_t index, const Workers& workers) {
     workers.barrier();
     return;
   }
-  smooth(index, Direction::rows, true, workers);
+  smooth_from_zero(index, Direction::rows, workers);
   for (int i = 1; i < coarsest_sweeps; ++i)
-    smooth(index, i % 2 == 0 ? Direction::rows : Direction::cols, false, workers);
+    smooth(index, i % 2 == 0 ? Direction::rows : Direction::cols, {}, workers);
+}
+
+/// The correction of a level by the next coarser one.
+void BlockMultigrid::correct(std::size_t index, const Loads& contacts, const Workers& workers) {
+  residual(index, contacts, workers);
+  restrict_residual(levels_[index], levels_[index + 1], workers);
+  cycle(index + 1, workers);
+  prolong(levels_[index + 1], index, workers);
 }
 
 void BlockMultigrid::cycle(std::size_t index, const Workers& workers) {
@@ -111,14 +127,32 @@ void BlockMultigrid::cycle(std::size_t index, const Workers& workers) {
     return workers.barrier();
   }
   if (index + 1 == levels_.size()) return cycle_coarsest(index, workers);
-  smooth(index, Direction::rows, true, workers);
-  residual(index, workers);
-  restrict_residual(levels_[index], levels_[index + 1], workers);
-  cycle(index + 1, workers);
-  prolong(levels_[index + 1], index, workers);
-  smooth(index, Direction::cols, false, workers);
+  smooth_from_zero(index, Direction::rows, workers);
+  correct(index, {}, workers);
+  smooth(index, Direction::cols, {}, workers);
 }
 
-void BlockMultigrid::cycle(Worker& worker) { cycle(0, Workers(worker, false)); }
+void BlockMultigrid::cycle(Worker& worker) {
+  smooth_first(worker);
+  correct({}, worker);
+  smooth_last({}, worker);
+}
+
+void BlockMultigrid::smooth_first(Worker& worker) {
+  if (levels_.size() > 1) smooth_from_zero(0, Direction::rows, Workers(worker, false));
+}
+
+/// A single level has no part that contacts could come between.
+void BlockMultigrid::correct(const Loads& contacts, Worker& worker) {
+  const Workers all(worker, false);
+  if (levels_.size() > 1)
+    correct(0, contacts, all);
+  else
+    cycle_coarsest(0, all);
+}
+
+void BlockMultigrid::smooth_last(const Loads& contacts, Worker& worker) {
+  if (levels_.size() > 1) smooth(0, Direction::cols, contacts, Workers(worker, false));
+}
 
 }  // namespace weft

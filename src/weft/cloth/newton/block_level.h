@@ -18,31 +18,26 @@ inline constexpr float holding_stiffness = 1e20F;
 /// of a biharmonic stencil is 3.2 times its diagonal, that of springs twice.
 inline constexpr float bending_share = 1.6F;
 
-/// Nine-point stencils of 3 x 3 blocks: own parts, each sample's centre and the blocks to the four
-/// neighbours after it.
-struct BlockStencil {
-  PaddedBlocks centre, right, below_left, below, below_right;
-
-  BlockStencil() = default;
-  explicit BlockStencil(int n)
-      : centre(n, n), right(n, n), below_left(n, n), below(n, n), below_right(n, n) {}
-};
-
 /// A level of the multigrid preconditioner.
 struct BlockLevel {
   LevelLayout layout;
   int size = 0;
   Seams seams;
   BendingStencil bending;
-  PaddedPlane extra;     ///< added to diagonals for the smoother [N/m]
-  BlockStencil stencil;  ///< on the finest level the centre only
-  PaddedBlocks joined;   ///< the centres summed over seam copies; empty without seams
+  PaddedPlane extra;  ///< added to diagonals for the smoother [N/m]
+  /// Nine-point stencils of 3 x 3 blocks: own parts, each sample's centre and the blocks to the
+  /// four neighbours after it, as stencil_blocks. On the finest level the centre alone.
+  PlaneSet stencil;
+  PlaneSet joined;  ///< the centres summed over seam copies; empty without seams
   /// On a finest level without seams: the lines' diagonal blocks without the line's own springs.
-  PaddedBlocks held_rows, held_cols;
+  PlaneSet held_rows, held_cols;
   LineFactor rows, cols;
   PaddedVectors rhs, value, residual;
   PaddedVectors curved;                ///< bending's u; scratch
   std::vector<PaddedVectors> windows;  ///< three rows of u for each worker
+  /// Largest diagonal entry of bending over the mass of its particle [1/s^2].
+  double bending_rate = 0;
+  bool bends = true;  ///< whether products of the cycle include bending
 
   struct Shape {
     LevelLayout layout;
@@ -51,9 +46,7 @@ struct BlockLevel {
   };
   BlockLevel(Shape shape, Seams seam_classes, BendingStencil stiffness);
   /// The diagonal blocks that lines are factored with.
-  [[nodiscard]] const PaddedBlocks& diagonal() const {
-    return seams.empty() ? stencil.centre : joined;
-  }
+  [[nodiscard]] const PlaneSet& diagonal() const { return seams.empty() ? stencil : joined; }
 };
 
 /// Computes the coarse stencils P^T A P of bilinear interpolation P, which stay nine-point
@@ -72,26 +65,15 @@ class Galerkin {
                const NewtonKernels& kernels);
 
  private:
-  /// The five rows of blocks of one row, with a frame.
-  struct Rows {
-    std::vector<float> values;
-    StencilBlocks read{};
-    MutableStencilBlocks write{};
-    Rows() = default;
-    explicit Rows(int cols);
-  };
-  struct Scratch {
-    Rows fine;
-    Rows half[3];
-  };
-  template <class FineRow>
+  template <class CoarsenColumns>
   void coarsen_rows(const BlockLevel& fine, BlockLevel& coarse, const Workers& workers,
-                    const NewtonKernels& kernels, const FineRow& fine_row);
-  template <class FineRow>
+                    const NewtonKernels& kernels, const CoarsenColumns& coarsen_columns);
+  template <class CoarsenColumns>
   void coarsen_chart(std::size_t chart, const BlockLevel& fine, BlockLevel& coarse, Range rows,
-                     Scratch& own, const NewtonKernels& kernels, const FineRow& fine_row);
+                     PlaneSet& half, const NewtonKernels& kernels,
+                     const CoarsenColumns& coarsen_columns);
 
-  std::vector<Scratch> scratch_;  // of each worker
+  std::vector<PlaneSet> half_rows_;  // three half-coarsened rows for each worker
 };
 
 }  // namespace weft

@@ -9,16 +9,23 @@
 namespace weft {
 namespace {
 
-BlockStencilRow stencil_row(const BlockStencil& s, int r) {
-  return {row_of(s.centre, r),
-          row_of(s.right, r),
-          row_of(s.below_left, r),
-          row_of(s.below, r),
-          row_of(s.below_right, r),
-          row_of(s.right, r, -1),
-          row_of(s.below_left, r - 1, 1),
-          row_of(s.below, r - 1),
-          row_of(s.below_right, r - 1, -1)};
+/// Bending is left out of a level's products where its largest diagonal entry is at most this part
+/// of the inertia there: the smoother's diagonals have it.
+constexpr double negligible_bending = 1;
+
+/// The masses of a coarse level's samples, as restriction sums those of a finer level.
+PaddedPlane coarsened(const PaddedPlane& mass, const LevelLayout& fine, const LevelLayout& coarse) {
+  PaddedPlane result(coarse.size, coarse.size);
+  for (std::size_t k = 0; k < fine.charts.size(); ++k) {
+    const Chart &from = fine.charts[k], &to = coarse.charts[k];
+    for (int r = 0; r < from.rows; ++r)
+      for (int c = 0; c < from.cols; ++c) {
+        const float part = 0.25F * mass(from.row + r, from.col + c);
+        for (const int row : {r / 2, (r + 1) / 2})
+          for (const int col : {c / 2, (c + 1) / 2}) result(to.row + row, to.col + col) += part;
+      }
+  }
+  return result;
 }
 
 std::vector<BlockLevel> make_levels(const Cloth& cloth, int workers) {
@@ -59,10 +66,11 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
       const float bending = std::max(levels_.front().extra(r, c), bordered);
       free_extra_(r, c) = bending + far_stiffness;
     }
-  for (int i = 0; i < workers; ++i) sweeps_.emplace_back(SpringHessian::sweep_rows, cloth.size);
+  for (int i = 0; i < workers; ++i) sweeps_.emplace_back(cloth.size);
   for (int i = 0; i < workers; ++i)
-    scratch_.emplace_back(
-        std::max(LineFactor::scratch_size(cloth.size), std::size_t(cloth.size) + 64));
+    scratch_.emplace_back(1, static_cast<int>(LineFactor::scratch_size(cloth.size)));
+  find_bending_rates();
+  find_border_springs();
   parted_.reserve(static_cast<std::size_t>(4) * cloth.size * 6);
   renew_pins();
 }
@@ -96,8 +104,49 @@ bool BlockMultigrid::renew_pins() {
   return true;
 }
 
-std::span<float> BlockMultigrid::scratch(const Workers& workers) {
-  return scratch_[workers.rank()];
+float* BlockMultigrid::scratch(const Workers& workers) { return scratch_[workers.rank()].row(0); }
+
+void BlockMultigrid::find_border_springs() {
+  const BorderBending& border = cloth_.bending.border;
+  if (border.starts.empty() || !seams().empty()) return;
+  border_starts_.push_back(0);
+  for (int r = 0; r < cloth_.size; ++r) {
+    for (int i = border.starts[r]; i < border.starts[r + 1]; ++i) {
+      const BorderBending::Edge& edge = border.edges[i];
+      for (int d = 0; d < near_directions; ++d)
+        if (edge.other_row == r + spring_offsets[d].down &&
+            edge.other_col == edge.col + spring_offsets[d].right)
+          border_.push_back({d * spring_entries, edge.col, edge.stiffness});
+    }
+    border_starts_.push_back(static_cast<int>(border_.size()));
+  }
+}
+
+void BlockMultigrid::stiffen_border(int row, SpringHessian& springs) const {
+  if (border_starts_.empty()) return;
+  for (int i = border_starts_[row]; i < border_starts_[row + 1]; ++i) {
+    const BorderStiffness& added = border_[i];
+    springs.near()(row, added.col, added.plane) += added.value;
+  }
+}
+
+void BlockMultigrid::find_bending_rates() {
+  PaddedPlane mass(cloth_.size, cloth_.size);
+  for (int r = 0; r < cloth_.size; ++r) std::copy_n(cloth_.mass.row(r), cloth_.size, mass.row(r));
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    BlockLevel& level = levels_[i];
+    if (i > 0) mass = coarsened(mass, levels_[i - 1].layout, level.layout);
+    for (int r = 0; r < level.size; ++r)
+      for (int c = 0; c < level.size; ++c)
+        if (level.extra(r, c) < holding_stiffness && mass(r, c) > 0)
+          level.bending_rate = std::max(level.bending_rate,
+                                        double{level.extra(r, c)} / (bending_share * mass(r, c)));
+  }
+}
+
+void BlockMultigrid::choose_bending(double time_step) {
+  for (BlockLevel& level : levels_)
+    level.bends = level.bending_rate * time_step * time_step > negligible_bending;
 }
 
 void BlockMultigrid::clear_pins(PaddedVectors& field, const Workers& workers) const {
@@ -126,47 +175,49 @@ void BlockMultigrid::bend(BlockLevel& level, const PaddedVectors& x, const Worke
 }
 
 template <class Before, class After>
-void BlockMultigrid::add_bending(BlockLevel& level, const PaddedVectors& x, PaddedVectors& out,
+void BlockMultigrid::add_bending(BlockLevel& level, const Bent& bent, PaddedVectors& out,
                                  const Workers& workers, const Before& before, const After& after) {
   const Range mine = workers.share(level.size);
   const BendingStencil& bending = level.bending;
   // With seams, u is summed over copies before M^T is applied; else three rows of it at a time are
   // enough.
   const bool whole = bending.active() && !level.seams.empty();
-  if (whole) bend(level, x, workers);
+  if (whole) bend(level, bent.x, workers);
   PaddedVectors& window = level.windows[workers.rank()];
   const auto slot = [](int r) { return (r + 3) % 3; };
-  const auto make = [&](int r) { bending.bend_row(x, r, *kernels_, window.row(slot(r))); };
+  const auto make = [&](int r) { bending.bend_row(bent.x, r, *kernels_, window.row(slot(r))); };
   for (int r = mine.first; r < mine.last; ++r) {
     before(r);
     if (whole) {
-      bending.unbend_row(rows_around(level.curved, r), r, *kernels_, out.row(r));
+      bending.unbend_row(rows_around(level.curved, r), r, bent.factor, *kernels_, out.row(r));
     } else if (bending.active()) {
       for (int next = r == mine.first ? r - 1 : r + 1; next <= r + 1; ++next) make(next);
       const PaddedVectors& u = window;
-      bending.unbend_row({u.row(slot(r - 1)), u.row(slot(r)), u.row(slot(r + 1))}, r, *kernels_,
-                         out.row(r));
+      bending.unbend_row({u.row(slot(r - 1)), u.row(slot(r)), u.row(slot(r + 1))}, r, bent.factor,
+                         *kernels_, out.row(r));
     }
     after(r);
   }
 }
 
-void BlockMultigrid::add_border_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
+void BlockMultigrid::add_border_row(const PaddedVectors& x, int row, float factor,
+                                    PaddedVectors& out) const {
   const BorderBending& border = cloth_.bending.border;
   if (border.starts.empty()) return;
   for (int i = border.starts[row]; i < border.starts[row + 1]; ++i) {
     const BorderBending::Edge& edge = border.edges[i];
     const int c = edge.col, r2 = edge.other_row, c2 = edge.other_col;
-    out.x(row, c) += edge.stiffness * (x.x(row, c) - x.x(r2, c2));
-    out.y(row, c) += edge.stiffness * (x.y(row, c) - x.y(r2, c2));
-    out.z(row, c) += edge.stiffness * (x.z(row, c) - x.z(r2, c2));
+    const float stiffness = factor * edge.stiffness;
+    out.x(row, c) += stiffness * (x.x(row, c) - x.x(r2, c2));
+    out.y(row, c) += stiffness * (x.y(row, c) - x.y(r2, c2));
+    out.z(row, c) += stiffness * (x.z(row, c) - x.z(r2, c2));
   }
 }
 
-void BlockMultigrid::add_contact_row(const PaddedVectors& x, int row, PaddedVectors& out) const {
-  if (contacts_.touched == nullptr || contacts_.touched[row] == 0) return;
-  kernels_->add_blocks(whole_vectors(cloth_.size), row_of(*contacts_.blocks, row), x.row(row),
-                       out.row(row));
+void BlockMultigrid::add_load_row(const Loads& contacts, int row, float factor,
+                                  PaddedVectors& out) {
+  if (contacts.product != nullptr)
+    contacts.product->add_row(contacts.cloth, row, factor, out.row(row));
 }
 
 void BlockMultigrid::complete(std::size_t index, PaddedVectors& out, const Workers& workers) const {
@@ -185,10 +236,10 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
                            Worker& worker) {
   const Workers all(worker, false);
   BlockLevel& level = levels_.front();
-  SpringHessian::Sweep sweep{x, sweeps_[worker.rank()]};
+  RowSweep& sweep = sweeps_[worker.rank()];
+  sweep.restart();
   const auto finish = [&](int r) {
-    if (parts.contacts != nullptr && parts.contacts->row(r))
-      parts.contacts->add_row(r, parts.loads, out.row(r));
+    add_load_row(parts.contacts, r, 1, out);
     // Taken before the sum over seam copies: each copy adds its own part.
     if (parts.row_products != nullptr)
       parts.row_products[r] =
@@ -199,44 +250,69 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
     parts.curved->change(x, worker);
     const Range mine = all.share(level.size);
     for (int r = mine.first; r < mine.last; ++r) {
-      springs_->apply_row(sweep, r, out);
-      parts.curved->add_row(r, out);
+      springs_->apply_row(x, r, sweep, nullptr, out);
+      parts.curved->add_row(1, r, out);
       finish(r);
     }
   } else {
     const auto begin = [&](int r) {
-      springs_->apply_row(sweep, r, out);
-      add_border_row(x, r, out);
+      springs_->apply_row(x, r, sweep, nullptr, out);
+      if (border_starts_.empty()) add_border_row(x, r, 1, out);
     };
-    add_bending(level, x, out, all, begin, finish);
+    add_bending(level, {x}, out, all, begin, finish);
   }
   if (level.seams.empty()) return worker.barrier();
   complete(0, out, all);
 }
 
-void BlockMultigrid::add_loads(const ContactGather& contacts, std::span<const Vec3f> loads,
-                               float factor, PaddedVectors& field, Worker& worker) {
+void BlockMultigrid::add_loads(const Loads& contacts, PaddedVectors& field, Worker& worker) {
   const Workers all(worker, false);
   BlockLevel& level = levels_.front();
-  PaddedVectors& sum = level.curved;
   const Range mine = all.share(level.size);
+  if (level.seams.empty()) {
+    for (int r = mine.first; r < mine.last; ++r) {
+      add_load_row(contacts, r, 1, field);
+      clear_pins_of_row(r, field);
+    }
+    return worker.barrier();
+  }
+  PaddedVectors& sum = level.curved;
   for (int r = mine.first; r < mine.last; ++r) {
-    kernels_->scale_rows(whole_vectors(level.size), 0, sum.row(r));
-    contacts.add_row(r, loads, sum.row(r));
+    clear_row(sum.row(r), whole_vectors(level.size));
+    add_load_row(contacts, r, 1, sum);
   }
   complete(0, sum, all);
   for (int r = mine.first; r < mine.last; ++r)
-    kernels_->add_scaled(whole_vectors(level.size), factor, std::as_const(sum).row(r),
-                         field.row(r));
+    kernels_->add_scaled(whole_vectors(level.size), 1, std::as_const(sum).row(r), field.row(r));
   worker.barrier();
 }
 
-void BlockMultigrid::add_bending_gradient(const PaddedVectors& position, PaddedVectors& gradient,
-                                          Worker& worker) {
-  add_bending(
-      levels_.front(), position, gradient, Workers(worker, false),
-      [&](int r) { add_border_row(position, r, gradient); }, [](int) {});
-  worker.barrier();
+void BlockMultigrid::linearise(const SpringHessian::Point& point, CurvedBending* curved,
+                               SpringHessian& springs, PaddedVectors& force, Worker& worker) {
+  const Workers all(worker, false);
+  BlockLevel& level = levels_.front();
+  const Range mine = all.share(level.size);
+  RowSweep& sweep = sweeps_[worker.rank()];
+  sweep.restart();
+  const auto begin = [&](int r) {
+    springs.linearise_row(point, r, sweep, force);
+    stiffen_border(r, springs);
+  };
+  if (curved != nullptr) {
+    for (int r = mine.first; r < mine.last; ++r) {
+      begin(r);
+      curved->add_row(-1, r, force);
+    }
+  } else {
+    add_bending(level, {point.at.position, -1}, force, all, begin,
+                [&](int r) { add_border_row(point.at.position, r, -1, force); });
+  }
+  if (springs.has_far()) {
+    worker.barrier();
+    for (int r = mine.first; r < mine.last; ++r)
+      springs.add_far_forces(point.at.position, r, force);
+  }
+  complete(0, force, all);
 }
 
 double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& sums,
@@ -262,32 +338,59 @@ double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& su
   });
 }
 
-void BlockMultigrid::residual(std::size_t index, const Workers& workers) {
+void BlockMultigrid::apply_stencil_row(const BlockLevel& level, int row, RowSweep& sweep,
+                                       const PaddedVectors* rhs, PaddedVectors& out) const {
+  const PaddedVectors& x = level.value;
+  const auto product = [&](int r, const PaddedVectors* from, Row3 to) {
+    kernels_->apply_stencil(
+        whole_vectors(level.size), rows_of(level.stencil, r),
+        {x.row(r), x.row(r + 1), sweep.passing(r), from != nullptr ? from->row(r) : ConstRow3{}},
+        to);
+  };
+  if (!sweep.goes_on_at(row)) {
+    // The row above belongs to another worker: what it passes to this row is computed again.
+    sweep.start(std::max(row - 1, 0));
+    if (row > 0) product(row - 1, nullptr, sweep.scratch());
+  }
+  product(row, rhs, out.row(row));
+}
+
+/// residual = rhs - A value. With seams, products are summed over copies before.
+void BlockMultigrid::residual(std::size_t index, const Loads& contacts, const Workers& workers) {
   BlockLevel& level = levels_[index];
   const bool seamed = !level.seams.empty();
-  SpringHessian::Sweep sweep{level.value, sweeps_[workers.rank()]};
+  const PaddedVectors* const rhs = seamed ? nullptr : &level.rhs;
+  const float sign = seamed ? 1.0F : -1.0F;
+  RowSweep& sweep = sweeps_[workers.rank()];
+  sweep.restart();
   const auto begin = [&](int r) {
     if (index == 0)
-      springs_->apply_row(sweep, r, level.residual);
+      springs_->apply_row(level.value, r, sweep, rhs, level.residual);
     else
-      kernels_->apply_blocks(whole_vectors(level.size), stencil_row(level.stencil, r),
-                             rows_around(level.value, r), level.residual.row(r));
+      apply_stencil_row(level, r, sweep, rhs, level.residual);
   };
-  const auto subtract = [&](int r) {
-    kernels_->subtract(whole_vectors(level.size), std::as_const(level.rhs).row(r),
-                       std::as_const(level.residual).row(r), level.residual.row(r));
-    if (index == 0) clear_pins_of_row(r, level.residual);
+  const auto finish = [&](int r) {
+    if (index > 0) return;
+    add_load_row(contacts, r, sign, level.residual);
+    clear_pins_of_row(r, level.residual);
   };
-  add_bending(level, level.value, level.residual, workers, begin, [&](int r) {
-    if (index == 0) add_contact_row(level.value, r, level.residual);
-    if (!seamed) subtract(r);
-  });
+  const Range mine = workers.share(level.size);
+  if (level.bends)
+    add_bending(level, {level.value, sign}, level.residual, workers, begin, finish);
+  else
+    for (int r = mine.first; r < mine.last; ++r) {
+      begin(r);
+      finish(r);
+    }
   workers.barrier();
   if (!seamed) return;
   level.seams.sum(workers, {&level.residual.x, &level.residual.y, &level.residual.z});
   workers.barrier();
-  const Range mine = workers.share(level.size);
-  for (int r = mine.first; r < mine.last; ++r) subtract(r);
+  for (int r = mine.first; r < mine.last; ++r) {
+    kernels_->subtract(whole_vectors(level.size), std::as_const(level.rhs).row(r),
+                       std::as_const(level.residual).row(r), level.residual.row(r));
+    if (index == 0) clear_pins_of_row(r, level.residual);
+  }
   workers.barrier();
 }
 

@@ -5,7 +5,7 @@
 #include "weft/cloth/newton/bending_stencil.h"
 #include "weft/cloth/newton/block_level.h"
 #include "weft/cloth/newton/coarsest_solver.h"
-#include "weft/cloth/newton/contact_gather.h"
+#include "weft/cloth/newton/contact_product.h"
 #include "weft/cloth/newton/padded_planes.h"
 #include "weft/cloth/newton/spring_hessian.h"
 #include "weft/core/ordered_sum.h"
@@ -28,29 +28,38 @@ class BlockMultigrid {
 
   /// Fills the diagonal blocks of a row of the finest level, before set_up; no barrier.
   void fill_diagonals(const SpringHessian& springs, int row);
-  /// Adds blocks to the diagonal blocks of a row of the finest level.
-  void add_to_diagonals(const BlockRow6& blocks, int row);
+  /// Adds blocks to the diagonal blocks of a sample of the finest level.
+  void add_to_diagonals(const ContactProduct::Blocks& blocks, int row, int col);
   /// Sets up all levels for linearised springs, whose diagonal blocks are filled already.
   void set_up(SpringHessian& springs, Worker& worker);
+  /// The contacts' part of a product as loads on the samples of this cloth.
+  struct Loads {
+    const ContactProduct* product = nullptr;  ///< null: none
+    std::size_t cloth = 0;                    ///< the index of this one
+  };
   /// One V-cycle from zero: value() approximates A^-1 rhs().
   void cycle(Worker& worker);
-  /// Terms of the exact operator that the cycle leaves out; null: none.
+  /// The same in three parts, with contacts: for the second and third, loads are those of value().
+  void smooth_first(Worker& worker);
+  void correct(const Loads& contacts, Worker& worker);
+  void smooth_last(const Loads& contacts, Worker& worker);
+  /// Terms of the exact operator beside springs, flat bending and its border; null: none.
   struct ExactParts {
-    const ContactGather* contacts = nullptr;
-    std::span<const Vec3f> loads{};   ///< of contacts, from their part of the product
+    Loads contacts{};
     CurvedBending* curved = nullptr;  ///< instead of flat bending
     double* row_products = nullptr;   ///< [n] receives each row's part of x . A x
   };
   /// out = A x on the finest level, seam copies equal, 0 where pinned.
   void apply(const PaddedVectors& x, const ExactParts& parts, PaddedVectors& out, Worker& worker);
-  /// Adds factor times the loads of contacts, summed over seam copies, to a field; 0 where pinned.
-  void add_loads(const ContactGather& contacts, std::span<const Vec3f> loads, float factor,
-                 PaddedVectors& field, Worker& worker);
+  /// Adds the loads of contacts, summed over seam copies, to a field; 0 where pinned.
+  void add_loads(const Loads& contacts, PaddedVectors& field, Worker& worker);
   /// Sums the centres of the finest level over seam copies, for its diagonal().
   void join_centres(Worker& worker) { join_centres(levels_.front(), Workers(worker, false)); }
 
-  /// Adds the gradient of flat bending at positions to a gradient's own part.
-  void add_bending_gradient(const PaddedVectors& position, PaddedVectors& gradient, Worker& worker);
+  /// Linearises springs and computes the forces of inertia, springs and bending, seam copies equal,
+  /// 0 where pinned. @param curved  instead of flat bending, at the same positions; null: none
+  void linearise(const SpringHessian::Point& point, CurvedBending* curved, SpringHessian& springs,
+                 PaddedVectors& force, Worker& worker);
   /// Energy of flat bending at positions; all workers get it [J].
   double bending_energy(const PaddedVectors& position, RowSums& sums, const PaddedPlane& share,
                         Worker& worker);
@@ -66,13 +75,6 @@ class BlockMultigrid {
   /// Updates the pins, after particles may have been pinned or released. @return whether any was
   bool renew_pins();
 
-  /// Contact blocks that the cycle's residuals add to the product of springs, and the rows that
-  /// have any; the centres contain them already.
-  struct ContactRows {
-    const PaddedBlocks* blocks = nullptr;
-    const char* touched = nullptr;  ///< [n]
-  };
-  void set_contacts(ContactRows contacts) { contacts_ = contacts; }
   /// [n x n] seam copies equal [N]
   [[nodiscard]] PaddedVectors& rhs() { return levels_.front().rhs; }
   [[nodiscard]] const PaddedVectors& value() const { return levels_.front().value; }
@@ -84,19 +86,31 @@ class BlockMultigrid {
   enum class Direction { rows, cols };
   /// Computes u of flat bending, summed over seam copies.
   void bend(BlockLevel& level, const PaddedVectors& x, const Workers& workers);
-  /// Adds M^T M x to a worker's rows in turn: before(row) fills the row, after(row) gets it
+  /// Adds factor M^T M x to a worker's rows in turn: before(row) fills the row, after(row) gets it
   /// complete.
+  struct Bent {
+    const PaddedVectors& x;
+    float factor = 1;
+  };
   template <class Before, class After>
-  void add_bending(BlockLevel& level, const PaddedVectors& x, PaddedVectors& out,
-                   const Workers& workers, const Before& before, const After& after);
-  void add_contact_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
+  void add_bending(BlockLevel& level, const Bent& bent, PaddedVectors& out, const Workers& workers,
+                   const Before& before, const After& after);
+  static void add_load_row(const Loads& contacts, int row, float factor, PaddedVectors& out);
+  /// Decides which levels' products include bending.
+  void choose_bending(double time_step);
+  void find_bending_rates();
+  void apply_stencil_row(const BlockLevel& level, int row, RowSweep& sweep,
+                         const PaddedVectors* rhs, PaddedVectors& out) const;
   [[nodiscard]] bool pins_changed() const;
   void clear_pinned_blocks(int row);
   void clear_pins_of_row(int row, PaddedVectors& field) const;
   /// Sums over seam copies and clears pins.
   void complete(std::size_t index, PaddedVectors& out, const Workers& workers) const;
-  void residual(std::size_t index, const Workers& workers);
-  void smooth(std::size_t index, Direction direction, bool from_zero, const Workers& workers);
+  void residual(std::size_t index, const Loads& contacts, const Workers& workers);
+  void smooth_from_zero(std::size_t index, Direction direction, const Workers& workers);
+  void smooth(std::size_t index, Direction direction, const Loads& contacts,
+              const Workers& workers);
+  void relax(BlockLevel& level, Direction direction, bool from_zero, const Workers& workers);
   void smooth_seamed(BlockLevel& level, const LineFactor& lines, bool from_zero,
                      const Workers& workers);
   void solve_lines(const LineFactor& lines, const PaddedVectors& rhs, LineFactor::Solve how,
@@ -104,6 +118,7 @@ class BlockMultigrid {
   void restrict_residual(BlockLevel& fine, BlockLevel& coarse, const Workers& workers);
   void prolong(const BlockLevel& coarse, std::size_t fine_index, const Workers& workers);
   void cycle(std::size_t index, const Workers& workers);
+  void correct(std::size_t index, const Loads& contacts, const Workers& workers);
   void cycle_coarsest(std::size_t index, const Workers& workers);
   void factor(std::size_t index, const Workers& workers);
   void join_edges(std::size_t index);
@@ -111,8 +126,10 @@ class BlockMultigrid {
   void part_edges(std::size_t index);
   void join_centres(BlockLevel& level, const Workers& workers);
   void clear_pins(PaddedVectors& field, const Workers& workers) const;
-  void add_border_row(const PaddedVectors& x, int row, PaddedVectors& out) const;
-  [[nodiscard]] std::span<float> scratch(const Workers& workers);
+  void add_border_row(const PaddedVectors& x, int row, float factor, PaddedVectors& out) const;
+  void find_border_springs();
+  void stiffen_border(int row, SpringHessian& springs) const;
+  [[nodiscard]] float* scratch(const Workers& workers);
 
   const Cloth& cloth_;
   const NewtonKernels* kernels_;
@@ -124,10 +141,17 @@ class BlockMultigrid {
   PaddedPlane free_extra_;       // the finest level's `extra` without pins
   std::vector<int> pinned_;      // samples, all copies
   std::vector<int> pin_starts_;  // [n + 1] first pinned sample of each row, in pinned_
-  std::vector<std::vector<float>> scratch_;
-  std::vector<PaddedVectors> sweeps_;  // of each worker
-  std::vector<float> parted_;          // own blocks of border edges while the edges hold sums
-  ContactRows contacts_;
+  std::vector<PaddedPlane> scratch_;
+  std::vector<RowSweep> sweeps_;  // of each worker
+  /// The free-border edges of bending are like springs to near neighbours without a direction: on a
+  /// sheet without seams they are added to those.
+  struct BorderStiffness {
+    int plane = 0, col = 0;  // of a spring's t
+    float value = 0;
+  };
+  std::vector<BorderStiffness> border_;
+  std::vector<int> border_starts_;  // [n + 1] first of each row; empty: none
+  std::vector<float> parted_;       // own blocks of border edges while the edges hold sums
 };
 
 }  // namespace weft

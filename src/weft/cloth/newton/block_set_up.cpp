@@ -8,21 +8,26 @@
 namespace weft {
 namespace {
 
-void view_blocks(const PaddedBlocks& blocks, PlaneView* views) {
-  for (int k = 0; k < 6; ++k) views[k] = {blocks.entry[k].row(0), blocks.entry[k].stride()};
+/// Of the blocks that begin at a plane.
+void view_blocks(const PlaneSet& blocks, int first, PlaneView* views) {
+  for (int k = 0; k < block_entries; ++k) views[k] = blocks.view(first + k);
 }
+
+/// The first plane of the blocks of an edge along a border.
+int plane_of(const BorderEdge& edge) { return (edge.along_row ? 1 : 2) * block_entries; }
+/// The first plane of its springs.
+int spring_plane(const BorderEdge& edge) { return (edge.along_row ? 0 : 1) * spring_entries; }
 
 }  // namespace
 
 void BlockMultigrid::join_centres(BlockLevel& level, const Workers& workers) {
   if (level.seams.empty()) return;
   const Range mine = workers.share(level.size);
-  for (int k = 0; k < 6; ++k)
-    for (int r = mine.first; r < mine.last; ++r)
-      std::copy_n(level.stencil.centre.entry[k].row(r), level.size, level.joined.entry[k].row(r));
+  for (int r = mine.first; r < mine.last; ++r)
+    for (int k = 0; k < block_entries; ++k)
+      std::copy_n(level.stencil.row(r, k), level.size, level.joined.row(r, k));
   workers.barrier();
-  auto& e = level.joined.entry;
-  level.seams.sum(workers, {&e[0], &e[1], &e[2], &e[3], &e[4], &e[5]});
+  level.seams.sum(workers, level.joined);
   workers.barrier();
 }
 
@@ -37,12 +42,11 @@ void BlockMultigrid::join_edges(std::size_t index) {
       join_springs(group);
       continue;
     }
-    BlockStencil& stencil = levels_[index].stencil;
-    for (int k = 0; k < 6; ++k) {
+    PlaneSet& stencil = levels_[index].stencil;
+    for (int k = 0; k < block_entries; ++k) {
       float sum = 0;
       const auto entry = [&](const BorderEdge& edge) -> float& {
-        PaddedBlocks& blocks = edge.along_row ? stencil.right : stencil.below;
-        return blocks.entry[k](edge.row, edge.col);
+        return stencil(edge.row, edge.col, plane_of(edge) + k);
       };
       for (const BorderEdge& edge : group) {
         sum += entry(edge);
@@ -57,31 +61,29 @@ void BlockMultigrid::fill_diagonals(const SpringHessian& springs, int row) {
   BlockLevel& level = levels_.front();
   if (level.seams.empty())
     springs.line_diagonals_row(row, level.extra.row(row),
-                               {row_of(level.stencil.centre, row), row_of(level.held_rows, row),
-                                row_of(level.held_cols, row)});
+                               {rows_of(level.stencil, row), rows_of(level.held_rows, row),
+                                rows_of(level.held_cols, row)});
   else
-    springs.diagonal_row(row, level.stencil.centre);
+    springs.line_diagonals_row(row, nullptr, {rows_of(level.stencil, row), {}, {}});
   clear_pinned_blocks(row);
 }
 
 /// Clears the centres of pinned samples, which have no part in coarser levels.
 void BlockMultigrid::clear_pinned_blocks(int row) {
   for (int i = pin_starts_[row]; i < pin_starts_[row + 1]; ++i)
-    for (PaddedPlane& entry : levels_.front().stencil.centre.entry)
-      entry(row, pinned_[i] % cloth_.size) = 0;
+    for (int k = 0; k < block_entries; ++k)
+      levels_.front().stencil(row, pinned_[i] % cloth_.size, k) = 0;
 }
 
-void BlockMultigrid::add_to_diagonals(const BlockRow6& blocks, int row) {
+void BlockMultigrid::add_to_diagonals(const ContactProduct::Blocks& blocks, int row, int col) {
   BlockLevel& level = levels_.front();
-  const auto add = [&](PaddedBlocks& to) {
-    for (int k = 0; k < 6; ++k)
-      for (int c = 0; c < level.size; ++c) to.entry[k](row, c) += blocks.entry[k][c];
-  };
-  add(level.stencil.centre);
-  clear_pinned_blocks(row);
-  if (!level.seams.empty()) return;
-  add(level.held_rows);
-  add(level.held_cols);
+  if (!(mask_(row, col) > 0)) return;
+  for (int k = 0; k < block_entries; ++k) {
+    level.stencil(row, col, k) += blocks.whole[k];
+    if (!level.seams.empty()) continue;
+    level.held_rows(row, col, k) += blocks.lines[k];
+    level.held_cols(row, col, k) += blocks.lines[k];
+  }
 }
 
 /// Replaces the copies of a spring by their sum. All have one direction, so the sum of t 1 + s s^T
@@ -89,7 +91,7 @@ void BlockMultigrid::add_to_diagonals(const BlockRow6& blocks, int row) {
 void BlockMultigrid::join_springs(const std::vector<BorderEdge>& group) {
   float across = 0, along = 0;
   const auto entry = [&](const BorderEdge& edge, int k) -> float& {
-    return (*springs_->planes(edge.along_row ? 0 : 1)[k])(edge.row, edge.col);
+    return springs_->near()(edge.row, edge.col, spring_plane(edge) + k);
   };
   const auto squared = [&](const BorderEdge& edge) {
     return entry(edge, 1) * entry(edge, 1) + entry(edge, 2) * entry(edge, 2) +
@@ -110,18 +112,17 @@ void BlockMultigrid::join_springs(const std::vector<BorderEdge>& group) {
 
 void BlockMultigrid::part_edges(std::size_t index) {
   std::size_t at = 0;
-  BlockStencil& stencil = levels_[index].stencil;
+  PlaneSet& stencil = levels_[index].stencil;
   for (const std::vector<BorderEdge>& group : levels_[index].seams.edges()) {
     if (index == 0) {
       for (const BorderEdge& edge : group)
-        for (PaddedPlane* plane : springs_->planes(edge.along_row ? 0 : 1))
-          (*plane)(edge.row, edge.col) = parted_[at++];
+        for (int k = 0; k < spring_entries; ++k)
+          springs_->near()(edge.row, edge.col, spring_plane(edge) + k) = parted_[at++];
       continue;
     }
-    for (int k = 0; k < 6; ++k)
+    for (int k = 0; k < block_entries; ++k)
       for (const BorderEdge& edge : group)
-        (edge.along_row ? stencil.right : stencil.below).entry[k](edge.row, edge.col) =
-            parted_[at++];
+        stencil(edge.row, edge.col, plane_of(edge) + k) = parted_[at++];
   }
 }
 
@@ -136,20 +137,20 @@ void BlockMultigrid::factor(std::size_t index, const Workers& workers) {
     const PlaneView extra{level.extra.row(0), level.extra.stride()};
     if (index == 0 && level.seams.empty()) {
       HeldLineMatrix matrix{};
-      view_blocks(along_rows ? level.held_rows : level.held_cols, matrix.held);
+      view_blocks(along_rows ? level.held_rows : level.held_cols, 0, matrix.held);
       const auto views = springs_->views(along_rows ? 0 : 1);
       std::copy(views.begin(), views.end(), matrix.spring);
       lines.factor(block, matrix, *kernels_);
     } else if (index == 0) {
       SpringLineMatrix matrix{{}, extra, {}};
-      view_blocks(level.diagonal(), matrix.diagonal);
+      view_blocks(level.diagonal(), 0, matrix.diagonal);
       const auto views = springs_->views(along_rows ? 0 : 1);
       std::copy(views.begin(), views.end(), matrix.coupling);
       lines.factor(block, matrix, *kernels_);
     } else {
       LineMatrix matrix{{}, extra, {}};
-      view_blocks(level.diagonal(), matrix.diagonal);
-      view_blocks(along_rows ? level.stencil.right : level.stencil.below, matrix.coupling);
+      view_blocks(level.diagonal(), 0, matrix.diagonal);
+      view_blocks(level.stencil, (along_rows ? 1 : 2) * block_entries, matrix.coupling);
       lines.factor(block, matrix, *kernels_);
     }
   }
@@ -157,7 +158,10 @@ void BlockMultigrid::factor(std::size_t index, const Workers& workers) {
 
 void BlockMultigrid::set_up(SpringHessian& springs, Worker& worker) {
   const Workers all(worker, false);
-  if (worker.rank() == 0) springs_ = &springs;
+  if (worker.rank() == 0) {
+    springs_ = &springs;
+    choose_bending(springs.time_step());
+  }
   worker.barrier();
   join_centres(levels_.front(), all);
   for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {

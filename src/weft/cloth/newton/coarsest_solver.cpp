@@ -47,10 +47,12 @@ CoarsestSolver::CoarsestSolver(const BlockLevel& level) {
         bending_[i * nodes + j] += curve[k * nodes + i] * curve[k * nodes + j];
 }
 
-void CoarsestSolver::add_block(int from, int to, const PaddedBlocks& blocks, int row, int col) {
+void CoarsestSolver::add_block(int from, int to, const PlaneSet& stencil, int block, int sample) {
+  const int n = stencil.rows();
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      at(3 * from + i, 3 * to + j) += double{blocks.entry[entry_of[i][j]](row, col)};
+      at(3 * from + i, 3 * to + j) +=
+          double{stencil(sample / n, sample % n, block * block_entries + entry_of[i][j])};
 }
 
 void CoarsestSolver::factor(const BlockLevel& level) noexcept {
@@ -59,20 +61,17 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
   for (int i = 0; i < nodes; ++i)
     for (int j = 0; j < nodes; ++j)
       for (int k = 0; k < 3; ++k) at(3 * i + k, 3 * j + k) = bending_[i * nodes + j];
-  const std::array<const PaddedBlocks*, 4> after{&level.stencil.right, &level.stencil.below,
-                                                 &level.stencil.below_right,
-                                                 &level.stencil.below_left};
   for (int s = 0; s < n * n; ++s) {
     const int r = s / n, c = s % n;
     if (node_[s] < 0) continue;
-    add_block(node_[s], node_[s], level.stencil.centre, r, c);
-    for (int d = 0; d < 4; ++d) {
+    add_block(node_[s], node_[s], level.stencil, 0, s);
+    for (int d = 0; d < near_directions; ++d) {
       const auto [down, right] = spring_offsets[d];
       if (r + down >= n || c + right >= n || c + right < 0) continue;
       const int other = node_[(r + down) * n + c + right];
       if (other < 0) continue;
-      add_block(node_[s], other, *after[d], r, c);
-      add_block(other, node_[s], *after[d], r, c);
+      add_block(node_[s], other, level.stencil, 1 + d, s);
+      add_block(other, node_[s], level.stencil, 1 + d, s);
     }
   }
   for (int i = 0; i < unknowns_; ++i) {

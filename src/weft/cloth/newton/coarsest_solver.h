@@ -23,7 +23,8 @@ class CoarsestSolver {
   void solve(BlockLevel& level) noexcept;
 
  private:
-  void add_block(int from, int to, const PaddedBlocks& blocks, int row, int col);
+  /// @param block  of the stencil
+  void add_block(int from, int to, const PlaneSet& stencil, int block, int sample);
   [[nodiscard]] double& at(int row, int col) {
     return matrix_[static_cast<std::size_t>(row) * unknowns_ + col];
   }

@@ -38,28 +38,29 @@ void ContactSystem::recall(int index) {
     past_[index] = history->find(contacts_[index], second_of(static_cast<std::size_t>(index)));
 }
 
-/// Displacement of the contact point since the start of the step. It is taken from positions: from
-/// velocities, the rounding of every step would add up to creep.
-Vec3d ContactSystem::displacement_of(int index, Fields position) const {
-  Vec3d displacement;
+/// The displacement is taken from positions: from velocities, the rounding of every step would add
+/// up to creep.
+ContactSystem::Motion ContactSystem::motion_of(int index, Fields position) const {
+  Motion motion;
   for (std::size_t k = 0; k < 4; ++k) {
     const double w = contacts_[index].weights[k];
     if (w == 0) continue;
     const Place& at = places_[index][k];
-    const PaddedVectors& x = *position[at.cloth];
-    const Vec3f now{x.x(at.row, at.col), x.y(at.row, at.col), x.z(at.row, at.col)};
-    displacement +=
-        w * (vec_cast<double>(now) - vec_cast<double>(starts_[at.cloth]->at(at.row, at.col)));
+    const PaddedVectors &x = *position[at.cloth], &x0 = *starts_[at.cloth];
+    const Vec3d now{x.x(at.row, at.col), x.y(at.row, at.col), x.z(at.row, at.col)},
+        start{x0.x(at.row, at.col), x0.y(at.row, at.col), x0.z(at.row, at.col)};
+    motion.start += w * start;
+    motion.displacement += w * (now - start);
   }
-  return displacement;
+  return motion;
 }
 
 void ContactSystem::locate(int index, Fields position) {
   const Contact& contact = contacts_[index];
-  const Vec3d normal = vec_cast<double>(contact.normal),
-              displacement = displacement_of(index, position);
-  depth_[index] =
-      attainable_offset(index) - dot(normal, start_of(index)) - dot(normal, displacement);
+  const Vec3d normal = vec_cast<double>(contact.normal);
+  const auto [start, displacement] = motion_of(index, position);
+  const double height = dot(normal, start);
+  depth_[index] = attainable_offset(index, height) - height - dot(normal, displacement);
   Vec3d relative = displacement - vec_cast<double>(contact.surface_displacement);
   // The tangential spring starts with the extension that gives the friction of the last step.
   if (past_[index] != nullptr && work_stiffness_[index] > 0)
@@ -99,11 +100,12 @@ double ContactSystem::foreseen_distance(int index, double distance) const {
   return std::clamp(gained, -0.5 * distance, distance);
 }
 
-bool ContactSystem::choose(int index, Fields step) {
+/// @param moved  the displacement of its point since the linearisation
+/// @param held   the force that the residual has of it
+void ContactSystem::choose(int index, Vec3d moved, Vec3d held) {
   const Contact& contact = contacts_[index];
   float &k = stiffness_[index], &grip = grip_[index];
   const float k_before = k, grip_before = grip;
-  const Vec3d moved = sum(index, step);
   const double depth = depth_after(index, moved);
   k = depth > 0 ? work_stiffness_[index] : 0.0F;
   const double force = limiting_force(index, depth, k_before);
@@ -116,8 +118,11 @@ bool ContactSystem::choose(int index, Fields step) {
   grip = k > 0 && contact.friction > 0
              ? static_cast<float>(grip_for(index, {distance, force, is_new}))
              : 0.0F;
-  return (k > 0) != (k_before > 0) ||
-         std::abs(grip - grip_before) > same_grip * std::max(grip, grip_before);
+  const bool changed = (k > 0) != (k_before > 0) ||
+                       std::abs(grip - grip_before) > same_grip * std::max(grip, grip_before);
+  changed_[index] = changed ? 1 : 0;
+  touched_[index] = k > 0 || k_before > 0 ? 1 : 0;
+  gained_[index] = vec_cast<float>(force_after(index, moved) - held);
 }
 
 void ContactSystem::measure(Fields position, Worker& worker) {

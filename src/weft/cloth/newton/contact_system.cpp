@@ -21,10 +21,9 @@ constexpr double lifting_speed = 0.02;
 }  // namespace
 
 ContactSystem::ContactSystem(std::span<const Cloth* const> cloths)
-    : cloths_(cloths.begin(), cloths.end()) {
+    : cloths_(cloths.begin(), cloths.end()), product_(cloths) {
   inverse_diagonals_.reserve(cloths.size());
   for (const Cloth* cloth : cloths) {
-    gathers_.emplace_back(*cloth);
     inverse_diagonals_.emplace_back(cloth->size, cloth->size);
     held_.push_back(&inverse_diagonals_.back());
     loose_.push_back(&cloth->inverse_mass);
@@ -37,7 +36,8 @@ void ContactSystem::clear() {
   starts_.clear();
   histories_.clear();
   firsts_.clear();
-  for (ContactGather& gather : gathers_) gather.clear();
+  product_.clear();
+  product_.finish();
   active_ = 0;
   first_ = true;
   shared_ = false;
@@ -50,7 +50,6 @@ void ContactSystem::add(const Contact& contact, const std::array<int, 4>& cloths
     if (contact.weights[k] == 0) continue;
     const int n = cloths_[cloths[k]]->size, sample = contact.samples[k];
     places[k] = {cloths[k], sample / n, sample % n};
-    gathers_[cloths[k]].add(sample, static_cast<int>(contacts_.size()), contact.weights[k]);
   }
   contacts_.push_back(contact);
   places_.push_back(places);
@@ -70,7 +69,6 @@ void ContactSystem::set_contacts(std::span<const Own> own, std::span<const Share
   firsts_.push_back(contacts_.size());
   for (const SharedContact& one : shared)
     add(one.contact, {one.cloth_of(0), one.cloth_of(1), one.cloth_of(2), one.cloth_of(3)});
-  for (ContactGather& gather : gathers_) gather.finish();
   const std::size_t count = contacts_.size();
   depth_.resize(count);
   lift_.resize(count);
@@ -86,7 +84,8 @@ void ContactSystem::set_contacts(std::span<const Own> own, std::span<const Share
   acceleration_.assign(count, 0.0F);
   first_slip_.assign(count, 0.0);
   past_.assign(count, nullptr);
-  load_.assign(count, Vec3f{});
+  gained_.assign(count, Vec3f{});
+  touched_.assign(count, 0);
 }
 
 std::span<const float> ContactSystem::forces(std::size_t cloth) const {
@@ -103,17 +102,6 @@ Vec3d ContactSystem::sum(int index, Fields fields) const {
     total += w * Vec3d{field.x(at.row, at.col), field.y(at.row, at.col), field.z(at.row, at.col)};
   }
   return total;
-}
-
-Vec3d ContactSystem::start_of(int index) const {
-  Vec3d point;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double w = contacts_[index].weights[k];
-    if (w == 0) continue;
-    const Place& at = places_[index][k];
-    point += w * vec_cast<double>(starts_[at.cloth]->at(at.row, at.col));
-  }
-  return point;
 }
 
 /// Displacement of the contact's point per unit of force, from the compliance of each sample.
@@ -133,23 +121,22 @@ double ContactSystem::compliance(int index, std::span<const Grid<float>* const> 
 
 /// The offset that the step may reach: the exit from a penetration at its start has a bounded
 /// speed.
-double ContactSystem::attainable_offset(int index) const {
+/// @param start_height  of its point along its normal
+double ContactSystem::attainable_offset(int index, double start_height) const {
   const Contact& contact = contacts_[index];
   const double farthest = max_exit_speed * input_.time_step;
-  const double before = double{contact.offset} -
-                        dot(vec_cast<double>(contact.normal), start_of(index)) -
+  const double before = double{contact.offset} - start_height -
                         double{dot(contact.normal, contact.surface_displacement)};
   return contact.offset - (before > farthest ? before - farthest : 0) + lift_[index];
 }
 
-void ContactSystem::hold(std::size_t cloth, const PaddedBlocks& diagonal, const Worker& worker) {
+void ContactSystem::hold(std::size_t cloth, const PlaneSet& diagonal, const Worker& worker) {
   const Cloth& one = *cloths_[cloth];
   Grid<float>& inverse = inverse_diagonals_[cloth];
   const Range rows = worker.share(one.size);
   for (int r = rows.first; r < rows.last; ++r)
     for (int c = 0; c < one.size; ++c) {
-      const float trace =
-          diagonal.entry[0](r, c) + diagonal.entry[3](r, c) + diagonal.entry[5](r, c);
+      const float trace = diagonal(r, c, 0) + diagonal(r, c, 3) + diagonal(r, c, 5);
       inverse(r, c) = one.inverse_mass(r, c) > 0 ? 3 / trace : 0;
     }
 }
@@ -203,10 +190,28 @@ void ContactSystem::count_holds() {
   }
 }
 
-void ContactSystem::count(Worker& worker) {
+void ContactSystem::pack_one(int index) {
+  const Contact& contact = contacts_[index];
+  ContactProduct::Spring spring{contact.samples,   contact.weights, contact.normal,
+                                stiffness_[index], grip_[index],    {}};
+  for (std::size_t k = 4; k-- > 0;)
+    if (contact.weights[k] != 0)
+      spring.cloths[contact.weights[k] < 0 ? 1 : 0] = places_[index][k].cloth;
+  if (is_with_obstacle(static_cast<std::size_t>(index))) spring.cloths[1] = spring.cloths[0];
+  product_.add(spring);
+}
+
+/// Packs the contacts that are active or were before the last choice.
+void ContactSystem::pack(Worker& worker) {
   worker.barrier();
-  for (ContactGather& gather : gathers_) gather.mark_rows(stiffness_, worker);
   if (worker.rank() == 0) {
+    product_.clear();
+    const int count = static_cast<int>(contacts_.size());
+    for (int i = 0; i < count; ++i)
+      if (touched_[i] != 0) pack_one(i);
+    product_.finish();
+    for (int i = 0, packed = 0; i < count; ++i)
+      if (touched_[i] != 0) product_.set_load(packed++, gained_[i]);
     active_ = static_cast<int>(
         std::count_if(stiffness_.begin(), stiffness_.end(), [](float k) { return k > 0; }));
     any_changed_ = std::find(changed_.begin(), changed_.end(), 1) != changed_.end();
@@ -216,25 +221,26 @@ void ContactSystem::count(Worker& worker) {
   worker.barrier();
 }
 
-bool ContactSystem::choose(Fields step, Worker& worker) {
+bool ContactSystem::choose(const Fields* step, Worker& worker) {
   const Range mine = share(worker);
-  for (int i = mine.first; i < mine.last; ++i) changed_[i] = choose(i, step) ? 1 : 0;
-  count(worker);
+  for (int i = mine.first; i < mine.last; ++i) {
+    if (step == nullptr) {
+      choose(i, {}, {});
+    } else {
+      const Vec3d moved = sum(i, *step);
+      choose(i, moved, force_after(i, moved));
+    }
+  }
+  pack(worker);
   return any_changed_;
 }
 
-Vec3d ContactSystem::force_after(int index, Fields step) const {
+/// @param moved  the displacement of its point since the linearisation
+Vec3d ContactSystem::force_after(int index, Vec3d moved) const {
   const double k = stiffness_[index], grip = grip_[index];
   if (!(k > 0)) return {};
-  const Vec3d moved = sum(index, step);
   return k * depth_after(index, moved) * vec_cast<double>(contacts_[index].normal) -
          grip * slid_after(index, moved);
-}
-
-void ContactSystem::load_forces(Fields step, Worker& worker) {
-  const Range mine = share(worker);
-  for (int i = mine.first; i < mine.last; ++i) load_[i] = vec_cast<float>(force_after(i, step));
-  worker.barrier();
 }
 
 double ContactSystem::sum_of_energies(Worker& worker) {
@@ -251,32 +257,21 @@ double ContactSystem::work(Fields step, Worker& worker) {
     const Vec3f surface_displacement = contacts_[i].surface_displacement;
     energy_[i] = surface_displacement == Vec3f{}
                      ? 0
-                     : dot(force_after(i, step), vec_cast<double>(surface_displacement));
+                     : dot(force_after(i, sum(i, step)), vec_cast<double>(surface_displacement));
   }
   return sum_of_energies(worker);
 }
 
 Vec3d ContactSystem::obstacle_force(Fields step, Worker& worker) {
-  load_forces(step, worker);
+  const Range mine = share(worker);
+  for (int i = mine.first; i < mine.last; ++i)
+    if (stiffness_[i] > 0) gained_[i] = vec_cast<float>(force_after(i, sum(i, step)));
+  worker.barrier();
   Vec3d total;
-  for (std::size_t i = 0; i < load_.size(); ++i)
-    if (is_with_obstacle(i)) total += vec_cast<double>(load_[i]);
+  for (std::size_t i = 0; i < gained_.size(); ++i)
+    if (stiffness_[i] > 0 && is_with_obstacle(i)) total += vec_cast<double>(gained_[i]);
   worker.barrier();
   return total;
-}
-
-void ContactSystem::load_product(Fields direction, Worker& worker) {
-  const Range mine = share(worker);
-  for (int i = mine.first; i < mine.last; ++i) {
-    const double k = stiffness_[i], grip = grip_[i];
-    Vec3d load;
-    if (k > 0) {
-      const Vec3d normal = vec_cast<double>(contacts_[i].normal), moved = sum(i, direction);
-      load = (k - grip) * dot(normal, moved) * normal + grip * moved;
-    }
-    load_[i] = vec_cast<float>(load);
-  }
-  worker.barrier();
 }
 
 double ContactSystem::energy(Fields step, float part, Worker& worker) {

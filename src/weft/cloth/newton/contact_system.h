@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "weft/cloth/integrator.h"
-#include "weft/cloth/newton/contact_gather.h"
 #include "weft/cloth/newton/contact_history.h"
+#include "weft/cloth/newton/contact_product.h"
 #include "weft/cloth/newton/padded_planes.h"
 
 namespace weft {
@@ -27,7 +27,7 @@ class ContactSystem {
   /// One cloth's own contacts, its positions at the start of the step and its contact history.
   struct Own {
     std::span<const Contact> contacts;
-    const Planes3* start = nullptr;           ///< valid until the last use [m]
+    const PaddedVectors* start = nullptr;     ///< valid until the last use [m]
     const ContactHistory* history = nullptr;  ///< also of shared contacts, see remember
   };
   /// Replaces all contacts.
@@ -42,18 +42,17 @@ class ContactSystem {
 
   /// Computes the compliance of a cloth's samples.
   /// @param diagonal  the springs' diagonal blocks, summed over seam copies [N/m]
-  void hold(std::size_t cloth, const PaddedBlocks& diagonal, const Worker& worker);
+  void hold(std::size_t cloth, const PlaneSet& diagonal, const Worker& worker);
   /// Computes the stiffness and depth of all contacts at the linearisation.
   /// @param position  of the cloths [m]
   void place(Fields position, Worker& worker);
   /// Decides which contacts are active and which of them stick after a step from the linearisation.
-  /// The first decision is that of the guess, with the forces and friction of the last step.
+  /// The first decision is that of the guess, with the forces and friction of the last step. The
+  /// product's loads become what the contact forces gain on those of the last choice since place()
+  /// [N].
+  /// @param step  null: none was made since the linearisation
   /// @return whether any contact changed
-  bool choose(Fields step, Worker& worker);
-  /// Sets the loads to the contact forces after a step [N].
-  void load_forces(Fields step, Worker& worker);
-  /// Sets the loads to the contacts' part of the Hessian times a direction [N].
-  void load_product(Fields direction, Worker& worker);
+  bool choose(const Fields* step, Worker& worker);
   /// The energy of all contacts after a part of a step: of penetrations, and of the linear
   /// friction; all workers get it [J].
   double energy(Fields step, float part, Worker& worker);
@@ -76,10 +75,9 @@ class ContactSystem {
   [[nodiscard]] bool is_held(std::size_t cloth) const { return obstructed_[cloth] != 0; }
   /// Whether any contact between cloths is active.
   [[nodiscard]] bool is_shared() const { return shared_; }
-  /// Gathers the loads at the samples of a cloth.
-  [[nodiscard]] const ContactGather& gather(std::size_t cloth) const { return gathers_[cloth]; }
-  [[nodiscard]] std::span<const Vec3f> loads() const { return load_; }
-  [[nodiscard]] ContactGather::Springs springs() const { return {contacts_, stiffness_, grip_}; }
+  /// The contacts' part of the Hessian: of those that are active, and were before the last choice.
+  [[nodiscard]] ContactProduct& product() { return product_; }
+  [[nodiscard]] const ContactProduct& product() const { return product_; }
 
  private:
   /// Cloth, row and column of a sample.
@@ -89,12 +87,15 @@ class ContactSystem {
   void add(const Contact& contact, const std::array<int, 4>& cloths);
   void clear();
   [[nodiscard]] Vec3d sum(int index, Fields fields) const;
-  [[nodiscard]] Vec3d start_of(int index) const;
   [[nodiscard]] double compliance(int index, std::span<const Grid<float>* const> softness) const;
-  [[nodiscard]] double attainable_offset(int index) const;
+  [[nodiscard]] double attainable_offset(int index, double start_height) const;
   [[nodiscard]] double lone_compliance(int index) const;
   void recall(int index);
-  [[nodiscard]] Vec3d displacement_of(int index, Fields position) const;
+  /// A contact's point at the start of the step, and its displacement since [m].
+  struct Motion {
+    Vec3d start, displacement;
+  };
+  [[nodiscard]] Motion motion_of(int index, Fields position) const;
   void locate(int index, Fields position);
   [[nodiscard]] int second_of(std::size_t index) const;
   /// How a contact's point moved along its obstacle.
@@ -106,23 +107,24 @@ class ContactSystem {
   [[nodiscard]] double grip_for(int index, const Sliding& sliding) const;
   [[nodiscard]] double foreseen_distance(int index, double distance) const;
   [[nodiscard]] double limiting_force(int index, double depth, double pressed) const;
-  bool choose(int index, Fields step);
-  void count(Worker& worker);
+  void choose(int index, Vec3d moved, Vec3d held);
+  void pack(Worker& worker);
+  void pack_one(int index);
   void count_holds();
   [[nodiscard]] bool is_with_obstacle(std::size_t index) const;
   [[nodiscard]] double depth_after(int index, Vec3d step) const;
   [[nodiscard]] Vec3d slid_after(int index, Vec3d step) const;
-  [[nodiscard]] Vec3d force_after(int index, Fields step) const;
+  [[nodiscard]] Vec3d force_after(int index, Vec3d moved) const;
   double sum_of_energies(Worker& worker);
   [[nodiscard]] Range share(const Worker& worker) const {
     return worker.share(static_cast<int>(contacts_.size()));
   }
 
   std::vector<const Cloth*> cloths_;
-  std::vector<ContactGather> gathers_;            // of each cloth
+  ContactProduct product_;
   std::vector<Grid<float>> inverse_diagonals_;    // the same [m/N]
   std::vector<const Grid<float>*> held_, loose_;  // pointers to those, and to inverse masses [1/kg]
-  std::vector<const Planes3*> starts_;            // of each cloth [m]
+  std::vector<const PaddedVectors*> starts_;      // of each cloth [m]
   std::vector<const ContactHistory*> histories_;  // the same
   std::vector<std::size_t> firsts_;  // first of each cloth's own contacts, and of the shared ones
   StepInput input_;
@@ -131,7 +133,7 @@ class ContactSystem {
   std::vector<std::array<Place, 4>> places_;
   std::vector<float> work_stiffness_;  // normal stiffness when active [N/m]
   std::vector<float> stiffness_, grip_;
-  std::vector<Vec3f> load_;
+  std::vector<Vec3f> gained_;             // force by the last choice [N]
   std::vector<double> depth_;             // at the linearisation [m]
   std::vector<double> lift_;              // the part of it that only lifts the point [m]
   std::vector<Vec3d> slid_;               // tangential, relative to the obstacle [m]
@@ -141,7 +143,7 @@ class ContactSystem {
   std::vector<float> acceleration_;       // see PastContact [m/s^2]
   std::vector<double> first_slip_;        // slip distance of the guess [m]
   std::vector<double> energy_;            // or work [J]
-  std::vector<char> changed_;
+  std::vector<char> changed_, touched_;   // by the last choice; active before or after it
   int active_ = 0;
   std::vector<char> obstructed_;  // of each cloth
   bool first_ = true, any_changed_ = false, shared_ = false;

@@ -32,7 +32,7 @@ void LineFactor::factor(int block, const HeldLineMatrix& matrix, const NewtonKer
   kernels.factor_held_lines(at(block), matrix, factor_of(block));
 }
 
-void LineFactor::solve(int block, const PaddedVectors& rhs, Solve how, std::span<float> scratch,
+void LineFactor::solve(int block, const PaddedVectors& rhs, Solve how, float* scratch,
                        PaddedVectors& out, const NewtonKernels& kernels) const {
   const PlaneView right[3] = {{rhs.x.row(0), rhs.x.stride()},
                               {rhs.y.row(0), rhs.y.stride()},
@@ -41,7 +41,7 @@ void LineFactor::solve(int block, const PaddedVectors& rhs, Solve how, std::span
                                       {out.y.row(0), out.y.stride()},
                                       {out.z.row(0), out.z.stride()}};
   const auto solve_block = held_ ? kernels.solve_held_lines : kernels.solve_lines;
-  solve_block(at(block), factor_of(block), right, how.scale, how.add, scratch.data(), result);
+  solve_block(at(block), factor_of(block), right, how.scale, how.add, scratch, result);
 }
 
 }  // namespace weft

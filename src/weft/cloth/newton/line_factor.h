@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <memory>
 #include <new>
-#include <span>
 
 #include "weft/cloth/kernels/newton_kernels.h"
 #include "weft/cloth/newton/padded_planes.h"
@@ -26,8 +25,8 @@ class LineFactor {
     float scale = 1;
     bool add = false;
   };
-  void solve(int block, const PaddedVectors& rhs, Solve how, std::span<float> scratch,
-             PaddedVectors& out, const NewtonKernels& kernels) const;
+  void solve(int block, const PaddedVectors& rhs, Solve how, float* scratch, PaddedVectors& out,
+             const NewtonKernels& kernels) const;
   /// Floats of scratch that solve needs.
   [[nodiscard]] static std::size_t scratch_size(int size) {
     return static_cast<std::size_t>(size) * 3 * line_lanes;

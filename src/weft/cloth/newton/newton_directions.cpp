@@ -49,8 +49,8 @@ double NewtonPart::start_direction(bool along_last, Worker& worker) {
   });
 }
 
-double NewtonPart::precondition(bool has_product, Worker& worker) {
-  multigrid_.cycle(worker);
+double NewtonPart::end_cycle(const Contacts& contacts, bool has_product, Worker& worker) {
+  multigrid_.smooth_last(exact(contacts), worker);
   if (!has_product) return 0;
   return sums_.sum(worker, [&](int r) {
     return kernels_.dot(whole_vectors(cloth_.size), shares_of(r), std::as_const(product_).row(r),
@@ -61,17 +61,15 @@ double NewtonPart::precondition(bool has_product, Worker& worker) {
 double NewtonPart::update_direction(double overlap, Worker& worker) {
   const int n = whole_vectors(cloth_.size);
   return sums_.sum(worker, [&](int r) {
-    kernels_.scale_add(n, std::as_const(multigrid_).value().row(r), static_cast<float>(-overlap),
-                       direction_.row(r));
-    return kernels_.dot(n, shares_of(r), std::as_const(residual_).row(r),
-                        std::as_const(direction_).row(r));
+    return kernels_.update(n, shares_of(r), std::as_const(multigrid_).value().row(r),
+                           static_cast<float>(-overlap), std::as_const(residual_).row(r),
+                           direction_.row(r));
   });
 }
 
 double NewtonPart::multiply(const Contacts& contacts, Worker& worker) {
   multigrid_.apply(direction_,
-                   {contacts.press ? &contacts.gather : nullptr, contacts.loads,
-                    curved_.active() ? &curved_ : nullptr, row_parts_.data()},
+                   {exact(contacts), curved_.active() ? &curved_ : nullptr, row_parts_.data()},
                    product_, worker);
   return std::accumulate(row_parts_.begin(), row_parts_.end(), 0.0);
 }
@@ -80,11 +78,8 @@ double NewtonPart::advance(double length, Worker& worker) {
   const int n = whole_vectors(cloth_.size);
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {
-    const ConstRow3 direction = std::as_const(direction_).row(r);
-    largest_[r] = kernels_.largest(n, direction);
-    kernels_.add_scaled(n, static_cast<float>(length), direction, step_.row(r));
-    kernels_.add_scaled(n, static_cast<float>(-length), std::as_const(product_).row(r),
-                        residual_.row(r));
+    largest_[r] = kernels_.advance(n, static_cast<float>(length), std::as_const(direction_).row(r),
+                                   std::as_const(product_).row(r), step_.row(r), residual_.row(r));
   }
   worker.barrier();
   if (worker.rank() == 0) last_length_ = length;

@@ -15,11 +15,14 @@ double NewtonPart::bending_energy(const PaddedVectors& position, Worker& worker)
 }
 
 double NewtonPart::step_energy(Worker& worker) {
+  const Vec3f gained = static_cast<float>(input_.time_step) * input_.gravity;
   const double inner = sums_.sum(worker, [&](int r) {
     const float* mass = own_mass_.row(r);
-    const ConstRow3 v = std::as_const(state_.velocity).row(r), w = std::as_const(wanted_).row(r);
+    const ConstRow3 v = std::as_const(state_.velocity).row(r),
+                    v0 = row_of(std::as_const(start_velocity_), r);
     return springs_.damped_energy_row(state_, r) + lane_sum(cloth_.size, [&](int c) {
-             const double x = v.x[c] - w.x[c], y = v.y[c] - w.y[c], z = v.z[c] - w.z[c];
+             const double x = v.x[c] - v0.x[c] - gained.x, y = v.y[c] - v0.y[c] - gained.y,
+                          z = v.z[c] - v0.z[c] - gained.z;
              return 0.5 * mass[c] * (x * x + y * y + z * z);
            });
   });
@@ -65,12 +68,12 @@ template <class Velocity>
 double NewtonPart::kinetic_of(const Velocity& row_of_velocity, Worker& worker) {
   return sums_.sum(worker, [&](int r) {
     const ConstRow3 v = row_of_velocity(r);
-    return 0.5 * kernels_.dot(cloth_.size, own_mass_.row(r), v, v);
+    return 0.5 * kernels_.dot(whole_vectors(cloth_.size), own_mass_.row(r), v, v);
   });
 }
 
 double NewtonPart::start_kinetic(Worker& worker) {
-  return kinetic_of([&](int r) { return row_of(std::as_const(start_.velocity), r); }, worker);
+  return kinetic_of([&](int r) { return row_of(std::as_const(start_velocity_), r); }, worker);
 }
 
 double NewtonPart::kinetic(Worker& worker) {
@@ -90,7 +93,7 @@ double NewtonPart::kinetic_of(const Velocity& row_of_velocity, Vec3d beside, Wor
 }
 
 double NewtonPart::start_kinetic_beside(Vec3d velocity, Worker& worker) {
-  return kinetic_of([&](int r) { return row_of(std::as_const(start_.velocity), r); }, velocity,
+  return kinetic_of([&](int r) { return row_of(std::as_const(start_velocity_), r); }, velocity,
                     worker);
 }
 
@@ -106,7 +109,7 @@ Vec3d NewtonPart::gained_momentum(Worker& worker) {
                       [&](int c) { return double{mass[c]} * (double{v[c]} - double{v0[c]}); });
     });
   };
-  const Planes3& before = start_.velocity;
+  const Planes3& before = start_velocity_;
   const double x = gained(state_.velocity.x, before.x), y = gained(state_.velocity.y, before.y),
                z = gained(state_.velocity.z, before.z);
   return {x, y, z};

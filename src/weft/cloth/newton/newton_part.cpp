@@ -1,53 +1,28 @@
 #include "weft/cloth/newton/newton_part.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <utility>
 
 #include "weft/cloth/integrator.h"
 #include "weft/cloth/neighbours.h"
 
 namespace weft {
-namespace {
-
-bool same_row(ConstRow3 a, ConstRow3 b, int n) {
-  const auto same = [n](const float* p, const float* q) {
-    return std::memcmp(p, q, static_cast<std::size_t>(n) * sizeof(float)) == 0;
-  };
-  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
-}
-
-/// a + factor b
-void add_row(int n, ConstRow3 a, float factor, ConstRow3 b, Row3 out) {
-  for (int c = 0; c < n; ++c) {
-    out.x[c] = a.x[c] + factor * b.x[c];
-    out.y[c] = a.y[c] + factor * b.y[c];
-    out.z[c] = a.z[c] + factor * b.z[c];
-  }
-}
-
-}  // namespace
-
 NewtonPart::NewtonPart(const Cloth& cloth, int workers, InstructionSet instructions)
     : cloth_(cloth),
       kernels_(newton_kernels_for(instructions)),
       springs_(cloth, kernels_),
       multigrid_(cloth, workers, kernels_),
       curved_(cloth, instructions),
-      start_(rest_state(cloth)),
+      start_velocity_(cloth.size),
       next_(rest_state(cloth)),
       state_(cloth.size),
       plain_(curved_.active() ? Planes3(cloth.size) : Planes3()),
-      wanted_(cloth.size, cloth.size),
       step_(cloth.size, cloth.size),
       direction_(cloth.size, cloth.size),
       product_(cloth.size, cloth.size),
       residual_(multigrid_.rhs()),
       share_(cloth.size, cloth.size),
       own_mass_(cloth.size, cloth.size),
-      contact_blocks_(cloth.size, cloth.size),
-      contact_rows_(static_cast<std::size_t>(cloth.size)),
       sums_(cloth.size),
       row_parts_(static_cast<std::size_t>(cloth.size)),
       known_rows_(static_cast<std::size_t>(cloth.size)),
@@ -57,34 +32,21 @@ NewtonPart::NewtonPart(const Cloth& cloth, int workers, InstructionSet instructi
       share_(r, c) = cloth.mates.is_hole(r * cloth.size + c) ? 0.0F : 1.0F;
   Worker alone = Worker::lone();
   multigrid_.seams().share(Workers(alone, true), {&share_});
-  multigrid_.set_contacts({&contact_blocks_, contact_rows_.data()});
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c) own_mass_(r, c) = share_(r, c) * cloth.mass(r, c);
   find_mass();
 }
 
-/// Copies a row of the step's start and extrapolates it at its velocity.
-void NewtonPart::begin_row(const ClothState& state, bool go_on, int row) {
-  const int n = cloth_.size;
-  const auto h = static_cast<float>(input_.time_step);
-  const ConstRow3 x = row_of(state.position, row), v = row_of(state.velocity, row);
-  // The search starts along the velocity change of the last step.
-  if (go_on)
-    add_row(n, v, -1, row_of(std::as_const(start_).velocity, row), direction_.row(row));
-  else
-    clear_row(direction_.row(row), n);
-  copy_row(x, row_of(start_.position, row), n);
-  copy_row(v, row_of(start_.velocity, row), n);
-  known_rows_[row] = same_row(x, std::as_const(state_.position).row(row), n) ? 1 : 0;
-  add_row(n, x, h, v, row_of(next_.position, row));
-  copy_row(v, row_of(next_.velocity, row), n);
-  const Vec3f gained = h * input_.gravity;
-  const Row3 wanted = wanted_.row(row);
-  for (int c = 0; c < n; ++c) {
-    wanted.x[c] = v.x[c] + gained.x;
-    wanted.y[c] = v.y[c] + gained.y;
-    wanted.z[c] = v.z[c] + gained.z;
-  }
+/// Copies a row of the step's start and extrapolates it at its velocity. The search starts along
+/// the velocity change of the last step. @return whether the last run ended at these positions
+bool NewtonPart::begin_row(const ClothState& state, bool go_on, int row) {
+  const Row3 start_velocity = row_of(start_velocity_, row);
+  return kernels_.begin_step({cloth_.size, static_cast<float>(input_.time_step),
+                              row_of(state.position, row), row_of(state.velocity, row),
+                              go_on ? row_of(std::as_const(start_velocity_), row) : ConstRow3{},
+                              std::as_const(state_.position).row(row)},
+                             {state_.start.row(row), start_velocity, row_of(next_.position, row),
+                              row_of(next_.velocity, row), direction_.row(row)});
 }
 
 void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTeam& team) {
@@ -99,22 +61,23 @@ void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTe
   const bool go_on = std::exchange(has_last_, false);
   team.run([&](Worker& worker) {
     const Range mine = worker.share(cloth_.size);
-    for (int r = mine.first; r < mine.last; ++r) begin_row(state, go_on, r);
+    for (int r = mine.first; r < mine.last; ++r)
+      known_rows_[r] = begin_row(state, go_on, r) ? 1 : 0;
   });
   // A step mostly starts where the last run ended, whose potential energy is known.
   const bool known =
       same_gravity && std::find(known_rows_.begin(), known_rows_.end(), 0) == known_rows_.end();
   start_potential_ = known ? potential_ : HUGE_VAL;
-  set_pins(cloth_, start_, input.time_step, next_);
-  look_at_pins();
+  set_pins(cloth_, state, input.time_step, next_);
+  look_at_pins(state.position);
 }
 
-void NewtonPart::look_at_pins() {
+void NewtonPart::look_at_pins(const Planes3& start) {
   pulled_ = cloth_.apart.has_value();
   pin_step_.reset();
   bool alike = !pulled_;
   for (const Pin& held : cloth_.pins) {
-    const Vec3f target = vec_cast<float>(held.target), from = start_.position.at(held.sample);
+    const Vec3f target = vec_cast<float>(held.target), from = start.at(held.sample);
     pulled_ = pulled_ || target != from;
     const Vec3d moved = vec_cast<double>(target) - vec_cast<double>(from);
     if (!pin_step_) pin_step_ = moved;
@@ -135,27 +98,22 @@ void NewtonPart::find_mass() {
 
 /// Where a filter moved the guess, its velocity becomes the remaining displacement over the time
 /// step.
-void NewtonPart::follow_guess(int row) {
-  const auto h = static_cast<float>(input_.time_step), per_step = 1 / h;
-  const Planes3 &x0 = start_.position, &x = next_.position;
-  Planes3& v = next_.velocity;
-  const auto follow = [&](const float* from, const float* to, float* speed) {
-    for (int c = 0; c < cloth_.size; ++c)
-      if (to[c] != from[c] + h * speed[c]) speed[c] = per_step * (to[c] - from[c]);
-  };
-  follow(x0.x.row(row), x.x.row(row), v.x.row(row));
-  follow(x0.y.row(row), x.y.row(row), v.y.row(row));
-  follow(x0.z.row(row), x.z.row(row), v.z.row(row));
+void NewtonPart::read_row(int row) {
+  const ConstRow3 position = row_of(std::as_const(next_.position), row),
+                  velocity = row_of(std::as_const(next_.velocity), row);
+  if (iterations == 0) {
+    kernels_.follow_guess(cloth_.size, static_cast<float>(input_.time_step),
+                          std::as_const(state_.start).row(row), position, velocity,
+                          state_.position.row(row), state_.velocity.row(row));
+  } else {
+    copy_row(position, state_.position.row(row), cloth_.size);
+    copy_row(velocity, state_.velocity.row(row), cloth_.size);
+  }
 }
 
 void NewtonPart::read_state(Worker& worker) {
   const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) {
-    if (iterations == 0) follow_guess(r);
-    copy_row(row_of(std::as_const(next_.position), r), state_.position.row(r), cloth_.size);
-    copy_row(row_of(std::as_const(next_.velocity), r), state_.velocity.row(r), cloth_.size);
-    copy_row(row_of(std::as_const(start_.position), r), state_.start.row(r), cloth_.size);
-  }
+  for (int r = mine.first; r < mine.last; ++r) read_row(r);
   worker.barrier();
 }
 
@@ -175,23 +133,16 @@ void NewtonPart::clear_step(Worker& worker) {
 }
 
 void NewtonPart::linearise(float guessed_share, Worker& worker) {
-  const Range mine = worker.share(cloth_.size);
-  for (int r = mine.first; r < mine.last; ++r) springs_.linearise_row(state_, guessed_share, r);
-  worker.barrier();
-  for (int r = mine.first; r < mine.last; ++r) springs_.gradient_row(state_, wanted_, r, residual_);
   if (curved_.active()) {
     take_plain(state_.position, worker);
     curved_.set_position(plain_, worker);
-    for (int r = mine.first; r < mine.last; ++r) curved_.add_row(r, residual_);
-  } else {
-    multigrid_.add_bending_gradient(state_.position, residual_, worker);
   }
-  for (int r = mine.first; r < mine.last; ++r)
-    kernels_.scale_rows(whole_vectors(cloth_.size), -1, residual_.row(r));
-  multigrid_.complete(residual_, worker);
+  const Vec3f gained = static_cast<float>(input_.time_step) * input_.gravity;
+  multigrid_.linearise({state_, start_velocity_, gained, guessed_share},
+                       curved_.active() ? &curved_ : nullptr, springs_, residual_, worker);
 }
 
-const PaddedBlocks& NewtonPart::diagonal(Worker& worker) {
+const PlaneSet& NewtonPart::diagonal(Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) multigrid_.fill_diagonals(springs_, r);
   worker.barrier();
@@ -204,25 +155,18 @@ void NewtonPart::set_up(const Contacts& contacts, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) {
     multigrid_.fill_diagonals(springs_, r);
-    const bool touched = contacts.press && contacts.gather.row(r);
-    contact_rows_[r] = touched ? 1 : 0;
-    if (!touched) continue;
-    std::array<float*, 6> blocks{};
-    for (int k = 0; k < 6; ++k) {
-      blocks[k] = contact_blocks_.entry[k].row(r);
-      std::fill_n(blocks[k], cloth_.size, 0.0F);
-    }
-    contacts.gather.add_blocks(r, contacts.springs, blocks);
-    BlockRow6 added{};
-    std::copy(blocks.begin(), blocks.end(), added.entry);
-    multigrid_.add_to_diagonals(added, r);
+    if (contacts.product == nullptr || !contacts.product->touches(contacts.cloth, r)) continue;
+    contacts.product->for_blocks(contacts.cloth, r,
+                                 [&](int col, const ContactProduct::Blocks& blocks) {
+                                   multigrid_.add_to_diagonals(blocks, r, col);
+                                 });
   }
   worker.barrier();
   multigrid_.set_up(springs_, worker);
 }
 
-void NewtonPart::add_contact_forces(const Contacts& contacts, float sign, Worker& worker) {
-  multigrid_.add_loads(contacts.gather, contacts.loads, sign, residual_, worker);
+void NewtonPart::add_loads(const Contacts& contacts, Worker& worker) {
+  multigrid_.add_loads(exact(contacts), residual_, worker);
 }
 
 void NewtonPart::move_state(float length, Worker& worker) {

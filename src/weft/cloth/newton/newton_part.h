@@ -32,7 +32,8 @@ class NewtonPart {
   /// Drops the last velocity change: the next solve starts without a direction.
   void forget() { has_last_ = false; }
   [[nodiscard]] ClothState& next() { return next_; }
-  [[nodiscard]] const Planes3& start() const { return start_.position; }
+  /// Positions at the step's start [m].
+  [[nodiscard]] const PaddedVectors& start() const { return state_.start; }
   [[nodiscard]] const StepInput& input() const { return input_; }
   /// Mass of all particles that are not pinned [kg].
   [[nodiscard]] double mass() const { return mass_; }
@@ -70,16 +71,15 @@ class NewtonPart {
   /// Linearises springs and bending at the state. @param guessed_share  see SpringHessian
   void linearise(float guessed_share, Worker& worker);
   /// The diagonal blocks of springs and bending, summed over seam copies.
-  const PaddedBlocks& diagonal(Worker& worker);
-  /// The contacts' terms in a system.
+  const PlaneSet& diagonal(Worker& worker);
+  /// The contacts' terms in a system, of which this cloth has some.
   struct Contacts {
-    const ContactGather& gather;
-    ContactGather::Springs springs;
-    std::span<const Vec3f> loads;
-    bool press = false;  ///< whether any is active
+    const ContactProduct* product = nullptr;  ///< null: none is active
+    std::size_t cloth = 0;                    ///< this one's index
   };
   void set_up(const Contacts& contacts, Worker& worker);
-  void add_contact_forces(const Contacts& contacts, float sign, Worker& worker);
+  /// Adds the contacts' loads to the residual.
+  void add_loads(const Contacts& contacts, Worker& worker);
   /// Net residual force on the cloth, to which internal forces add nothing [N].
   Vec3d force(Worker& worker);
   /// Moves the cloth as a whole and subtracts the inertia of that from the residual. [m]
@@ -94,8 +94,14 @@ class NewtonPart {
   /// @param along_last  whether to start along the velocity change of the last step
   /// @return residual . direction [N m]
   double start_direction(bool along_last, Worker& worker);
-  /// Preconditions the residual. @return product . the result [N m]
-  double precondition(bool has_product, Worker& worker);
+  /// Preconditions the residual, in three parts: before the last two the contacts' loads become
+  /// those of preconditioned().
+  void begin_cycle(Worker& worker) { multigrid_.smooth_first(worker); }
+  void correct(const Contacts& contacts, Worker& worker) {
+    multigrid_.correct(exact(contacts), worker);
+  }
+  /// @return product . the result [N m]
+  double end_cycle(const Contacts& contacts, bool has_product, Worker& worker);
   /// direction = preconditioned residual - overlap * direction.
   /// @return residual . direction [N m]
   double update_direction(double overlap, Worker& worker);
@@ -129,16 +135,20 @@ class NewtonPart {
   [[nodiscard]] const PaddedVectors& position() const { return state_.position; }
   [[nodiscard]] const PaddedVectors& step() const { return step_; }
   [[nodiscard]] const PaddedVectors& direction() const { return direction_; }
+  [[nodiscard]] const PaddedVectors& preconditioned() const { return multigrid_.value(); }
 
  private:
-  void begin_row(const ClothState& state, bool go_on, int row);
-  void follow_guess(int row);
+  [[nodiscard]] static BlockMultigrid::Loads exact(const Contacts& contacts) {
+    return {contacts.product, contacts.cloth};
+  }
+  bool begin_row(const ClothState& state, bool go_on, int row);
+  void read_row(int row);
   void find_mass();
   void take_plain(const PaddedVectors& position, Worker& worker);
   [[nodiscard]] const float* shares_of(int row) const {
     return multigrid_.seams().empty() ? nullptr : share_.row(row);
   }
-  void look_at_pins();
+  void look_at_pins(const Planes3& start);
   template <class Velocity>
   double kinetic_of(const Velocity& row_of_velocity, Worker& worker);
   template <class Velocity>
@@ -152,16 +162,14 @@ class NewtonPart {
   BlockMultigrid multigrid_;
   CurvedBending curved_;
   StepInput input_;
-  ClothState start_, next_;
+  Planes3 start_velocity_;  // [m/s]
+  ClothState next_;
   PaddedState state_;                         // next_ and the start's positions, in padded planes
   Planes3 plain_;                             // unpadded positions, for curved bending
-  PaddedVectors wanted_;                      // v0 + h g [m/s]
   PaddedVectors step_, direction_, product_;  // [m], [m], [N]
   PaddedVectors& residual_;                   // [N]
   PaddedPlane share_;                         // 1 / number of copies
   Grid<float> own_mass_;                      // share of the mass [kg]
-  PaddedBlocks contact_blocks_;               // of active contacts [N/m]
-  std::vector<char> contact_rows_;            // [n] whether a row has any
   RowSums sums_;
   std::vector<double> row_parts_;      // [n] of direction . product
   std::vector<char> known_rows_;       // [n] whether potential_ is of the start's positions
@@ -174,7 +182,7 @@ class NewtonPart {
   std::optional<Vec3d> pin_step_;
   double last_length_ = 0;  // of the last advance along the direction
   bool pulled_ = false;
-  bool has_last_ = false;  // whether start_ and next_ are those of the step before
+  bool has_last_ = false;  // whether start_velocity_ and next_ are those of the step before
 };
 
 }  // namespace weft

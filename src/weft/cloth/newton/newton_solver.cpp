@@ -34,20 +34,24 @@ NewtonSolver::NewtonSolver(std::span<NewtonPart* const> parts)
     positions_.push_back(&part->position());
     steps_.push_back(&part->step());
     directions_.push_back(&part->direction());
+    preconditioned_.push_back(&part->preconditioned());
   }
 }
 
 NewtonPart::Contacts NewtonSolver::contacts_of(std::size_t part) const {
-  return {contacts_.gather(part), contacts_.springs(), contacts_.loads(), contacts_.active() > 0};
+  return {contacts_.active() > 0 ? &contacts_.product() : nullptr, part};
 }
 
 double NewtonSolver::drift(Worker& worker) {
   const auto flies = [&](std::size_t i) {
     return parts_[i]->cloth().pins.empty() && !contacts_.is_held(i);
   };
-  bool all_fly = contacts_.is_shared();
-  for (std::size_t i = 0; i < parts_.size(); ++i) all_fly = all_fly && flies(i);
-  if (contacts_.is_shared() && !all_fly) return 0;
+  bool all_fly = contacts_.is_shared(), any_flies = false;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    all_fly = all_fly && flies(i);
+    any_flies = any_flies || flies(i);
+  }
+  if (!any_flies || (contacts_.is_shared() && !all_fly)) return 0;
   each(worker, [&](std::size_t i, Worker& own) {
     const Vec3d force = parts_[i]->force(own);
     if (own.rank() == 0) forces_[i] = force;
@@ -79,27 +83,23 @@ void NewtonSolver::linearise(Worker& worker) {
   if (!contacts_.empty()) contacts_.place(positions_, worker);
 }
 
-void NewtonSolver::add_contact_forces(float sign, Worker& worker) {
-  if (contacts_.active() == 0) return;
-  contacts_.load_forces(steps_, worker);
-  each(worker, [&](std::size_t i, Worker& own) {
-    parts_[i]->add_contact_forces(contacts_of(i), sign, own);
-  });
-}
-
 /// Updates the active contacts and their friction, and their forces in the residual.
+/// @param stepped  whether a step was made since the linearisation
 /// @return whether any contact changed
-bool NewtonSolver::choose_contacts(Worker& worker) {
+bool NewtonSolver::choose_contacts(bool stepped, Worker& worker) {
   if (contacts_.empty()) return false;
-  add_contact_forces(-1, worker);
-  const bool changed = contacts_.choose(steps_, worker);
-  add_contact_forces(1, worker);
+  const ContactSystem::Fields steps = steps_;
+  const bool changed = contacts_.choose(stepped ? &steps : nullptr, worker);
+  if (contacts_.product().size() == 0) return changed;
+  each(worker, [&](std::size_t i, Worker& own) {
+    parts_[i]->add_loads({&contacts_.product(), i}, own);
+  });
   return changed;
 }
 
 /// Moves along the direction to the minimum of the linearised energy.
 void NewtonSolver::descend_direction(Progress& progress, Worker& worker) {
-  if (contacts_.active() > 0) contacts_.load_product(directions_, worker);
+  if (contacts_.active() > 0) contacts_.product().multiply(directions_, worker);
   progress.curvature = total(
       worker, [&](std::size_t i, Worker& own) { return parts_[i]->multiply(contacts_of(i), own); });
   const double length = progress.curvature > 0 ? progress.slope / progress.curvature : 0;
@@ -113,13 +113,24 @@ void NewtonSolver::descend_direction(Progress& progress, Worker& worker) {
                    (parts_.front()->input().time_step * standard_gravity);
 }
 
+/// A cycle of each part, at whose finest levels all parts have the exact product of contacts.
+/// @return product . the result [N m]
+double NewtonSolver::precondition(bool has_product, Worker& worker) {
+  const bool press = contacts_.active() > 0;
+  each(worker, [&](std::size_t i, Worker& own) { parts_[i]->begin_cycle(own); });
+  if (press) contacts_.product().multiply(preconditioned_, worker);
+  each(worker, [&](std::size_t i, Worker& own) { parts_[i]->correct(contacts_of(i), own); });
+  if (press) contacts_.product().multiply(preconditioned_, worker);
+  return total(worker, [&](std::size_t i, Worker& own) {
+    return parts_[i]->end_cycle(contacts_of(i), has_product, own);
+  });
+}
+
 /// An iteration of conjugate gradients: the preconditioned residual, made conjugate to the last
 /// direction, is the next one. The slope is measured along the result, which may be rounding alone.
 void NewtonSolver::iterate(Progress& progress, Worker& worker) {
   const bool has_product = progress.curvature > 0;
-  double overlap = total(worker, [&](std::size_t i, Worker& own) {
-    return parts_[i]->precondition(has_product, own);
-  });
+  double overlap = precondition(has_product, worker);
   if (has_product) overlap /= progress.curvature;
   progress.slope = total(worker, [&](std::size_t i, Worker& own) {
     return parts_[i]->update_direction(overlap, own);
@@ -151,14 +162,14 @@ void NewtonSolver::move_state(float length, Worker& worker) {
 
 void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Worker& worker) {
   linearise(worker);
-  choose_contacts(worker);
+  choose_contacts(false, worker);
   if (is_pulled_unlike() || is_long()) progress.before = energy(0, worker);
   progress.promised = drift(worker);
   for (int round = 0; round < max_contact_rounds; ++round) {
     each(worker, [&](std::size_t i, Worker& own) { parts_[i]->set_up(contacts_of(i), own); });
     solve(options, progress, worker);
     if (contacts_.empty() || round + 1 == max_contact_rounds) break;
-    if (!choose_contacts(worker)) break;
+    if (!choose_contacts(true, worker)) break;
   }
   // Removes the net force that the iterations left, so that few of them lose no momentum.
   progress.promised += drift(worker);

@@ -56,8 +56,8 @@ class NewtonSolver {
   /// @return the decrease of the energy by that [J]
   double drift(Worker& worker);
   void linearise(Worker& worker);
-  void add_contact_forces(float sign, Worker& worker);
-  bool choose_contacts(Worker& worker);
+  bool choose_contacts(bool stepped, Worker& worker);
+  double precondition(bool has_product, Worker& worker);
   void solve(const NewtonOptions& options, Progress& progress, Worker& worker);
   void iterate(Progress& progress, Worker& worker);
   void descend_direction(Progress& progress, Worker& worker);
@@ -93,7 +93,7 @@ class NewtonSolver {
 
   std::vector<NewtonPart*> parts_;
   ContactSystem contacts_;
-  std::vector<const PaddedVectors*> positions_, steps_, directions_;
+  std::vector<const PaddedVectors*> positions_, steps_, directions_, preconditioned_;
   std::vector<ContactSystem::Own> own_;  // arguments of set_contacts
   RowSums sums_;                         // over parts
   std::vector<Vec3d> forces_;            // net residual force on each part [N]

@@ -80,14 +80,49 @@ inline void clear_row(Row3 row, int n) {
   std::fill_n(row.z, n, 0.0F);
 }
 
-/// A symmetric 3 x 3 block a sample: xx, xy, xz, yy, yz, zz.
-struct PaddedBlocks {
-  std::array<PaddedPlane, 6> entry;
-
-  PaddedBlocks() = default;
-  PaddedBlocks(int rows, int cols) {
-    for (PaddedPlane& plane : entry) plane = PaddedPlane(rows, cols);
+/// Several planes in frames of zeros whose rows alternate: row 0 of each, row 1 of each, and so on.
+/// A kernel reads a row of all with one pointer and their distance. The frame has a row above and
+/// below, and 16 columns on either side.
+class PlaneSet {
+ public:
+  PlaneSet() = default;
+  PlaneSet(int rows, int cols, int count)
+      : rows_(rows), cols_(cols), count_(count), pitch_((cols + 2 * frame_cols + 15) / 16 * 16) {
+    const std::size_t size = static_cast<std::size_t>(rows + 2) * stride();
+    data_.reset(static_cast<float*>(::operator new(size * sizeof(float), alignment)));
+    for (std::size_t i = 0; i < size; ++i) data_[i] = 0;
   }
+
+  [[nodiscard]] int rows() const { return rows_; }
+  [[nodiscard]] int cols() const { return cols_; }
+  [[nodiscard]] int count() const { return count_; }
+  /// Floats from a row of a plane to that of the next plane, and to the next row of the same.
+  [[nodiscard]] std::ptrdiff_t pitch() const { return pitch_; }
+  [[nodiscard]] std::ptrdiff_t stride() const { return pitch_ * count_; }
+  /// @param r  from -1 to rows
+  [[nodiscard]] float* row(int r, int plane = 0) { return data_.get() + offset(r, plane); }
+  [[nodiscard]] const float* row(int r, int plane = 0) const {
+    return data_.get() + offset(r, plane);
+  }
+  [[nodiscard]] float& operator()(int r, int c, int plane) { return row(r, plane)[c]; }
+  [[nodiscard]] float operator()(int r, int c, int plane) const { return row(r, plane)[c]; }
+  [[nodiscard]] PlaneView view(int plane) const { return {row(0, plane), stride()}; }
+  /// A row of all planes becomes 0.
+  void clear_row(int r) { std::fill_n(data_.get() + (r + 1) * stride(), stride(), 0.0F); }
+
+ private:
+  static constexpr int frame_cols = 16;
+  static constexpr std::align_val_t alignment{64};
+  struct Free {
+    void operator()(float* p) const { ::operator delete(p, alignment); }
+  };
+  [[nodiscard]] std::ptrdiff_t offset(int r, int plane) const {
+    return (r + 1) * stride() + plane * pitch_ + frame_cols;
+  }
+
+  int rows_ = 0, cols_ = 0, count_ = 0;
+  std::ptrdiff_t pitch_ = 0;
+  std::unique_ptr<float[], Free> data_;
 };
 
 /// Three rows of a field from a column on. @param r  from -1 to rows
@@ -99,16 +134,12 @@ inline RowTriple rows_around(const PaddedVectors& field, int r, int first_col = 
   return {from(r - 1), from(r), from(r + 1)};
 }
 
-/// A row of blocks from a column on, which may be -1.
-inline BlockRow6 row_of(const PaddedBlocks& blocks, int r, int first_col = 0) {
-  BlockRow6 row{};
-  for (int k = 0; k < 6; ++k) row.entry[k] = blocks.entry[k].row(r) + first_col;
-  return row;
+/// A row of a set from a column on, which may be -1.
+inline PlaneRows rows_of(const PlaneSet& planes, int r, int first_col = 0) {
+  return {planes.row(r) + first_col, planes.pitch()};
 }
-inline MutableBlockRow6 row_of(PaddedBlocks& blocks, int r, int first_col = 0) {
-  MutableBlockRow6 row{};
-  for (int k = 0; k < 6; ++k) row.entry[k] = blocks.entry[k].row(r) + first_col;
-  return row;
+inline MutablePlaneRows rows_of(PlaneSet& planes, int r, int first_col = 0) {
+  return {planes.row(r) + first_col, planes.pitch()};
 }
 
 /// The workers of a level: all of a team, or one for whom the others wait.

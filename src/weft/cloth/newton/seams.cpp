@@ -157,6 +157,16 @@ void Seams::sum(const Workers& workers, std::initializer_list<PaddedPlane*> plan
   });
 }
 
+void Seams::sum(const Workers& workers, PlaneSet& planes) const {
+  const Range mine = workers.share(class_count());
+  for (int i = mine.first; i < mine.last; ++i)
+    for (int k = 0; k < planes.count(); ++k) {
+      float total = 0;
+      for (const int s : samples(i)) total += planes(s / size_, s % size_, k);
+      for (const int s : samples(i)) planes(s / size_, s % size_, k) = total;
+    }
+}
+
 void Seams::average(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
   set_copies(workers, planes,
              [this](const float* plane, std::span<const std::ptrdiff_t> places, int i) {

@@ -47,6 +47,8 @@ class Seams {
 
   /// Every copy gets the sum over its class, added in ascending order of samples.
   void sum(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
+  /// The same for all planes of a set.
+  void sum(const Workers& workers, PlaneSet& planes) const;
   /// Every copy gets the mean.
   void average(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
   /// Every copy gets the value of the first.

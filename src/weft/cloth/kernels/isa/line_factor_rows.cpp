@@ -135,75 +135,115 @@ void factor(const LineBlock& block, const PlaneView* diagonal, const PlaneView& 
   }
 }
 
+/// A symmetric block of a pack of lanes: xx, xy, xz, yy, yz, zz.
+struct Block {
+  Pack xx, xy, xz, yy, yz, zz;
+};
+[[gnu::always_inline]] inline Pack3 operator*(const Block& b, const Pack3& v) {
+  return {b.xx * v.x + b.xy * v.y + b.xz * v.z, b.xy * v.x + b.yy * v.y + b.yz * v.z,
+          b.xz * v.x + b.yz * v.y + b.zz * v.z};
+}
+
+/// By L D L^T.
+[[gnu::always_inline]] inline Block inverse_of(const Block& a) {
+  const Pack least_yy = min_series_pivot * a.yy, least_zz = min_series_pivot * a.zz;
+  const Pack i0 = 1 / a.xx, l1 = a.xy * i0, l2 = a.xz * i0;
+  const Pack i1 = 1 / larger(a.yy - l1 * a.xy, least_yy), e4 = a.yz - l1 * a.xz, m = e4 * i1;
+  const Pack i2 = 1 / larger(a.zz - l2 * a.xz - m * e4, least_zz), n = m * l1 - l2;
+  return {i0 + l1 * l1 * i1 + n * n * i2,
+          Pack{} - (l1 * i1 + m * n * i2),
+          n * i2,
+          i1 + m * m * i2,
+          Pack{} - m * i2,
+          i2};
+}
+
 /// The elimination of springs in series, in single precision without cancellation. With Q the
 /// diagonal block of a sample without the spring K = t 1 + s s^T to the next one,
 /// P = K - K (Q + K)^-1 K is added to the next sample's block.
+/// @param block  Q without P; then P  @return (Q + K)^-1
+[[gnu::always_inline]] inline Block pass_on(Pack t, const Pack3& s, Block& block) {
+  block.xx += t;
+  block.yy += t;
+  block.zz += t;
+  // (W^-1 + s s^T)^-1 = W - q q^T / (1 + s . q), W = (Q + t 1)^-1, q = W s.
+  const Block w = inverse_of(block);
+  const Pack3 q = w * s;
+  const Pack part = 1 / (1 + dot(s, q));
+  const Pack3 r = part * q;
+  // P = t (1 - t W) + (s - t q) (s - t q)^T / (1 + s . q)
+  const Pack3 u = s - t * q, v = part * u;
+  const Pack tt = t * t;
+  block = {t - tt * w.xx + v.x * u.x, v.x * u.y - tt * w.xy, v.x * u.z - tt * w.xz,
+           t - tt * w.yy + v.y * u.y, v.y * u.z - tt * w.yz, t - tt * w.zz + v.z * u.z};
+  return {w.xx - r.x * q.x, w.xy - r.x * q.y, w.xz - r.x * q.z,
+          w.yy - r.y * q.y, w.yz - r.y * q.z, w.zz - r.z * q.z};
+}
+
+/// Lines of springs, with the blocks that their positions pass on.
 template <int lanes>
 struct Series {
-  alignas(64) float passed[6][lanes] = {};  // P
+  alignas(64) float passed[6][lanes] = {};
+  alignas(64) float held[6][chunk][lanes] = {};
+  alignas(64) float spring[4][chunk][lanes] = {};
 
-  /// out = (Q + K)^-1 and K. @param held  Q without the P of the spring before
-  void advance(const float (*held)[chunk][lanes], const float (*spring)[chunk][lanes], int j,
-               float* out) {
-#pragma omp simd
-    for (int i = 0; i < lanes; ++i) {
-      const float t = spring[0][j][i], x = spring[1][j][i], y = spring[2][j][i],
-                  z = spring[3][j][i];
-      const float a0 = held[0][j][i] + passed[0][i] + t, a1 = held[1][j][i] + passed[1][i],
-                  a2 = held[2][j][i] + passed[2][i], a3 = held[3][j][i] + passed[3][i] + t,
-                  a4 = held[4][j][i] + passed[4][i], a5 = held[5][j][i] + passed[5][i] + t;
-      // W = (Q + t 1)^-1 by L D L^T.
-      const float i0 = 1 / a0, l1 = a1 * i0, l2 = a2 * i0;
-      const float p1 = a3 - l1 * a1, least1 = min_series_pivot * a3;
-      const float i1 = 1 / (p1 > least1 ? p1 : least1), e4 = a4 - l1 * a2, m = e4 * i1;
-      const float p2 = a5 - l2 * a2 - m * e4, least2 = min_series_pivot * a5;
-      const float i2 = 1 / (p2 > least2 ? p2 : least2), n = m * l1 - l2;
-      const float w0 = i0 + l1 * l1 * i1 + n * n * i2, w1 = -(l1 * i1 + m * n * i2), w2 = n * i2,
-                  w3 = i1 + m * m * i2, w4 = -(m * i2), w5 = i2;
-      // (W^-1 + s s^T)^-1 = W - q q^T / (1 + s . q), q = W s.
-      const float qx = w0 * x + w1 * y + w2 * z, qy = w1 * x + w3 * y + w4 * z,
-                  qz = w2 * x + w4 * y + w5 * z;
-      const float part = 1 / (1 + x * qx + y * qy + z * qz);
-      const float rx = part * qx, ry = part * qy, rz = part * qz;
-      out[i] = w0 - rx * qx;
-      out[lanes + i] = w1 - rx * qy;
-      out[2 * lanes + i] = w2 - rx * qz;
-      out[3 * lanes + i] = w3 - ry * qy;
-      out[4 * lanes + i] = w4 - ry * qz;
-      out[5 * lanes + i] = w5 - rz * qz;
-      out[6 * lanes + i] = t;
-      out[7 * lanes + i] = x;
-      out[8 * lanes + i] = y;
-      out[9 * lanes + i] = z;
-      // P = t (1 - t W) + (s - t q) (s - t q)^T / (1 + s . q)
-      const float ux = x - t * qx, uy = y - t * qy, uz = z - t * qz, tt = t * t;
-      const float vx = part * ux, vy = part * uy, vz = part * uz;
-      passed[0][i] = t - tt * w0 + vx * ux;
-      passed[1][i] = vx * uy - tt * w1;
-      passed[2][i] = vx * uz - tt * w2;
-      passed[3][i] = t - tt * w3 + vy * uy;
-      passed[4][i] = vy * uz - tt * w4;
-      passed[5][i] = t - tt * w5 + vz * uz;
+  [[gnu::always_inline]] void add_held(int j, int i, Block& block) const {
+    block.xx += load(&held[0][j][i]);
+    block.xy += load(&held[1][j][i]);
+    block.xz += load(&held[2][j][i]);
+    block.yy += load(&held[3][j][i]);
+    block.yz += load(&held[4][j][i]);
+    block.zz += load(&held[5][j][i]);
+  }
+
+  /// Packs that are worked on in turn: a lone one would wait for its own results.
+  static constexpr int packs = lanes / width < 2 ? lanes / width : 2;
+
+  [[gnu::always_inline]] void advance_one(int j, int i, Block& block, float* out) const {
+    const Pack t = load(&spring[0][j][i]);
+    const Pack3 s{load(&spring[1][j][i]), load(&spring[2][j][i]), load(&spring[3][j][i])};
+    add_held(j, i, block);
+    const Block inverse = pass_on(t, s, block);
+    const Pack values[held_factor_entries] = {
+        inverse.xx, inverse.xy, inverse.xz, inverse.yy, inverse.yz, inverse.zz, t, s.x, s.y, s.z};
+    for (int k = 0; k < held_factor_entries; ++k) store(values[k], out + k * lanes + i);
+  }
+  [[gnu::always_inline]] Block passed_to(int i) const {
+    return {load(&passed[0][i]), load(&passed[1][i]), load(&passed[2][i]),
+            load(&passed[3][i]), load(&passed[4][i]), load(&passed[5][i])};
+  }
+  [[gnu::always_inline]] void pass(const Block& block, int i) {
+    const Pack values[6] = {block.xx, block.xy, block.xz, block.yy, block.yz, block.zz};
+    for (int k = 0; k < 6; ++k) store(values[k], &passed[k][i]);
+  }
+
+  /// Positions 0 .. count - 1 of the tiles, lanes i on. @param out  factors of the first
+  void advance(int count, int i, float* out) {
+    Block block = passed_to(i), other = passed_to(i + (packs - 1) * width);
+    for (int j = 0; j < count; ++j, out += held_factor_entries * lanes) {
+      advance_one(j, i, block, out);
+      if constexpr (packs > 1) advance_one(j, i + width, other, out);
     }
+    pass(block, i);
+    if constexpr (packs > 1) pass(other, i + width);
   }
 };
 
 template <int lanes>
 void factor_series(const LineBlock& block, const HeldLineMatrix& matrix, float* factors) {
   Series<lanes> state;
-  alignas(64) float held[6][chunk][lanes] = {}, spring[4][chunk][lanes] = {};
   for (int position = 0; position < block.length; position += chunk) {
     const int count = block.length - position < chunk ? block.length - position : chunk;
-    for (int k = 0; k < 6; ++k) read_tile<lanes>(matrix.held[k], block, position, count, held[k]);
+    for (int k = 0; k < 6; ++k)
+      read_tile<lanes>(matrix.held[k], block, position, count, state.held[k]);
     for (int k = 0; k < 4; ++k)
-      read_tile<lanes>(matrix.spring[k], block, position, count, spring[k]);
-    for (int j = 0; j < count; ++j) {
-      // Keeps the systems of lanes without a line regular.
-      for (int i = block.width; i < lanes; ++i) held[0][j][i] = held[3][j][i] = held[5][j][i] = 1;
-      state.advance(
-          held, spring, j,
-          factors + static_cast<std::ptrdiff_t>(position + j) * held_factor_entries * lanes);
-    }
+      read_tile<lanes>(matrix.spring[k], block, position, count, state.spring[k]);
+    // Keeps the systems of lanes without a line regular.
+    for (int j = 0; j < count; ++j)
+      for (int i = block.width; i < lanes; ++i)
+        state.held[0][j][i] = state.held[3][j][i] = state.held[5][j][i] = 1;
+    for (int i = 0; i < lanes; i += Series<lanes>::packs * width)
+      state.advance(count, i, factors + std::ptrdiff_t{position} * held_factor_entries * lanes);
   }
 }
 

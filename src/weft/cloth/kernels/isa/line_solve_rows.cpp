@@ -5,83 +5,115 @@
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// out = G v for the blocks of a position
+/// A vector of a pack of lanes. @param planes  x, y and z, `lanes` floats apart
 template <int lanes>
-inline void multiply(const float* blocks, const float (*v)[lanes], float (*out)[lanes]) {
-#pragma omp simd
-  for (int i = 0; i < lanes; ++i) {
-    const float x = v[0][i], y = v[1][i], z = v[2][i];
-    const float xy = blocks[lanes + i], xz = blocks[2 * lanes + i], yz = blocks[4 * lanes + i];
-    out[0][i] = blocks[i] * x + xy * y + xz * z;
-    out[1][i] = xy * x + blocks[3 * lanes + i] * y + yz * z;
-    out[2][i] = xz * x + yz * y + blocks[5 * lanes + i] * z;
-  }
+[[gnu::always_inline]] inline Pack3 load_lanes(const float* planes) {
+  return {load(planes), load(planes + lanes), load(planes + 2 * lanes)};
+}
+template <int lanes>
+[[gnu::always_inline]] inline void store_lanes(const Pack3& v, float* planes) {
+  store(v.x, planes);
+  store(v.y, planes + lanes);
+  store(v.z, planes + 2 * lanes);
 }
 
-/// The product of a coupling block and a vector: B v for blocks, -(t v + s (s . v)) for springs.
+/// G v, for the inverse blocks of a position.
+template <int lanes>
+[[gnu::always_inline]] inline Pack3 block_times(const float* block, const Pack3& v) {
+  const Pack xy = load(block + lanes), xz = load(block + 2 * lanes), yz = load(block + 4 * lanes);
+  return {load(block) * v.x + xy * v.y + xz * v.z,
+          xy * v.x + load(block + 3 * lanes) * v.y + yz * v.z,
+          xz * v.x + yz * v.y + load(block + 5 * lanes) * v.z};
+}
+
+/// What a sample pulls its neighbour by: -B v for coupling blocks, t v + s (s . v) for springs.
 struct BlockPull {
   static constexpr int entries = line_factor_entries;
   template <int lanes>
-  static void apply(const float* blocks, const float (*v)[lanes], float (*out)[lanes]) {
-    multiply<lanes>(blocks, v, out);
+  [[gnu::always_inline]] static Pack3 of(const float* block, const Pack3& v) {
+    const Pack3 none{};
+    return none - block_times<lanes>(block, v);
   }
 };
 struct SpringPull {
   static constexpr int entries = held_factor_entries;
   template <int lanes>
-  static void apply(const float* spring, const float (*v)[lanes], float (*out)[lanes]) {
-#pragma omp simd
-    for (int i = 0; i < lanes; ++i) {
-      const float t = spring[i], x = spring[lanes + i], y = spring[2 * lanes + i],
-                  z = spring[3 * lanes + i];
-      const float along = x * v[0][i] + y * v[1][i] + z * v[2][i];
-      out[0][i] = -(t * v[0][i] + along * x);
-      out[1][i] = -(t * v[1][i] + along * y);
-      out[2][i] = -(t * v[2][i] + along * z);
-    }
+  [[gnu::always_inline]] static Pack3 of(const float* spring, const Pack3& v) {
+    const Pack3 s{load(spring + lanes), load(spring + 2 * lanes), load(spring + 3 * lanes)};
+    return load(spring) * v + dot(s, v) * s;
+  }
+};
+
+/// A block of lines during elimination and substitution, with what one position passes to the next.
+template <int lanes, class Pull>
+struct LineSolve {
+  static constexpr std::ptrdiff_t entries = std::ptrdiff_t{Pull::entries} * lanes;
+  /// Packs that are worked on in turn: a lone one would wait for its own results.
+  static constexpr int packs = lanes / width < 2 ? lanes / width : 2;
+
+  const float* factors;
+  float* scratch;
+  alignas(64) float tile[3][chunk][lanes];
+  alignas(64) float passed[3][lanes];
+
+  /// Eliminates positions first .. first + count - 1 of lanes i on.
+  [[gnu::always_inline]] void eliminate(int first, int count, int i) {
+    Pack3 pull[packs];
+    for (int p = 0; p < packs; ++p) pull[p] = load_lanes<lanes>(&passed[0][i + p * width]);
+    for (int j = 0; j < count; ++j)
+      for (int p = 0; p < packs; ++p) {
+        const int lane = i + p * width;
+        const float* const block = factors + (first + j) * entries + lane;
+        const Pack3 rhs{load(&tile[0][j][lane]), load(&tile[1][j][lane]), load(&tile[2][j][lane])};
+        const Pack3 here = block_times<lanes>(block, rhs + pull[p]);
+        store_lanes<lanes>(here, scratch + std::ptrdiff_t{first + j} * 3 * lanes + lane);
+        pull[p] = Pull::template of<lanes>(block + 6 * lanes, here);
+      }
+    for (int p = 0; p < packs; ++p) store_lanes<lanes>(pull[p], &passed[0][i + p * width]);
+  }
+
+  /// The same backwards; the tile gets the scaled solution.
+  [[gnu::always_inline]] void substitute(int first, int count, int i, Pack scale) {
+    Pack3 later[packs];
+    for (int p = 0; p < packs; ++p) later[p] = load_lanes<lanes>(&passed[0][i + p * width]);
+    for (int j = count - 1; j >= 0; --j)
+      for (int p = 0; p < packs; ++p) {
+        const int lane = i + p * width;
+        const float* const block = factors + (first + j) * entries + lane;
+        const Pack3 pull = Pull::template of<lanes>(block + 6 * lanes, later[p]);
+        const Pack3 here =
+            load_lanes<lanes>(scratch + std::ptrdiff_t{first + j} * 3 * lanes + lane);
+        later[p] = here + block_times<lanes>(block, pull);
+        store(scale * later[p].x, &tile[0][j][lane]);
+        store(scale * later[p].y, &tile[1][j][lane]);
+        store(scale * later[p].z, &tile[2][j][lane]);
+      }
+    for (int p = 0; p < packs; ++p) store_lanes<lanes>(later[p], &passed[0][i + p * width]);
   }
 };
 
 template <int lanes, class Pull>
 void solve(const LineBlock& block, const float* factors, const PlaneView* rhs, float scale,
            bool add, float* scratch, const MutablePlaneView* out) {
-  using Vectors = float(*)[lanes];
-  constexpr std::ptrdiff_t entries = std::ptrdiff_t{Pull::entries} * lanes;
-  alignas(64) float tile[3][chunk][lanes];
-  if (block.width < lanes) __builtin_memset(tile, 0, sizeof tile);
-  alignas(64) float passed[3][lanes] = {}, right[3][lanes];
+  using Solve = LineSolve<lanes, Pull>;
+  Solve state;
+  state.factors = factors;
+  state.scratch = scratch;
+  if (block.width < lanes) __builtin_memset(state.tile, 0, sizeof state.tile);
+  __builtin_memset(state.passed, 0, sizeof state.passed);
+  constexpr int step = Solve::packs * width;
   for (int position = 0; position < block.length; position += chunk) {
     const int count = block.length - position < chunk ? block.length - position : chunk;
-    for (int k = 0; k < 3; ++k) read_tile<lanes>(rhs[k], block, position, count, tile[k]);
-    for (int j = 0; j < count; ++j) {
-      const std::ptrdiff_t p = position + j;
-      const float* blocks = factors + p * entries;
-      const auto here = reinterpret_cast<Vectors>(scratch + p * 3 * lanes);
-      for (int k = 0; k < 3; ++k)
-#pragma omp simd
-        for (int i = 0; i < lanes; ++i) right[k][i] = tile[k][j][i] - passed[k][i];
-      multiply<lanes>(blocks, right, here);
-      Pull::template apply<lanes>(blocks + 6 * lanes, here, passed);
-    }
+    for (int k = 0; k < 3; ++k) read_tile<lanes>(rhs[k], block, position, count, state.tile[k]);
+    for (int i = 0; i < lanes; i += step) state.eliminate(position, count, i);
   }
-  alignas(64) float later[3][lanes] = {}, pulled[3][lanes];
+  __builtin_memset(state.passed, 0, sizeof state.passed);
   const int last = (block.length - 1) / chunk * chunk;
   for (int position = last; position >= 0; position -= chunk) {
     const int count = block.length - position < chunk ? block.length - position : chunk;
-    for (int j = count - 1; j >= 0; --j) {
-      const std::ptrdiff_t p = position + j;
-      const float* blocks = factors + p * entries;
-      const auto here = reinterpret_cast<Vectors>(scratch + p * 3 * lanes);
-      Pull::template apply<lanes>(blocks + 6 * lanes, later, passed);
-      multiply<lanes>(blocks, passed, pulled);
-      for (int k = 0; k < 3; ++k)
-#pragma omp simd
-        for (int i = 0; i < lanes; ++i) {
-          later[k][i] = here[k][i] - pulled[k][i];
-          tile[k][j][i] = scale * later[k][i];
-        }
-    }
-    for (int k = 0; k < 3; ++k) write_tile<lanes>(out[k], block, position, count, tile[k], add);
+    for (int i = 0; i < lanes; i += step) state.substitute(position, count, i, Pack{} + scale);
+    for (int k = 0; k < 3; ++k)
+      write_tile<lanes>(out[k], block, position, count, state.tile[k], add);
   }
 }
 

@@ -67,22 +67,25 @@ void advance(int n, const StartRow& start, Row3 position, Row3 velocity);
 extern const ImplicitKernels implicit;
 
 // Of the default method.
-void linearise(int n, const LinearisedSprings& springs, SpringHessianRow out);
-void gradient(int n, const SpringRing& ring, const RowTriple& x, const float* mass, ConstRow3 speed,
-              ConstRow3 wanted, Row3 out);
-void diagonal(int n, const SpringRing& ring, const float* mass, MutableBlockRow6 out);
-void line_diagonals(int n, const SpringRing& ring, const float* mass, const float* extra,
-                    const LineDiagonals& out);
-void apply_springs(int n, const ConstSpringHessianRow* springs, const SpringSweep& at, Row3 out);
-double spring_energy(int n, const LinearisedSprings& springs);
-void bend(int n, const BendingRows& rows, const RowTriple& x, Row3 u);
-void unbend(int n, const BendingRows& own, const BendingRows& back, const RowTriple& u, Row3 out);
-void apply_block_stencil(int n, const BlockStencilRow& row, const RowTriple& x, Row3 out);
-void add_block_row(int n, const BlockRow6& blocks, ConstRow3 x, Row3 out);
-void spring_blocks(int n, ConstSpringHessianRow spring, const float* mask, const float* other,
-                   MutableBlockRow6 out);
-void coarsen_columns(int m, const StencilBlocks& fine, const MutableStencilBlocks& half);
-void coarsen_rows(int m, const StencilBlocks* half, const MutableStencilBlocks& coarse);
+void linearise_far(int n, const LinearisedSprings& springs, SpringHessianRow out);
+double far_energy(int n, const LinearisedSprings& springs);
+void linearise(int n, const NearSprings& springs, const InertiaRow& inertia,
+               MutablePlaneRows hessian, const Passing& passing, Row3 force);
+bool begin_step(const StepStartRow& start, const StepGuessRow& out);
+void follow_guess(int n, float time_step, ConstRow3 start, ConstRow3 guess, ConstRow3 velocity,
+                  Row3 position, Row3 velocity_out);
+double near_energy(int n, const NearSprings& springs);
+void line_diagonals(int n, PlaneRows springs, PlaneRows above, const float* mass,
+                    const float* extra, const LineDiagonals& out);
+void apply_springs(int n, PlaneRows springs, const float* mass, const ProductRow& row, Row3 out);
+void apply_stencil(int n, PlaneRows stencil, const ProductRow& row, Row3 out);
+void add_block_row(int n, PlaneRows blocks, float factor, ConstRow3 x, Row3 out);
+void bend(int n, PlaneRows weights, int neighbours, const RowTriple& x, Row3 u);
+void unbend(int n, const BendingRows& weights, const RowTriple& u, float factor, Row3 out);
+void coarsen_columns(int m, PlaneRows fine, MutablePlaneRows half);
+void coarsen_springs(int m, PlaneRows centre, PlaneRows springs, const float* mask,
+                     const float* mask_below, MutablePlaneRows half);
+void coarsen_rows(int m, const PlaneRows* half, MutablePlaneRows coarse);
 void factor_lines(const LineBlock& lines, const LineMatrix& matrix, float* factor);
 void factor_spring_lines(const LineBlock& lines, const SpringLineMatrix& matrix, float* factor);
 void factor_held_lines(const LineBlock& lines, const HeldLineMatrix& matrix, float* factor);
@@ -90,14 +93,17 @@ void solve_lines(const LineBlock& lines, const float* factor, const PlaneView* r
                  bool add, float* scratch, const MutablePlaneView* out);
 void solve_held_lines(const LineBlock& lines, const float* factor, const PlaneView* rhs,
                       float scale, bool add, float* scratch, const MutablePlaneView* out);
-void restrict_row(int n, int m, const RowTriple& fine, float* line, Row3 coarse);
-void prolong_row(int n, ConstRow3 a, ConstRow3 b, float* line, Row3 fine);
+void restrict_row(int m, const RowTriple& fine, Row3 coarse);
+void prolong_row(int n, ConstRow3 a, ConstRow3 b, Row3 fine);
 void subtract(int n, ConstRow3 a, ConstRow3 b, Row3 out);
 void scale_add(int n, ConstRow3 a, float factor, Row3 out);
 void scale_row(int n, float factor, Row3 out);
 void add_scaled(int n, float factor, ConstRow3 a, Row3 out);
 double newton_dot(int n, const float* share, ConstRow3 a, ConstRow3 b);
-float largest(int n, ConstRow3 a);
+double update(int n, const float* share, ConstRow3 z, float factor, ConstRow3 residual,
+              Row3 direction);
+float advance(int n, float length, ConstRow3 direction, ConstRow3 product, Row3 step,
+              Row3 residual);
 
 extern const NewtonKernels newton;
 

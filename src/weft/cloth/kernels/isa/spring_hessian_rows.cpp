@@ -1,225 +1,126 @@
-#include <cmath>
-
 #include "weft/cloth/kernels/isa/rows.h"
+#include "weft/cloth/kernels/isa/spring_law.h"
 
+// Springs linearised, and their energies: near ones of all directions at once, far ones direction
+// by direction.
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// Lower bound of a spring's squared length, which keeps its direction finite. [m^2]
-constexpr float min_squared_length = 1e-24F;
 /// Number of lanes in which energies are summed, whatever the vector's width.
 constexpr int lanes = 16;
 
-inline float larger(float a, float b) { return a > b ? a : b; }
+using Three = Vector<Pack>;
 
-struct Sum6 {
-  float xx, xy, xz, yy, yz, zz;
+[[gnu::always_inline]] inline Three difference(ConstRow3 from, ConstRow3 to, int c, int shift) {
+  const Pack3 a = load(from, c), b = load(to, c + shift);
+  return {b.x - a.x, b.y - a.y, b.z - a.z};
+}
+
+/// The columns from c on of the springs of a direction, whose other ends are `shift` columns to the
+/// right in the same row or the one below.
+struct NearDirection {
+  int direction, shift;
+  bool below, limited;
 };
+constexpr NearDirection directions[near_directions] = {
+    {0, 0 + 1, false, true}, {1, 0, true, true}, {2, 1, true, false}, {3, -1, true, false}};
 
-inline Sum6 operator+(const Sum6& a, const Sum6& b) {
-  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
+[[gnu::always_inline]] inline Three apart(const RowPair& rows, const NearDirection& to, int c) {
+  return difference(rows.here, to.below ? rows.below : rows.here, c, to.shift);
 }
 
-/// Writes sum + t 1 as a block.
-inline void put(const Sum6& sum, float t, float* const* entry, int c) {
-  entry[0][c] = sum.xx + t;
-  entry[1][c] = sum.xy;
-  entry[2][c] = sum.xz;
-  entry[3][c] = sum.yy + t;
-  entry[4][c] = sum.yz;
-  entry[5][c] = sum.zz + t;
+[[gnu::always_inline]] inline SpringTerms<Pack> terms_of(const NearSprings& springs,
+                                                         const NearDirection& to, int c) {
+  const PlaneRows all = springs.constants;
+  const float* first = all.first + to.direction * spring_constants * all.pitch + c;
+  const Pack none{};
+  return {load(first), load(first + all.pitch), load(first + 2 * all.pitch), none + springs.limit,
+          none + (to.limited ? springs.limit_factor : 0)};
 }
 
-/// g -= f (x_j - x_i)
-inline void pull(const ConstSpringHessianRow& spring, int c, float dx, float dy, float dz,
-                 float& gx, float& gy, float& gz) {
-  const float f = spring.f[c];
-  gx -= f * dx;
-  gy -= f * dy;
-  gz -= f * dz;
+[[gnu::always_inline]] inline Pack3 linearise_direction(const NearSprings& springs,
+                                                        const NearDirection& to, int c,
+                                                        MutablePlaneRows out) {
+  const Three x = apart(springs.position, to, c);
+  const SpringHessianTerms<Pack> terms = linearise_spring<Pack>(
+      terms_of(springs, to, c), {x, apart(springs.speed, to, c), apart(springs.start, to, c)},
+      springs.per_step, springs.guessed_share);
+  float* first = out.first + to.direction * spring_entries * out.pitch + c;
+  store(terms.across, first);
+  store(terms.along.x, first + out.pitch);
+  store(terms.along.y, first + 2 * out.pitch);
+  store(terms.along.z, first + 3 * out.pitch);
+  return terms.force * Pack3{x.x, x.y, x.z};
 }
 
-/// t += the spring's t; sum += s s^T
-inline void stiffen(const ConstSpringHessianRow& spring, int c, float& t, Sum6& sum) {
-  const float x = spring.x[c], y = spring.y[c], z = spring.z[c];
-  t += spring.t[c];
-  sum.xx += x * x;
-  sum.xy += x * y;
-  sum.xz += x * z;
-  sum.yy += y * y;
-  sum.yz += y * z;
-  sum.zz += z * z;
-}
-
-struct Force {
-  float x, y, z;
-};
-
-/// (t + s s^T) (x_i - x_j): differences first, so that nothing cancels.
-inline Force resist(const ConstSpringHessianRow& spring, int c, float dx, float dy, float dz) {
-  const float x = spring.x[c], y = spring.y[c], z = spring.z[c], t = spring.t[c];
-  const float along = x * dx + y * dy + z * dz;
-  return {t * dx + along * x, t * dy + along * y, t * dz + along * z};
+template <class T>
+[[gnu::always_inline]] inline Vector<T> vector_at(ConstRow3 from, ConstRow3 to, int c) {
+  return {to.x[c] - from.x[c], to.y[c] - from.y[c], to.z[c] - from.z[c]};
 }
 
 }  // namespace
 
-void linearise(int n, const LinearisedSprings& in, SpringHessianRow out) {
-  const float *rest = in.rest_length, *stiffness = in.stiffness, *damping = in.damping;
-  const ConstRow3 a = in.here, b = in.there, va = in.speed_here, vb = in.speed_there,
-                  oa = in.start_here, ob = in.start_there;
-  const float per_step = in.per_step, limit = in.limit, limit_factor = in.limit_factor,
-              guessed_share = in.guessed_share;
-  float *t = out.t, *sx = out.x, *sy = out.y, *sz = out.z, *f = out.f;
+void linearise(int n, const NearSprings& springs, const InertiaRow& inertia,
+               MutablePlaneRows hessian, const Passing& passing, Row3 force) {
+  const Pack3 none{};
+  const Pack3 gained{none.x + inertia.gained[0], none.x + inertia.gained[1],
+                     none.x + inertia.gained[2]};
+  Pack3 right_before = none, diagonal_before = none, left_before = none, pending = none;
+  for (int c = 0; c < n; c += width) {
+    const Pack3 right = linearise_direction(springs, directions[0], c, hessian),
+                down = linearise_direction(springs, directions[1], c, hessian),
+                diagonal = linearise_direction(springs, directions[2], c, hessian),
+                left = linearise_direction(springs, directions[3], c, hessian);
+    const Pack3 held =
+        load(inertia.mass + c) * (load(inertia.speed, c) - load(inertia.start, c) - gained);
+    const Pack3 pulled = (right + down) + (diagonal + left) - to_the_left(right_before, right);
+    store(pulled + load(passing.carried, c) - held, force, c);
+    // What the springs to the row below pull it by, once all three that end in a column are known.
+    if (c > 0) store(none - (pending + to_the_right(left_before, left)), passing.carry, c - width);
+    pending = down + to_the_left(diagonal_before, diagonal);
+    right_before = right;
+    diagonal_before = diagonal;
+    left_before = left;
+  }
+  store(none - (pending + to_the_right(left_before, none)), passing.carry, n - width);
+}
+
+double near_energy(int n, const NearSprings& springs) {
+  alignas(64) Pack sums[lanes / width] = {};
+  for (int c = 0; c < n; c += lanes)
+    for (int p = 0; p < lanes / width; ++p)
+      for (const NearDirection& to : directions)
+        sums[p] += spring_energy_of<Pack>(
+            terms_of(springs, to, c + p * width), apart(springs.position, to, c + p * width),
+            springs.step > 0 ? apart(springs.speed, to, c + p * width) : Three{}, springs.step);
+  double sum = 0;
+  for (const Pack& pack : sums)
+    for (int i = 0; i < width; ++i) sum += double{pack[i]};
+  return sum;
+}
+
+void linearise_far(int n, const LinearisedSprings& in, SpringHessianRow out) {
 #pragma omp simd
   for (int c = 0; c < n; ++c) {
-    const float x = b.x[c] - a.x[c], y = b.y[c] - a.y[c], z = b.z[c] - a.z[c];
-    const float squared = larger(x * x + y * y + z * z, min_squared_length);
-    const float inverse = 1 / std::sqrt(squared);
-    const float ratio = rest[c] * inverse, k = stiffness[c];
-    const float over = 1 - limit * ratio;
-    const float stiffer = over > 0 ? limit_factor * k : 0.0F;
-    const float tension = k * (1 - ratio) + stiffer * over;
-    const float ox = ob.x[c] - oa.x[c], oy = ob.y[c] - oa.y[c], oz = ob.z[c] - oa.z[c];
-    const float squared_before = larger(ox * ox + oy * oy + oz * oz, min_squared_length);
-    const float held = k * (1 - rest[c] / std::sqrt(squared_before));
-    const float across = larger(larger(held, guessed_share * tension), 0.0F);
-    const float approach =
-        x * (vb.x[c] - va.x[c]) + y * (vb.y[c] - va.y[c]) + z * (vb.z[c] - va.z[c]);
-    const float axial = larger(k + stiffer + damping[c] * per_step - across, 0.0F);
-    const float s = std::sqrt(axial) * inverse;
-    f[c] = tension + damping[c] * approach * (inverse * inverse);
-    t[c] = across;
-    sx[c] = s * x;
-    sy[c] = s * y;
-    sz[c] = s * z;
+    const SpringHessianTerms<float> terms = linearise_spring<float>(
+        {in.rest_length[c], in.stiffness[c], in.damping[c], in.limit, in.limit_factor},
+        {vector_at<float>(in.here, in.there, c), vector_at<float>(in.speed_here, in.speed_there, c),
+         vector_at<float>(in.start_here, in.start_there, c)},
+        in.per_step, in.guessed_share);
+    out.f[c] = terms.force;
+    out.t[c] = terms.across;
+    out.x[c] = terms.along.x;
+    out.y[c] = terms.along.y;
+    out.z[c] = terms.along.z;
   }
 }
 
-void gradient(int n, const SpringRing& ring, const RowTriple& x, const float* mass, ConstRow3 speed,
-              ConstRow3 wanted, Row3 out) {
-  const auto* s = ring.spring;
-  const ConstRow3 above = x.above, here = x.here, below = x.below;
-#pragma omp simd
-  for (int c = 0; c < n; ++c) {
-    const float hx = here.x[c], hy = here.y[c], hz = here.z[c];
-    float gx = mass[c] * (speed.x[c] - wanted.x[c]), gy = mass[c] * (speed.y[c] - wanted.y[c]),
-          gz = mass[c] * (speed.z[c] - wanted.z[c]);
-    pull(s[0], c, here.x[c + 1] - hx, here.y[c + 1] - hy, here.z[c + 1] - hz, gx, gy, gz);
-    pull(s[1], c, here.x[c - 1] - hx, here.y[c - 1] - hy, here.z[c - 1] - hz, gx, gy, gz);
-    pull(s[2], c, below.x[c] - hx, below.y[c] - hy, below.z[c] - hz, gx, gy, gz);
-    pull(s[3], c, above.x[c] - hx, above.y[c] - hy, above.z[c] - hz, gx, gy, gz);
-    pull(s[4], c, below.x[c + 1] - hx, below.y[c + 1] - hy, below.z[c + 1] - hz, gx, gy, gz);
-    pull(s[5], c, above.x[c - 1] - hx, above.y[c - 1] - hy, above.z[c - 1] - hz, gx, gy, gz);
-    pull(s[6], c, below.x[c - 1] - hx, below.y[c - 1] - hy, below.z[c - 1] - hz, gx, gy, gz);
-    pull(s[7], c, above.x[c + 1] - hx, above.y[c + 1] - hy, above.z[c + 1] - hz, gx, gy, gz);
-    out.x[c] = gx;
-    out.y[c] = gy;
-    out.z[c] = gz;
-  }
-}
-
-void diagonal(int n, const SpringRing& ring, const float* mass, MutableBlockRow6 out) {
-  const auto* s = ring.spring;
-#pragma omp simd
-  for (int c = 0; c < n; ++c) {
-    float t = mass[c];
-    Sum6 sum{0, 0, 0, 0, 0, 0};
-    stiffen(s[0], c, t, sum);
-    stiffen(s[1], c, t, sum);
-    stiffen(s[2], c, t, sum);
-    stiffen(s[3], c, t, sum);
-    stiffen(s[4], c, t, sum);
-    stiffen(s[5], c, t, sum);
-    stiffen(s[6], c, t, sum);
-    stiffen(s[7], c, t, sum);
-    put(sum, t, out.entry, c);
-  }
-}
-
-void line_diagonals(int n, const SpringRing& ring, const float* mass, const float* extra,
-                    const LineDiagonals& out) {
-  const auto* s = ring.spring;
-  float *const *whole = out.whole.entry, *const *rows = out.rows.entry,
-               *const *cols = out.cols.entry;
-#pragma omp simd
-  for (int c = 0; c < n; ++c) {
-    float t = mass[c];
-    Sum6 shared{0, 0, 0, 0, 0, 0};
-    stiffen(s[4], c, t, shared);
-    stiffen(s[5], c, t, shared);
-    stiffen(s[6], c, t, shared);
-    stiffen(s[7], c, t, shared);
-    float along = 0, across = 0;
-    Sum6 row{0, 0, 0, 0, 0, 0}, col{0, 0, 0, 0, 0, 0};
-    stiffen(s[0], c, along, row);
-    stiffen(s[1], c, along, row);
-    stiffen(s[2], c, across, col);
-    stiffen(s[3], c, across, col);
-    const float in_row = t + extra[c] + across, in_col = t + extra[c] + along,
-                all = t + along + across;
-    put(shared + col, in_row, rows, c);
-    put(shared + row, in_col, cols, c);
-    put(shared + row + col, all, whole, c);
-  }
-}
-
-void apply_springs(int n, const ConstSpringHessianRow* springs, const SpringSweep& at, Row3 out) {
-  const ConstRow3 here = at.here, below = at.below, carried = at.carried;
-  const Row3 right = at.right, below_right = at.below_right, below_left = at.below_left,
-             carry = at.carry;
-  const float* mass = at.mass;
-  const ConstSpringHessianRow to_right = springs[0], down = springs[1], to_below_right = springs[2],
-                              to_below_left = springs[3];
-#pragma omp simd
-  for (int c = 0; c < n; ++c) {
-    const float hx = here.x[c], hy = here.y[c], hz = here.z[c];
-    const Force r = resist(to_right, c, hx - here.x[c + 1], hy - here.y[c + 1], hz - here.z[c + 1]);
-    const Force d = resist(down, c, hx - below.x[c], hy - below.y[c], hz - below.z[c]);
-    const Force a =
-        resist(to_below_right, c, hx - below.x[c + 1], hy - below.y[c + 1], hz - below.z[c + 1]);
-    const Force b =
-        resist(to_below_left, c, hx - below.x[c - 1], hy - below.y[c - 1], hz - below.z[c - 1]);
-    out.x[c] = mass[c] * hx + (r.x + d.x) + (a.x + b.x) + carried.x[c];
-    out.y[c] = mass[c] * hy + (r.y + d.y) + (a.y + b.y) + carried.y[c];
-    out.z[c] = mass[c] * hz + (r.z + d.z) + (a.z + b.z) + carried.z[c];
-    right.x[c] = r.x;
-    right.y[c] = r.y;
-    right.z[c] = r.z;
-    carry.x[c] = d.x;
-    carry.y[c] = d.y;
-    carry.z[c] = d.z;
-    below_right.x[c] = a.x;
-    below_right.y[c] = a.y;
-    below_right.z[c] = a.z;
-    below_left.x[c] = b.x;
-    below_left.y[c] = b.y;
-    below_left.z[c] = b.z;
-  }
-#pragma omp simd
-  for (int c = 0; c < n; ++c) {
-    out.x[c] -= right.x[c - 1];
-    out.y[c] -= right.y[c - 1];
-    out.z[c] -= right.z[c - 1];
-    carry.x[c] = -(carry.x[c] + below_right.x[c - 1] + below_left.x[c + 1]);
-    carry.y[c] = -(carry.y[c] + below_right.y[c - 1] + below_left.y[c + 1]);
-    carry.z[c] = -(carry.z[c] + below_right.z[c - 1] + below_left.z[c + 1]);
-  }
-}
-
-double spring_energy(int n, const LinearisedSprings& in) {
-  const float *rest = in.rest_length, *stiffness = in.stiffness, *damping = in.damping;
-  const ConstRow3 a = in.here, b = in.there, va = in.speed_here, vb = in.speed_there;
-  const float limit = in.limit, limit_factor = in.limit_factor, step = in.step;
-  const auto energy = [=](int c) __attribute__((always_inline)) {
-    const float x = b.x[c] - a.x[c], y = b.y[c] - a.y[c], z = b.z[c] - a.z[c];
-    const float squared = larger(x * x + y * y + z * z, min_squared_length);
-    const float length = std::sqrt(squared);
-    const float elongation = length - rest[c], over = larger(length - limit * rest[c], 0.0F);
-    const float approach =
-        x * (vb.x[c] - va.x[c]) + y * (vb.y[c] - va.y[c]) + z * (vb.z[c] - va.z[c]);
-    return 0.5F * (stiffness[c] * (elongation * elongation + limit_factor * (over * over)) +
-                   step * damping[c] * (approach * approach) / squared);
+double far_energy(int n, const LinearisedSprings& in) {
+  const auto energy = [&](int c) __attribute__((always_inline)) {
+    return spring_energy_of<float>(
+        {in.rest_length[c], in.stiffness[c], in.damping[c], in.limit, in.limit_factor},
+        vector_at<float>(in.here, in.there, c), vector_at<float>(in.speed_here, in.speed_there, c),
+        in.step);
   };
   alignas(64) float sums[lanes] = {};
   int c = 0;
@@ -230,23 +131,6 @@ double spring_energy(int n, const LinearisedSprings& in) {
   double sum = 0;
   for (const float lane : sums) sum += double{lane};
   return sum;
-}
-
-void spring_blocks(int n, ConstSpringHessianRow spring, const float* mask, const float* other,
-                   MutableBlockRow6 out) {
-  const float *t = spring.t, *x = spring.x, *y = spring.y, *z = spring.z;
-  float *xx = out.entry[0], *xy = out.entry[1], *xz = out.entry[2], *yy = out.entry[3],
-        *yz = out.entry[4], *zz = out.entry[5];
-#pragma omp simd
-  for (int c = 0; c < n; ++c) {
-    const float k = -mask[c] * other[c];
-    xx[c] = k * (t[c] + x[c] * x[c]);
-    xy[c] = k * (x[c] * y[c]);
-    xz[c] = k * (x[c] * z[c]);
-    yy[c] = k * (t[c] + y[c] * y[c]);
-    yz[c] = k * (y[c] * z[c]);
-    zz[c] = k * (t[c] + z[c] * z[c]);
-  }
 }
 
 }  // namespace weft::WEFT_KERNEL_SET

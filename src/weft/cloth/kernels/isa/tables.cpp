@@ -19,18 +19,20 @@ const ImplicitKernels implicit{elastic,       axial_damping,    linearise,     m
                                gradient_step, update_direction, subtract,      restrict_plane,
                                fall,          right_side,       move,          advance};
 
-const NewtonKernels newton{linearise,
-                           gradient,
-                           diagonal,
+const NewtonKernels newton{linearise_far,
+                           far_energy,
+                           begin_step,
+                           follow_guess,
+                           linearise,
+                           near_energy,
                            line_diagonals,
                            apply_springs,
-                           spring_energy,
+                           apply_stencil,
+                           add_block_row,
                            bend,
                            unbend,
-                           apply_block_stencil,
-                           add_block_row,
-                           spring_blocks,
                            coarsen_columns,
+                           coarsen_springs,
                            coarsen_rows,
                            factor_lines,
                            factor_spring_lines,
@@ -44,6 +46,7 @@ const NewtonKernels newton{linearise,
                            scale_row,
                            add_scaled,
                            newton_dot,
-                           largest};
+                           update,
+                           advance};
 
 }  // namespace weft::WEFT_KERNEL_SET

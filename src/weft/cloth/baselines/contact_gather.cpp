@@ -1,4 +1,4 @@
-#include "weft/cloth/newton/contact_gather.h"
+#include "weft/cloth/baselines/contact_gather.h"
 
 #include <algorithm>
 #include <cmath>
