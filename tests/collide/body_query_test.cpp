@@ -17,9 +17,12 @@ struct Placed {
         team({2, set}) {
     query.place(body.positions, team);
   }
-  [[nodiscard]] double brute_distance(Vec3d p) const {
+  [[nodiscard]] double brute_distance(Vec3d p) const { return second_distance(p, -1); }
+  /// Distance of all triangles but one.
+  [[nodiscard]] double second_distance(Vec3d p, int first) const {
     double min = HUGE_VAL;
     for (int t = 0; t < 2 * grid.cells() * grid.cells(); ++t) {
+      if (t == first) continue;
       const std::array<int, 3> s = grid.triangle(t / 2, t % 2);
       const auto corner = [&](int k) { return vec_cast<double>(body.positions.at(s[k])); };
       if (!grid.folded(s))
@@ -125,16 +128,18 @@ TEST(BodyQuery, TilesFindWhatPointsFind) {
       Random random(4);
       int found_any = 0;
       for (int i = 0; i < 60; ++i) {
-        const NearestTile tile = any_tile(placed, random);
+        NearestTile tile = any_tile(placed, random);
+        tile.beyond = random.index(2) == 0 ? 0 : 0.01;
         NearestPoints found;
         placed.query.closest(tile, found);
         for (int k = 0; k < tile.count; ++k) {
           const Vec3d at = vec_cast<double>(tile.at[k]);
           const auto one = placed.query.closest(at, tile.reach[k]);
-          ASSERT_EQ(found[k].triangle, one ? one->triangle : -1);
+          ASSERT_EQ(found[k].point.triangle, one ? one->triangle : -1);
           if (!one) continue;
-          EXPECT_EQ(found[k].position, one->position);
-          EXPECT_EQ(found[k].squared_distance, one->squared_distance);
+          EXPECT_EQ(found[k].point.position, one->position);
+          EXPECT_EQ(found[k].point.squared_distance, one->squared_distance);
+          EXPECT_LE(found[k].others, placed.second_distance(at, one->triangle) * (1 + 1e-12));
           ++found_any;
         }
       }

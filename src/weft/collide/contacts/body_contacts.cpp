@@ -67,13 +67,8 @@ void BodyContacts::find_row(const MovingCloth& cloth, std::span<const ContactBod
   const int n = grid_.size();
   const double low = ground != nullptr ? ground->height + contact_margin * kept_.gap : -HUGE_VAL;
   for (int c = 0; c < n; ++c) {
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const NearSample* near = near_[b].find(row, c);
-      if (near == nullptr || near->triangle < 0 || near->motion != bodies[b].motion) continue;
-      const Vec3d displacement =
-          vec_cast<double>(cloth.position.at(row, c)) - vec_cast<double>(near->start);
-      if (comes_near(near->before, displacement, near->along, kept_)) out.push_back(near->contact);
-    }
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      near_[b].add_contact(cloth, bodies[b], row, c, out);
     if (cloth.position.y(row, c) < low && grid_.point(row * n + c) == row * n + c)
       find_ground(cloth, *ground, row, c, out);
   }
@@ -84,10 +79,12 @@ void BodyContacts::mark_inside(std::span<const ContactBody> bodies) {
   std::fill(marks_.inside.begin(), marks_.inside.end(), 0);
   std::fill(marks_.doubted.begin(), marks_.doubted.end(), 0);
   marks_.any = false;
+  const int n = grid_.size();
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    for (const NearSample& near : near_[b].all()) {
-      if (!near.astray) continue;
-      marks_.inside[near.sample] = bodies[b].number;
+    for (int s = 0; s < n * n; ++s) {
+      const NearSample* near = near_[b].find(s / n, s % n);
+      if (near == nullptr || !near->astray) continue;
+      marks_.inside[s] = bodies[b].number;
       marks_.any = true;
     }
 }

@@ -160,54 +160,62 @@ BodyPoint BodyQuery::point_of(Vec3d point, int triangle) const noexcept {
   return {squared_length(point - at), triangle, samples, w, at};
 }
 
-/// The closest of several points.
-struct BodyQuery::Closest {
-  BodyPoint best;
+namespace {
 
-  void add(const BodyPoint& found) {
-    if (found.squared_distance < best.squared_distance ||
-        (found.squared_distance == best.squared_distance && found.triangle < best.triangle))
-      best = found;
-  }
-};
-
-/// The closest point as far as a hint tells it, if any is given.
-BodyQuery::Closest BodyQuery::begin(Vec3d point, double reach, int hint) const noexcept {
-  Closest closest;
-  closest.best.squared_distance = reach * reach;
-  if (hint >= 0 && !grid_->folded(grid_->triangle(hint / 2, hint % 2)))
-    closest.add(point_of(point, hint));
-  return closest;
+/// Takes a point for the closest one if it is, and else for one of the others.
+void add(const BodyPoint& found, NearestPoint& closest) {
+  BodyPoint& best = closest.point;
+  const bool closer =
+      found.squared_distance < best.squared_distance ||
+      (found.squared_distance == best.squared_distance && found.triangle < best.triangle);
+  if (!closer || best.triangle >= 0)
+    closest.others = std::min(closest.others, std::sqrt((closer ? best : found).squared_distance));
+  if (closer) best = found;
 }
 
-float BodyQuery::reach_of(const Closest& closest, float off) {
-  const double reach = (std::sqrt(closest.best.squared_distance) + off) * (1 + rounding);
+/// How far to look for what may be closer. @param off  rounding of the point [m]
+float reach_of(const NearestPoint& closest, float off) {
+  const double reach = (std::sqrt(closest.point.squared_distance) + off) * (1 + rounding);
   return static_cast<float>(std::min(reach, double{far_away}));
 }
 
-void BodyQuery::search_one(Vec3d point, Closest& closest) const noexcept {
+}  // namespace
+
+/// The closest point as far as a hint tells it, if any is given.
+void BodyQuery::begin(Vec3d point, double reach, int hint, NearestPoint& closest) const noexcept {
+  closest.point.squared_distance = reach * reach;
+  closest.point.triangle = -1;
+  closest.others = HUGE_VAL;
+  if (hint >= 0 && !grid_->folded(grid_->triangle(hint / 2, hint % 2)))
+    add(point_of(point, hint), closest);
+}
+
+void BodyQuery::search_one(Vec3d point, NearestPoint& closest) const noexcept {
   const Vec3f at = vec_cast<float>(point);
   const float off = off_by(at);
   NearTriangles near;
   kernels_->find_near(tree_, {{at.x, at.y, at.z}, reach_of(closest, off), off}, near);
   if (near.count > NearTriangles::capacity) return add_all(point, closest);
   for (int k = 0; k < near.count; ++k)
-    if (near.found[k] != closest.best.triangle) closest.add(point_of(point, near.found[k]));
+    if (near.found[k] != closest.point.triangle) add(point_of(point, near.found[k]), closest);
+  closest.others = 0;  // of those the search tells nothing
 }
 
 std::optional<BodyPoint> BodyQuery::closest(Vec3d point, double reach, int hint) const noexcept {
-  Closest closest = begin(point, reach, hint);
+  NearestPoint closest;
+  begin(point, reach, hint, closest);
   search_one(point, closest);
-  if (closest.best.triangle < 0) return std::nullopt;
-  return closest.best;
+  if (closest.point.triangle < 0) return std::nullopt;
+  return closest.point;
 }
 
 /// The points first .. last - 1 of a tile. Where too much is near them their halves are asked for.
 void BodyQuery::refine(const NearestTile& tile, Range points,
-                       std::span<Closest> closest) const noexcept {
+                       NearestPoints& closest) const noexcept {
   NearTile search;
   search.count = points.last - points.first;
   search.rounding = 0;
+  search.beyond = static_cast<float>(tile.beyond);
   for (int k = points.first; k < points.last; ++k)
     search.rounding = std::max(search.rounding, off_by(tile.at[k]));
   for (int i = 0; i < search.count; ++i) {
@@ -216,6 +224,7 @@ void BodyQuery::refine(const NearestTile& tile, Range points,
     search.at[1][i] = tile.at[k].y;
     search.at[2][i] = tile.at[k].z;
     search.reach[i] = reach_of(closest[k], search.rounding);
+    search.exact[i] = closest[k].point.triangle >= 0;
   }
   TileTriangles near;
   kernels_->find_near_tile(tree_, search, near);
@@ -227,25 +236,27 @@ void BodyQuery::refine(const NearestTile& tile, Range points,
     refine(tile, {middle, points.last}, closest);
     return;
   }
+  for (int i = 0; i < search.count; ++i) {
+    double& others = closest[points.first + i].others;
+    others = std::min(others, double{near.others[i]});
+  }
   for (int i = 0; i < near.count; ++i) {
     const int k = points.first + near.found[i].point, triangle = near.found[i].triangle;
-    if (triangle != closest[k].best.triangle)
-      closest[k].add(point_of(vec_cast<double>(tile.at[k]), triangle));
+    if (triangle != closest[k].point.triangle)
+      add(point_of(vec_cast<double>(tile.at[k]), triangle), closest[k]);
   }
 }
 
 void BodyQuery::closest(const NearestTile& tile, NearestPoints& found) const noexcept {
-  std::array<Closest, NearestTile::capacity> closest;
   for (int k = 0; k < tile.count; ++k)
-    closest[k] = begin(vec_cast<double>(tile.at[k]), tile.reach[k], tile.hint[k]);
-  if (tile.count > 0) refine(tile, {0, tile.count}, closest);
-  for (int k = 0; k < tile.count; ++k) found[k] = closest[k].best;
+    begin(vec_cast<double>(tile.at[k]), tile.reach[k], tile.hint[k], found[k]);
+  if (tile.count > 0) refine(tile, {0, tile.count}, found);
 }
 
 /// For points that are as far from very many triangles, as the middle of a ball.
-void BodyQuery::add_all(Vec3d point, Closest& closest) const noexcept {
+void BodyQuery::add_all(Vec3d point, NearestPoint& closest) const noexcept {
   for (int t = 0; t < 2 * grid_->cells() * grid_->cells(); ++t)
-    if (!grid_->folded(grid_->triangle(t / 2, t % 2))) closest.add(point_of(point, t));
+    if (!grid_->folded(grid_->triangle(t / 2, t % 2))) add(point_of(point, t), closest);
 }
 
 Vec3d BodyQuery::face_normal(const std::array<int, 3>& samples) const noexcept {

@@ -27,14 +27,19 @@ struct NearestTile {
   std::array<Vec3f, capacity> at;      ///< [m]
   std::array<double, capacity> reach;  ///< nothing beyond is found [m]
   std::array<int, capacity> hint;      ///< triangles that may be near, see closest()
+  double beyond = 0;                   ///< how much farther others are told from the closest [m]
   void add(Vec3f point, double within, int triangle) {
     at[count] = point;
     reach[count] = within;
     hint[count++] = triangle;
   }
 };
-/// Their closest points, with no triangle where nothing is within reach.
-using NearestPoints = std::array<BodyPoint, NearestTile::capacity>;
+/// What it finds of a point.
+struct NearestPoint {
+  BodyPoint point;    ///< with no triangle where nothing is within reach
+  double others = 0;  ///< a lower bound of the distance of all other triangles [m]
+};
+using NearestPoints = std::array<NearestPoint, NearestTile::capacity>;
 
 /// Closest-point queries on one body, by a tree of boxes over its image.
 class BodyQuery {
@@ -74,12 +79,10 @@ class BodyQuery {
   }
 
  private:
-  struct Closest;
-  [[nodiscard]] Closest begin(Vec3d point, double reach, int hint) const noexcept;
-  [[nodiscard]] static float reach_of(const Closest& closest, float off);
-  void search_one(Vec3d point, Closest& closest) const noexcept;
-  void refine(const NearestTile& tile, Range points, std::span<Closest> closest) const noexcept;
-  void add_all(Vec3d point, Closest& closest) const noexcept;
+  void begin(Vec3d point, double reach, int hint, NearestPoint& closest) const noexcept;
+  void search_one(Vec3d point, NearestPoint& closest) const noexcept;
+  void refine(const NearestTile& tile, Range points, NearestPoints& closest) const noexcept;
+  void add_all(Vec3d point, NearestPoint& closest) const noexcept;
   void find_incident();
   void find_leaves();
   void fit_leaf_row(int row, std::span<float> extents);

@@ -49,9 +49,7 @@ Vec3d surface_displacement(const ContactBody& body, const BodyPoint& at, const B
   return moved + std::max(0.0, approach - dot(before.normal, moved)) * before.normal;
 }
 
-double reach_at_end(const PlaceBefore& before, double approach) {
-  return std::abs(before.gap) + approach;
-}
+double reach_at_end(double gap, double approach) { return std::abs(gap) + approach; }
 
 bool comes_near(const PlaceBefore& before, Vec3d displacement, double along, const KeptGap& kept) {
   return before.gap + dot(before.normal, displacement) - along < contact_margin * kept.gap;
@@ -81,7 +79,7 @@ std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& 
   std::optional<BodyPoint> at_end;
   if (body.at_end != nullptr)
     at_end = body.at_end->closest(
-        point.start, reach_at_end(before, body.max_approach) + contact_margin * kept.gap,
+        point.start, reach_at_end(before.gap, body.max_approach) + contact_margin * kept.gap,
         at.triangle);
   const Vec3d moved =
       surface_displacement(body, at, at_end ? &*at_end : nullptr, before, point.start);

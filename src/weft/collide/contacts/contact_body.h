@@ -61,7 +61,8 @@ struct PlaceBefore {
                                          const BodyPoint* at_end, const PlaceBefore& before,
                                          Vec3d place);
 /// How far from a place the surface may be at the end of a step. [m]
-[[nodiscard]] double reach_at_end(const PlaceBefore& before, double approach);
+/// @param gap  see PlaceBefore
+[[nodiscard]] double reach_at_end(double gap, double approach);
 
 /// Whether a point that moves by `displacement` comes near the surface, which moves by `along`
 /// along the normal. [m]

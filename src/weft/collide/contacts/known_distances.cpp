@@ -27,6 +27,7 @@ KnownDistances::KnownDistances(int size, double gap)
       seen_(size),
       travelled_(size, size),
       distance_(size, size),
+      others_(size, size),
       triangles_(static_cast<std::size_t>(size) * size, -1) {}
 
 std::size_t KnownDistances::block_of(int sample) const {
@@ -114,13 +115,30 @@ void KnownDistances::find_reaches(const Look& look, int row, Scratch& scratch, f
                          reach);
 }
 
-void KnownDistances::set(int sample, Vec3f start, double distance, int triangle) {
+void KnownDistances::set(int sample, Vec3f start, const Found& found) {
   const Block& block = blocks_[block_of(sample)];
   const int row = sample / size_, col = sample % size_;
   place_.set(row, col, start - vec_cast<float>(block.carried));
   travelled_(row, col) = static_cast<float>(block.travelled);
-  distance_(row, col) = static_cast<float>((1 - rounding) * std::min(distance, known_gaps * gap_));
-  if (triangle >= 0) triangles_[sample] = triangle;
+  distance_(row, col) =
+      static_cast<float>((1 - rounding) * std::min(found.distance, known_gaps * gap_));
+  others_(row, col) =
+      static_cast<float>((1 - rounding) * std::min(found.others, known_gaps * gap_));
+  if (found.triangle >= 0) triangles_[sample] = found.triangle;
+}
+
+double KnownDistances::closest_up_to(int sample, Vec3f start) const {
+  const int row = sample / size_, col = sample % size_;
+  const float others = others_(row, col), distance = distance_(row, col);
+  if (triangles_[sample] < 0 || !(distance > 0) || !(others > distance)) return 0;
+  const Block& block = blocks_[block_of(sample)];
+  const Vec3d moved =
+      vec_cast<double>(start) - block.carried - vec_cast<double>(place_.at(row, col));
+  const double since = length(moved) + std::max(0.0, block.travelled - travelled_(row, col));
+  const double off =
+      rounding * (length(vec_cast<double>(start)) + length(block.carried) + block.travelled);
+  const double left = others - since - off;
+  return left > distance - since ? left : 0;
 }
 
 }  // namespace weft

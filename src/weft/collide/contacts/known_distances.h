@@ -38,10 +38,16 @@ class KnownDistances {
   /// come within the margin in the step; 0 where it is farther. [m]
   /// @param reach  [n] out
   void find_reaches(const Look& look, int row, Scratch& scratch, float* reach);
-  /// Sets what a search from a sample's start found.
-  /// @param distance  nothing of the body is nearer [m]
-  /// @param triangle  the closest one; -1: none was found
-  void set(int sample, Vec3f start, double distance, int triangle);
+  /// What a search from a sample's start found.
+  struct Found {
+    double distance = 0;  ///< nothing of the body is nearer [m]
+    int triangle = -1;    ///< the closest one; -1: none was found
+    double others = 0;    ///< no other triangle is nearer [m]
+  };
+  void set(int sample, Vec3f start, const Found& found);
+  /// A distance up to which the triangle that was last closest to a sample is certainly closest
+  /// yet; 0 where that is not known, or not likely. [m]
+  [[nodiscard]] double closest_up_to(int sample, Vec3f start) const;
 
   /// The triangle that was last found to be closest to a sample; -1: none was.
   [[nodiscard]] int triangle(int sample) const { return triangles_[sample]; }
@@ -71,6 +77,7 @@ class KnownDistances {
   Planes3 place_, seen_;                 // start less `carried`, and start, when last looked at [m]
   Grid<float> travelled_;                // Block::travelled then [m]
   Grid<float> distance_;                 // at least; 0: unknown [m]
+  Grid<float> others_;                   // see Found [m]
   std::vector<int> triangles_;           // [n * n]
 };
 

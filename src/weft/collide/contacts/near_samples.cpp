@@ -7,6 +7,9 @@ namespace weft {
 namespace {
 
 constexpr int tile_side = 8;
+/// How much farther than the closest triangle of a body that stands still others are told apart, in
+/// gaps.
+constexpr double told_apart = 0.1;
 static_assert(tile_side * tile_side <= NearestTile::capacity);
 
 /// Calls visit(row, col) for the samples of a tile, in the order of a Z: neighbours in the order
@@ -33,29 +36,37 @@ struct NearSamples::Search {
   [[nodiscard]] bool is_deep(int sample) const { return !deep.empty() && deep[sample] != 0; }
 };
 
-/// The samples of a tile in a search, with their body points.
+/// The samples of a tile in a search, with their body points. Made once for many tiles.
 class NearSamples::Tile {
  public:
   Tile(NearSamples& all, const Search& search) : all_(all), search_(search) {}
+  void clear() { count_ = 0; }
   void add(int row, int col);
   void find_starts();
   void find_ends();
 
  private:
+  [[nodiscard]] bool knows_closest(int k);
   void look_deep(int k);
+  void ask(int k, double reach, int hint);
   void set_start(int k, const BodyPoint& at);
   void set_end(int k, const BodyPoint* at_end);
-  [[nodiscard]] ClothPoint point_of(const NearSample& of) const;
-  [[nodiscard]] double reach_of(const NearSample& of) const {
+  [[nodiscard]] ClothPoint point_of(int k) const;
+  [[nodiscard]] double reach_of(int k) const {
     const int n = all_.grid_.size();
-    return all_.reach_(of.sample / n, of.sample % n);
+    return all_.reach_(numbers_[k] / n, numbers_[k] % n);
   }
 
   NearSamples& all_;
   const Search& search_;
   int count_ = 0;
   std::array<NearSample*, NearestTile::capacity> samples_{};
+  std::array<int, NearestTile::capacity> numbers_{};  // row * n + col
   std::array<BodyPoint, NearestTile::capacity> at_;
+  // What is asked of the body, the samples it is asked for, and the answers.
+  NearestTile asked_;
+  std::array<int, NearestTile::capacity> of_{};
+  NearestPoints found_;
 };
 
 NearSamples::NearSamples(const SurfaceGrid& grid, const KeptGap& kept, bool keeps_in)
@@ -63,28 +74,22 @@ NearSamples::NearSamples(const SurfaceGrid& grid, const KeptGap& kept, bool keep
       kept_(kept),
       keeps_in_(keeps_in),
       known_(grid.size(), kept.gap),
-      reach_(grid.size(), grid.size()) {
-  for (Found* found : {&now_, &before_}) {
-    found->first.resize(static_cast<std::size_t>(grid.size()) + 1, 0);
-    found->place.resize(static_cast<std::size_t>(grid.size()) * grid.size(), -1);
-  }
-}
+      reach_(grid.size(), grid.size()),
+      place_(static_cast<std::size_t>(grid.size()) * grid.size(), -1),
+      fresh_(static_cast<std::size_t>(grid.size()) + 1, 0) {}
 
-/// Calls visit(worker, first row, first column, number) for all tiles.
+/// Calls visit(first row, first column, number) for a worker's tiles.
 template <class Visit>
-void NearSamples::for_tiles(ThreadTeam& team, const Visit& visit) const {
+void NearSamples::for_tiles(const Worker& worker, const Visit& visit) const {
   const int tiles = (grid_.size() + tile_side - 1) / tile_side;
-  team.run([&](Worker& worker) {
-    for (int t = worker.rank(); t < tiles * tiles; t += worker.size())
-      visit(t / tiles * tile_side, t % tiles * tile_side, t);
-  });
+  for (int t = worker.rank(); t < tiles * tiles; t += worker.size())
+    visit(t / tiles * tile_side, t % tiles * tile_side, t);
 }
 
 void NearSamples::find(const MovingCloth& cloth, const ContactBody& body, const Doubts& doubts,
                        ThreadTeam& team) {
   const Search search{cloth, body, doubts.deep, doubts.farthest_exit, placement_ == body.placement};
   placement_ = body.placement;
-  std::swap(now_, before_);
   known_.begin(cloth, body, team);
   scratch_.resize(static_cast<std::size_t>(team.size()));
   const int n = grid_.size();
@@ -95,79 +100,106 @@ void NearSamples::find(const MovingCloth& cloth, const ContactBody& body, const 
     for (int r = mine.first; r < mine.last; ++r) {
       known_.find_reaches(look, r, scratch_[static_cast<std::size_t>(worker.rank())],
                           reach_.row(r));
-      number_row(search, r);
+      choose_row(search, r);
     }
   });
-  for (int r = 0; r < n; ++r) now_.first[r + 1] += now_.first[r];
-  now_.samples.resize(static_cast<std::size_t>(now_.first[n]));
-  if (now_.samples.empty()) return;
-  for_tiles(team, [&](int first_row, int first_col, int /*number*/) {
+  make_room();
+  team.run([&](Worker& worker) {
     Tile tile(*this, search);
-    for_samples(n, first_row, first_col, [&](int r, int c) { tile.add(r, c); });
-    tile.find_starts();
-    tile.find_ends();
+    for_tiles(worker, [&](int first_row, int first_col, int /*number*/) {
+      tile.clear();
+      for_samples(n, first_row, first_col, [&](int r, int c) { tile.add(r, c); });
+      tile.find_starts();
+      tile.find_ends();
+    });
   });
 }
 
-/// Gives the samples of a row that are to be looked at their places.
-void NearSamples::number_row(const Search& search, int row) {
+/// Chooses the samples of a row that are to be looked at, and counts those that have no place yet.
+void NearSamples::choose_row(const Search& search, int row) {
   const int n = grid_.size();
   float* reach = reach_.row(row);
-  int count = 0;
+  int fresh = 0;
   for (int c = 0, s = row * n; c < n; ++c, ++s) {
     if (search.is_deep(s)) reach[c] = HUGE_VALF;
-    now_.place[s] = reach[c] > 0 && grid_.point(s) == s ? count++ : -1;
+    if (!(reach[c] > 0)) continue;
+    if (grid_.point(s) != s)
+      reach[c] = 0;
+    else if (place_[s] < 0)
+      ++fresh;
   }
-  now_.first[row + 1] = count;
+  fresh_[row + 1] = fresh;
 }
 
-/// Takes over what the last search found of a sample, if that still holds.
-bool NearSamples::take_over(const Search& search, NearSample& to) const {
-  if (!search.same_placement) return false;
-  const NearSample* past = before_.find(to.sample / grid_.size(), to.sample % grid_.size());
-  if (past == nullptr || past->triangle < 0 || past->astray || !(past->start == to.start))
-    return false;
-  to = *past;
-  return true;
+/// Gives the samples that are near for the first time their places.
+void NearSamples::make_room() {
+  const int n = grid_.size();
+  fresh_[0] = static_cast<int>(samples_.size());
+  for (int r = 0; r < n; ++r) {
+    int next = fresh_[r];
+    for (int c = 0; fresh_[r + 1] > 0 && c < n; ++c)
+      if (int& place = place_[r * n + c]; reach_(r, c) > 0 && place < 0) place = next++;
+    fresh_[r + 1] = next;
+  }
+  samples_.resize(static_cast<std::size_t>(fresh_[n]));
 }
 
+/// Adds a sample that is near, with what the last search found of it where that still holds.
 void NearSamples::Tile::add(int row, int col) {
-  const int n = all_.grid_.size(), sample = row * n + col;
-  const int place = all_.now_.place[sample];
-  if (place < 0) return;
-  NearSample& one = all_.now_.samples[all_.now_.first[row] + place];
-  one.sample = sample;
-  one.triangle = -1;
-  one.motion = 0;
-  one.astray = false;
-  one.start = search_.cloth.start.at(row, col);
+  if (!(all_.reach_(row, col) > 0)) return;
+  const int sample = row * all_.grid_.size() + col;
+  NearSample& one = all_.samples_[all_.place_[sample]];
+  numbers_[count_] = sample;
+  const Vec3f start = search_.cloth.start.at(row, col);
+  const bool known = one.triangle >= 0 && !one.astray && search_.same_placement &&
+                     one.start == start && !search_.is_deep(sample);
+  if (!known) {
+    one.start = start;
+    one.triangle = -1;
+    one.motion = 0;
+    one.astray = false;
+  }
+  at_[count_].triangle = -1;
   samples_[count_++] = &one;
 }
 
+void NearSamples::Tile::ask(int k, double reach, int hint) {
+  of_[asked_.count] = k;
+  asked_.add(samples_[k]->start, reach, hint);
+}
+
 void NearSamples::Tile::find_starts() {
-  NearestTile asked;
-  std::array<int, NearestTile::capacity> of{};
+  asked_.count = 0;
+  // Where bodies move, others come nearer too soon.
+  asked_.beyond = search_.body.blocks == nullptr ? told_apart * all_.kept_.gap : 0;
   for (int k = 0; k < count_; ++k) {
-    NearSample& one = *samples_[k];
-    if (search_.is_deep(one.sample)) {
+    if (samples_[k]->triangle >= 0) continue;
+    if (search_.is_deep(numbers_[k]))
       look_deep(k);
-    } else if (!all_.take_over(search_, one)) {
-      of[asked.count] = k;
-      asked.add(one.start, all_.known_.search_reach(reach_of(one)),
-                all_.known_.triangle(one.sample));
-    }
+    else if (!knows_closest(k))
+      ask(k, all_.known_.search_reach(reach_of(k)), all_.known_.triangle(numbers_[k]));
   }
-  if (asked.count == 0) return;
-  NearestPoints found;
-  search_.body.query->closest(asked, found);
-  for (int i = 0; i < asked.count; ++i) {
-    const BodyPoint& at = found[i];
-    const NearSample& one = *samples_[of[i]];
+  search_.body.query->closest(asked_, found_);
+  for (int i = 0; i < asked_.count; ++i) {
+    const BodyPoint& at = found_[i].point;
     const bool any = at.triangle >= 0;
-    all_.known_.set(one.sample, one.start, any ? std::sqrt(at.squared_distance) : asked.reach[i],
-                    at.triangle);
-    if (any) set_start(of[i], at);
+    all_.known_.set(
+        numbers_[of_[i]], asked_.at[i],
+        {any ? std::sqrt(at.squared_distance) : asked_.reach[i], at.triangle, found_[i].others});
+    if (any) set_start(of_[i], at);
   }
+}
+
+/// Whether the triangle that was closest to a sample is still certain to be.
+bool NearSamples::Tile::knows_closest(int k) {
+  const Vec3f start = samples_[k]->start;
+  const double most = all_.known_.closest_up_to(numbers_[k], start);
+  if (!(most > 0)) return false;
+  const BodyPoint at =
+      search_.body.query->point_of(vec_cast<double>(start), all_.known_.triangle(numbers_[k]));
+  if (!(at.squared_distance < most * most)) return false;
+  set_start(k, at);
+  return true;
 }
 
 /// A sample that was outside and kept out cannot be inside now, whatever the normals say of an
@@ -175,9 +207,10 @@ void NearSamples::Tile::find_starts() {
 void NearSamples::Tile::look_deep(int k) {
   NearSample& one = *samples_[k];
   const Vec3d start = vec_cast<double>(one.start);
-  const auto found = search_.body.query->closest(start, HUGE_VAL, all_.known_.triangle(one.sample));
+  const auto found =
+      search_.body.query->closest(start, HUGE_VAL, all_.known_.triangle(numbers_[k]));
   if (!found) return;
-  all_.known_.set(one.sample, one.start, std::sqrt(found->squared_distance), found->triangle);
+  all_.known_.set(numbers_[k], one.start, {std::sqrt(found->squared_distance), found->triangle});
   one.astray = search_.body.query->behind(start, *found) != all_.keeps_in_;
   set_start(k, *found);
 }
@@ -186,15 +219,17 @@ void NearSamples::Tile::set_start(int k, const BodyPoint& at) {
   NearSample& one = *samples_[k];
   at_[k] = at;
   one.triangle = at.triangle;
-  one.before = place_before(search_.body, at, point_of(one));
+  const PlaceBefore before = place_before(search_.body, at, point_of(k));
+  one.normal = vec_cast<float>(before.normal);
+  one.gap = static_cast<float>(before.gap);
 }
 
-ClothPoint NearSamples::Tile::point_of(const NearSample& of) const {
+ClothPoint NearSamples::Tile::point_of(int k) const {
   ClothPoint point;
-  point.samples[0] = of.sample;
-  point.start = vec_cast<double>(of.start);
+  point.samples[0] = numbers_[k];
+  point.start = vec_cast<double>(samples_[k]->start);
   point.kept_in = all_.keeps_in_;
-  point.astray = of.astray;
+  point.astray = samples_[k]->astray;
   point.farthest = search_.farthest_exit;
   return point;
 }
@@ -202,40 +237,60 @@ ClothPoint NearSamples::Tile::point_of(const NearSample& of) const {
 /// Finds how the surface moves before the samples that may come near it.
 void NearSamples::Tile::find_ends() {
   const ContactBody& body = search_.body;
-  NearestTile asked;
-  std::array<int, NearestTile::capacity> of{};
+  asked_.count = 0;
+  asked_.beyond = 0;
   for (int k = 0; k < count_; ++k) {
     NearSample& one = *samples_[k];
-    if (one.triangle < 0 || one.motion == body.motion || !(one.before.gap < reach_of(one)))
-      continue;
+    if (one.triangle < 0 || one.motion == body.motion || !(one.gap < reach_of(k))) continue;
     if (at_[k].triangle < 0)
       at_[k] = body.query->point_of(vec_cast<double>(one.start), one.triangle);
     if (body.at_end == nullptr) {
       set_end(k, nullptr);
       continue;
     }
-    const BlockMotion::Near& near = all_.known_.near(one.sample);
-    of[asked.count] = k;
-    asked.add(one.start,
-              reach_at_end(one.before, length(near.displacement) + near.approach) +
-                  contact_margin * all_.kept_.gap,
-              one.triangle);
+    const BlockMotion::Near& near = all_.known_.near(numbers_[k]);
+    ask(k,
+        reach_at_end(one.gap, length(near.displacement) + near.approach) +
+            contact_margin * all_.kept_.gap,
+        one.triangle);
   }
-  if (asked.count == 0) return;
-  NearestPoints found;
-  body.at_end->closest(asked, found);
-  for (int i = 0; i < asked.count; ++i)
-    set_end(of[i], found[i].triangle >= 0 ? &found[i] : nullptr);
+  if (asked_.count == 0) return;
+  body.at_end->closest(asked_, found_);
+  for (int i = 0; i < asked_.count; ++i)
+    set_end(of_[i], found_[i].point.triangle >= 0 ? &found_[i].point : nullptr);
 }
 
 void NearSamples::Tile::set_end(int k, const BodyPoint* at_end) {
   NearSample& one = *samples_[k];
   const ContactBody& body = search_.body;
-  const ClothPoint point = point_of(one);
-  const Vec3d moved = surface_displacement(body, at_[k], at_end, one.before, point.start);
-  one.along = dot(one.before.normal, moved);
-  one.contact = contact_at(body, at_[k], point, one.before, moved, all_.kept_);
+  const ClothPoint point = point_of(k);
+  const PlaceBefore before = place_before(body, at_[k], point);
+  const Vec3d moved = surface_displacement(body, at_[k], at_end, before, point.start);
+  const Contact contact = contact_at(body, at_[k], point, before, moved, all_.kept_);
+  one.along = static_cast<float>(dot(before.normal, moved));
+  one.displacement = contact.surface_displacement;
+  one.offset = contact.offset;
+  one.lift = contact.lift;
   one.motion = body.motion;
+}
+
+void NearSamples::add_contact(const MovingCloth& cloth, const ContactBody& body, int row, int col,
+                              std::vector<Contact>& out) const {
+  const NearSample* near = find(row, col);
+  if (near == nullptr || near->triangle < 0 || near->motion != body.motion) return;
+  const Vec3d displacement =
+      vec_cast<double>(cloth.position.at(row, col)) - vec_cast<double>(near->start);
+  if (!comes_near({vec_cast<double>(near->normal), near->gap}, displacement, near->along, kept_))
+    return;
+  Contact contact;
+  contact.samples[0] = row * grid_.size() + col;
+  contact.normal = near->normal;
+  contact.offset = near->offset;
+  contact.lift = near->lift;
+  contact.friction =
+      near->astray ? 0 : static_cast<float>(pair_friction(kept_.friction, body.friction));
+  contact.surface_displacement = near->displacement;
+  out.push_back(contact);
 }
 
 double NearSamples::smallest_gap(const Planes3& positions, const ContactBody& body, double reach,
@@ -252,29 +307,30 @@ double NearSamples::smallest_gap(const Planes3& positions, const ContactBody& bo
   });
   const int tiles = (n + tile_side - 1) / tile_side;
   tile_gaps_.assign(static_cast<std::size_t>(tiles) * tiles, HUGE_VAL);
-  for_tiles(team, [&](int first_row, int first_col, int number) {
-    tile_gaps_[static_cast<std::size_t>(number)] =
-        gap_of_tile(positions, body, reach, first_row, first_col);
+  team.run([&](Worker& worker) {
+    NearestTile asked;
+    NearestPoints found;
+    for_tiles(worker, [&](int first_row, int first_col, int number) {
+      asked.count = 0;
+      for_samples(n, first_row, first_col, [&](int r, int c) {
+        if (reach_(r, c) > 0) asked.add(positions.at(r, c), reach, known_.triangle(r * n + c));
+      });
+      body.query->closest(asked, found);
+      tile_gaps_[static_cast<std::size_t>(number)] = smallest_of(asked, found, body);
+    });
   });
   return *std::min_element(tile_gaps_.begin(), tile_gaps_.end());
 }
 
-double NearSamples::gap_of_tile(const Planes3& positions, const ContactBody& body, double reach,
-                                int first_row, int first_col) const {
-  const int n = grid_.size();
-  NearestTile asked;
-  for_samples(n, first_row, first_col, [&](int r, int c) {
-    if (reach_(r, c) > 0) asked.add(positions.at(r, c), reach, known_.triangle(r * n + c));
-  });
-  if (asked.count == 0) return HUGE_VAL;
-  NearestPoints found;
-  body.query->closest(asked, found);
+double NearSamples::smallest_of(const NearestTile& asked, const NearestPoints& found,
+                                const ContactBody& body) const {
   double least = HUGE_VAL;
   for (int k = 0; k < asked.count; ++k) {
-    if (found[k].triangle < 0) continue;
-    const double distance = std::sqrt(found[k].squared_distance);
+    const BodyPoint& point = found[k].point;
+    if (point.triangle < 0) continue;
+    const double distance = std::sqrt(point.squared_distance);
     const Vec3d at = vec_cast<double>(asked.at[k]);
-    const bool astray = body.query->closed() && body.query->behind(at, found[k]) != keeps_in_;
+    const bool astray = body.query->closed() && body.query->behind(at, point) != keeps_in_;
     least = std::min(least, astray ? -distance : distance);
   }
   return least;

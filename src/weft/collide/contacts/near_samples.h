@@ -9,15 +9,16 @@
 namespace weft {
 
 /// A sample of a cloth near a body, with all of its contact that the start of a step decides.
-struct NearSample {
-  int sample = 0;
-  int triangle = -1;  ///< the closest one at the start; -1: none is within reach
-  Vec3f start;        ///< [m]
-  int motion = 0;     ///< of the body in the step to which `along` and the contact belong; 0: none
-  bool astray = false;  ///< it starts on the wrong side of the body
-  PlaceBefore before;
-  double along = 0;  ///< displacement of the surface along the normal [m]
-  Contact contact;   ///< if the sample comes near
+struct alignas(64) NearSample {
+  Vec3f start;                 ///< [m]
+  int triangle = -1;           ///< the closest one at the start; -1: none is within reach
+  Vec3f normal;                ///< see PlaceBefore
+  float gap = 0;               ///< see PlaceBefore [m]
+  Vec3f displacement;          ///< of the surface in the step [m]
+  float along = 0;             ///< the same along the normal [m]
+  float offset = 0, lift = 0;  ///< of the contact [m]
+  int motion = 0;              ///< of the body, to which the displacement belongs; 0: none
+  bool astray = false;         ///< it starts on the wrong side of the body
 };
 
 /// Finds the samples of one cloth that may touch one body in a step. A step asks twice, before and
@@ -34,9 +35,13 @@ class NearSamples {
   };
   void find(const MovingCloth& cloth, const ContactBody& body, const Doubts& doubts,
             ThreadTeam& team);
-  [[nodiscard]] std::span<const NearSample> all() const { return now_.samples; }
-  /// A sample, or null where it is not among them.
-  [[nodiscard]] const NearSample* find(int row, int col) const { return now_.find(row, col); }
+  /// A sample near the body in the last search, or null.
+  [[nodiscard]] const NearSample* find(int row, int col) const {
+    return reach_(row, col) > 0 ? &samples_[place_[row * grid_.size() + col]] : nullptr;
+  }
+  /// Adds the contacts of a row's samples with the body that come near it.
+  void add_contact(const MovingCloth& cloth, const ContactBody& body, int row, int col,
+                   std::vector<Contact>& out) const;
   /// Accepts a motion: the body stays at its end.
   void arrive(int motion) { known_.arrive(motion); }
   /// The smallest signed distance of a sample to the body, < 0 on the wrong side; infinite where
@@ -47,31 +52,23 @@ class NearSamples {
  private:
   struct Search;
   class Tile;
-  /// What a search found.
-  struct Found {
-    std::vector<NearSample> samples;  // row by row
-    std::vector<int> first;           // [n + 1] index of each row's first one
-    std::vector<int> place;           // [n * n] of a sample in its row; -1: it is not among them
-    /// A sample, or null where it is not among them.
-    [[nodiscard]] const NearSample* find(int row, int col) const {
-      const int at = place[row * (static_cast<int>(first.size()) - 1) + col];
-      return at < 0 ? nullptr : &samples[first[row] + at];
-    }
-  };
   template <class Visit>
-  void for_tiles(ThreadTeam& team, const Visit& visit) const;
-  void number_row(const Search& search, int row);
-  [[nodiscard]] double gap_of_tile(const Planes3& positions, const ContactBody& body, double reach,
-                                   int first_row, int first_col) const;
-  [[nodiscard]] bool take_over(const Search& search, NearSample& to) const;
+  void for_tiles(const Worker& worker, const Visit& visit) const;
+  void choose_row(const Search& search, int row);
+  void make_room();
+  void place_row(int row);
+  [[nodiscard]] double smallest_of(const NearestTile& asked, const NearestPoints& found,
+                                   const ContactBody& body) const;
 
   const SurfaceGrid& grid_;
   KeptGap kept_;
   bool keeps_in_;
   KnownDistances known_;
-  Grid<float> reach_;  // of this search, 0: the sample is far [m]
-  Found now_, before_;
-  int placement_ = 0;                             // of the body in the last search
+  Grid<float> reach_;  // of the last search, 0: the sample is far, or no representative [m]
+  std::vector<NearSample> samples_;  // that were near in some search
+  std::vector<int> place_;           // [n * n] of a sample among them; -1: it never was near
+  std::vector<int> fresh_;  // [n + 1] places of rows' samples that are near for the first time
+  int placement_ = 0;       // of the body in the last search
   std::vector<KnownDistances::Scratch> scratch_;  // of each worker
   std::vector<double> tile_gaps_;
 };

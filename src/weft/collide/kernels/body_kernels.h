@@ -56,8 +56,10 @@ struct NearTile {
   static constexpr int capacity = 64;
   float at[3][capacity];
   float reach[capacity];  ///< as of NearSearch
+  bool exact[capacity];   ///< whether the reach is the distance of a triangle
   int count;
   float rounding;  ///< as of NearSearch
+  float beyond;    ///< how much farther triangles are told from the closest one [m]
 };
 
 /// A triangle that may be closest to one of the points.
@@ -68,6 +70,8 @@ struct TileTriangles {
   static constexpr int capacity = 1024;
   TileTriangle found[capacity];  ///< by points
   int count;                     ///< more than the capacity: there were too many
+  /// Lower bounds of the distances of triangles that were not found, as far as `beyond`. [m]
+  float others[NearTile::capacity];
 };
 
 /// A row of what is known of samples' distances to a body, see KnownDistances. [m]

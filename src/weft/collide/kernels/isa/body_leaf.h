@@ -117,6 +117,8 @@ inline float part(float along) {
 /// inside. Where that is hard to tell the edges alone give bounds: no point of a triangle is
 /// farther from them than the radius of its inner circle. Triangles that are not there are far
 /// away.
+/// @tparam both  else lower bounds alone
+template <bool both>
 inline void bound(const PreparedLeaf& leaf, const float* at, LeafBounds& out) {
   const float x = at[0], y = at[1], z = at[2];
 #pragma omp simd
@@ -147,7 +149,7 @@ inline void bound(const PreparedLeaf& leaf, const float* at, LeafBounds& out) {
     const float lower = aa < farthest ? low : unclear, upper = aa < farthest ? high : edges;
     const float least_square = (1 - part_of_distance) * lower - slack;
     out.lower[k] = slack < far_away ? least_square : slack;
-    out.upper[k] = (1 + part_of_distance) * upper + slack;
+    if (both) out.upper[k] = (1 + part_of_distance) * upper + slack;
   }
 }
 
@@ -157,6 +159,15 @@ inline unsigned within(const float* lower, float limit) {
 #pragma omp simd reduction(| : found)
   for (int k = 0; k < lanes; ++k) found |= lower[k] <= limit ? bits[k] : 0U;
   return found;
+}
+
+/// Lowers `others` to the bounds beyond a limit, lane by lane.
+inline void pass_by(const float* lower, float limit, float* others) {
+#pragma omp simd
+  for (int k = 0; k < lanes; ++k) {
+    const float before = others[k], now = lower[k];
+    others[k] = now > limit ? min(before, now) : before;
+  }
 }
 
 inline float least_of(const float (&of)[lanes]) {

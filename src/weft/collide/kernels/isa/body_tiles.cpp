@@ -77,9 +77,8 @@ void pad(Leaves& leaves) {
     }
 }
 
-/// Squared distances of a point to sixteen leaves' boxes; `least` becomes the least, lane by lane.
-inline void distances(const Leaves& leaves, int first, const float* at, float* squared,
-                      float* least) {
+/// Squared distances of a point to sixteen leaves' boxes.
+inline void distances(const Leaves& leaves, int first, const float* at, float* squared) {
   const float *lx = leaves.lower[0] + first, *hx = leaves.upper[0] + first;
   const float *ly = leaves.lower[1] + first, *hy = leaves.upper[1] + first;
   const float *lz = leaves.lower[2] + first, *hz = leaves.upper[2] + first;
@@ -90,21 +89,8 @@ inline void distances(const Leaves& leaves, int first, const float* at, float* s
     const float above_x = px - hx[k], above_y = py - hy[k], above_z = pz - hz[k];
     const float x = max(max(below_x, above_x), 0), y = max(max(below_y, above_y), 0),
                 z = max(max(below_z, above_z), 0);
-    const float all = x * x + y * y + z * z, before = least[k];
-    squared[k] = all;
-    least[k] = min(before, all);
+    squared[k] = x * x + y * y + z * z;
   }
-}
-
-/// Those to all leaves' boxes. @return the least
-float distances(const Leaves& leaves, const float* at, float* squared) {
-  alignas(64) float least[16];
-  for (float& one : least) one = far_away * far_away;
-  for (int first = 0; first < leaves.count; first += 16)
-    distances(leaves, first, at, squared + first, least);
-  float eight[lanes];
-  for (int k = 0; k < lanes; ++k) eight[k] = min(least[k], least[k + 8]);
-  return least_of(eight);
 }
 
 /// One point and what is near it.
@@ -115,8 +101,10 @@ class PointSearch {
 
  private:
   void set_limit(float squared);
-  void look_at(int leaf);
-  void list(TileTriangles& out);
+  const PreparedLeaf& prepared(int leaf);
+  void look_for_nearer(int leaf);
+  void look_at_all();
+  void add(int leaf, const float* lower, TileTriangles& out);
 
   const BodyTree& tree_;
   Leaves& leaves_;
@@ -126,9 +114,7 @@ class PointSearch {
   float rounding_;                               // of squared distances [m^2]
   float limit_, box_limit_;                      // see body_tree.cpp
   alignas(64) float squared_[Leaves::capacity];  // of the leaves' boxes [m^2]
-  LeafBounds bounds_[Leaves::capacity];          // of the leaves that were looked at
-  int seen_[Leaves::capacity];                   // their indices
-  int count_ = 0;
+  alignas(64) float others_[lanes];              // of triangles that were passed by [m^2]
 };
 
 PointSearch::PointSearch(const BodyTree& tree, Leaves& leaves, const NearTile& tile, int point)
@@ -138,55 +124,70 @@ PointSearch::PointSearch(const BodyTree& tree, Leaves& leaves, const NearTile& t
       point_(point),
       at_{tile.at[0][point], tile.at[1][point], tile.at[2][point]},
       rounding_(of_rounding * tile.rounding * tile.rounding) {
-  set_limit(tile.reach[point] * tile.reach[point] * (1 + part_of_distance));
+  for (float& other : others_) other = far_away * far_away;
+  set_limit(tile.reach[point] * tile.reach[point] * (1 + part_of_distance) + rounding_);
 }
 
 void PointSearch::set_limit(float squared) {
   limit_ = squared;
-  const float far = std::sqrt(squared) + 2 * tile_.rounding;
+  const float far = std::sqrt(squared) + tile_.beyond + 2 * tile_.rounding;
   box_limit_ = far * far * (1 + part_of_distance);
 }
 
-void PointSearch::look_at(int leaf) {
-  LeafBounds& bounds = bounds_[count_];
-  seen_[count_++] = leaf;
-  if (!leaves_.ready[leaf])
-    prepare(tree_, row_of(leaves_.place[leaf]), col_of(leaves_.place[leaf]),
-            leaves_.prepared[leaf]);
+const PreparedLeaf& PointSearch::prepared(int leaf) {
+  const unsigned place = leaves_.place[leaf];
+  if (!leaves_.ready[leaf]) prepare(tree_, row_of(place), col_of(place), leaves_.prepared[leaf]);
   leaves_.ready[leaf] = true;
-  bound(leaves_.prepared[leaf], at_, bounds);
+  return leaves_.prepared[leaf];
+}
+
+void PointSearch::look_for_nearer(int leaf) {
+  LeafBounds bounds;
+  bound<true>(prepared(leaf), at_, bounds);
   const float least = least_of(bounds.upper) + rounding_;
   if (least < limit_) set_limit(least);
 }
 
-/// The nearest leaf first, since it is likely to put most of the others out of the question.
-void PointSearch::run(TileTriangles& out) {
-  const float least = distances(leaves_, at_, squared_);
-  int first = -1;
-  for (int l = 0; first < 0 && l < leaves_.count; ++l)
-    if (squared_[l] == least) first = l;
-  if (first >= 0 && least <= box_limit_) look_at(first);
-  for (int begin = 0; begin < leaves_.count; begin += 16) {
-    unsigned near = within_node(squared_ + begin, box_limit_);
-    for (; near != 0; near &= near - 1) {
-      const int l = begin + __builtin_ctz(near);
-      if (l != first && squared_[l] <= box_limit_) look_at(l);
-    }
-  }
-  list(out);
+/// Lowers the limit, the nearest leaf first, since it is likely to put most of the others out of
+/// the question.
+void PointSearch::look_at_all() {
+  float least = far_away * far_away;
+  for (int l = 0; l < leaves_.count; ++l) least = min(least, squared_[l]);
+  for (int begin = 0; begin < leaves_.count; begin += 16)
+    if (const unsigned nearest = within_node(squared_ + begin, min(least, box_limit_));
+        nearest != 0)
+      look_for_nearer(begin + __builtin_ctz(nearest));
+  for (int begin = 0; begin < leaves_.count; begin += 16)
+    for (unsigned near = within_node(squared_ + begin, limit_); near != 0; near &= near - 1)
+      if (const int l = begin + __builtin_ctz(near); squared_[l] > least && squared_[l] <= limit_)
+        look_for_nearer(l);
 }
 
-void PointSearch::list(TileTriangles& out) {
-  for (int i = 0; i < count_; ++i) {
-    const unsigned place = leaves_.place[seen_[i]];
-    unsigned near = within(bounds_[i].lower, limit_);
-    for (; near != 0; near &= near - 1) {
-      if (out.count < TileTriangles::capacity)
-        out.found[out.count] = {
-            point_, triangle_of(tree_, row_of(place), col_of(place), __builtin_ctz(near))};
-      ++out.count;
-    }
+void PointSearch::add(int leaf, const float* lower, TileTriangles& out) {
+  const unsigned place = leaves_.place[leaf];
+  for (unsigned near = within(lower, limit_); near != 0; near &= near - 1) {
+    if (out.count < TileTriangles::capacity)
+      out.found[out.count] = {
+          point_, triangle_of(tree_, row_of(place), col_of(place), __builtin_ctz(near))};
+    ++out.count;
   }
+}
+
+void PointSearch::run(TileTriangles& out) {
+  for (int first = 0; first < leaves_.count; first += 16)
+    distances(leaves_, first, at_, squared_ + first);
+  if (!tile_.exact[point_]) look_at_all();
+  for (int begin = 0; begin < leaves_.count; begin += 16)
+    for (unsigned near = within_node(squared_ + begin, box_limit_); near != 0; near &= near - 1) {
+      const int l = begin + __builtin_ctz(near);
+      LeafBounds bounds;
+      bound<false>(prepared(l), at_, bounds);
+      pass_by(bounds.lower, limit_, others_);
+      add(l, bounds.lower, out);
+    }
+  // What was not looked at is beyond the limit of boxes.
+  const float others = min(least_of(others_), (1 - part_of_distance) * box_limit_);
+  out.others[point_] = std::sqrt(max(others - rounding_, 0));
 }
 
 }  // namespace
@@ -201,7 +202,7 @@ void find_near_tile(const BodyTree& tree, const NearTile& tile, TileTriangles& o
     }
     reach = max(reach, tile.reach[k]);
   }
-  const float far = reach + 3 * tile.rounding;
+  const float far = reach + tile.beyond + 3 * tile.rounding;
   Leaves leaves;
   out.count = 0;
   if (far < far_away)

@@ -99,7 +99,7 @@ void Descent::look_at_leaf(unsigned place) {
   PreparedLeaf leaf;
   prepare(tree_, row, col, leaf);
   LeafBounds bounds;
-  bound(leaf, search_.at, bounds);
+  bound<true>(leaf, search_.at, bounds);
   const float least = least_of(bounds.upper) + rounding_;
   if (least < limit_) set_limit(least);
   unsigned near = within(bounds.lower, limit_);
