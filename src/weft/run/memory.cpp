@@ -82,9 +82,9 @@ constexpr double body_bytes_per_sample = 370;
 /// Polar tables, one for every pair of a cloth and a body.
 constexpr double table_bytes_per_sample = 110;
 /// Trees of the other colliders.
-constexpr double colliding_cloth_bytes_per_sample = 210, colliding_body_bytes_per_sample = 200;
+constexpr double colliding_cloth_bytes_per_sample = 420, colliding_body_bytes_per_sample = 430;
 /// Memory of the intersection count.
-constexpr double counted_cloth_bytes_per_sample = 330;
+constexpr double counted_cloth_bytes_per_sample = 440;
 /// Of a moving body: rest, both ends of a step, and the blend of each sample.
 constexpr double moving_bytes_per_sample = 64;
 constexpr double margin = 1.25, short_share = 0.8;
