@@ -1,4 +1,4 @@
-#include "weft/sim/insides.h"
+#include "weft/sim/loading/insides.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "tests/support/patterns.h"
 #include "weft/garment.h"
-#include "weft/sim/stepping/sewing.h"
+#include "weft/sim/sewing/sewing.h"
 
 namespace weft {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "weft/collide/ccd.h"
-#include "weft/sim/insides.h"
+#include "weft/sim/loading/insides.h"
 
 namespace weft {
 namespace {

@@ -13,7 +13,7 @@
 #include "weft/run/recorder.h"
 #include "weft/run/run_identity.h"
 #include "weft/scene_file.h"
-#include "weft/sim/insides.h"
+#include "weft/sim/loading/insides.h"
 
 namespace weft {
 namespace {

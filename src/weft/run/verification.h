@@ -5,7 +5,7 @@
 
 #include "weft/run.h"
 #include "weft/run/passings.h"
-#include "weft/sim/insides.h"
+#include "weft/sim/loading/insides.h"
 
 namespace weft {
 

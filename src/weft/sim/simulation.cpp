@@ -138,11 +138,8 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
     : parts_(std::make_unique<Parts>(scene, name, team, help)) {
   check_abilities(scene, name);
   if (scene.cloths.empty()) throw SceneError(name, "no cloth", "at least one is wanted");
-  parts_->load_bodies();
-  parts_->load_cloths();
-  parts_->tie_cloths();
+  static_cast<LoadedScene&>(*parts_) = load_scene(scene, name, help, parts_->team);
   parts_->make_movers();
-  parts_->find_insides();
   parts_->check_apart();
   parts_->make_collider_of_scene();
   parts_->note_too_fast();

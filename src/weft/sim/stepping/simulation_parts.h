@@ -13,14 +13,10 @@
 #include "weft/cloth/wind.h"
 #include "weft/collide/collider.h"
 #include "weft/collide/intersections.h"
-#include "weft/sim/insides.h"
-#include "weft/sim/motion/attachments.h"
-#include "weft/sim/motion/body_motion.h"
-#include "weft/sim/motion/pins.h"
+#include "weft/sim/loading/load_scene.h"
 #include "weft/sim/stepping/adaptive_substeps.h"
 #include "weft/sim/stepping/driven_work.h"
 #include "weft/sim/stepping/runaway.h"
-#include "weft/sim/stepping/sewing.h"
 #include "weft/simulation.h"
 
 namespace weft {
@@ -50,40 +46,24 @@ struct Mover {
   bool limited = false;  // a strain limiter works on the proposals of this step
 };
 
-struct Simulation::Parts {
+/// A loaded scene and what steps it.
+struct Simulation::Parts : LoadedScene {
   Parts(const Scene& given_scene, std::string given_name, const TeamOptions& given_team,
         const SimulationHelp& help)
       : scene(given_scene),
         name(std::move(given_name)),
         progress(help.progress),
-        surface_cache(help.surfaces),
         team(given_team),
         lone_team({1, given_team.instructions}),
         substep_time(1 / (scene.frame_rate * scene.substeps)),
         time_step(substep_time),
         soft(Integrators::traits_of(scene.integrator).soft_springs) {}
 
-  LoadedSurface load(const Surface& surface, ConvertOptions options, const std::string& what);
-  void check_collider(const char* kind, const BorderMates& mates, const std::string& what) const;
-  void check_charts(const BorderMates& mates, const std::string& what) const;
-  Cloth make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded);
-  /// Gives a garment the bending of panels that are sewn. @return that of its fabric
-  BendingPlanes stiffen(SceneCloth wanted, const Planes3& placed, const LoadedSurface& loaded,
-                        Cloth& cloth);
-  /// Where the samples of a cloth begin. @param garment  how many garments come before it
-  Planes3 place(const SceneCloth& wanted, const LoadedSurface& loaded, int garment);
-  void load_bodies();
-  /// After the bodies, which panels of garments must be outside of.
-  void load_cloths();
-  /// Ties cloths to bodies, at the initial positions of both.
-  void tie_cloths();
   /// Makes what moves a cloth, by the fabric that it has now.
   [[nodiscard]] Mover make_mover(std::size_t index);
   void make_movers();
   /// Solves all cloths as one system, where the method can.
   void join_movers();
-  /// Finds the closed bodies that cloths begin inside of, at the initial positions of both.
-  void find_insides();
   /// Refuses cloths that begin in the same place.
   void check_apart();
   /// Creates the collider, with the bodies at their current positions.
@@ -222,27 +202,14 @@ struct Simulation::Parts {
   Scene scene;
   std::string name;
   Progress* progress;
-  SurfaceCache* surface_cache;  // none: everything is loaded anew
   ThreadTeam team, lone_team;
-  double substep_time;              // [s]
-  double time_step;                 // of the step: a substep or a piece of one [s]
-  double step_start = 0;            // time at which the step begins [s]
-  double max_approach_in_step = 0;  // of a body towards cloth [m]
-  ClothReach reach;                 // of one cloth in a substep
-  bool soft;                        // springs that leave all stretch to the limiter
-  std::vector<SimulatedCloth> cloths;
-  std::vector<PlacedBody> bodies;
-  DrivenBodies driven;
-  std::optional<double> moved_to;  // where the collider knows bodies to go [s]
-  std::vector<std::string> notes;
-  std::vector<StartInside> insides;
-  std::vector<StartSides> start_sides;              // of each cloth
-  std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
-  std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
-  std::vector<std::optional<Sewing>> sewing;        // of each cloth; none: it is no garment
-  /// Of each cloth, the bending that is not in use: of a garment that slides that of its fabric,
-  /// later that of stiff panels; of other cloths none.
-  std::vector<BendingPlanes> other_bending;
+  double substep_time;                     // [s]
+  double time_step;                        // of the step: a substep or a piece of one [s]
+  double step_start = 0;                   // time at which the step begins [s]
+  double max_approach_in_step = 0;         // of a body towards cloth [m]
+  ClothReach reach;                        // of one cloth in a substep
+  bool soft;                               // springs that leave all stretch to the limiter
+  std::optional<double> moved_to;          // where the collider knows bodies to go [s]
   std::vector<Mover> movers;               // one a cloth
   std::unique_ptr<JointIntegrator> joint;  // of all; null: each is solved by itself
   std::vector<std::span<const Contact>> own_contacts;

@@ -8,7 +8,6 @@
 #include "weft/geometry_image.h"
 #include "weft/image/diagonals.h"
 #include "weft/scene_file.h"
-#include "weft/sim/exits.h"
 #include "weft/sim/placement.h"
 #include "weft/sim/stepping/simulation_parts.h"
 #include "weft/simulation.h"
@@ -41,33 +40,6 @@ double gap_of(const Cloth& cloth) {
   const double thickness = cloth.material.thickness;
   return std::clamp(gap_in_spacings * cloth.rest_spacing, thickness,
                     max_gap_in_thicknesses * thickness);
-}
-
-void Simulation::Parts::tie_cloths() {
-  std::vector<TiedSurface> surfaces;
-  for (const PlacedBody& body : bodies)
-    surfaces.push_back({body.name, &body.positions, grid_triangles(body.image)});
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    tied_pins.push_back(
-        tie_places(*cloths[i].model, scene.cloths[i].attach, surfaces, pin_motions[i]));
-}
-
-void Simulation::Parts::find_insides() {
-  for (const SimulatedCloth& cloth : cloths) {
-    start_sides.push_back(
-        find_start_sides(cloth, bodies, Colliders::traits_of(scene.collider).containers, team));
-    const std::vector<StartInside>& found = start_sides.back().inside;
-    insides.insert(insides.end(), found.begin(), found.end());
-    // Baselines take the start as it is.
-    if (!Colliders::traits_of(scene.collider).containers) continue;
-    if (const auto torn = find_torn_exit(cloth, bodies, start_sides.back().wrong_side, team))
-      throw SceneError(
-          name,
-          fmt::format("cloth '{}' begins in the middle of body '{}': neighbouring points would be "
-                      "pushed out by sides of it that are {:.2g} m apart",
-                      cloth.name, bodies[torn->body].name, torn->apart),
-          "a cloth that begins outside of it, or nearer to its surface, is wanted");
-  }
 }
 
 void Simulation::Parts::check_apart() {

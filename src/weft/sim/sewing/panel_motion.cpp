@@ -1,4 +1,4 @@
-#include "weft/sim/stepping/panel_motion.h"
+#include "weft/sim/sewing/panel_motion.h"
 
 #include <algorithm>
 

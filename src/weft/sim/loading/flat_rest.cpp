@@ -1,4 +1,4 @@
-#include "weft/sim/flat_rest.h"
+#include "weft/sim/loading/flat_rest.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "weft/sim/stepping/unpicking.h"
+#include "weft/sim/sewing/unpicking.h"
 
 #include <algorithm>
 #include <cmath>

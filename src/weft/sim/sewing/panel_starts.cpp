@@ -1,12 +1,12 @@
-#include "weft/sim/panel_starts.h"
+#include "weft/sim/sewing/panel_starts.h"
 
 #include <algorithm>
 #include <vector>
 
 #include "weft/geometry_image.h"
 #include "weft/mesh/crossings.h"
-#include "weft/sim/insides.h"
-#include "weft/sim/panel_touching.h"
+#include "weft/sim/loading/insides.h"
+#include "weft/sim/sewing/panel_touching.h"
 
 namespace weft {
 namespace {

@@ -7,8 +7,8 @@
 #include "weft/cloth/cloth.h"
 #include "weft/contact.h"
 #include "weft/garment.h"
-#include "weft/sim/stepping/panel_motion.h"
-#include "weft/sim/stepping/unpicking.h"
+#include "weft/sim/sewing/panel_motion.h"
+#include "weft/sim/sewing/unpicking.h"
 
 namespace weft {
 

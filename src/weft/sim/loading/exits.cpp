@@ -1,4 +1,4 @@
-#include "weft/sim/exits.h"
+#include "weft/sim/loading/exits.h"
 
 #include <algorithm>
 #include <array>

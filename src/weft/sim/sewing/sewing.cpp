@@ -1,4 +1,4 @@
-#include "weft/sim/stepping/sewing.h"
+#include "weft/sim/sewing/sewing.h"
 
 #include <algorithm>
 #include <cmath>

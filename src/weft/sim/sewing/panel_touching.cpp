@@ -1,4 +1,4 @@
-#include "weft/sim/panel_touching.h"
+#include "weft/sim/sewing/panel_touching.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,0 +1,241 @@
+#include "weft/sim/loading/load_scene.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "weft/error.h"
+#include "weft/geometry_image.h"
+#include "weft/image/diagonals.h"
+#include "weft/scene_file.h"
+#include "weft/sim/loading/cloth_shape.h"
+#include "weft/sim/loading/exits.h"
+#include "weft/sim/placement.h"
+#include "weft/sim/sewing/panel_starts.h"
+
+namespace weft {
+namespace {
+
+constexpr int body_normal_map_size = 257;
+
+/// Methods that know one chart only get as few as the mesh can be made of, however poor: others get
+/// more where one is stretched.
+ChartChoice charts_for(bool several) {
+  return several ? ChartChoice::automatic : ChartChoice::pieces;
+}
+
+/// What panels keep from the ground at the start. [m]
+constexpr double above_ground = 0.01;
+
+/// Loads a scene step by step: first bodies, which the panels of garments must be outside of.
+class Loader : public LoadedScene {
+ public:
+  Loader(const Scene& of, const std::string& scene_name, const SimulationHelp& help,
+         ThreadTeam& with)
+      : scene_(of),
+        name_(scene_name),
+        progress_(help.progress),
+        surface_cache_(help.surfaces),
+        team_(with) {}
+  void load_bodies();
+  void load_cloths();
+  /// Ties cloths to bodies, at the initial positions of both.
+  void tie_cloths();
+  /// Finds the closed bodies that cloths begin inside of, at the initial positions of both.
+  void find_insides();
+
+ private:
+  LoadedSurface load(const Surface& surface, ConvertOptions options, const std::string& what);
+  void check_collider(const char* kind, const BorderMates& mates, const std::string& what) const;
+  void check_charts(const BorderMates& mates, const std::string& what) const;
+  Cloth make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded);
+  /// Gives a garment the bending of panels that are sewn. @return that of its fabric
+  BendingPlanes stiffen(SceneCloth wanted, const Planes3& placed, const LoadedSurface& loaded,
+                        Cloth& cloth);
+  /// Where the samples of a cloth begin. @param garment  how many garments come before it
+  Planes3 place(const SceneCloth& wanted, const LoadedSurface& loaded, int garment);
+
+  const Scene& scene_;
+  const std::string& name_;
+  Progress* progress_;
+  SurfaceCache* surface_cache_;  // none: everything is loaded anew
+  ThreadTeam& team_;
+};
+
+LoadedSurface Loader::load(const Surface& surface, ConvertOptions options,
+                           const std::string& what) {
+  update(options.progress, "load " + what, 0);
+  options.threads = team_.size();
+  options.keep_source = true;
+  options.files = scene_.files;
+  const auto read = [&] {
+    try {
+      return surface_cache_ != nullptr ? surface_cache_->load(surface, options)
+                                       : load_surface(surface, options);
+    } catch (const UsageError& error) {
+      // An error of the command line elsewhere; here the surface is named in a scene file.
+      throw SceneError(name_, fmt::format("'{}': {}", what, error.what()), "");
+    }
+  };
+  LoadedSurface loaded = read();
+  for (const std::string& note : loaded.notes) notes.push_back(fmt::format("{}: {}", what, note));
+  return loaded;
+}
+
+Cloth Loader::make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded) {
+  try {
+    return cloth_of(wanted, placed, loaded, notes);
+  } catch (const SceneError& error) {
+    throw SceneError(name_, fmt::format("'{}': {}", wanted.name, error.what()), "");
+  }
+}
+
+void Loader::check_collider(const char* kind, const BorderMates& mates,
+                            const std::string& what) const {
+  if (!Colliders::traits_of(scene_.collider).several_charts)
+    throw SceneError(
+        name_, fmt::format("{} '{}' is an image of {} charts", kind, what, mates.charts().size()),
+        fmt::format("the collider pyramid is wanted, or a {} of one chart", kind));
+}
+
+void Loader::check_charts(const BorderMates& mates, const std::string& what) const {
+  if (!mates.keep_manifold())
+    throw SceneError(
+        name_,
+        fmt::format("cloth '{}' has edges of more than two triangles, or one side only", what),
+        "an oriented surface, two triangles at most on every edge, is wanted");
+  if (!mates.chart_of().empty() && !Integrators::traits_of(scene_.integrator).several_charts)
+    throw SceneError(
+        name_, fmt::format("cloth '{}' is an image of {} charts", what, mates.charts().size()),
+        "the integrator newton is wanted, or a cloth of one chart");
+  if (!mates.chart_of().empty()) check_collider("cloth", mates, what);
+}
+
+Planes3 Loader::place(const SceneCloth& wanted, const LoadedSurface& loaded, int garment) {
+  Planes3 placed = placed_positions(loaded.image, placement_map(wanted.placement));
+  if (!loaded.garment) return placed;
+  put_round_layers(loaded.image.mates, wanted.layer.value_or(garment), placed);
+  // Baselines take the start as it is, and pins and ties are where the pattern puts its panels.
+  if (!Colliders::traits_of(scene_.collider).containers) return placed;
+  if (!wanted.pins.empty() || !wanted.attach.empty()) return placed;
+  const double height = scene_.ground ? *scene_.ground + above_ground : -HUGE_VAL;
+  if (const int lifted = lift_above_ground(loaded.image.mates, height, placed))
+    notes.push_back(fmt::format("{}: {} of {} panels reached below the ground and begin higher",
+                                wanted.name, lifted, loaded.image.mates.charts().size()));
+  if (const int moved = move_out_of_bodies(loaded.image, bodies, team_, placed))
+    notes.push_back(fmt::format("{}: {} of {} panels were in a body and begin farther outside",
+                                wanted.name, moved, loaded.image.mates.charts().size()));
+  if (const int parted = part_panels(loaded.garment->sewn, placed))
+    notes.push_back(fmt::format("{}: {} of {} panels touched others and begin farther outside",
+                                wanted.name, parted, loaded.image.mates.charts().size()));
+  return placed;
+}
+
+BendingPlanes Loader::stiffen(SceneCloth wanted, const Planes3& placed, const LoadedSurface& loaded,
+                              Cloth& cloth) {
+  wanted.material.bending = Sewing::bending_for(wanted.material);
+  return std::exchange(cloth.bending, make(wanted, placed, loaded).bending);
+}
+
+void Loader::load_cloths() {
+  const bool several = Colliders::traits_of(scene_.collider).several_charts &&
+                       Integrators::traits_of(scene_.integrator).several_charts;
+  int garments = 0;
+  for (const SceneCloth& wanted : scene_.cloths) {
+    ConvertOptions options;
+    options.size = wanted.size;
+    options.spacing = wanted.spacing;
+    options.keep_uv = wanted.rest.has_value() && !is_image_surface(wanted.surface);
+    options.charts = options.keep_uv ? ChartChoice::texture : charts_for(several);
+    options.keep_warp = !wanted.rest && has_direction(wanted.material);
+    options.progress = progress_;
+    LoadedSurface loaded = load(wanted.surface, options, wanted.name);
+    check_charts(loaded.garment ? loaded.garment->sewn : loaded.image.mates, wanted.name);
+    const Planes3 placed = place(wanted, loaded, garments);
+    if (loaded.garment) ++garments;
+    Cloth cloth = make(wanted, placed, loaded);
+    other_bending.push_back(loaded.garment ? stiffen(wanted, placed, loaded, cloth)
+                                           : BendingPlanes());
+    pin_motions.push_back(pin_places(cloth, wanted.pins));
+    ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
+    sewing.push_back(loaded.garment
+                         ? std::optional<Sewing>(std::in_place, *loaded.garment, state.position)
+                         : std::nullopt);
+    cloths.push_back({wanted.name, std::move(loaded.image),
+                      std::make_shared<Cloth>(std::move(cloth)), std::move(state),
+                      std::move(loaded.source), std::move(loaded.garment)});
+  }
+}
+
+void Loader::load_bodies() {
+  for (const SceneBody& wanted : scene_.bodies) {
+    ConvertOptions options;
+    options.size = wanted.size;
+    options.charts = charts_for(Colliders::traits_of(scene_.collider).several_charts);
+    options.normal_map_size = body_normal_map_size;
+    options.keep_places = !wanted.animation.empty();
+    options.progress = progress_;
+    LoadedSurface loaded = load(wanted.surface, options, wanted.name);
+    if (loaded.garment)
+      throw SceneError(name_, fmt::format("body '{}' is a sewing pattern", wanted.name),
+                       "a mesh or a geometry image is wanted");
+    if (!loaded.image.has_one_chart()) check_collider("body", loaded.image.mates, wanted.name);
+    BodyMotion motion(wanted, loaded, {scene_.frame_rate, scene_.files});
+    const PlacementMap map = placement_map(wanted.placement);
+    PlacedBody body;
+    body.name = wanted.name;
+    body.moves = motion.moves();
+    if (loaded.normals && !body.moves) body.normals = placed_normals(*loaded.normals, map);
+    body.image_normals = std::move(loaded.normals);
+    body.positions = placed_positions(loaded.image, map);
+    body.image = std::move(loaded.image);
+    body.source = std::move(loaded.source);
+    driven.add(std::move(motion));
+    bodies.push_back(std::move(body));
+  }
+  driven.move_to(0, team_);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].moves) bodies[i].positions = *driven.ends()[i];
+}
+
+void Loader::tie_cloths() {
+  std::vector<TiedSurface> surfaces;
+  for (const PlacedBody& body : bodies)
+    surfaces.push_back({body.name, &body.positions, grid_triangles(body.image)});
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    tied_pins.push_back(
+        tie_places(*cloths[i].model, scene_.cloths[i].attach, surfaces, pin_motions[i]));
+}
+
+void Loader::find_insides() {
+  for (const SimulatedCloth& cloth : cloths) {
+    start_sides.push_back(
+        find_start_sides(cloth, bodies, Colliders::traits_of(scene_.collider).containers, team_));
+    const std::vector<StartInside>& found = start_sides.back().inside;
+    insides.insert(insides.end(), found.begin(), found.end());
+    // Baselines take the start as it is.
+    if (!Colliders::traits_of(scene_.collider).containers) continue;
+    if (const auto torn = find_torn_exit(cloth, bodies, start_sides.back().wrong_side, team_))
+      throw SceneError(
+          name_,
+          fmt::format("cloth '{}' begins in the middle of body '{}': neighbouring points would be "
+                      "pushed out by sides of it that are {:.2g} m apart",
+                      cloth.name, bodies[torn->body].name, torn->apart),
+          "a cloth that begins outside of it, or nearer to its surface, is wanted");
+  }
+}
+
+}  // namespace
+
+LoadedScene load_scene(const Scene& scene, const std::string& name, const SimulationHelp& help,
+                       ThreadTeam& team) {
+  Loader loader(scene, name, help, team);
+  loader.load_bodies();
+  loader.load_cloths();
+  loader.tie_cloths();
+  loader.find_insides();
+  return std::move(static_cast<LoadedScene&>(loader));
+}
+
+}  // namespace weft
