@@ -234,9 +234,10 @@ class Run {
     const IntersectionCounts counts = simulation_.intersections();
     report_.start_intersections = counts;
     if (counts.bodies > 0 && options_.tell)
-      options_.tell(fmt::format("at the start {} pairs of triangles of cloths and bodies cross; "
-                                "only closed bodies push out what they cross",
-                                counts.bodies));
+      options_.tell(
+          fmt::format("at the start {} pairs of triangles of cloths and bodies cross; "
+                      "only closed bodies push out what they cross",
+                      counts.bodies));
     if (tangled_pairs(counts) == 0) {
       report_.untangled_frame = 0;
     } else if (options_.tell) {
