@@ -20,6 +20,9 @@ void raise(const Planes3& from, const Planes3& to, int row, float* squared) {
   }
 }
 
+/// Part of the blocks from which it is faster to renew all.
+constexpr double worth_all = 0.9;
+
 void copy_samples(const Planes3& from, int row, Range cols, Planes3& to) {
   const auto copy = [&](const Grid<float>& source, Grid<float>& target) {
     std::copy(source.row(row) + cols.first, source.row(row) + cols.last,
@@ -89,19 +92,31 @@ void PatchMotion::renew_block(const MovingSurface& now, int row, int col) {
   blocks_[static_cast<std::size_t>(row) * blocks() + col] = 0;
 }
 
+void PatchMotion::renew_all(const MovingSurface& now, int version) {
+  start_ = *now.start;
+  end_ = *now.end;
+  std::fill(blocks_.begin(), blocks_.end(), 0.0F);
+  std::fill(distances_.begin(), distances_.end(), 0.0F);
+  versions_.set_all(version);
+  known_ = true;
+}
+
 void PatchMotion::renew(const MovingSurface& now, float limit, int version) {
+  const auto far =
+      std::count_if(blocks_.begin(), blocks_.end(), [&](float moved) { return !(moved <= limit); });
+  if (!known_ || static_cast<double>(far) > worth_all * static_cast<double>(blocks_.size()))
+    return renew_all(now, version);
   const int n = blocks();
   bool any = false;
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
-      if (known_ && blocks_[static_cast<std::size_t>(r) * n + c] <= limit) continue;
+      if (blocks_[static_cast<std::size_t>(r) * n + c] <= limit) continue;
       any = true;
       renew_block(now, r, c);
       for (int i = std::max(0, r - 1); i <= std::min(r, patches_ - 1); ++i)
         for (int j = std::max(0, c - 1); j <= std::min(c, patches_ - 1); ++j)
           versions_.set(i, j, version);
     }
-  known_ = true;
   for (int r = 0; any && r < patches_; ++r) join_distances(r);
 }
 

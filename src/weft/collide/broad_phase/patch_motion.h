@@ -18,7 +18,8 @@ class PatchMotion {
   explicit PatchMotion(int cells);
   /// Measures a step's motion. To be called by every worker; ends with a barrier.
   void measure(const MovingSurface& now, Worker& worker);
-  /// Takes the measured motion of patches that are farther than `limit` as their new places.
+  /// Takes the measured motion of patches that are farther than `limit` as their new places; of all
+  /// patches where nearly all are.
   /// @param version  that they get; larger than all before
   void renew(const MovingSurface& now, float limit, int version);
 
@@ -34,6 +35,7 @@ class PatchMotion {
   [[nodiscard]] int blocks() const { return (size_ + side - 1) / side; }
   void measure_blocks(const MovingSurface& now, int row);
   void join_distances(int row);
+  void renew_all(const MovingSurface& now, int version);
   void renew_block(const MovingSurface& now, int row, int col);
 
   int size_, patches_;            // samples and patches a side

@@ -20,6 +20,10 @@ void PatchVersions::set(int row, int col, int version) {
   }
 }
 
+void PatchVersions::set_all(int version) {
+  for (std::vector<int>& level : versions_) std::fill(level.begin(), level.end(), version);
+}
+
 void PatchVersions::take(const PatchVersions& from, int version) {
   for (int r = 0; r < patches(); ++r)
     for (int c = 0; c < patches(); ++c)

@@ -28,6 +28,7 @@ class PatchVersions {
 
   /// Gives a patch a version that is not below those before.
   void set(int row, int col, int version);
+  void set_all(int version);
   /// Takes the patches that have a version elsewhere, which is the latest there.
   void take(const PatchVersions& from, int version);
   /// The same for all patches that share cells with a square.
