@@ -30,7 +30,9 @@ def scenes(folder, shared):
             if file in path.read_text():
                 subprocess.run([sys.executable, program.ROOT / "examples" / maker, made / file, "--weft", program.PROGRAM],
                                check=True)
-                path = pathlib.Path(made / path.name).write_text(path.read_text()) and made / path.name
+                text = path.read_text().replace('"../', f'"{program.ROOT}/examples/')
+                path = made / path.name
+                path.write_text(text)
         yield path.stem, ("simulate", path)
 
 

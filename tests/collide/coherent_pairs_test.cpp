@@ -46,13 +46,12 @@ class Counted final : public BroadPhase {
                  std::vector<CandidateTile>& out) override {
     pyramid_.find_self(a, reach, slack, team, out);
   }
-  bool find_changed(int a, int b, float reach, const UnfoldedWindows* unfolded,
-                    const ChangedPatches& changed, ThreadTeam& team,
+  bool find_changed(int a, int b, float reach, const ChangedPatches& changed, ThreadTeam& team,
                     std::vector<CandidateTile>& out) override {
     ++searches_;
     for (int p = 0; p < changed.a->patches() * changed.a->patches(); ++p)
       patches_ += changed.a->of(p) > changed.since ? 1 : 0;
-    return pyramid_.find_changed(a, b, reach, unfolded, changed, team, out);
+    return pyramid_.find_changed(a, b, reach, changed, team, out);
   }
 
  private:

@@ -152,6 +152,24 @@ struct HeldLineMatrix {
 /// or inverse blocks and springs.
 inline constexpr int line_factor_entries = 12, held_factor_entries = 10;
 
+/// out = (add ? out : 0) + scale * solution, of a block of lines.
+struct LineSolve {
+  const float* factor;
+  const PlaneView* rhs;  ///< x, y, z
+  float scale;
+  bool add;
+  float* scratch;  ///< [length x 3 x line_lanes]
+  const MutablePlaneView* out;
+};
+
+/// A guess of a step, of `count` columns.
+struct GuessRow {
+  int count;
+  float time_step;            ///< [s]
+  ConstRow3 start, velocity;  ///< of the step [m], [m/s]
+  ConstRow3 position;         ///< guessed [m]
+};
+
 struct NewtonKernels {
   /// Of second neighbours, which come last.
   void (*linearise_far)(int n, const LinearisedSprings& springs, SpringHessianRow out);
@@ -162,9 +180,8 @@ struct NewtonKernels {
   /// @return whether the positions are those known
   bool (*begin_step)(const StepStartRow& start, const StepGuessRow& out);
   /// Copies a guess. Where it is not start + h velocity, its velocity becomes the displacement over
-  /// h. @param n  columns
-  void (*follow_guess)(int n, float time_step, ConstRow3 start, ConstRow3 guess, ConstRow3 velocity,
-                       Row3 position, Row3 velocity_out);
+  /// h.
+  void (*follow_guess)(const GuessRow& guess, Row3 position, Row3 velocity);
   /// The Hessian of near springs, and the forces of springs and inertia,
   /// sum of f (x_j - x_i) - mass (v - v0 - h g) / h, row after row.
   void (*linearise)(int n, const NearSprings& springs, const InertiaRow& inertia,
@@ -204,11 +221,8 @@ struct NewtonKernels {
                               float* factor);
   /// @param factor  [length x held_factor_entries x line_lanes]
   void (*factor_held_lines)(const LineBlock& lines, const HeldLineMatrix& matrix, float* factor);
-  /// out = (add ? out : 0) + scale * solution. @param scratch  [length x 3 x line_lanes]
-  void (*solve_lines)(const LineBlock& lines, const float* factor, const PlaneView* rhs,
-                      float scale, bool add, float* scratch, const MutablePlaneView* out);
-  void (*solve_held_lines)(const LineBlock& lines, const float* factor, const PlaneView* rhs,
-                           float scale, bool add, float* scratch, const MutablePlaneView* out);
+  void (*solve_lines)(const LineBlock& lines, const LineSolve& solve);
+  void (*solve_held_lines)(const LineBlock& lines, const LineSolve& solve);
 
   /// A coarse row of m columns: the transpose of bilinear interpolation.
   void (*restrict_row)(int m, const RowTriple& fine, Row3 coarse);

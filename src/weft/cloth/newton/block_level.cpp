@@ -42,10 +42,9 @@ Galerkin::Galerkin(int size, int workers) {
 
 /// Coarsens a chart to some of its coarse rows. Around it its stencils have zeros.
 template <class CoarsenColumns>
-void Galerkin::coarsen_chart(std::size_t chart, const BlockLevel& fine, BlockLevel& coarse,
-                             Range rows, PlaneSet& half, const NewtonKernels& kernels,
-                             const CoarsenColumns& coarsen_columns) {
-  const Chart &from = fine.layout.charts[chart], &to = coarse.layout.charts[chart];
+void Galerkin::coarsen_chart(const Charts& charts, Range rows, PlaneSet& half, BlockLevel& coarse,
+                             const NewtonKernels& kernels, const CoarsenColumns& coarsen_columns) {
+  const Chart &from = charts.fine, &to = charts.coarse;
   // Ring buffer of the half-coarsened rows 2 q - 1, 2 q, 2 q + 1.
   const auto slot = [](int row) { return (row + 3) % 3; };
   const auto make = [&](int row) {
@@ -75,7 +74,7 @@ void Galerkin::coarsen_rows(const BlockLevel& fine, BlockLevel& coarse, const Wo
     const Range rows{std::max(mine.first - charts[k].row, 0),
                      std::min(mine.last - charts[k].row, charts[k].rows)};
     if (rows.first >= rows.last) continue;
-    coarsen_chart(k, fine, coarse, rows, half, kernels, coarsen_columns);
+    coarsen_chart({fine.layout.charts[k], charts[k]}, rows, half, coarse, kernels, coarsen_columns);
   }
 }
 

@@ -68,10 +68,13 @@ class Galerkin {
   template <class CoarsenColumns>
   void coarsen_rows(const BlockLevel& fine, BlockLevel& coarse, const Workers& workers,
                     const NewtonKernels& kernels, const CoarsenColumns& coarsen_columns);
+  /// A chart on two levels.
+  struct Charts {
+    const Chart &fine, &coarse;
+  };
   template <class CoarsenColumns>
-  void coarsen_chart(std::size_t chart, const BlockLevel& fine, BlockLevel& coarse, Range rows,
-                     PlaneSet& half, const NewtonKernels& kernels,
-                     const CoarsenColumns& coarsen_columns);
+  static void coarsen_chart(const Charts& charts, Range rows, PlaneSet& half, BlockLevel& coarse,
+                            const NewtonKernels& kernels, const CoarsenColumns& coarsen_columns);
 
   std::vector<PlaneSet> half_rows_;  // three half-coarsened rows for each worker
 };

@@ -41,7 +41,7 @@ void LineFactor::solve(int block, const PaddedVectors& rhs, Solve how, float* sc
                                       {out.y.row(0), out.y.stride()},
                                       {out.z.row(0), out.z.stride()}};
   const auto solve_block = held_ ? kernels.solve_held_lines : kernels.solve_lines;
-  solve_block(at(block), factor_of(block), right, how.scale, how.add, scratch, result);
+  solve_block(at(block), {factor_of(block), right, how.scale, how.add, scratch, result});
 }
 
 }  // namespace weft

@@ -102,8 +102,8 @@ void NewtonPart::read_row(int row) {
   const ConstRow3 position = row_of(std::as_const(next_.position), row),
                   velocity = row_of(std::as_const(next_.velocity), row);
   if (iterations == 0) {
-    kernels_.follow_guess(cloth_.size, static_cast<float>(input_.time_step),
-                          std::as_const(state_.start).row(row), position, velocity,
+    kernels_.follow_guess({cloth_.size, static_cast<float>(input_.time_step),
+                           std::as_const(state_.start).row(row), velocity, position},
                           state_.position.row(row), state_.velocity.row(row));
   } else {
     copy_row(position, state_.position.row(row), cloth_.size);

@@ -23,7 +23,8 @@ class PaddedPlane {
  public:
   PaddedPlane() = default;
   PaddedPlane(int rows, int cols) : rows_(rows), cols_(cols), stride_(stride_for(cols)) {
-    const std::size_t count = static_cast<std::size_t>(stride_) * (rows + 2 * frame_rows);
+    const std::size_t count =
+        static_cast<std::size_t>(stride_) * (rows + 2 * frame_rows) + read_beyond;
     data_.reset(static_cast<float*>(::operator new(count * sizeof(float), alignment)));
     for (std::size_t i = 0; i < count; ++i) data_[i] = 0;
   }
@@ -44,6 +45,8 @@ class PaddedPlane {
 
  private:
   static constexpr int frame_rows = 2, frame_cols = 16;
+  /// Rows that become every second column are read in whole vectors of those.
+  static constexpr std::size_t read_beyond = 32;
   static constexpr std::align_val_t alignment{64};
   struct Free {
     void operator()(float* p) const { ::operator delete(p, alignment); }

@@ -36,6 +36,8 @@ class UnfoldedWindows;
 struct ChangedPatches {
   const PatchVersions *a = nullptr, *b = nullptr;
   int since = 0;  ///< versions after this are changes
+  /// Of a cloth with itself: pairs in its windows above the cells may be left out.
+  const UnfoldedWindows* unfolded = nullptr;
 };
 
 /// Finds the pairs of cells of surfaces that may meet. Nothing allocates once warmed up.
@@ -62,11 +64,10 @@ class BroadPhase {
   /// The same as find or find_self, of changed patches alone, ordered by the patches of the first
   /// surface and then by place_in_order of those of the second. A cloth's neighbours along itself
   /// are left out, see UnfoldedWindows::neighbours.
-  /// @param unfolded  of a cloth with itself: pairs in its windows above the cells may be left out
   /// @return false where the phase cannot tell parts of a search from the whole
   virtual bool find_changed(int /*surface_a*/, int /*surface_b*/, float /*reach*/,
-                            const UnfoldedWindows* /*unfolded*/, const ChangedPatches& /*changed*/,
-                            ThreadTeam& /*team*/, std::vector<CandidateTile>& /*out*/) {
+                            const ChangedPatches& /*changed*/, ThreadTeam& /*team*/,
+                            std::vector<CandidateTile>& /*out*/) {
     return false;
   }
   /// Boxes of the nodes of a surface's mip pyramid in the step; null where there is no pyramid.

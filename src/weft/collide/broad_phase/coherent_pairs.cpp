@@ -99,9 +99,9 @@ bool CoherentPairs::search(int a, int b, const List& list, float slack, ThreadTe
   fresh_.clear();
   const float reach = list.reach + 1.5F * skin_;
   const bool self = a == b;
-  const ChangedPatches changed{&versions(a, self), &versions(b, self), list.version};
-  const UnfoldedWindows* unfolded = self ? &windows_[static_cast<std::size_t>(a)] : nullptr;
-  if (broad_phase_->find_changed(a, b, reach, unfolded, changed, team, fresh_)) return false;
+  const ChangedPatches changed{&versions(a, self), &versions(b, self), list.version,
+                               self ? &windows_[static_cast<std::size_t>(a)] : nullptr};
+  if (broad_phase_->find_changed(a, b, reach, changed, team, fresh_)) return false;
   if (self) {
     broad_phase_->find_self(a, reach, slack + skin_, team, fresh_);
     drop_neighbours();

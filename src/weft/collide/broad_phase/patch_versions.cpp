@@ -21,7 +21,7 @@ void PatchVersions::set(int row, int col, int version) {
 }
 
 void PatchVersions::set_all(int version) {
-  for (std::vector<int>& level : versions_) std::fill(level.begin(), level.end(), version);
+  for (std::vector<int>& nodes : versions_) std::fill(nodes.begin(), nodes.end(), version);
 }
 
 void PatchVersions::take(const PatchVersions& from, int version) {

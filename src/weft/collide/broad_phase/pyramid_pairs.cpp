@@ -196,11 +196,11 @@ void PyramidPairs::find_self(int surface, float reach, float slack, ThreadTeam& 
 }
 
 bool PyramidPairs::find_changed(int surface_a, int surface_b, float reach,
-                                const UnfoldedWindows* unfolded, const ChangedPatches& changed,
-                                ThreadTeam& team, std::vector<CandidateTile>& out) {
-  search_all(
-      {&collide_kernels_for(team.instructions()), surface_a, surface_b, reach, unfolded, &changed},
-      team, out);
+                                const ChangedPatches& changed, ThreadTeam& team,
+                                std::vector<CandidateTile>& out) {
+  search_all({&collide_kernels_for(team.instructions()), surface_a, surface_b, reach,
+              changed.unfolded, &changed},
+             team, out);
   return true;
 }
 

@@ -24,9 +24,8 @@ class PyramidPairs final : public BroadPhase {
             std::vector<CandidateTile>& out) override;
   void find_self(int surface, float reach, float slack, ThreadTeam& team,
                  std::vector<CandidateTile>& out) override;
-  bool find_changed(int surface_a, int surface_b, float reach, const UnfoldedWindows* unfolded,
-                    const ChangedPatches& changed, ThreadTeam& team,
-                    std::vector<CandidateTile>& out) override;
+  bool find_changed(int surface_a, int surface_b, float reach, const ChangedPatches& changed,
+                    ThreadTeam& team, std::vector<CandidateTile>& out) override;
   [[nodiscard]] const PathBoxLevels* boxes(int surface) const override {
     return &levels_[static_cast<std::size_t>(surface)].boxes;
   }

@@ -15,7 +15,7 @@ constexpr int lanes = 16;
 }  // namespace
 
 UnfoldedWindows::Lines::Lines(int side) : twos(extents(2, side)), threes(extents(1, side)) {
-  const auto most = static_cast<std::size_t>(side / lanes + 2);
+  const auto most = static_cast<std::size_t>(side / lanes) + 2;
   runs.reserve(most);
   joined_runs.reserve(most);
 }
@@ -23,11 +23,11 @@ UnfoldedWindows::Lines::Lines(int side) : twos(extents(2, side)), threes(extents
 UnfoldedWindows::UnfoldedWindows(int cells) : sides_(level_sides(cells)) {
   for (const int side : sides_) {
     const int twos = side - 1, threes = std::max(0, side - 2);
-    // Those of cells are not remembered.
-    const bool cells = levels_.empty();
-    levels_.push_back({side, extents(side, side), Grid<float>(twos, twos),
-                       Grid<float>(threes, threes), cells ? Grid<float>() : Grid<float>(twos, twos),
-                       cells ? Grid<float>() : Grid<float>(threes, threes)});
+    levels_.push_back(
+        {side, extents(side, side), Grid<float>(twos, twos), Grid<float>(threes, threes), {}, {}});
+    if (levels_.size() == 1) continue;  // windows of cells are not remembered
+    levels_.back().two_known = Grid<float>(twos, twos);
+    levels_.back().three_known = Grid<float>(threes, threes);
   }
 }
 

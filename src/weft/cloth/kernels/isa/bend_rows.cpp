@@ -13,7 +13,7 @@ constexpr int straight_neighbours = 4;
   return load(weights.first + neighbour * weights.pitch + c);
 }
 
-template <bool diagonals>
+template <bool Diagonals>
 void second_differences(int n, PlaneRows weights, const RowTriple& x, Row3 u) {
   for (int c = 0; c < n; c += width) {
     const Pack3 at = load(x.here, c);
@@ -24,7 +24,7 @@ void second_differences(int n, PlaneRows weights, const RowTriple& x, Row3 u) {
     sum = add(sum, 1, x.here, -1);
     sum = add(sum, 2, x.below, 0);
     sum = add(sum, 3, x.above, 0);
-    if constexpr (diagonals) {
+    if constexpr (Diagonals) {
       sum = add(sum, 4, x.below, 1);
       sum = add(sum, 5, x.above, -1);
       sum = add(sum, 6, x.below, -1);
@@ -34,7 +34,7 @@ void second_differences(int n, PlaneRows weights, const RowTriple& x, Row3 u) {
   }
 }
 
-template <bool diagonals>
+template <bool Diagonals>
 void transposed(int n, const BendingRows& weights, const RowTriple& u, float factor, Row3 out) {
   const Pack by = Pack{} + factor;
   for (int c = 0; c < n; c += width) {
@@ -46,7 +46,7 @@ void transposed(int n, const BendingRows& weights, const RowTriple& u, float fac
                (weight(weights.here, 2, c) + weight(weights.here, 3, c));
     Pack3 sum = (back(weights.here, 1, u.here, 1) + back(weights.here, 0, u.here, -1)) +
                 (back(weights.below, 3, u.below, 0) + back(weights.above, 2, u.above, 0));
-    if constexpr (diagonals) {
+    if constexpr (Diagonals) {
       own += (weight(weights.here, 4, c) + weight(weights.here, 5, c)) +
              (weight(weights.here, 6, c) + weight(weights.here, 7, c));
       sum = sum + (back(weights.below, 5, u.below, 1) + back(weights.above, 4, u.above, -1)) +

@@ -15,16 +15,16 @@ constexpr double min_pivot = 2e-7;
 constexpr float min_series_pivot = 1e-6F;
 
 /// The inverses of the Schur complements, carried from position to position.
-template <int lanes>
+template <int Lanes>
 struct Elimination {
-  alignas(64) double inverse[6][lanes] = {};
-  alignas(64) double coupling[6][lanes] = {};
+  alignas(64) double inverse[6][Lanes] = {};
+  alignas(64) double coupling[6][Lanes] = {};
 
   /// inverse = (block - coupling inverse coupling)^-1 by L D L^T.
   /// @param beyond  what the diagonal of the block has beyond springs
-  void advance(const double (*block)[lanes], const float* beyond) {
+  void advance(const double (*block)[Lanes], const float* beyond) {
 #pragma omp simd
-    for (int i = 0; i < lanes; ++i) {
+    for (int i = 0; i < Lanes; ++i) {
       const double o0 = coupling[0][i], o1 = coupling[1][i], o2 = coupling[2][i],
                    o3 = coupling[3][i], o4 = coupling[4][i], o5 = coupling[5][i];
       const double g0 = inverse[0][i], g1 = inverse[1][i], g2 = inverse[2][i], g3 = inverse[3][i],
@@ -63,31 +63,31 @@ struct Elimination {
 };
 
 /// Coupling blocks, read from planes.
-template <int lanes>
+template <int Lanes>
 struct BlockCoupling {
   const PlaneView* planes;
-  alignas(64) float tile[6][chunk][lanes] = {};
+  alignas(64) float tile[6][chunk][Lanes] = {};
   void read(const LineBlock& block, int position, int count) {
-    for (int k = 0; k < 6; ++k) read_tile<lanes>(planes[k], block, position, count, tile[k]);
+    for (int k = 0; k < 6; ++k) read_tile<Lanes>(planes[k], block, position, count, tile[k]);
   }
-  void at(int j, float (*out)[lanes]) const {
+  void at(int j, float (*out)[Lanes]) const {
     for (int k = 0; k < 6; ++k)
 #pragma omp simd
-      for (int i = 0; i < lanes; ++i) out[k][i] = tile[k][j][i];
+      for (int i = 0; i < Lanes; ++i) out[k][i] = tile[k][j][i];
   }
 };
 
 /// Coupling blocks, computed from springs.
-template <int lanes>
+template <int Lanes>
 struct SpringCoupling {
   const PlaneView* planes;
-  alignas(64) float tile[4][chunk][lanes] = {};
+  alignas(64) float tile[4][chunk][Lanes] = {};
   void read(const LineBlock& block, int position, int count) {
-    for (int k = 0; k < 4; ++k) read_tile<lanes>(planes[k], block, position, count, tile[k]);
+    for (int k = 0; k < 4; ++k) read_tile<Lanes>(planes[k], block, position, count, tile[k]);
   }
-  void at(int j, float (*out)[lanes]) const {
+  void at(int j, float (*out)[Lanes]) const {
 #pragma omp simd
-    for (int i = 0; i < lanes; ++i) {
+    for (int i = 0; i < Lanes; ++i) {
       const float t = tile[0][j][i], x = tile[1][j][i], y = tile[2][j][i], z = tile[3][j][i];
       out[0][i] = -(t + x * x);
       out[1][i] = -(x * y);
@@ -99,36 +99,36 @@ struct SpringCoupling {
   }
 };
 
-template <int lanes, class Coupling>
+template <int Lanes, class Coupling>
 void factor(const LineBlock& block, const PlaneView* diagonal, const PlaneView& extra,
             Coupling& coupling, float* factors) {
-  Elimination<lanes> state;
-  alignas(64) float tile[7][chunk][lanes] = {};
-  alignas(64) double here[6][lanes];
-  alignas(64) float next[6][lanes];
+  Elimination<Lanes> state;
+  alignas(64) float tile[7][chunk][Lanes] = {};
+  alignas(64) double here[6][Lanes];
+  alignas(64) float next[6][Lanes];
   for (int position = 0; position < block.length; position += chunk) {
     const int count = block.length - position < chunk ? block.length - position : chunk;
-    for (int k = 0; k < 6; ++k) read_tile<lanes>(diagonal[k], block, position, count, tile[k]);
-    read_tile<lanes>(extra, block, position, count, tile[6]);
+    for (int k = 0; k < 6; ++k) read_tile<Lanes>(diagonal[k], block, position, count, tile[k]);
+    read_tile<Lanes>(extra, block, position, count, tile[6]);
     coupling.read(block, position, count);
     for (int j = 0; j < count; ++j) {
       // Keeps the systems of lanes without a line regular.
-      for (int i = block.width; i < lanes; ++i) tile[6][j][i] = 1;
+      for (int i = block.width; i < Lanes; ++i) tile[6][j][i] = 1;
       for (int k = 0; k < 6; ++k) {
         const bool on_diagonal = k == 0 || k == 3 || k == 5;
 #pragma omp simd
-        for (int i = 0; i < lanes; ++i)
+        for (int i = 0; i < Lanes; ++i)
           here[k][i] = double{tile[k][j][i]} + (on_diagonal ? double{tile[6][j][i]} : 0.0);
       }
       state.advance(here, tile[6][j]);
       coupling.at(j, next);
       float* out =
-          factors + static_cast<std::ptrdiff_t>(position + j) * line_factor_entries * lanes;
+          factors + static_cast<std::ptrdiff_t>(position + j) * line_factor_entries * Lanes;
       for (int k = 0; k < 6; ++k)
 #pragma omp simd
-        for (int i = 0; i < lanes; ++i) {
-          out[k * lanes + i] = static_cast<float>(state.inverse[k][i]);
-          out[(6 + k) * lanes + i] = next[k][i];
+        for (int i = 0; i < Lanes; ++i) {
+          out[k * Lanes + i] = static_cast<float>(state.inverse[k][i]);
+          out[(6 + k) * Lanes + i] = next[k][i];
           state.coupling[k][i] = double{next[k][i]};
         }
     }
@@ -181,11 +181,11 @@ struct Block {
 }
 
 /// Lines of springs, with the blocks that their positions pass on.
-template <int lanes>
+template <int Lanes>
 struct Series {
-  alignas(64) float passed[6][lanes] = {};
-  alignas(64) float held[6][chunk][lanes] = {};
-  alignas(64) float spring[4][chunk][lanes] = {};
+  alignas(64) float passed[6][Lanes] = {};
+  alignas(64) float held[6][chunk][Lanes] = {};
+  alignas(64) float spring[4][chunk][Lanes] = {};
 
   [[gnu::always_inline]] void add_held(int j, int i, Block& block) const {
     block.xx += load(&held[0][j][i]);
@@ -197,7 +197,7 @@ struct Series {
   }
 
   /// Packs that are worked on in turn: a lone one would wait for its own results.
-  static constexpr int packs = lanes / width < 2 ? lanes / width : 2;
+  static constexpr int packs = Lanes / width < 2 ? Lanes / width : 2;
 
   [[gnu::always_inline]] void advance_one(int j, int i, Block& block, float* out) const {
     const Pack t = load(&spring[0][j][i]);
@@ -206,7 +206,7 @@ struct Series {
     const Block inverse = pass_on(t, s, block);
     const Pack values[held_factor_entries] = {
         inverse.xx, inverse.xy, inverse.xz, inverse.yy, inverse.yz, inverse.zz, t, s.x, s.y, s.z};
-    for (int k = 0; k < held_factor_entries; ++k) store(values[k], out + k * lanes + i);
+    for (int k = 0; k < held_factor_entries; ++k) store(values[k], out + k * Lanes + i);
   }
   [[gnu::always_inline]] Block passed_to(int i) const {
     return {load(&passed[0][i]), load(&passed[1][i]), load(&passed[2][i]),
@@ -220,7 +220,7 @@ struct Series {
   /// Positions 0 .. count - 1 of the tiles, lanes i on. @param out  factors of the first
   void advance(int count, int i, float* out) {
     Block block = passed_to(i), other = passed_to(i + (packs - 1) * width);
-    for (int j = 0; j < count; ++j, out += held_factor_entries * lanes) {
+    for (int j = 0; j < count; ++j, out += held_factor_entries * Lanes) {
       advance_one(j, i, block, out);
       if constexpr (packs > 1) advance_one(j, i + width, other, out);
     }
@@ -229,21 +229,21 @@ struct Series {
   }
 };
 
-template <int lanes>
+template <int Lanes>
 void factor_series(const LineBlock& block, const HeldLineMatrix& matrix, float* factors) {
-  Series<lanes> state;
+  Series<Lanes> state;
   for (int position = 0; position < block.length; position += chunk) {
     const int count = block.length - position < chunk ? block.length - position : chunk;
     for (int k = 0; k < 6; ++k)
-      read_tile<lanes>(matrix.held[k], block, position, count, state.held[k]);
+      read_tile<Lanes>(matrix.held[k], block, position, count, state.held[k]);
     for (int k = 0; k < 4; ++k)
-      read_tile<lanes>(matrix.spring[k], block, position, count, state.spring[k]);
+      read_tile<Lanes>(matrix.spring[k], block, position, count, state.spring[k]);
     // Keeps the systems of lanes without a line regular.
     for (int j = 0; j < count; ++j)
-      for (int i = block.width; i < lanes; ++i)
+      for (int i = block.width; i < Lanes; ++i)
         state.held[0][j][i] = state.held[3][j][i] = state.held[5][j][i] = 1;
-    for (int i = 0; i < lanes; i += Series<lanes>::packs * width)
-      state.advance(count, i, factors + std::ptrdiff_t{position} * held_factor_entries * lanes);
+    for (int i = 0; i < Lanes; i += Series<Lanes>::packs * width)
+      state.advance(count, i, factors + std::ptrdiff_t{position} * held_factor_entries * Lanes);
   }
 }
 

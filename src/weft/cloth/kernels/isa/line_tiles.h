@@ -36,9 +36,9 @@ using LooseEight = float __attribute__((vector_size(4 * side), aligned(4), may_a
 }
 
 /// Element j of line i becomes tile[j][i]. Lanes beyond the last line get finite values.
-template <int lanes>
+template <int Lanes>
 inline void read_tile(const PlaneView& plane, const LineBlock& block, int position, int count,
-                      float (*tile)[lanes]) {
+                      float (*tile)[Lanes]) {
   const int lines = block.width;
   if (block.along_rows) {
     for (int i = 0; i < lines; i += side) {
@@ -58,7 +58,7 @@ inline void read_tile(const PlaneView& plane, const LineBlock& block, int positi
   for (int j = 0; j < count; ++j) {
     const float* line = plane.base + (position + j) * plane.stride + block.first;
     // Beyond the last line is the frame.
-    for (int i = 0; i < lanes; i += width) store(load(line + i), tile[j] + i);
+    for (int i = 0; i < Lanes; i += width) store(load(line + i), tile[j] + i);
   }
 }
 
@@ -76,9 +76,9 @@ inline void write_eight(const Eight* m, const MutablePlaneView& plane, float* fi
   }
 }
 
-template <int lanes>
+template <int Lanes>
 inline void write_tile(const MutablePlaneView& plane, const LineBlock& block, int position,
-                       int count, const float (*tile)[lanes], bool add) {
+                       int count, const float (*tile)[Lanes], bool add) {
   const int lines = block.width;
   if (block.along_rows) {
     for (int i = 0; i < lines; i += side)

@@ -72,8 +72,7 @@ double far_energy(int n, const LinearisedSprings& springs);
 void linearise(int n, const NearSprings& springs, const InertiaRow& inertia,
                MutablePlaneRows hessian, const Passing& passing, Row3 force);
 bool begin_step(const StepStartRow& start, const StepGuessRow& out);
-void follow_guess(int n, float time_step, ConstRow3 start, ConstRow3 guess, ConstRow3 velocity,
-                  Row3 position, Row3 velocity_out);
+void follow_guess(const GuessRow& guess, Row3 position, Row3 velocity);
 double near_energy(int n, const NearSprings& springs);
 void line_diagonals(int n, PlaneRows springs, PlaneRows above, const float* mass,
                     const float* extra, const LineDiagonals& out);
@@ -89,10 +88,8 @@ void coarsen_rows(int m, const PlaneRows* half, MutablePlaneRows coarse);
 void factor_lines(const LineBlock& lines, const LineMatrix& matrix, float* factor);
 void factor_spring_lines(const LineBlock& lines, const SpringLineMatrix& matrix, float* factor);
 void factor_held_lines(const LineBlock& lines, const HeldLineMatrix& matrix, float* factor);
-void solve_lines(const LineBlock& lines, const float* factor, const PlaneView* rhs, float scale,
-                 bool add, float* scratch, const MutablePlaneView* out);
-void solve_held_lines(const LineBlock& lines, const float* factor, const PlaneView* rhs,
-                      float scale, bool add, float* scratch, const MutablePlaneView* out);
+void solve_lines(const LineBlock& lines, const LineSolve& solve);
+void solve_held_lines(const LineBlock& lines, const LineSolve& solve);
 void restrict_row(int m, const RowTriple& fine, Row3 coarse);
 void prolong_row(int n, ConstRow3 a, ConstRow3 b, Row3 fine);
 void subtract(int n, ConstRow3 a, ConstRow3 b, Row3 out);

@@ -27,12 +27,12 @@ struct Planes {
   return spring.at(0, c) * apart + dot(s, apart) * s;
 }
 
-template <bool subtracted>
+template <bool Subtracted>
 [[gnu::always_inline]] inline void put(const Pack3& product, ConstRow3 rhs, Row3 out, int c) {
-  store(subtracted ? load(rhs, c) - product : product, out, c);
+  store(Subtracted ? load(rhs, c) - product : product, out, c);
 }
 
-template <bool subtracted>
+template <bool Subtracted>
 void springs_times(int n, PlaneRows springs, const float* mass, const ProductRow& row, Row3 out) {
   const std::ptrdiff_t direction = spring_entries * springs.pitch;
   const Planes to_right{springs.first, springs.pitch},
@@ -49,7 +49,7 @@ void springs_times(int n, PlaneRows springs, const float* mass, const ProductRow
                 diagonal = resist(to_below_right, c, here - to_the_right(below, below_after)),
                 left = resist(to_below_left, c, here - to_the_left(below_before, below));
     const Pack3 inner = load(mass + c) * here + load(row.passing.carried, c);
-    put<subtracted>(
+    put<Subtracted>(
         inner + (right + straight) + (diagonal + left) - to_the_left(right_before, right), row.rhs,
         out, c);
     if (c > 0)
@@ -65,7 +65,7 @@ void springs_times(int n, PlaneRows springs, const float* mass, const ProductRow
   store(none - (pending + to_the_right(left_before, none)), row.passing.carry, n - width);
 }
 
-template <bool subtracted>
+template <bool Subtracted>
 void stencil_times(int n, PlaneRows stencil, const ProductRow& row, Row3 out) {
   const std::ptrdiff_t block = block_entries * stencil.pitch;
   const Planes centre{stencil.first, stencil.pitch}, to_right{stencil.first + block, stencil.pitch},
@@ -85,7 +85,7 @@ void stencil_times(int n, PlaneRows stencil, const ProductRow& row, Row3 out) {
     sum = sum + block_times(to_below_right, c, to_the_right(below, below_after));
     const Pack3 left = block_times(to_below_left, c, here);
     sum = sum + block_times(to_below_left, c, to_the_left(below_before, below));
-    put<subtracted>(sum + block_times(down, c, below), row.rhs, out, c);
+    put<Subtracted>(sum + block_times(down, c, below), row.rhs, out, c);
     if (c > 0) store(pending + to_the_right(left_before, left), row.passing.carry, c - width);
     pending = block_times(down, c, here) + to_the_left(diagonal_before, diagonal);
     right_before = right;

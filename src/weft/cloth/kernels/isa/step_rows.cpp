@@ -40,17 +40,17 @@ bool begin_step(const StepStartRow& in, const StepGuessRow& out) {
   return same;
 }
 
-void follow_guess(int n, float step, ConstRow3 start, ConstRow3 guess, ConstRow3 velocity,
-                  Row3 position, Row3 velocity_out) {
-  const Pack time_step = Pack{} + step, per_step = Pack{} + 1 / step;
-  for (int c = 0; c < n; c += width) {
-    const Pack3 x0 = load(start, c), x = load(guess, c), v = load(velocity, c);
-    store_first(n - c, x, position, c);
-    store_first(n - c,
+void follow_guess(const GuessRow& guess, Row3 position, Row3 velocity) {
+  const Pack time_step = Pack{} + guess.time_step, per_step = Pack{} + 1 / guess.time_step;
+  for (int c = 0; c < guess.count; c += width) {
+    const int count = guess.count - c;
+    const Pack3 x0 = load(guess.start, c), x = load(guess.position, c), v = load(guess.velocity, c);
+    store_first(count, x, position, c);
+    store_first(count,
                 {followed(x0.x, x.x, v.x, time_step, per_step),
                  followed(x0.y, x.y, v.y, time_step, per_step),
                  followed(x0.z, x.z, v.z, time_step, per_step)},
-                velocity_out, c);
+                velocity, c);
   }
 }
 

@@ -117,8 +117,8 @@ inline float part(float along) {
 /// inside. Where that is hard to tell the edges alone give bounds: no point of a triangle is
 /// farther from them than the radius of its inner circle. Triangles that are not there are far
 /// away.
-/// @tparam both  else lower bounds alone
-template <bool both>
+/// @tparam Both  else lower bounds alone
+template <bool Both>
 inline void bound(const PreparedLeaf& leaf, const float* at, LeafBounds& out) {
   const float x = at[0], y = at[1], z = at[2];
 #pragma omp simd
@@ -149,7 +149,7 @@ inline void bound(const PreparedLeaf& leaf, const float* at, LeafBounds& out) {
     const float lower = aa < farthest ? low : unclear, upper = aa < farthest ? high : edges;
     const float least_square = (1 - part_of_distance) * lower - slack;
     out.lower[k] = slack < far_away ? least_square : slack;
-    if (both) out.upper[k] = (1 + part_of_distance) * upper + slack;
+    if (Both) out.upper[k] = (1 + part_of_distance) * upper + slack;
   }
 }
 
