@@ -87,6 +87,17 @@ TEST(BodyQuery, ClosestPointIsThatOfAllTriangles) {
   }
 }
 
+TEST(BodyQuery, OfVeryManyTrianglesThatAreAboutAsFarTheClosestIsFound) {
+  const Placed placed(test::octahedral_sphere(65, 0.6, {}));
+  Random random(5);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3d p = any_point(random, std::pow(10, random.uniform(-7, -1)));
+    const auto found = placed.query.closest(p, HUGE_VAL);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_NEAR(std::sqrt(found->squared_distance), placed.brute_distance(p), 1e-12);
+  }
+}
+
 TEST(BodyQuery, HintsChangeNothing) {
   const Placed placed(test::octahedral_sphere(17, 0.6, {}));
   Random random(2);

@@ -86,12 +86,13 @@ void Descent::drop_far() {
 }
 
 void Descent::add(int triangle, float squared) {
-  if (out_.count >= NearTriangles::capacity) drop_far();
-  if (out_.count < NearTriangles::capacity) {
-    out_.found[out_.count] = triangle;
-    squared_[out_.count] = squared;
-  }
-  ++out_.count;
+  // Once there were too many, what was left out is not known any more.
+  if (out_.count > NearTriangles::capacity) return;
+  if (out_.count == NearTriangles::capacity) drop_far();
+  const int at = out_.count++;
+  if (at == NearTriangles::capacity) return;
+  out_.found[at] = triangle;
+  squared_[at] = squared;
 }
 
 void Descent::look_at_leaf(unsigned place) {
