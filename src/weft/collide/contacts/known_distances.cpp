@@ -82,9 +82,12 @@ void KnownDistances::arrive(int motion) {
   }
 }
 
+KnownDistances::Scratch KnownDistances::make_scratch() const {
+  return Scratch(static_cast<std::size_t>(columns_of_motion) * size_);
+}
+
 void KnownDistances::find_reaches(const Look& look, int row, Scratch& scratch, float* reach) {
   const auto n = static_cast<std::size_t>(size_);
-  scratch.resize(columns_of_motion * n);
   std::array<float*, columns_of_motion> of{};
   for (std::size_t k = 0; k < of.size(); ++k) of[k] = scratch.data() + k * n;
   const Block* blocks = &blocks_[block_of(row * size_)];

@@ -27,6 +27,7 @@ class KnownDistances {
 
   /// Scratch space of a worker.
   using Scratch = std::vector<float>;
+  [[nodiscard]] Scratch make_scratch() const;
   /// A cloth that looks for the body in a step.
   struct Look {
     const Planes3 &start, &end;  ///< of its samples [m]

@@ -91,7 +91,7 @@ void NearSamples::find(const MovingCloth& cloth, const ContactBody& body, const 
   const Search search{cloth, body, doubts.deep, doubts.farthest_exit, placement_ == body.placement};
   placement_ = body.placement;
   known_.begin(cloth, body, team);
-  scratch_.resize(static_cast<std::size_t>(team.size()));
+  make_scratch(team);
   const int n = grid_.size();
   const KnownDistances::Look look{cloth.start, cloth.position, body, contact_margin * kept_.gap,
                                   body_kernels_for(team.instructions())};
@@ -293,10 +293,14 @@ void NearSamples::add_contact(const MovingCloth& cloth, const ContactBody& body,
   out.push_back(contact);
 }
 
+void NearSamples::make_scratch(const ThreadTeam& team) {
+  while (static_cast<int>(scratch_.size()) < team.size()) scratch_.push_back(known_.make_scratch());
+}
+
 double NearSamples::smallest_gap(const Planes3& positions, const ContactBody& body, double reach,
                                  ThreadTeam& team) {
   const int n = grid_.size();
-  scratch_.resize(static_cast<std::size_t>(team.size()));
+  make_scratch(team);
   const KnownDistances::Look look{positions, positions, body, reach,
                                   body_kernels_for(team.instructions())};
   team.run([&](Worker& worker) {

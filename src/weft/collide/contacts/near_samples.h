@@ -56,7 +56,7 @@ class NearSamples {
   void for_tiles(const Worker& worker, const Visit& visit) const;
   void choose_row(const Search& search, int row);
   void make_room();
-  void place_row(int row);
+  void make_scratch(const ThreadTeam& team);
   [[nodiscard]] double smallest_of(const NearestTile& asked, const NearestPoints& found,
                                    const ContactBody& body) const;
 
