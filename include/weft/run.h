@@ -163,6 +163,8 @@ std::string frames_csv_line(int frame, const FrameReport& report, int particles)
 /// Reads the geometry images among the surfaces. @throws InputError for these
 /// @return bytes
 std::uint64_t estimate_memory(const Scene& scene);
+/// The same of surfaces that are loaded.
+std::uint64_t estimate_memory(const Scene& scene, const LoadedSizes& sizes);
 
 /// Refuses a scene that can certainly not run in the available memory.
 /// @param bytes      of the estimate

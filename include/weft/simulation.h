@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <compare>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -129,10 +130,19 @@ struct SimulationState {
   WorkDone work{};      ///< up to this frame
 };
 
+/// Samples a side that a scene's surfaces were loaded with; a mesh may need more than were asked
+/// for.
+struct LoadedSizes {
+  std::vector<int> cloths, bodies;
+};
+
 /// Optional helpers of a Simulation.
 struct SimulationHelp {
   Progress* progress = nullptr;      ///< reports loading and stepping
   SurfaceCache* surfaces = nullptr;  ///< keeps what was loaded for the next simulation
+  /// Called once all surfaces are loaded, before what steps them takes its memory; may throw to
+  /// refuse them.
+  std::function<void(const LoadedSizes&)> loaded{};
 
   SimulationHelp(Progress* told = nullptr,  // NOLINT(google-explicit-constructor): most say no more
                  SurfaceCache* surface_cache = nullptr)

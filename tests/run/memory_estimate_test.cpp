@@ -2,9 +2,12 @@
 
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
+#include "weft/error.h"
 #include "weft/image/builtin.h"
 #include "weft/image_file.h"
 #include "weft/run.h"
+#include "weft/shapes.h"
+#include "weft/simulation.h"
 
 namespace weft {
 namespace {
@@ -16,6 +19,19 @@ Scene sheet(int size) {
   scene.cloths.resize(1);
   scene.cloths[0].size = size;
   return scene;
+}
+
+/// Balls beside each other.
+TriangleMesh balls(int count) {
+  const TriangleMesh ball = make_shape("sphere");
+  TriangleMesh mesh;
+  for (int k = 0; k < count; ++k) {
+    const auto first = static_cast<int>(mesh.positions.size());
+    for (const Vec3d p : ball.positions) mesh.positions.push_back(p + Vec3d{2.0 * k, 0, 0});
+    for (const auto& [a, b, c] : ball.triangles)
+      mesh.triangles.push_back({first + a, first + b, first + c});
+  }
+  return mesh;
 }
 
 TEST(MemoryEstimate, GrowsWithSamplesClothsAndBodies) {
@@ -36,6 +52,25 @@ TEST(MemoryEstimate, TakesTheSizeOfAnImageFromItsFile) {
   Scene scene = sheet(5);
   scene.cloths[0].surface = folder / "s.exr";
   EXPECT_EQ(estimate_memory(scene), estimate_memory(sheet(65)));
+}
+
+TEST(MemoryEstimate, OfLoadedSurfacesIsThatOfTheirSizes) {
+  Scene scene = sheet(5);
+  scene.bodies.resize(1);
+  scene.bodies[0].surface = {balls(12), "balls"};
+  scene.bodies[0].size = 9;
+  SimulationHelp help;
+  LoadedSizes found;
+  help.loaded = [&](const LoadedSizes& sizes) {
+    found = sizes;
+    throw UsageError("test", "refused", "");
+  };
+  EXPECT_THROW(Simulation(scene, "s.json", {1, best_instruction_set()}, help), UsageError);
+  ASSERT_EQ(found.bodies.size(), 1U);
+  EXPECT_GT(found.bodies[0], 9) << "so many charts need more";
+  EXPECT_GT(estimate_memory(scene, found), estimate_memory(scene));
+  scene.bodies[0].size = found.bodies[0];
+  EXPECT_EQ(estimate_memory(scene, found), estimate_memory(scene));
 }
 
 TEST(MemoryEstimate, WhatCertainlyDoesNotFitIsRefusedWithBothFigures) {

@@ -99,22 +99,29 @@ double animation_bytes(const Animation& animation, const MotionSampling& samplin
   }
 }
 
-double samples_of(const Surface& surface, int size) {
+int size_of(const Surface& surface, int size) {
   const bool is_file = !surface.in_memory() && is_image_name(surface.name);
-  const double side = surface.image ? surface.image->size()
-                      : is_file     ? read_image(surface.name).size()
-                                    : size;
-  return side * side;
+  return surface.image ? surface.image->size() : is_file ? read_image(surface.name).size() : size;
 }
 
 }  // namespace
 
 std::uint64_t estimate_memory(const Scene& scene) {
+  LoadedSizes sizes;
+  for (const SceneCloth& cloth : scene.cloths)
+    sizes.cloths.push_back(size_of(cloth.surface, cloth.size));
+  for (const SceneBody& body : scene.bodies)
+    sizes.bodies.push_back(size_of(body.surface, body.size));
+  return estimate_memory(scene, sizes);
+}
+
+std::uint64_t estimate_memory(const Scene& scene, const LoadedSizes& sizes) {
+  const auto squared = [](int size) { return static_cast<double>(size) * size; };
   double bytes = program_bytes;
   const bool filtered = Colliders::traits_of(scene.collider).filters;
   const IntegratorTraits needs = Integrators::traits_of(scene.integrator);
-  for (const SceneCloth& cloth : scene.cloths) {
-    const double samples = samples_of(cloth.surface, cloth.size);
+  for (const int size : sizes.cloths) {
+    const double samples = squared(size);
     bytes += needs.bytes_per_sample * samples + needs.bytes_per_pair * samples * samples;
     bytes += counted_cloth_bytes_per_sample * samples;
     if (filtered) bytes += colliding_cloth_bytes_per_sample * samples;
@@ -123,8 +130,9 @@ std::uint64_t estimate_memory(const Scene& scene) {
       body_bytes_per_sample +
       (filtered ? colliding_body_bytes_per_sample
                 : table_bytes_per_sample * static_cast<double>(scene.cloths.size()));
-  for (const SceneBody& body : scene.bodies) {
-    const double samples = samples_of(body.surface, body.size);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const SceneBody& body = scene.bodies[i];
+    const double samples = squared(sizes.bodies[i]);
     bytes += per_body_sample * samples;
     if (!body.motion.empty() || !body.animation.empty()) bytes += moving_bytes_per_sample * samples;
     if (!body.animation.empty())

@@ -115,7 +115,7 @@ class Run {
         options_(options),
         path_(checkpoint_path(options.folder)),
         clock_(options.checkpoint_frames),
-        simulation_(scene, name, {options.threads, options.instructions}, options.progress),
+        simulation_(scene, name, {options.threads, options.instructions}, help(name)),
         report_(start_report(simulation_, scene, name, options.threads)) {
     if (options.verify) {
       verifier_.emplace(simulation_, scene.ground);
@@ -125,6 +125,7 @@ class Run {
     if (!clock_.off() || options.resume)
       point_.identity = run_identity(scene, simulation_, options);
     point_.start_centre = report_.centre_of_mass.front();
+    report_.estimated_memory = memory_;
   }
 
   void start() {
@@ -350,10 +351,23 @@ class Run {
     clock_.written();
   }
 
+  /// Estimates the memory again by the sizes that surfaces came out with.
+  SimulationHelp help(const std::string& name) {
+    SimulationHelp wanted(options_.progress);
+    wanted.loaded = [this, &name](const LoadedSizes& sizes) {
+      memory_ = estimate_memory(scene_, sizes);
+      const bool larger = memory_ > estimate_memory(scene_);
+      if (const auto available = available_memory(); larger && available)
+        check_memory(memory_, *available, name);
+    };
+    return wanted;
+  }
+
   const Scene& scene_;
   const RunOptions& options_;
   fs::path path_;  // of the checkpoint
   CheckpointClock clock_;
+  std::uint64_t memory_ = 0;  // that the run is estimated to take [bytes]
   Simulation simulation_;
   RunReport report_;
   std::optional<Verifier> verifier_;
@@ -368,8 +382,8 @@ class Run {
 RunReport run_scene(const Scene& scene, const std::string& name, const RunOptions& options) {
   check_exports(scene, options);
   check_inputs_stay(scene, name, options);
-  const std::uint64_t memory = estimate_memory(scene);
-  if (const auto available = available_memory()) check_memory(memory, *available, name);
+  if (const auto available = available_memory())
+    check_memory(estimate_memory(scene), *available, name);
   const WantedFolder folder(options.folder);
   const FolderLock lock(options.folder);
   std::optional<Checkpoint> found;
@@ -381,7 +395,6 @@ RunReport run_scene(const Scene& scene, const std::string& name, const RunOption
     run.start();
   }
   RunReport report = run.go();
-  report.estimated_memory = memory;
   return report;
 }
 

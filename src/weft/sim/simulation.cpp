@@ -26,6 +26,13 @@ double mass_of(const Cloth& cloth) {
   return mass;
 }
 
+LoadedSizes sizes_of(const LoadedScene& scene) {
+  LoadedSizes sizes;
+  for (const SimulatedCloth& cloth : scene.cloths) sizes.cloths.push_back(cloth.image.size());
+  for (const PlacedBody& body : scene.bodies) sizes.bodies.push_back(body.image.size());
+  return sizes;
+}
+
 /// A run stops when its energy exceeds the start energy plus the work done on it by more than this,
 /// and by more than max_unexplained_part of the energy that cloths can have come by.
 constexpr double max_unexplained = 1;  // [J]
@@ -139,6 +146,7 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
   check_abilities(scene, name);
   if (scene.cloths.empty()) throw SceneError(name, "no cloth", "at least one is wanted");
   static_cast<LoadedScene&>(*parts_) = load_scene(scene, name, help, parts_->team);
+  if (help.loaded) help.loaded(sizes_of(*parts_));
   parts_->make_movers();
   parts_->check_apart();
   parts_->make_collider_of_scene();
