@@ -7,6 +7,7 @@ Usage: bench/scenes.py [--frames N] [--threads N] [--minutes N] [--shared FOLDER
 import argparse
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -60,6 +61,7 @@ def way_in_last_second(centres, time_step, substeps):
 
 
 def row_of(name, words, options, run):
+    shutil.rmtree(run, ignore_errors=True)  # or the picture of a scene that fails were that of the last
     began = time.monotonic()
     limits = ["--threads", options.threads] + (["--frames", options.frames] if options.frames else [])
     report, error = verified([*words, "-o", run, *limits, "--checkpoint", 0], options.minutes)

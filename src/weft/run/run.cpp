@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "weft/cloth/cloth.h"
-#include "weft/core/stopwatch.h"
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/run/checkpoint.h"
+#include "weft/run/checkpoint_clock.h"
 #include "weft/run/disk_reservation.h"
 #include "weft/run/recorder.h"
 #include "weft/run/run_identity.h"
@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Default time between checkpoints: the work that a killed run may lose [s].
-constexpr double default_seconds_between_checkpoints = 5;
 /// Upper bounds on the sizes of frames.csv and the manifests [bytes].
 constexpr std::size_t min_room = 16384, room_of_surface = 1024, room_of_frame = 256;
 
@@ -54,22 +52,6 @@ void check_exports(const Scene& scene, const RunOptions& options) {
                                    cloth.name, cloth.surface.name),
                        "the mesh that it was made from in its place, or --on image, is wanted");
 }
-
-/// Decides after which frames a checkpoint is written.
-class CheckpointClock {
- public:
-  explicit CheckpointClock(std::optional<int> frames) : frames_(frames) {}
-  [[nodiscard]] bool off() const { return frames_ == 0; }
-  [[nodiscard]] bool is_due(int frame) const {
-    if (frames_) return *frames_ > 0 && frame % *frames_ == 0;
-    return since_.seconds() >= default_seconds_between_checkpoints;
-  }
-  void written() { since_ = {}; }
-
- private:
-  std::optional<int> frames_;
-  Stopwatch since_;  // the last checkpoint
-};
 
 /// The part of a report that is known before the first frame.
 RunReport start_report(const Simulation& simulation, const Scene& scene, const std::string& name,

@@ -341,18 +341,10 @@ double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& su
 void BlockMultigrid::apply_stencil_row(const BlockLevel& level, int row, RowSweep& sweep,
                                        const PaddedVectors* rhs, PaddedVectors& out) const {
   const PaddedVectors& x = level.value;
-  const auto product = [&](int r, const PaddedVectors* from, Row3 to) {
-    kernels_->apply_stencil(
-        whole_vectors(level.size), rows_of(level.stencil, r),
-        {x.row(r), x.row(r + 1), sweep.passing(r), from != nullptr ? from->row(r) : ConstRow3{}},
-        to);
-  };
-  if (!sweep.goes_on_at(row)) {
-    // The row above belongs to another worker: what it passes to this row is computed again.
-    sweep.start(std::max(row - 1, 0));
-    if (row > 0) product(row - 1, nullptr, sweep.scratch());
-  }
-  product(row, rhs, out.row(row));
+  sweep.multiply(row, rhs, out.row(row), [&](int r, ConstRow3 from, Row3 to) {
+    kernels_->apply_stencil(whole_vectors(level.size), rows_of(level.stencil, r),
+                            {x.row(r), x.row(r + 1), sweep.passing(r), from}, to);
+  });
 }
 
 /// residual = rhs - A value. With seams, products are summed over copies before.

@@ -16,6 +16,20 @@ namespace weft {
 /// frame stay 0.
 inline int whole_vectors(int cols) { return (cols + 15) / 16 * 16; }
 
+/// Frees what begins on a cache line.
+struct FreeAligned {
+  static constexpr std::align_val_t alignment{64};
+  void operator()(float* p) const { ::operator delete(p, alignment); }
+};
+using AlignedFloats = std::unique_ptr<float[], FreeAligned>;
+/// So many zeros from a cache line on.
+inline AlignedFloats aligned_zeros(std::size_t count) {
+  AlignedFloats made(
+      static_cast<float*>(::operator new(count * sizeof(float), FreeAligned::alignment)));
+  std::fill_n(made.get(), count, 0.0F);
+  return made;
+}
+
 /// rows x cols floats inside a frame of zeros, so that stencils need no borders: two rows above and
 /// below, and at least 16 columns on either side. Rows begin on cache lines, and neighbouring rows
 /// never fall on the same cache sets. Beyond the elements inside only zeros may be written.
@@ -25,8 +39,7 @@ class PaddedPlane {
   PaddedPlane(int rows, int cols) : rows_(rows), cols_(cols), stride_(stride_for(cols)) {
     const std::size_t count =
         static_cast<std::size_t>(stride_) * (rows + 2 * frame_rows) + read_beyond;
-    data_.reset(static_cast<float*>(::operator new(count * sizeof(float), alignment)));
-    for (std::size_t i = 0; i < count; ++i) data_[i] = 0;
+    data_ = aligned_zeros(count);
   }
 
   [[nodiscard]] int rows() const { return rows_; }
@@ -47,17 +60,13 @@ class PaddedPlane {
   static constexpr int frame_rows = 2, frame_cols = 16;
   /// Rows that become every second column are read in whole vectors of those.
   static constexpr std::size_t read_beyond = 32;
-  static constexpr std::align_val_t alignment{64};
-  struct Free {
-    void operator()(float* p) const { ::operator delete(p, alignment); }
-  };
   [[nodiscard]] std::ptrdiff_t offset(int r) const {
     return (r + frame_rows) * stride_ + frame_cols;
   }
 
   int rows_ = 0, cols_ = 0;
   std::ptrdiff_t stride_ = 0;
-  std::unique_ptr<float[], Free> data_;
+  AlignedFloats data_;
 };
 
 /// A vector field, one vector a sample.
@@ -91,9 +100,7 @@ class PlaneSet {
   PlaneSet() = default;
   PlaneSet(int rows, int cols, int count)
       : rows_(rows), cols_(cols), count_(count), pitch_((cols + 2 * frame_cols + 15) / 16 * 16) {
-    const std::size_t size = static_cast<std::size_t>(rows + 2) * stride();
-    data_.reset(static_cast<float*>(::operator new(size * sizeof(float), alignment)));
-    for (std::size_t i = 0; i < size; ++i) data_[i] = 0;
+    data_ = aligned_zeros(static_cast<std::size_t>(rows + 2) * stride());
   }
 
   [[nodiscard]] int rows() const { return rows_; }
@@ -115,17 +122,13 @@ class PlaneSet {
 
  private:
   static constexpr int frame_cols = 16;
-  static constexpr std::align_val_t alignment{64};
-  struct Free {
-    void operator()(float* p) const { ::operator delete(p, alignment); }
-  };
   [[nodiscard]] std::ptrdiff_t offset(int r, int plane) const {
     return (r + 1) * stride() + plane * pitch_ + frame_cols;
   }
 
   int rows_ = 0, cols_ = 0, count_ = 0;
   std::ptrdiff_t pitch_ = 0;
-  std::unique_ptr<float[], Free> data_;
+  AlignedFloats data_;
 };
 
 /// Three rows of a field from a column on. @param r  from -1 to rows

@@ -206,18 +206,10 @@ void SpringHessian::line_diagonals_row(int row, const float* extra,
 void SpringHessian::apply_row(const PaddedVectors& x, int row, RowSweep& sweep,
                               const PaddedVectors* rhs, PaddedVectors& out) const {
   const int n = whole_vectors(cloth_.size);
-  const auto product = [&](int r, const PaddedVectors* from, Row3 to) {
-    kernels_->apply_springs(
-        n, rows_of(near_, r), inertia_.row(r),
-        {x.row(r), x.row(r + 1), sweep.passing(r), from != nullptr ? from->row(r) : ConstRow3{}},
-        to);
-  };
-  if (!sweep.goes_on_at(row)) {
-    // The row above belongs to another worker: what its springs pull this row by is computed again.
-    sweep.start(std::max(row - 1, 0));
-    if (row > 0) product(row - 1, nullptr, sweep.scratch());
-  }
-  product(row, rhs, out.row(row));
+  sweep.multiply(row, rhs, out.row(row), [&](int r, ConstRow3 from, Row3 to) {
+    kernels_->apply_springs(n, rows_of(near_, r), inertia_.row(r),
+                            {x.row(r), x.row(r + 1), sweep.passing(r), from}, to);
+  });
   const float sign = rhs != nullptr ? -1.0F : 1.0F;
   for_far_springs(row, [&](int c, const ConstSpringHessianRow& springs, int s, int r2, int c2) {
     const float dx = x.x(row, c) - x.x(r2, c2), dy = x.y(row, c) - x.y(r2, c2),

@@ -29,6 +29,17 @@ class RowSweep {
   void start(int row);
   /// @param row  the next one
   [[nodiscard]] Passing passing(int row);
+  /// Computes a row by product(row, rhs, out). Where the row above belongs to another worker it is
+  /// computed again first, for what it passes on.
+  /// @param rhs  null: none
+  template <class Product>
+  void multiply(int row, const PaddedVectors* rhs, Row3 out, const Product& product) {
+    if (!goes_on_at(row)) {
+      start(row > 0 ? row - 1 : 0);
+      if (row > 0) product(row - 1, ConstRow3{}, scratch());
+    }
+    product(row, rhs != nullptr ? rhs->row(row) : ConstRow3{}, out);
+  }
   // Rows of scratch.
   [[nodiscard]] Row3 scratch() { return carried_.row(2); }
   [[nodiscard]] MutablePlaneRows spring_scratch() { return rows_of(springs_, 0); }

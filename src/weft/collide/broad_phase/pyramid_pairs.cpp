@@ -57,12 +57,10 @@ bool may_meet(const PathBox& a, const PathBox& b, float reach) {
 
 }  // namespace
 
-PyramidPairs::PyramidPairs(std::span<const SurfaceGrid* const> grids, std::size_t cloths) {
-  for (std::size_t i = 0; i < grids.size(); ++i) {
-    const int cells = grids[i]->cells();
+PyramidPairs::PyramidPairs(std::span<const SurfaceGrid* const> grids, std::size_t /*cloths*/) {
+  for (const SurfaceGrid* grid : grids) {
     levels_.emplace_back();
-    levels_.back().boxes = PathBoxLevels(cells);
-    if (i < cloths) levels_.back().folds.emplace(cells);
+    levels_.back().boxes = PathBoxLevels(grid->cells());
   }
 }
 
@@ -183,7 +181,9 @@ void PyramidPairs::find(int surface_a, int surface_b, float reach, ThreadTeam& t
 
 void PyramidPairs::find_self(int surface, float reach, float slack, ThreadTeam& team,
                              std::vector<CandidateTile>& out) {
-  UnfoldedWindows& folds = *levels_[surface].folds;
+  std::optional<UnfoldedWindows>& made = levels_[surface].folds;
+  if (!made) made.emplace(levels_[surface].boxes.sides().front());
+  UnfoldedWindows& folds = *made;
   folds.find_unfolded(surfaces_[surface], slack, team);
   const std::size_t first = out.size();
   search_all({&collide_kernels_for(team.instructions()), surface, surface, reach, &folds}, team,

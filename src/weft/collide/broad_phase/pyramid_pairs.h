@@ -33,7 +33,7 @@ class PyramidPairs final : public BroadPhase {
  private:
   struct Levels {
     PathBoxLevels boxes;
-    std::optional<UnfoldedWindows> folds;  // of cloths
+    std::optional<UnfoldedWindows> folds;  // of cloths that were searched whole
     int fitted_to = 0;                     // name of the motion
   };
   /// Parameters of one search.

@@ -63,9 +63,4 @@ Cloth cloth_of(const SceneCloth& wanted, const Planes3& placed, const LoadedSurf
   return make_cloth({placed, mates, nullptr, warp ? &*warp : nullptr}, wanted.material);
 }
 
-bool has_direction(const Material& material) {
-  return material.stretch.warp != material.stretch.weft ||
-         material.bending.warp != material.bending.weft;
-}
-
 }  // namespace weft

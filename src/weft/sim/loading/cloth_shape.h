@@ -17,7 +17,4 @@ namespace weft {
 Cloth cloth_of(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded,
                std::vector<std::string>& notes);
 
-/// Whether a fabric is not the same along warp and weft.
-bool has_direction(const Material& material);
-
 }  // namespace weft

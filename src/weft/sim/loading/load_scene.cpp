@@ -19,6 +19,12 @@ namespace {
 
 constexpr int body_normal_map_size = 257;
 
+/// Whether a fabric is not the same along warp and weft.
+bool has_direction(const Material& material) {
+  return material.stretch.warp != material.stretch.weft ||
+         material.bending.warp != material.bending.weft;
+}
+
 /// Methods that know one chart only get as few as the mesh can be made of, however poor: others get
 /// more where one is stretched.
 ChartChoice charts_for(bool several) {

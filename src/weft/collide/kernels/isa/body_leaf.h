@@ -41,6 +41,30 @@ constexpr float of_rounding = 2.5e3F;
 /// Squares of lengths below this one are taken for it, so that no quotient is infinite. [m^2]
 constexpr float no_length = 1e-30F;
 
+/// A box in single precision. [m]
+struct Box {
+  float lower[3], upper[3];
+};
+
+/// Squared distances of a box to those of a node's children.
+inline void distances(const Box& box, const BodyNode& node, float* squared) {
+#pragma omp simd
+  for (int k = 0; k < 16; ++k) {
+    const float x = max(max(node.lower[0][k] - box.upper[0], box.lower[0] - node.upper[0][k]), 0);
+    const float y = max(max(node.lower[1][k] - box.upper[1], box.lower[1] - node.upper[1][k]), 0);
+    const float z = max(max(node.lower[2][k] - box.upper[2], box.lower[2] - node.upper[2][k]), 0);
+    squared[k] = x * x + y * y + z * z;
+  }
+}
+
+/// Mask of those of sixteen within a limit.
+inline unsigned within_node(const float* squared, float limit) {
+  unsigned found = 0;
+#pragma omp simd reduction(| : found)
+  for (int k = 0; k < 16; ++k) found |= squared[k] <= limit ? bits[k] : 0U;
+  return found;
+}
+
 /// The corners of 2 x 2 cells: a and b along the first row, d and c along the next one.
 inline void gather(const float* first, long stride, unsigned rising, float* p, float* q, float* r) {
   float a[4], b[4], c[4], d[4];

@@ -7,11 +7,6 @@
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// A box in single precision. [m]
-struct Box {
-  float lower[3], upper[3];
-};
-
 /// The leaves near a tile.
 struct Leaves {
   static constexpr int capacity = 64;
@@ -23,24 +18,6 @@ struct Leaves {
   int count = 0;
   bool full = false;
 };
-
-/// Squared distances of a box to those of a node's children.
-inline void distances(const Box& box, const BodyNode& node, float* squared) {
-#pragma omp simd
-  for (int k = 0; k < 16; ++k) {
-    const float x = max(max(node.lower[0][k] - box.upper[0], box.lower[0] - node.upper[0][k]), 0);
-    const float y = max(max(node.lower[1][k] - box.upper[1], box.lower[1] - node.upper[1][k]), 0);
-    const float z = max(max(node.lower[2][k] - box.upper[2], box.lower[2] - node.upper[2][k]), 0);
-    squared[k] = x * x + y * y + z * z;
-  }
-}
-
-inline unsigned within_node(const float* squared, float limit) {
-  unsigned found = 0;
-#pragma omp simd reduction(| : found)
-  for (int k = 0; k < 16; ++k) found |= squared[k] <= limit ? bits[k] : 0U;
-  return found;
-}
 
 /// Adds the leaves below a node that are near.
 void collect(const BodyTree& tree, const Box& box, float limit, unsigned place, Leaves& out) {

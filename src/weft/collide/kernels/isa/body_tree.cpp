@@ -6,25 +6,6 @@
 namespace weft::WEFT_KERNEL_SET {
 namespace {
 
-/// Squared distances of a point to the boxes of a node's children.
-inline void distances(const float* at, const BodyNode& node, float* squared) {
-#pragma omp simd
-  for (int k = 0; k < 16; ++k) {
-    const float x = max(max(node.lower[0][k] - at[0], at[0] - node.upper[0][k]), 0);
-    const float y = max(max(node.lower[1][k] - at[1], at[1] - node.upper[1][k]), 0);
-    const float z = max(max(node.lower[2][k] - at[2], at[2] - node.upper[2][k]), 0);
-    squared[k] = x * x + y * y + z * z;
-  }
-}
-
-/// Mask of the children within a limit.
-inline unsigned within_node(const float* squared, float limit) {
-  unsigned found = 0;
-#pragma omp simd reduction(| : found)
-  for (int k = 0; k < 16; ++k) found |= squared[k] <= limit ? bits[k] : 0U;
-  return found;
-}
-
 /// A search on its way down the tree.
 class Descent {
  public:
@@ -113,8 +94,9 @@ void Descent::look_at_leaf(unsigned place) {
 void Descent::look_below(unsigned place) {
   const int level = level_of(place), row = row_of(place), col = col_of(place);
   float squared[16];
-  distances(search_.at, tree_.nodes[level][static_cast<long>(row) * tree_.sides[level] + col],
-            squared);
+  const float* at = search_.at;
+  distances(Box{{at[0], at[1], at[2]}, {at[0], at[1], at[2]}},
+            tree_.nodes[level][static_cast<long>(row) * tree_.sides[level] + col], squared);
   unsigned near = within_node(squared, box_limit_);
   const int first = count_;
   for (; near != 0; near &= near - 1) {
