@@ -7,6 +7,9 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <functional>
+#include <numeric>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -256,7 +259,7 @@ Trial random_trial(std::uint64_t seed) {
   m.bending = two(1e-6, 1e-4);
   m.damping = random.uniform() < 0.5 ? 0 : log_uniform(random, 0.5, 5);
   m.strain_limit = random.uniform() < 0.1 ? random.uniform(0.01, 0.05) : 0;
-  trial.size = 33 + random.index(129 - 33 + 1);
+  trial.size = static_cast<int>(std::lround(log_uniform(random, 33, 257)));
   trial.substeps = static_cast<int>(std::lround(log_uniform(random, 1, 16)));
   trial.frames = 120;
   const double ratio = 65.0 / trial.size;
@@ -334,14 +337,60 @@ std::string fabric_of(const Trial& trial) {
       m.bending.warp, m.bending.weft, m.damping, 100 * m.strain_limit, trial.compared_frames);
 }
 
+/// Largest strain above the tight solve's.
+double excess(const Outcome& o) { return o.strain - o.tight_strain; }
+
 std::string measured_strain(const Outcome& o) {
   return fmt::format("{:.1e} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:.2f} | {}", o.gained,
                      100 * o.strain, 100 * o.tight_strain, 1e3 * o.centre, 1e3 * o.rms,
                      1e3 * o.spread, o.unsolved);
 }
 
+/// The trials that are among the five worst by energy, strain, centre or particles.
+std::set<std::size_t> worst_trials(const std::vector<Outcome>& outcomes) {
+  std::vector<std::size_t> order(outcomes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::set<std::size_t> worst;
+  const auto add_worst = [&](auto of) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return of(outcomes[a]) > of(outcomes[b]);
+    });
+    worst.insert(order.begin(), order.begin() + std::min<std::ptrdiff_t>(5, std::ssize(order)));
+  };
+  add_worst([](const Outcome& o) { return o.gained; });
+  add_worst(excess);
+  add_worst([](const Outcome& o) { return o.centre; });
+  add_worst([](const Outcome& o) { return o.rms; });
+  return worst;
+}
+
+/// Of one part over all trials.
+std::string median_and_worst(const std::vector<Outcome>& outcomes, double scale,
+                             const std::function<double(const Outcome&)>& part) {
+  std::vector<double> values;
+  for (const Outcome& o : outcomes) values.push_back(scale * part(o));
+  std::sort(values.begin(), values.end());
+  return fmt::format("{:.2g} | {:.2g}", values[values.size() / 2], values.back());
+}
+
+void print_summary(const std::vector<Outcome>& outcomes) {
+  fmt::print("{} materials, seeds by which they can be drawn again below.\n\n", outcomes.size());
+  fmt::print("| | median | worst |\n|---|---|---|\n");
+  const auto row = [&](const char* name, double scale, auto part) {
+    fmt::print("| {} | {} |\n", name, median_and_worst(outcomes, scale, part));
+  };
+  row("energy gained, m g L", 1, [](const Outcome& o) { return o.gained; });
+  row("largest strain above the tight solve's, points", 100, excess);
+  row("centre off, mm", 1e3, [](const Outcome& o) { return o.centre; });
+  row("particles off, rms mm", 1e3, [](const Outcome& o) { return o.rms; });
+  row("centre of the tight solve from 1 um beside off, mm", 1e3,
+      [](const Outcome& o) { return o.spread; });
+  fmt::print("\n");
+}
+
 void print_random(const std::vector<Trial>& trials, const std::vector<Outcome>& outcomes,
                   std::uint64_t seed) {
+  print_summary(outcomes);
   fmt::print(
       "| seed | samples | substeps | compared frames | kg/m^2 | stretch N/m | shear N/m | bending "
       "N m | damping "
@@ -350,9 +399,8 @@ void print_random(const std::vector<Trial>& trials, const std::vector<Outcome>& 
       "tight "
       "steps unsolved |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < trials.size(); ++i)
+  for (const std::size_t i : worst_trials(outcomes))
     fmt::print("| {} | {} | {} |\n", seed + i, fabric_of(trials[i]), measured_strain(outcomes[i]));
-  fmt::print("| worst | | | | | | | | | | {} |\n", measured_strain(worst_of(outcomes)));
 }
 
 void measure(const Args& args) {
