@@ -13,6 +13,7 @@
 #include "weft/core/stopwatch.h"
 #include "weft/error.h"
 #include "weft/scene_file.h"
+#include "weft/sim/stepping/cloth_gaps.h"
 #include "weft/sim/stepping/simulation_parts.h"
 
 namespace weft {
@@ -33,33 +34,7 @@ LoadedSizes sizes_of(const LoadedScene& scene) {
   return sizes;
 }
 
-/// A run stops when its energy exceeds the start energy plus the work done on it by more than this,
-/// and by more than max_unexplained_part of the energy that cloths can have come by.
-constexpr double max_unexplained = 1;  // [J]
-constexpr double max_unexplained_part = 0.05;
-/// Uncertainty of the measured work, as a part of it, which is added to the second bound. It is
-/// large for work done in few steps: after a jump of a pin, solves leave a good part of the forces
-/// unbalanced.
-constexpr double max_unexplained_work = 0.5;
-/// Consecutive frames beyond these bounds after which a run stops.
-constexpr int frames_that_tell = 2;
-/// A run also stops when the 99th percentile of spring strain exceeds the limit of the material by
-/// more than this.
-constexpr double max_strain = 1;
-
 }  // namespace
-
-std::string Simulation::Parts::advice_for(std::size_t index) const {
-  const std::string advice = movers[index].integrator->stability_advice(time_step);
-  return advice.empty() ? "more substeps or a softer material are wanted" : advice;
-}
-
-void Simulation::Parts::stop_unstable(std::size_t index, BadParticle particle) const {
-  throw Unstable(name,
-                 fmt::format("cloth '{}' ran away at frame {}, particle (row {}, col {})",
-                             cloths[index].name, frame + 1, particle.row, particle.col),
-                 advice_for(index), {frame + 1, cloths[index].name, particle.row, particle.col});
-}
 
 Vec3d Simulation::Parts::centre() const {
   Vec3d moment;
@@ -72,46 +47,8 @@ Vec3d Simulation::Parts::centre() const {
   return (1 / total) * moment;
 }
 
-void Simulation::Parts::stop_torn(std::size_t index, const std::string& found) const {
-  throw Unstable(
-      name,
-      fmt::format("cloth '{}' ran away at frame {}: {}", cloths[index].name, frame + 1, found),
-      advice_for(index), {frame + 1, cloths[index].name});
-}
-
-void Simulation::Parts::check_energy(const FrameReport& report, double own) {
-  // The two-level method has soft springs of its own: the energy of the fabric's springs says
-  // nothing about it.
-  if (soft) return;
-  const double now = report.kinetic_energy + report.potential_energy;
-  const double gained = now - start_energy.total() - work.net - work.pulled;
-  // Upper bound on the kinetic and elastic energy that the cloths can have come by.
-  const double fallen = std::max(0.0, start_energy.total() - (now - own));
-  const double come_by = start_energy.own() + fallen + work.pulled;
-  const double most = max_unexplained_part * come_by + max_unexplained_work * work.gross;
-  // No check while a point is grabbed, as bodies may hold the cloth back against the pull. A single
-  // frame does not count: springs that the filter stretched in one frame relax in the next.
-  const bool beyond = !grab.holds() && gained > std::max(max_unexplained, most);
-  frames_beyond = beyond ? frames_beyond + 1 : 0;
-  if (frames_beyond < frames_that_tell) return;
-  const auto wildest = std::max_element(
-      cloths.begin(), cloths.end(), [](const SimulatedCloth& a, const SimulatedCloth& b) {
-        return kinetic_energy(*a.model, a.state) < kinetic_energy(*b.model, b.state);
-      });
-  stop_torn(static_cast<std::size_t>(wildest - cloths.begin()),
-            fmt::format("the energy rose by {:.3g} J beyond what pins, bodies and wind put in, "
-                        "{:.3g} J",
-                        gained, work.net));
-}
-
-void Simulation::Parts::check_strain(std::size_t index, const StrainSummary& strain) const {
-  const double most = max_strain + std::max(0.0, cloths[index].model->material.strain_limit);
-  if (soft || strain.p99 <= most) return;
-  stop_torn(index, fmt::format("one spring of a hundred is strained by {:.0f} % or more",
-                               100 * strain.p99));
-}
-
 void Simulation::Parts::measure(FrameReport& report) {
+  const StabilityCheck::Now now{frame, time_step};
   double weight = 0, own = 0;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];
@@ -126,17 +63,17 @@ void Simulation::Parts::measure(FrameReport& report) {
     report.smallest_gap =
         std::min(report.smallest_gap, collider->smallest_gap(i, cloth.state.position, team));
     const StrainSummary strain = measure_strain(*cloth.model, cloth.state);
-    if (!cloth.model->apart) check_strain(i, strain);
-    if (sewing[i])
-      for (const double gap : sewing[i]->gaps(cloth.state.position))
-        report.seam_gap = std::max(report.seam_gap, gap);
+    if (!soft && !garments.is_open(i)) stability.check_strain(now, i, strain);
+    for (const double gap : garments.gaps(i)) report.seam_gap = std::max(report.seam_gap, gap);
     report.strain.mean += strain.mean * cloth.model->particles;
     report.strain.p99 = std::max(report.strain.p99, strain.p99);
     report.strain.max = std::max(report.strain.max, strain.max);
     weight += cloth.model->particles;
   }
   report.strain.mean /= weight;
-  check_energy(report, own);
+  // The two-level method has soft springs of its own: the energy of the fabric's springs says
+  // nothing about it.
+  if (!soft) stability.check_energy(now, report, own, grab.holds(), energy);
   report.centre_of_mass = centre();
 }
 
@@ -148,9 +85,12 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
   static_cast<LoadedScene&>(*parts_) = load_scene(scene, name, help, parts_->team);
   if (help.loaded) help.loaded(sizes_of(*parts_));
   parts_->make_movers();
-  parts_->check_apart();
+  // Baselines take the start as it is.
+  if (Colliders::traits_of(scene.collider).filters)
+    parts_->crossings.refuse_cloths_in_one_place(name);
   parts_->make_collider_of_scene();
-  parts_->note_too_fast();
+  if (const std::string caution = parts_->approach.caution(parts_->substep_time); !caution.empty())
+    parts_->notes.push_back(caution);
 }
 
 Simulation::~Simulation() = default;
@@ -180,7 +120,7 @@ void Simulation::watch(StepWatcher* watcher) { parts_->watcher = watcher; }
 void Simulation::save(SimulationState& state) const {
   state.frame = parts_->frame;
   state.levels = parts_->levels;
-  state.work = parts_->work;
+  state.work = parts_->energy.work();
   state.cloths.resize(parts_->cloths.size());
   state.marks.resize(parts_->cloths.size());
   state.contacts.resize(parts_->cloths.size());
@@ -197,13 +137,11 @@ void Simulation::restore(const SimulationState& state) {
   let_go();
   parts_->frame = state.frame;
   parts_->levels = state.levels;
-  parts_->work = state.work;
-  parts_->known_energy = false;
+  parts_->energy.restore(state.work);
   for (std::size_t i = 0; i < state.cloths.size(); ++i) parts_->cloths[i].state = state.cloths[i];
   parts_->follow_sewing();
   if (parts_->driven.any_moves()) {
-    parts_->driven.move_to(parts_->substep_time * (parts_->frame * parts_->scene.substeps),
-                           parts_->team);
+    parts_->driven.move_to(parts_->frame_start(), parts_->team);
     parts_->bodies_arrive();
     // A new collider, so that the jump of the bodies does not count as motion.
     parts_->make_collider_of_scene();
@@ -218,7 +156,7 @@ void Simulation::restore(const SimulationState& state) {
 void Simulation::grab(std::size_t cloth, int sample) {
   WEFT_ASSERT(cloth < parts_->cloths.size());
   let_go();
-  parts_->known_energy = false;
+  parts_->energy.forget();
   parts_->grab.take(cloth, sample, parts_->cloths[cloth]);
 }
 
@@ -264,7 +202,7 @@ double Simulation::mass() const {
   return mass;
 }
 
-double Simulation::start_energy() const { return parts_->start_energy.total(); }
+double Simulation::start_energy() const { return parts_->energy.at_start().total(); }
 
 double Simulation::used_thickness(std::size_t cloth) const {
   return self_gap_of(*parts_->cloths[cloth].model);
@@ -275,8 +213,7 @@ std::span<const Contact> Simulation::contacts(std::size_t cloth) const {
 }
 
 std::vector<double> Simulation::seam_gaps(std::size_t cloth) const {
-  const std::optional<Sewing>& sewing = parts_->sewing[cloth];
-  return sewing ? sewing->gaps(parts_->cloths[cloth].state.position) : std::vector<double>();
+  return parts_->garments.gaps(cloth);
 }
 
 double Simulation::sunk(std::size_t cloth) const {
@@ -289,10 +226,7 @@ double Simulation::sunk(std::size_t cloth) const {
   return sum / static_cast<double>(worn.garment->labelled.size());
 }
 
-IntersectionCounts Simulation::intersections() const {
-  if (!parts_->check) parts_->make_check();
-  return parts_->check->count();
-}
+IntersectionCounts Simulation::intersections() const { return parts_->crossings.count(); }
 
 int Simulation::crossings() const { return parts_->collider->crossings(); }
 

@@ -8,6 +8,7 @@
 #include "weft/core/contact_point.h"
 #include "weft/core/stopwatch.h"
 #include "weft/error.h"
+#include "weft/sim/stepping/cloth_gaps.h"
 #include "weft/sim/stepping/simulation_parts.h"
 
 namespace weft {
@@ -54,10 +55,6 @@ constexpr double harmless_depth = 0.75;
 /// A guess that moves less than next_to_start passes through nothing that is not closer.
 constexpr double same_place = 0.25, next_to_start = 0.05;
 
-/// Approach of a body in a step, as a part of that which its substep was divided for, beyond which
-/// the step is divided further. The mean over a substep hides no more in smooth motion.
-constexpr double max_excess_approach = 1.5;
-
 }  // namespace
 
 void Simulation::Parts::bodies_arrive() {
@@ -86,67 +83,37 @@ void Simulation::Parts::propose(std::size_t index) {
   SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
   mover.wind_work = mover.pulled_work = 0;
-  if (mover.wind || cloth.model->apart) mover.calm_velocity = cloth.state.velocity;
-  if (is_sewing()) mover.unsewn_energy = mover.meter.measure(cloth.state).total();
-  if (cloth.model->apart) sew(index);
+  if (mover.wind || garments.is_open(index)) mover.calm_velocity = cloth.state.velocity;
+  if (garments.any_open()) mover.unsewn_energy = mover.meter.measure(cloth.state).total();
+  if (garments.is_open(index)) sew(index);
   if (mover.wind) {
-    known_energy = false;
+    energy.forget();
     const double before = mover.meter.kinetic(cloth.state.velocity);
     mover.wind->blow(time_step, cloth.state, solvers());
     mover.wind_work = mover.meter.kinetic(cloth.state.velocity) - before;
   }
-  const double gravity_part = cloth.model->apart ? sewing[index]->gravity_part(step_start) : 1;
+  const double gravity_part = garments.gravity_part(index, step_start);
   mover.integrator->begin({time_step, vec_cast<float>(gravity_part * scene.gravity)}, cloth.state);
   if (!mover.integrator->starts_at_proposal()) mover.integrator->iterate({});
 }
 
 void Simulation::Parts::sew(std::size_t index) {
-  known_energy = false;
-  sewing[index]->pull({time_step, step_start, movers[index].integrator->past_contacts()},
-                      cloths[index].state);
-  movers[index].integrator->forget();
-}
-
-bool Simulation::Parts::is_sewing() const {
-  return std::any_of(cloths.begin(), cloths.end(),
-                     [](const SimulatedCloth& cloth) { return cloth.model->apart.has_value(); });
-}
-
-void Simulation::Parts::bring_seams_together() {
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (cloths[i].model->apart) sewing[i]->close(movers[i].integrator->proposal());
-}
-
-bool Simulation::Parts::slides(std::size_t index) const {
-  const double seconds = substep_time * (frame * scene.substeps);
-  return cloths[index].model->apart && sewing[index]->gravity_part(seconds) == 0;
+  energy.forget();
+  Integrator& integrator = *movers[index].integrator;
+  garments.pull(index, {time_step, step_start, integrator.past_contacts()});
+  integrator.forget();
 }
 
 void Simulation::Parts::follow_sewing() {
-  bool changed = false, other_fabric = false;
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    if (!sewing[i]) continue;
-    Cloth& model = *cloths[i].model;
-    const Planes3& position = cloths[i].state.position;
-    const double frame_time = substep_time * scene.substeps;
-    sewing[i]->begin_frame(position, frame * frame_time, frame_time);
-    std::optional<BorderMates> apart;
-    if (!sewing[i]->is_closed(position)) apart = sewing[i]->joined(position);
-    const bool same = apart.has_value() == model.apart.has_value() &&
-                      (!apart || apart->intervals() == model.apart->intervals());
-    if (!same) model.apart = std::move(apart);
-    const bool other_stage = slides(i) != (sliding[i] != 0);
-    if (other_stage) std::swap(model.bending, other_bending[i]);
-    other_fabric = other_fabric || other_stage;
-    changed = changed || !same || other_stage;
-  }
-  if (other_fabric) renew_movers();
-  if (!changed) return;
+  const Garments::Changes changes =
+      garments.begin_frame(frame_start(), substep_time * scene.substeps);
+  if (changes.fabric) renew_movers();
+  if (!changes.contact) return;
   std::vector<std::vector<int>> marks(cloths.size());
   for (std::size_t i = 0; i < cloths.size(); ++i) collider->save_marks(i, marks[i]);
   make_collider_of_scene();
   for (std::size_t i = 0; i < cloths.size(); ++i) collider->restore_marks(i, marks[i]);
-  known_energy = false;
+  energy.forget();
 }
 
 void Simulation::Parts::renew_movers() {
@@ -224,50 +191,10 @@ void Simulation::Parts::gather_moving() {
   }
 }
 
-double Simulation::Parts::wanted_parts() {
-  double wanted = 1;
-  for (const SimulatedCloth& cloth : cloths) {
-    reach.place(cloth.state, time_step, gap_of(*cloth.model));
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (const BlockMotion* motion = collider->motion_of(i))
-        wanted = std::max(wanted, wanted_subdivisions(*motion, reach, max_approach_in_step));
-  }
-  return wanted;
-}
-
-void Simulation::Parts::check_speed(double subdivisions) const {
-  if (subdivisions > max_pieces)
-    throw SceneError(name,
-                     fmt::format("bodies pass cloth at up to {:.4g} m/s in frame {}, faster than "
-                                 "it can be kept from them",
-                                 driven.fastest(), frame + 1),
-                     fmt::format("{} substeps or more are wanted",
-                                 std::ceil(scene.substeps * subdivisions / max_pieces)));
-}
-
 int Simulation::Parts::subdivisions_until(double seconds) {
   if (!driven.any_moves()) return 1;
   move_bodies(seconds);
-  const double wanted = wanted_parts();
-  check_speed(wanted);
-  return whole_subdivisions(wanted);
-}
-
-int Simulation::Parts::required_level(int subdivisions) {
-  const double wanted = driven.any_moves() ? wanted_parts() : 1;
-  if (wanted <= max_excess_approach) return -1;
-  check_speed(wanted * subdivisions);
-  return level_of(whole_subdivisions(wanted * subdivisions));
-}
-
-bool Simulation::Parts::check_for_runaway(double seconds, bool may_refuse) {
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    const auto bad = movers[i].runaway.find(*cloths[i].model, movers[i].integrator->proposal(),
-                                            seconds, solvers());
-    if (bad && may_refuse) return false;
-    if (bad) stop_unstable(i, *bad);
-  }
-  return true;
+  return approach.subdivisions(approached());
 }
 
 void Simulation::Parts::iterate_together() {

@@ -40,9 +40,12 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
     const double seconds = piece < walk.subdivisions() ? begin + time_step * piece : end;
     step_start = seconds - time_step;
     move_driven(seconds);
-    if (const int level = required_level(walk.subdivisions()); level >= 0) {
-      walk.require(level);
-      continue;
+    if (driven.any_moves()) {
+      const int level = approach.required_level(approached(), walk.subdivisions());
+      if (level >= 0) {
+        walk.require(level);
+        continue;
+      }
     }
     const Tried tried = try_step(seconds,
                                  {walk.may_halve(), driven.any_moves() && walk.may_halve_fallen(),
@@ -69,9 +72,11 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
   gather_moving();
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tried.contacts += correct(i, movers[i].integrator->proposal(), report);
-  tried.refused = !check_for_runaway(seconds, choices.halve && watched);
+  tried.refused =
+      !stability.check_proposals({frame, time_step, seconds}, choices.halve && watched, solvers());
   if (tried.refused) return tried;
-  bring_seams_together();
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    garments.close(i, movers[i].integrator->proposal());
   Stopwatch clock;
   tried.filtered = collider->filter(moving, time_step, team);
   report.collide_ms += clock.lap_ms();
@@ -83,7 +88,7 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
         movers[i].integrator->pin_force());
   if (watched) {
     assess_step(choices, tried);
-  } else if (solve_is_lost()) {
+  } else if (energy.solve_is_lost(time_step / substep_time)) {
     tried.refused = choices.halve;
     tried.verdict = StepVerdict::forced;
   }
@@ -104,7 +109,7 @@ void Simulation::Parts::solve_all(FrameReport& report) {
   Stopwatch clock;
   watched = free_guesses();
   report.collide_ms += clock.lap_ms();
-  if (watched) lend();
+  if (watched) energy.lend(garments.any_open());
   iterate_all();
   gather_moving();
   if (!watched || !solves_go_far()) return;
@@ -114,31 +119,45 @@ void Simulation::Parts::solve_all(FrameReport& report) {
   iterate_all();
 }
 
+void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
+  const bool sewing_now = garments.any_open();
+  const EnergyBudget::Added added = energy.measure_added(tried.work, sewing_now);
+  // A step is bad, too, when points fall back to its start.
+  const bool fallen = tried.filtered.fell_back > 0;
+  const bool bad =
+      fallen || added.too_much || (!sewing_now && energy.solve_is_lost(time_step / substep_time));
+  const bool halve = choices.halve || (fallen && choices.halve_fallen);
+  tried.repeat = bad && !sewing_now && !halve && choices.repeat && collider->learn_struck(moving);
+  tried.refused = tried.repeat || (bad && halve);
+  tried.verdict = fallen       ? StepVerdict::fallen
+                  : bad        ? StepVerdict::forced
+                  : added.calm ? StepVerdict::calm
+                               : StepVerdict::near;
+  // Bodies do work by way of the filter, too.
+  if (driven.any_moves()) tried.pushed = std::max(0.0, added.energy);
+  if (!tried.refused && added.excess > 0) energy.take_out(added.excess);
+}
+
 void Simulation::Parts::refuse_step() {
   collider->rollback();
   moved_to.reset();
   for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (movers[i].wind || cloths[i].model->apart)
-      cloths[i].state.velocity = movers[i].calm_velocity;
-  if (movers.front().wind) known_energy = false;
+    if (movers[i].wind || garments.is_open(i)) cloths[i].state.velocity = movers[i].calm_velocity;
+  if (movers.front().wind) energy.forget();
 }
 
 void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
   if (watcher != nullptr) show_step(report);
   collider->commit();
   double done = tried.work;
-  work.pulled += tried.pushed;
+  energy.add_pulled(tried.pushed);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     finish(i, report);
     done += movers[i].wind_work;
-    work.pulled += movers[i].pulled_work;
+    energy.add_pulled(movers[i].pulled_work);
   }
-  if (is_sewing()) done = work_of_sewing();
-  // The end energies of this step are the start energies of the next.
-  known_energy = known_energy && watched;
-  for (Mover& mover : movers) mover.start = mover.end;
-  work.net += done;
-  work.gross += std::abs(done);
+  if (garments.any_open()) done = work_of_sewing();
+  energy.finish_step(done, watched);
   report.work += done;
   report.contacts = std::max(report.contacts, tried.contacts);
   report.self_contacts = std::max(report.self_contacts, collider->self_contacts());

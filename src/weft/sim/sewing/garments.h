@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "weft/cloth/cloth.h"
+#include "weft/sim/sewing/sewing.h"
+#include "weft/simulation.h"
+
+namespace weft {
+
+/// The cloths of a scene that are sewn from panels, until their seams are closed.
+class Garments {
+ public:
+  /// All are kept by reference.
+  /// @param sewing         of each cloth; none: it is no garment
+  /// @param other_bending  of each cloth, see LoadedScene
+  Garments(std::vector<SimulatedCloth>& cloths, std::vector<std::optional<Sewing>>& sewing,
+           std::vector<BendingPlanes>& other_bending)
+      : cloths_(cloths), sewing_(sewing), other_bending_(other_bending) {}
+
+  /// Whether any seam is open yet.
+  [[nodiscard]] bool any_open() const;
+  [[nodiscard]] bool is_open(std::size_t cloth) const {
+    return cloths_[cloth].model->apart.has_value();
+  }
+  /// Whether a cloth has no friction and is stiff: seams that close slide over what is between
+  /// them, and panels do not crumple, until gravity acts on what stays open.
+  /// @param seconds  since the run's start
+  [[nodiscard]] bool slides(std::size_t cloth, double seconds) const;
+  /// The part of gravity that acts on a cloth.
+  [[nodiscard]] double gravity_part(std::size_t cloth, double seconds) const;
+
+  /// What a frame changes.
+  struct Changes {
+    bool fabric = false;   ///< of a cloth, which bends in another way
+    bool contact = false;  ///< other samples than before are joined, or friction begins
+  };
+  /// Begins a frame: joins what has closed, takes apart what is to close anew, and gives garments
+  /// the bending of their fabric where they no longer slide.
+  /// @param seconds, length  at its start, and of it
+  Changes begin_frame(double seconds, double length);
+  /// Notes which cloths slide, as a collider that is made now knows them.
+  void note_sliding(double seconds);
+  /// Whether the collider knows a cloth as sliding.
+  [[nodiscard]] bool is_sliding(std::size_t cloth) const { return sliding_[cloth] != 0; }
+
+  /// Puts samples of seams in one place that proposals bring next to each other.
+  void close(std::size_t cloth, ClothState& proposal) const {
+    if (is_open(cloth)) sewing_[cloth]->close(proposal);
+  }
+  void pull(std::size_t cloth, const Sewing::Step& step) {
+    sewing_[cloth]->pull(step, cloths_[cloth].state);
+  }
+  /// Of each seam the largest distance in a pair. [m]
+  [[nodiscard]] std::vector<double> gaps(std::size_t cloth) const;
+
+ private:
+  /// @return whether other samples are joined than before
+  bool join_closed(std::size_t cloth);
+
+  std::vector<SimulatedCloth>& cloths_;
+  std::vector<std::optional<Sewing>>& sewing_;
+  std::vector<BendingPlanes>& other_bending_;
+  std::vector<char> sliding_;  // of each cloth: whether the collider's friction is none
+};
+
+}  // namespace weft

@@ -1,0 +1,135 @@
+#include "weft/sim/stepping/energy_budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weft/cloth/cloth.h"
+#include "weft/core/math.h"
+
+namespace weft {
+namespace {
+
+/// A step adds too much when response and filter add more energy than max_added_part of the inner
+/// energy of the solved cloths plus max_added [J/kg] times their mass. The linearisation error of
+/// the solve has the same limit, by the inner energy at the step's start.
+constexpr double max_added_part = 0.3, max_added = 0.01;
+/// Linearisation errors split a substep into at most this many steps: in crushed cloth, whose
+/// contacts want to separate at once, shorter steps are more violent.
+constexpr double max_pieces_for_solves = 8;
+/// A step that adds less than this part of the limit is calm.
+constexpr double calm_part = 0.2;
+
+/// Energy that contacts and springs stretched by the filter may lend a cloth, as a part of m g
+/// times its side length; the next solves release it. Removed from the motion at once, it would
+/// stop whatever moves in a pile.
+constexpr double lent_part = 0.003;
+
+/// Part of that up to which energy may remain that velocities cannot give back; more makes a step
+/// bad.
+constexpr double max_unpaid_part = 0.25;
+
+/// @param mass  [kg] @param density  [kg/m^2] @return [J]
+double lent_energy(double mass, double density) {
+  return lent_part * mass * standard_gravity * std::sqrt(mass / density);
+}
+
+/// Energy that a cloth gained in a step. [J]
+double gain_of(const Mover& mover) {
+  return std::max(0.0, mover.end.total() - mover.start.total());
+}
+
+/// Largest energy that a step may add. [J]
+double limit_for(const Energy& within, double mass) {
+  return max_added_part * within.inner() + max_added * mass;
+}
+
+}  // namespace
+
+void EnergyBudget::begin_run() {
+  for (std::size_t i = 0; i < cloths_.size(); ++i)
+    at_start_ += movers_[i].meter.measure(cloths_[i].state);
+}
+
+bool EnergyBudget::solve_is_lost(double part) const {
+  double missed = 0, mass = 0;
+  for (const Mover& mover : movers_) missed += mover.integrator->missed();
+  if (!(missed > 0) || part < 1.5 / max_pieces_for_solves) return false;
+  Energy start;
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    start += movers_[i].meter.measure(cloths_[i].state);
+    mass += movers_[i].meter.mass();
+  }
+  return missed > limit_for(start, mass);
+}
+
+void EnergyBudget::lend(bool sewing) {
+  double start = 0, mass = 0, most = 0, explained = work_.net;
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    Mover& mover = movers_[i];
+    if (!known_) mover.start = mover.meter.measure(cloths_[i].state);
+    start += mover.start.total();
+    mass += mover.meter.mass();
+    explained += mover.wind_work;
+    most += lent_energy(mover.meter.mass(), cloths_[i].model->material.density);
+  }
+  known_ = true;
+  work_.least = std::min(work_.least, start - explained);
+  lent_ = most;
+  max_energy_ = work_.least + explained + most;
+  // Where seams move the cloth its energy tells nothing, and many linearisations would gain
+  // nothing.
+  const double left = sewing ? most / lent_part : std::max(0.0, max_energy_ - start);
+  for (Mover& mover : movers_) mover.integrator->lend(left * mover.meter.mass() / mass);
+}
+
+EnergyBudget::Added EnergyBudget::measure_added(double work, bool sewing) {
+  Energy start, solved, end;
+  double mass = 0;
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    Mover& mover = movers_[i];
+    start += mover.start;
+    solved += mover.solved;
+    mass += mover.meter.mass();
+    mover.end = mover.meter.measure(mover.integrator->proposal());
+    end += mover.end;
+  }
+  Added added{end.total() - solved.total()};
+  const double gained = std::min(added.energy, end.total() - start.total() - work);
+  const double limit = limit_for(solved, mass);
+  // What cloth gains while it is sewn is the work of its seams, which end it where they close.
+  if (!sewing) added.excess = std::max(0.0, std::min(gained, end.total() - work - max_energy_));
+  const bool unpaid = added.excess - removable(added.excess) > max_unpaid_part * lent_;
+  const double fault = std::max(end.elastic - solved.elastic, gained);
+  added.too_much = !sewing && (!(fault <= limit) || unpaid);
+  added.calm = fault < calm_part * limit;
+  return added;
+}
+
+double EnergyBudget::removable(double excess) const {
+  double gained = 0, removed = 0;
+  for (const Mover& mover : movers_) gained += gain_of(mover);
+  for (const Mover& mover : movers_)
+    if (gained > 0)
+      removed += std::min(excess * (gain_of(mover) / gained), mover.end.kinetic - mover.end.drift);
+  return removed;
+}
+
+void EnergyBudget::take_out(double excess) {
+  double gained = 0;
+  for (const Mover& mover : movers_) gained += gain_of(mover);
+  for (Mover& mover : movers_)
+    if (gain_of(mover) > 0)
+      mover.meter.take_out(excess * (gain_of(mover) / gained),
+                           mover.integrator->proposal().velocity);
+  // The remaining energy is measured anew, not computed, as a resumed run would do.
+  forget();
+}
+
+void EnergyBudget::finish_step(double net_work, bool watched) {
+  known_ = known_ && watched;
+  for (Mover& mover : movers_) mover.start = mover.end;
+  work_.net += net_work;
+  work_.gross += std::abs(net_work);
+}
+
+}  // namespace weft

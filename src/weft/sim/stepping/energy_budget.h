@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "weft/cloth/energy_meter.h"
+#include "weft/sim/stepping/mover.h"
+#include "weft/simulation.h"
+
+namespace weft {
+
+/// The energy of all cloths beside the work done on them. Tells which steps add too much, and takes
+/// what accepted ones add beyond a bound out of their motion.
+class EnergyBudget {
+ public:
+  /// Both are kept by reference; movers may be replaced between steps.
+  EnergyBudget(const std::vector<SimulatedCloth>& cloths, std::vector<Mover>& movers)
+      : cloths_(cloths), movers_(movers) {}
+
+  /// Measures the energy before the first frame.
+  void begin_run();
+  [[nodiscard]] const Energy& at_start() const { return at_start_; }
+
+  /// To be called where states change other than by a step: their energies are measured anew.
+  void forget() { known_ = false; }
+
+  /// Finds how much energy cloths may have at the end of the step, and tells integrators what they
+  /// may add in it. @pre the wind has been applied
+  void lend(bool sewing);
+
+  /// Whether the linearisation errors of the solves exceed the energy limit: the step is too long.
+  /// @param part  of a substep that the step takes
+  [[nodiscard]] bool solve_is_lost(double part) const;
+
+  /// What response and filter did to the energy in a step.
+  struct Added {
+    double energy = 0;  ///< added [J]
+    double excess = 0;  ///< to be taken out if the step is accepted [J]
+    bool too_much = false;
+    bool calm = false;  ///< far from too much
+  };
+  /// @param work  of pins and bodies [J]  @pre the filter is done
+  [[nodiscard]] Added measure_added(double work, bool sewing);
+  /// Takes an excess out of the motion of each cloth in proportion to what it gained.
+  void take_out(double excess);
+
+  /// Counts the work of an accepted step, whose end energies are the start energies of the next.
+  /// @param watched  whether these were measured
+  void finish_step(double net_work, bool watched);
+  /// Counts work that no spring accounts for, see WorkDone.
+  void add_pulled(double energy) { work_.pulled += energy; }
+
+  [[nodiscard]] const WorkDone& work() const { return work_; }
+  void restore(const WorkDone& work) {
+    work_ = work;
+    forget();
+  }
+
+ private:
+  /// The part of an excess that can be taken out [J].
+  [[nodiscard]] double removable(double excess) const;
+
+  const std::vector<SimulatedCloth>& cloths_;
+  std::vector<Mover>& movers_;
+  WorkDone work_;
+  Energy at_start_;
+  double max_energy_ = HUGE_VAL;  // of cloths at the end of the step, before its work [J]
+  double lent_ = 0;               // part of it that contacts and the filter may lend [J]
+  bool known_ = false;            // start energies of movers are up to date
+};
+
+}  // namespace weft

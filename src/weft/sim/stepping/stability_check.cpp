@@ -1,0 +1,93 @@
+#include "weft/sim/stepping/stability_check.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "weft/cloth/cloth.h"
+#include "weft/cloth/measure.h"
+#include "weft/error.h"
+
+namespace weft {
+namespace {
+
+/// A run stops when its energy exceeds the start energy plus the work done on it by more than this,
+/// and by more than max_unexplained_part of the energy that cloths can have come by.
+constexpr double max_unexplained = 1;  // [J]
+constexpr double max_unexplained_part = 0.05;
+/// Uncertainty of the measured work, as a part of it, which is added to the second bound. It is
+/// large for work done in few steps: after a jump of a pin, solves leave a good part of the forces
+/// unbalanced.
+constexpr double max_unexplained_work = 0.5;
+/// Consecutive frames beyond these bounds after which a run stops. A single one does not count:
+/// springs that the filter stretched in one frame relax in the next.
+constexpr int frames_that_tell = 2;
+/// A run also stops when the 99th percentile of spring strain exceeds the limit of the material by
+/// more than this.
+constexpr double max_strain = 1;
+
+}  // namespace
+
+std::string StabilityCheck::advice_for(const Now& now, std::size_t cloth) const {
+  const std::string advice = movers_[cloth].integrator->stability_advice(now.time_step);
+  return advice.empty() ? "more substeps or a softer material are wanted" : advice;
+}
+
+void StabilityCheck::stop(const Now& now, std::size_t cloth, const std::string& found) const {
+  throw Unstable(
+      name_,
+      fmt::format("cloth '{}' ran away at frame {}: {}", cloths_[cloth].name, now.frame + 1, found),
+      advice_for(now, cloth), {now.frame + 1, cloths_[cloth].name});
+}
+
+bool StabilityCheck::check_proposals(const Now& now, bool may_refuse, ThreadTeam& team) {
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    const std::string& cloth = cloths_[i].name;
+    const auto bad = movers_[i].runaway.find(*cloths_[i].model, movers_[i].integrator->proposal(),
+                                             now.end, team);
+    if (bad && may_refuse) return false;
+    if (bad)
+      throw Unstable(name_,
+                     fmt::format("cloth '{}' ran away at frame {}, particle (row {}, col {})",
+                                 cloth, now.frame + 1, bad->row, bad->col),
+                     advice_for(now, i), {now.frame + 1, cloth, bad->row, bad->col});
+  }
+  return true;
+}
+
+std::size_t StabilityCheck::wildest_cloth() const {
+  const auto wildest = std::max_element(
+      cloths_.begin(), cloths_.end(), [](const SimulatedCloth& a, const SimulatedCloth& b) {
+        return kinetic_energy(*a.model, a.state) < kinetic_energy(*b.model, b.state);
+      });
+  return static_cast<std::size_t>(wildest - cloths_.begin());
+}
+
+void StabilityCheck::check_energy(const Now& now, const FrameReport& report, double own, bool held,
+                                  const EnergyBudget& budget) {
+  const WorkDone& work = budget.work();
+  const Energy& start = budget.at_start();
+  const double energy = report.kinetic_energy + report.potential_energy;
+  const double gained = energy - start.total() - work.net - work.pulled;
+  // Upper bound on the kinetic and elastic energy that the cloths can have come by.
+  const double fallen = std::max(0.0, start.total() - (energy - own));
+  const double come_by = start.own() + fallen + work.pulled;
+  const double most = max_unexplained_part * come_by + max_unexplained_work * work.gross;
+  const bool beyond = !held && gained > std::max(max_unexplained, most);
+  frames_beyond_ = beyond ? frames_beyond_ + 1 : 0;
+  if (frames_beyond_ < frames_that_tell) return;
+  stop(now, wildest_cloth(),
+       fmt::format("the energy rose by {:.3g} J beyond what pins, bodies and wind put in, "
+                   "{:.3g} J",
+                   gained, work.net));
+}
+
+void StabilityCheck::check_strain(const Now& now, std::size_t cloth,
+                                  const StrainSummary& strain) const {
+  const double most = max_strain + std::max(0.0, cloths_[cloth].model->material.strain_limit);
+  if (strain.p99 <= most) return;
+  stop(now, cloth,
+       fmt::format("one spring of a hundred is strained by {:.0f} % or more", 100 * strain.p99));
+}
+
+}  // namespace weft
