@@ -1,5 +1,6 @@
 // How far every method is off a converged run, over what it costs.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -9,13 +10,22 @@
 #include <fmt/format.h>
 
 #include "bench/hanging_sheet.h"
+#include "weft/fabric.h"
 
 namespace weft::bench {
 namespace {
 
 struct Args {
   int size = 65, threads = 1, repeats = 3;
+  std::string fabric;  // a named one; empty: the sheet's own
 };
+
+/// The hanging sheet, of the fabric that was asked for.
+Scene sheet_for(const Args& args) {
+  Scene scene = hanging_sheet(args.size);
+  if (!args.fabric.empty()) scene.cloths[0].material = find_material(args.fabric).value();
+  return scene;
+}
 
 /// One setting of one method.
 struct Trial {
@@ -30,14 +40,14 @@ class Trials {
 
   void add(const std::string& series, const IntegratorOptions& method, int substeps,
            int iterations = 0) {
-    Scene scene = hanging_sheet(words_.size);
+    Scene scene = sheet_for(words_);
     scene.integrator = method;
     scene.substeps = substeps;
     list_.push_back({series, substeps, iterations,
                      [scene, threads = words_.threads] { return run_hanging(scene, threads); }});
   }
   void add_position_based(int substeps) {
-    Scene scene = hanging_sheet(words_.size);
+    Scene scene = sheet_for(words_);
     scene.substeps = substeps;
     list_.push_back({"position based", substeps, 0,
                      [scene] { return std::optional(run_hanging_position_based(scene)); }});
@@ -49,9 +59,17 @@ class Trials {
   std::vector<Trial> list_;
 };
 
-/// Explicit steps a frame: the largest stable step shrinks with the spacing.
-int stable_substeps(int size) { return 3 * size; }
-int reference_substeps(int size) { return 4 * stable_substeps(size); }
+/// Explicit steps a frame: the largest stable step shrinks with the spacing, and with the speed of
+/// sound in the threads.
+int stable_substeps(const Args& args) {
+  const auto sound = [](const Material& material) {
+    return std::sqrt(std::max(material.stretch.warp, material.stretch.weft) / material.density);
+  };
+  const double faster = sound(sheet_for(args).cloths[0].material) /
+                        sound(hanging_sheet(args.size).cloths[0].material);
+  return static_cast<int>(std::lround(3 * args.size * faster));
+}
+int reference_substeps(const Args& args) { return 4 * stable_substeps(args); }
 
 /// Beyond this the dense filter of desbrun takes minutes to make.
 constexpr int largest_desbrun_size = 71;
@@ -65,7 +83,7 @@ Trials trials_for(const Args& args) {
                  MultigridOptions{.max_iterations = iterations, .tolerance = 0}, substeps,
                  iterations);
   for (const int substeps : {1, 2, 4, 8, 16}) trials.add("implicit", ImplicitOptions{}, substeps);
-  for (const int substeps : {stable_substeps(args.size), 2 * stable_substeps(args.size)})
+  for (const int substeps : {stable_substeps(args), 2 * stable_substeps(args)})
     trials.add("explicit", ExplicitOptions{}, substeps);
   for (const int substeps : {1, 2, 4, 8}) trials.add("two level", TwoLevelOptions{}, substeps);
   if (args.size <= largest_desbrun_size)
@@ -88,7 +106,7 @@ std::optional<HangingRun> median_of(int repeats, const Trial& trial) {
 }
 
 HangingRun converged(const Args& args, int substeps) {
-  Scene scene = hanging_sheet(args.size);
+  Scene scene = sheet_for(args);
   scene.integrator = ExplicitOptions{};
   scene.limiter_passes = 0;
   scene.substeps = substeps;
@@ -109,14 +127,16 @@ void print_row(const Trial& trial, const std::optional<HangingRun>& run, double 
 }
 
 void measure(const Args& args) {
-  const int steps = reference_substeps(args.size);
+  const int steps = reference_substeps(args);
   const HangingRun reference = converged(args, steps);
   const double own = distance_between(converged(args, steps / 2), reference);
   fmt::print(
-      "{0} x {0} samples, {1} thread(s). The converged run takes {2} explicit steps a frame; with "
+      "{5}{0} x {0} samples, {1} thread(s). The converged run takes {2} explicit steps a frame; "
+      "with "
       "half as many "
       "it is {3:.1f} mm off itself, and it falls {4:.3f} m.\n\n",
-      args.size, args.threads, steps, 1000 * own, reference.fall);
+      args.size, args.threads, steps, 1000 * own, reference.fall,
+      args.fabric.empty() ? "" : args.fabric + ", ");
   fmt::print(
       "| method | substeps | iterations | ms a frame | off by, mm | fall, m | strain p99 % | "
       "largest % |\n");
@@ -137,6 +157,7 @@ int main(int argc, char** argv) try {
   weft::bench::Args args;
   CLI::App program{"Error of every method against a converged run, over its time."};
   program.add_option("--size", args.size, "Samples a side")->capture_default_str();
+  program.add_option("--fabric", args.fabric, "A named one, instead of the sheet's own");
   program.add_option("--threads", args.threads)->capture_default_str();
   program.add_option("--repeats", args.repeats, "Runs whose median time counts")
       ->capture_default_str();

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Draws docs/figures/error_over_time.png from the table error_129 of docs/measured.md.
+"""Draws docs/figures/error_over_time.png and error_over_time_fabrics.png from the tables error_129 and error_fabrics of
+docs/measured.md.
 
-Usage: bench/error_plot.py [-o PNG]
+Usage: bench/error_plot.py
 """
-import argparse
 from pathlib import Path
 
 import matplotlib
@@ -16,11 +16,19 @@ ROOT = Path(__file__).resolve().parent.parent
 TIME, ERROR = "ms a frame", "off by, mm"
 
 
-def rows_of(document, name):
-    """The rows of the block's table, as dictionaries."""
+def tables_of(document, name):
+    """The title and the rows of each table of the block, the rows as dictionaries."""
     block = document.split(f"<!-- {name} -->")[1].split(f"<!-- /{name} -->")[0]
-    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in block.splitlines() if line.startswith("|")]
-    return [dict(zip(lines[0], cells)) for cells in lines[2:]]
+    tables, title = [], ""
+    for line in block.splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if not line.startswith("|"):
+            title = line or title
+        elif line.startswith("| method"):
+            tables.append((title, cells, []))
+        elif not line.startswith("|---"):
+            tables[-1][2].append(dict(zip(tables[-1][1], cells)))
+    return [(title, rows) for title, _, rows in tables]
 
 
 def curves_of(rows):
@@ -34,9 +42,8 @@ def curves_of(rows):
     return curves
 
 
-def draw(curves, path):
-    figure, axes = plt.subplots(figsize=(9.6, 6.0), dpi=100)
-    colours = plt.get_cmap("tab10").colors
+def draw_curves(axes, curves):
+    colours = plt.get_cmap("tab20").colors
     for index, (name, points) in enumerate(curves.items()):
         is_default = name == "newton"
         axes.plot(*zip(*points), marker="o", markersize=6 if is_default else 4, linewidth=2.5 if is_default else 1.2,
@@ -49,16 +56,25 @@ def draw(curves, path):
     axes.grid(True, which="major", color="0.88")
     axes.set_axisbelow(True)
     axes.set_xlabel("ms a frame")
-    axes.set_ylabel("off by mm (rms of 30 frames)")
-    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
+
+
+def draw(panels, path):
+    """Pictures of curves side by side, each under its title."""
+    figure, row = plt.subplots(1, len(panels), figsize=(9.6 if len(panels) == 1 else 5.2 * len(panels), 6.0), dpi=100,
+                               sharey=True, squeeze=False)
+    for axes, (title, curves) in zip(row[0], panels):
+        draw_curves(axes, curves)
+        axes.set_title(title)
+    row[0][0].set_ylabel("off by mm (rms of 30 frames)")
+    row[0][-1].legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
     figure.savefig(path, bbox_inches="tight", metadata={"Software": None})
 
 
 def main():
-    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    words.add_argument("-o", "--picture", default=ROOT / "docs/figures/error_over_time.png")
-    options = words.parse_args()
-    draw(curves_of(rows_of((ROOT / "docs/measured.md").read_text(), "error_129")), options.picture)
+    document = (ROOT / "docs/measured.md").read_text()
+    for name, picture in (("error_129", "error_over_time.png"), ("error_fabrics", "error_over_time_fabrics.png")):
+        panels = [(title.split(",")[0], curves_of(rows)) for title, rows in tables_of(document, name)]
+        draw(panels, ROOT / "docs/figures" / picture)
 
 
 if __name__ == "__main__":
