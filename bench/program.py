@@ -17,10 +17,14 @@ def run(*words):
     return json.loads(done.stdout), None
 
 
-def largest(folder, column):
-    """Of a column of the table of frames that a run left."""
+def column_of(folder, name):
+    """Of the table of frames that a run left."""
     with open(f"{folder}/frames.csv", encoding="utf-8", newline="") as file:
-        return max(float(frame[column]) for frame in csv.DictReader(file))
+        return [float(frame[name]) for frame in csv.DictReader(file)]
+
+
+def largest(folder, column):
+    return max(column_of(folder, column))
 
 
 def table(columns, rows):

@@ -21,7 +21,7 @@ CONVERSION = ("src/weft/mesh", "src/weft/cut", "src/weft/param", "src/weft/image
 SOURCES = {
     "meshes": CONVERSION, "targets": CONVERSION, "more_charts": CONVERSION, "long_pieces": CONVERSION, "growth": CONVERSION, "compression": CONVERSION,
     "omages": (*CONVERSION, "python/weft/omages.py"), "batch": ("python/weft/batch",), "batch_cost": ("python/weft/batch",),
-    "hanging": SIMULATION, "charts": CLOTH, "table5": CLOTH, "error_129": CLOTH, "error_65": CLOTH, "error_fabrics": (*CLOTH, "src/weft/sim/materials.cpp"), "kernels": CLOTH,
+    "hanging": SIMULATION, "hanging_fabrics": SIMULATION, "charts": CLOTH, "table5": CLOTH, "error_129": CLOTH, "error_65": CLOTH, "error_fabrics": (*CLOTH, "src/weft/sim/materials.cpp"), "kernels": CLOTH,
     "solver_fabrics": CLOTH, "solver_random": CLOTH,
     "ccd": ("src/weft/collide/ccd.cpp", "src/weft/collide/ccd.h"), "polar_map": ("src/weft/collide",),
     "broad_phases": ("src/weft/collide/broad_phase",),
