@@ -25,7 +25,7 @@ SOURCES = {
     "solver_fabrics": CLOTH, "solver_random": CLOTH,
     "ccd": ("src/weft/collide/ccd.cpp", "src/weft/collide/ccd.h"), "polar_map": ("src/weft/collide",),
     "broad_phases": ("src/weft/collide/broad_phase",),
-    "validate": (*SIMULATION, "tests/cloth", "tests/sim"), "self_cost": SIMULATION, "scenes": SIMULATION, "soak": SIMULATION,
+    "validate": (*SIMULATION, "tests/cloth", "tests/sim"), "self_cost": SIMULATION, "scenes": SIMULATION, "tight_scenes": SIMULATION, "soak": SIMULATION,
     "patterns": (*SIMULATION, "src/weft/garment"),
     "drape": (*CLOTH, "src/weft/sim/drape_coefficient.cpp", "src/weft/sim/materials.cpp"),
 }
