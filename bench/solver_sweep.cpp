@@ -270,6 +270,7 @@ Trial random_trial(std::uint64_t seed) {
 
 std::vector<Trial> random_trials(const Args& args) {
   std::vector<Trial> trials;
+  trials.reserve(static_cast<std::size_t>(args.random));
   for (int i = 0; i < args.random; ++i)
     trials.push_back(random_trial(args.seed + static_cast<std::uint64_t>(i)));
   return trials;
@@ -368,6 +369,7 @@ std::set<std::size_t> worst_trials(const std::vector<Outcome>& outcomes) {
 std::string median_and_worst(const std::vector<Outcome>& outcomes, double scale,
                              const std::function<double(const Outcome&)>& part) {
   std::vector<double> values;
+  values.reserve(outcomes.size());
   for (const Outcome& o : outcomes) values.push_back(scale * part(o));
   std::sort(values.begin(), values.end());
   return fmt::format("{:.2g} | {:.2g}", values[values.size() / 2], values.back());
