@@ -1,16 +1,22 @@
 // Bodies and cloths of several charts.
+#include <array>
 #include <cmath>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "tests/cloth/cut_sheet.h"
 #include "tests/support/convert_options.h"
 #include "tests/support/errors.h"
+#include "weft/collide/broad_phase/coherent_pairs.h"
+#include "weft/collide/broad_phase/pyramid_pairs.h"
 #include "weft/collide/intersections.h"
 #include "weft/convert.h"
 #include "weft/core/math.h"
 #include "weft/error.h"
+#include "weft/image/diagonals.h"
 #include "weft/scene_file.h"
 #include "weft/shapes.h"
 #include "weft/simulation.h"
@@ -221,6 +227,28 @@ TEST(ChartCloths, WhatCannotTakeThemSaysSo) {
               "pages");
   EXPECT_NE(refusal_of(scene).find("edges of more than two triangles"), std::string::npos)
       << refusal_of(scene);
+}
+
+/// Cells that meet where charts do are neighbours of the cloth, as if it were uncut.
+TEST(ChartCloths, FindNothingNearWhereChartsMeet) {
+  constexpr float skin = 0.002F, reach = 0.004F, slack = 0.0003F;
+  for (const auto& parts : {testing::quarters(65), testing::pinwheel(65)}) {
+    const testing::CutSheet sheet(65, parts);
+    const GeometryImage image = image_of(sheet);
+    const SurfaceGrid grid(image.size(), image.mates, choose_diagonals(image));
+    const std::array<const SurfaceGrid*, 1> grids{&grid};
+    ThreadTeam alone(1);
+    CoherentPairs pairs(std::make_unique<PyramidPairs>(grids, 1), grids, 1, skin);
+    Planes3 bent = sheet.rest;
+    for (int s = 0; s < bent.size() * bent.size(); ++s) {
+      const Vec3f at = bent.at(s);
+      bent.set(s, {at.x, 0.3F * at.x * at.z, at.z});
+    }
+    for (const Planes3* positions : {&sheet.rest, &std::as_const(bent)}) {
+      pairs.refit(std::array{MovingSurface{&grid, positions, positions}}, alone);
+      EXPECT_TRUE(pairs.find_self(0, reach, slack, alone).empty()) << parts.size() << " charts";
+    }
+  }
 }
 
 }  // namespace

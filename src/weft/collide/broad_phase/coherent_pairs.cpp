@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "weft/collide/broad_phase/shared_points.h"
+
 namespace weft {
 namespace {
 
@@ -207,14 +209,16 @@ void CoherentPairs::take_refolded(int surface) {
   if (of.latest() == next) version_ = next;
 }
 
-/// What of a cell's pairs is in no rectangle that is unfolded now.
-CandidateTile CoherentPairs::folded_part(int surface, const CandidateTile& of) const {
+/// What of a cell's pairs is in no rectangle that is unfolded now, and not apart where charts meet
+/// in a corner.
+CandidateTile CoherentPairs::folded_part(int surface, const CandidateTile& of, float slack) const {
   const UnfoldedWindows& windows = windows_[static_cast<std::size_t>(surface)];
   const Tiling& tiling = tiles(surface).tiling();
   CandidateTile folded = of;
   const int cell = tiling.cell_at(of.row_a, of.col_a);
   for_lanes(of.cells, [&](int lane) {
-    if (windows.unfolded(CandidatePair{cell, tiling.cell_b(of, lane)}))
+    const CandidatePair pair{cell, tiling.cell_b(of, lane)};
+    if (windows.unfolded(pair) || apart_at_shared_point(now_[surface], pair, slack))
       folded.cells &= static_cast<std::uint8_t>(~(1U << lane));
   });
   return folded;
@@ -249,12 +253,12 @@ std::span<const CandidateTile> CoherentPairs::find_self(int surface, float reach
   collect_near(surface, surface, reach);
   fresh_.clear();
   found_.fill(static_cast<int>(near_.size()), team, [&](int i, std::vector<CandidateTile>& mine) {
-    const CandidateTile folded = folded_part(surface, near_[i]);
+    const CandidateTile folded = folded_part(surface, near_[i], slack);
     if (folded.cells != 0) mine.push_back(folded);
   });
   append(found_, fresh_);
   found_.fill(now_[surface].grid->cells(), team, [&](int row, std::vector<CandidateTile>& mine) {
-    windows.find_folded_neighbours(row, mine);
+    windows.find_folded_neighbours(*now_[surface].grid, row, mine);
   });
   append(found_, fresh_);
   std::swap(near_, fresh_);

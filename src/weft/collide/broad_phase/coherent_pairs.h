@@ -75,7 +75,7 @@ class CoherentPairs {
   void find_unfolded(int surface, float slack, ThreadTeam& team);
   /// Changes a cloth's patches in windows that are no longer unfolded.
   void take_refolded(int surface);
-  [[nodiscard]] CandidateTile folded_part(int surface, const CandidateTile& of) const;
+  [[nodiscard]] CandidateTile folded_part(int surface, const CandidateTile& of, float slack) const;
   /// Drops neighbours along a cloth from fresh_: which of them are folded is told by windows.
   void drop_neighbours();
   /// Fills near_ with those pairs of a list that may come closer than `reach` now.

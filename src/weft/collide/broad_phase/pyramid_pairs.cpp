@@ -189,9 +189,10 @@ void PyramidPairs::find_self(int surface, float reach, float slack, ThreadTeam& 
   search_all({&collide_kernels_for(team.instructions()), surface, surface, reach, &folds}, team,
              out);
   drop_unfolded_across(folds, levels_[surface].boxes.sides().front(), first, out);
-  found_.fill(
-      levels_[surface].boxes.sides().front(), team,
-      [&](int row, std::vector<CandidateTile>& mine) { folds.find_folded_neighbours(row, mine); });
+  const SurfaceGrid& grid = *surfaces_[surface].grid;
+  found_.fill(grid.cells(), team, [&](int row, std::vector<CandidateTile>& mine) {
+    folds.find_folded_neighbours(grid, row, mine);
+  });
   append(found_, out);
 }
 

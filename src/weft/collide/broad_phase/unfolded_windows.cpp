@@ -179,10 +179,11 @@ bool UnfoldedWindows::is_smooth(int row, int col) const {
          threes.row(row)[col - neighbours] != 0;
 }
 
-void UnfoldedWindows::find_folded_neighbours(int row, std::vector<CandidateTile>& out) const {
+void UnfoldedWindows::find_folded_neighbours(const SurfaceGrid& grid, int row,
+                                             std::vector<CandidateTile>& out) const {
   const int side = levels_.front().side, last_row = std::min(side - 1, row + neighbours);
   for (int col = 0; col < side; ++col) {
-    if (is_smooth(row, col)) continue;
+    if (is_smooth(row, col) || grid.missing(row * side + col)) continue;
     const auto first = static_cast<std::ptrdiff_t>(out.size());
     const Node cell{0, row, col};
     const auto add = [&](int r, int c) {
@@ -201,7 +202,7 @@ void UnfoldedWindows::find_folded_neighbours(int row, std::vector<CandidateTile>
     for (int r = row; r <= last_row; ++r)
       for (int c = r == row ? col + 1 : std::max(0, col - neighbours);
            c <= std::min(side - 1, col + neighbours); ++c)
-        if (!unfolded(cell, Node{0, r, c})) add(r, c);
+        if (!grid.missing(r * side + c) && !unfolded(cell, Node{0, r, c})) add(r, c);
   }
 }
 

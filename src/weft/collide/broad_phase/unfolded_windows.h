@@ -77,8 +77,9 @@ class UnfoldedWindows {
   /// cells may hold.
   static constexpr int neighbours = 2;
   /// Adds the pairs of neighbours that are in no unfolded window, of the cells of a row with what
-  /// is behind them or below.
-  void find_folded_neighbours(int row, std::vector<CandidateTile>& out) const;
+  /// is behind them or below. Cells that lie in no chart have no neighbours.
+  void find_folded_neighbours(const SurfaceGrid& grid, int row,
+                              std::vector<CandidateTile>& out) const;
 
  private:
   struct Level {
