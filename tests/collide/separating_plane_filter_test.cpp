@@ -1,0 +1,91 @@
+#include "weft/collide/filter/separating_plane_filter.h"
+
+#include <gtest/gtest.h>
+
+#include "weft/core/random.h"
+
+namespace weft {
+namespace {
+
+/// Points over planes that hold them up: each is alone on its side a.
+struct Held {
+  std::vector<FilteredPoint> points;
+  std::vector<SeparatingPlane> planes;
+  SeparatingPlaneFilter filter;
+  ThreadTeam team{2};
+
+  void add_point(Vec3f start, Vec3f end) { points.push_back({start, start, end}); }
+  void add_plane(int point, Vec3d normal, double level) {
+    SeparatingPlane plane;
+    plane.normal = plane.turned = normalized(normal);
+    plane.at_end.a = plane.still.a = level;
+    plane.points[0] = point;
+    plane.count_a = 1;
+    planes.push_back(plane);
+  }
+  [[nodiscard]] bool satisfied() {
+    return filter.all_satisfied(
+        planes, static_cast<int>(points.size()), [&](int i) { return points[i]; }, team);
+  }
+  SeparatingPlaneFilter::Result hold(double slack, double farthest) {
+    return filter.hold(
+        planes, static_cast<int>(points.size()), {slack, farthest},
+        [&](int i) { return points[i]; }, [&](int i, Vec3f end) { points[i].end = end; }, team);
+  }
+};
+
+TEST(SeparatingPlaneFilter, PutsAPointOntoItsPlane) {
+  Held held;
+  held.add_point({0, 0.1F, 0}, {0.3F, -0.02F, 0});
+  held.add_plane(0, {0, 1, 0}, 0);
+  EXPECT_FALSE(held.satisfied());
+  const auto result = held.hold(0.001, 0.05);
+  EXPECT_EQ(result.far, 1);
+  EXPECT_EQ(result.stopped + result.lost, 0);
+  EXPECT_NEAR(held.points[0].end.y, 0, 1e-5);
+  EXPECT_FLOAT_EQ(held.points[0].end.x, 0.3F);  // along the plane it goes on
+  EXPECT_TRUE(held.satisfied());
+}
+
+TEST(SeparatingPlaneFilter, StopsAPointOnItsWayThatIsTooFarBeyond) {
+  Held held;
+  held.add_point({0, 0.1F, 0}, {0.3F, -0.2F, 0});
+  held.add_plane(0, {0, 1, 0}, 0);
+  const auto result = held.hold(0.001, 0.05);
+  EXPECT_EQ(result.stopped, 1);
+  EXPECT_EQ(held.filter.stopped().size(), 1U);
+  const Vec3f end = held.points[0].end;
+  EXPECT_NEAR(end.x, 0.1 - end.y, 1e-6);  // still on its path
+  EXPECT_GT(end.x, 0.05F);
+  EXPECT_TRUE(held.satisfied());
+}
+
+TEST(SeparatingPlaneFilter, SaysWhatHasNoPlace) {
+  Held held;
+  held.add_point({0, 0.1F, 0}, {0, 0.1F, 0});
+  held.add_plane(0, {0, 1, 0}, 0.2);  // a body has moved onto it
+  held.add_plane(0, {0, -1, 0}, 0.2);
+  EXPECT_EQ(held.hold(0.001, 10).lost, 1);
+  EXPECT_EQ(held.filter.lost().size(), 1U);
+}
+
+TEST(SeparatingPlaneFilter, LeavesAllOnTheirSidesOfManyPlanes) {
+  Random random(5);
+  const auto some = [&](double most) { return most * random.uniform(-1, 1); };
+  Held held;
+  for (int i = 0; i < 300; ++i) {
+    held.add_point({}, {static_cast<float>(some(0.1)), static_cast<float>(some(0.1)),
+                        static_cast<float>(some(0.1))});
+    // The start lies above all of its planes.
+    for (int k = 0; k < 5; ++k)
+      held.add_plane(i, Vec3d{some(1), some(1), some(1)}, -0.05 * random.uniform());
+  }
+  const auto result = held.hold(0.001, 0.05);
+  EXPECT_GT(result.far, 50);
+  EXPECT_GT(result.stopped, 5);
+  EXPECT_EQ(result.lost, 0);
+  EXPECT_TRUE(held.satisfied());
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,99 @@
+#include "weft/collide/filter/step_filter.h"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "tests/collide/test_bodies.h"
+#include "weft/collide/broad_phase/pyramid_pairs.h"
+
+namespace weft {
+namespace {
+
+using test::TestCloth;
+
+constexpr double step = 1.0 / 240;
+constexpr int n = 9;
+
+std::unique_ptr<BroadPhase> pyramid(std::span<const SurfaceGrid* const> grids, std::size_t cloths) {
+  return std::make_unique<PyramidPairs>(grids, cloths);
+}
+
+Obstacles floor_at(double height) {
+  Obstacles obstacles;
+  obstacles.ground = height;
+  return obstacles;
+}
+
+/// A flat sheet 1 cm above the ground, and the filter alone.
+class OverGround {
+ public:
+  OverGround() {
+    cloth_.place([](int r, int c) { return Vec3d{0.1 * c, 0.01, 0.1 * r}; });
+    const SurfaceGrid* grid = &world_.cloths[0].grid;
+    untangler_.set_up(std::span(&grid, 1), std::span(&properties_, 1));
+  }
+  void move_all(Vec3f way) {
+    for (int s = 0; s < n * n; ++s) {
+      cloth_.position.set(s, cloth_.start.at(s) + way);
+      cloth_.velocity.set(s, (1 / static_cast<float>(step)) * way);
+    }
+  }
+  FilterCounts run(StepFilter::Pass pass) {
+    const MovingCloth moving = cloth_.moving();
+    return filter.run(std::span(&moving, 1), step, pass, team_);
+  }
+  [[nodiscard]] Vec3f end(int sample) const { return cloth_.position.at(sample); }
+  [[nodiscard]] Vec3f velocity(int sample) const { return cloth_.velocity.at(sample); }
+
+ private:
+  TestCloth cloth_{n};
+  BorderMates none_;
+  CollidingCloth properties_{.mates = none_,
+                             .size = n,
+                             .thickness = 0.004,
+                             .rest_spacing = 0.1,
+                             .self_collision = true,
+                             .self_thickness = 0.004};
+  ThreadTeam team_{1};
+  CollisionWorld world_{pyramid, floor_at(0), std::span(&properties_, 1)};
+  Untangler untangler_;
+
+ public:
+  StepFilter filter{world_, untangler_};
+};
+
+TEST(StepFilter, LeavesWhatMeetsNothing) {
+  OverGround sheet;
+  sheet.move_all({0.003F, -0.005F, 0});
+  const Vec3f proposed = sheet.end(5);
+  EXPECT_EQ(sheet.run(StepFilter::Pass::end).moved, 0);
+  EXPECT_EQ(sheet.end(5), proposed);
+  EXPECT_TRUE(sheet.filter.struck().empty());
+}
+
+TEST(StepFilter, HoldsEndsAboveTheGroundAndTakesTheirSpeedInto) {
+  OverGround sheet;
+  sheet.move_all({0.003F, -0.015F, 0});
+  EXPECT_EQ(sheet.run(StepFilter::Pass::end).moved, n * n);
+  EXPECT_EQ(sheet.filter.struck().size(), std::size_t{n} * n);
+  for (int s = 0; s < n * n; ++s) {
+    EXPECT_GE(sheet.end(s).y, 0);
+    EXPECT_LT(sheet.end(s).y, 1e-4F);
+    EXPECT_NEAR(sheet.velocity(s).y, 0, 1e-6);
+    EXPECT_NEAR(sheet.velocity(s).x, 0.003 / step, 1e-5);  // along the ground it goes on
+  }
+}
+
+TEST(StepFilter, LeavesVelocitiesOfGuesses) {
+  OverGround sheet;
+  sheet.move_all({0, -0.015F, 0});
+  EXPECT_EQ(sheet.run(StepFilter::Pass::guess).moved, n * n);
+  for (int s = 0; s < n * n; ++s) {
+    EXPECT_GE(sheet.end(s).y, 0);
+    EXPECT_NEAR(sheet.velocity(s).y, -0.015 / step, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace weft
