@@ -74,8 +74,9 @@ class Integrator {
   /// Sets the energy that the cloth may gain in this step as new contacts push it off; called
   /// between begin and iterate. Methods without an energy balance ignore it. [J]
   virtual void lend(double /*energy*/) noexcept {}
-  /// The energy error of the last proposal's linearisation if it is too large; 0 if it is
-  /// acceptable, and for methods that do not measure it. [J]
+  /// The energy error of the last proposal's linearisation if it is too large, or the part of it
+  /// that could not be taken out of the motion; 0 if it is acceptable, and for methods that do not
+  /// measure it. [J]
   [[nodiscard]] virtual double missed() const noexcept { return 0; }
   /// Proposes the state at the end of the step; the caller may change it in place (limit strain,
   /// truncate, push out of bodies) before the next iterate or end.

@@ -158,18 +158,20 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
     if (error > allowed && shorten_step(worker)) error = error_of(progress, known, worker);
     again = is_long() && missed_way(progress, worker) > good_way;
   }
-  if (worker.rank() == 0) missed_ = error > allowed ? error : 0;
+  double left = 0;
   if (is_pulled_unlike())
     each(worker, [&](std::size_t i, Worker& own) { parts_[i]->forget_potential(own); });
   else if (error > (contacts_.empty() ? rounding() : lent))
-    calm(error - lent, worker);
+    left = calm(error - lent, worker);
+  if (worker.rank() == 0) missed_ = error > allowed ? error : left;
 }
 
-void NewtonSolver::calm(double excess, Worker& worker) {
+double NewtonSolver::calm(double excess, Worker& worker) {
   const double inner =
       total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->inner_kinetic(own); });
   const double left = inner > excess ? std::sqrt((inner - excess) / inner) : 0;
   each(worker, [&](std::size_t i, Worker& own) { parts_[i]->calm(left, own); });
+  return std::max(0.0, excess - inner);
 }
 
 }  // namespace weft

@@ -88,8 +88,9 @@ class NewtonSolver {
   void move_state(float length, Worker& worker);
   /// Energy that rounding alone may seem to add [J].
   [[nodiscard]] double rounding() const;
-  /// Takes an excess [J] out of velocities.
-  void calm(double excess, Worker& worker);
+  /// Takes an excess [J] out of the velocities relative to their mean.
+  /// @return the part that they do not have, and the cloth keeps [J]
+  double calm(double excess, Worker& worker);
 
   std::vector<NewtonPart*> parts_;
   ContactSystem contacts_;
