@@ -2,7 +2,7 @@
 """The default integrator against steps solved to the end in double: a hanging sheet over 27 fabrics, and materials by
 chance (bench/solver_sweep.cpp).
 
-Usage: bench/solver.py [--sizes 65] [--random 40] [--jobs 1] [--write]
+Usage: bench/solver.py [--sizes 65] [--random 40] [--jobs 1] [--done FILE] [--write]
 """
 import argparse
 import subprocess
@@ -23,12 +23,13 @@ def main():
     words.add_argument("--sizes", default="65", help="samples a side, with commas between; nothing: no fabrics")
     words.add_argument("--random", type=int, default=40, help="materials by chance; 0: none")
     words.add_argument("--jobs", type=int, default=1, help="trials at a time, which lengthens times where cores are few")
+    words.add_argument("--done", default="", help="a file of finished trials of this program, with which a bench that was ended goes on")
     words.add_argument("--write", action="store_true", help="renew the tables of docs/measured.md")
     options = words.parse_args()
     wanted = {"solver_fabrics": ["--sizes", options.sizes] if options.sizes else None,
               "solver_random": ["--random", options.random] if options.random else None}
     for mark, what in wanted.items():
-        text = run(*what, "--jobs", options.jobs) if what else ""
+        text = run(*what, "--jobs", options.jobs, "--done", options.done) if what else ""
         if text is None:
             return 1
         print(text)

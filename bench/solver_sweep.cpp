@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/solver_log.h"
 #include "bench/solver_tables.h"
 #include "bench/tight_solver.h"
 #include "weft/core/random.h"
@@ -26,7 +27,7 @@ constexpr double frame_rate = 60, gravity = 9.81, side = 1;
 
 struct Args {
   std::vector<int> sizes{65};
-  std::string integrator = "newton";
+  std::string integrator = "newton", done;
   int random = 0, jobs = 1, iterations = 0;
   std::uint64_t seed = 1;
   double stop = 0, tolerance = 1e-7;
@@ -256,12 +257,15 @@ std::vector<Trial> random_trials(const Args& args) {
 
 /// On so many threads, each trial on one.
 std::vector<Outcome> run_all(const std::vector<Trial>& trials, const Args& args) {
+  SolverLog log(args.done, fmt::format("{} iterations {} stop {} tolerance {}", args.integrator,
+                                       args.iterations, args.stop, args.tolerance));
   std::vector<Outcome> outcomes(trials.size());
   std::atomic<std::size_t> next{0}, done{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < trials.size(); i = next++) {
       const double start = cpu_seconds();
-      Outcome& o = outcomes[i] = Comparison(trials[i], args).run();
+      Outcome& o = outcomes[i];
+      if (!log.find(trials[i], o)) log.add(trials[i], o = Comparison(trials[i], args).run());
       fmt::print(stderr,
                  "{}/{}: trial {}, n {}: centre {:.2f} mm, spread {:.2f} mm, rms {:.1f} mm, energy "
                  "{:.1e}, {} steps "
@@ -311,6 +315,8 @@ int main(int argc, char** argv) try {
   program.add_option("--tolerance", args.tolerance, "Of the tight solve's last move [m]")
       ->capture_default_str();
   program.add_option("--jobs", args.jobs, "Trials at a time")->capture_default_str();
+  program.add_option("--done", args.done,
+                     "A file of finished trials: read if it is there, and added to");
   program.add_flag("--fast", args.fast, "Three fabrics");
   CLI11_PARSE(program, argc, argv);
   weft::bench::measure(args);

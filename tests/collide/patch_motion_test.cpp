@@ -76,7 +76,8 @@ TEST_F(PatchMotionTest, WhatIsForgottenIsRenewedWhole) {
   motion_.forget();
   measure();
   motion_.renew(surface(), limit, 3);
-  for (int patch = 0; patch < patches * patches; ++patch) EXPECT_EQ(motion_.versions().of(patch), 3);
+  for (int patch = 0; patch < patches * patches; ++patch)
+    EXPECT_EQ(motion_.versions().of(patch), 3);
 }
 
 }  // namespace
