@@ -174,6 +174,45 @@ TEST(ContactPipeline, ABodyThatTurnsIntoAPileTakesItAlong) {
   }
 }
 
+TEST(ContactPipeline, AStepThatIsDiscardedIsFilteredUntilPointsFallBack) {
+  constexpr int n = 9;
+  const BorderMates none;
+  Obstacles obstacles;
+  obstacles.bodies.push_back(octahedral_sphere(9, 0.25, {0.4, 0, 0.2}));
+  const CollidingCloth cloth_properties = statistics(none, n);
+  ThreadTeam team(2);
+  const auto filter = [&](int round, FilterEnd end, TestCloth& cloth) {
+    const auto collider =
+        make_collider(PyramidOptions{}, obstacles, std::span(&cloth_properties, 1));
+    Random random(static_cast<std::uint64_t>(round));
+    throw_about(cloth, random, 0.02 * (round + 1));
+    const Planes3 turned = turned_up(obstacles.bodies[0].positions, 0.1 * round, 0.02 * round);
+    const Planes3* const ends[] = {&turned};
+    const MovingCloth moving = cloth.moving();
+    collider->move_bodies(ends, team);
+    collider->detect(std::span(&moving, 1), step, team);
+    return collider->filter(std::span(&moving, 1), step, team, end);
+  };
+  int fallen = 0, free = 0, elsewhere = 0;
+  for (int round = 0; round < 12; ++round) {
+    TestCloth whole(n), shortened(n);
+    const FilterCounts all = filter(round, FilterEnd::whole, whole);
+    const FilterCounts some = filter(round, FilterEnd::unless_falls, shortened);
+    ASSERT_EQ(some.fell_back > 0, all.fell_back > 0) << round;
+    int other = 0;
+    for (int s = 0; s < n * n; ++s)
+      other += whole.position.at(s) == shortened.position.at(s) ? 0 : 1;
+    ++(all.fell_back > 0 ? fallen : free);
+    if (all.fell_back == 0) {
+      EXPECT_EQ(other, 0) << round;
+    }
+    elsewhere += other;
+  }
+  EXPECT_GT(fallen, 0);
+  EXPECT_GT(free, 0);
+  EXPECT_GT(elsewhere, 0);  // rounds were left out
+}
+
 TEST(ContactPipeline, WhatMeetsNothingIsLeftAlone) {
   constexpr int n = 17;
   const BorderMates none;

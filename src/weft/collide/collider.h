@@ -83,6 +83,12 @@ struct FilterCounts {
   }
 };
 
+/// What a step's last filter may leave undone.
+enum class FilterEnd {
+  whole,        ///< nothing: the step is accepted, whatever it takes
+  unless_falls  ///< all, once points would fall back: the caller then discards the step
+};
+
 /// Collision handling of a scene: keeps cloths out of bodies, and out of each other and themselves
 /// where the method can. Cloths are indexed in the order in which they were given. Nothing
 /// allocates or throws once warmed up. Order of calls in a step: move_bodies where bodies move;
@@ -145,9 +151,10 @@ class Collider {
                       double time_step, ThreadTeam& team) noexcept = 0;
   /// Last change of positions in a step: a point that would pass through a surface stops before it,
   /// with an inelastic impact.
+  /// @param end  unless_falls: where the result has points that fell back, proposals are unfinished
   /// @return zeros for methods without a filter
   virtual FilterCounts filter(std::span<const MovingCloth> cloths, double time_step,
-                              ThreadTeam& team) noexcept = 0;
+                              ThreadTeam& team, FilterEnd end = FilterEnd::whole) noexcept = 0;
   /// Adds contacts for what the last filter had to hold back to what the next detect of the same
   /// step finds, until a commit. The step must have been rolled back, not shortened.
   /// @return whether any of them was not known

@@ -68,12 +68,12 @@ int ContactPipeline::correct(std::size_t cloth, const MovingCloth& moving,
 }
 
 FilterCounts ContactPipeline::filter(std::span<const MovingCloth> cloths, double time_step,
-                                     ThreadTeam& team) noexcept {
+                                     ThreadTeam& team, FilterEnd end) noexcept {
   if (untangler_.crossings() > 0) {
     untangler_.move(cloths, time_step);
     world_.copy_to_mates(cloths);
   }
-  const FilterCounts counts = filter_.run(cloths, time_step, StepFilter::Pass::end, team);
+  const FilterCounts counts = filter_.run(cloths, time_step, StepFilter::Pass::end, team, end);
   if (keeps_struck_) struck_.keep(filter_.struck(), cloths);
   return counts;
 }

@@ -48,8 +48,8 @@ class ContactPipeline final : public Collider {
                    ThreadTeam& team) noexcept override;
   int correct(std::size_t cloth, const MovingCloth& moving, std::span<const float> forces,
               double time_step, ThreadTeam& team) noexcept override;
-  FilterCounts filter(std::span<const MovingCloth> cloths, double time_step,
-                      ThreadTeam& team) noexcept override;
+  FilterCounts filter(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team,
+                      FilterEnd end = FilterEnd::whole) noexcept override;
   bool learn_struck(std::span<const MovingCloth> cloths) noexcept override {
     return struck_.learn(filter_.struck(), cloths);
   }

@@ -252,7 +252,7 @@ class PushCollider final : public Collider {
     return pushers_[cloth].correct(moving, forces, time_step, team);
   }
   FilterCounts filter(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
-                      ThreadTeam& /*team*/) noexcept override {
+                      ThreadTeam& /*team*/, FilterEnd /*end*/) noexcept override {
     return {};
   }
   void save_marks(std::size_t /*cloth*/, std::vector<int>& marks) const override { marks.clear(); }

@@ -219,6 +219,10 @@ void StepFilter::strike_all(std::span<const MovingCloth> moving, double time_ste
   }
 }
 
+bool StepFilter::has_fallen() const {
+  return std::find(fates_.begin(), fates_.end(), fallen_point) != fates_.end();
+}
+
 FilterCounts StepFilter::count_fates() const {
   FilterCounts counts;
   for (const char fate : fates_) {
@@ -266,7 +270,7 @@ void StepFilter::begin(std::span<const MovingCloth> moving) {
 }
 
 FilterCounts StepFilter::run(std::span<const MovingCloth> moving, double time_step, Pass pass,
-                             ThreadTeam& team) {
+                             ThreadTeam& team, FilterEnd end) {
   begin(moving);
   // Once the quick test fails in a frame it is skipped: points will be held back again.
   bool& may_pass = may_pass_[static_cast<std::size_t>(pass)];
@@ -275,8 +279,10 @@ FilterCounts StepFilter::run(std::span<const MovingCloth> moving, double time_st
     world_.copy_to_mates(moving);
     return {};
   }
-  for (int round = 0; round < max_rounds; ++round)
+  for (int round = 0; round < max_rounds; ++round) {
     if (do_round(moving, time_step, pass, round, team)) break;
+    if (end == FilterEnd::unless_falls && has_fallen()) break;
+  }
   return count_fates();
 }
 

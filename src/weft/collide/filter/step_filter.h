@@ -27,7 +27,7 @@ class StepFilter {
     end     ///< end of the step: impacts change velocities
   };
   FilterCounts run(std::span<const MovingCloth> moving, double time_step, Pass pass,
-                   ThreadTeam& team);
+                   ThreadTeam& team, FilterEnd end = FilterEnd::whole);
 
   /// Planes of the last run that moved points, where it ended a step.
   [[nodiscard]] std::span<const SeparatingPlane> struck() const { return struck_; }
@@ -75,6 +75,7 @@ class StepFilter {
   /// Puts stopped points, and those within `around` samples of them, at their safe positions; or
   /// all points.
   void fall_back_to_safe_positions(std::span<const MovingCloth> moving, int around, bool all);
+  [[nodiscard]] bool has_fallen() const;
   [[nodiscard]] FilterCounts count_fates() const;
 
   CollisionWorld& world_;

@@ -79,6 +79,8 @@ struct Simulation::Parts : LoadedScene {
     bool halve = false;         // it may be halved
     bool halve_fallen = false;  // it may be halved if points fell back while bodies moved
     bool repeat = false;        // it may be solved again
+    // Whether it is halved if points fall back.
+    [[nodiscard]] bool refuses_fallen() const { return halve || halve_fallen; }
   };
   /// Computes a trial step of all cloths, to be finished or refused by the caller.
   /// @param seconds  at the end of the step

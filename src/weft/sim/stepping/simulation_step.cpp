@@ -78,7 +78,9 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
   for (std::size_t i = 0; i < cloths.size(); ++i)
     garments.close(i, movers[i].integrator->proposal());
   Stopwatch clock;
-  tried.filtered = collider->filter(moving, time_step, team);
+  tried.filtered = collider->filter(
+      moving, time_step, team,
+      choices.refuses_fallen() && watched ? FilterEnd::unless_falls : FilterEnd::whole);
   report.collide_ms += clock.lap_ms();
   expect_driven_work();
   for (std::size_t i = 0; i < cloths.size(); ++i)
@@ -126,7 +128,7 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   const bool fallen = tried.filtered.fell_back > 0;
   const bool bad =
       fallen || added.too_much || (!sewing_now && energy.solve_is_lost(time_step / substep_time));
-  const bool halve = choices.halve || (fallen && choices.halve_fallen);
+  const bool halve = choices.halve || (fallen && choices.refuses_fallen());
   tried.repeat = bad && !sewing_now && !halve && choices.repeat && collider->learn_struck(moving);
   tried.refused = tried.repeat || (bad && halve);
   tried.verdict = fallen       ? StepVerdict::fallen
