@@ -2,7 +2,8 @@
 """Random starts: bodies, poses, sizes, speeds up to 10 m/s, materials, pins, wind, animations; every step verified. Failures name
 their seed, and every start leaves its figures in a table.
 
-Usage: bench/soak.py [--seeds 200] [--first 0] [--jobs 2] [--most-seconds 1800] [--keep FOLDER] [--figures FILE.csv] [--write]
+Usage: bench/soak.py [--seeds 200] [--first 0] [--jobs 2] [--most-seconds 1800] [--keep FOLDER] [--figures FILE.csv]
+                     [--resume] [--write]
        bench/soak.py --scene SEED       prints the scene of one seed
 """
 import argparse
@@ -254,6 +255,14 @@ def look_at(seed, keep, most_seconds):
     return figures | {"seconds": round(processor_seconds() - before, 1)}
 
 
+def figures_in(path):
+    """The rows of a table of figures by their seeds; none where there is no table."""
+    if not path.exists():
+        return {}
+    with path.open() as file:
+        return {int(row["seed"]): row for row in csv.DictReader(file) if row["seconds"]}  # whole ones
+
+
 def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--seeds", type=int, default=200)
@@ -262,6 +271,7 @@ def main():
     words.add_argument("--most-seconds", type=int, default=1800, help="of the processor, beyond which a start fails")
     words.add_argument("--keep", type=pathlib.Path, help="leave scenes and runs in this folder")
     words.add_argument("--figures", type=pathlib.Path, default=pathlib.Path("soak.csv"), help="a line for every start")
+    words.add_argument("--resume", action="store_true", help="count the starts that the figures' file has, and run the others")
     words.add_argument("--scene", type=int, metavar="SEED")
     words.add_argument("--write", action="store_true", help="renew the line of docs/measured.md")
     options = words.parse_args()
@@ -271,21 +281,26 @@ def main():
         print(json.dumps(scene_of(options.scene, folder), indent=1))
         return
     seeds = range(options.first, options.first + options.seeds)
-    failures = ""
+    known = figures_in(options.figures) if options.resume else {}
+    left = [seed for seed in seeds if seed not in known]
+    failures = [(seed, known[seed]["failure"]) for seed in seeds if seed in known and known[seed]["failure"]]
     look = functools.partial(look_at, keep=options.keep, most_seconds=options.most_seconds)
     # Processes, each of which knows the time of its own children.
-    with concurrent.futures.ProcessPoolExecutor(options.jobs) as jobs, options.figures.open("w", newline="") as file:
+    with concurrent.futures.ProcessPoolExecutor(options.jobs) as jobs, \
+            options.figures.open("a" if known else "w", newline="") as file:
         table = csv.DictWriter(file, FIGURES)
-        table.writeheader()
-        for figures in jobs.map(look, seeds):
+        if not known:
+            table.writeheader()
+        for figures in jobs.map(look, left):
             table.writerow(figures)
             file.flush()
             if figures["failure"]:
-                failures += f"- seed {figures['seed']}: {figures['failure']}\n"
+                failures.append((figures["seed"], figures["failure"]))
                 print(f"seed {figures['seed']}: {figures['failure']}", flush=True)
-    text = f"{len(seeds)} random starts of {FRAMES} frames, {failures.count(chr(10))} failed.\n"
+    text = f"{len(seeds)} random starts of {FRAMES} frames, {len(failures)} failed.\n"
     print(text, end="")
-    text += "\n" + failures if failures else ""
+    lines = [f"- seed {seed}: {failure}\n" for seed, failure in sorted(failures)]
+    text += "\n" + "".join(lines) if lines else ""
     if options.write:
         program.write_between_marks("docs/measured.md", "soak", text)
     if failures:
