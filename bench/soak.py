@@ -10,6 +10,7 @@ import argparse
 import concurrent.futures
 import csv
 import functools
+import hashlib
 import json
 import math
 import pathlib
@@ -37,7 +38,7 @@ MATERIALS = ("cotton", "silk", "wool", "denim", "leather", "linen", "jersey", "c
 # fall.
 MOST_STRAIN, MOST_FELL_BACK, MOST_GAINED, MOST_OFF = 0.2, 0.01, 0.01, 1e-3
 FIGURES = ("seed", "failure", "strain_p99", "fell_back_share", "blocked_share", "energy_gained_mgl", "off_free_fall", "contacts_max",
-           "self_contacts_max", "intersections", "passed", "swallowed", "ms_median", "seconds")
+           "self_contacts_max", "intersections", "passed", "swallowed", "ms_median", "seconds", "program")
 GAP = 0.03  # between the spheres around all things at the start [m]
 
 
@@ -252,15 +253,21 @@ def look_at(seed, keep, most_seconds):
     """The figures of one start; what went wrong as `failure`."""
     before = processor_seconds()
     figures = figures_of_start(seed, keep, most_seconds)
-    return figures | {"seconds": round(processor_seconds() - before, 1)}
+    return figures | {"seconds": round(processor_seconds() - before, 1), "program": program_name()}
+
+
+@functools.cache
+def program_name():
+    """Another one for every build whose code differs."""
+    return hashlib.sha256(program.PROGRAM.read_bytes()).hexdigest()[:12]
 
 
 def figures_in(path):
-    """The rows of a table of figures by their seeds; none where there is no table."""
+    """The whole rows of a table that this program made, by their seeds; none where there is no table."""
     if not path.exists():
         return {}
     with path.open() as file:
-        return {int(row["seed"]): row for row in csv.DictReader(file) if row["seconds"]}  # whole ones
+        return {int(row["seed"]): row for row in csv.DictReader(file) if row.get("program") == program_name()}
 
 
 def main():
@@ -271,7 +278,7 @@ def main():
     words.add_argument("--most-seconds", type=int, default=1800, help="of the processor, beyond which a start fails")
     words.add_argument("--keep", type=pathlib.Path, help="leave scenes and runs in this folder")
     words.add_argument("--figures", type=pathlib.Path, default=pathlib.Path("soak.csv"), help="a line for every start")
-    words.add_argument("--resume", action="store_true", help="count the starts that the figures' file has, and run the others")
+    words.add_argument("--resume", action="store_true", help="keep the starts that the figures' file has of this program, and run the others")
     words.add_argument("--scene", type=int, metavar="SEED")
     words.add_argument("--write", action="store_true", help="renew the line of docs/measured.md")
     options = words.parse_args()
@@ -287,10 +294,11 @@ def main():
     look = functools.partial(look_at, keep=options.keep, most_seconds=options.most_seconds)
     # Processes, each of which knows the time of its own children.
     with concurrent.futures.ProcessPoolExecutor(options.jobs) as jobs, \
-            options.figures.open("a" if known else "w", newline="") as file:
+            options.figures.open("w", newline="") as file:
         table = csv.DictWriter(file, FIGURES)
-        if not known:
-            table.writeheader()
+        table.writeheader()
+        table.writerows(known.values())
+        file.flush()
         for figures in jobs.map(look, left):
             table.writerow(figures)
             file.flush()

@@ -1,11 +1,17 @@
 #include "bench/solver_log.h"
 
-#include <fstream>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <optional>
+#include <span>
 #include <sstream>
 #include <stdexcept>
-#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "weft/core/hash.h"
 
 namespace weft::bench {
 namespace {
@@ -17,25 +23,47 @@ std::string text_of(const Outcome& o) {
                      o.milliseconds, o.strain, o.tight_strain, o.spread, o.unsolved);
 }
 
-Outcome read_outcome(const std::string& text) {
-  Outcome o;
+/// What text_of() wrote; none where it did not. Streams read neither inf nor nan.
+std::optional<Outcome> read_outcome(const std::string& text) {
   std::istringstream in(text);
-  in >> o.centre >> o.rms >> o.gained >> o.iterations >> o.milliseconds >> o.strain >>
-      o.tight_strain >> o.spread >> o.unsolved;
-  if (!in) throw std::runtime_error("not an outcome: " + text);
-  return o;
+  std::vector<double> values;
+  for (std::string word; in >> word;) {
+    char* end = nullptr;
+    values.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0') return std::nullopt;
+  }
+  if (values.size() != 9) return std::nullopt;
+  return Outcome{values[0], values[1], values[2],
+                 values[3], values[4], values[5],
+                 values[6], values[7], static_cast<int>(values[8])};
+}
+
+/// A name of the program that runs.
+std::string program_hash() {
+  std::ifstream in("/proc/self/exe", std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  Hash hash;
+  hash.add(std::span<const char>(bytes));
+  return hash.text();
 }
 
 }  // namespace
 
-SolverLog::SolverLog(std::filesystem::path file, std::string method)
-    : file_(std::move(file)), method_(std::move(method)) {
-  std::ifstream in(file_);
-  for (std::string line; std::getline(in, line);) {
+SolverLog::SolverLog(const std::filesystem::path& file, const std::string& method)
+    : method_(program_hash() + " " + method) {
+  if (file.empty()) return;
+  std::ifstream in(file);
+  std::uintmax_t whole = 0;
+  for (std::string line; std::getline(in, line) && !in.eof(); whole += line.size() + 1) {
     const std::size_t end = line.rfind(between);
-    if (end == std::string::npos) throw std::runtime_error("not a trial: " + line);
-    outcomes_[line.substr(0, end)] = read_outcome(line.substr(end + 1));
+    const auto outcome = end == line.npos ? std::nullopt : read_outcome(line.substr(end + 1));
+    if (!outcome) throw std::runtime_error("not a trial and its outcome: " + line);
+    outcomes_[line.substr(0, end)] = *outcome;
   }
+  // Takes away a last line that was cut short.
+  if (in.is_open() && whole > 0) std::filesystem::resize_file(file, whole);
+  out_.open(file, std::ios::app);
+  if (!out_) throw std::runtime_error("cannot write " + file.string());
 }
 
 std::string SolverLog::key_of(const Trial& trial) const {
@@ -56,11 +84,10 @@ bool SolverLog::find(const Trial& trial, Outcome& outcome) const {
 }
 
 void SolverLog::add(const Trial& trial, const Outcome& outcome) {
-  if (file_.empty()) return;
+  if (!out_.is_open()) return;
   const std::lock_guard lock(mutex_);
-  std::ofstream out(file_, std::ios::app);
-  out << key_of(trial) << between << text_of(outcome) << std::endl;
-  if (!out) throw std::runtime_error("cannot write " + file_.string());
+  out_ << key_of(trial) << between << text_of(outcome) << std::endl;
+  if (!out_) std::fprintf(stderr, "bench: warning: an outcome was not kept\n");
 }
 
 }  // namespace weft::bench

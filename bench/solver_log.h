@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <mutex>
 #include <string>
@@ -10,24 +11,26 @@
 namespace weft::bench {
 
 /// The outcomes of finished trials, in a file: a bench of hours that was ended goes on with the
-/// trials that it lacks. A line has the trial, the method and the outcome, all numbers exactly.
+/// trials that it lacks. A line has the program, the method, the trial and the outcome, all numbers
+/// exactly. Outcomes of other programs and methods stay in the file and are not found.
 class SolverLog {
  public:
-  /// @param file  read if it is there; empty: nothing is kept
-  /// @param method  what else the outcomes depend on
-  /// @throws std::runtime_error if a line of it is not one of these
-  SolverLog(std::filesystem::path file, std::string method);
+  /// @param file  read if it is there, and created if not; empty: nothing is kept
+  /// @param method  what outcomes depend on besides the trial and this program
+  /// @throws std::runtime_error if a line is not one of these, but for a last one that was cut
+  /// short, or if it cannot be written
+  SolverLog(const std::filesystem::path& file, const std::string& method);
 
   /// @return whether the trial is there, whose outcome it then sets
   bool find(const Trial& trial, Outcome& outcome) const;
-  /// Adds a line; may be called by several threads. @throws std::runtime_error if it cannot
+  /// Adds a line, or says on stderr that it cannot; may be called by several threads.
   void add(const Trial& trial, const Outcome& outcome);
 
  private:
   [[nodiscard]] std::string key_of(const Trial& trial) const;
 
-  std::filesystem::path file_;
-  std::string method_;
+  std::string method_;  // with the program
+  std::ofstream out_;
   std::map<std::string, Outcome> outcomes_;
   std::mutex mutex_;
 };

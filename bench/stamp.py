@@ -29,6 +29,8 @@ SOURCES = {
     "patterns": (*SIMULATION, "src/weft/garment"),
     "drape": (*CLOTH, "src/weft/sim/drape_coefficient.cpp", "src/weft/sim/materials.cpp"),
 }
+# Options whose next word is a file or a folder that a bench keeps its work in.
+LOCAL_FILES = ("--done", "--figures", "--keep")
 LINE = re.compile(r"`(?P<command>[^`]+)` at commit `(?P<commit>[0-9a-f]+)(?P<dirty>\+?)`, (?P<date>\d{4}-\d\d-\d\d), on "
                   r"(?P<machine>[^;\n]+); of (?P<sources>`[^\n]+`)\.\n")
 BLOCK = re.compile(r"<!-- (?P<name>\w+) -->\n(?P<text>.*?)<!-- /(?P=name) -->", re.S)
@@ -47,10 +49,15 @@ def machine():
     return f"{names[0] if names else os.uname().machine} ({len(os.sched_getaffinity(0))} processors)"
 
 
-def command():
-    """The words of ./dev that run this script."""
-    words = [word for word in sys.argv[1:] if word != "--write"]
-    name = pathlib.Path(sys.argv[0]).stem
+def command(argv):
+    """The words of ./dev that run a script; without those that name files of the machine, which change no figure."""
+    words, given = [], iter(argv[1:])
+    for word in given:
+        if word in LOCAL_FILES:
+            next(given, None)
+        elif word not in ("--write", "--resume"):
+            words.append(word)
+    name = pathlib.Path(argv[0]).stem
     return " ".join(["./dev bench", *([] if name == "native" else [name]), *words])
 
 
@@ -59,7 +66,7 @@ def stamp(name):
     sources = SOURCES[name]
     dirty = "+" if git("status", "--porcelain", "--", *sources) else ""
     named = ", ".join(f"`{source}`" for source in sources)
-    return (f"`{command()}` at commit `{git('rev-parse', '--short', 'HEAD')}{dirty}`, {datetime.date.today()}, on {machine()}; "
+    return (f"`{command(sys.argv)}` at commit `{git('rev-parse', '--short', 'HEAD')}{dirty}`, {datetime.date.today()}, on {machine()}; "
             f"of {named}.\n")
 
 

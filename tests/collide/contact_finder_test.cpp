@@ -2,24 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 
 #include <gtest/gtest.h>
 
 #include "tests/collide/test_bodies.h"
-#include "weft/collide/broad_phase/pyramid_pairs.h"
 
 namespace weft {
 namespace {
 
+using test::pyramid;
 using test::TestCloth;
 
 constexpr double step = 1.0 / 240;
 constexpr int n = 17;
-
-std::unique_ptr<BroadPhase> pyramid(std::span<const SurfaceGrid* const> grids, std::size_t cloths) {
-  return std::make_unique<PyramidPairs>(grids, cloths);
-}
 
 /// A ball of 20 cm whose top is at the height 0, over the ground.
 Obstacles ball() {
@@ -75,14 +70,14 @@ class Sheets {
   }
   std::array<TestCloth, 2> cloths_{TestCloth(n), TestCloth(n)};
   BorderMates none_;
-  std::vector<CollidingCloth> properties_ = std::vector<CollidingCloth>(
-      2, {.mates = none_,
-          .size = n,
-          .thickness = 0.002,
-          .friction = 0.3,
-          .rest_spacing = 0.025,
-          .self_collision = true,
-          .self_thickness = 0.002});
+  std::vector<CollidingCloth> properties_ =
+      std::vector<CollidingCloth>(2, {.mates = none_,
+                                      .size = n,
+                                      .thickness = 0.002,
+                                      .friction = 0.3,
+                                      .rest_spacing = 0.025,
+                                      .self_collision = true,
+                                      .self_thickness = 0.002});
   Obstacles obstacles_ = ball();
   ThreadTeam team_{2};
   CollisionWorld world_{pyramid, obstacles_, properties_};

@@ -1,23 +1,17 @@
 #include "weft/collide/filter/step_filter.h"
 
-#include <memory>
-
 #include <gtest/gtest.h>
 
 #include "tests/collide/test_bodies.h"
-#include "weft/collide/broad_phase/pyramid_pairs.h"
 
 namespace weft {
 namespace {
 
+using test::pyramid;
 using test::TestCloth;
 
 constexpr double step = 1.0 / 240;
 constexpr int n = 9;
-
-std::unique_ptr<BroadPhase> pyramid(std::span<const SurfaceGrid* const> grids, std::size_t cloths) {
-  return std::make_unique<PyramidPairs>(grids, cloths);
-}
 
 Obstacles floor_at(double height) {
   Obstacles obstacles;

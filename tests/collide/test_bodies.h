@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 
+#include "weft/collide/broad_phase/pyramid_pairs.h"
 #include "weft/collide/collider.h"
 #include "weft/core/math.h"
 
@@ -60,6 +62,12 @@ inline Body torus(int n, double ring, double tube) {
     }
   body.mates = BorderMates(n, {{0, 3 * (n - 1), n - 1}, {n - 1, 4 * (n - 1), n - 1}});
   return body;
+}
+
+/// The broad phase of worlds of few surfaces.
+inline std::unique_ptr<BroadPhase> pyramid(std::span<const SurfaceGrid* const> grids,
+                                           std::size_t cloths) {
+  return std::make_unique<PyramidPairs>(grids, cloths);
 }
 
 /// The polar map as the collider of one cloth without seams.

@@ -6,6 +6,8 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "bench"))
+import stamp  # noqa: E402
 STAMP = "`./dev bench speed` at commit `{}`, 2026-01-02, on a bench (2 processors); of `{}`.\n\n"
 
 
@@ -31,13 +33,17 @@ class Stale(unittest.TestCase):
         self.git("commit", "-q", "-m", "change")
         return self.git("rev-parse", "--short", "HEAD")
 
-    def write_block(self, stamp):
-        (self.root / "docs/measured.md").write_text(f"# Measured\n<!-- speed -->\n{stamp}| ms |\n<!-- /speed -->\n")
+    def write_block(self, line):
+        (self.root / "docs/measured.md").write_text(f"# Measured\n<!-- speed -->\n{line}| ms |\n<!-- /speed -->\n")
 
     def stale(self, most):
         done = subprocess.run([sys.executable, ROOT / "bench/stale.py", "--root", self.root, "--most", str(most)],
                               capture_output=True, text=True)
         return done.returncode, done.stdout
+
+    def test_commands_name_no_file_of_the_machine(self):
+        words = ["bench/soak.py", "--seeds", "3", "--keep", "/here", "--figures", "/here/f.csv", "--resume", "--jobs", "2", "--write"]
+        self.assertEqual(stamp.command(words), "./dev bench soak --seeds 3 --jobs 2")
 
     def test_commits_of_its_sources_alone_make_a_block_stale(self):
         self.write_block(STAMP.format(self.first, "src"))

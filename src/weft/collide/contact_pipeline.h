@@ -49,7 +49,7 @@ class ContactPipeline final : public Collider {
   int correct(std::size_t cloth, const MovingCloth& moving, std::span<const float> forces,
               double time_step, ThreadTeam& team) noexcept override;
   FilterCounts filter(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team,
-                      FilterEnd end = FilterEnd::whole) noexcept override;
+                      FilterEnd end) noexcept override;
   bool learn_struck(std::span<const MovingCloth> cloths) noexcept override {
     return struck_.learn(filter_.struck(), cloths);
   }

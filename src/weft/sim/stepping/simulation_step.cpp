@@ -128,7 +128,7 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   const bool fallen = tried.filtered.fell_back > 0;
   const bool bad =
       fallen || added.too_much || (!sewing_now && energy.solve_is_lost(time_step / substep_time));
-  const bool halve = choices.halve || (fallen && choices.refuses_fallen());
+  const bool halve = fallen ? choices.refuses_fallen() : choices.halve;
   tried.repeat = bad && !sewing_now && !halve && choices.repeat && collider->learn_struck(moving);
   tried.refused = tried.repeat || (bad && halve);
   tried.verdict = fallen       ? StepVerdict::fallen
