@@ -57,12 +57,12 @@ class Stale(unittest.TestCase):
         self.assertIn("1 of 1 measured blocks are stale", text)
 
     def test_blocks_must_say_where_they_come_from(self):
-        for stamp, reason in (("", "says neither commit"), (STAMP.format("0123456", "src"), "not in this history"),
-                              (STAMP.format(self.first, "src").replace("`, 2026", "+`, 2026"), "differ from commit"),
-                              (STAMP.format(self.first, "src/gone.cpp"), "is no more")):
-            self.write_block(stamp)
+        for line, reason in (("", "says neither commit"), (STAMP.format("0123456", "src"), "not in this history"),
+                             (STAMP.format(self.first, "src").replace("`, 2026", "+`, 2026"), "differ from commit"),
+                             (STAMP.format(self.first, "src/gone.cpp"), "is no more")):
+            self.write_block(line)
             code, text = self.stale(9)
-            self.assertEqual(code, 1, stamp)
+            self.assertEqual(code, 1, line)
             self.assertIn(reason, text)
 
     def test_documents_without_any_block_are_no_success(self):
