@@ -23,7 +23,8 @@ double energy_of(const Cloth& cloth, const ClothState& state) {
 }
 
 TEST(Newton, AtRestNothingMovesWhateverTheIterations) {
-  for (Cloth cloth : {sheet_cloth(33, cotton), torus_cloth(33, cotton), sheet_cloth(30, hard)})
+  for (const Cloth& cloth :
+       {sheet_cloth(33, cotton), torus_cloth(33, cotton), sheet_cloth(30, hard)})
     for (const int iterations : {1, 2, 50}) {
       ThreadTeam team(1);
       const auto integrator = make_integrator(

@@ -14,7 +14,7 @@ using test::pyramid;
 using test::TestCloth;
 
 constexpr double step = 1.0 / 240;
-constexpr int n = 17;
+constexpr int n = 17, middle = n / 2;
 
 /// A ball of 20 cm whose top is at the height 0, over the ground.
 Obstacles ball() {
@@ -38,7 +38,7 @@ class Sheets {
   void place(std::size_t cloth, double height) {
     const double aside = cloth == 0 ? 0 : 0.009;  // no samples over samples
     cloths_[cloth].place([&](int r, int c) {
-      return Vec3d{0.025 * (c - n / 2) + aside, height, 0.025 * (r - n / 2) - aside};
+      return Vec3d{0.025 * (c - middle) + aside, height, 0.025 * (r - middle) - aside};
     });
   }
   void propose(std::size_t cloth, Vec3f way) {

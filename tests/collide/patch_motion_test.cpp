@@ -13,7 +13,8 @@ class PatchMotionTest : public testing::Test {
   static constexpr int n = 14, patches = 4;
   PatchMotionTest() {
     for (int s = 0; s < n * n; ++s) {
-      start_.set(s, {0.1F * static_cast<float>(s % n), 0, 0.1F * static_cast<float>(s / n)});
+      const int row = s / n, col = s % n;
+      start_.set(s, {0.1F * static_cast<float>(col), 0, 0.1F * static_cast<float>(row)});
       end_.set(s, start_.at(s));
     }
     measure();
