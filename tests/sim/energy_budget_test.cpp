@@ -84,7 +84,7 @@ class MadeUpStep {
 
 TEST(EnergyBudget, NothingIsTakenOutOfAStepThatAddsNothing) {
   MadeUpStep step;
-  const EnergyBudget::Added added = step.budget.measure_added(0, false);
+  const EnergyBudget::Added added = step.budget.measure_added({0}, false);
   EXPECT_NEAR(added.energy, 0, 1e-9);
   EXPECT_EQ(added.excess, 0);
   EXPECT_FALSE(added.too_much);
@@ -98,7 +98,7 @@ TEST(EnergyBudget, TakesOutWhatIsBeyondTheBoundAndKeepsMomentum) {
   ASSERT_GT(more, step.lent());
   step.add(more);
   const Vec3d momentum = step.momentum_now();
-  const EnergyBudget::Added added = step.budget.measure_added(0, false);
+  const EnergyBudget::Added added = step.budget.measure_added({0}, false);
   EXPECT_NEAR(added.energy, more, 1e-5);
   EXPECT_NEAR(added.excess, more - step.lent(), 1e-5);
   EXPECT_FALSE(added.too_much);
@@ -111,16 +111,27 @@ TEST(EnergyBudget, WorkExplainsWhatItAdds) {
   MadeUpStep step;
   const double more = 0.05 * step.mass();
   step.add(more);
-  EXPECT_EQ(step.budget.measure_added(more, false).excess, 0);
-  EXPECT_EQ(step.budget.measure_added(0, true).excess, 0);  // seams that are sewn
+  EXPECT_EQ(step.budget.measure_added({more}, false).excess, 0);
+  EXPECT_EQ(step.budget.measure_added({0}, true).excess, 0);  // seams that are sewn
+}
+
+TEST(EnergyBudget, PinsAndBodiesDoNoMoreThroughTheFilterThanItAdds) {
+  MadeUpStep step;
+  EXPECT_NEAR(step.budget.measure_added({1, 5}, false).work, 1, 1e-9);
+  EXPECT_NEAR(step.budget.measure_added({1, -5}, false).work, 1, 1e-9);
+  const double more = 0.05 * step.mass();
+  step.add(more);
+  EXPECT_NEAR(step.budget.measure_added({1, 5}, false).work, 1 + more, 1e-5);
+  EXPECT_NEAR(step.budget.measure_added({1, 0.5 * more}, false).work, 1 + 0.5 * more, 1e-5);
+  EXPECT_EQ(step.budget.measure_added({1, -5}, false).work, 1);
 }
 
 TEST(EnergyBudget, TellsStepsThatAddTooMuch) {
   MadeUpStep step;
   step.add(step.mass());
-  EXPECT_TRUE(step.budget.measure_added(0, false).too_much);
-  EXPECT_FALSE(step.budget.measure_added(0, true).too_much);
-  EXPECT_FALSE(step.budget.measure_added(step.mass(), false).too_much);
+  EXPECT_TRUE(step.budget.measure_added({0}, false).too_much);
+  EXPECT_FALSE(step.budget.measure_added({0}, true).too_much);
+  EXPECT_FALSE(step.budget.measure_added({step.mass()}, false).too_much);
 }
 
 TEST(EnergyBudget, ASolveThatMissedMuchIsLostWhereTheStepMayBeShorter) {

@@ -38,6 +38,13 @@ double gain_of(const Mover& mover) {
   return std::max(0.0, mover.end.total() - mover.start.total());
 }
 
+/// The work of a step that also did `added` [J] after its solve. Springs that the filter stretched
+/// pull at the step's end only, and the next solve releases them, so their force is not that of the
+/// whole step: what pins and bodies did through the filter is at most what this added.
+double work_of(const EnergyBudget::StepWork& work, double added) {
+  return work.solve + std::clamp(work.filter, std::min(0.0, added), std::max(0.0, added));
+}
+
 /// Largest energy that a step may add. [J]
 double limit_for(const Energy& within, double mass) {
   return max_added_part * within.inner() + max_added * mass;
@@ -82,7 +89,7 @@ void EnergyBudget::lend(bool sewing) {
   for (Mover& mover : movers_) mover.integrator->lend(left * mover.meter.mass() / mass);
 }
 
-EnergyBudget::Added EnergyBudget::measure_added(double work, bool sewing) {
+EnergyBudget::Added EnergyBudget::measure_added(const StepWork& work, bool sewing) {
   Energy start, solved, end;
   double mass = 0;
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
@@ -94,10 +101,12 @@ EnergyBudget::Added EnergyBudget::measure_added(double work, bool sewing) {
     end += mover.end;
   }
   Added added{end.total() - solved.total()};
-  const double gained = std::min(added.energy, end.total() - start.total() - work);
+  added.work = work_of(work, added.energy);
+  const double gained = std::min(added.energy, end.total() - start.total() - added.work);
   const double limit = limit_for(solved, mass);
   // What cloth gains while it is sewn is the work of its seams, which end it where they close.
-  if (!sewing) added.excess = std::max(0.0, std::min(gained, end.total() - work - max_energy_));
+  if (!sewing)
+    added.excess = std::max(0.0, std::min(gained, end.total() - added.work - max_energy_));
   const bool unpaid = added.excess - removable(added.excess) > max_unpaid_part * lent_;
   const double fault = std::max(end.elastic - solved.elastic, gained);
   added.too_much = !sewing && (!(fault <= limit) || unpaid);

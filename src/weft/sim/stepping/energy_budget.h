@@ -33,15 +33,21 @@ class EnergyBudget {
   /// @param part  of a substep that the step takes
   [[nodiscard]] bool solve_is_lost(double part) const;
 
+  /// Work of pins and bodies in a step. [J]
+  struct StepWork {
+    double solve = 0;   ///< by the forces before the filter
+    double filter = 0;  ///< what the forces that the filter leaves would make more of it
+  };
   /// What response and filter did to the energy in a step.
   struct Added {
     double energy = 0;  ///< added [J]
+    double work = 0;    ///< done by pins and bodies, also through the filter [J]
     double excess = 0;  ///< to be taken out if the step is accepted [J]
     bool too_much = false;
     bool calm = false;  ///< far from too much
   };
-  /// @param work  of pins and bodies [J]  @pre the filter is done
-  [[nodiscard]] Added measure_added(double work, bool sewing);
+  /// @pre the filter is done
+  [[nodiscard]] Added measure_added(const StepWork& work, bool sewing);
   /// Takes an excess out of the motion of each cloth in proportion to what it gained.
   void take_out(double excess);
 

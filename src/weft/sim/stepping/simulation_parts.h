@@ -71,8 +71,9 @@ struct Simulation::Parts : LoadedScene {
     StepVerdict verdict = StepVerdict::calm;
     int contacts = 0;  // particles in contact
     FilterCounts filtered;
-    double work = 0;    // done by pins and bodies [J]
-    double pushed = 0;  // energy added by response and filter while bodies moved [J]
+    EnergyBudget::StepWork forces_work;  // of pins and bodies, if the step is watched
+    double work = 0;                     // done by pins and bodies [J]
+    double pushed = 0;  // energy that response and filter added beside it while bodies moved [J]
   };
   /// What may become of a trial step that is bad; halving comes first.
   struct StepChoices {
@@ -88,8 +89,8 @@ struct Simulation::Parts : LoadedScene {
   /// Computes the proposals of all cloths, with contact detection at the guesses and, where solves
   /// go far, again.
   void solve_all(FrameReport& report);
-  /// Tells the measures of work what acts on each cloth.
-  void expect_driven_work();
+  /// The work of pins and bodies on all cloths, by the forces at their proposals. [J]
+  double measure_driven_work();
   /// Detects contacts at the guesses, and filters the guesses. @return whether anything is near
   /// that the filter must act on
   bool free_guesses();

@@ -77,32 +77,39 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
   if (tried.refused) return tried;
   for (std::size_t i = 0; i < cloths.size(); ++i)
     garments.close(i, movers[i].integrator->proposal());
+  if (watched) tried.forces_work.solve = measure_driven_work();
   Stopwatch clock;
   tried.filtered = collider->filter(
       moving, time_step, team,
       choices.refuses_fallen() && watched ? FilterEnd::unless_falls : FilterEnd::whole);
   report.collide_ms += clock.lap_ms();
-  expect_driven_work();
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    tried.work += movers[i].driven_work.measure(
-        {cloths[i].state, movers[i].integrator->proposal(), time_step},
-        {collider->obstacle_contacts(i), movers[i].integrator->contact_forces()},
-        movers[i].integrator->pin_force());
   if (watched) {
+    if (tried.filtered.moved > 0)
+      tried.forces_work.filter = measure_driven_work() - tried.forces_work.solve;
     assess_step(choices, tried);
-  } else if (energy.solve_is_lost(time_step / substep_time)) {
+    return tried;
+  }
+  tried.work = measure_driven_work();
+  if (energy.solve_is_lost(time_step / substep_time)) {
     tried.refused = choices.halve;
     tried.verdict = StepVerdict::forced;
   }
   return tried;
 }
 
-void Simulation::Parts::expect_driven_work() {
+double Simulation::Parts::measure_driven_work() {
   for (std::size_t i = 0; i < cloths.size(); ++i)
     if (!collider->contacts(i).empty() || movers[i].limited) movers[i].driven_work.ignore_free();
   for (const SharedContact& shared : collider->shared_contacts())
     for (const int cloth : {shared.first, shared.second})
       movers[static_cast<std::size_t>(cloth)].driven_work.ignore_free();
+  double work = 0;
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    work += movers[i].driven_work.measure(
+        {cloths[i].state, movers[i].integrator->proposal(), time_step},
+        {collider->obstacle_contacts(i), movers[i].integrator->contact_forces()},
+        movers[i].integrator->pin_force());
+  return work;
 }
 
 void Simulation::Parts::solve_all(FrameReport& report) {
@@ -123,7 +130,8 @@ void Simulation::Parts::solve_all(FrameReport& report) {
 
 void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   const bool sewing_now = garments.any_open();
-  const EnergyBudget::Added added = energy.measure_added(tried.work, sewing_now);
+  const EnergyBudget::Added added = energy.measure_added(tried.forces_work, sewing_now);
+  tried.work = added.work;
   // A step is bad, too, when points fall back to its start.
   const bool fallen = tried.filtered.fell_back > 0;
   const bool bad =
@@ -136,7 +144,8 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
                   : added.calm ? StepVerdict::calm
                                : StepVerdict::near;
   // Bodies do work by way of the filter, too.
-  if (driven.any_moves()) tried.pushed = std::max(0.0, added.energy);
+  if (driven.any_moves())
+    tried.pushed = std::max(0.0, added.energy - (added.work - tried.forces_work.solve));
   if (!tried.refused && added.excess > 0) energy.take_out(added.excess);
 }
 
