@@ -24,11 +24,13 @@ struct PressingObstacles {
 
 /// Work that pins and moving bodies do on a cloth in a step: reaction force times displacement. The
 /// reaction is the part of a particle's change of momentum that gravity and the cloth's own forces,
-/// as they are at the step's end, do not explain:
+/// as they are at the end given, do not explain:
 ///   W = sum over pinned and touched particles of (m (v1 - v0) / h - f(x1) - m g) . displacement
 /// Other layers may press on a touched particle, too. The normal force of a body is therefore the
 /// solved one, or the normal part of the reaction where that is larger, and never a pull; the
-/// tangential force is limited by friction.
+/// tangential force is limited by friction. Springs that the filter stretched pull at the end of a
+/// step only: before the filter this measures what the solve did, after it what the filter did too,
+/// but much too large.
 ///
 /// Solves end with small forces unbalanced on free particles, too. Next to the pins' own reaction
 /// they are small, but stiff cloth hands on within a step what a pin does: all together they are of
