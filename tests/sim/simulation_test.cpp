@@ -270,6 +270,22 @@ TEST(Simulation, InstabilityNamesFrameClothParticleAndTheStableStep) {
   }
 }
 
+TEST(Simulation, SoftClothMayStretchToTwiceItsLengthAndMore) {
+  Scene scene;
+  scene.ground.reset();
+  scene.cloths = {sheet(17, {0, 2, 0})};
+  scene.cloths[0].material = {.density = 0.5, .stretch = 2, .shear = 1};
+  scene.cloths[0].pins = {ImagePin{{0, 0}}, ImagePin{{0, 1}}};
+  Simulation simulation(scene, "rubber", 1);
+  double most = 0;
+  for (int frame = 0; frame < 40; ++frame) {
+    const FrameReport report = simulation.advance();
+    most = std::max(most, report.strain.p99);
+    EXPECT_LT(report.kinetic_energy + report.potential_energy, 0.5 * 9.81 * 2.01);
+  }
+  EXPECT_GT(most, 1);
+}
+
 TEST(Simulation, RunawayFilterNamesTheStableStiffness) {
   Scene scene = free_fall(TwoLevelOptions{.local_size = 5, .filter_stiffness = 1000});
   scene.limiter_passes = 0;

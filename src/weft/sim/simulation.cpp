@@ -63,7 +63,6 @@ void Simulation::Parts::measure(FrameReport& report) {
     report.smallest_gap =
         std::min(report.smallest_gap, collider->smallest_gap(i, cloth.state.position, team));
     const StrainSummary strain = measure_strain(*cloth.model, cloth.state);
-    if (!soft && !garments.is_open(i)) stability.check_strain(now, i, strain);
     for (const double gap : garments.gaps(i)) report.seam_gap = std::max(report.seam_gap, gap);
     report.strain.mean += strain.mean * cloth.model->particles;
     report.strain.p99 = std::max(report.strain.p99, strain.p99);

@@ -22,9 +22,6 @@ constexpr double max_unexplained_work = 0.5;
 /// Consecutive frames beyond these bounds after which a run stops. A single one does not count:
 /// springs that the filter stretched in one frame relax in the next.
 constexpr int frames_that_tell = 2;
-/// A run also stops when the 99th percentile of spring strain exceeds the limit of the material by
-/// more than this.
-constexpr double max_strain = 1;
 
 }  // namespace
 
@@ -80,14 +77,6 @@ void StabilityCheck::check_energy(const Now& now, const FrameReport& report, dou
        fmt::format("the energy rose by {:.3g} J beyond what pins, bodies and wind put in, "
                    "{:.3g} J",
                    gained, work.net));
-}
-
-void StabilityCheck::check_strain(const Now& now, std::size_t cloth,
-                                  const StrainSummary& strain) const {
-  const double most = max_strain + std::max(0.0, cloths_[cloth].model->material.strain_limit);
-  if (strain.p99 <= most) return;
-  stop(now, cloth,
-       fmt::format("one spring of a hundred is strained by {:.0f} % or more", 100 * strain.p99));
 }
 
 }  // namespace weft

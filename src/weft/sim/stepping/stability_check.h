@@ -35,8 +35,6 @@ class StabilityCheck {
   /// @throws Unstable
   void check_energy(const Now& now, const FrameReport& report, double own, bool held,
                     const EnergyBudget& budget);
-  /// @throws Unstable  where springs are strained too far
-  void check_strain(const Now& now, std::size_t cloth, const StrainSummary& strain) const;
 
  private:
   [[noreturn]] void stop(const Now& now, std::size_t cloth, const std::string& found) const;
