@@ -50,9 +50,6 @@ struct CollidingCloth {
   /// The classes that samples are being sewn into: cells that share one get no contact at it,
   /// though its samples are apart as yet. Null: nothing is sewn. Kept by pointer.
   const BorderMates* sewn = nullptr;
-  /// Whether a step knows what the filter held back in the one before. Seams pull into creases, of
-  /// bodies and of the cloth, of whose sides the search for contacts finds the nearest alone.
-  bool keeps_struck = false;
 
   [[nodiscard]] bool is_kept_in(std::size_t body) const {
     return body < kept_in.size() && kept_in[body] != 0;

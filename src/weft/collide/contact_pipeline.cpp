@@ -15,7 +15,6 @@ ContactPipeline::ContactPipeline(CollisionWorld::MakeBroadPhase make_broad_phase
   for (const WorldCloth& cloth : world_.cloths) {
     grids.push_back(&cloth.grid);
     responses_.emplace_back(cloth.properties.mates);
-    keeps_struck_ = keeps_struck_ || cloth.properties.keeps_struck;
   }
   untangler_.set_up(grids, cloths);
 }
@@ -74,7 +73,7 @@ FilterCounts ContactPipeline::filter(std::span<const MovingCloth> cloths, double
     world_.copy_to_mates(cloths);
   }
   const FilterCounts counts = filter_.run(cloths, time_step, StepFilter::Pass::end, team, end);
-  if (keeps_struck_) struck_.keep(filter_.struck(), cloths);
+  struck_.keep(filter_.struck(), cloths);
   return counts;
 }
 

@@ -72,7 +72,6 @@ class ContactPipeline final : public Collider {
   std::vector<ContactResponse> responses_;  // of each cloth
   StepFilter filter_;
   StruckContacts struck_;
-  bool keeps_struck_ = false;  // of any cloth
 };
 
 /// Makes the pipeline with the broad phase `Pairs`.

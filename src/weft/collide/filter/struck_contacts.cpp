@@ -13,6 +13,9 @@ namespace {
 /// springs pull harder than a contact of the usual stiffness can press within its small depth, so
 /// every solve would let them through the body, and the filter would stretch the springs again.
 constexpr float body_firmness = 64;
+/// Way of one side along the other in a step, in thicknesses, beyond which a contact is not kept:
+/// its normal is that of features which have parted since, and would hold back what slides.
+constexpr double max_way = 0.1;
 
 auto key_of(const StruckContact& one) {
   std::array<char, 4> sides{};
@@ -24,7 +27,15 @@ auto key_of(const StruckContact& one) {
                     sides);
 }
 
-bool before(const StruckContact& a, const StruckContact& b) { return key_of(a) < key_of(b); }
+/// Of the same samples the contact that presses least comes first: a stable sort would allocate.
+bool before(const StruckContact& a, const StruckContact& b) {
+  const auto order = [](const StruckContact& one) {
+    const Contact& contact = one.shared.contact;
+    return std::tuple(contact.offset, contact.normal.x, contact.normal.y, contact.normal.z);
+  };
+  const auto key_a = key_of(a), key_b = key_of(b);
+  return key_a != key_b ? key_a < key_b : order(a) < order(b);
+}
 bool same(const StruckContact& a, const StruckContact& b) { return key_of(a) == key_of(b); }
 
 }  // namespace
@@ -77,7 +88,7 @@ void StruckContacts::add(std::span<const SeparatingPlane> planes,
     const StruckContact one = contact_of(plane, moving);
     if (one.compliance > 0) out.push_back(one);
   }
-  std::stable_sort(out.begin(), out.end(), before);
+  std::sort(out.begin(), out.end(), before);
   out.erase(std::unique(out.begin(), out.end(), same), out.end());
 }
 
@@ -92,6 +103,22 @@ void StruckContacts::keep(std::span<const SeparatingPlane> planes,
                           std::span<const MovingCloth> moving) {
   kept_.clear();
   add(planes, moving, kept_);
+  std::erase_if(kept_, [&](const StruckContact& one) { return has_slid(one, moving); });
+}
+
+bool StruckContacts::has_slid(const StruckContact& one, std::span<const MovingCloth> moving) const {
+  const SharedContact& shared = one.shared;
+  Vec3d way;
+  for (std::size_t k = 0; k < shared.contact.samples.size(); ++k) {
+    const float weight = shared.contact.weights[k];
+    const MovingCloth& cloth =
+        moving[static_cast<std::size_t>(weight > 0 ? shared.first : shared.second)];
+    const int sample = shared.contact.samples[k];
+    way += double{weight} * vec_cast<double>(cloth.position.at(sample) - cloth.start.at(sample));
+  }
+  const double thickness =
+      world_.cloths[static_cast<std::size_t>(shared.first)].properties.thickness;
+  return length(way) > max_way * thickness;
 }
 
 void StruckContacts::commit() {

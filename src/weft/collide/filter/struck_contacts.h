@@ -13,8 +13,9 @@ namespace weft {
 /// solve that knows them leaves the filter little to do. They hold the closest points of both sides
 /// as far apart as the step found them, within the gap, so that they add no energy. They hold what
 /// the search for contacts leaves to the filter: triangles that a cloth without shear stiffness
-/// folds onto their neighbours, and the other sides of creases in a body. Valid for the step whose
-/// planes they are made from, with the same start and length; kept ones for the next step, too.
+/// folds onto their neighbours, and the other sides of creases, in a body and in the cloth. Valid
+/// for the step whose planes they are made from, with the same start and length; kept ones for the
+/// next step, too.
 class StruckContacts {
  public:
   /// @param world  kept by reference
@@ -23,7 +24,8 @@ class StruckContacts {
   /// Adds contacts for planes that moved points.
   /// @return whether any of them was not known
   bool learn(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving);
-  /// Keeps contacts for the planes that moved points in a step, and forgets those of other steps.
+  /// Keeps contacts for the planes that moved points in a step, where their sides hardly slid
+  /// along each other, and forgets those of other steps.
   void keep(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving);
   /// Goes on to the next step, with what was kept.
   void commit();
@@ -33,6 +35,7 @@ class StruckContacts {
  private:
   void add(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
            std::vector<StruckContact>& out) const;
+  [[nodiscard]] bool has_slid(const StruckContact& one, std::span<const MovingCloth> moving) const;
   [[nodiscard]] StruckContact contact_of(const SeparatingPlane& plane,
                                          std::span<const MovingCloth> moving) const;
 

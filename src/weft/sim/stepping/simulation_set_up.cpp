@@ -44,8 +44,7 @@ void Simulation::Parts::make_collider_of_scene() {
                              scene.cloths[i].self_collision.value_or(true),
                          self_gap_of(*cloth.model), &cloth.model->rest, start_sides[i].kept_in,
                          start_sides[i].wrong_side,
-                         cloth.model->apart ? &cloth.model->mates : nullptr,
-                         cloth.garment != nullptr});
+                         cloth.model->apart ? &cloth.model->mates : nullptr});
   }
   collider = make_collider(scene.collider, obstacles, colliding);
   collider->share_contacts(joint != nullptr);
