@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
+#include "weft/error.h"
+#include "weft/sim/stepping/stability_check.h"
 
 namespace weft {
 namespace {
@@ -63,6 +65,20 @@ class MadeUpStep {
       puppet_->next.velocity.set(s, factor * puppet_->next.velocity.at(s));
   }
   void miss(double energy) { puppet_->error = energy; }
+  /// Whether a frame is stopped that ends with so much energy more than the run began with.
+  bool stops(double more, double p99) {
+    const std::string name = "made up";
+    StabilityCheck check(name, cloths_, movers_);
+    FrameReport report;
+    report.kinetic_energy = total() + more;
+    report.strain.p99 = p99;
+    try {
+      check.check_energy({}, report, report.kinetic_energy, false, budget);
+    } catch (const Unstable&) {
+      return true;
+    }
+    return false;
+  }
   [[nodiscard]] double total() { return mover().meter.measure(puppet_->next).total(); }
   [[nodiscard]] Vec3d momentum_now() { return momentum(*cloths_[0].model, puppet_->next); }
   [[nodiscard]] double mass() const { return total_mass(*cloths_[0].model); }
@@ -153,6 +169,17 @@ TEST(EnergyBudget, CountsWorkWithAndWithoutItsSign) {
   EXPECT_EQ(step.budget.work().net, -1);
   EXPECT_EQ(step.budget.work().gross, 5);
   EXPECT_EQ(step.budget.work().pulled, 0.5);
+}
+
+TEST(StabilityCheck, StopsFarStretchedClothInOneFrameWhoseEnergyNoForceExplains) {
+  MadeUpStep step;
+  EXPECT_FALSE(step.stops(0, 1.5)) << "soft cloth";
+  EXPECT_TRUE(step.stops(20, 1.5));
+  EXPECT_FALSE(step.stops(20, 0.5)) << "one frame does not tell";
+  step.budget.add_pulled(20);
+  EXPECT_TRUE(step.stops(20, 1.5)) << "the filter's work explains nothing";
+  step.budget.finish_step(20, true);
+  EXPECT_FALSE(step.stops(20, 1.5)) << "stretched by work";
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ constexpr double max_unexplained_work = 0.5;
 /// Consecutive frames beyond these bounds after which a run stops. A single one does not count:
 /// springs that the filter stretched in one frame relax in the next.
 constexpr int frames_that_tell = 2;
+/// Where the 99th percentile of spring strain is beyond this, one frame tells, and only the work of
+/// forces explains energy, not what the filter added while bodies moved. Scenes may ask for as much
+/// strain: then that work is there.
+constexpr double max_strain = 1;
 
 }  // namespace
 
@@ -60,6 +64,17 @@ std::size_t StabilityCheck::wildest_cloth() const {
   return static_cast<std::size_t>(wildest - cloths_.begin());
 }
 
+void StabilityCheck::check_strained(const Now& now, double p99, double gained,
+                                    const WorkDone& work) const {
+  const double most = std::max(max_unexplained, max_unexplained_part * work.gross);
+  if (p99 <= max_strain || gained <= most) return;
+  stop(
+      now, wildest_cloth(),
+      fmt::format("one spring of a hundred is strained by {:.0f} % or more, and the energy rose by "
+                  "{:.3g} J beyond what pins, bodies and wind put in, {:.3g} J",
+                  100 * p99, gained, work.net));
+}
+
 void StabilityCheck::check_energy(const Now& now, const FrameReport& report, double own, bool held,
                                   const EnergyBudget& budget) {
   const WorkDone& work = budget.work();
@@ -70,6 +85,7 @@ void StabilityCheck::check_energy(const Now& now, const FrameReport& report, dou
   const double fallen = std::max(0.0, start.total() - (energy - own));
   const double come_by = start.own() + fallen + work.pulled;
   const double most = max_unexplained_part * come_by + max_unexplained_work * work.gross;
+  if (!held) check_strained(now, report.strain.p99, gained + work.pulled, work);
   const bool beyond = !held && gained > std::max(max_unexplained, most);
   frames_beyond_ = beyond ? frames_beyond_ + 1 : 0;
   if (frames_beyond_ < frames_that_tell) return;

@@ -37,6 +37,8 @@ class StabilityCheck {
                     const EnergyBudget& budget);
 
  private:
+  /// @param gained  beyond the work of forces [J]
+  void check_strained(const Now& now, double p99, double gained, const WorkDone& work) const;
   [[noreturn]] void stop(const Now& now, std::size_t cloth, const std::string& found) const;
   [[nodiscard]] std::string advice_for(const Now& now, std::size_t cloth) const;
   [[nodiscard]] std::size_t wildest_cloth() const;
