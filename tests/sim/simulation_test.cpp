@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
+#include "tests/sim/falling_sheet.h"
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/wind.h"
 #include "weft/collide/contacts/block_motion.h"
@@ -12,21 +13,8 @@
 namespace weft {
 namespace {
 
-SceneCloth sheet(int size, Vec3d translate) {
-  SceneCloth cloth;
-  cloth.size = size;
-  cloth.placement.translate = translate;
-  return cloth;
-}
-
-Scene free_fall(const IntegratorOptions& integrator) {
-  Scene scene;
-  scene.ground.reset();
-  scene.integrator = integrator;
-  scene.cloths = {sheet(17, {0, 2, 0})};
-  scene.cloths[0].velocity = {0.5, 1, 0};
-  return scene;
-}
+using testing::free_fall;
+using testing::sheet;
 
 TEST(Simulation, FreeFallIsTheFormulaOfTheStep) {
   for (const IntegratorOptions& integrator :
@@ -47,21 +35,6 @@ TEST(Simulation, FreeFallIsTheFormulaOfTheStep) {
     }
     EXPECT_EQ(simulation.frame(), 20);
   }
-}
-
-TEST(Simulation, InstabilityThatTheLimiterTamesIsStillFound) {
-  // At this step explicit Euler shakes the sheet to pieces of twice their size, slowly.
-  Scene scene = free_fall(ExplicitOptions{});
-  scene.limiter_passes = 60;
-  scene.cloths[0].material.stretch = 20000;
-  scene.cloths[0].material.strain_limit = 0.05;
-  scene.cloths[0].self_collision = false;
-  Simulation simulation(scene, "shake", 1);
-  EXPECT_THROW(
-      {
-        for (int frame = 0; frame < 30; ++frame) simulation.advance();
-      },
-      SceneError);
 }
 
 TEST(Simulation, PlacementScalesThenRotatesThenMoves) {
@@ -252,78 +225,6 @@ TEST(Simulation, WindCarriesCloth) {
   }
 }
 
-TEST(Simulation, InstabilityNamesFrameClothParticleAndTheStableStep) {
-  Scene scene = free_fall(ExplicitOptions{});
-  scene.cloths[0].name = "stiff";
-  scene.cloths[0].material.stretch = 1e6;
-  scene.cloths[0].material.strain_limit = 0;
-  scene.cloths[0].pins = {ImagePin{{0, 0}}};
-  Simulation simulation(scene, "scene.json", 1);
-  try {
-    for (int frame = 0; frame < 60; ++frame) simulation.advance();
-    FAIL() << "did not run away";
-  } catch (const SceneError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("scene.json: cloth 'stiff' ran away at frame "), std::string::npos) << text;
-    EXPECT_NE(text.find("particle (row "), std::string::npos) << text;
-    EXPECT_NE(text.find("largest stable step"), std::string::npos) << text;
-  }
-}
-
-TEST(Simulation, SoftClothMayStretchToTwiceItsLengthAndMore) {
-  Scene scene;
-  scene.ground.reset();
-  scene.cloths = {sheet(17, {0, 2, 0})};
-  scene.cloths[0].material = {.density = 0.5, .stretch = 2, .shear = 1};
-  scene.cloths[0].pins = {ImagePin{{0, 0}}, ImagePin{{0, 1}}};
-  Simulation simulation(scene, "rubber", 1);
-  double most = 0;
-  for (int frame = 0; frame < 40; ++frame) {
-    const FrameReport report = simulation.advance();
-    most = std::max(most, report.strain.p99);
-    EXPECT_LT(report.kinetic_energy + report.potential_energy, 0.5 * 9.81 * 2.01);
-  }
-  EXPECT_GT(most, 1);
-}
-
-TEST(Simulation, RunawayFilterNamesTheStableStiffness) {
-  Scene scene = free_fall(TwoLevelOptions{.local_size = 5, .filter_stiffness = 1000});
-  scene.limiter_passes = 0;
-  scene.cloths[0].pins = {ImagePin{{0, 0}}};
-  Simulation simulation(scene, "scene.json", 1);
-  try {
-    for (int frame = 0; frame < 60; ++frame) simulation.advance();
-    FAIL() << "did not run away";
-  } catch (const SceneError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("ran away at frame "), std::string::npos) << text;
-    EXPECT_NE(text.find("the largest stiffness known to be stable"), std::string::npos) << text;
-    EXPECT_NE(text.find("filter_stiffness is 1e+03 N/m"), std::string::npos) << text;
-  }
-}
-
-TEST(Simulation, StiffFiltersAreCautionedAgainst) {
-  Scene scene = free_fall(TwoLevelOptions{.local_size = 5, .filter_stiffness = 0.1});
-  scene.cloths[0].material.bending = 0;
-  EXPECT_TRUE(Simulation(scene, "soft", 1).notes().empty());
-  scene.integrator = TwoLevelOptions{.local_size = 5, .filter_stiffness = 1000};
-  const Simulation stiff(scene, "stiff", 1);
-  ASSERT_EQ(stiff.notes().size(), 1U);
-  EXPECT_NE(stiff.notes()[0].find("largest stiffness known to be stable"), std::string::npos);
-  scene.integrator = DesbrunOptions{};
-  scene.cloths[0].material.bending = 1e-5;
-  EXPECT_NE(Simulation(scene, "bends", 1).notes().at(0).find("bending"), std::string::npos);
-}
-
-TEST(Simulation, ExplicitStepsBeyondTheLargestStableAreCautionedAgainst) {
-  Scene scene = free_fall(ExplicitOptions{});
-  scene.substeps = 100;
-  EXPECT_TRUE(Simulation(scene, "small steps", 1).notes().empty());
-  scene.substeps = 5;
-  EXPECT_NE(Simulation(scene, "large steps", 1).notes().at(0).find("the largest stable step"),
-            std::string::npos);
-}
-
 TEST(Simulation, AttachedClothGoesWithItsBody) {
   Scene scene;
   scene.ground.reset();
@@ -346,24 +247,6 @@ TEST(Simulation, AttachedClothGoesWithItsBody) {
     EXPECT_NEAR(after.position.x(0, c), before.position.x(0, c), 1e-5);
   }
   EXPECT_NEAR(simulation.bodies()[0].positions.at(3, 3).y, 1.35, 0.03);
-}
-
-TEST(Simulation, FastBodiesAreNoRunaway) {
-  Scene scene;
-  scene.ground.reset();
-  scene.gravity = {};
-  scene.cloths = {sheet(9, {0, 1, 0})};
-  scene.cloths[0].attach = {{"ball", ImagePin{{0.5, 0.5}}}};
-  SceneBody ball;
-  ball.name = "ball";
-  ball.surface = "builtin:torus";
-  ball.size = 17;
-  ball.placement.scale = {0.1, 0.1, 0.1};
-  ball.motion = {{0, {}, {}}, {0.2, {}, {4, 0, 0}}};
-  scene.bodies = {ball};
-  Simulation simulation(scene, "fast", 1);
-  for (int frame = 0; frame < 12; ++frame) ASSERT_NO_THROW(simulation.advance());
-  EXPECT_GT(simulation.centre_of_mass().x, 3);
 }
 
 /// Keeps the farthest way of a body in any step.

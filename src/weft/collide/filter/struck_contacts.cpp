@@ -13,8 +13,8 @@ namespace {
 /// springs pull harder than a contact of the usual stiffness can press within its small depth, so
 /// every solve would let them through the body, and the filter would stretch the springs again.
 constexpr float body_firmness = 64;
-/// Way of one side along the other in a step, in thicknesses, beyond which a contact is not kept:
-/// its normal is that of features which have parted since, and would hold back what slides.
+/// Way of one side relative to the other in a step, in thicknesses, beyond which a contact is not
+/// kept: its normal is that of features which have parted since, and would hold back what slides.
 constexpr double max_way = 0.1;
 
 auto key_of(const StruckContact& one) {

@@ -24,8 +24,8 @@ class StruckContacts {
   /// Adds contacts for planes that moved points.
   /// @return whether any of them was not known
   bool learn(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving);
-  /// Keeps contacts for the planes that moved points in a step, where their sides hardly slid
-  /// along each other, and forgets those of other steps.
+  /// Keeps contacts for the planes that moved points in a step, where their sides hardly moved
+  /// relative to each other, and forgets those of other steps.
   void keep(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving);
   /// Goes on to the next step, with what was kept.
   void commit();
@@ -35,6 +35,7 @@ class StruckContacts {
  private:
   void add(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
            std::vector<StruckContact>& out) const;
+  /// Whether its sides moved relative to each other in the step, or the one before a resting body.
   [[nodiscard]] bool has_slid(const StruckContact& one, std::span<const MovingCloth> moving) const;
   [[nodiscard]] StruckContact contact_of(const SeparatingPlane& plane,
                                          std::span<const MovingCloth> moving) const;
