@@ -114,6 +114,11 @@ TriangleMesh Polygoniser::run() {
 constexpr int newton_steps = 12;
 constexpr double close_enough = 1e-9;  // [m]
 
+Limb::Piece within_ball(const RoundCone& cone) {
+  const double reach = 0.5 * length(cone.b - cone.a) + std::max(cone.radius_a, cone.radius_b);
+  return {cone, 0.5 * (cone.a + cone.b), reach};
+}
+
 }  // namespace
 
 double distance_to(const RoundCone& cone, Vec3d point) {
@@ -139,7 +144,7 @@ double distance_to(const Ellipsoid& ellipsoid, Vec3d point) {
 }
 
 Limb::Limb(std::span<const Joint> joints) {
-  constexpr int pieces = 4;  // of each span
+  constexpr int parts = 4;  // of each span
   const auto blend = [](double wa, const Joint& a, double wb, const Joint& b) {
     return Joint{wa * a.centre + wb * b.centre, wa * a.radius + wb * b.radius};
   };
@@ -149,15 +154,15 @@ Limb::Limb(std::span<const Joint> joints) {
     const Joint &a = joints[i], &b = joints[i + 1];
     const Joint slope_a = blend(0.5, b, -0.5, joints[std::max(i - 1, 0)]);
     const Joint slope_b = blend(0.5, joints[std::min(i + 2, last)], -0.5, a);
-    for (int piece = 1; piece <= pieces; ++piece) {
-      const double t = static_cast<double>(piece) / pieces, rest = 1 - t;
+    for (int part = 1; part <= parts; ++part) {
+      const double t = static_cast<double>(part) / parts, rest = 1 - t;
       const Joint here = blend(1, blend(rest * rest * (1 + 2 * t), a, t * t * (1 + 2 * rest), b), 1,
                                blend(t * rest * rest, slope_a, -t * t * rest, slope_b));
-      cones.push_back({before.centre, here.centre, before.radius, here.radius});
+      pieces.push_back(within_ball({before.centre, here.centre, before.radius, here.radius}));
       before = here;
     }
   }
-  for (const RoundCone& cone : cones) {
+  for (const auto& [cone, middle, reach] : pieces) {
     const double radius = std::max(cone.radius_a, cone.radius_b);
     for (const Vec3d end : {cone.a, cone.b}) {
       box.add(end + Vec3d{radius, radius, radius});
@@ -166,9 +171,16 @@ Limb::Limb(std::span<const Joint> joints) {
   }
 }
 
-double distance_to(const Limb& limb, Vec3d point) {
-  double min = HUGE_VAL;
-  for (const RoundCone& cone : limb.cones) min = std::min(min, distance_to(cone, point));
+double distance_to(const Limb& limb, Vec3d point, double enough) {
+  constexpr double rounding = 1e-9;  // more than sums round, so that the least is found to the bit
+  const auto far = [&](const Limb::Piece& p) { return squared_length(point - p.middle); };
+  const auto& first = *std::ranges::min_element(limb.pieces, {}, far);
+  double min = std::min(enough, distance_to(first.cone, point));
+  for (const Limb::Piece& piece : limb.pieces) {
+    const double nearer = min + piece.reach + rounding;
+    if (&piece != &first && nearer > 0 && far(piece) < nearer * nearer)
+      min = std::min(min, distance_to(piece.cone, point));
+  }
   return min;
 }
 

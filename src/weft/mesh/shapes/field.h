@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -41,11 +42,18 @@ struct Limb {
     Vec3d centre;
     double radius;
   };
+  /// A cone within a ball around its middle, by which one that is too far away is told cheaply.
+  struct Piece {
+    RoundCone cone;
+    Vec3d middle;
+    double reach;
+  };
   explicit Limb(std::span<const Joint> joints);
-  std::vector<RoundCone> cones;
+  std::vector<Piece> pieces;
   Box3d box;  ///< holds all of it
 };
-double distance_to(const Limb& limb, Vec3d point);
+/// Exact signed distance to the nearest of its cones, or `enough` where that is less.
+double distance_to(const Limb& limb, Vec3d point, double enough = HUGE_VAL);
 
 /// Distance to a box, 0 inside.
 double distance_to(const Box3d& box, Vec3d point);

@@ -136,6 +136,11 @@ bool out_of_reach(const Box3d& box, double field, Vec3d point) {
   return distance_to(box, point) > std::fmax(field, 0) + largest_blend;
 }
 
+/// A limb that is farther than its blend makes no difference: twice that is far enough to know.
+double with_limb(double field, const Limb& limb, Vec3d point, double blend) {
+  return smooth_min(field, distance_to(limb, point, field + 2 * blend), blend);
+}
+
 const Limb& arm() {
   static const Limb limb(arm_joints);
   return limb;
@@ -158,10 +163,8 @@ double mannequin_body_field(Vec3d point) {
   double field = trunk(point);
   field = all_joined(field, trunk_cones, half);
   field = all_joined(field, trunk_ellipsoids, half);
-  if (!out_of_reach(arm().box, field, half))
-    field = smooth_min(field, distance_to(arm(), half), armpit);
-  if (!out_of_reach(leg().box, field, half))
-    field = smooth_min(field, distance_to(leg(), half), groin);
+  if (!out_of_reach(arm().box, field, half)) field = with_limb(field, arm(), half, armpit);
+  if (!out_of_reach(leg().box, field, half)) field = with_limb(field, leg(), half, groin);
   if (!out_of_reach(hand_box, field, half)) field = all_joined(field, hand_cones, half);
   if (!out_of_reach(foot_box, field, half)) field = all_joined(field, foot_cones, half);
   return smooth_max(field, -point.y, sole_edge);
@@ -194,13 +197,22 @@ double edge_length(Vec3d p) {
 
 }  // namespace
 
-TriangleMesh mannequin_mesh() {
+namespace {
+
+TriangleMesh made_mannequin() {
   Box3d box;
   box.add({-0.68, -0.03, -0.18});
   box.add({0.68, 1.79, 0.24});
   constexpr double cell = 0.015;
   return remesh(polygonise(mannequin_field, box, cell),
                 {.surface = mannequin_field, .cut = {}, .edge_length = edge_length});
+}
+
+}  // namespace
+
+TriangleMesh mannequin_mesh() {
+  static const TriangleMesh made = made_mannequin();  // takes a second, and scenes ask twice
+  return made;
 }
 
 }  // namespace weft
