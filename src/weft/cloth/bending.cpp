@@ -20,12 +20,6 @@ Range columns_with(BendingOffset to, int row, int size) {
   return {to.right < 0 ? -to.right : 0, to.right > 0 ? size - to.right : size};
 }
 
-void clear(Row3 row, int size) {
-  std::fill(row.x, row.x + size, 0.0F);
-  std::fill(row.y, row.y + size, 0.0F);
-  std::fill(row.z, row.z + size, 0.0F);
-}
-
 /// Adds the bounds of the border edges of one direction. Edges of negative stiffness are omitted;
 /// an edge between second neighbours along the border is bounded by twice the two edges between
 /// them.

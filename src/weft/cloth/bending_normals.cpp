@@ -77,10 +77,6 @@ void add_cross(Range columns, float factor, const Edge& p, const CandidateRow& q
   }
 }
 
-void clear(Row3 row, int size) {
-  for (float* values : {row.x, row.y, row.z}) std::fill(values, values + size, 0.0F);
-}
-
 }  // namespace
 
 BendingNormals::BendingNormals(const Cloth& cloth) : cloth_(cloth) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "weft/cloth/cloth.h"
@@ -62,6 +63,9 @@ inline ConstRow3 row_of(const Planes3& planes, int r) {
 }
 inline Row3 row_of(Planes3& planes, int r) {
   return {planes.x.row(r), planes.y.row(r), planes.z.row(r)};
+}
+inline void clear(Row3 row, int size) {
+  for (float* values : {row.x, row.y, row.z}) std::fill(values, values + size, 0.0F);
 }
 
 }  // namespace weft

@@ -11,10 +11,6 @@ namespace {
 constexpr int rows_in_progress = 3;
 constexpr int lines_a_worker = rows_in_progress + 1;
 
-void clear(Row3 row, int n) {
-  for (float* line : {row.x, row.y, row.z}) std::fill(line, line + n, 0.0F);
-}
-
 }  // namespace
 
 SpringRows::SpringRows(const Cloth& cloth, const ThreadTeam& team)

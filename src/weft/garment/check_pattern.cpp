@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 /// Points of a curved edge that the test for crossings looks at.
-constexpr int coarse = 16;
+constexpr int coarse_parts = 16;
 
 [[noreturn]] void fail(const std::string& place, const std::string& found,
                        const std::string& wanted) {
@@ -97,7 +97,7 @@ void check_crossings(const Pattern& pattern, int index, const std::string& name)
   for (std::size_t k = 0; k < panel.edges.size(); ++k) {
     const bool straight = panel.edges[k].curve.kind == PatternCurve::Kind::straight;
     const std::vector<Vec2d> points =
-        spread_along(edge_polyline(panel, panel.edges[k]), straight ? 1 : coarse);
+        spread_along(edge_polyline(panel, panel.edges[k]), straight ? 1 : coarse_parts);
     for (std::size_t i = 1; i < points.size(); ++i)
       pieces.push_back({points[i - 1], points[i], static_cast<int>(k)});
   }

@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// The smallest value that a share of all values does not exceed; 0 of none.
 double quantile(std::vector<double> values, double share) {
@@ -29,7 +29,7 @@ std::vector<double> column(const RunReport& report, Field FrameReport::*field) {
   return values;
 }
 
-Json milliseconds(const RunReport& report) {
+OrderedJson milliseconds(const RunReport& report) {
   const auto median = [&](double FrameReport::*field) {
     return quantile(column(report, field), 0.5);
   };
@@ -41,21 +41,21 @@ Json milliseconds(const RunReport& report) {
           {"limit", median(&FrameReport::limit_ms)}};
 }
 
-Json kinds_json(const IntersectionCounts& counts) {
+OrderedJson kinds_json(const IntersectionCounts& counts) {
   return {{"self", counts.self},
           {"cloths", counts.cloths},
           {"bodies", counts.bodies},
           {"ground", counts.ground}};
 }
 
-Json found_json(const FrameIntersections& found) {
-  Json json{{"frame", found.frame}};
+OrderedJson found_json(const FrameIntersections& found) {
+  OrderedJson json{{"frame", found.frame}};
   json.update(kinds_json(found.counts));
   return json;
 }
 
 /// Strain of the frame with the largest strain; nothing where no frame was simulated.
-Json worst_strain(const RunReport& report) {
+OrderedJson worst_strain(const RunReport& report) {
   const auto worst = std::max_element(
       report.history.begin(), report.history.end(),
       [](const FrameReport& a, const FrameReport& b) { return a.strain.max < b.strain.max; });
@@ -66,7 +66,7 @@ Json worst_strain(const RunReport& report) {
 }
 
 /// The largest count of a frame, and which frame that was; 0 and null where none was.
-Json worst_count(const RunReport& report, int FrameReport::*count) {
+OrderedJson worst_count(const RunReport& report, int FrameReport::*count) {
   const auto worst = std::max_element(
       report.history.begin(), report.history.end(),
       [&](const FrameReport& a, const FrameReport& b) { return a.*count < b.*count; });
@@ -88,14 +88,14 @@ double worst_blocked_share(const RunReport& report) {
   return worst;
 }
 
-Json thickness_json(const RunReport& report) {
-  Json json = Json::object();
+OrderedJson thickness_json(const RunReport& report) {
+  OrderedJson json = OrderedJson::object();
   for (const auto& [name, thickness] : report.thickness_used) json[name] = thickness;
   return json;
 }
 
-Json start_insides_json(const RunReport& report) {
-  Json json = Json::array();
+OrderedJson start_insides_json(const RunReport& report) {
+  OrderedJson json = OrderedJson::array();
   for (const StartInside& found : report.start_insides)
     json.push_back({{"cloth", found.cloth},
                     {"body", found.body},
@@ -105,21 +105,22 @@ Json start_insides_json(const RunReport& report) {
   return json;
 }
 
-Json verification_json(const RunReport& report) {
+OrderedJson verification_json(const RunReport& report) {
   if (!report.verification) return {};
   const auto worst = [](const WorstCount& found) {
-    return Json{{"count", found.count}, {"frame", found.count > 0 ? Json(found.frame) : Json()}};
+    return OrderedJson{{"count", found.count},
+                       {"frame", found.count > 0 ? OrderedJson(found.frame) : OrderedJson()}};
   };
   return {{"passed", worst(report.verification->passed)},
           {"swallowed", worst(report.verification->swallowed)},
           {"written", worst(report.verification->written)}};
 }
 
-Json seams_json(const SeamsReport& seams) {
+OrderedJson seams_json(const SeamsReport& seams) {
   return {{"count", seams.count},
           {"closed", seams.closed},
           {"largest_gap_mm", 1000 * seams.largest_gap},
-          {"frames", seams.frames ? Json(*seams.frames) : Json()}};
+          {"frames", seams.frames ? OrderedJson(*seams.frames) : OrderedJson()}};
 }
 
 /// The length l of energy_gained_mgl [m].
@@ -140,7 +141,7 @@ double energy_gained(const RunReport& report) {
 
 std::string to_json(const RunReport& report) {
   const std::vector<double> residuals = column(report, &FrameReport::residual);
-  Json json{
+  OrderedJson json{
       {"frames", report.frames},
       {"particles", report.particles},
       {"integrator", report.integrator},
@@ -162,7 +163,7 @@ std::string to_json(const RunReport& report) {
        energy_gained(report) / (report.mass * standard_gravity * usual_height)},
       {"thickness_used", thickness_json(report)},
       {"intersections", report.intersections.counts.total()}};
-  json["centre_of_mass"] = Json::array();
+  json["centre_of_mass"] = OrderedJson::array();
   for (const Vec3d& c : report.centre_of_mass) json["centre_of_mass"].push_back({c.x, c.y, c.z});
   json["state_hash"] = report.state_hash;
   if (report.seams) {
@@ -173,9 +174,10 @@ std::string to_json(const RunReport& report) {
   json["start_intersections"] = kinds_json(report.start_intersections);
   json["verification"] = verification_json(report);
   json["start_insides"] = start_insides_json(report);
-  json["untangled_frame"] = report.untangled_frame ? Json(*report.untangled_frame) : Json();
+  json["untangled_frame"] =
+      report.untangled_frame ? OrderedJson(*report.untangled_frame) : OrderedJson();
   json["estimated_memory_mb"] = 1e-6 * static_cast<double>(report.estimated_memory);
-  json["outputs"] = Json::array();
+  json["outputs"] = OrderedJson::array();
   for (const auto& path : report.outputs) json["outputs"].push_back(path.string());
   return json_text(json);
 }

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr const char* manifest_name = "weft-run.json";
-constexpr int manifest_version = 1, deepest_nesting = 16;
+constexpr int manifest_version = 1, deepest_manifest = 16;
 
 Json vector_json(Vec3d v) { return {v.x, v.y, v.z}; }
 
@@ -103,7 +103,7 @@ RecordedBody open_body(const RecordedPlace& from, const Json& value, const JsonP
 Json parse_manifest(const fs::path& path) {
   const std::string text = read_file(path);
   try {
-    return parse_json(text, deepest_nesting);
+    return parse_json(text, deepest_manifest);
   } catch (const JsonFault& fault) {
     throw InputError(fault.place(path.string()), fault.what(), "the record of a run is wanted");
   }

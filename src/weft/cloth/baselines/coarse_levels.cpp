@@ -11,7 +11,6 @@
 namespace weft {
 namespace {
 
-constexpr int min_level_size = 3;
 // The diagonal of a level over the mean diagonal of the finest: a bilinear hat of half-width s has
 // the spring energy 4/3 k where a single sample has 2 k (a little more for its diagonals), whatever
 // s is, and 4/9 of the mass that its weights sum up.

@@ -10,8 +10,6 @@
 namespace weft {
 namespace {
 
-constexpr int min_level_size = 3;
-
 /// The springs of the next coarser level: each has the rest length of two springs in line.
 SpringPlane joined_springs(const SpringPlane& fine, int n) {
   SpringPlane plane{fine.down, fine.right, Grid<float>(n, n, 1), {}, {}};

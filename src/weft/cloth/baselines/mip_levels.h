@@ -7,6 +7,8 @@ namespace weft {
 
 // A geometry image is its own mip pyramid: the next coarser level holds every second sample.
 
+constexpr int min_level_size = 3;
+
 /// Whether every second border sample keeps its mates: all intervals begin and end on even places.
 bool halves(const BorderMates& mates);
 /// The mates of the next coarser level. Requires halves(mates).

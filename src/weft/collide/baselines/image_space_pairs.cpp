@@ -11,7 +11,7 @@ namespace {
 /// Level of the blocks: 8 cells a side.
 constexpr int block_level = 3;
 /// Number of culling passes. Culled blocks uncover others: a few passes find most.
-constexpr int max_turns = 4;
+constexpr int max_passes = 4;
 
 /// Common part of two boxes, widened by `reach`.
 Box3f common_part(const Box3f& a, const Box3f& b, float reach) {
@@ -101,7 +101,7 @@ void ImageSpacePairs::cull(Blocks& a, Blocks& b, float reach, ThreadTeam& team) 
       of->left[block] = overlap(of->box(block), window, reach) ? 1 : 0;
   }
   const auto none = [](int /*block*/, int /*other*/) { return false; };
-  for (int turn = 0; turn < max_turns; ++turn) {
+  for (int turn = 0; turn < max_passes; ++turn) {
     team.run([&](Worker& worker) {
       for (int v = worker.rank(); v < view_count; v += worker.size()) {
         const auto view = static_cast<std::size_t>(v);
@@ -122,7 +122,7 @@ void ImageSpacePairs::cull_self(Blocks& of, float reach, ThreadTeam& team) {
   const Box3f window = of.boxes.at({of.boxes.top(), 0, 0});
   of.left.assign(static_cast<std::size_t>(of.count()), 1);
   const auto beside = [&](int block, int other) { return touch(of, block, other); };
-  for (int turn = 0; turn < max_turns; ++turn) {
+  for (int turn = 0; turn < max_passes; ++turn) {
     team.run([&](Worker& worker) {
       for (int v = worker.rank(); v < view_count; v += worker.size()) {
         const auto view = static_cast<std::size_t>(v);

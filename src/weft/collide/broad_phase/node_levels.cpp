@@ -2,11 +2,10 @@
 
 #include <algorithm>
 
+#include "weft/collide/broad_phase/min_max.h"
+
 namespace weft {
 namespace {
-
-inline float min(float a, float b) { return a < b ? a : b; }
-inline float max(float a, float b) { return a > b ? a : b; }
 
 struct Coordinate {
   const Grid<float>*start, *end;

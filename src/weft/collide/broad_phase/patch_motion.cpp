@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/collide/broad_phase/min_max.h"
+
 namespace weft {
 namespace {
-
-inline float max(float a, float b) { return a > b ? a : b; }
 
 /// Raises squared displacements of a row of samples to those between two grids.
 void raise(const Planes3& from, const Planes3& to, int row, float* squared) {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "weft/collide/broad_phase/min_max.h"
+
 namespace weft {
 namespace {
 
-inline float min(float a, float b) { return a < b ? a : b; }
-inline float max(float a, float b) { return a > b ? a : b; }
 /// Extents of one coordinate of the corners of a row of cells.
 void corner_extents(const Grid<float>& of, int row, float* lower, float* upper) {
   const int cells = of.cols() - 1;

@@ -8,13 +8,13 @@ namespace weft {
 namespace {
 
 /// Rounding of sums and projections in single precision, generously.
-constexpr float rounding = 1e-5F;
+constexpr float bound_rounding = 1e-5F;
 
 /// A quick upper bound of the approach of a block to a point that moves by `displacement`. [m]
 double bound_of(const BlockMotion::Block& block, Vec3f displacement) {
   const Vec3f other = block.displacement - displacement;
   const float along = std::abs(dot(block.normal, other)) +
-                      (block.normal_apart + block.slant + rounding) * length(other);
+                      (block.normal_apart + block.slant + bound_rounding) * length(other);
   return double{block.apart} + along;
 }
 
@@ -189,8 +189,8 @@ void BlockMotion::part(const MotionKernels& kernels, int first, int last, Column
       approach = std::max(approach, columns.approach[c]);
       apart = std::max(apart, columns.apart[c]);
     }
-    block.apart = (1 + rounding) * approach;
-    block.normal_apart = apart + rounding;
+    block.apart = (1 + bound_rounding) * approach;
+    block.normal_apart = apart + bound_rounding;
   }
 }
 
@@ -206,7 +206,7 @@ double BlockMotion::approach_of(const Block& block, Vec3f displacement) const {
   std::array<float, wide> approach{}, apart{};
   kernels_->part_columns(samples_of(block), alongs.data(), means.data(), approach.data(),
                          apart.data());
-  return double{(1 + rounding) * *std::max_element(approach.begin(), approach.end())};
+  return double{(1 + bound_rounding) * *std::max_element(approach.begin(), approach.end())};
 }
 
 BlockMotion::Near BlockMotion::near(const Box3f& box, float reach, double enough,

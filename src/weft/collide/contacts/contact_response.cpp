@@ -12,7 +12,7 @@ constexpr int max_passes = 8;
 constexpr double settled = 1e-8;
 /// Rounding, as a part of a position's length: a sticking particle that moved by less returns to
 /// its start.
-constexpr double rounding = 2.5e-7;
+constexpr double hair_of_size = 2.5e-7;
 
 Vec3d along_surface(Vec3d displacement, Vec3d normal) {
   return displacement - dot(displacement, normal) * normal;
@@ -205,7 +205,7 @@ void ContactResponse::write_back(const MovingCloth& cloth, int particle, double 
   const bool sticks = std::any_of(uses.begin(), uses.end(), [&](const ContactUses::Use& use) {
     return points_[use.contact].stuck && points_[use.contact].sticks;
   });
-  const double hair = rounding * length(done.start);
+  const double hair = hair_of_size * length(done.start);
   const bool rests = sticks && length(done.position - done.start) <= hair;
   const bool still = sticks && length(done.velocity) * time_step <= hair;
   cloth.position.set(done.sample,

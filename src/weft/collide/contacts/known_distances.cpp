@@ -11,7 +11,7 @@ constexpr double known_gaps = 6;
 /// Approaches of bodies below this part of a gap need no sharper bound.
 constexpr double known_well = 0.5;
 /// Generous bound of the relative rounding error of distances in single precision.
-constexpr double rounding = 1e-6;
+constexpr double distance_rounding = 1e-6;
 
 /// Values for each column of a row.
 constexpr int columns_of_motion = 8;
@@ -124,9 +124,9 @@ void KnownDistances::set(int sample, Vec3f start, const Found& found) {
   place_.set(row, col, start - vec_cast<float>(block.carried));
   travelled_(row, col) = static_cast<float>(block.travelled);
   distance_(row, col) =
-      static_cast<float>((1 - rounding) * std::min(found.distance, known_gaps * gap_));
+      static_cast<float>((1 - distance_rounding) * std::min(found.distance, known_gaps * gap_));
   others_(row, col) =
-      static_cast<float>((1 - rounding) * std::min(found.others, known_gaps * gap_));
+      static_cast<float>((1 - distance_rounding) * std::min(found.others, known_gaps * gap_));
   if (found.triangle >= 0) triangles_[sample] = found.triangle;
 }
 
@@ -138,8 +138,8 @@ double KnownDistances::closest_up_to(int sample, Vec3f start) const {
   const Vec3d moved =
       vec_cast<double>(start) - block.carried - vec_cast<double>(place_.at(row, col));
   const double since = length(moved) + std::max(0.0, block.travelled - travelled_(row, col));
-  const double off =
-      rounding * (length(vec_cast<double>(start)) + length(block.carried) + block.travelled);
+  const double off = distance_rounding *
+                     (length(vec_cast<double>(start)) + length(block.carried) + block.travelled);
   const double left = others - since - off;
   return left > distance - since ? left : 0;
 }

@@ -63,9 +63,9 @@ class PlacedCells {
   float margin_ = 0;
 };
 
-class Finder {
+class CellSearch {
  public:
-  Finder(const PlaneSearch& search, std::vector<SeparatingPlane>& out)
+  CellSearch(const PlaneSearch& search, std::vector<SeparatingPlane>& out)
       : search_(search), out_(out) {}
 
   void find(const CandidateTile& found, const CollideKernels& kernels) {
@@ -255,7 +255,7 @@ void CellPlanes::find(const PlaneSearch& search, std::span<const CandidateTile> 
                       ThreadTeam& team, std::vector<SeparatingPlane>& out) {
   const CollideKernels& kernels = collide_kernels_for(team.instructions());
   found_.fill(static_cast<int>(cells.size()), team, [&](int i, std::vector<SeparatingPlane>& mine) {
-    Finder(search, mine).find(cells[i], kernels);
+    CellSearch(search, mine).find(cells[i], kernels);
   });
   append(found_, out);
 }

@@ -7,7 +7,7 @@ namespace weft {
 namespace {
 
 /// Rounding of single precision, relative to the size of positions, generously.
-constexpr double rounding = 1e-6;
+constexpr double close_enough = 1e-6;
 
 /// The sample with the largest measure, the first of several.
 template <class Measure>
@@ -55,7 +55,7 @@ std::optional<RigidMotion> rigid_motion(const Planes3& start, const Planes3& end
   for (int s = 0; s < start.size() * start.size(); ++s) {
     const Vec3d wanted = vec_cast<double>(end.at(s));
     const double off = length(motion(vec_cast<double>(start.at(s))) - wanted);
-    if (!(off <= rounding * (1 + length(wanted)))) return std::nullopt;
+    if (!(off <= close_enough * (1 + length(wanted)))) return std::nullopt;
   }
   return motion;
 }

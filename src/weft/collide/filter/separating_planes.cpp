@@ -8,7 +8,7 @@ namespace {
 
 /// Margin kept free on either side of a plane: a few times the rounding of positions in single
 /// precision, relative to their size.
-constexpr double rounding = 1e-6;
+constexpr double margin_of_size = 1e-6;
 /// Largest margins relative to the gap at the start: between cloths on either side of the plane,
 /// before a body on one. A gap no wider than the margins may hardly shrink, so that it does not
 /// vanish within a few steps.
@@ -103,7 +103,7 @@ Reaches reaches(Vec3d n, const MovingFeature& a, const MovingFeature& b, Feature
 double margin_for(const MovingFeature& b, Reaches near) {
   const double size = std::max(std::abs(near.a), std::abs(near.b));
   const double max = b.body ? max_margin_before_body : max_margin;
-  return std::min(rounding * (1 + size), max * std::max(0.0, near.a - near.b));
+  return std::min(margin_of_size * (1 + size), max * std::max(0.0, near.a - near.b));
 }
 
 /// Levels of a plane: in the middle between two cloths, at the surface before a body.

@@ -22,7 +22,7 @@
 namespace weft {
 namespace {
 
-constexpr std::uint32_t has_colours = 1;
+constexpr std::uint32_t with_colours = 1;
 constexpr int colour_steps = 255;
 constexpr std::size_t number_size = 4;
 /// Text that zlib makes of one byte at most.
@@ -150,7 +150,7 @@ std::string compressed_bytes(const GeometryImage& image, int steps) {
   std::string bytes(compressed_mark);
   put(bytes, static_cast<std::uint32_t>(image.size()));
   put(bytes, static_cast<std::uint32_t>(steps));
-  put(bytes, image.has_colours() ? has_colours : 0);
+  put(bytes, image.has_colours() ? with_colours : 0);
   put(bytes, static_cast<std::uint32_t>(text.size()));
   put_part(bytes, deflated(text));
   put_part(bytes, encode_planes(whole_positions(image, steps), image.mates));
@@ -172,7 +172,7 @@ GeometryImage parse_compressed_image(std::string_view bytes, std::string_view wh
   Parts parts(bytes.substr(compressed_mark.size()), where);
   const std::uint32_t size = parts.number(), steps = parts.number(), kinds = parts.number();
   require_image_size(size, size, where);
-  if (steps < 1 || steps > largest_step_count || kinds > has_colours)
+  if (steps < 1 || steps > largest_step_count || kinds > with_colours)
     parts.fail(fmt::format("{} steps of kind {}", steps, kinds));
   const std::uint32_t length = parts.number();
   const std::string text = parts.inflated(length, parts.part());
@@ -181,7 +181,7 @@ GeometryImage parse_compressed_image(std::string_view bytes, std::string_view wh
   const BorderMates mates = mates_in(text, n, where);
   const WholePlanes planes = decode_planes(parts.part(), mates, most, where);
   GeometryImage image = assemble_image(positions_of(planes, n, most), text, where);
-  if (kinds == has_colours) read_colours(parts, image, where);
+  if (kinds == with_colours) read_colours(parts, image, where);
   if (!parts.at_end()) parts.fail("more behind its end");
   return image;
 }

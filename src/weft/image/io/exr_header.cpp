@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "weft/error.h"
 #include "weft/image/io/metadata.h"
 
@@ -79,7 +81,7 @@ void check_channel_list(std::string_view value, std::string_view where) {
   int count = 0;
   for (; !reader.text().empty(); reader.take(description))
     if (++count > max_channels)
-      reader.fail("an EXR picture of more than " + std::to_string(max_channels) + " channels");
+      reader.fail(fmt::format("an EXR picture of more than {} channels", max_channels));
   if (!reader.at_end()) reader.fail("a damaged EXR file: a channel list of a wrong size");
 }
 

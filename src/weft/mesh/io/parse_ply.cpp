@@ -195,7 +195,7 @@ struct PlyFile {
   PlyElement vertex;
 };
 
-PlyFile parse(std::string_view bytes, std::string_view name) {
+PlyFile parse_whole(std::string_view bytes, std::string_view name) {
   if (bytes.empty()) throw InputError(name, "is empty", "a PLY mesh is wanted");
   std::string decoded;
   LineReader reader(plain_text(bytes, decoded), name);
@@ -233,14 +233,14 @@ std::string picture_name(std::string_view bytes) {
 }  // namespace
 
 TriangleMesh parse_ply(std::string_view bytes, std::string_view name) {
-  PlyFile file = parse(bytes, name);
+  PlyFile file = parse_whole(bytes, name);
   return textured(std::move(file.read), has_texture(file.vertex));
 }
 
 SurfaceColours ply_colours(std::string_view bytes, std::string_view name, NeighbourFiles& files) {
   std::string decoded;
   const std::string_view plain = plain_text(bytes, decoded);
-  const PlyFile file = parse(plain, name);
+  const PlyFile file = parse_whole(plain, name);
   const TriangleMesh& mesh = file.read.mesh;
   const std::string picture = picture_name(plain);
   const bool textured = !picture.empty() && has_texture(file.vertex);

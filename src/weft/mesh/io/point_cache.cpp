@@ -23,14 +23,14 @@ constexpr std::size_t pc2_header = 32, mdd_header = 8;
 constexpr std::size_t word = 4, point_size = 3 * word;
 
 /// The counts of points and samples in a header.
-struct Counts {
+struct CacheCounts {
   std::uint64_t points, samples;
 };
 
 /// Checks a header's counts against the length of the file, before anything is allocated.
 /// @param bytes_per_sample  besides its points
-void check_length(std::string_view bytes, std::string_view name, Counts counts, std::size_t header,
-                  std::size_t bytes_per_sample) {
+void check_length(std::string_view bytes, std::string_view name, CacheCounts counts,
+                  std::size_t header, std::size_t bytes_per_sample) {
   constexpr std::uint64_t max = INT32_MAX;
   if (counts.points < 1 || counts.points > max || counts.samples < 1 || counts.samples > max)
     throw InputError(name, fmt::format("{} points and {} samples", counts.points, counts.samples),
@@ -81,7 +81,7 @@ PointCache parse_pc2(std::string_view bytes, std::string_view name) {
   };
   if (number(12) != 1)
     throw InputError(name, fmt::format("PC2 version {}", number(12)), "version 1 is wanted");
-  const Counts counts{number(16), number(28)};
+  const CacheCounts counts{number(16), number(28)};
   check_length(bytes, name, counts, pc2_header, 0);
   const double step = load_float(bytes.substr(24), false);
   if (!(step > 0 && step <= 1e6))
@@ -100,8 +100,8 @@ PointCache parse_mdd(std::string_view bytes, std::string_view name) {
   if (bytes.size() < mdd_header)
     throw InputError(name, fmt::format("is {} bytes long", bytes.size()),
                      "a whole MDD file is wanted");
-  const Counts counts{load_integer<std::uint32_t>(bytes.substr(word), true),
-                      load_integer<std::uint32_t>(bytes, true)};
+  const CacheCounts counts{load_integer<std::uint32_t>(bytes.substr(word), true),
+                           load_integer<std::uint32_t>(bytes, true)};
   check_length(bytes, name, counts, mdd_header, word);
   PointCache cache;
   cache.points = static_cast<int>(counts.points);

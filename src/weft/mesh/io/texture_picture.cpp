@@ -14,7 +14,7 @@ namespace weft {
 namespace {
 
 constexpr std::uint64_t max_pixels = std::uint64_t{1} << 26U;
-constexpr std::string_view wanted = "a whole PNG or JPEG picture is wanted";
+constexpr std::string_view picture_wanted = "a whole PNG or JPEG picture is wanted";
 
 void check_size(std::uint64_t width, std::uint64_t height, std::string_view name) {
   if (width == 0 || height == 0 || width * height > max_pixels)
@@ -35,7 +35,8 @@ TexturePicture decode_png_texture(std::string_view bytes, std::string_view name)
   PngFile file;
   const auto require = [&](int done) {
     if (done == 0)
-      throw InputError(name, fmt::format("a damaged PNG picture: {}", file.image.message), wanted);
+      throw InputError(name, fmt::format("a damaged PNG picture: {}", file.image.message),
+                       picture_wanted);
   };
   require(png_image_begin_read_from_memory(&file.image, bytes.data(), bytes.size()));
   check_size(file.image.width, file.image.height, name);
@@ -114,7 +115,8 @@ class JpegFile {
   }
   void require(bool done) const {
     if (!done)
-      throw InputError(name_, fmt::format("a damaged JPEG picture: {}", errors_.message), wanted);
+      throw InputError(name_, fmt::format("a damaged JPEG picture: {}", errors_.message),
+                       picture_wanted);
   }
 
   std::string_view name_;
@@ -128,7 +130,7 @@ TexturePicture decode_texture(std::string_view bytes, std::string_view name) {
   using std::string_view_literals::operator""sv;
   if (bytes.starts_with("\x89PNG"sv)) return decode_png_texture(bytes, name);
   if (bytes.starts_with("\xff\xd8\xff"sv)) return JpegFile(name).read(bytes);
-  throw InputError(name, "is neither a PNG nor a JPEG picture", wanted);
+  throw InputError(name, "is neither a PNG nor a JPEG picture", picture_wanted);
 }
 
 }  // namespace weft

@@ -101,7 +101,7 @@ double tshirt_cut(Vec3d p) {
   return p.y < below_neck ? hem_height - p.y : -distance_to(neck_opening, p);
 }
 
-double edge_length(Vec3d /*place*/) { return 0.0165; }
+double tshirt_edge_length(Vec3d /*place*/) { return 0.0165; }
 
 }  // namespace
 
@@ -112,7 +112,7 @@ TriangleMesh tshirt_mesh() {
   box.add({0.42, 1.515, 0.20});
   constexpr double cell = 0.015;
   return remesh(clip(polygonise(tshirt_field, box, cell), tshirt_cut),
-                {.surface = tshirt_field, .cut = tshirt_cut, .edge_length = edge_length});
+                {.surface = tshirt_field, .cut = tshirt_cut, .edge_length = tshirt_edge_length});
 }
 
 }  // namespace weft

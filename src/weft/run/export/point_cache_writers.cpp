@@ -38,7 +38,7 @@ void write_raw(std::ostream& out, T value) {
   out.write(bytes.data(), bytes.size());
 }
 
-constexpr std::uintmax_t header_bytes = 32;
+constexpr std::uintmax_t pc2_header_bytes = 32;
 constexpr std::streamoff points_at = 16, frames_at = 28;
 
 fs::path unfinished(const fs::path& path) {
@@ -53,7 +53,7 @@ struct Left {
 
 Left examine(const fs::path& path, int frames, std::span<const Vec3f> last) {
   std::ifstream in(path, std::ios::binary);
-  std::array<char, header_bytes> header{};
+  std::array<char, pc2_header_bytes> header{};
   if (!in.read(header.data(), header.size())) return {};
   std::int32_t points = 0, told = 0;
   std::memcpy(&points, header.data() + points_at, sizeof(points));
@@ -63,7 +63,7 @@ Left examine(const fs::path& path, int frames, std::span<const Vec3f> last) {
     return {};
   std::vector<Vec3f> found(last.size());
   const auto bytes = static_cast<std::streamoff>(last.size_bytes());
-  in.seekg(static_cast<std::streamoff>(header_bytes) + (frames - 1) * bytes);
+  in.seekg(static_cast<std::streamoff>(pc2_header_bytes) + (frames - 1) * bytes);
   if (!in.read(reinterpret_cast<char*>(found.data()), bytes)) return {};
   // Bits, not values: resuming gives the same file.
   return {std::memcmp(found.data(), last.data(), last.size_bytes()) == 0, told};
@@ -117,7 +117,7 @@ void Pc2Writer::fail() const {
 }
 
 std::uintmax_t Pc2Writer::bytes(int frames) const {
-  return header_bytes +
+  return pc2_header_bytes +
          sizeof(Vec3f) * static_cast<std::uintmax_t>(points_) * static_cast<std::uintmax_t>(frames);
 }
 
@@ -162,7 +162,7 @@ bool is_whole_pc2(const fs::path& path, int frames, std::span<const Vec3f> last)
   std::error_code ignored;
   return left.holds && left.frames == frames &&
          fs::file_size(path, ignored) ==
-             header_bytes + last.size_bytes() * static_cast<std::uintmax_t>(frames);
+             pc2_header_bytes + last.size_bytes() * static_cast<std::uintmax_t>(frames);
 }
 
 void write_pc2(const fs::path& path, const PointCache& cache) {

@@ -88,13 +88,13 @@ SurfacePoints sewn_points(const GeometryImage& image, const BorderMates& sewn) {
 }
 namespace {
 
-constexpr std::streamoff header_bytes = 32;
+constexpr std::streamoff cache_header_bytes = 32;
 
 }  // namespace
 
 PointFrames::PointFrames(const std::filesystem::path& path)
     : path_(path), in_(path, std::ios::binary) {
-  std::array<char, header_bytes> header{};
+  std::array<char, cache_header_bytes> header{};
   if (!in_ || !in_.read(header.data(), header.size()) ||
       std::string_view(header.data(), 11) != "POINTCACHE2")
     throw InputError(path.string(), "no point cache", "a PC2 file is wanted");
@@ -103,7 +103,7 @@ PointFrames::PointFrames(const std::filesystem::path& path)
   std::memcpy(&frames, header.data() + 28, 4);
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-  const auto wanted = static_cast<std::uintmax_t>(header_bytes) +
+  const auto wanted = static_cast<std::uintmax_t>(cache_header_bytes) +
                       12 * static_cast<std::uintmax_t>(std::max(points, 0)) * std::max(frames, 0);
   if (points < 1 || frames < 0 || error || bytes != wanted)
     throw InputError(path.string(),
@@ -118,7 +118,7 @@ std::vector<Vec3f> PointFrames::read(int frame) {
   std::vector<Vec3f> points(static_cast<std::size_t>(points_));
   const auto bytes = static_cast<std::streamoff>(points.size() * sizeof(Vec3f));
   in_.clear();
-  in_.seekg(header_bytes + frame * bytes);
+  in_.seekg(cache_header_bytes + frame * bytes);
   if (!in_.read(reinterpret_cast<char*>(points.data()), bytes))
     throw InputError(path_.string(), "ends early", "a whole point cache is wanted");
   return points;

@@ -10,7 +10,7 @@ namespace {
 constexpr double damping = 6;
 /// Cloth that was stretched and slips free goes no faster than this; it would throw others about,
 /// at 50 m/s where it was stretched by half. [m/s]
-constexpr double fastest = 2;
+constexpr double fastest_of_panel = 2;
 /// Rate at which panels come back to the height that they begin at. [1/s]
 constexpr double hold_rate = 10;
 
@@ -56,7 +56,8 @@ void PanelMotion::carry(bool closing, double time_step, Planes3& velocity) const
   for (int s = 0; s < velocity.size() * velocity.size(); ++s) {
     const Vec3d wanted = closing ? panels_[panel_of_[s]].wanted() : Vec3d{};
     const Vec3d rest = kept * (vec_cast<double>(velocity.at(s)) - wanted);
-    velocity.set(s, vec_cast<float>(wanted + std::min(1.0, fastest / length(rest)) * rest));
+    velocity.set(s,
+                 vec_cast<float>(wanted + std::min(1.0, fastest_of_panel / length(rest)) * rest));
   }
 }
 

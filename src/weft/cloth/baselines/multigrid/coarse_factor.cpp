@@ -25,8 +25,8 @@ void for_each_edge(const FilterLevel& level, const Use& use) {
   }
 }
 
-/// Diagonal entry that fixes a held particle.
-constexpr double held = 1e30;
+/// Diagonal entry that fixes a holding particle.
+constexpr double holding = 1e30;
 
 }  // namespace
 
@@ -98,7 +98,7 @@ void CoarseFactor::assemble(const FilterLevel& level) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const int s = sample_of_[i];
     const int row = static_cast<int>(i);
-    if (level.inverse_diagonal(s / n, s % n) == 0) entry(row, row) = held;
+    if (level.inverse_diagonal(s / n, s % n) == 0) entry(row, row) = holding;
   }
 }
 
