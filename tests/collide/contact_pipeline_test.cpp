@@ -272,8 +272,8 @@ TEST(ContactPipeline, WhatTheFilterHeldBackIsAContactOfTheNextSolve) {
   collider->detect(moving, step, team);
   ASSERT_TRUE(collider->contacts(0).empty());
   ASSERT_GT(collider->filter(moving, step, team).moved, 0);
-  EXPECT_TRUE(collider->learn_struck(moving));
-  EXPECT_FALSE(collider->learn_struck(moving)) << "all of them are known";
+  EXPECT_TRUE(collider->learn_struck(moving, step));
+  EXPECT_FALSE(collider->learn_struck(moving, step)) << "all of them are known";
   collider->rollback();
   throw_it();
   collider->detect(moving, step, team);

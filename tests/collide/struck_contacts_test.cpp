@@ -1,5 +1,8 @@
 #include "weft/collide/filter/struck_contacts.h"
 
+#include <span>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/collide/test_bodies.h"
@@ -13,22 +16,54 @@ using test::TestCloth;
 constexpr int n = 5, above = 2 * n + 2, below = n + 2;
 constexpr double thickness = 0.004;
 
-/// Two samples of a sheet, one 2 mm above the other, between which a plane held points apart.
+constexpr double step = 1.0 / 240;
+
+/// A plane that held a sample above another.
+SeparatingPlane between_samples() {
+  SeparatingPlane plane;
+  plane.normal = plane.turned = {0, 1, 0};
+  plane.points = {above, below};
+  plane.weights = {1, 1};
+  plane.count_a = plane.count_b = 1;
+  return plane;
+}
+
+/// The same plane as a search from the lower side finds it.
+SeparatingPlane from_below() {
+  SeparatingPlane plane = between_samples();
+  plane.normal = plane.turned = {0, -1, 0};
+  plane.points = {below, above};
+  return plane;
+}
+
+/// A plane that held a sample above a body, which moved 3 cm up.
+SeparatingPlane before_body() {
+  SeparatingPlane plane = between_samples();
+  plane.count_b = 0;
+  plane.body = 0;
+  plane.body_point_displacement = {0, 0.03, 0};
+  return plane;
+}
+
+Obstacles one_body() {
+  Obstacles obstacles;
+  obstacles.bodies.push_back(test::octahedral_sphere(9, 0.1, {0, -0.1, 0}));
+  return obstacles;
+}
+
+/// Two samples of a sheet, one 2 mm above the other.
 class HeldApart {
  public:
   HeldApart() {
     cloth_.place([](int r, int c) { return Vec3d{0.1 * c, r == 2 ? 0.002 : 0, 0.1 * r}; });
-    plane_.normal = plane_.turned = {0, 1, 0};
-    plane_.points = {above, below};
-    plane_.weights = {1, 1};
-    plane_.count_a = plane_.count_b = 1;
   }
-  /// What the next step knows of a step in which both went somewhere.
-  std::span<const StruckContact> kept(Vec3f upper_way, Vec3f lower_way) {
+  /// What the next step knows of a step in which planes held back points and both went somewhere.
+  std::span<const StruckContact> kept(Vec3f upper_way, Vec3f lower_way,
+                                      std::vector<SeparatingPlane> planes = {between_samples()}) {
     cloth_.position.set(above, cloth_.start.at(above) + upper_way);
     cloth_.position.set(below, cloth_.start.at(below) + lower_way);
     const MovingCloth moving = cloth_.moving();
-    contacts_.keep(std::span(&plane_, 1), std::span(&moving, 1));
+    contacts_.keep(planes, std::span(&moving, 1), step);
     contacts_.commit();
     return contacts_.found();
   }
@@ -42,9 +77,9 @@ class HeldApart {
                              .rest_spacing = 0.1,
                              .self_collision = true,
                              .self_thickness = thickness};
-  CollisionWorld world_{pyramid, {}, std::span(&properties_, 1)};
+  Obstacles obstacles_ = one_body();
+  CollisionWorld world_{pyramid, obstacles_, std::span(&properties_, 1)};
   StruckContacts contacts_{world_};
-  SeparatingPlane plane_;
 };
 
 TEST(StruckContacts, TheNextStepHoldsApartWhatRests) {
@@ -52,7 +87,23 @@ TEST(StruckContacts, TheNextStepHoldsApartWhatRests) {
   const std::span<const StruckContact> kept = samples.kept({}, {});
   ASSERT_EQ(kept.size(), 1U);
   EXPECT_FLOAT_EQ(kept[0].shared.contact.offset, 0.002F) << "no farther than it found them";
-  EXPECT_EQ(kept[0].shared.contact.normal, (Vec3f{0, 1, 0}));
+  const Contact& contact = kept[0].shared.contact;
+  const int first = contact.weights[0] > 0 ? contact.samples[0] : contact.samples[1];
+  EXPECT_EQ(contact.normal, (Vec3f{0, first == above ? 1.0F : -1.0F, 0}));
+}
+
+TEST(StruckContacts, WhatWasFoundFromBothSidesIsOneContact) {
+  HeldApart samples;
+  EXPECT_EQ(samples.kept({}, {}, {between_samples(), from_below()}).size(), 1U);
+}
+
+TEST(StruckContacts, ABodyThatMovesIsTakenToMoveOn) {
+  HeldApart samples;
+  const std::span<const StruckContact> kept = samples.kept({0, 0.03F, 0}, {}, {before_body()});
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_FLOAT_EQ(kept[0].shared.contact.offset, 0.002F + 0.03F) << "where the body begins";
+  EXPECT_FLOAT_EQ(kept[0].body_velocity.y, 0.03F * 240);
+  EXPECT_TRUE(samples.kept({}, {}, {before_body()}).empty()) << "the body went its way";
 }
 
 TEST(StruckContacts, TheNextStepHoldsApartWhatMovesTogether) {

@@ -109,5 +109,16 @@ TEST(StepLevels, WherePointsFallBackBodiesAreGivenShorterStepsAllTheSame) {
   }
 }
 
+TEST(StepLevels, ASolveThatRanAwayIsHalvedEvenWhereHalvingDidNotHelpBefore) {
+  StepWalk walk(0, {1, 2});
+  walk.accept(StepVerdict::forced);
+  EXPECT_FALSE(walk.may_halve());
+  for (int level = 1; level < finest_level; ++level) {
+    EXPECT_TRUE(walk.may_halve_wild());
+    walk.halve();
+  }
+  EXPECT_FALSE(walk.may_halve_wild());
+}
+
 }  // namespace
 }  // namespace weft

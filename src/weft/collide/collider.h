@@ -155,7 +155,10 @@ class Collider {
   /// Adds contacts for what the last filter had to hold back to what the next detect of the same
   /// step finds, until a commit. The step must have been rolled back, not shortened.
   /// @return whether any of them was not known
-  virtual bool learn_struck(std::span<const MovingCloth> /*cloths*/) noexcept { return false; }
+  virtual bool learn_struck(std::span<const MovingCloth> /*cloths*/,
+                            double /*time_step*/) noexcept {
+    return false;
+  }
   /// Accepts the step: bodies stay at its end.
   virtual void commit() noexcept {}
   /// Discards the step: bodies and the marks of samples return to the last commit.

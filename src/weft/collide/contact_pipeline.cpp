@@ -73,7 +73,7 @@ FilterCounts ContactPipeline::filter(std::span<const MovingCloth> cloths, double
     world_.copy_to_mates(cloths);
   }
   const FilterCounts counts = filter_.run(cloths, time_step, StepFilter::Pass::end, team, end);
-  struck_.keep(filter_.struck(), cloths);
+  struck_.keep(filter_.struck(), cloths, time_step);
   return counts;
 }
 

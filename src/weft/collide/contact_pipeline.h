@@ -50,8 +50,8 @@ class ContactPipeline final : public Collider {
               double time_step, ThreadTeam& team) noexcept override;
   FilterCounts filter(std::span<const MovingCloth> cloths, double time_step, ThreadTeam& team,
                       FilterEnd end) noexcept override;
-  bool learn_struck(std::span<const MovingCloth> cloths) noexcept override {
-    return struck_.learn(filter_.struck(), cloths);
+  bool learn_struck(std::span<const MovingCloth> cloths, double time_step) noexcept override {
+    return struck_.learn(filter_.struck(), cloths, time_step);
   }
   void commit() noexcept override;
   void rollback() noexcept override;

@@ -156,6 +156,8 @@ void ContactFinder::add_struck(std::span<const StruckContact> struck, double tim
     Contact& contact = one.shared.contact;
     Found& first = found_[static_cast<std::size_t>(one.shared.first)];
     if (one.body >= 0) {
+      contact.surface_displacement = static_cast<float>(time_step) * one.body_velocity;
+      contact.offset += dot(contact.normal, contact.surface_displacement);
       first.contacts.insert(first.contacts.begin() + static_cast<std::ptrdiff_t>(first.hard++),
                             contact);
       continue;

@@ -15,6 +15,7 @@ namespace weft {
 struct StruckContact {
   SharedContact shared;
   int body = -1;          ///< -1: none
+  Vec3f body_velocity;    ///< of its closest point [m/s]; the contact is where that begins the step
   double compliance = 0;  ///< inverse effective mass of its points [1/kg]
 };
 

@@ -1,8 +1,10 @@
 #include "weft/collide/filter/struck_contacts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "weft/core/contact_point.h"
 
@@ -38,54 +40,90 @@ bool before(const StruckContact& a, const StruckContact& b) {
 }
 bool same(const StruckContact& a, const StruckContact& b) { return key_of(a) == key_of(b); }
 
+/// A sample of a side; the weights of side b are negative.
+struct SidePoint {
+  std::size_t cloth = 0;
+  int sample = 0;
+  double weight = 0;
+};
+
+/// The points of a plane that its closest points depend on.
+struct PlanePoints {
+  std::array<SidePoint, 6> points;
+  std::size_t count = 0;
+
+  /// Sorts the points, those of the side with the first of them in front: searches meet a pair from
+  /// either side, in any order, and it is one contact.
+  /// @return whether the sides were exchanged
+  bool put_in_order() {
+    const auto ours = std::span(points).first(count);
+    const auto number = [](const SidePoint& one) { return std::pair(one.cloth, one.sample); };
+    const SidePoint least = *std::ranges::min_element(ours, {}, number);
+    const bool exchange = least.weight < 0;
+    for (SidePoint& one : ours) one.weight = exchange ? -one.weight : one.weight;
+    std::ranges::sort(ours, {}, [&](const SidePoint& one) {
+      return std::tuple(one.weight < 0, one.cloth, one.sample);
+    });
+    return exchange;
+  }
+};
+
 }  // namespace
 
 StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
-                                         std::span<const MovingCloth> moving) const {
-  StruckContact out;
-  Contact& contact = out.shared.contact;
-  contact.weights = {};
-  out.body = plane.body;
-  if (plane.body >= 0) contact.firmness = body_firmness;
-  std::size_t count = 0;
-  Vec3d apart;
+                                         std::span<const MovingCloth> moving,
+                                         double time_step) const {
+  PlanePoints of;
   for (int k = 0; k < plane.count_a + plane.count_b; ++k) {
     if (!(plane.weights[k] > 0)) continue;
-    if (count == contact.samples.size()) return {};
-    const bool first = k < plane.count_a;
     const std::size_t cloth = world_.cloth_of(plane.points[k]);
-    (first ? out.shared.first : out.shared.second) = static_cast<int>(cloth);
-    const int sample = plane.points[k] - world_.cloths[cloth].first_point;
-    const int n = world_.cloths[cloth].properties.size;
-    const double weight = first ? plane.weights[k] : -plane.weights[k];
-    contact.samples[count] = sample;
-    contact.weights[count++] = static_cast<float>(weight);
+    const double weight = k < plane.count_a ? plane.weights[k] : -plane.weights[k];
+    of.points[of.count++] = {cloth, plane.points[k] - world_.cloths[cloth].first_point, weight};
+  }
+  StruckContact out;
+  Contact& contact = out.shared.contact;
+  if (of.count == 0 || of.count > contact.samples.size()) return {};
+  const Vec3d normal = of.put_in_order() ? -1.0 * plane.normal : plane.normal;
+  contact.weights = {};
+  Vec3d apart;
+  for (std::size_t k = 0; k < of.count; ++k) {
+    const auto& [cloth, sample, weight] = of.points[k];
+    (weight > 0 ? out.shared.first : out.shared.second) = static_cast<int>(cloth);
+    contact.samples[k] = sample;
+    contact.weights[k] = static_cast<float>(weight);
     apart += weight * vec_cast<double>(moving[cloth].start.at(sample));
+    const int n = world_.cloths[cloth].properties.size;
     out.compliance += weight * weight * moving[cloth].inverse_mass(sample / n, sample % n);
   }
-  if (plane.body >= 0) out.shared.second = out.shared.first;
-  const auto first = static_cast<std::size_t>(out.shared.first),
-             second = static_cast<std::size_t>(out.shared.second);
-  const CollidingCloth &a = world_.cloths[first].properties, &b = world_.cloths[second].properties;
-  const double distance = dot(plane.normal, apart - plane.body_point);
-  const bool before_body = plane.body >= 0;
-  const double gap = before_body ? a.thickness : world_.gap_between(first, second);
-  contact.normal = vec_cast<float>(plane.normal);
-  contact.offset =
-      static_cast<float>(std::min(gap, distance) +
-                         dot(plane.normal, plane.body_point + plane.body_point_displacement));
-  contact.surface_displacement = vec_cast<float>(plane.body_point_displacement);
-  contact.friction = static_cast<float>(pair_friction(
-      a.friction,
-      before_body ? world_.bodies[static_cast<std::size_t>(plane.body)].friction : b.friction));
+  out.body = plane.body;
+  hold_apart(plane, normal, dot(normal, apart - plane.body_point), out);
+  out.body_velocity = vec_cast<float>((1 / time_step) * plane.body_point_displacement);
   return out;
 }
 
+/// @param distance  of the closest points at the start of the step
+void StruckContacts::hold_apart(const SeparatingPlane& plane, Vec3d normal, double distance,
+                                StruckContact& out) const {
+  Contact& contact = out.shared.contact;
+  const bool before_body = plane.body >= 0;
+  if (before_body) out.shared.second = out.shared.first;
+  const auto first = static_cast<std::size_t>(out.shared.first),
+             second = static_cast<std::size_t>(out.shared.second);
+  const CollidingCloth &a = world_.cloths[first].properties, &b = world_.cloths[second].properties;
+  const double gap = before_body ? a.thickness : world_.gap_between(first, second);
+  contact.normal = vec_cast<float>(normal);
+  contact.offset = static_cast<float>(std::min(gap, distance) + dot(normal, plane.body_point));
+  if (before_body) contact.firmness = body_firmness;
+  contact.friction = static_cast<float>(pair_friction(
+      a.friction,
+      before_body ? world_.bodies[static_cast<std::size_t>(plane.body)].friction : b.friction));
+}
+
 void StruckContacts::add(std::span<const SeparatingPlane> planes,
-                         std::span<const MovingCloth> moving,
+                         std::span<const MovingCloth> moving, double time_step,
                          std::vector<StruckContact>& out) const {
   for (const SeparatingPlane& plane : planes) {
-    const StruckContact one = contact_of(plane, moving);
+    const StruckContact one = contact_of(plane, moving, time_step);
     if (one.compliance > 0) out.push_back(one);
   }
   std::sort(out.begin(), out.end(), before);
@@ -93,22 +131,27 @@ void StruckContacts::add(std::span<const SeparatingPlane> planes,
 }
 
 bool StruckContacts::learn(std::span<const SeparatingPlane> planes,
-                           std::span<const MovingCloth> moving) {
+                           std::span<const MovingCloth> moving, double time_step) {
   const std::size_t known = found_.size();
-  add(planes, moving, found_);
+  add(planes, moving, time_step, found_);
   return found_.size() > known;
 }
 
 void StruckContacts::keep(std::span<const SeparatingPlane> planes,
-                          std::span<const MovingCloth> moving) {
+                          std::span<const MovingCloth> moving, double time_step) {
   kept_.clear();
-  add(planes, moving, kept_);
-  std::erase_if(kept_, [&](const StruckContact& one) { return has_slid(one, moving); });
+  add(planes, moving, time_step, kept_);
+  std::erase_if(kept_, [&](const StruckContact& one) { return has_slid(one, moving, time_step); });
+  for (StruckContact& one : kept_) {
+    Contact& contact = one.shared.contact;
+    contact.offset += static_cast<float>(time_step) * dot(contact.normal, one.body_velocity);
+  }
 }
 
-bool StruckContacts::has_slid(const StruckContact& one, std::span<const MovingCloth> moving) const {
+bool StruckContacts::has_slid(const StruckContact& one, std::span<const MovingCloth> moving,
+                              double time_step) const {
   const SharedContact& shared = one.shared;
-  Vec3d way;
+  Vec3d way = -time_step * vec_cast<double>(one.body_velocity);
   for (std::size_t k = 0; k < shared.contact.samples.size(); ++k) {
     const float weight = shared.contact.weights[k];
     const MovingCloth& cloth =
@@ -124,10 +167,6 @@ bool StruckContacts::has_slid(const StruckContact& one, std::span<const MovingCl
 void StruckContacts::commit() {
   found_.swap(kept_);
   kept_.clear();
-  // Where a body that moves will be in the next step is not known here.
-  std::erase_if(found_, [](const StruckContact& one) {
-    return !(one.shared.contact.surface_displacement == Vec3f{});
-  });
 }
 
 void StruckContacts::clear() {

@@ -15,7 +15,7 @@ namespace weft {
 /// the search for contacts leaves to the filter: triangles that a cloth without shear stiffness
 /// folds onto their neighbours, and the other sides of creases, in a body and in the cloth. Valid
 /// for the step whose planes they are made from, with the same start and length; kept ones for the
-/// next step, too.
+/// next step, too, in which a body that moves is taken to go on as it did.
 class StruckContacts {
  public:
   /// @param world  kept by reference
@@ -23,10 +23,12 @@ class StruckContacts {
 
   /// Adds contacts for planes that moved points.
   /// @return whether any of them was not known
-  bool learn(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving);
+  bool learn(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
+             double time_step);
   /// Keeps contacts for the planes that moved points in a step, where their sides hardly moved
   /// relative to each other, and forgets those of other steps.
-  void keep(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving);
+  void keep(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
+            double time_step);
   /// Goes on to the next step, with what was kept.
   void commit();
   void clear();
@@ -34,11 +36,15 @@ class StruckContacts {
 
  private:
   void add(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
-           std::vector<StruckContact>& out) const;
+           double time_step, std::vector<StruckContact>& out) const;
   /// Whether its sides moved relative to each other in the step, or the one before a resting body.
-  [[nodiscard]] bool has_slid(const StruckContact& one, std::span<const MovingCloth> moving) const;
+  [[nodiscard]] bool has_slid(const StruckContact& one, std::span<const MovingCloth> moving,
+                              double time_step) const;
   [[nodiscard]] StruckContact contact_of(const SeparatingPlane& plane,
-                                         std::span<const MovingCloth> moving) const;
+                                         std::span<const MovingCloth> moving,
+                                         double time_step) const;
+  void hold_apart(const SeparatingPlane& plane, Vec3d normal, double distance,
+                  StruckContact& out) const;
 
   const CollisionWorld& world_;
   std::vector<StruckContact> found_, kept_;  // by samples and cloths, each once

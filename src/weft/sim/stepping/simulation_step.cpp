@@ -47,10 +47,11 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
         continue;
       }
     }
-    const Tried tried = try_step(seconds,
-                                 {walk.may_halve(), driven.any_moves() && walk.may_halve_fallen(),
-                                  may_solve_again() && repeats < max_repeats},
-                                 report);
+    const Tried tried = try_step(
+        seconds,
+        {walk.may_halve(), walk.may_halve_wild(), driven.any_moves() && walk.may_halve_fallen(),
+         may_solve_again() && repeats < max_repeats},
+        report);
     if (tried.refused) refuse_step();
     if (tried.repeat) {
       ++repeats;
@@ -72,8 +73,8 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
   gather_moving();
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tried.contacts += correct(i, movers[i].integrator->proposal(), report);
-  tried.refused =
-      !stability.check_proposals({frame, time_step, seconds}, choices.halve && watched, solvers());
+  tried.refused = !stability.check_proposals({frame, time_step, seconds},
+                                             choices.halve_wild && watched, solvers());
   if (tried.refused) return tried;
   for (std::size_t i = 0; i < cloths.size(); ++i)
     garments.close(i, movers[i].integrator->proposal());
@@ -137,7 +138,8 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   const bool bad =
       fallen || added.too_much || (!sewing_now && energy.solve_is_lost(time_step / substep_time));
   const bool halve = fallen ? choices.refuses_fallen() : choices.halve;
-  tried.repeat = bad && !sewing_now && !halve && choices.repeat && collider->learn_struck(moving);
+  tried.repeat =
+      bad && !sewing_now && !halve && choices.repeat && collider->learn_struck(moving, time_step);
   tried.refused = tried.repeat || (bad && halve);
   tried.verdict = fallen       ? StepVerdict::fallen
                   : bad        ? StepVerdict::forced
