@@ -119,9 +119,6 @@ namespace {
 constexpr double poisson_ratio = 0.25;
 /// A triangle is a sliver if twice its area over its longest squared edge is below this.
 constexpr double min_fatness = 0.05;
-/// Cosine of 60 degrees. A border that turns by less at a corner of its chart is smooth there in
-/// the rest shape.
-constexpr double smooth_turn = 0.5;
 
 /// The gradient of a linear function on a triangle: sum of factor times value.
 struct Gradient {
@@ -219,7 +216,7 @@ class FreeBorders {
     const Vec3d here = place(sample);
     const Vec3d a = normalized(place(mates_.sample_at(before)) - here);
     const Vec3d b = normalized(place(mates_.sample_at(after)) - here);
-    return -dot(a, b) < smooth_turn ? round : inward;
+    return -dot(a, b) < corner_cosine ? round : inward;
   }
 
   [[nodiscard]] std::optional<Gradient> gradient(int a, int b, int c) const {

@@ -7,6 +7,11 @@
 
 namespace weft {
 
+/// Cosine of 60 degrees. A border that turns by more has a corner, where the second derivative
+/// along it means nothing; one that turns by less at a corner of its chart is smooth there in the
+/// rest shape.
+constexpr double corner_cosine = 0.5;
+
 /// A grid neighbour of one of a particle's samples, with its stencil weight.
 struct Neighbour {
   int sample = 0, place = 0;  ///< sample of the class; index of the weight plane

@@ -42,9 +42,6 @@ constexpr double diagonal_cost = 4, across_border_cost = 100;
 constexpr double straight_enough = 1e-4;
 /// Weights are bounded by those of a regular grid with this fraction of the mean spacing.
 constexpr double min_spacing = 0.05;
-/// Cosine of 60 degrees. A border that turns by more has a corner, where the second derivative
-/// along it means nothing.
-constexpr double corner_turn = 0.5;
 
 /// Target weight of a neighbour for the second difference along its line, 2 / (l (l + l')), with l
 /// and l' the distances of this and the opposite neighbour in mean edges.
@@ -66,7 +63,7 @@ Vec3d border_direction(const Surroundings& around) {
     if (at.border) ends.push_back(&at);
   if (ends.size() != 2) return {};
   const Vec3d a = normalized(ends[0]->edge), b = normalized(ends[1]->edge);
-  return -dot(a, b) < corner_turn ? Vec3d{} : normalized(b - a);
+  return -dot(a, b) < corner_cosine ? Vec3d{} : normalized(b - a);
 }
 
 /// The axes of a tangent plane; none where the neighbours span no plane.

@@ -64,6 +64,7 @@ inline ConstRow3 row_of(const Planes3& planes, int r) {
 inline Row3 row_of(Planes3& planes, int r) {
   return {planes.x.row(r), planes.y.row(r), planes.z.row(r)};
 }
+/// Sets a row of `size` samples to zero.
 inline void clear(Row3 row, int size) {
   for (float* values : {row.x, row.y, row.z}) std::fill(values, values + size, 0.0F);
 }

@@ -135,8 +135,8 @@ class Collider {
   /// Filters the proposals before a solve, so that it starts without intersections. Velocities and
   /// marks stay unchanged.
   /// @return number of points moved; 0 for methods without a filter
-  virtual int filter_guess(std::span<const MovingCloth> /*cloths*/, double /*time_step*/,
-                           ThreadTeam& /*team*/) noexcept {
+  virtual int filter_guess(std::span<const MovingCloth> /*cloths*/,
+                           [[maybe_unused]] double time_step, ThreadTeam& /*team*/) noexcept {
     return 0;
   }
   /// Contact response after the solve: pushes penetrating samples out, removes their inward
@@ -154,9 +154,10 @@ class Collider {
                               ThreadTeam& team, FilterEnd end = FilterEnd::whole) noexcept = 0;
   /// Adds contacts for what the last filter had to hold back to what the next detect of the same
   /// step finds, until a commit. The step must have been rolled back, not shortened.
+  /// @param time_step  its length [s]
   /// @return whether any of them was not known
   virtual bool learn_struck(std::span<const MovingCloth> /*cloths*/,
-                            double /*time_step*/) noexcept {
+                            [[maybe_unused]] double time_step) noexcept {
     return false;
   }
   /// Accepts the step: bodies stay at its end.

@@ -7,6 +7,7 @@ namespace weft {
 
 // A geometry image is its own mip pyramid: the next coarser level holds every second sample.
 
+/// Samples a side of the coarsest level.
 constexpr int min_level_size = 3;
 
 /// Whether every second border sample keeps its mates: all intervals begin and end on even places.

@@ -101,7 +101,6 @@ StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
   return out;
 }
 
-/// @param distance  of the closest points at the start of the step
 void StruckContacts::hold_apart(const SeparatingPlane& plane, Vec3d normal, double distance,
                                 StruckContact& out) const {
   Contact& contact = out.shared.contact;

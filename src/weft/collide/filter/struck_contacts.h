@@ -21,6 +21,8 @@ class StruckContacts {
   /// @param world  kept by reference
   explicit StruckContacts(const CollisionWorld& world) : world_(world) {}
 
+  // Planes and proposals are those of a step of the length `time_step` [s].
+
   /// Adds contacts for planes that moved points.
   /// @return whether any of them was not known
   bool learn(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
@@ -37,12 +39,15 @@ class StruckContacts {
  private:
   void add(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
            double time_step, std::vector<StruckContact>& out) const;
-  /// Whether its sides moved relative to each other in the step, or the one before a resting body.
+  /// Whether its sides moved relative to each other in the step.
   [[nodiscard]] bool has_slid(const StruckContact& one, std::span<const MovingCloth> moving,
                               double time_step) const;
   [[nodiscard]] StruckContact contact_of(const SeparatingPlane& plane,
                                          std::span<const MovingCloth> moving,
                                          double time_step) const;
+  /// Gives a contact the normal, offset and friction of its pair.
+  /// @param normal    of the plane, towards the contact's first side
+  /// @param distance  of the closest points at the start of the step [m]
   void hold_apart(const SeparatingPlane& plane, Vec3d normal, double distance,
                   StruckContact& out) const;
 

@@ -11,7 +11,6 @@ namespace {
 
 /// Largest level that is factored: 192 rows, which take some 0.1 ms.
 constexpr int max_particles = 64;
-constexpr double held = 1e30;
 
 }  // namespace
 
@@ -81,7 +80,7 @@ void BlockFactor::renew(const FilterLevel& level) {
   for (std::size_t i = 0; i < sample_of_.size(); ++i) {
     const int s = sample_of_[i], first = 3 * static_cast<int>(i);
     if (level.inverse_diagonal(s / n, s % n) > 0) continue;
-    for (int a = 0; a < 3; ++a) entry(first + a, first + a) = held;
+    for (int a = 0; a < 3; ++a) entry(first + a, first + a) = held_diagonal;
   }
   factor();
 }

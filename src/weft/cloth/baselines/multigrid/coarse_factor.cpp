@@ -25,9 +25,6 @@ void for_each_edge(const FilterLevel& level, const Use& use) {
   }
 }
 
-/// Diagonal entry that fixes a holding particle.
-constexpr double holding = 1e30;
-
 }  // namespace
 
 CoarseFactor::CoarseFactor(const FilterLevel& level) {
@@ -98,7 +95,7 @@ void CoarseFactor::assemble(const FilterLevel& level) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const int s = sample_of_[i];
     const int row = static_cast<int>(i);
-    if (level.inverse_diagonal(s / n, s % n) == 0) entry(row, row) = holding;
+    if (level.inverse_diagonal(s / n, s % n) == 0) entry(row, row) = held_diagonal;
   }
 }
 

@@ -9,6 +9,9 @@
 
 namespace weft {
 
+/// Diagonal entry that fixes a held particle.
+constexpr double held_diagonal = 1e30;
+
 /// One level of the filter's pyramid: A = M / h^2 + held + sum k (edge Laplacian), a scalar
 /// operator that acts alike on each coordinate. Like forces, its rows are stored as each sample's
 /// own part; a particle's row is the sum over its mates.
