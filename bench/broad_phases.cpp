@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "bench/bounding_volumes.h"
+#include "bench/command_line.h"
 #include "weft/cloth/cloth.h"
 #include "weft/collide/baselines/image_space_pairs.h"
 #include "weft/collide/baselines/spatial_hash.h"
@@ -226,30 +226,24 @@ void measure_scene(const std::string& file, int frames, int size) {
   print_row(name, "oriented boxes", measure_volumes<Oriented>(moment));
 }
 
-int run(int argc, char** argv) {
-  std::vector<std::string> files;
-  int frames = 60, size = 129;
-  CLI::App program{"What finds pairs of cells that may meet, by what is left and what it costs."};
-  program.add_option("scenes", files, "Scene files")->required();
-  program.add_option("--frames", frames, "After so many")->capture_default_str();
-  program.add_option("--size", size, "Samples a side of cloths")->capture_default_str();
-  CLI11_PARSE(program, argc, argv);
+void measure(const std::vector<std::string>& files, int frames, int size) {
   fmt::print("Cloths of {0} x {0} samples, after frame {1}; one thread.\n\n", size, frames);
   fmt::print(
       "| scene | by | pairs of cells | tests of volumes | fit ms | find ms |\n"
       "|---|---|---|---|---|---|\n");
   for (const std::string& file : files) measure_scene(file, frames, size);
-  return 0;
 }
 
 }  // namespace
 }  // namespace weft::bench
 
 int main(int argc, char** argv) {
-  try {
-    return weft::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "bench: error: {}\n", error.what());
-    return 1;
-  }
+  std::vector<std::string> files;
+  int frames = 60, size = 129;
+  weft::bench::CommandLine words{
+      "What finds pairs of cells that may meet, by what is left and what it costs."};
+  words.add("scenes", &files, "Scene files");
+  words.add("--frames", &frames, "After so many");
+  words.add("--size", &size, "Samples a side of cloths");
+  return words.run(argc, argv, [&] { weft::bench::measure(files, frames, size); });
 }

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/command_line.h"
 #include "tests/cloth/cut_sheet.h"
 #include "tests/cloth/newton_system.h"
 #include "weft/simulation.h"
@@ -163,16 +163,9 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   weft::bench::Options options;
-  CLI::App words{"A sheet in charts beside the uncut one"};
-  words.add_option("--size", options.size, "Samples a side of the uncut sheet");
-  words.add_option("--frames", options.frames);
-  words.add_option("--threads", options.threads);
-  CLI11_PARSE(words, argc, argv);
-  try {
-    weft::bench::run(options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  return 0;
+  weft::bench::CommandLine words{"A sheet in charts beside the uncut one"};
+  words.add("--size", &options.size, "Samples a side of the uncut sheet");
+  words.add("--frames", &options.frames);
+  words.add("--threads", &options.threads);
+  return words.run(argc, argv, [&] { weft::bench::run(options); });
 }

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/command_line.h"
 #include "weft/error.h"
 #include "weft/fabric.h"
 
@@ -39,11 +39,15 @@ std::string discs_of(const DrapeResult& result) {
   return text;
 }
 
-int run(const Args& args) {
+void measure(const Args& args) {
   DrapeTestOptions options = args.test;
-  if (args.integrator == "implicit") options.integrator = ImplicitOptions{};
-  if (args.integrator == "tight")
+  if (args.integrator == "implicit") {
+    options.integrator = ImplicitOptions{};
+  } else if (args.integrator == "tight") {
     options.integrator = NewtonOptions{.max_iterations = 100, .tolerance = 1e-3};
+  } else if (!args.integrator.empty()) {
+    throw UsageError("--integrator", args.integrator, "tight or implicit is wanted");
+  }
   Material material = material_of(args);
   const auto start = std::chrono::steady_clock::now();
   DrapeResult result;
@@ -61,36 +65,24 @@ int run(const Args& args) {
              material.density, material.bending.warp, material.bending.weft, result.coefficient,
              result.spread, result.folds(), result.kinetic_energy, discs_of(result),
              seconds.count());
-  return 0;
-}
-
-int parse_and_run(int argc, char** argv) {
-  Args args;
-  CLI::App program{"Drapes discs of a fabric over Cusick's support and prints one JSON object."};
-  program.add_option("--material", args.name, "A name of docs/materials.md; else:");
-  program.add_option("--mass", args.mass, "Of a square metre [g]");
-  program.add_option("--bending", args.bending, "B [uN m]");
-  program.add_option("--fit", args.fit, "Find B of this drape coefficient [%]");
-  program.add_option("--size", args.test.size, "Samples a side")->capture_default_str();
-  program.add_option("--starts", args.test.starts, "Discs")->capture_default_str();
-  program.add_option("--seconds", args.test.seconds, "Of a run, at most")->capture_default_str();
-  program
-      .add_option("--integrator", args.integrator,
-                  "The library's default; the same with a hundredth of its tolerance (tight); or "
-                  "implicit")
-      ->check(CLI::IsMember({"", "tight", "implicit"}));
-  CLI11_PARSE(program, argc, argv);
-  return run(args);
 }
 
 }  // namespace
 }  // namespace weft::bench
 
 int main(int argc, char** argv) {
-  try {
-    return weft::bench::parse_and_run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "bench: error: {}\n", error.what());
-    return 1;
-  }
+  weft::bench::Args args;
+  weft::bench::CommandLine words{
+      "Drapes discs of a fabric over Cusick's support and prints one JSON object."};
+  words.add("--material", &args.name, "A name of docs/materials.md; else:");
+  words.add("--mass", &args.mass, "Of a square metre [g]");
+  words.add("--bending", &args.bending, "B [uN m]");
+  words.add("--fit", &args.fit, "Find B of this drape coefficient [%]");
+  words.add("--size", &args.test.size, "Samples a side");
+  words.add("--starts", &args.test.starts, "Discs");
+  words.add("--seconds", &args.test.seconds, "Of a run, at most");
+  words.add(
+      "--integrator", &args.integrator,
+      "The library's default; the same with a hundredth of its tolerance (tight); or implicit");
+  return words.run(argc, argv, [&] { weft::bench::measure(args); });
 }

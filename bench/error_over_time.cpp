@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <functional>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/command_line.h"
 #include "bench/hanging_sheet.h"
 #include "weft/fabric.h"
 
@@ -153,17 +152,12 @@ void measure(const Args& args) {
 }  // namespace
 }  // namespace weft::bench
 
-int main(int argc, char** argv) try {
+int main(int argc, char** argv) {
   weft::bench::Args args;
-  CLI::App program{"Error of every method against a converged run, over its time."};
-  program.add_option("--size", args.size, "Samples a side")->capture_default_str();
-  program.add_option("--fabric", args.fabric, "A named one, instead of the sheet's own");
-  program.add_option("--threads", args.threads)->capture_default_str();
-  program.add_option("--repeats", args.repeats, "Runs whose median time counts")
-      ->capture_default_str();
-  CLI11_PARSE(program, argc, argv);
-  weft::bench::measure(args);
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "bench: error: %s\n", error.what());
-  return 1;
+  weft::bench::CommandLine words{"Error of every method against a converged run, over its time."};
+  words.add("--size", &args.size, "Samples a side");
+  words.add("--fabric", &args.fabric, "A named one, instead of the sheet's own");
+  words.add("--threads", &args.threads);
+  words.add("--repeats", &args.repeats, "Runs whose median time counts");
+  return words.run(argc, argv, [&] { weft::bench::measure(args); });
 }

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/command_line.h"
 #include "bench/hanging_sheet.h"
 #include "weft/cloth/baselines/coarse_limit.h"
 #include "weft/cloth/baselines/multigrid/multigrid_preconditioner.h"
@@ -225,15 +224,12 @@ void measure(const std::vector<int>& sizes, int threads) {
 }  // namespace
 }  // namespace weft::bench
 
-int main(int argc, char** argv) try {
+int main(int argc, char** argv) {
   std::vector<int> sizes{41, 65, 81, 129, 257, 513, 1025};
   int threads = 1;
-  CLI::App program{"Cost of the inner loops of stepping, beside the memory's bandwidth."};
-  program.add_option("--sizes", sizes, "Samples a side")->delimiter(',')->capture_default_str();
-  program.add_option("--threads", threads)->capture_default_str();
-  CLI11_PARSE(program, argc, argv);
-  weft::bench::measure(sizes, threads);
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "bench: error: %s\n", error.what());
-  return 1;
+  weft::bench::CommandLine words{
+      "Cost of the inner loops of stepping, beside the memory's bandwidth."};
+  words.add("--sizes", &sizes, "Samples a side");
+  words.add("--threads", &threads);
+  return words.run(argc, argv, [&] { weft::bench::measure(sizes, threads); });
 }

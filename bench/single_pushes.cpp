@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/command_line.h"
 #include "bench/exact_inside.h"
 #include "weft/collide/baselines/polar_map.h"
 #include "weft/collide/contacts/body_query.h"
@@ -170,22 +170,22 @@ void measure(const std::string& path) {
     print_row(name, method, truth, points);
 }
 
-}  // namespace
-}  // namespace weft::bench
-
-int main(int argc, char** argv) try {
-  std::vector<std::string> names;
-  CLI::App program{
-      "What single pushes out of bodies come to, by the paper's method and the default."};
-  program.add_option("SURFACE", names, "Meshes or builtin:NAME")->required();
-  CLI11_PARSE(program, argc, argv);
+void print_table(const std::vector<std::string>& names) {
   fmt::print(
       "| body | method | inside, missed % | still inside after the push %, gap 0.1 mm | the same, "
       "gap 2 mm | "
       "pushed more than twice as far as needed % | largest push / needed "
       "|\n|---|---|---|---|---|---|---|\n");
-  for (const std::string& name : names) weft::bench::measure(name);
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "bench: error: %s\n", error.what());
-  return 1;
+  for (const std::string& name : names) measure(name);
+}
+
+}  // namespace
+}  // namespace weft::bench
+
+int main(int argc, char** argv) {
+  std::vector<std::string> names;
+  weft::bench::CommandLine words{
+      "What single pushes out of bodies come to, by the paper's method and the default."};
+  words.add("SURFACE", &names, "Meshes or builtin:NAME");
+  return words.run(argc, argv, [&] { weft::bench::print_table(names); });
 }

@@ -6,14 +6,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
-#include <exception>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/command_line.h"
 #include "bench/solver_log.h"
 #include "bench/solver_tables.h"
 #include "bench/tight_solver.h"
@@ -300,27 +299,19 @@ void measure(const Args& args) {
 }  // namespace
 }  // namespace weft::bench
 
-int main(int argc, char** argv) try {
+int main(int argc, char** argv) {
   weft::bench::Args args;
-  CLI::App program{"A hanging sheet by an integrator, against steps solved to the end in double."};
-  program.add_option("--sizes", args.sizes, "Samples a side")
-      ->delimiter(',')
-      ->capture_default_str();
-  program.add_option("--integrator", args.integrator, "newton, multigrid or implicit")
-      ->capture_default_str();
-  program.add_option("--random", args.random, "So many materials by chance instead of fabrics");
-  program.add_option("--seed", args.seed, "Of the first of them")->capture_default_str();
-  program.add_option("--iterations", args.iterations, "So many, instead of the defaults");
-  program.add_option("--stop", args.stop, "The integrator's tolerance, instead of the default");
-  program.add_option("--tolerance", args.tolerance, "Of the tight solve's last move [m]")
-      ->capture_default_str();
-  program.add_option("--jobs", args.jobs, "Trials at a time")->capture_default_str();
-  program.add_option("--done", args.done,
-                     "A file of finished trials: read if it is there, and added to");
-  program.add_flag("--fast", args.fast, "Three fabrics");
-  CLI11_PARSE(program, argc, argv);
-  weft::bench::measure(args);
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "bench: error: %s\n", error.what());
-  return 1;
+  weft::bench::CommandLine words{
+      "A hanging sheet by an integrator, against steps solved to the end in double."};
+  words.add("--sizes", &args.sizes, "Samples a side");
+  words.add("--integrator", &args.integrator, "newton, multigrid or implicit");
+  words.add("--random", &args.random, "So many materials by chance instead of fabrics");
+  words.add("--seed", &args.seed, "Of the first of them");
+  words.add("--iterations", &args.iterations, "So many, instead of the defaults");
+  words.add("--stop", &args.stop, "The integrator's tolerance, instead of the default");
+  words.add("--tolerance", &args.tolerance, "Of the tight solve's last move [m]");
+  words.add("--jobs", &args.jobs, "Trials at a time");
+  words.add("--done", &args.done, "A file of finished trials: read if it is there, and added to");
+  words.add("--fast", &args.fast, "Three fabrics");
+  return words.run(argc, argv, [&] { weft::bench::measure(args); });
 }

@@ -18,8 +18,8 @@ import psutil
 
 
 class BatchSurvives(BatchTest):
-    JOBS = [conversion("knot", 129), conversion("knot", 97), conversion("tshirt", 97), conversion("mannequin", 65),
-            conversion("torus", 129), drape("mannequin", 6, 33), conversion("torus")]
+    JOBS = [conversion("knot", 129), conversion("tshirt", 97), conversion("double_torus", 65), conversion("sphere", 65),
+            conversion("torus", 129), drape("torus", 6, 33), conversion("torus")]
 
     def workers_at_work(self, process):
         """Of a batch: processes whose child is the program."""
@@ -60,7 +60,7 @@ class BatchSurvives(BatchTest):
             self.assertEqual(row["hash"], self.single_hash(job))
 
     def test_tasks_side_by_side_leave_each_other_alone(self):
-        slow, others = drape("mannequin", 6, 33), [conversion("torus"), conversion("sphere"), conversion("knot")]
+        slow, others = drape("torus", 6, 33), [conversion("torus"), conversion("sphere"), conversion("knot")]
         jobs = self.write_jobs(others[0], others[1], slow, others[2])
         store = ("-o", "out", "--store", "hdf5", "--workers", 1)
         task = self.begin(jobs, *store, "--part", "0/2")

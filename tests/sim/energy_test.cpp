@@ -266,8 +266,8 @@ int compare_refused(Scene scene, int frames) {
 }
 
 TEST(StepEnergy, RefusedStepsLeaveNoTrace) {
-  EXPECT_GT(compare_refused(set_down(), 14), 0);
-  EXPECT_GT(compare_refused(set_down_on_ball(), 14), 0);
+  EXPECT_GT(compare_refused(set_down(), 8), 0);
+  EXPECT_GT(compare_refused(set_down_on_ball(), 8), 0);
 }
 
 TEST(StepEnergy, ARunGoesOnInTheSameBitsAcrossRefusedSteps) {
@@ -299,7 +299,10 @@ TEST(StepEnergy, TeamsOfAnySizeRefuseTheSameSteps) {
     Scene scene = set_down();
     scene.cloths[0].size = 97;  // shared by the team
     Simulation simulation(scene, "set down", threads);
-    run(simulation, 7);
+    run(simulation, 3);
+    SimulationState state;
+    simulation.save(state);
+    EXPECT_GT(state.levels.first, 0);  // the last step was refused as a whole
     return simulation.state_hash();
   };
   const std::string one = hash(1);
