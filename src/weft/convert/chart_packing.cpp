@@ -1,12 +1,10 @@
 #include "weft/convert/chart_packing.h"
 
 #include <algorithm>
-#include <array>
-#include <climits>
 #include <cmath>
-#include <deque>
 #include <numeric>
 
+#include "weft/image/skyline.h"
 #include "weft/param/chart_shape.h"
 
 namespace weft {
@@ -16,40 +14,13 @@ constexpr int unit = 4;
 
 int whole_side(double side) { return unit * static_cast<int>(side / unit) + 1; }
 
-/// What is taken of an image, in units: of each column how far down.
-class Skyline {
- public:
-  explicit Skyline(int width) : depth_(static_cast<std::size_t>(width), 0) {}
-
-  /// Takes a rectangle as high up as there is room for it, there as far left.
-  /// @return its column and row, in units
-  std::array<int, 2> take(int width, int height) {
-    int best_col = 0, best_row = INT_MAX;
-    // The columns of the window whose depth no later one reaches, deepest first.
-    std::deque<int> deepest;
-    for (int c = 0; c < static_cast<int>(depth_.size()); ++c) {
-      while (!deepest.empty() && depth_[deepest.back()] <= depth_[c]) deepest.pop_back();
-      deepest.push_back(c);
-      if (deepest.front() <= c - width) deepest.pop_front();
-      if (c + 1 < width || depth_[deepest.front()] >= best_row) continue;
-      best_row = depth_[deepest.front()];
-      best_col = c + 1 - width;
-    }
-    for (int c = best_col; c < best_col + width; ++c) depth_[c] = best_row + height;
-    return {best_col, best_row};
-  }
-
- private:
-  std::vector<int> depth_;
-};
-
 /// Whole, with what parts it from the next. [units]
 int units_of(int samples) { return (samples + unit - 2) / unit + 1; }
 
 /// In the given order.
 std::optional<std::vector<Chart>> pack_in(std::span<const int> order,
                                           std::span<const ChartSize> sizes, int size) {
-  const int width = (size - 1) / unit + 1;
+  const int width = (size - 1) / unit + 1;  // in units, as all of the skyline
   Skyline skyline(width);
   std::vector<Chart> charts(sizes.size());
   for (const int k : order) {

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -7,7 +10,7 @@
 #include "weft/garment.h"
 #include "weft/garment/grid_map.h"
 #include "weft/garment/panel_outline.h"
-#include "weft/garment/panel_packing.h"
+#include "weft/image/skyline.h"
 
 namespace weft {
 namespace {
@@ -39,6 +42,31 @@ PanelHold hold_of(const PatternPanel& panel) {
       hold =
           std::max(hold, edge.label == "lower_interface" ? PanelHold::waist : PanelHold::shoulders);
   return hold;
+}
+
+/// Places a rectangle for each panel in the smallest square image that they fit in one after the
+/// other, the highest first, with at least two samples between them (LevelLayout::gap).
+/// @return in the panels' order, without names  @param size  set to the image's
+std::vector<Chart> pack_panels(std::span<const PanelOutline> outlines, int& size) {
+  constexpr int gap = 2;
+  std::vector<int> order(outlines.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return outlines[a].rows > outlines[b].rows; });
+  std::vector<Chart> charts(outlines.size());
+  size = min_image_size;
+  for (const PanelOutline& outline : outlines) size = std::max({size, outline.rows, outline.cols});
+  const auto place_all = [&] {
+    Skyline skyline(size + gap);
+    return std::all_of(order.begin(), order.end(), [&](int k) {
+      const PanelOutline& outline = outlines[k];
+      const auto [col, row] = skyline.take(outline.cols + gap, outline.rows + gap);
+      charts[k] = {"", row, col, outline.rows, outline.cols};
+      return row + outline.rows <= size;
+    });
+  };
+  while (!place_all()) ++size;
+  return charts;
 }
 
 class Maker {

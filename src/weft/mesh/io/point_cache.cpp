@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <system_error>
 
@@ -14,12 +15,12 @@
 #include "weft/mesh/io/line_reader.h"
 #include "weft/mesh/io/mesh_sequence.h"
 #include "weft/mesh/io/motion_files.h"
+#include "weft/mesh/io/pc2_header.h"
 
 namespace weft {
 namespace {
 
-constexpr std::string_view pc2_signature{"POINTCACHE2\0", 12};
-constexpr std::size_t pc2_header = 32, mdd_header = 8;
+constexpr std::size_t mdd_header = 8;
 constexpr std::size_t word = 4, point_size = 3 * word;
 
 /// The counts of points and samples in a header.
@@ -74,16 +75,17 @@ void read_points(std::string_view bytes, std::string_view name, bool big_endian,
 }  // namespace
 
 PointCache parse_pc2(std::string_view bytes, std::string_view name) {
-  if (bytes.size() < pc2_header || !bytes.starts_with(pc2_signature))
+  Pc2Header header;
+  if (bytes.size() >= sizeof(header)) std::memcpy(&header, bytes.data(), sizeof(header));
+  if (bytes.size() < sizeof(header) || !header.is_known())
     throw InputError(name, "does not begin as a PC2 file does", "a point cache is wanted");
-  const auto number = [&](std::size_t at) {
-    return load_integer<std::uint32_t>(bytes.substr(at), false);
-  };
-  if (number(12) != 1)
-    throw InputError(name, fmt::format("PC2 version {}", number(12)), "version 1 is wanted");
-  const CacheCounts counts{number(16), number(28)};
-  check_length(bytes, name, counts, pc2_header, 0);
-  const double step = load_float(bytes.substr(24), false);
+  const auto version = static_cast<std::uint32_t>(header.version);
+  if (version != 1)
+    throw InputError(name, fmt::format("PC2 version {}", version), "version 1 is wanted");
+  const CacheCounts counts{static_cast<std::uint32_t>(header.points),
+                           static_cast<std::uint32_t>(header.samples)};
+  check_length(bytes, name, counts, sizeof(header), 0);
+  const double step = header.step;
   if (!(step > 0 && step <= 1e6))
     throw InputError(name, fmt::format("{} frames between two samples", step),
                      "a number > 0 is wanted");
@@ -92,7 +94,7 @@ PointCache parse_pc2(std::string_view bytes, std::string_view name) {
   cache.times_in_frames = true;
   for (std::uint64_t k = 0; k < counts.samples; ++k)
     cache.times.push_back(step * static_cast<double>(k));
-  read_points(bytes.substr(pc2_header), name, false, cache);
+  read_points(bytes.substr(sizeof(header)), name, false, cache);
   return cache;
 }
 

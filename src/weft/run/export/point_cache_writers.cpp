@@ -1,7 +1,5 @@
 #include "weft/run/export/point_cache_writers.h"
 
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -13,6 +11,7 @@
 #include "weft/core/assert.h"
 #include "weft/error.h"
 #include "weft/files.h"
+#include "weft/mesh/io/pc2_header.h"
 #include "weft/run.h"
 #include "weft/run/bytes.h"
 #include "weft/run/export/motion_writer.h"
@@ -22,24 +21,6 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
-
-static_assert(std::endian::native == std::endian::little,
-              "PC2 is little-endian, written as it lies in memory");
-static_assert(sizeof(Vec3f) == 12);
-
-constexpr std::array<char, 12> signature{'P', 'O', 'I', 'N', 'T', 'C',
-                                         'A', 'C', 'H', 'E', '2', '\0'};
-constexpr std::int32_t version = 1;
-
-template <class T>
-void write_raw(std::ostream& out, T value) {
-  std::array<char, sizeof(T)> bytes;
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  out.write(bytes.data(), bytes.size());
-}
-
-constexpr std::uintmax_t pc2_header_bytes = 32;
-constexpr std::streamoff points_at = 16, frames_at = 28;
 
 fs::path unfinished(const fs::path& path) {
   return temporary_path(path, TemporaryName::of_the_file);
@@ -53,20 +34,16 @@ struct Left {
 
 Left examine(const fs::path& path, int frames, std::span<const Vec3f> last) {
   std::ifstream in(path, std::ios::binary);
-  std::array<char, pc2_header_bytes> header{};
-  if (!in.read(header.data(), header.size())) return {};
-  std::int32_t points = 0, told = 0;
-  std::memcpy(&points, header.data() + points_at, sizeof(points));
-  std::memcpy(&told, header.data() + frames_at, sizeof(told));
-  if (std::memcmp(header.data(), signature.data(), signature.size()) != 0 || frames < 1 ||
-      points != static_cast<std::int32_t>(last.size()))
+  Pc2Header header;
+  if (!in.read(reinterpret_cast<char*>(&header), sizeof(header)) || !header.is_known() ||
+      frames < 1 || header.points != static_cast<std::int32_t>(last.size()))
     return {};
   std::vector<Vec3f> found(last.size());
   const auto bytes = static_cast<std::streamoff>(last.size_bytes());
-  in.seekg(static_cast<std::streamoff>(pc2_header_bytes) + (frames - 1) * bytes);
+  in.seekg(static_cast<std::streamoff>(header.file_bytes(frames - 1)));
   if (!in.read(reinterpret_cast<char*>(found.data()), bytes)) return {};
   // Bits, not values: resuming gives the same file.
-  return {std::memcmp(found.data(), last.data(), last.size_bytes()) == 0, told};
+  return {std::memcmp(found.data(), last.data(), last.size_bytes()) == 0, header.samples};
 }
 
 }  // namespace
@@ -117,17 +94,12 @@ void Pc2Writer::fail() const {
 }
 
 std::uintmax_t Pc2Writer::bytes(int frames) const {
-  return pc2_header_bytes +
-         sizeof(Vec3f) * static_cast<std::uintmax_t>(points_) * static_cast<std::uintmax_t>(frames);
+  return Pc2Header{.points = points_}.file_bytes(frames);
 }
 
 void Pc2Writer::write_header() {
-  out_.write(signature.data(), signature.size());
-  write_raw(out_, version);
-  write_raw(out_, std::int32_t{points_});
-  write_raw(out_, 0.0F);  // first frame
-  write_raw(out_, 1.0F);  // frames between two samples
-  write_raw(out_, std::int32_t{frames_});
+  const Pc2Header header{.points = points_, .samples = frames_};
+  out_.write(reinterpret_cast<const char*>(&header), sizeof(header));
 }
 
 void Pc2Writer::add(std::span<const Vec3f> points) {
@@ -160,9 +132,9 @@ void Pc2Writer::finish() {
 bool is_whole_pc2(const fs::path& path, int frames, std::span<const Vec3f> last) {
   const Left left = examine(path, frames, last);
   std::error_code ignored;
+  const Pc2Header wanted{.points = static_cast<std::int32_t>(last.size())};
   return left.holds && left.frames == frames &&
-         fs::file_size(path, ignored) ==
-             pc2_header_bytes + last.size_bytes() * static_cast<std::uintmax_t>(frames);
+         fs::file_size(path, ignored) == wanted.file_bytes(frames);
 }
 
 void write_pc2(const fs::path& path, const PointCache& cache) {

@@ -1,18 +1,16 @@
 #include "weft/run/export/surface_points.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <numeric>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "weft/core/assert.h"
 #include "weft/error.h"
 #include "weft/geometry_image.h"
+#include "weft/mesh/io/pc2_header.h"
 
 namespace weft {
 
@@ -86,31 +84,23 @@ SurfacePoints sewn_points(const GeometryImage& image, const BorderMates& sewn) {
   for (int s = 0; s < samples; ++s) points.vertex_of[s] = points.vertex_of[sewn.representative(s)];
   return points;
 }
-namespace {
-
-constexpr std::streamoff cache_header_bytes = 32;
-
-}  // namespace
 
 PointFrames::PointFrames(const std::filesystem::path& path)
     : path_(path), in_(path, std::ios::binary) {
-  std::array<char, cache_header_bytes> header{};
-  if (!in_ || !in_.read(header.data(), header.size()) ||
-      std::string_view(header.data(), 11) != "POINTCACHE2")
+  Pc2Header header;
+  if (!in_ || !in_.read(reinterpret_cast<char*>(&header), sizeof(header)) || !header.is_known())
     throw InputError(path.string(), "no point cache", "a PC2 file is wanted");
-  std::int32_t points = 0, frames = 0;
-  std::memcpy(&points, header.data() + 16, 4);
-  std::memcpy(&frames, header.data() + 28, 4);
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-  const auto wanted = static_cast<std::uintmax_t>(cache_header_bytes) +
-                      12 * static_cast<std::uintmax_t>(std::max(points, 0)) * std::max(frames, 0);
-  if (points < 1 || frames < 0 || error || bytes != wanted)
-    throw InputError(path.string(),
-                     fmt::format("{} bytes for {} points and {} frames", bytes, points, frames),
-                     fmt::format("{} bytes are wanted", wanted));
-  points_ = points;
-  frames_ = frames;
+  const Pc2Header counted{.points = std::max(header.points, 0)};
+  const std::uintmax_t wanted = counted.file_bytes(std::max(header.samples, 0));
+  if (header.points < 1 || header.samples < 0 || error || bytes != wanted)
+    throw InputError(
+        path.string(),
+        fmt::format("{} bytes for {} points and {} frames", bytes, header.points, header.samples),
+        fmt::format("{} bytes are wanted", wanted));
+  points_ = header.points;
+  frames_ = header.samples;
 }
 
 std::vector<Vec3f> PointFrames::read(int frame) {
@@ -118,7 +108,7 @@ std::vector<Vec3f> PointFrames::read(int frame) {
   std::vector<Vec3f> points(static_cast<std::size_t>(points_));
   const auto bytes = static_cast<std::streamoff>(points.size() * sizeof(Vec3f));
   in_.clear();
-  in_.seekg(cache_header_bytes + frame * bytes);
+  in_.seekg(static_cast<std::streamoff>(Pc2Header{.points = points_}.file_bytes(frame)));
   if (!in_.read(reinterpret_cast<char*>(points.data()), bytes))
     throw InputError(path_.string(), "ends early", "a whole point cache is wanted");
   return points;
