@@ -35,7 +35,7 @@ COLUMNS = ("run", "jobs done once", "failures named", "hashes of single runs", "
 
 
 def jobs_of(meshes, sizes):
-    paths = sorted(p for p in meshes.glob("*") if p.suffix in (".obj", ".off", ".ply", ".stl", ".glb"))
+    paths = program.meshes_in(meshes, ())
     converted = [{"command": "convert", "mesh": str(path), "size": 33 + 32 * k} for path in paths for k in range(sizes)]
     converted += [{"command": "convert", "mesh": f"builtin:{shape}", "size": 17 + 2 * k} for shape in SHAPES for k in range(20)]
     draped = [{"command": "drape", "cloth": "builtin:sheet", "body": f"builtin:{body}", "size": size, "frames": 5}

@@ -3,8 +3,6 @@
 
 Usage: bench/meshes.py [--size N] [--meshes FOLDER] [--write] [NAME ...]
 """
-import argparse
-import pathlib
 import sys
 import tempfile
 
@@ -28,24 +26,5 @@ def row_of(path, size):
             f"{seconds['total']:.2f}", f"{seconds['measure']:.2f}"]
 
 
-def main():
-    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    words.add_argument("--size", type=int, default=257)
-    words.add_argument("--meshes", type=pathlib.Path, default=program.ROOT.parent / "shared/meshes")
-    words.add_argument("--write", action="store_true", help="renew the table of docs/measured.md")
-    words.add_argument("names", nargs="*")
-    options = words.parse_args()
-    paths = sorted(p for p in options.meshes.glob("*") if p.suffix in (".obj", ".off", ".ply", ".stl", ".glb"))
-    paths = [p for p in paths if not options.names or p.name in options.names or p.stem in options.names]
-    if not paths:
-        print(f"bench: error: no meshes in {options.meshes}", file=sys.stderr)
-        return 3
-    text = program.table(COLUMNS, [row_of(path, options.size) for path in paths])
-    print(text)
-    if options.write:
-        program.write_between_marks("docs/measured.md", "meshes", text)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program.mesh_table(__doc__, "meshes", 257, COLUMNS, row_of))

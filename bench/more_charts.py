@@ -55,19 +55,14 @@ def main():
     words.add_argument("--write", action="store_true", help="renew the table of docs/measured.md")
     words.add_argument("names", nargs="*")
     options = words.parse_args()
-
-    def wanted(name):
-        return not options.names or name in options.names
-
     with tempfile.TemporaryDirectory() as folder:
         jobs = []
         for name, size in SHAPES.items():
-            if wanted(name):
+            if not options.names or name in options.names:
                 path = pathlib.Path(folder, f"{name}.obj")
                 write_obj(path, *getattr(hard_shapes, name)())
                 jobs.append((path, size))
-        paths = sorted(p for p in options.meshes.glob("*") if p.suffix in (".obj", ".off", ".ply", ".stl", ".glb"))
-        jobs += [(path, SIZE) for path in paths if wanted(path.name) or wanted(path.stem)]
+        jobs += [(path, SIZE) for path in program.meshes_in(options.meshes, options.names)]
         text = program.table(COLUMNS, [row_of(path, size, options.threads) for path, size in jobs])
     print(text)
     if options.write:

@@ -5,7 +5,6 @@ The distance is half the sum of the two one-sided means, exact to the triangles,
 
 Usage: bench/omages.py [--meshes FOLDER] [--size N] [--write] [NAME ...]
 """
-import argparse
 import pathlib
 import sys
 import tempfile
@@ -64,24 +63,5 @@ def row_of(path, size):
                 *figures_of(path, size, COMPACT, plain, folder)]
 
 
-def main():
-    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    words.add_argument("--meshes", type=pathlib.Path, default=program.ROOT.parent / "shared/meshes")
-    words.add_argument("--size", type=int, default=64)
-    words.add_argument("--write", action="store_true", help="renew the table of docs/measured.md")
-    words.add_argument("names", nargs="*")
-    options = words.parse_args()
-    paths = sorted(p for p in options.meshes.glob("*") if p.suffix in (".obj", ".off", ".ply", ".stl", ".glb"))
-    paths = [p for p in paths if not options.names or p.name in options.names or p.stem in options.names]
-    if not paths:
-        print(f"bench: error: no meshes in {options.meshes}", file=sys.stderr)
-        return 3
-    text = program.table(COLUMNS, [row_of(path, options.size) for path in paths])
-    print(text)
-    if options.write:
-        program.write_between_marks("docs/measured.md", "omages", text)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program.mesh_table(__doc__, "omages", 64, COLUMNS, row_of))

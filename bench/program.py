@@ -1,7 +1,10 @@
 """Runs the release build for the benchmarks; writes tables into documents."""
+import argparse
 import csv
 import json
+import pathlib
 import subprocess
+import sys
 
 import stamp
 from stamp import ROOT
@@ -39,3 +42,28 @@ def write_between_marks(document, name, text):
     before, rest = path.read_text().split(f"<!-- {name} -->\n", 1)
     after = rest.split(f"<!-- /{name} -->", 1)[1]
     path.write_text(f"{before}<!-- {name} -->\n{stamp.stamp(name)}\n{text}<!-- /{name} -->{after}")
+
+
+def meshes_in(folder, names):
+    """The meshes of a folder; of some names, with or without their endings, where any are given."""
+    paths = sorted(p for p in folder.glob("*") if p.suffix in (".obj", ".off", ".ply", ".stl", ".glb"))
+    return [p for p in paths if not names or p.name in names or p.stem in names]
+
+
+def mesh_table(about, name, size, columns, row_of):
+    """A whole benchmark: the table `name` of what row_of(path, size) tells of each mesh. Returns its exit code."""
+    words = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("--size", type=int, default=size)
+    words.add_argument("--meshes", type=pathlib.Path, default=ROOT.parent / "shared/meshes")
+    words.add_argument("--write", action="store_true", help="renew the table of docs/measured.md")
+    words.add_argument("names", nargs="*")
+    options = words.parse_args()
+    paths = meshes_in(options.meshes, options.names)
+    if not paths:
+        print(f"bench: error: no meshes in {options.meshes}", file=sys.stderr)
+        return 3
+    text = table(columns, [row_of(path, options.size) for path in paths])
+    print(text)
+    if options.write:
+        write_between_marks("docs/measured.md", name, text)
+    return 0
