@@ -24,6 +24,16 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// Warns of motion that nothing explains.
+/// @param gain  energy, as a part of what the weight does over 1 m
+void tell_gain(const Context& context, double gain) {
+  constexpr double worth_telling = 0.01;
+  if (gain > worth_telling)
+    warn(context, fmt::format("energy gained that nothing put in: {:.2g} times the weight times "
+                              "1 m; more substeps or the default integrator are wanted",
+                              gain));
+}
+
 void print_summary(const Context& context, const RunReport& report) {
   std::vector<double> milliseconds;
   for (const FrameReport& frame : report.history) milliseconds.push_back(frame.milliseconds);
@@ -41,6 +51,7 @@ void print_summary(const Context& context, const RunReport& report) {
     say(context, fmt::format("seams   {} of {} closed, largest gap {:.2f} mm", report.seams->closed,
                              report.seams->count, 1000 * report.seams->largest_gap));
   for (const std::string& name : report.fell_off) warn(context, name + ": fell off");
+  tell_gain(context, relative_energy_gained(report));
   say(context, "state   " + report.state_hash);
   for (const auto& path : report.outputs) say(context, "wrote   " + path.string());
 }

@@ -127,6 +127,8 @@ std::string to_json(const RunReport& report);
 /// The largest rise of kinetic plus potential energy above an earlier minimum, less the work of
 /// pins, moving bodies and wind in between. [J]
 double energy_gained(const RunReport& report);
+/// The same as a part of what the cloths' weight does over 1 m; 0: they weigh nothing.
+double relative_energy_gained(const RunReport& report);
 
 /// Writes positions over time as a point cache (PC2), as runs export them: one sample a frame.
 /// @throws InputError as check_point_cache; OutputError

@@ -27,6 +27,15 @@ class Simulate(SceneTest):
             t = frame / 60
             self.assertAlmostEqual(y, 1 - 9.81 * t * (t + h) / 2, delta=2e-6)
 
+    def test_energy_that_comes_from_nothing_is_warned_of(self):
+        said = {}
+        for integrator in ("newton", "two_level"):
+            done = self.run_weft("drape", "builtin:sheet", "builtin:torus", "-o", integrator, "--size", "33", "--frames", "20",
+                                 "--integrator", integrator, "--json")
+            gain = json.loads(done.stdout)["energy_gained_mgl"]
+            said[integrator] = (gain > 0.01, "energy gained that nothing put in" in done.stderr)
+        self.assertEqual(said, {"newton": (False, False), "two_level": (True, True)})
+
     def test_the_worst_frame_for_strain_is_told(self):
         scene = sheet_scene(frames=12, cloths=[{"name": "sheet", "surface": "builtin:sheet", "size": 17,
                                                 "translate": [0, 1, 0], "pins": [{"image": [0, 0]}, {"image": [1, 1]}]}])

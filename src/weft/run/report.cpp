@@ -123,9 +123,6 @@ OrderedJson seams_json(const SeamsReport& seams) {
           {"frames", seams.frames ? OrderedJson(*seams.frames) : OrderedJson()}};
 }
 
-/// The length l of energy_gained_mgl [m].
-constexpr double usual_height = 1;
-
 }  // namespace
 
 double energy_gained(const RunReport& report) {
@@ -137,6 +134,12 @@ double energy_gained(const RunReport& report) {
     gained = std::max(gained, energy - min);
   }
   return gained;
+}
+
+double relative_energy_gained(const RunReport& report) {
+  constexpr double usual_height = 1;  // [m]
+  const double weight = report.mass * standard_gravity;
+  return weight > 0 ? energy_gained(report) / (weight * usual_height) : 0;
 }
 
 std::string to_json(const RunReport& report) {
@@ -159,8 +162,7 @@ std::string to_json(const RunReport& report) {
       {"fell_back", worst_count(report, &FrameReport::fell_back)},
       {"blocked_share", worst_blocked_share(report)},
       {"energy_gained", energy_gained(report)},
-      {"energy_gained_mgl",
-       energy_gained(report) / (report.mass * standard_gravity * usual_height)},
+      {"energy_gained_mgl", relative_energy_gained(report)},
       {"thickness_used", thickness_json(report)},
       {"intersections", report.intersections.counts.total()}};
   json["centre_of_mass"] = OrderedJson::array();
