@@ -231,8 +231,6 @@ struct NewtonKernels {
 
   /// out = a - b.
   void (*subtract)(int n, ConstRow3 a, ConstRow3 b, Row3 out);
-  /// out = a + factor out.
-  void (*scale_add)(int n, ConstRow3 a, float factor, Row3 out);
   /// out *= factor.
   void (*scale_rows)(int n, float factor, Row3 out);
   /// out += factor a.

@@ -25,12 +25,16 @@ void BlockMultigrid::solve_lines(const LineFactor& lines, const PaddedVectors& r
   workers.barrier();
 }
 
+/// Solves all lines. A particle with seam copies is solved for on the line of its first copy; on
+/// the lines of its other copies it is fixed.
 void BlockMultigrid::relax(BlockLevel& level, Direction direction, bool from_zero,
                            const Workers& workers) {
   const LineFactor& lines = direction == Direction::rows ? level.rows : level.cols;
-  if (!level.seams.empty()) return smooth_seamed(level, lines, from_zero, workers);
   solve_lines(lines, from_zero ? level.rhs : level.residual, {damping, !from_zero}, level.value,
               workers);
+  if (level.seams.empty()) return;
+  level.seams.copy(workers, {&level.value.x, &level.value.y, &level.value.z});
+  workers.barrier();
 }
 
 void BlockMultigrid::smooth_from_zero(std::size_t index, Direction direction,
@@ -42,25 +46,6 @@ void BlockMultigrid::smooth(std::size_t index, Direction direction, const Loads&
                             const Workers& workers) {
   residual(index, contacts, workers);
   relax(levels_[index], direction, false, workers);
-}
-
-/// Smooths a level with seams. A particle is solved for on the line of its first copy; on the lines
-/// of its other copies it is fixed.
-void BlockMultigrid::smooth_seamed(BlockLevel& level, const LineFactor& lines, bool from_zero,
-                                   const Workers& workers) {
-  const Range mine = workers.share(level.size);
-  PaddedVectors& y = level.curved;
-  const int n = level.size;
-  solve_lines(lines, from_zero ? level.rhs : level.residual, {damping, false}, y, workers);
-  level.seams.copy(workers, {&y.x, &y.y, &y.z});
-  workers.barrier();
-  for (int row = mine.first; row < mine.last; ++row) {
-    if (from_zero)
-      kernels_->scale_add(whole_vectors(n), std::as_const(y).row(row), 0, level.value.row(row));
-    else
-      kernels_->add_scaled(whole_vectors(n), 1, std::as_const(y).row(row), level.value.row(row));
-  }
-  workers.barrier();
 }
 
 void BlockMultigrid::restrict_residual(BlockLevel& fine, BlockLevel& coarse,

@@ -25,7 +25,6 @@ BlockLevel::BlockLevel(Shape shape, Seams seam_classes, BendingStencil stiffness
     held_rows = PlaneSet(n, n, block_entries);
     held_cols = PlaneSet(n, n, block_entries);
   }
-  if (!seams.empty()) joined = PlaneSet(n, n, block_entries);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) extra(r, c) *= bending_share;
   for (int i = 0; i < seams.class_count(); ++i)

@@ -28,7 +28,6 @@ struct BlockLevel {
   /// Nine-point stencils of 3 x 3 blocks: own parts, each sample's centre and the blocks to the
   /// four neighbours after it, as stencil_blocks. On the finest level the centre alone.
   PlaneSet stencil;
-  PlaneSet joined;  ///< the centres summed over seam copies; empty without seams
   /// On a finest level without seams: the lines' diagonal blocks without the line's own springs.
   PlaneSet held_rows, held_cols;
   LineFactor rows, cols;
@@ -45,8 +44,6 @@ struct BlockLevel {
     int workers;
   };
   BlockLevel(Shape shape, Seams seam_classes, BendingStencil stiffness);
-  /// The diagonal blocks that lines are factored with.
-  [[nodiscard]] const PlaneSet& diagonal() const { return seams.empty() ? stencil : joined; }
 };
 
 /// Computes the coarse stencils P^T A P of bilinear interpolation P, which stay nine-point

@@ -72,6 +72,9 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
   find_bending_rates();
   find_border_springs();
   parted_.reserve(static_cast<std::size_t>(4) * cloth.size * 6);
+  for (const BlockLevel& level : levels_)
+    parted_centres_.resize(std::max(
+        parted_centres_.size(), static_cast<std::size_t>(level.seams.copies()) * block_entries));
   renew_pins();
 }
 

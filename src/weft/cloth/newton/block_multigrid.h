@@ -53,8 +53,9 @@ class BlockMultigrid {
   void apply(const PaddedVectors& x, const ExactParts& parts, PaddedVectors& out, Worker& worker);
   /// Adds the loads of contacts, summed over seam copies, to a field; 0 where pinned.
   void add_loads(const Loads& contacts, PaddedVectors& field, Worker& worker);
-  /// Sums the centres of the finest level over seam copies, for its diagonal().
-  void join_centres(Worker& worker) { join_centres(levels_.front(), Workers(worker, false)); }
+  /// Sums the diagonal blocks of the finest level, as they were filled, over seam copies; they are
+  /// to be filled again before set_up.
+  const PlaneSet& join_diagonals(Worker& worker);
 
   /// Linearises springs and computes the forces of inertia, springs and bending, seam copies equal,
   /// 0 where pinned. @param curved  instead of flat bending, at the same positions; null: none
@@ -111,8 +112,6 @@ class BlockMultigrid {
   void smooth(std::size_t index, Direction direction, const Loads& contacts,
               const Workers& workers);
   void relax(BlockLevel& level, Direction direction, bool from_zero, const Workers& workers);
-  void smooth_seamed(BlockLevel& level, const LineFactor& lines, bool from_zero,
-                     const Workers& workers);
   void solve_lines(const LineFactor& lines, const PaddedVectors& rhs, LineFactor::Solve how,
                    PaddedVectors& out, const Workers& workers);
   void restrict_residual(BlockLevel& fine, BlockLevel& coarse, const Workers& workers);
@@ -124,7 +123,8 @@ class BlockMultigrid {
   void join_edges(std::size_t index);
   void join_springs(const std::vector<BorderEdge>& group);
   void part_edges(std::size_t index);
-  void join_centres(BlockLevel& level, const Workers& workers);
+  void join_seams(std::size_t index, const Workers& workers);
+  void part_seams(std::size_t index, const Workers& workers);
   void clear_pins(PaddedVectors& field, const Workers& workers) const;
   void add_border_row(const PaddedVectors& x, int row, float factor, PaddedVectors& out) const;
   void find_border_springs();
@@ -151,7 +151,8 @@ class BlockMultigrid {
   };
   std::vector<BorderStiffness> border_;
   std::vector<int> border_starts_;  // [n + 1] first of each row; empty: none
-  std::vector<float> parted_;       // own blocks of border edges while the edges hold sums
+  // While seams are joined, own blocks of border edges, and of centres:
+  std::vector<float> parted_, parted_centres_;
 };
 
 }  // namespace weft

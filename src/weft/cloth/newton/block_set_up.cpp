@@ -20,15 +20,30 @@ int spring_plane(const BorderEdge& edge) { return (edge.along_row ? 0 : 1) * spr
 
 }  // namespace
 
-void BlockMultigrid::join_centres(BlockLevel& level, const Workers& workers) {
+const PlaneSet& BlockMultigrid::join_diagonals(Worker& worker) {
+  BlockLevel& level = levels_.front();
+  if (level.seams.empty()) return level.stencil;
+  level.seams.sum(Workers(worker, false), block_entries, level.stencil, parted_centres_.data());
+  worker.barrier();
+  return level.stencil;
+}
+
+/// Puts sums over seam copies in place of the blocks that lines are factored with.
+void BlockMultigrid::join_seams(std::size_t index, const Workers& workers) {
+  BlockLevel& level = levels_[index];
   if (level.seams.empty()) return;
-  const Range mine = workers.share(level.size);
-  for (int r = mine.first; r < mine.last; ++r)
-    for (int k = 0; k < block_entries; ++k)
-      std::copy_n(level.stencil.row(r, k), level.size, level.joined.row(r, k));
   workers.barrier();
-  level.seams.sum(workers, level.joined);
+  level.seams.sum(workers, block_entries, level.stencil, parted_centres_.data());
+  if (workers.rank() == 0) join_edges(index);
   workers.barrier();
+}
+
+void BlockMultigrid::part_seams(std::size_t index, const Workers& workers) {
+  BlockLevel& level = levels_[index];
+  if (level.seams.empty()) return;
+  workers.barrier();
+  level.seams.restore(workers, block_entries, parted_centres_.data(), level.stencil);
+  if (workers.rank() == 0) part_edges(index);
 }
 
 /// Lines along a seam couple by the sum of all copies of their edges, as their diagonals do. With
@@ -37,6 +52,7 @@ void BlockMultigrid::join_centres(BlockLevel& level, const Workers& workers) {
 /// sum is not of a spring's form: on the finest level they stay apart.
 void BlockMultigrid::join_edges(std::size_t index) {
   parted_.clear();
+  if (index == 0 && cloth_.apart) return;
   for (const std::vector<BorderEdge>& group : levels_[index].seams.edges()) {
     if (index == 0) {
       join_springs(group);
@@ -111,6 +127,7 @@ void BlockMultigrid::join_springs(const std::vector<BorderEdge>& group) {
 }
 
 void BlockMultigrid::part_edges(std::size_t index) {
+  if (parted_.empty()) return;
   std::size_t at = 0;
   PlaneSet& stencil = levels_[index].stencil;
   for (const std::vector<BorderEdge>& group : levels_[index].seams.edges()) {
@@ -143,13 +160,13 @@ void BlockMultigrid::factor(std::size_t index, const Workers& workers) {
       lines.factor(block, matrix, *kernels_);
     } else if (index == 0) {
       SpringLineMatrix matrix{{}, extra, {}};
-      view_blocks(level.diagonal(), 0, matrix.diagonal);
+      view_blocks(level.stencil, 0, matrix.diagonal);
       const auto views = springs_->views(along_rows ? 0 : 1);
       std::copy(views.begin(), views.end(), matrix.coupling);
       lines.factor(block, matrix, *kernels_);
     } else {
       LineMatrix matrix{{}, extra, {}};
-      view_blocks(level.diagonal(), 0, matrix.diagonal);
+      view_blocks(level.stencil, 0, matrix.diagonal);
       view_blocks(level.stencil, (along_rows ? 1 : 2) * block_entries, matrix.coupling);
       lines.factor(block, matrix, *kernels_);
     }
@@ -163,27 +180,19 @@ void BlockMultigrid::set_up(SpringHessian& springs, Worker& worker) {
     choose_bending(springs.time_step());
   }
   worker.barrier();
-  join_centres(levels_.front(), all);
   for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
     if (i == 0)
       galerkin_.coarsen(springs, levels_[0], mask_, levels_[1], all, *kernels_);
     else
       galerkin_.coarsen(levels_[i], levels_[i + 1], all, *kernels_);
     worker.barrier();
-    join_centres(levels_[i + 1], all);
   }
   for (std::size_t i = 0; i < levels_.size(); ++i) {
-    const bool seamed = !levels_[i].seams.edges().empty() && (i > 0 || !cloth_.apart);
-    if (seamed) {
-      worker.barrier();
-      if (worker.rank() == 0) join_edges(i);
-      worker.barrier();
-    }
+    join_seams(i, all);
     factor(i, all);
-    if (!seamed) continue;
-    worker.barrier();
-    if (worker.rank() == 0) part_edges(i);
+    part_seams(i, all);
   }
+  worker.barrier();
   if (worker.rank() == 0 && coarsest_.active()) coarsest_.factor(levels_.back());
   worker.barrier();
 }

@@ -146,8 +146,7 @@ const PlaneSet& NewtonPart::diagonal(Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   for (int r = mine.first; r < mine.last; ++r) multigrid_.fill_diagonals(springs_, r);
   worker.barrier();
-  multigrid_.join_centres(worker);
-  return multigrid_.finest().diagonal();
+  return multigrid_.join_diagonals(worker);
 }
 
 /// Sets up the multigrid, with the blocks of active contacts.

@@ -157,14 +157,23 @@ void Seams::sum(const Workers& workers, std::initializer_list<PaddedPlane*> plan
   });
 }
 
-void Seams::sum(const Workers& workers, PlaneSet& planes) const {
+void Seams::sum(const Workers& workers, int count, PlaneSet& planes, float* kept) const {
   const Range mine = workers.share(class_count());
+  float* own = kept + std::ptrdiff_t{starts_[mine.first]} * count;
   for (int i = mine.first; i < mine.last; ++i)
-    for (int k = 0; k < planes.count(); ++k) {
+    for (int k = 0; k < count; ++k) {
       float total = 0;
-      for (const int s : samples(i)) total += planes(s / size_, s % size_, k);
+      for (const int s : samples(i)) total += * own++ = planes(s / size_, s % size_, k);
       for (const int s : samples(i)) planes(s / size_, s % size_, k) = total;
     }
+}
+
+void Seams::restore(const Workers& workers, int count, const float* kept, PlaneSet& planes) const {
+  const Range mine = workers.share(class_count());
+  const float* own = kept + std::ptrdiff_t{starts_[mine.first]} * count;
+  for (int i = mine.first; i < mine.last; ++i)
+    for (int k = 0; k < count; ++k)
+      for (const int s : samples(i)) planes(s / size_, s % size_, k) = *own++;
 }
 
 void Seams::average(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {

@@ -32,6 +32,8 @@ class Seams {
   [[nodiscard]] bool empty() const { return starts_.size() <= 1; }
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] int class_count() const { return static_cast<int>(starts_.size()) - 1; }
+  /// Of all classes together.
+  [[nodiscard]] int copies() const { return starts_.back(); }
   /// Samples, row * n + col, ascending.
   [[nodiscard]] std::span<const int> samples(int index) const {
     return std::span(samples_).subspan(starts_[index], starts_[index + 1] - starts_[index]);
@@ -47,8 +49,10 @@ class Seams {
 
   /// Every copy gets the sum over its class, added in ascending order of samples.
   void sum(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
-  /// The same for all planes of a set.
-  void sum(const Workers& workers, PlaneSet& planes) const;
+  /// The same for the first planes of a set. @param kept  gets what copies had [copies() x count]
+  void sum(const Workers& workers, int count, PlaneSet& planes, float* kept) const;
+  /// Gives it back to them.
+  void restore(const Workers& workers, int count, const float* kept, PlaneSet& planes) const;
   /// Every copy gets the mean.
   void average(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
   /// Every copy gets the value of the first.

@@ -93,7 +93,6 @@ void solve_held_lines(const LineBlock& lines, const LineSolve& solve);
 void restrict_row(int m, const RowTriple& fine, Row3 coarse);
 void prolong_row(int n, ConstRow3 a, ConstRow3 b, Row3 fine);
 void subtract(int n, ConstRow3 a, ConstRow3 b, Row3 out);
-void scale_add(int n, ConstRow3 a, float factor, Row3 out);
 void scale_row(int n, float factor, Row3 out);
 void add_scaled(int n, float factor, ConstRow3 a, Row3 out);
 double newton_dot(int n, const float* share, ConstRow3 a, ConstRow3 b);
