@@ -38,7 +38,6 @@ class Controls {
   /// The sample that the mouse holds.
   [[nodiscard]] const std::optional<ClothHit>& held() const { return held_; }
   [[nodiscard]] Vec2d mouse() const { return at_; }
-  [[nodiscard]] ColourBy colour_by() const { return colouring_.by; }
   [[nodiscard]] const Colouring& colouring() const { return colouring_; }
   void set_colouring(const Colouring& colouring);
 

@@ -130,6 +130,7 @@ void Simulator::drape_over(const std::string& body) {
     options.cloth_size = scene.cloths[0].size;
     options.material = scene.cloths[0].material;
     options.friction = scene.cloths[0].friction;
+    options.files = scene.files;
   }
   const Scene made = make_drape_scene(cloth, body, options);
   scene.cloths = made.cloths;

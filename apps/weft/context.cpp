@@ -1,5 +1,7 @@
 #include "apps/weft/context.h"
 
+#include <cstdio>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/core.h>
@@ -26,11 +28,17 @@ void say(const Context& context, const std::string& line) {
 }
 
 void note(const Context& context, const std::string& line) {
-  if (!context.quiet) fmt::print(stderr, "weft: note: {}\n", line);
+  if (!context.quiet) tell("note", line);
 }
 
 void warn(const Context& context, const std::string& line) {
-  if (!context.quiet) fmt::print(stderr, "weft: warning: {}\n", line);
+  if (!context.quiet) tell("warning", line);
+}
+
+void tell(std::string_view kind, std::string_view line) noexcept {
+  for (const std::string_view text :
+       {std::string_view("weft: "), kind, std::string_view(": "), line, std::string_view("\n")})
+    std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
 std::string text_of(const nlohmann::ordered_json& report) {

@@ -27,6 +27,9 @@ void note(const Context& context, const std::string& line);
 /// Prints a warning in the same way.
 void warn(const Context& context, const std::string& line);
 
+/// Prints a line of some kind to stderr; one that cannot be written is lost.
+void tell(std::string_view kind, std::string_view line) noexcept;
+
 /// JSON as text; bytes of paths that are not UTF-8 become U+FFFD.
 std::string text_of(const nlohmann::ordered_json& report);
 

@@ -156,8 +156,32 @@ void print_summary(const Context& context, const Conversion& c) {
     say(context, fmt::format("memory  {:.0f} MB at most", *memory));
 }
 
+fs::path normals_file(const fs::path& image) {
+  fs::path path = beside(image, "-normals");
+  return is_compressed(image) ? path.replace_extension(".exr") : path;
+}
+
+fs::path colours_file(const fs::path& image) {
+  return beside(image, "-colour").replace_extension(".png");
+}
+
+fs::path texture_file(const fs::path& image) {
+  return beside(image, "-uv").replace_extension(".exr");
+}
+
+/// Refuses to write over what was read: the mesh, its pictures, a seam.
+void check_outputs(const ConvertArgs& args, const ConvertOptions& options, const fs::path& image) {
+  std::vector<fs::path> inputs{args.mesh, args.seam};
+  if (options.colours)
+    inputs.insert(inputs.end(), options.colours->files.begin(), options.colours->files.end());
+  for (const fs::path& output :
+       {image, normals_file(image), colours_file(image), texture_file(image)})
+    check_not_input(output, inputs);
+}
+
 Json convert_one(const ConvertArgs& args, const Context& context, const NamedMesh& named,
                  const ConvertOptions& options, const fs::path& output) {
+  check_outputs(args, options, output);
   Conversion conversion = [&] {
     const PromptStop stop;  // nothing is written yet
     return convert_mesh(named.mesh, args.mesh, options);
@@ -172,15 +196,15 @@ Json convert_one(const ConvertArgs& args, const Context& context, const NamedMes
     write_image(output, conversion.image);
   }
   if (conversion.normals) {
-    outputs.push_back(beside(output, "-normals"));
+    outputs.push_back(normals_file(output));
     write_normal_map(outputs.back(), *conversion.normals);
   }
   if (conversion.colour_map) {
-    outputs.push_back(beside(output, "-colour").replace_extension(".png"));
+    outputs.push_back(colours_file(output));
     write_colours(outputs.back(), *conversion.colour_map);
   }
   if (conversion.texture) {
-    outputs.push_back(beside(output, "-uv").replace_extension(".exr"));
+    outputs.push_back(texture_file(output));
     write_texture(outputs.back(), *conversion.texture);
   }
   for (const std::string& warning : conversion.warnings) warn(context, warning);
@@ -240,7 +264,6 @@ void check_args(const ConvertArgs& args) {
        {std::pair{"--precision", args.precision > 0}, {"--error", args.error != 0}})
     if (given && !is_compressed(args.output))
       throw UsageError(option, "of " + args.output, "a compressed image, .weft, is wanted");
-  check_not_input(args.output, std::vector<fs::path>{args.mesh, args.seam});
   if (args.component != "all") return;
   for (const auto& [option, given] :
        {std::pair{"--cut", !args.seam.empty()}, {"--seed-triangle", args.seed_triangle >= 0}})

@@ -22,7 +22,7 @@ struct DrapeArgs {
 /// Warns of an implausible cloth size. Cloth keeps its size, which affects its motion; bodies are
 /// scaled.
 void warn_of_size(const std::string& cloth, const MeshFrame& files, const Context& context) {
-  if (is_image_name(cloth)) return;
+  if (is_image_name(cloth) || cloth.starts_with("builtin:")) return;
   const auto remark = implausible_size(in_metres_y_up(load_mesh(cloth), files), files.unit);
   if (remark) warn(context, cloth + ": " + *remark);
 }

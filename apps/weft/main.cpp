@@ -13,7 +13,7 @@ namespace weft::app {
 namespace {
 
 int fail(ExitCode code, std::string_view what) {
-  fmt::print(stderr, "weft: error: {}\n", what);
+  tell("error", what);
   return static_cast<int>(code);
 }
 

@@ -1,7 +1,6 @@
 #include "apps/weft/reports.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <string>
 

@@ -28,6 +28,7 @@ struct SurfaceColours {
   };
   std::vector<Part> parts;
   std::vector<TexturePicture> pictures;
+  std::vector<std::filesystem::path> files;   ///< that pictures were read from
   std::vector<int> part_of;                   ///< [F] a part, -1: white
   std::vector<std::array<Vec3f, 3>> corners;  ///< [F], or empty: white
   std::vector<std::array<Vec2f, 3>> uv;  ///< [F] v runs upwards; not finite where a corner has none

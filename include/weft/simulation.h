@@ -34,7 +34,8 @@ class SurfaceCache {
     int size = 0, normal_map_size = 0;
     bool keep_places = false, keep_uv = false, keep_warp = false;
     ChartChoice charts{};
-    double spacing = 0;
+    double spacing = 0, metres = 1;
+    bool z_up = false;
     friend auto operator<=>(const Key&, const Key&) = default;
   };
   std::map<Key, LoadedSurface> kept_;

@@ -50,10 +50,6 @@ struct CollidingCloth {
   /// The classes that samples are being sewn into: cells that share one get no contact at it,
   /// though its samples are apart as yet. Null: nothing is sewn. Kept by pointer.
   const BorderMates* sewn = nullptr;
-
-  [[nodiscard]] bool is_kept_in(std::size_t body) const {
-    return body < kept_in.size() && kept_in[body] != 0;
-  }
 };
 
 /// State of a cloth during a step, as the collider reads and changes it.

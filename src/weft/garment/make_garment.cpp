@@ -69,10 +69,34 @@ std::vector<Chart> pack_panels(std::span<const PanelOutline> outlines, int& size
   return charts;
 }
 
+/// Of a panel with its edges as straight lines. [m^2]
+double area_of(const PatternPanel& panel) {
+  double twice = 0;
+  for (const PatternEdge& edge : panel.edges)
+    twice += cross(panel.vertices[edge.from], panel.vertices[edge.to]);
+  return 0.5 * std::abs(twice);
+}
+
+/// Refuses samples so close that no image holds them, before any are laid. A fifth of the area is
+/// left to curved edges.
+const Pattern& checked(const Pattern& pattern, const std::string& name, double spacing) {
+  double area = 0;
+  for (const PatternPanel& panel : pattern.panels) area += area_of(panel);
+  const double side = std::sqrt(0.8 * area) / spacing;
+  if (side > largest_image_size)
+    throw InputError(
+        name, fmt::format("{:.3g} m^2 with samples {:.3g} mm apart", area, 1000 * spacing),
+        fmt::format("an image has at most {} samples a side: a wider spacing is wanted",
+                    largest_image_size));
+  return pattern;
+}
+
 class Maker {
  public:
   Maker(const Pattern& pattern, const std::string& name, double spacing)
-      : pattern_(pattern), name_(name), outlines_(lay_outlines(pattern, name, spacing)) {}
+      : pattern_(pattern),
+        name_(name),
+        outlines_(lay_outlines(checked(pattern, name, spacing), name, spacing)) {}
 
   Garment make() {
     Garment garment;

@@ -158,11 +158,8 @@ class Run {
       note_fallen();
       report_garments();
       report_.state_hash = simulation_.state_hash();
-    } catch (const OutputError&) {
-      keep_what_fits();
-      throw;
     } catch (...) {
-      keep();
+      keep_what_fits();
       throw;
     }
     keep();

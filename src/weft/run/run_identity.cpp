@@ -106,11 +106,17 @@ std::string run_identity(const Scene& scene, const Simulation& simulation,
     const Cloth& cloth = *simulation.cloths()[i].model;
     named.cloths[i].surface = surface_name(cloth.rest, cloth.mates);
     // The grain, which may come from a texture.
+    Planes3 along(cloth.size);
     if (cloth.material.stretch.warp != cloth.material.stretch.weft) {
-      Planes3 stiffness(cloth.size);
-      stiffness.x = cloth.springs[stretch_u].stiffness;
-      stiffness.y = cloth.springs[stretch_v].stiffness;
-      named.cloths[i].surface.name += surface_name(stiffness, cloth.mates);
+      along.x = cloth.springs[stretch_u].stiffness;
+      along.y = cloth.springs[stretch_v].stiffness;
+      named.cloths[i].surface.name += surface_name(along, cloth.mates);
+    }
+    if (cloth.material.bending.warp != cloth.material.bending.weft && cloth.bending.active) {
+      along.x = cloth.bending.weight[0];
+      along.y = cloth.bending.weight[1];
+      along.z = cloth.bending.weight[2];
+      named.cloths[i].surface.name += surface_name(along, cloth.mates);
     }
     if (cloth.start) named.cloths[i].surface.name += surface_name(*cloth.start, cloth.mates);
   }

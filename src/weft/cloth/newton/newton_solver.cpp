@@ -206,6 +206,8 @@ void NewtonSolver::run(std::span<const std::span<const Contact>> own,
       if (one.rank() == 0) parts_[i]->iterations += progress.iterations;
     });
   });
+  // One system tells for all: what parts told of when they were last solved alone is past.
+  for (const auto& part : parts_) part->missed = 0;
   parts_.front()->missed = missed_;
   tell_pin_force();
   for (std::size_t i = 0; i < parts_.size(); ++i) {

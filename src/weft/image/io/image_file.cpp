@@ -1,7 +1,6 @@
 #include "weft/image_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "weft/error.h"

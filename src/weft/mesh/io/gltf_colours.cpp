@@ -90,6 +90,7 @@ int GltfColours::read_picture(const GltfObject& texture) {
     colours_.pictures.push_back(decode_texture(document_.buffers().view(*view), called));
   } else {
     colours_.pictures.push_back(decode_texture(document_.buffers().resource(image, *uri), called));
+    colours_.files.emplace_back(*uri);
   }
   return pictures_[*index] = static_cast<int>(colours_.pictures.size()) - 1;
 }
@@ -137,7 +138,9 @@ SurfaceColours gltf_colours(std::string_view bytes, std::string_view name,
   GltfDocument document(bytes, name, folder);
   GltfColours colours(document, name);
   read_gltf_surface(document, &colours);
-  return colours.take();
+  SurfaceColours taken = colours.take();
+  for (std::filesystem::path& file : taken.files) file = folder / file;
+  return taken;
 }
 
 }  // namespace weft

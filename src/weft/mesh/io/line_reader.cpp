@@ -81,6 +81,13 @@ bool LineReader::has_field() const {
   return start != line_.npos && line_[start] != '#';
 }
 
+std::string LineReader::rest_as_name() {
+  std::string name(next_field());
+  for (std::string_view field = next_field(); !field.empty(); field = next_field())
+    name.append(" ").append(field);
+  return name;
+}
+
 std::string_view LineReader::next_field() {
   const std::size_t start = line_.find_first_not_of(" \t");
   if (start == line_.npos || line_[start] == '#') return line_ = {};

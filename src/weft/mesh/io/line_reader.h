@@ -36,6 +36,8 @@ class LineReader {
   [[nodiscard]] bool has_field() const;
   /// The next field of the line; empty at its end.
   std::string_view next_field();
+  /// The rest of the line as one name, its blanks between words made single.
+  std::string rest_as_name();
   /// Everything behind the current line and its end.
   [[nodiscard]] std::string_view remaining() const { return bytes_.substr(position_); }
 

@@ -1,4 +1,3 @@
-#include <cctype>
 
 #include "weft/files.h"
 #include "weft/mesh.h"

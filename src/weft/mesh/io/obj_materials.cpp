@@ -23,6 +23,12 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
+/// A name as `usemtl` gives it: up to a comment, its blanks made single.
+std::string material_name(std::string_view line) {
+  LineReader reader(line, {});
+  return reader.next_line() ? reader.rest_as_name() : std::string();
+}
+
 class MaterialReader {
  public:
   MaterialReader(std::string_view text, std::string_view name, NeighbourFiles& files,
@@ -36,7 +42,7 @@ class MaterialReader {
       text_.remove_prefix(std::min(end + 1, text_.size()));
       ++number_;
       const std::string_view word = take_word(line);
-      if (word == "newmtl") material_ = &materials_[rest_of_line(line)];
+      if (word == "newmtl") material_ = &materials_[material_name(line)];
       if (material_ == nullptr) continue;
       if (word == "Kd") read_colour(line);
       if (word == "map_Kd") read_picture(line);

@@ -57,14 +57,6 @@ void scan_vertex(LineReader& reader, ObjScan& scan) {
                                            : Vec3f{none, none, none});
 }
 
-/// The rest of a line as one name, its blanks between words made single.
-std::string name_in(LineReader& reader) {
-  std::string name(reader.next_field());
-  for (std::string_view field = reader.next_field(); !field.empty(); field = reader.next_field())
-    name.append(" ").append(field);
-  return name;
-}
-
 /// Reads a line of texture coordinates. Nothing is refused: the surface does not depend on them,
 /// and exporters differ in what they write.
 void scan_texture(LineReader& reader, ObjScan& scan) {
@@ -125,8 +117,8 @@ ObjScan scan_obj(std::string_view bytes, std::string_view name) {
     if (keyword == "vt") scan_texture(reader, scan);
     if (keyword == "f") scan_face(reader, scan);
     if (keyword == "l") scan.lines = true;
-    if (keyword == "usemtl") scan.materials.push_back(name_in(reader));
-    if (keyword == "mtllib") scan.libraries.push_back(name_in(reader));
+    if (keyword == "usemtl") scan.materials.push_back(reader.rest_as_name());
+    if (keyword == "mtllib") scan.libraries.push_back(reader.rest_as_name());
   }
   for (const ForwardReference& reference : scan.forward)
     if (reference.index > static_cast<std::int64_t>(scan.positions.size()))

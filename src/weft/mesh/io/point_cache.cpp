@@ -1,6 +1,5 @@
 #include "weft/point_cache.h"
 
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>

@@ -39,7 +39,10 @@ std::string NeighbourFiles::read(std::string file) const {
 
 int NeighbourFiles::picture(const std::string& file, SurfaceColours& colours) {
   const auto [known, is_new] = pictures_.try_emplace(file, colours.pictures.size());
-  if (is_new) colours.pictures.push_back(decode_texture(read(file), (folder_ / file).string()));
+  if (is_new) {
+    colours.pictures.push_back(decode_texture(read(file), (folder_ / file).string()));
+    colours.files.push_back(folder_ / file);
+  }
   return known->second;
 }
 

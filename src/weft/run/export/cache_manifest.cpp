@@ -53,7 +53,8 @@ std::vector<ListedFile> listed_files(const fs::path& path) {
     return {};
   }
   std::erase_if(files, [](const ListedFile& file) {
-    return fs::path(file.path) != fs::path(file.path).filename();
+    const fs::path path(file.path);
+    return path.empty() || path == "." || path == ".." || path != path.filename();
   });
   return files;
 }

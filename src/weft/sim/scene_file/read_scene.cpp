@@ -72,18 +72,12 @@ std::vector<Part> read_list(const JsonObject& root, std::string_view key, const 
   return parts;
 }
 
-std::string in_small_letters(std::string name) {
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return name;
-}
-
 /// Checks that names of cloths and bodies differ, as files are named by them, even on file systems
 /// that ignore case.
 void check_names(const Scene& scene, const JsonPlace& place) {
   std::map<std::string, std::string> seen;  // by lower-case name
   const auto check = [&](const std::string& name, std::string_view list, std::size_t index) {
-    const auto [other, is_new] = seen.emplace(in_small_letters(name), name);
+    const auto [other, is_new] = seen.emplace(lower_case(name), name);
     if (is_new) return;
     const std::string twice = fmt::format("'{}' is there twice", name);
     const std::string alike =
@@ -94,9 +88,11 @@ void check_names(const Scene& scene, const JsonPlace& place) {
   };
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) check(scene.cloths[i].name, "cloths", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) check(scene.bodies[i].name, "bodies", i);
-  // A cloth's sample cache lies beside that of its mesh, a body's normal map beside its image.
+  // A cloth's sample cache lies beside that of its mesh, as what is told of a garment does, a
+  // body's normal map beside its image.
   for (std::size_t i = 0; i < scene.cloths.size(); ++i)
-    check(scene.cloths[i].name + ".image", "cloths", i);
+    for (const char* const beside : {".image", ".panels", ".draped"})
+      check(scene.cloths[i].name + beside, "cloths", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     check(scene.bodies[i].name + ".image", "bodies", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)

@@ -46,7 +46,11 @@ Vec3d Unpicking::retreat_of(int sample, const Planes3& position) const {
   double row = 0;
   for (const int step : {-n, -1, 1, n}) {
     const int next = sample + step, second = next + step;
-    if (second < 0 || second >= n * n || !garment_.image.mates.same_chart(sample, second)) continue;
+    // Two steps along a row stay in it.
+    const bool in_row = std::abs(step) == n || second / n == sample / n;
+    if (second < 0 || second >= n * n || !in_row ||
+        !garment_.image.mates.same_chart(sample, second))
+      continue;
     inwards += vec_cast<double>(position.at(second) - position.at(sample));
     row = std::max(row, double{length(garment_.flat.at(next) - garment_.flat.at(sample))});
   }
