@@ -1,7 +1,6 @@
 #include "apps/weft/context.h"
 
 #include <cstdio>
-#include <string_view>
 #include <system_error>
 
 #include <fmt/core.h>

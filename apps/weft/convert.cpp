@@ -174,9 +174,11 @@ void check_outputs(const ConvertArgs& args, const ConvertOptions& options, const
   std::vector<fs::path> inputs{args.mesh, args.seam};
   if (options.colours)
     inputs.insert(inputs.end(), options.colours->files.begin(), options.colours->files.end());
-  for (const fs::path& output :
-       {image, normals_file(image), colours_file(image), texture_file(image)})
-    check_not_input(output, inputs);
+  std::vector<fs::path> outputs{image};
+  if (args.normal_map > 0) outputs.push_back(normals_file(image));
+  if (args.colours) outputs.push_back(colours_file(image));
+  if (args.keep_uv) outputs.push_back(texture_file(image));
+  for (const fs::path& output : outputs) check_not_input(output, inputs);
 }
 
 Json convert_one(const ConvertArgs& args, const Context& context, const NamedMesh& named,
@@ -264,6 +266,7 @@ void check_args(const ConvertArgs& args) {
        {std::pair{"--precision", args.precision > 0}, {"--error", args.error != 0}})
     if (given && !is_compressed(args.output))
       throw UsageError(option, "of " + args.output, "a compressed image, .weft, is wanted");
+  check_outputs(args, {}, args.output);
   if (args.component != "all") return;
   for (const auto& [option, given] :
        {std::pair{"--cut", !args.seam.empty()}, {"--seed-triangle", args.seed_triangle >= 0}})

@@ -99,6 +99,23 @@ class Convert(ProgramTest):
             for x, colour in far:
                 self.assertEqual(colour, [255, 0, 0] if x < 0 else [0, 0, 255])
 
+    def test_pictures_of_the_mesh_are_not_written_over(self):
+        self.run_weft("convert", self.painted(), "-o", "ball.exr", "--size", "33", "--colours")
+        (self.folder / "ball.exr").unlink()
+        picture = (self.folder / "ball-colour.png").read_bytes()
+        (self.folder / "ball.mtl").write_text("newmtl two  words # one\nmap_Kd ball-colour.png\n")
+        (self.folder / "ball.obj").write_text("mtllib ball.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                                              "usemtl two words\nf 1/1 2/2 3/3 4/4\n")
+        line = self.error_of("convert", "ball.obj", "-o", "ball.exr", "--colours", code=3)
+        self.assertIn("ball-colour.png: would be overwritten, and is read here", line)
+        self.assertEqual((self.folder / "ball-colour.png").read_bytes(), picture)
+        self.assertFalse((self.folder / "ball.exr").exists())
+        self.run_weft("convert", "ball.obj", "-o", "other.exr", "--colours")
+
+    def test_normals_of_a_compressed_image_are_an_exr(self):
+        report = self.run_json("convert", "builtin:torus", "-o", "ring.weft", "--size", "33", "--normal-map", "33")
+        self.assertEqual(report["outputs"], ["ring.weft", "ring-normals.exr"])
+
     def test_colours_that_are_not_there_are_an_error(self):
         self.run_weft("shapes", "sphere", "-o", "ball.obj")
         line = self.error_of("convert", "ball.obj", "-o", "b.exr", "--colours", code=3)

@@ -100,6 +100,10 @@ class Errors(ProgramTest):
                 self.assertEqual(without_place(said), without_place(line.replace("COMMANDS", self.commands)))
                 self.assertEqual(code == 0, line.startswith("weft: warning"))
 
+    def test_errors_that_cannot_be_said_leave_their_exit_code(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            self.assertEqual(subprocess.run([PROGRAM, "nonsense"], stderr=full, check=False).returncode, 2)
+
     def test_every_heading_has_its_error(self):
         text = (SOURCE / "docs/errors.md").read_text()
         for part in text.split("\n### ")[1:]:

@@ -158,6 +158,26 @@ class Damage(ResumeTest):
         self.write_scene(two_cloths(2))
         self.refuse("at least 2 frames", words=["--frames", "1"])
 
+    def test_another_grain_is_another_cloth(self):
+        """Also of a fabric that differs along warp and weft in bending alone."""
+        side = 5
+        place = "".join(f"v {i} 0 {j}\n" for j in range(side) for i in range(side))
+        faces = "".join(f"f {a}/{a} {a + side}/{a + side} {a + side + 1}/{a + side + 1} {a + 1}/{a + 1}\n"
+                        for j in range(side - 1) for a in range(side * j + 1, side * j + side))
+        scene = {"version": 1, "frames": 2, "cloths": [{"surface": "sheet.obj", "size": 17, "translate": [0, 3, 0],
+                                                        "material": {"bending": [1e-4, 1e-6]}}]}
+        self.write_scene(scene)
+
+        def write_sheet(turned):
+            texture = "".join(f"vt {v} {u}\n" if turned else f"vt {u} {v}\n" for v in range(side) for u in range(side))
+            (self.folder / "sheet.obj").write_text(place + texture + faces)
+        write_sheet(False)
+        self.run_weft("simulate", "scene.json", "-o", "run")
+        self.run_weft("simulate", "scene.json", "-o", "run", "--resume", "--frames", "3")
+        write_sheet(True)
+        line = self.error_of("simulate", "scene.json", "-o", "run", "--resume", "--frames", "4", code=3)
+        self.assertIn("surface", line)
+
     def test_folder_that_cannot_be_written_and_full_disk_end_with_one_line(self):
         def small_files():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)

@@ -152,6 +152,12 @@ TEST(SceneFile, TwoThingsOfOneNameAreRefused) {
   EXPECT_EQ(error_of(R"({"cloths":[{"name":"a"},{"name":"a"}]})"),
             "s.json:cloths[1].name: 'a' is there twice; a name of its own for each cloth and body "
             "is wanted");
+  for (const char* const taken : {"a.image", "a.panels", "a.draped"})
+    EXPECT_NE(error_of(R"({"cloths":[{"name":"a"}],"bodies":[{"surface":"b.obj","name":")" +
+                       std::string(taken) + R"("}]})")
+                  .find("is there twice"),
+              std::string::npos)
+        << taken;
   EXPECT_NE(error_of(with_cloth(R"("name":"../x")")).find("files are named by it"),
             std::string::npos);
 }

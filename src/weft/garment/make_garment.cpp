@@ -46,7 +46,8 @@ PanelHold hold_of(const PatternPanel& panel) {
 
 /// Places a rectangle for each panel in the smallest square image that they fit in one after the
 /// other, the highest first, with at least two samples between them (LevelLayout::gap).
-/// @return in the panels' order, without names  @param size  set to the image's
+/// @return in the panels' order, without names  @param size  set to the image's; larger than any
+/// image where they do not fit
 std::vector<Chart> pack_panels(std::span<const PanelOutline> outlines, int& size) {
   constexpr int gap = 2;
   std::vector<int> order(outlines.size());
@@ -65,7 +66,7 @@ std::vector<Chart> pack_panels(std::span<const PanelOutline> outlines, int& size
       return row + outline.rows <= size;
     });
   };
-  while (!place_all()) ++size;
+  while (!place_all() && size <= largest_image_size) ++size;
   return charts;
 }
 

@@ -19,11 +19,13 @@ class NeighbourFiles {
       : folder_(std::move(folder)), name_(name) {}
   /// @param file  as the mesh's file names it; backslashes part folders, too
   /// @throws InputError for one elsewhere, or that cannot be read
-  [[nodiscard]] std::string read(std::string file) const;
+  [[nodiscard]] std::string read(const std::string& file) const;
   /// The number of a picture among those of `colours`, to which it is added once.
   int picture(const std::string& file, SurfaceColours& colours);
 
  private:
+  [[nodiscard]] std::filesystem::path place_of(std::string file) const;
+
   std::filesystem::path folder_;
   std::string_view name_;
   std::map<std::string, int> pictures_;

@@ -137,12 +137,18 @@ std::string_view GltfBuffers::view(int buffer_view) {
   return bytes.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
 }
 
+std::optional<fs::path> GltfBuffers::file_of(const std::string& uri) {
+  if (uri.starts_with("data:")) return std::nullopt;
+  const std::string file = without_escapes(uri);
+  return is_below(file) ? std::optional<fs::path>(file) : std::nullopt;
+}
+
 std::vector<fs::path> GltfBuffers::external_files() const {
   std::vector<fs::path> files;
   for (std::size_t i = 0; i < root_.count("buffers"); ++i) {
     const std::optional<std::string> uri = root_.element("buffers", i).text("uri");
-    if (!uri || uri->starts_with("data:")) continue;
-    if (const std::string file = without_escapes(*uri); is_below(file)) files.emplace_back(file);
+    if (!uri) continue;
+    if (const std::optional<fs::path> file = file_of(*uri)) files.push_back(*file);
   }
   return files;
 }
@@ -169,11 +175,11 @@ std::string_view GltfBuffers::fetch(const GltfObject& buffer, const std::string&
     if (!bytes) buffer.fail("holds data that are not base64", "base64 is wanted");
     return fetched_[uri] = std::move(*bytes);
   }
-  const std::string file = without_escapes(uri);
-  if (!folder_ || !is_below(file))
+  const std::optional<fs::path> file = file_of(uri);
+  if (!folder_ || !file)
     buffer.fail(fmt::format("lies in {}", in_quotes(uri)),
                 "data in the file itself, or a file in the mesh's folder, are wanted");
-  return fetched_[uri] = read_file(*folder_ / file);
+  return fetched_[uri] = read_file(*folder_ / *file);
 }
 
 }  // namespace weft

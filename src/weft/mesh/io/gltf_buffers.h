@@ -37,6 +37,9 @@ class GltfBuffers {
   std::string_view resource(const GltfObject& object, const std::string& uri) {
     return fetch(object, uri);
   }
+  /// The file that a uri names, relative to the folder; nothing for data in the uri itself, and for
+  /// files elsewhere, which are refused when they are read.
+  [[nodiscard]] static std::optional<std::filesystem::path> file_of(const std::string& uri);
   /// The files that buffers name, relative to the folder. @throws InputError
   [[nodiscard]] std::vector<std::filesystem::path> external_files() const;
 

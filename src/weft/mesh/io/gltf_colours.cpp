@@ -90,7 +90,7 @@ int GltfColours::read_picture(const GltfObject& texture) {
     colours_.pictures.push_back(decode_texture(document_.buffers().view(*view), called));
   } else {
     colours_.pictures.push_back(decode_texture(document_.buffers().resource(image, *uri), called));
-    colours_.files.emplace_back(*uri);
+    if (const auto file = GltfBuffers::file_of(*uri)) colours_.files.push_back(*file);
   }
   return pictures_[*index] = static_cast<int>(colours_.pictures.size()) - 1;
 }

@@ -28,20 +28,24 @@ SurfaceColours colours_by_ending(const std::string& bytes, const fs::path& path)
 
 }  // namespace
 
-std::string NeighbourFiles::read(std::string file) const {
+fs::path NeighbourFiles::place_of(std::string file) const {
   std::replace(file.begin(), file.end(), '\\', '/');
   const fs::path path(file);
   if (!is_below(path) || file.find('\0') != file.npos)
     throw InputError(name_, "names the file " + in_quotes(file),
                      "one in the mesh's folder or below is wanted");
-  return read_file(folder_ / path);
+  return folder_ / path;
+}
+
+std::string NeighbourFiles::read(const std::string& file) const {
+  return read_file(place_of(file));
 }
 
 int NeighbourFiles::picture(const std::string& file, SurfaceColours& colours) {
   const auto [known, is_new] = pictures_.try_emplace(file, colours.pictures.size());
   if (is_new) {
     colours.pictures.push_back(decode_texture(read(file), (folder_ / file).string()));
-    colours.files.push_back(folder_ / file);
+    colours.files.push_back(place_of(file));
   }
   return known->second;
 }
