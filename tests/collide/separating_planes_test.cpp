@@ -11,7 +11,7 @@ namespace {
 constexpr double gap = 1e-5;
 
 /// About an axis in the plane of both triangles, half a metre away.
-Vec3d turned(Vec3d p, double angle) {
+Vec3d swung(Vec3d p, double angle) {
   const Vec3d arm = p - Vec3d{0.5, 0, 0};
   return Vec3d{0.5 + cosine(angle) * arm.x - sine(angle) * arm.y,
                sine(angle) * arm.x + cosine(angle) * arm.y, p.z};
@@ -21,7 +21,7 @@ MovingFeature riding(double height, double angle) {
   MovingFeature feature;
   feature.start = {Vec3d{0, height, 0}, Vec3d{0.1, height, 0}, Vec3d{0, height, 0.1}};
   for (std::size_t k = 0; k < 3; ++k) {
-    feature.safe_position[k] = turned(feature.start[k], angle);
+    feature.safe_position[k] = swung(feature.start[k], angle);
     // Each ends somewhere else, deep in the other.
     feature.end[k] = feature.safe_position[k] - Vec3d{0, height > 0 ? 0.01 : -0.01, 0};
   }
@@ -61,7 +61,7 @@ TEST(SeparatingPlanes, WhatHeedsATurningPlaneKeepsApartAtEveryTime) {
     MovingFeature a = riding(gap, random.uniform(0, 0.3)), b = riding(0, 0.1);
     b.safe_position = {};
     for (std::size_t k = 0; k < 3; ++k)
-      b.safe_position[k] = turned(b.start[k], random.uniform(0, 0.3));
+      b.safe_position[k] = swung(b.start[k], random.uniform(0, 0.3));
     SeparatingPlane plane;
     if (separate(a, b, {1e-4, true}, plane) != Separation::plane || !plane.turns) continue;
     // Ends that just heed it.

@@ -16,6 +16,7 @@ SurfaceGrid::SurfaceGrid(int size, const BorderMates& mates, const Grid<Diagonal
       diagonal_[r * (size - 1) + c] = diagonals(r, c);
       has_missing_ = has_missing_ || diagonals(r, c) == Diagonal::none;
     }
+  features_ = assign_features(*this);
 }
 
 }  // namespace weft

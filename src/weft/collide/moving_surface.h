@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "weft/collide/cell_features.h"
 #include "weft/collide/seam_strips.h"
 #include "weft/geometry_image.h"
 #include "weft/grid.h"
@@ -60,6 +61,26 @@ class SurfaceGrid {
     const int s = first_sample(cell);
     return {s, s + 1, s + size_, s + size_ + 1};
   }
+  /// The samples of one of a cell's edges, in the order of CellFeatures.
+  [[nodiscard]] std::array<int, 2> edge(int cell, int number) const {
+    const std::array c = corners(cell);
+    switch (number) {
+      case 0:
+        return {c[0], c[1]};
+      case 1:
+        return {c[0], c[2]};
+      case 3:
+        return {c[2], c[3]};
+      case 4:
+        return {c[1], c[3]};
+      default:
+        return rises(cell) ? std::array{c[0], c[3]} : std::array{c[1], c[2]};
+    }
+  }
+  /// Those of its points and edges that belong to a cell.
+  [[nodiscard]] const CellFeatures& features(int cell) const {
+    return features_[static_cast<std::size_t>(cell)];
+  }
   [[nodiscard]] int first_sample(int cell) const { return cell / cells() * size_ + cell % cells(); }
   /// True for a degenerate triangle: two of its corners are one surface point.
   [[nodiscard]] bool folded(const std::array<int, 3>& triangle) const {
@@ -82,6 +103,7 @@ class SurfaceGrid {
   std::vector<int> joint_;          // [n * n], or none
   std::vector<Diagonal> diagonal_;  // [(n - 1)^2]
   SeamStrips seams_;
+  std::vector<CellFeatures> features_;  // [(n - 1)^2]
 };
 
 /// A surface during a step: every sample moves on a straight line from start to end.

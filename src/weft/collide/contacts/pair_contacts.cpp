@@ -62,23 +62,9 @@ struct Cell {
   [[nodiscard]] int sample(int corner) const {
     return (row + corner / 2) * grid->size() + col + corner % 2;
   }
-  [[nodiscard]] bool is_border() const {
-    const int last = grid->cells() - 1;
-    return row == 0 || col == 0 || row == last || col == last;
-  }
-  /// Whether a corner belongs to it: its first, and at the last row and column those that no other
-  /// cell begins with.
-  [[nodiscard]] bool owns(int corner) const {
-    const int last = grid->cells() - 1;
-    return (corner % 2 == 0 || col == last) && (corner < 2 || row == last) &&
-           grid->point(sample(corner)) == sample(corner);
-  }
-  /// The edges that belong to it, in the kernels' order.
-  [[nodiscard]] std::array<int, 2> edge(int number) const {
-    if (number < 2) return {sample(0), sample(number + 1)};
-    const bool falling = grid->triangle_corners(cell, 0)[2] == 2;
-    return falling ? std::array{sample(1), sample(2)} : std::array{sample(0), sample(3)};
-  }
+  [[nodiscard]] const CellFeatures& features() const { return grid->features(cell); }
+  [[nodiscard]] bool owns(int corner) const { return (features().own_corners >> corner & 1) != 0; }
+  [[nodiscard]] std::array<int, 2> edge(int number) const { return grid->edge(cell, number); }
   [[nodiscard]] bool shares_corner(const Cell& other) const {
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j)
@@ -137,7 +123,7 @@ class Finder {
 
   static bool adjacent(const Cell& a, const Cell& b) {
     if (std::abs(a.row - b.row) <= 1 && std::abs(a.col - b.col) <= 1) return true;
-    return a.is_border() && b.is_border() && a.shares_corner(b);
+    return a.features().at_seam && b.features().at_seam && a.shares_corner(b);
   }
 
   /// Whether the distance between two cells along a row and a column at rest is at most
@@ -219,9 +205,24 @@ class Finder {
       gap_ = near_edges_[other.lane] < near_[other.lane] ? worn * pair_.gap : pair_.gap;
       for (auto left = static_cast<unsigned>(found_[other.lane]); left != 0; left &= left - 1) {
         const int pair = std::countr_zero(left);
-        add_edges(own.edge(pair / 3), other.cell.edge(pair % 3));
+        add_edges(own, pair / 3, other.cell, pair % 3);
       }
+      last_edges(own, other.cell);
     }
+  }
+
+  /// Pairs of edges that have one at the last row or column of a chart.
+  void last_edges(const Cell& a, const Cell& b) {
+    constexpr int last = CellFeatures::last_edges;
+    if ((a.features().own_edges | b.features().own_edges) >> last == 0) return;
+    for (int p = 0; p < CellFeatures::edges; ++p)
+      for (int q = p < last ? last : 0; q < CellFeatures::edges; ++q) add_edges(a, p, b, q);
+  }
+
+  void add_edges(const Cell& a, int p, const Cell& b, int q) {
+    const bool own =
+        (a.features().own_edges >> p & 1) != 0 && (b.features().own_edges >> q & 1) != 0;
+    if (own) add_edges(a.edge(p), b.edge(q));
   }
 
   void add_edges(const std::array<int, 2>& p, const std::array<int, 2>& q) {

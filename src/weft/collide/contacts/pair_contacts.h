@@ -55,8 +55,7 @@ struct MovedPatches {
 
 /// Finds contacts between parts of cloths that come closer than the contact margin during a step:
 /// of samples with triangles, and of edges that cross at an angle, between their closest points at
-/// the start of the step. Each belongs to one pair of cells: samples and edges belong to the cell
-/// that they begin.
+/// the start of the step. Each belongs to one pair of cells, see CellFeatures.
 class PairContacts {
  public:
   /// @param share  whether contacts of two cloths are shared
