@@ -80,6 +80,14 @@ TEST(ReadObj, DecimalsAreReadToTheNearestDouble) {
   EXPECT_EQ(mesh.positions[2].z, 0);
 }
 
+TEST(ReadObj, DecimalsOfManyDigitsAreWhatTheyMean) {
+  const std::string zeros(400, '0');
+  const TriangleMesh mesh =
+      parse("v 0." + zeros + "1 1" + zeros + "e-400 0.5" + zeros + "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(mesh.positions[0], (Vec3d{0, 1, 0.5}));
+  EXPECT_THROW(parse("v 1" + zeros + " 0 0\n"), InputError);
+}
+
 TEST(ReadObj, OtherLinesCommentsAndLineEndsDoNotMatter) {
   const std::string text =
       "\xef\xbb\xbfv 0 0 0\r\n# comment\r\nmtllib none.mtl\rusemtl a\r\ng part\n\nv 1 0 0 0.5 0.5 "

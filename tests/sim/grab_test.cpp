@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "weft/collide/intersections.h"
+#include "weft/error.h"
 #include "weft/geometry_image.h"
 #include "weft/simulation.h"
 
@@ -43,6 +44,14 @@ TEST(Grab, WhatIsHeldGoesWhereItIsPulledAndTheClothFollows) {
   run(simulation, 90);
   EXPECT_FALSE(simulation.holds());
   EXPECT_LT(simulation.centre_of_mass().y, lying + 0.25);
+}
+
+TEST(Grab, RefusesSamplesOutsideTheImage) {
+  Simulation simulation(floating_sheet(0.3), "sheet", 1);
+  for (const int sample : {-1, n * n}) {
+    EXPECT_THROW(simulation.grab(0, sample), SceneError);
+    EXPECT_FALSE(simulation.holds());
+  }
 }
 
 TEST(Grab, WhatWasLetGoBeforeAStepLeavesNoTrace) {

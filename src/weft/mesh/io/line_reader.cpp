@@ -33,6 +33,14 @@ std::string_view without_plus(std::string_view field) {
   return field.size() > 1 && field[0] == '+' && field[1] != '-' ? field.substr(1) : field;
 }
 
+/// A number that no double holds: 0 or an infinity, which a wider type tells apart.
+double beyond_range(std::string_view field) {
+  long double value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc::result_out_of_range) return static_cast<double>(value);
+  return field.find("e-") != field.npos || field.find("E-") != field.npos ? 0.0 : HUGE_VAL;
+}
+
 }  // namespace
 
 std::optional<double> to_number(std::string_view field) {
@@ -41,9 +49,7 @@ std::optional<double> to_number(std::string_view field) {
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (end != field.data() + field.size() || error == std::errc::invalid_argument)
     return std::nullopt;
-  if (error == std::errc::result_out_of_range)
-    return field.find("e-") != field.npos || field.find("E-") != field.npos ? 0.0 : HUGE_VAL;
-  return value;
+  return error == std::errc::result_out_of_range ? beyond_range(field) : value;
 }
 
 std::optional<std::int64_t> to_integer(std::string_view field) {

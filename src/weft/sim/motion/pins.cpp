@@ -170,11 +170,11 @@ double fastest_pin(std::span<const PinMotion> motions) {
 
 void Grab::take(std::size_t cloth, int sample, SimulatedCloth& held) {
   const std::size_t pins = held.model->pins.size();
-  const Vec3d here = vec_cast<double>(held.state.position.at(sample));
-  pin_ = pin(*held.model, sample, here);
+  pin_ = pin(*held.model, sample, {});
   added_ = held.model->pins.size() > pins;
   cloth_ = cloth;
-  wanted_ = here;
+  Pin& hand = held.model->pins[static_cast<std::size_t>(pin_)];
+  wanted_ = hand.target = vec_cast<double>(held.state.position.at(hand.sample));
 }
 
 void Grab::move(double time_step, std::optional<double> ground, SimulatedCloth& held) const {
