@@ -19,16 +19,22 @@ inline void hang(Cloth& cloth) {
   for (const int s : {0, cloth.size - 1}) pin(cloth, s, vec_cast<double>(cloth.rest.at(s)));
 }
 
+inline Planes3 shaken_rest(const Cloth& cloth, double amount) {
+  Planes3 at = cloth.rest;
+  shake(cloth, amount, at);
+  return at;
+}
+
 /// A linear system as a step meets it: springs linearised at a shaken state.
 struct System {
   explicit System(const Cloth& of, double shaken = 0.2)
+      : System(of, shaken_rest(of, shaken * of.rest_spacing)) {}
+  System(const Cloth& of, const Planes3& at)
       : cloth(of),
         springs(of, kernels),
         multigrid(of, 1, kernels),
         state(of.size),
         scratch(of.size, of.size) {
-    Planes3 at = of.rest;
-    shake(of, shaken * of.rest_spacing, at);
     for (int r = 0; r < of.size; ++r)
       for (int c = 0; c < of.size; ++c) {
         const Vec3f p = at.at(r, c);

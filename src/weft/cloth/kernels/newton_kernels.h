@@ -139,10 +139,6 @@ struct LineBlock {
 struct LineMatrix {
   PlaneView diagonal[6], extra, coupling[6];
 };
-/// As LineMatrix, with the coupling -(t 1 + s s^T) of springs: t, x, y, z.
-struct SpringLineMatrix {
-  PlaneView diagonal[6], extra, coupling[4];
-};
 /// The matrix of a block of lines by its springs t 1 + s s^T to the next position, as t, x, y, z,
 /// and the rest of the diagonal blocks: positive definite, without the line's own springs.
 struct HeldLineMatrix {
@@ -217,8 +213,6 @@ struct NewtonKernels {
 
   /// Factors a block of lines. @param factor  [length x line_factor_entries x line_lanes]
   void (*factor_lines)(const LineBlock& lines, const LineMatrix& matrix, float* factor);
-  void (*factor_spring_lines)(const LineBlock& lines, const SpringLineMatrix& matrix,
-                              float* factor);
   /// @param factor  [length x held_factor_entries x line_lanes]
   void (*factor_held_lines)(const LineBlock& lines, const HeldLineMatrix& matrix, float* factor);
   void (*solve_lines)(const LineBlock& lines, const LineSolve& solve);
@@ -229,8 +223,6 @@ struct NewtonKernels {
   /// fine += interpolated mean of two coarse rows. @param n  fine columns
   void (*prolong_row)(int n, ConstRow3 a, ConstRow3 b, Row3 fine);
 
-  /// out = a - b.
-  void (*subtract)(int n, ConstRow3 a, ConstRow3 b, Row3 out);
   /// out *= factor.
   void (*scale_rows)(int n, float factor, Row3 out);
   /// out += factor a.

@@ -12,8 +12,8 @@ BlockLevel::BlockLevel(Shape shape, Seams seam_classes, BendingStencil stiffness
       seams(std::move(seam_classes)),
       bending(std::move(stiffness)),
       extra(bending.diagonal(seams)),
-      rows(size, true, shape.finest && seams.empty()),
-      cols(size, false, shape.finest && seams.empty()),
+      rows(size, true, shape.finest),
+      cols(size, false, shape.finest),
       rhs(size, size),
       value(size, size),
       residual(size, size),
@@ -21,7 +21,7 @@ BlockLevel::BlockLevel(Shape shape, Seams seam_classes, BendingStencil stiffness
   const int n = size;
   stencil = PlaneSet(n, n, shape.finest ? block_entries : stencil_blocks * block_entries);
   for (int i = 0; i < shape.workers; ++i) windows.emplace_back(3, n);
-  if (shape.finest && seams.empty()) {
+  if (shape.finest) {
     held_rows = PlaneSet(n, n, block_entries);
     held_cols = PlaneSet(n, n, block_entries);
   }

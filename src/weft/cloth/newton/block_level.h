@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "weft/cloth/newton/bending_stencil.h"
@@ -10,8 +11,9 @@
 
 namespace weft {
 
-/// Diagonal entry that fixes a sample in a line's matrix. [N/m]
-inline constexpr float holding_stiffness = 1e20F;
+/// Diagonal entry that fixes a sample in a line's matrix: its inverse block is exactly zero. A
+/// large number would leave denormal ones, with which processors are slow. [N/m]
+inline constexpr float holding_stiffness = std::numeric_limits<float>::infinity();
 
 /// Factor on the bending diagonal in the line smoother, which leaves out the rest of the bending
 /// stencil. It makes relaxation contract at the same damping as for springs: the largest eigenvalue
@@ -28,7 +30,7 @@ struct BlockLevel {
   /// Nine-point stencils of 3 x 3 blocks: own parts, each sample's centre and the blocks to the
   /// four neighbours after it, as stencil_blocks. On the finest level the centre alone.
   PlaneSet stencil;
-  /// On a finest level without seams: the lines' diagonal blocks without the line's own springs.
+  /// On the finest level: the lines' diagonal blocks without the line's own springs.
   PlaneSet held_rows, held_cols;
   LineFactor rows, cols;
   PaddedVectors rhs, value, residual;

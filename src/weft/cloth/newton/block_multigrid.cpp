@@ -54,6 +54,8 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
       levels_(make_levels(cloth, workers)),
       coarsest_(levels_.size() > 1 ? CoarsestSolver(levels_.back()) : CoarsestSolver()),
       galerkin_(cloth.size, workers),
+      joined_lines_(seams(), seams().edges()),
+      apart_lines_(seams(), {}),
       mask_(cloth.size, cloth.size),
       free_extra_(cloth.size, cloth.size) {
   // Second-neighbour springs are not in the stencil: the smoother adds a bound of them.
@@ -66,6 +68,10 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
       const float bending = std::max(levels_.front().extra(r, c), bordered);
       free_extra_(r, c) = bending + far_stiffness;
     }
+  // The smoother has what bends a particle once, at its first copy.
+  for (int i = 0; i < seams().class_count(); ++i)
+    for (const int s : seams().samples(i).subspan(1))
+      free_extra_(s / cloth.size, s % cloth.size) = 0;
   for (int i = 0; i < workers; ++i) sweeps_.emplace_back(cloth.size);
   for (int i = 0; i < workers; ++i)
     scratch_.emplace_back(1, static_cast<int>(LineFactor::scratch_size(cloth.size)));
@@ -341,51 +347,47 @@ double BlockMultigrid::bending_energy(const PaddedVectors& position, RowSums& su
   });
 }
 
-void BlockMultigrid::apply_stencil_row(const BlockLevel& level, int row, RowSweep& sweep,
-                                       const PaddedVectors* rhs, PaddedVectors& out) const {
+/// A row of rhs - A value, own part, by the level's stencil.
+void BlockMultigrid::stencil_residual_row(BlockLevel& level, int row, RowSweep& sweep) const {
   const PaddedVectors& x = level.value;
-  sweep.multiply(row, rhs, out.row(row), [&](int r, ConstRow3 from, Row3 to) {
-    kernels_->apply_stencil(whole_vectors(level.size), rows_of(level.stencil, r),
+  const PlaneSet& stencil = level.stencil;
+  const auto product = [&](int r, ConstRow3 from, Row3 to) {
+    kernels_->apply_stencil(whole_vectors(level.size), rows_of(stencil, r),
                             {x.row(r), x.row(r + 1), sweep.passing(r), from}, to);
-  });
+  };
+  sweep.multiply(row, &level.rhs, level.residual.row(row), product);
 }
 
-/// residual = rhs - A value. With seams, products are summed over copies before.
+/// residual = rhs - A value. With seams, products are summed over copies.
 void BlockMultigrid::residual(std::size_t index, const Loads& contacts, const Workers& workers) {
   BlockLevel& level = levels_[index];
-  const bool seamed = !level.seams.empty();
-  const PaddedVectors* const rhs = seamed ? nullptr : &level.rhs;
-  const float sign = seamed ? 1.0F : -1.0F;
   RowSweep& sweep = sweeps_[workers.rank()];
   sweep.restart();
   const auto begin = [&](int r) {
     if (index == 0)
-      springs_->apply_row(level.value, r, sweep, rhs, level.residual);
+      springs_->apply_row(level.value, r, sweep, &level.rhs, level.residual);
     else
-      apply_stencil_row(level, r, sweep, rhs, level.residual);
+      stencil_residual_row(level, r, sweep);
   };
   const auto finish = [&](int r) {
     if (index > 0) return;
-    add_load_row(contacts, r, sign, level.residual);
+    add_load_row(contacts, r, -1, level.residual);
     clear_pins_of_row(r, level.residual);
   };
   const Range mine = workers.share(level.size);
   if (level.bends)
-    add_bending(level, {level.value, sign}, level.residual, workers, begin, finish);
+    add_bending(level, {level.value, -1}, level.residual, workers, begin, finish);
   else
     for (int r = mine.first; r < mine.last; ++r) {
       begin(r);
       finish(r);
     }
   workers.barrier();
-  if (!seamed) return;
-  level.seams.sum(workers, {&level.residual.x, &level.residual.y, &level.residual.z});
+  if (level.seams.empty()) return;
+  level.seams.sum_beside(workers, level.rhs, level.residual);
   workers.barrier();
-  for (int r = mine.first; r < mine.last; ++r) {
-    kernels_->subtract(whole_vectors(level.size), std::as_const(level.rhs).row(r),
-                       std::as_const(level.residual).row(r), level.residual.row(r));
-    if (index == 0) clear_pins_of_row(r, level.residual);
-  }
+  if (index > 0 || pinned_.empty()) return;
+  clear_pins(level.residual, workers);
   workers.barrier();
 }
 

@@ -7,6 +7,7 @@
 #include "weft/cloth/newton/coarsest_solver.h"
 #include "weft/cloth/newton/contact_product.h"
 #include "weft/cloth/newton/padded_planes.h"
+#include "weft/cloth/newton/seam_lines.h"
 #include "weft/cloth/newton/spring_hessian.h"
 #include "weft/core/ordered_sum.h"
 
@@ -100,8 +101,7 @@ class BlockMultigrid {
   /// Decides which levels' products include bending.
   void choose_bending(double time_step);
   void find_bending_rates();
-  void apply_stencil_row(const BlockLevel& level, int row, RowSweep& sweep,
-                         const PaddedVectors* rhs, PaddedVectors& out) const;
+  void stencil_residual_row(BlockLevel& level, int row, RowSweep& sweep) const;
   [[nodiscard]] bool pins_changed() const;
   void clear_pinned_blocks(int row);
   void clear_pins_of_row(int row, PaddedVectors& field) const;
@@ -137,10 +137,11 @@ class BlockMultigrid {
   std::vector<BlockLevel> levels_;
   CoarsestSolver coarsest_;
   Galerkin galerkin_;
-  PaddedPlane mask_;             // 1 where the particle moves
-  PaddedPlane free_extra_;       // the finest level's `extra` without pins
-  std::vector<int> pinned_;      // samples, all copies
-  std::vector<int> pin_starts_;  // [n + 1] first pinned sample of each row, in pinned_
+  SeamLines joined_lines_, apart_lines_;  // the latter while seams are being sewn
+  PaddedPlane mask_;                      // 1 where the particle moves
+  PaddedPlane free_extra_;                // the finest level's `extra` without pins
+  std::vector<int> pinned_;               // samples, all copies
+  std::vector<int> pin_starts_;           // [n + 1] first pinned sample of each row, in pinned_
   std::vector<PaddedPlane> scratch_;
   std::vector<RowSweep> sweeps_;  // of each worker
   /// The free-border edges of bending are like springs to near neighbours without a direction: on a

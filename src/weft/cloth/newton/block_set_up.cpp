@@ -33,7 +33,12 @@ void BlockMultigrid::join_seams(std::size_t index, const Workers& workers) {
   BlockLevel& level = levels_[index];
   if (level.seams.empty()) return;
   workers.barrier();
-  level.seams.sum(workers, block_entries, level.stencil, parted_centres_.data());
+  if (index == 0) {
+    (cloth_.apart ? apart_lines_ : joined_lines_).hold(*springs_, level, workers);
+    workers.barrier();
+  } else {
+    level.seams.sum(workers, block_entries, level.stencil, parted_centres_.data());
+  }
   if (workers.rank() == 0) join_edges(index);
   workers.barrier();
 }
@@ -42,7 +47,7 @@ void BlockMultigrid::part_seams(std::size_t index, const Workers& workers) {
   BlockLevel& level = levels_[index];
   if (level.seams.empty()) return;
   workers.barrier();
-  level.seams.restore(workers, block_entries, parted_centres_.data(), level.stencil);
+  if (index > 0) level.seams.restore(workers, block_entries, parted_centres_.data(), level.stencil);
   if (workers.rank() == 0) part_edges(index);
 }
 
@@ -75,12 +80,9 @@ void BlockMultigrid::join_edges(std::size_t index) {
 
 void BlockMultigrid::fill_diagonals(const SpringHessian& springs, int row) {
   BlockLevel& level = levels_.front();
-  if (level.seams.empty())
-    springs.line_diagonals_row(row, level.extra.row(row),
-                               {rows_of(level.stencil, row), rows_of(level.held_rows, row),
-                                rows_of(level.held_cols, row)});
-  else
-    springs.line_diagonals_row(row, nullptr, {rows_of(level.stencil, row), {}, {}});
+  springs.line_diagonals_row(
+      row, level.extra.row(row),
+      {rows_of(level.stencil, row), rows_of(level.held_rows, row), rows_of(level.held_cols, row)});
   clear_pinned_blocks(row);
 }
 
@@ -96,7 +98,6 @@ void BlockMultigrid::add_to_diagonals(const ContactProduct::Blocks& blocks, int 
   if (!(mask_(row, col) > 0)) return;
   for (int k = 0; k < block_entries; ++k) {
     level.stencil(row, col, k) += blocks.whole[k];
-    if (!level.seams.empty()) continue;
     level.held_rows(row, col, k) += blocks.lines[k];
     level.held_cols(row, col, k) += blocks.lines[k];
   }
@@ -151,21 +152,14 @@ void BlockMultigrid::factor(std::size_t index, const Workers& workers) {
     const bool along_rows = b < blocks;
     LineFactor& lines = along_rows ? level.rows : level.cols;
     const int block = along_rows ? b : b - blocks;
-    const PlaneView extra{level.extra.row(0), level.extra.stride()};
-    if (index == 0 && level.seams.empty()) {
+    if (index == 0) {
       HeldLineMatrix matrix{};
       view_blocks(along_rows ? level.held_rows : level.held_cols, 0, matrix.held);
       const auto views = springs_->views(along_rows ? 0 : 1);
       std::copy(views.begin(), views.end(), matrix.spring);
       lines.factor(block, matrix, *kernels_);
-    } else if (index == 0) {
-      SpringLineMatrix matrix{{}, extra, {}};
-      view_blocks(level.stencil, 0, matrix.diagonal);
-      const auto views = springs_->views(along_rows ? 0 : 1);
-      std::copy(views.begin(), views.end(), matrix.coupling);
-      lines.factor(block, matrix, *kernels_);
     } else {
-      LineMatrix matrix{{}, extra, {}};
+      LineMatrix matrix{{}, {level.extra.row(0), level.extra.stride()}, {}};
       view_blocks(level.stencil, 0, matrix.diagonal);
       view_blocks(level.stencil, (along_rows ? 1 : 2) * block_entries, matrix.coupling);
       lines.factor(block, matrix, *kernels_);

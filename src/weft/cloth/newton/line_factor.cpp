@@ -20,10 +20,6 @@ float* LineFactor::factor_of(int block) const {
   return factors_.get() + static_cast<std::size_t>(block) * size_ * entries() * line_lanes;
 }
 
-void LineFactor::factor(int block, const SpringLineMatrix& matrix, const NewtonKernels& kernels) {
-  kernels.factor_spring_lines(at(block), matrix, factor_of(block));
-}
-
 void LineFactor::factor(int block, const LineMatrix& matrix, const NewtonKernels& kernels) {
   kernels.factor_lines(at(block), matrix, factor_of(block));
 }

@@ -12,12 +12,11 @@ namespace weft {
 /// Factors of the lines of an n x n grid in one direction, in blocks that are solved side by side.
 class LineFactor {
  public:
-  /// @param held  whether the matrices are HeldLineMatrix, else LineMatrix or SpringLineMatrix
+  /// @param held  whether the matrices are HeldLineMatrix, else LineMatrix
   LineFactor(int size, bool along_rows, bool held);
 
   [[nodiscard]] int blocks() const { return (size_ + line_lanes - 1) / line_lanes; }
   /// Factors a block of lines.
-  void factor(int block, const SpringLineMatrix& matrix, const NewtonKernels& kernels);
   void factor(int block, const LineMatrix& matrix, const NewtonKernels& kernels);
   void factor(int block, const HeldLineMatrix& matrix, const NewtonKernels& kernels);
   /// out = (add ? out : 0) + scale * solution of a block of lines.

@@ -49,6 +49,18 @@ bool NewtonPart::begin_row(const ClothState& state, bool go_on, int row) {
                               row_of(next_.velocity, row), direction_.row(row)});
 }
 
+/// Whether a row of the step's start is that of the state but for holes, which have no place of
+/// their own.
+bool NewtonPart::is_known(const Planes3& start, int row) const {
+  if (cloth_.mates.chart_of().empty()) return false;
+  for (int c = 0; c < cloth_.size; ++c) {
+    const Vec3f there{state_.position.x(row, c), state_.position.y(row, c),
+                      state_.position.z(row, c)};
+    if (start.at(row, c) != there && !cloth_.mates.is_hole(row * cloth_.size + c)) return false;
+  }
+  return true;
+}
+
 void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTeam& team) {
   input_ = input;
   iterations = 0;
@@ -62,7 +74,7 @@ void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTe
   team.run([&](Worker& worker) {
     const Range mine = worker.share(cloth_.size);
     for (int r = mine.first; r < mine.last; ++r)
-      known_rows_[r] = begin_row(state, go_on, r) ? 1 : 0;
+      known_rows_[r] = begin_row(state, go_on, r) || is_known(state.position, r) ? 1 : 0;
   });
   // A step mostly starts where the last run ended, whose potential energy is known.
   const bool known =

@@ -142,6 +142,7 @@ class NewtonPart {
     return {contacts.product, contacts.cloth};
   }
   bool begin_row(const ClothState& state, bool go_on, int row);
+  [[nodiscard]] bool is_known(const Planes3& start, int row) const;
   void read_row(int row);
   void find_mass();
   void take_plain(const PaddedVectors& position, Worker& worker);

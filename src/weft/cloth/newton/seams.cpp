@@ -157,6 +157,21 @@ void Seams::sum(const Workers& workers, std::initializer_list<PaddedPlane*> plan
   });
 }
 
+void Seams::sum_beside(const Workers& workers, const PaddedVectors& alike,
+                       PaddedVectors& field) const {
+  const auto sum = [&](const PaddedPlane& given, PaddedPlane& plane) {
+    const float* const known = given.row(0);
+    set_copies(workers, {&plane},
+               [known](const float* first, std::span<const std::ptrdiff_t> places, int) {
+                 const auto others = static_cast<float>(places.size() - 1);
+                 return sum_of(first, places) - others * known[places.front()];
+               });
+  };
+  sum(alike.x, field.x);
+  sum(alike.y, field.y);
+  sum(alike.z, field.z);
+}
+
 void Seams::sum(const Workers& workers, int count, PlaneSet& planes, float* kept) const {
   const Range mine = workers.share(class_count());
   float* own = kept + std::ptrdiff_t{starts_[mine.first]} * count;

@@ -49,7 +49,10 @@ class Seams {
 
   /// Every copy gets the sum over its class, added in ascending order of samples.
   void sum(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const;
-  /// The same for the first planes of a set. @param kept  gets what copies had [copies() x count]
+  /// Every copy gets the sum over its class of what it has beside a field that copies have alike,
+  /// and that field once.
+  void sum_beside(const Workers& workers, const PaddedVectors& alike, PaddedVectors& field) const;
+  /// The sum for the first planes of a set. @param kept  gets what copies had [copies() x count]
   void sum(const Workers& workers, int count, PlaneSet& planes, float* kept) const;
   /// Gives it back to them.
   void restore(const Workers& workers, int count, const float* kept, PlaneSet& planes) const;

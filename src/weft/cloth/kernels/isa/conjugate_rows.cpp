@@ -30,10 +30,6 @@ template <class Visit>
 
 }  // namespace
 
-void subtract(int n, ConstRow3 a, ConstRow3 b, Row3 out) {
-  for (int c = 0; c < n; c += width) store(load(a, c) - load(b, c), out, c);
-}
-
 void scale_row(int n, float factor, Row3 out) {
   const Pack by = Pack{} + factor;
   for (int c = 0; c < n; c += width) store(by * load(constant(out), c), out, c);

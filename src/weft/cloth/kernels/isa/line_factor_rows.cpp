@@ -77,39 +77,18 @@ struct BlockCoupling {
   }
 };
 
-/// Coupling blocks, computed from springs.
 template <int Lanes>
-struct SpringCoupling {
-  const PlaneView* planes;
-  alignas(64) float tile[4][chunk][Lanes] = {};
-  void read(const LineBlock& block, int position, int count) {
-    for (int k = 0; k < 4; ++k) read_tile<Lanes>(planes[k], block, position, count, tile[k]);
-  }
-  void at(int j, float (*out)[Lanes]) const {
-#pragma omp simd
-    for (int i = 0; i < Lanes; ++i) {
-      const float t = tile[0][j][i], x = tile[1][j][i], y = tile[2][j][i], z = tile[3][j][i];
-      out[0][i] = -(t + x * x);
-      out[1][i] = -(x * y);
-      out[2][i] = -(x * z);
-      out[3][i] = -(t + y * y);
-      out[4][i] = -(y * z);
-      out[5][i] = -(t + z * z);
-    }
-  }
-};
-
-template <int Lanes, class Coupling>
-void factor(const LineBlock& block, const PlaneView* diagonal, const PlaneView& extra,
-            Coupling& coupling, float* factors) {
+void factor(const LineBlock& block, const LineMatrix& matrix, float* factors) {
+  BlockCoupling<Lanes> coupling{matrix.coupling};
   Elimination<Lanes> state;
   alignas(64) float tile[7][chunk][Lanes] = {};
   alignas(64) double here[6][Lanes];
   alignas(64) float next[6][Lanes];
   for (int position = 0; position < block.length; position += chunk) {
     const int count = block.length - position < chunk ? block.length - position : chunk;
-    for (int k = 0; k < 6; ++k) read_tile<Lanes>(diagonal[k], block, position, count, tile[k]);
-    read_tile<Lanes>(extra, block, position, count, tile[6]);
+    for (int k = 0; k < 6; ++k)
+      read_tile<Lanes>(matrix.diagonal[k], block, position, count, tile[k]);
+    read_tile<Lanes>(matrix.extra, block, position, count, tile[6]);
     coupling.read(block, position, count);
     for (int j = 0; j < count; ++j) {
       // Keeps the systems of lanes without a line regular.
@@ -250,23 +229,10 @@ void factor_series(const LineBlock& block, const HeldLineMatrix& matrix, float* 
 }  // namespace
 
 void factor_lines(const LineBlock& lines, const LineMatrix& matrix, float* factors) {
-  if (lines.width > half_lanes) {
-    BlockCoupling<line_lanes> coupling{matrix.coupling};
-    factor<line_lanes>(lines, matrix.diagonal, matrix.extra, coupling, factors);
-  } else {
-    BlockCoupling<half_lanes> coupling{matrix.coupling};
-    factor<half_lanes>(lines, matrix.diagonal, matrix.extra, coupling, factors);
-  }
-}
-
-void factor_spring_lines(const LineBlock& lines, const SpringLineMatrix& matrix, float* factors) {
-  if (lines.width > half_lanes) {
-    SpringCoupling<line_lanes> coupling{matrix.coupling};
-    factor<line_lanes>(lines, matrix.diagonal, matrix.extra, coupling, factors);
-  } else {
-    SpringCoupling<half_lanes> coupling{matrix.coupling};
-    factor<half_lanes>(lines, matrix.diagonal, matrix.extra, coupling, factors);
-  }
+  if (lines.width > half_lanes)
+    factor<line_lanes>(lines, matrix, factors);
+  else
+    factor<half_lanes>(lines, matrix, factors);
 }
 
 void factor_held_lines(const LineBlock& lines, const HeldLineMatrix& matrix, float* factors) {

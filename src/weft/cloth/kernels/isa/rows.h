@@ -86,13 +86,11 @@ void coarsen_springs(int m, PlaneRows centre, PlaneRows springs, const float* ma
                      const float* mask_below, MutablePlaneRows half);
 void coarsen_rows(int m, const PlaneRows* half, MutablePlaneRows coarse);
 void factor_lines(const LineBlock& lines, const LineMatrix& matrix, float* factor);
-void factor_spring_lines(const LineBlock& lines, const SpringLineMatrix& matrix, float* factor);
 void factor_held_lines(const LineBlock& lines, const HeldLineMatrix& matrix, float* factor);
 void solve_lines(const LineBlock& lines, const LineSolve& solve);
 void solve_held_lines(const LineBlock& lines, const LineSolve& solve);
 void restrict_row(int m, const RowTriple& fine, Row3 coarse);
 void prolong_row(int n, ConstRow3 a, ConstRow3 b, Row3 fine);
-void subtract(int n, ConstRow3 a, ConstRow3 b, Row3 out);
 void scale_row(int n, float factor, Row3 out);
 void add_scaled(int n, float factor, ConstRow3 a, Row3 out);
 double newton_dot(int n, const float* share, ConstRow3 a, ConstRow3 b);
