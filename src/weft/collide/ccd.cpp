@@ -33,7 +33,7 @@ Corners4 differences(const EdgeEdge& p) {
           4};
 }
 
-struct NearestPoint {
+struct PolygonPoint {
   Vec3d point;
   double squared = HUGE_VAL;
   Weights weights{};
@@ -51,7 +51,7 @@ class NearestSearch {
       try_edge(k + 1, 0);
     }
   }
-  [[nodiscard]] const NearestPoint& best() const { return best_; }
+  [[nodiscard]] const PolygonPoint& best() const { return best_; }
 
  private:
   void keep(const Weights& weights) {
@@ -84,13 +84,13 @@ class NearestSearch {
   }
 
   const Corners4& corners_;
-  NearestPoint best_;
+  PolygonPoint best_;
 };
 
 /// The moving polygon of differences of two primitives.
-class MovingFeature {
+class MovingHull {
  public:
-  MovingFeature(const Corners4& start, const Corners4& end) : start_(start), end_(end) {
+  MovingHull(const Corners4& start, const Corners4& end) : start_(start), end_(end) {
     for (const Corners4* corners : {&start_, &end_})
       for (int k = 0; k < corners->count; ++k)
         for (const double x : {corners->at[k].x, corners->at[k].y, corners->at[k].z})
@@ -138,7 +138,7 @@ class MovingFeature {
 /// Fallback for near pairs, where cancellation in the nearest point may tilt its plane into the
 /// polygon: tries planes parallel to the polygon's edges and triangles instead.
 /// @return the latest time, see apart_until
-double apart_by_any_plane(const MovingFeature& piece, const Impact& impact, Vec3d displacement,
+double apart_by_any_plane(const MovingHull& piece, const Impact& impact, Vec3d displacement,
                           double separation) {
   const Corners4 now = piece.at(impact.time);
   double until = impact.time;
@@ -161,14 +161,14 @@ double apart_by_any_plane(const MovingFeature& piece, const Impact& impact, Vec3
 
 template <class Pair>
 std::optional<Impact> first_impact(const Pair& start, const Pair& end, const CcdOptions& options) {
-  const MovingFeature piece(differences(start), differences(end));
+  const MovingHull piece(differences(start), differences(end));
   // Two points with three coordinates each: 2 sqrt(3) < 3.5.
   const double separation = options.separation + 3.5 * options.input_error;
   const double rounding = epsilon * piece.extent();
   const double enough = separation + std::max(options.tolerance, min_tolerance * rounding);
   Impact impact;
   for (impact.steps = 1;; ++impact.steps) {
-    const NearestPoint nearest = NearestSearch(piece.at(impact.time)).best();
+    const PolygonPoint nearest = NearestSearch(piece.at(impact.time)).best();
     const Weights& w = nearest.weights;
     constexpr bool edges = std::is_same_v<Pair, EdgeEdge>;
     impact.u = edges ? w[1] + w[2] : w[1];

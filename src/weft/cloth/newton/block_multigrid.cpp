@@ -106,7 +106,7 @@ bool BlockMultigrid::renew_pins() {
       const bool moves = cloth_.inverse_mass(r, c) > 0;
       mask_(r, c) = moves ? 1.0F : 0.0F;
       extra(r, c) = moves ? free_extra_(r, c) : holding_stiffness;
-      if (!moves) pinned_.push_back(r * n + c);
+      if (!moves && !cloth_.mates.is_hole(r * n + c)) pinned_.push_back(r * n + c);
     }
     pin_starts_[r + 1] = static_cast<int>(pinned_.size());
   }

@@ -34,6 +34,8 @@ NewtonPart::NewtonPart(const Cloth& cloth, int workers, InstructionSet instructi
   multigrid_.seams().share(Workers(alone, true), {&share_});
   for (int r = 0; r < cloth.size; ++r)
     for (int c = 0; c < cloth.size; ++c) own_mass_(r, c) = share_(r, c) * cloth.mass(r, c);
+  for (int sample = 0; sample < cloth.size * cloth.size; ++sample)
+    if (cloth.mates.is_hole(sample)) holes_.push_back(sample);
   find_mass();
 }
 
@@ -49,18 +51,6 @@ bool NewtonPart::begin_row(const ClothState& state, bool go_on, int row) {
                               row_of(next_.velocity, row), direction_.row(row)});
 }
 
-/// Whether a row of the step's start is that of the state but for holes, which have no place of
-/// their own.
-bool NewtonPart::is_known(const Planes3& start, int row) const {
-  if (cloth_.mates.chart_of().empty()) return false;
-  for (int c = 0; c < cloth_.size; ++c) {
-    const Vec3f there{state_.position.x(row, c), state_.position.y(row, c),
-                      state_.position.z(row, c)};
-    if (start.at(row, c) != there && !cloth_.mates.is_hole(row * cloth_.size + c)) return false;
-  }
-  return true;
-}
-
 void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTeam& team) {
   input_ = input;
   iterations = 0;
@@ -71,10 +61,18 @@ void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTe
   springs_.set_time_step(input.time_step);
   if (multigrid_.renew_pins()) find_mass();
   const bool go_on = std::exchange(has_last_, false);
+  // They have no place of their own, and are where others last put them.
+  for (const int hole : holes_) {
+    const int r = hole / cloth_.size, c = hole % cloth_.size;
+    const Vec3f there = state.position.at(hole);
+    state_.position.x(r, c) = there.x;
+    state_.position.y(r, c) = there.y;
+    state_.position.z(r, c) = there.z;
+  }
   team.run([&](Worker& worker) {
     const Range mine = worker.share(cloth_.size);
     for (int r = mine.first; r < mine.last; ++r)
-      known_rows_[r] = begin_row(state, go_on, r) || is_known(state.position, r) ? 1 : 0;
+      known_rows_[r] = begin_row(state, go_on, r) ? 1 : 0;
   });
   // A step mostly starts where the last run ended, whose potential energy is known.
   const bool known =

@@ -142,7 +142,6 @@ class NewtonPart {
     return {contacts.product, contacts.cloth};
   }
   bool begin_row(const ClothState& state, bool go_on, int row);
-  [[nodiscard]] bool is_known(const Planes3& start, int row) const;
   void read_row(int row);
   void find_mass();
   void take_plain(const PaddedVectors& position, Worker& worker);
@@ -170,6 +169,7 @@ class NewtonPart {
   PaddedVectors step_, direction_, product_;  // [m], [m], [N]
   PaddedVectors& residual_;                   // [N]
   PaddedPlane share_;                         // 1 / number of copies
+  std::vector<int> holes_;                    // samples
   Grid<float> own_mass_;                      // share of the mass [kg]
   RowSums sums_;
   std::vector<double> row_parts_;      // [n] of direction . product

@@ -49,7 +49,11 @@ void join_to_tiles(const Tiling& of_a, const Tiling& of_b, std::vector<Candidate
 }
 
 CellTiles::CellTiles(const SurfaceGrid& grid)
-    : grid_(&grid), tiling_(grid.cells()), corners_(static_cast<std::size_t>(tiling_.count())) {
+    : grid_(&grid),
+      tiling_(grid.cells()),
+      corners_(static_cast<std::size_t>(tiling_.count())),
+      fitted_(corners_.size(), -1) {
+  wanted_.reserve(corners_.size());
   for (int r = 0; r < grid.cells(); ++r)
     for (int c = 0; c < grid.cells(); ++c)
       corners_[tiling_.tile_at(r, c)].falling[Tiling::lane_at(r, c)] =
@@ -97,13 +101,31 @@ void CellTiles::hide_missing(int number, int rows, int cols) {
     }
 }
 
-void CellTiles::fit(ThreadTeam& team) {
-  if (fitted_) return;
-  fitted_ = true;
-  team.run_if(tiling_.count() >= min_shared_tiles, [&](const Worker& worker) {
-    const Range mine = worker.share(tiling_.count());
-    for (int tile = mine.first; tile < mine.last; ++tile) fit_tile(tile);
+void CellTiles::want(int number) {
+  int& last = fitted_[static_cast<std::size_t>(number)];
+  if (last != motion_) wanted_.push_back(number);
+  last = motion_;
+}
+
+void CellTiles::fit_wanted(ThreadTeam& team) {
+  const int count = static_cast<int>(wanted_.size());
+  team.run_if(count >= min_shared_tiles, [&](const Worker& worker) {
+    const Range mine = worker.share(count);
+    for (int i = mine.first; i < mine.last; ++i) fit_tile(wanted_[static_cast<std::size_t>(i)]);
   });
+}
+
+void CellTiles::fit(ThreadTeam& team) {
+  wanted_.clear();
+  for (int number = 0; number < tiling_.count(); ++number) want(number);
+  fit_wanted(team);
+}
+
+void CellTiles::fit(std::span<const CandidateTile> candidates, bool second, ThreadTeam& team) {
+  wanted_.clear();
+  for (const CandidateTile& one : candidates)
+    want(second ? tiling_.tile_b(one) : tiling_.tile_at(one.row_a, one.col_a));
+  fit_wanted(team);
 }
 
 CellCorners CellTiles::cell(int row, int col) const {

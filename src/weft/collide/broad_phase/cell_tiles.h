@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
@@ -45,16 +46,20 @@ class CellTiles {
   /// Takes a step's motion, to be fitted when it is asked for.
   void take(const MovingSurface& surface) {
     surface_ = surface;
-    fitted_ = false;
+    ++motion_;
   }
-  /// Copies the corners of the motion that was taken last, once.
+  /// Copies the corners of the motion that was taken last: of all tiles, or of those that
+  /// candidates have on their first or second side. Each is copied once.
   void fit(ThreadTeam& team);
+  void fit(std::span<const CandidateTile> candidates, bool second, ThreadTeam& team);
 
   [[nodiscard]] const Tiling& tiling() const { return tiling_; }
   [[nodiscard]] const TileCorners& tile(int number) const { return corners_[number]; }
   [[nodiscard]] CellCorners cell(int row, int col) const;
 
  private:
+  void want(int number);
+  void fit_wanted(ThreadTeam& team);
   void fit_tile(int number);
   /// Cells that lie in no chart are near nothing.
   void hide_missing(int number, int rows, int cols);
@@ -63,7 +68,9 @@ class CellTiles {
   Tiling tiling_;
   std::vector<TileCorners> corners_;
   MovingSurface surface_;
-  bool fitted_ = false;
+  int motion_ = 0;           // counts those that were taken
+  std::vector<int> fitted_;  // by tiles, the motion that each was fitted to last
+  std::vector<int> wanted_;  // tiles
 };
 
 }  // namespace weft

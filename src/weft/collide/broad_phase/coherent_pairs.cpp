@@ -89,9 +89,9 @@ const PathBoxLevels* CoherentPairs::boxes(int surface, ThreadTeam& team) {
   return broad_phase_->boxes(surface);
 }
 
-void CoherentPairs::fit_tiles(int a, int b, ThreadTeam& team) {
-  tiles_[static_cast<std::size_t>(a)].fit(team);
-  tiles_[static_cast<std::size_t>(b)].fit(team);
+void CoherentPairs::fit_tiles(int a, int b, std::span<const CandidateTile> of, ThreadTeam& team) {
+  tiles_[static_cast<std::size_t>(a)].fit(of, false, team);
+  tiles_[static_cast<std::size_t>(b)].fit(of, true, team);
 }
 
 /// The surfaces' other patches may be half a skin from where they were renewed, on this side now
@@ -130,7 +130,7 @@ void CoherentPairs::complete(int a, int b, List& list, float slack, ThreadTeam& 
 
 void CoherentPairs::refine(int a, int b, float reach, ThreadTeam& team) {
   if (fresh_.empty()) return;
-  fit_tiles(a, b, team);
+  fit_tiles(a, b, fresh_, team);
   const CellTiles &of_a = tiles(a), &of_b = tiles(b);
   const CollideKernels& kernels = collide_kernels_for(team.instructions());
   found_.fill(static_cast<int>(fresh_.size()), team, [&](int i, std::vector<CandidateTile>& mine) {
@@ -190,7 +190,7 @@ std::span<const CandidateTile> CoherentPairs::find(int surface_a, int surface_b,
   widen(list, reach);
   complete(surface_a, surface_b, list, 0, team);
   collect_near(surface_a, surface_b, reach);
-  if (!near_.empty()) fit_tiles(surface_a, surface_b, team);
+  fit_tiles(surface_a, surface_b, near_, team);
   return near_;
 }
 
@@ -262,7 +262,7 @@ std::span<const CandidateTile> CoherentPairs::find_self(int surface, float reach
   });
   append(found_, fresh_);
   std::swap(near_, fresh_);
-  if (!near_.empty()) fit_tiles(surface, surface, team);
+  fit_tiles(surface, surface, near_, team);
   return near_;
 }
 

@@ -34,7 +34,7 @@ class CoherentPairs {
   /// The same for a cloth with itself; neighbours in a now certainly unfolded rectangle are left
   /// out.
   std::span<const CandidateTile> find_self(int surface, float reach, float slack, ThreadTeam& team);
-  /// The corners of a surface's cells now, once pairs of it were found.
+  /// The corners now of those cells of a surface that pairs were found of.
   [[nodiscard]] const CellTiles& tiles(int surface) const {
     return tiles_[static_cast<std::size_t>(surface)];
   }
@@ -63,7 +63,7 @@ class CoherentPairs {
   /// @param slack  of a cloth with itself
   void complete(int a, int b, List& list, float slack, ThreadTeam& team);
   void fit_boxes(ThreadTeam& team);
-  void fit_tiles(int a, int b, ThreadTeam& team);
+  void fit_tiles(int a, int b, std::span<const CandidateTile> of, ThreadTeam& team);
   /// Searches what changed since a list was completed, into fresh_.
   /// @return whether that is all of the list
   bool search(int a, int b, const List& list, float slack, ThreadTeam& team);

@@ -11,6 +11,11 @@ namespace weft {
 /// those along columns, through a step.
 using Extents = std::array<Grid<float>, 12>;
 
+/// Planes of edges of one kind.
+inline constexpr int edge_planes = 6;
+/// Beyond all extents.
+inline constexpr float beyond_extents = 1e30F;
+
 inline Extents extents(int rows, int cols) {
   Extents made;
   for (Grid<float>& plane : made) plane = Grid<float>(rows, cols);

@@ -94,7 +94,10 @@ bool PyramidPairs::leaves_out(const Patch& patch, const Node& node) const {
   if (!search.same()) return false;
   // Of two patches the later one is found by the earlier one.
   const unsigned last = ((place_in_order(node.row, node.col) + 1) << (2 * above)) - 1;
-  return last < patch.place || search.unfolded->unfolded(ancestor_of(patch.node, node.level), node);
+  if (last < patch.place || search.unfolded->unfolded(ancestor_of(patch.node, node.level), node))
+    return true;
+  return node.level == PatchVersions::level && patch.node.level == PatchVersions::level &&
+         search.unfolded->patches_unfolded_across(patch.node, node);
 }
 
 void PyramidPairs::descend(const Patch& patch, const Node& node) const {

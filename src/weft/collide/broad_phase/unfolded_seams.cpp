@@ -6,10 +6,6 @@
 namespace weft {
 namespace {
 
-constexpr int edge_planes = 6;  // of the edges of one kind
-/// Of cells that are not there: no window that holds them passes the test.
-constexpr float beyond = 1e30F;
-
 /// Takes the extents of one kind of edges, or of their opposites.
 void take_edges(const Extents& from, int kind, int sign, int row, int col, Extents& to, int to_kind,
                 int to_row, int to_col) {
@@ -44,9 +40,9 @@ void UnfoldedSeams::fill(const SeamStrips::Strip& strip, const Extents& cells, L
   for (int col = 0; col < strip.count; ++col)
     for (int row = 0; row < SeamStrips::rows; ++row) {
       const int cell = seams_->column(strip, col)[row];
-      if (cell < 0) {
+      if (cell < 0) {  // no window that holds it passes the test
         for (int k = 0; k < 2 * edge_planes; ++k)
-          lines.cells[k](row, col) = k % edge_planes < 3 ? -beyond : beyond;
+          lines.cells[k](row, col) = k % edge_planes < 3 ? -beyond_extents : beyond_extents;
         continue;
       }
       const SeamStrips::Frame& frame = strip.sides[row / 2];

@@ -43,6 +43,38 @@ void UnfoldedWindows::fill_row(const CollideKernels& kernels, const MovingSurfac
                   {from[k]->row(row), from[k]->row(row + 1), to[k]->row(row), to[k]->row(row + 1)},
                   planes.data());
   }
+  hide_gaps(0, row);
+}
+
+/// What is in no chart adds nothing to extents, and nodes of several charts have such with which no
+/// window passes the test.
+void UnfoldedWindows::hide_gaps(std::size_t level, int row) {
+  if (charts_.empty()) return;
+  const std::array planes = row_of(levels_[level].nodes, row);
+  const auto set = [&](int col, float lower) {
+    for (std::size_t k = 0; k < planes.size(); ++k)
+      planes[k][col] = k % edge_planes < 3 ? lower : -lower;
+  };
+  for (const int col : charts_.without(static_cast<int>(level), row)) set(col, beyond_extents);
+  for (const int col : charts_.mixed(static_cast<int>(level), row)) set(col, -beyond_extents);
+}
+
+void UnfoldedWindows::clear_mixed(std::size_t level, int row) {
+  if (charts_.empty()) return;
+  const auto clear = [&](Grid<float>& marks, int size) {
+    if (row >= marks.rows()) return;
+    for (const int col : charts_.mixed_windows(static_cast<int>(level), row, size))
+      marks(row, col) = 0;
+  };
+  clear(levels_[level].two_unfolded, 2);
+  clear(levels_[level].three_unfolded, 3);
+}
+
+void UnfoldedWindows::take_charts(const SurfaceGrid& grid) {
+  if (grid_ == &grid) return;
+  grid_ = &grid;
+  charts_ = ChartNodes(grid);
+  blocks_ = UnfoldedBlocks(grid, charts_);
 }
 
 void UnfoldedWindows::join_row(const CollideKernels& kernels, std::size_t level, int row) {
@@ -52,11 +84,11 @@ void UnfoldedWindows::join_row(const CollideKernels& kernels, std::size_t level,
   const std::array b = row_of(fine.nodes, std::min(2 * row + 1, fine.side - 1));
   const int whole = fine.side / 2;
   kernels.join_twos(whole, a.data(), b.data(), row_of(coarse.nodes, row).data());
-  if (coarse.side == whole) return;
-  for (std::size_t k = 0; k < 12; ++k) {  // the last, of one column
+  for (std::size_t k = 0; k < 12 && whole < coarse.side; ++k) {  // the last, of one column
     const float p = a[k][2 * whole], q = b[k][2 * whole];
-    coarse.nodes[k](row, whole) = k % 6 < 3 ? std::min(p, q) : std::max(p, q);
+    coarse.nodes[k](row, whole) = k % edge_planes < 3 ? std::min(p, q) : std::max(p, q);
   }
+  hide_gaps(level, row);
 }
 
 void UnfoldedWindows::fit(const CollideKernels& kernels, const MovingSurface& surface,
@@ -134,6 +166,7 @@ void UnfoldedWindows::find_unfolded_rows(const CollideKernels& kernels, std::siz
       lines.joined = -1;
     else
       find_unfolded_row(kernels, level, slack, r, lines);
+    clear_mixed(index, r);
   }
 }
 
@@ -141,10 +174,13 @@ void UnfoldedWindows::find_unfolded(const MovingSurface& surface, float slack, T
   const CollideKernels& kernels = collide_kernels_for(team.instructions());
   const int side = levels_.front().side;
   while (static_cast<int>(lines_.size()) < team.size()) lines_.push_back(Lines(side));
+  take_charts(*surface.grid);
   seams_.take(surface.grid->seams(), side, team.size());
   team.run_if(side >= min_shared_cells, [&](Worker& worker) {
     fit(kernels, surface, worker);
     seams_.find_unfolded(kernels, levels_.front().nodes, 2 * slack, worker);
+    if (levels_.size() > PatchVersions::level)
+      blocks_.find_unfolded(kernels, levels_[PatchVersions::level].nodes, 2 * slack, worker);
     Lines& lines = lines_[static_cast<std::size_t>(worker.rank())];
     for (std::size_t level = levels_.size(); level-- > 0;) {
       const int rows = levels_[level].two_unfolded.rows();
@@ -163,6 +199,11 @@ bool UnfoldedWindows::unfolded(const CandidatePair& pair) const {
   if (seams_.unfolded(pair)) return true;
   const int side = levels_.front().side;
   Node a{0, pair.a / side, pair.a % side}, b{0, pair.b / side, pair.b % side};
+  const auto patch_of = [](const Node& cell) {
+    return Node{PatchVersions::level, cell.row / PatchVersions::side,
+                cell.col / PatchVersions::side};
+  };
+  if (patches_unfolded_across(patch_of(a), patch_of(b))) return true;
   while (std::abs(a.row - b.row) > 2 || std::abs(a.col - b.col) > 2) {
     a = {a.level + 1, a.row / 2, a.col / 2};
     b = {b.level + 1, b.row / 2, b.col / 2};

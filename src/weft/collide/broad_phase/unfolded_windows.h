@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
+#include "weft/collide/broad_phase/chart_nodes.h"
 #include "weft/collide/broad_phase/extents.h"
 #include "weft/collide/broad_phase/node_levels.h"
 #include "weft/collide/broad_phase/tiling.h"
+#include "weft/collide/broad_phase/unfolded_blocks.h"
 #include "weft/collide/broad_phase/unfolded_seams.h"
 #include "weft/collide/kernels/collide_kernels.h"
 #include "weft/grid.h"
@@ -28,7 +30,9 @@ namespace weft {
 /// by row from the coarsest level down, so that a search only looks them up. What lies within
 /// unfolded windows of the level above is unfolded, too.
 ///
-/// Cells on both sides of a seam have windows of their own, see UnfoldedSeams.
+/// Of an image with gaps between its charts, windows are the part of them that is a chart; those of
+/// several charts tell nothing. Cells and patches on both sides of a seam have windows of their
+/// own, see UnfoldedSeams and UnfoldedBlocks.
 class UnfoldedWindows {
  public:
   explicit UnfoldedWindows(int cells);
@@ -58,10 +62,19 @@ class UnfoldedWindows {
   [[nodiscard]] bool unfolded_across(const CandidatePair& cells) const {
     return seams_.unfolded(cells);
   }
+  /// Whether some window across a seam that holds two patches is certainly unfolded.
+  [[nodiscard]] bool patches_unfolded_across(const Node& a, const Node& b) const {
+    const int side = levels_.size() > PatchVersions::level ? sides_[PatchVersions::level] : 0;
+    return blocks_.unfolded(a.row * side + a.col, b.row * side + b.col);
+  }
   /// Calls visit(first node, nodes a side) for windows above the cells that were unfolded when
   /// this was called last and are not now.
   template <class Visit>
   void for_refolded(const Visit& visit) {
+    blocks_.for_refolded([&](int patch) {
+      const int side = sides_[PatchVersions::level];
+      visit(Node{PatchVersions::level, patch / side, patch % side}, 1);
+    });
     for (std::size_t level = 1; level < levels_.size(); ++level) {
       Level& of = levels_[level];
       for (int r = 0; r < of.two_unfolded.rows(); ++r)
@@ -112,6 +125,9 @@ class UnfoldedWindows {
   [[nodiscard]] bool is_smooth(int row, int col) const;
   void fill_row(const CollideKernels& kernels, const MovingSurface& surface, int row);
   void join_row(const CollideKernels& kernels, std::size_t level, int row);
+  void take_charts(const SurfaceGrid& grid);
+  void hide_gaps(std::size_t level, int row);
+  void clear_mixed(std::size_t level, int row);
   void fit(const CollideKernels& kernels, const MovingSurface& surface, Worker& worker);
   static void find_unfolded_row(const CollideKernels& kernels, Level& level, float slack, int row,
                                 Lines& lines);
@@ -121,8 +137,11 @@ class UnfoldedWindows {
 
   std::vector<int> sides_;
   std::vector<Level> levels_;
-  std::vector<Lines> lines_;  // one a worker
+  std::vector<Lines> lines_;           // one a worker
+  const SurfaceGrid* grid_ = nullptr;  // whose charts these are
+  ChartNodes charts_;
   UnfoldedSeams seams_;
+  UnfoldedBlocks blocks_;
 };
 
 }  // namespace weft
