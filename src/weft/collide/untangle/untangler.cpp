@@ -40,6 +40,7 @@ double sign(double x) { return x > 0 ? 1 : (x < 0 ? -1 : 0); }
 void Untangler::set_up(std::span<const SurfaceGrid* const> grids,
                        std::span<const CollidingCloth> properties) {
   grids_.assign(grids.begin(), grids.end());
+  properties_.clear();
   for (const CollidingCloth& one : properties) properties_.push_back(one);
   pairs_ = std::vector<Pair>(grids_.size() * grids_.size());
   pushes_.resize(grids_.size());
