@@ -121,6 +121,19 @@ TEST(Checkpoint, RefusalsSayWhatIsWrong) {
   EXPECT_NE(refusal(whole.substr(0, 100)).find("100 bytes instead of"), std::string::npos);
 }
 
+TEST(Checkpoint, ContactsOfSamplesThatNoClothHasAreRefused) {
+  const auto refused = [](int index, int second) {
+    Checkpoint checkpoint = sample();
+    checkpoint.state.contacts = {{{{0, index, -1, -1}, second, {0, 1, 0}, {}, 6, 7}}, {}};
+    return !refusal(encode_checkpoint(checkpoint)).empty();
+  };
+  EXPECT_FALSE(refused(24, -1));
+  EXPECT_TRUE(refused(25, -1)) << "of a cloth of 5 x 5";
+  EXPECT_FALSE(refused(35, 1));
+  EXPECT_TRUE(refused(36, 1)) << "the other has 6 x 6";
+  EXPECT_TRUE(refused(-2, -1));
+}
+
 TEST(Checkpoint, ChangesWithAFittingHashAreReadOrRefused) {
   const std::string whole = encode_checkpoint(sample());
   Random random(5);

@@ -118,12 +118,17 @@ void add_contacts(const std::vector<PastContact>& contacts, ByteWriter& out) {
     each_field_of_past(past, [&](auto value) { out.add(value); });
 }
 
-/// Reads past contacts; nothing for a count that the bytes do not hold.
-std::optional<std::vector<PastContact>> next_contacts(ByteReader& in) {
+/// Reads past contacts; nothing for a count that the bytes do not hold, or a sample that the cloth
+/// has not. @param own, most  samples of the cloth, and of the largest one
+std::optional<std::vector<PastContact>> next_contacts(int own, int most, ByteReader& in) {
   const auto count = in.next<std::uint64_t>();
   if (count > in.left() / sizeof(PastContact)) return std::nullopt;
   std::vector<PastContact> contacts(static_cast<std::size_t>(count));
-  for (PastContact& past : contacts) each_field_of_past(past, [&](auto& value) { in.read(value); });
+  for (PastContact& past : contacts) {
+    each_field_of_past(past, [&](auto& value) { in.read(value); });
+    for (const int sample : past.samples)
+      if (sample < -1 || sample >= (past.second < 0 ? own : most)) return std::nullopt;
+  }
   return contacts;
 }
 
@@ -187,8 +192,13 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
     if (!marks) return std::nullopt;
     checkpoint.state.marks.push_back(std::move(*marks));
   }
-  for (std::size_t i = 0; i < checkpoint.state.cloths.size(); ++i) {
-    std::optional<std::vector<PastContact>> contacts = next_contacts(in);
+  int most = 0;
+  const auto samples_of = [](const ClothState& cloth) {
+    return cloth.position.size() * cloth.position.size();
+  };
+  for (const ClothState& cloth : checkpoint.state.cloths) most = std::max(most, samples_of(cloth));
+  for (const ClothState& cloth : checkpoint.state.cloths) {
+    std::optional<std::vector<PastContact>> contacts = next_contacts(samples_of(cloth), most, in);
     if (!contacts) return std::nullopt;
     checkpoint.state.contacts.push_back(std::move(*contacts));
   }
