@@ -15,9 +15,10 @@ namespace {
 /// springs pull harder than a contact of the usual stiffness can press within its small depth, so
 /// every solve would let them through the body, and the filter would stretch the springs again.
 constexpr float body_firmness = 64;
-/// Way of one side relative to the other in a step, in gaps that they keep, beyond which a contact
-/// is not kept: its normal is that of features which have parted since, and would hold back what
-/// slides.
+/// Way of one side relative to the other in a step, in thicknesses, beyond which a contact is not
+/// kept: its normal is that of features which have parted since, and would hold back what slides.
+/// Also between cloths that keep a smaller gap: with that, or with all of them kept, a garment's
+/// seams pulled layers into each other's creases, where they stayed open by centimetres.
 constexpr double max_way = 0.1;
 
 auto key_of(const StruckContact& one) {
@@ -102,13 +103,6 @@ StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
   return out;
 }
 
-double StruckContacts::gap_of(const StruckContact& one) const {
-  const auto first = static_cast<std::size_t>(one.shared.first),
-             second = static_cast<std::size_t>(one.shared.second);
-  return one.body >= 0 ? world_.cloths[first].properties.thickness
-                       : world_.gap_between(first, second);
-}
-
 void StruckContacts::hold_apart(const SeparatingPlane& plane, Vec3d normal, double distance,
                                 StruckContact& out) const {
   Contact& contact = out.shared.contact;
@@ -117,9 +111,9 @@ void StruckContacts::hold_apart(const SeparatingPlane& plane, Vec3d normal, doub
   const auto first = static_cast<std::size_t>(out.shared.first),
              second = static_cast<std::size_t>(out.shared.second);
   const CollidingCloth &a = world_.cloths[first].properties, &b = world_.cloths[second].properties;
+  const double gap = before_body ? a.thickness : world_.gap_between(first, second);
   contact.normal = vec_cast<float>(normal);
-  contact.offset =
-      static_cast<float>(std::min(gap_of(out), distance) + dot(normal, plane.body_point));
+  contact.offset = static_cast<float>(std::min(gap, distance) + dot(normal, plane.body_point));
   if (before_body) contact.firmness = body_firmness;
   contact.friction = static_cast<float>(pair_friction(
       a.friction,
@@ -166,7 +160,9 @@ bool StruckContacts::has_slid(const StruckContact& one, std::span<const MovingCl
     const int sample = shared.contact.samples[k];
     way += double{weight} * vec_cast<double>(cloth.position.at(sample) - cloth.start.at(sample));
   }
-  return length(way) > max_way * gap_of(one);
+  const double thickness =
+      world_.cloths[static_cast<std::size_t>(shared.first)].properties.thickness;
+  return length(way) > max_way * thickness;
 }
 
 void StruckContacts::commit() {

@@ -45,8 +45,6 @@ class StruckContacts {
   [[nodiscard]] StruckContact contact_of(const SeparatingPlane& plane,
                                          std::span<const MovingCloth> moving,
                                          double time_step) const;
-  /// The gap that its sides keep [m].
-  [[nodiscard]] double gap_of(const StruckContact& one) const;
   /// Gives a contact the normal, offset and friction of its pair.
   /// @param normal    of the plane, towards the contact's first side
   /// @param distance  of the closest points at the start of the step [m]
