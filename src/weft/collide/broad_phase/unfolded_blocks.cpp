@@ -8,15 +8,22 @@
 namespace weft {
 namespace {
 
-/// Widens extents by those of one kind of edges, or by their opposites.
-void widen(const Extents& by, int kind, int sign, int row, int col, Extents& to, int to_kind,
-           int column) {
+/// How edges of a patch are edges of a strip: from which planes on, forwards or backwards (-1), and
+/// to which.
+struct EdgeTurn {
+  int from, sign, to;
+};
+
+/// Widens a window's extents by those of a patch.
+void widen(const Extents& patches, const EdgeTurn& turn, int patch, Extents& joined, int column) {
+  const int side = patches.front().cols(), row = patch / side, col = patch % side;
   for (int k = 0; k < 3; ++k) {
-    const float lower = by[kind + k](row, col), upper = by[kind + 3 + k](row, col);
-    float& least = to[to_kind + k](0, column);
-    float& most = to[to_kind + 3 + k](0, column);
-    least = std::min(least, sign > 0 ? lower : -upper);
-    most = std::max(most, sign > 0 ? upper : -lower);
+    const float lower = patches[turn.from + k](row, col),
+                upper = patches[turn.from + 3 + k](row, col);
+    float& least = joined[turn.to + k](0, column);
+    float& most = joined[turn.to + 3 + k](0, column);
+    least = std::min(least, turn.sign > 0 ? lower : -upper);
+    most = std::max(most, turn.sign > 0 ? upper : -lower);
   }
 }
 
@@ -137,14 +144,12 @@ UnfoldedBlocks::UnfoldedBlocks(const SurfaceGrid& grid, const ChartNodes& charts
 }
 
 void UnfoldedBlocks::join(const Window& window, const Extents& patches, int column) {
-  const int side = patches.front().cols();
   for (int k = 0; k < 2 * edge_planes; ++k)
     joined_[k](0, column) = k % edge_planes < 3 ? HUGE_VALF : -HUGE_VALF;
   for (const Part& part : window.parts) {
     const int along = part.frame.along_rows ? 0 : edge_planes, across = edge_planes - along;
-    const int row = part.patch / side, col = part.patch % side;
-    widen(patches, along, part.frame.along, row, col, joined_, 0, column);
-    widen(patches, across, part.frame.across, row, col, joined_, edge_planes, column);
+    widen(patches, {along, part.frame.along, 0}, part.patch, joined_, column);
+    widen(patches, {across, part.frame.across, edge_planes}, part.patch, joined_, column);
   }
 }
 
