@@ -118,32 +118,40 @@ std::vector<std::pair<int, int>> cells_of(const Charts& charts,
   return cells;
 }
 
+/// Bends a sheet to and fro, and looks whether a search that remembers finds what a new one does.
+/// @return how many cells are near each other at most
+std::size_t bend_to_and_fro(const Charts& charts, float skin) {
+  constexpr float reach = 0.01F;
+  const std::array<const SurfaceGrid*, 1> grids{&charts.grid};
+  const auto make = [&] {
+    return CoherentPairs(std::make_unique<PyramidPairs>(grids, 1), grids, 1, skin);
+  };
+  ThreadTeam alone(1);
+  CoherentPairs pairs = make();
+  std::size_t most = 0;
+  for (const double bend : {0.1, 3.0, 6.2, 9.0, 6.2, 0.2, 8.0}) {
+    const Planes3 at = charts.placed([&](Vec3d p) {
+      return Vec3d{sine(bend * p.x) / bend, (1 - cosine(bend * p.x)) / bend + 0.004 * p.x, p.z};
+    });
+    const MovingSurface surface{&charts.grid, &at, &at};
+    CoherentPairs anew = make();
+    pairs.refit(std::array{surface}, alone);
+    anew.refit(std::array{surface}, alone);
+    const auto kept = cells_of(charts, pairs.find_self(0, reach, 0, alone)),
+               fresh = cells_of(charts, anew.find_self(0, reach, 0, alone));
+    // What is kept may have some within the skin beyond.
+    EXPECT_TRUE(std::includes(kept.begin(), kept.end(), fresh.begin(), fresh.end())) << bend;
+    most = std::max(most, fresh.size());
+  }
+  return most;
+}
+
 TEST(UnfoldedBlocks, WhatFoldsAtASeamIsFoundAsIfLookedForAnew) {
-  constexpr float skin = 0.004F, reach = 0.01F;
   for (const auto& parts : {testing::quarters(whole), testing::pinwheel(whole)}) {
     const Charts charts(parts);
-    const std::array<const SurfaceGrid*, 1> grids{&charts.grid};
-    const auto make = [&] {
-      return CoherentPairs(std::make_unique<PyramidPairs>(grids, 1), grids, 1, skin);
-    };
-    ThreadTeam alone(1);
-    CoherentPairs pairs = make();
-    std::size_t most = 0;
-    for (const double bend : {0.1, 3.0, 6.2, 9.0, 6.2, 0.2, 8.0}) {
-      const Planes3 at = charts.placed([&](Vec3d p) {
-        return Vec3d{sine(bend * p.x) / bend, (1 - cosine(bend * p.x)) / bend + 0.004 * p.x, p.z};
-      });
-      const MovingSurface surface{&charts.grid, &at, &at};
-      CoherentPairs anew = make();
-      pairs.refit(std::array{surface}, alone);
-      anew.refit(std::array{surface}, alone);
-      const auto kept = cells_of(charts, pairs.find_self(0, reach, 0, alone)),
-                 fresh = cells_of(charts, anew.find_self(0, reach, 0, alone));
-      // What is kept may have some within the skin beyond.
-      EXPECT_TRUE(std::includes(kept.begin(), kept.end(), fresh.begin(), fresh.end())) << bend;
-      most = std::max(most, fresh.size());
-    }
-    EXPECT_GT(most, 100U);
+    EXPECT_GT(bend_to_and_fro(charts, 0.004F), 100U);
+    // Within so wide a skin nothing moves: that a window has folded is all that tells.
+    EXPECT_GT(bend_to_and_fro(charts, 4), 100U);
   }
 }
 

@@ -10,7 +10,8 @@ class SurfaceGrid;
 struct CellFeatures {
   /// Edges of a cell: from corner 0 to 1, from 0 to 2, its diagonal, from 2 to 3 and from 1 to 3.
   static constexpr int edges = 5;
-  /// The first that searches of a cell's own features alone, its kernels, do not know.
+  /// The first of those at its last row and column, which kernels leave out: mostly they are
+  /// another cell's.
   static constexpr int last_edges = 3;
 
   unsigned char own_corners = 0;  ///< bit k: corner k

@@ -31,7 +31,7 @@ class ChartNodes {
 
   /// Whether the image is one chart without gaps: then there is nothing to ask.
   [[nodiscard]] bool empty() const { return levels_.empty(); }
-  /// A number, none or several.
+  /// A number from 0, none or several. @pre not empty()
   [[nodiscard]] int chart_of(const Node& node) const {
     return levels_[static_cast<std::size_t>(node.level)].charts(node.row, node.col);
   }

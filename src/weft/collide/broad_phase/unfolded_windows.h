@@ -37,7 +37,7 @@ class UnfoldedWindows {
  public:
   explicit UnfoldedWindows(int cells);
   /// Tests all windows for a step's motion, where any sample may still leave its path by `slack`.
-  /// [m]
+  /// [m] @param surface  of the same grid each time
   void find_unfolded(const MovingSurface& surface, float slack, ThreadTeam& team);
   /// Whether some window that holds two nodes of one level is certainly unfolded; false where they
   /// are too far apart for one.
