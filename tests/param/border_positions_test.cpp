@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -113,6 +114,28 @@ TEST(BorderPositions, FollowArcLength) {
   ASSERT_EQ(cut.disk.border.size(), 6U);
   const Vec3d corner = cut.disk.positions[cut.disk.border[1]];
   EXPECT_NEAR(corner.x, 256 * whole / 1024, 1e-12);
+}
+
+/// Whether every corner of a chart of 5 x 5 samples is a vertex of a triangle's border.
+bool corners_are_vertices(const TriangleMesh& triangle) {
+  CutDisk cut = cut_open(triangle, {});
+  const BorderLayout layout = lay_out_border(cut, {5, 0});
+  split_at_corners(cut, layout);
+  const std::vector<double> t = border_positions(cut, layout);
+  const std::array<int, 4> corners = layout.size.corners();
+  return std::is_sorted(t.begin(), t.end()) &&
+         std::all_of(corners.begin(), corners.end(), [&](int corner) {
+           return std::count(t.begin(), t.end(), static_cast<double>(corner)) == 1;
+         });
+}
+
+TEST(BorderPositions, CornersAreVerticesHoweverCoordinatesRound) {
+  TriangleMesh mesh = one_triangle();
+  EXPECT_TRUE(corners_are_vertices(mesh));
+  for (const double size : {1e-9, 1e-11, 1e-12, 0.0}) {
+    mesh.positions = {{8000, 1, 1}, {8000 + size, 1, 1}, {8000, 1 + 1e-3 * size, 1}};
+    EXPECT_TRUE(corners_are_vertices(mesh)) << size;
+  }
 }
 
 TEST(BorderPositions, EdgesOfNoLengthStillAdvance) {

@@ -19,15 +19,60 @@ constexpr double min_share = 1e-8;
 /// Places are multiples of this, so that sums and differences with whole numbers are exact.
 constexpr double place_unit = 0x1p-32;
 
-std::vector<double> edge_lengths(const CutDisk& cut, const BorderPath& path) {
-  const DiskMesh& disk = cut.disk;
-  const int size = static_cast<int>(disk.border.size());
-  std::vector<double> lengths(path.edges);
-  for (int j = 0; j < path.edges; ++j)
-    lengths[j] = length(disk.positions[disk.border[(path.first + j) % size]] -
-                        disk.positions[disk.border[(path.first + j + 1) % size]]);
-  return lengths;
-}
+/// The vertices of a path as it was before edges of it were split. Where a path is so short that
+/// coordinates round by a part of it, the lengths of split edges would not say where they were
+/// split.
+class UnsplitPath {
+ public:
+  UnsplitPath(const CutDisk& cut, const BorderPath& path) : disk_(cut.disk) {
+    const std::size_t size = disk_.border.size();
+    for (int j = 0; j <= path.edges; ++j)
+      vertices_.push_back(disk_.border[static_cast<std::size_t>(path.first + j) % size]);
+    while (take_last_split()) {
+    }
+  }
+
+  [[nodiscard]] std::vector<double> edge_lengths() const {
+    std::vector<double> lengths;
+    for (std::size_t j = 0; j + 1 < vertices_.size(); ++j)
+      lengths.push_back(length(disk_.positions[vertices_[j]] - disk_.positions[vertices_[j + 1]]));
+    return lengths;
+  }
+  /// Divides lengths of these edges as they were split.
+  void put_splits_back(std::vector<double>& lengths) const {
+    for (auto split = splits_.rbegin(); split != splits_.rend(); ++split) {
+      const auto second = lengths.begin() + static_cast<std::ptrdiff_t>(split->edge);
+      const double whole = *second;
+      *second = (1 - split->fraction) * whole;
+      lengths.insert(second, split->fraction * whole);
+    }
+  }
+
+ private:
+  struct Split {
+    std::size_t edge;
+    double fraction;
+  };
+  [[nodiscard]] bool splits_its_edge(std::size_t j) const {
+    const auto v = static_cast<std::size_t>(vertices_[j]);
+    if (v >= disk_.split_from.size()) return false;
+    const EdgePlace& place = disk_.split_from[v];
+    return place.a == vertices_[j - 1] && place.b == vertices_[j + 1];
+  }
+  bool take_last_split() {
+    std::size_t last = 0;
+    for (std::size_t j = 1; j + 1 < vertices_.size(); ++j)
+      if (splits_its_edge(j) && (last == 0 || vertices_[j] > vertices_[last])) last = j;
+    if (last == 0) return false;
+    splits_.push_back({last - 1, disk_.split_from[vertices_[last]].fraction});
+    vertices_.erase(vertices_.begin() + static_cast<std::ptrdiff_t>(last));
+    return true;
+  }
+
+  const DiskMesh& disk_;
+  std::vector<int> vertices_;
+  std::vector<Split> splits_;  // the last first
+};
 
 double sum(const std::vector<double>& values) {
   double total = 0;
@@ -86,7 +131,7 @@ std::vector<BorderCurve> border_curves(const CutDisk& cut) {
     if (path.mate >= 0 && path.mate < p) continue;
     curves.push_back({.path = p,
                       .weight = path.mate >= 0 ? 2 : 1,
-                      .length = sum(edge_lengths(cut, path)),
+                      .length = sum(UnsplitPath(cut, path).edge_lengths()),
                       .least = 1,
                       .fixed = path.intervals});
   }
@@ -103,9 +148,11 @@ std::vector<BorderCurve> border_curves(const CutDisk& cut) {
 }
 
 std::vector<double> path_places(const CutDisk& cut, int path, int intervals) {
-  std::vector<double> lengths = edge_lengths(cut, cut.paths[path]);
+  const UnsplitPath unsplit(cut, cut.paths[path]);
+  std::vector<double> lengths = unsplit.edge_lengths();
   const double whole = sum(lengths);
   for (double& l : lengths) l = whole > 0 ? std::max(l, min_share * whole) : 1;
+  unsplit.put_splits_back(lengths);
   const double scale = intervals / sum(lengths);
   std::vector<double> places{0};
   double along = 0;
