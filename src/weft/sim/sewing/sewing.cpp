@@ -31,8 +31,13 @@ constexpr double near_in_zip = 0.006;
 constexpr double least_bending = 1e-3;
 /// Where a seam stays open gravity fades in after this time, and in this one. [s]
 constexpr double gravity_after = 1.5, gravity_fades = 0.5;
-/// Distance from their mean at which samples become one. [m]
+/// Distance from their mean at which samples become one while all seams close, so that they go to
+/// where they meet. Afterwards it is `met`: of samples that are pressed onto a body, each is put
+/// back by itself in every step, by more than this. [m]
 constexpr double closed = 5e-5;
+/// Cloth between samples is taken to hold them apart while their panels are pulled on at this part
+/// of the late speed at least. Where they are stretched more, it is they that do.
+constexpr double least_slack = 0.5;
 
 Vec3d mean_of(const Planes3& planes, std::span<const int> samples) {
   Vec3d sum;
@@ -120,7 +125,7 @@ void Sewing::begin_frame(const Planes3& position, double seconds, double length)
   measure(position);
   find_slack(position);
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
-    stuck_[k] = away_[k] > closed && away_[k] < far && slack_of(k) == 1 ? 1 : 0;
+    stuck_[k] = away_[k] > met && away_[k] < far && slack_of(k) >= least_slack ? 1 : 0;
   unpicking_.choose(along_, stuck_);
 }
 
@@ -220,12 +225,14 @@ void Sewing::pull(const Step& now, ClothState& state) {
   measure(state.position);
   find_blocked(now.contacts);
   find_next();
-  if (seconds >= time_to_close_) find_slack(state.position);
+  const bool late = seconds >= time_to_close_;
+  joins_within_ = late ? met : closed;
+  if (late) find_slack(state.position);
   const auto step = static_cast<std::size_t>(std::llround(seconds / time_step));
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
     rate_[k] = (1 - kept_part(k, time_step, seconds)) / time_step;
   find_panel_pulls(state.position, step);
-  panels_.carry(seconds < time_to_close_, time_step, state.velocity);
+  panels_.carry(!late, time_step, state.velocity);
   if (gravity_part(seconds) == 0) panels_.hold(state);
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> samples = garment_.sewn.copies(k);
@@ -267,7 +274,8 @@ void Sewing::close(ClothState& state) const {
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> copies = garment_.sewn.copies(k);
     const Vec3d middle = mean_of(state.position, copies);
-    if (copies.size() < 2 || farthest_from(middle, state.position, copies) > closed) continue;
+    if (copies.size() < 2 || farthest_from(middle, state.position, copies) > joins_within_)
+      continue;
     const auto at = vec_cast<float>(middle);
     const auto velocity = vec_cast<float>(mean_of(state.velocity, copies));
     for (const int s : garment_.sewn.mates(k)) {

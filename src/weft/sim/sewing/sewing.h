@@ -89,6 +89,7 @@ class Sewing {
   PanelMotion panels_;
   Unpicking unpicking_;
   double time_to_close_;                        // if nothing holds the seams back [s]
+  double joins_within_ = 0;                     // distance from their mean, in this step [m]
   std::vector<std::vector<int>> leaders_;       // of each class, the samples that set the height
   std::vector<Vec3d> middle_;                   // of each class
   std::vector<double> away_;                    // distance of its farthest sample from there [m]

@@ -8,7 +8,7 @@ namespace {
 
 /// Seams that are open so long after they should have closed are taken apart, and again each such
 /// time. [s]
-constexpr double first = 0.3, every = 0.4;
+constexpr double first = 0.6, every = 0.4;
 /// So many samples along a seam to both sides of what is stuck are taken apart, too.
 constexpr int reach = 3;
 /// After so many attempts a garment is left as it is, so that it comes to rest.
