@@ -15,14 +15,15 @@ constexpr double frame_time = 1.0 / 60;
 /// A tube whose panels lie in one place, so that its seams are closed, but for one pair of the
 /// first, which is this far apart. [m]
 struct ClosedTube {
-  explicit ClosedTube(double gap)
+  /// @param stretched  how many times as wide as it was cut
+  explicit ClosedTube(double gap, float stretched = 1)
       : garment(make_garment(parse_pattern(test::tube_pattern(30, 20, 24, 100), "pattern"),
                              "pattern", 0.01)),
         state{Planes3(garment.flat.size()), Planes3(garment.flat.size())} {
     const int n = garment.flat.size();
     for (int s = 0; s < n * n; ++s) {
       const auto place = vec_cast<float>(garment.image.world_position(s / n, s % n));
-      state.position.set(s, {place.x, place.y, 0});
+      state.position.set(s, {stretched * place.x, place.y, 0});
     }
     const auto [a, b] = seam()[open];
     state.position.set(a, state.position.at(a) + Vec3f{0, 0, static_cast<float>(gap)});
@@ -70,6 +71,31 @@ TEST(Unpicking, TakesASeamApartNextToWhatIsStuck) {
 TEST(Unpicking, LeavesAloneWhatIsClosedOrFarApart) {
   EXPECT_TRUE(frames_of_unpicking(ClosedTube(0)).empty());
   EXPECT_TRUE(frames_of_unpicking(ClosedTube(0.1)).empty());
+  // Nothing fits between what is so near: it is about to close.
+  EXPECT_TRUE(frames_of_unpicking(ClosedTube(0.003)).empty());
+}
+
+TEST(Unpicking, LeavesAloneWhatIsMuchTooNarrow) {
+  EXPECT_FALSE(frames_of_unpicking(ClosedTube(0.008, 1.3F)).empty());
+  EXPECT_TRUE(frames_of_unpicking(ClosedTube(0.008, 1.45F)).empty());
+}
+
+/// How far apart the pair is when what is near each other is closed in a step. [m]
+double gap_after_closing(ClosedTube tube, double seconds) {
+  Sewing sewing(tube.garment, ClosedTube(0).state.position);
+  ClothState state = tube.state;
+  sewing.pull({frame_time / 4, seconds, {}}, state);
+  state.position = tube.state.position;
+  sewing.close(state);
+  const auto [a, b] = tube.seam()[ClosedTube::open];
+  return double{length(state.position.at(b) - state.position.at(a))};
+}
+
+TEST(SewingClose, JoinsWhatIsNearOnceSeamsShouldHaveClosed) {
+  EXPECT_EQ(gap_after_closing(ClosedTube(0.003), 2), 0);
+  EXPECT_NEAR(gap_after_closing(ClosedTube(0.005), 2), 0.005, 1e-6);
+  EXPECT_NEAR(gap_after_closing(ClosedTube(0.003), 0.05), 0.003, 1e-6);
+  EXPECT_EQ(gap_after_closing(ClosedTube(0.00005), 0.05), 0);
 }
 
 TEST(Unpicking, EdgesGoBackIntoTheirPanels) {
