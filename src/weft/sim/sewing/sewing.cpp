@@ -32,8 +32,8 @@ constexpr double least_bending = 1e-3;
 /// Where a seam stays open gravity fades in after this time, and in this one. [s]
 constexpr double gravity_after = 1.5, gravity_fades = 0.5;
 /// Distance from their mean at which samples become one while all seams close, so that they go to
-/// where they meet. Afterwards it is `met`: of samples that are pressed onto a body, each is put
-/// back by itself in every step, by more than this. [m]
+/// where they meet. Afterwards it is `met`: pressed onto a body they stay up to so far apart though
+/// nothing is between them. [m]
 constexpr double closed = 5e-5;
 /// Cloth between samples is taken to hold them apart while their panels are pulled on at this part
 /// of the late speed at least. Where they are stretched more, it is they that do.

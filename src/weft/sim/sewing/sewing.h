@@ -49,7 +49,8 @@ class Sewing {
   [[nodiscard]] double gravity_part(double seconds) const;
 
   /// Puts the samples of each class at their mean, with their mean velocity, where they are next to
-  /// each other. Whether something is between is for the filter to find.
+  /// each other: nearer once seams should have closed by the step that `pull` began, which comes
+  /// first. Whether something is between is for the filter to find.
   void close(ClothState& state) const;
   /// The charts, joined where their seams have closed.
   [[nodiscard]] BorderMates joined(const Planes3& position) const;
