@@ -8,7 +8,6 @@
 
 #include "tests/support/patterns.h"
 #include "weft/error.h"
-#include "weft/garment/grid_map.h"
 
 namespace weft {
 namespace {
@@ -71,35 +70,6 @@ TEST(Garment, RefusesOneThatHasOneSideOnly) {
   std::string text = test::tube_pattern(40, 30, 20, 100);
   text.insert(text.find("\"edge\":2}]") + 9, ",\"right_wrong\"");
   EXPECT_THROW(make_garment(parse_pattern(text, "p"), "p", 0.02), InputError);
-}
-
-TEST(GridMap, UnfoldsAGridInANotchedOutline) {
-  // A square with a deep notch in its first row.
-  std::vector<Vec2d> border;
-  const int side = 24;
-  for (int k = 0; k < side; ++k)
-    border.push_back({k / 24.0, 0.8 * std::max(0.0, 1 - std::abs(k - 12) / 6.0)});
-  for (int k = 0; k < side; ++k) border.push_back({1, k / 24.0});
-  for (int k = 0; k < side; ++k) border.push_back({1 - k / 24.0, 1});
-  for (int k = 0; k < side; ++k) border.push_back({0, 1 - k / 24.0});
-  const auto grid = spread_inside(border, side + 1, side + 1);
-  ASSERT_TRUE(grid.has_value());
-  EXPECT_TRUE(grid->unfolded());
-}
-
-TEST(GridMap, KeepsARectangleEven) {
-  std::vector<Vec2d> border;
-  for (int k = 0; k < 8; ++k) border.push_back({k / 8.0, 0});
-  for (int k = 0; k < 4; ++k) border.push_back({1, k / 4.0});
-  for (int k = 0; k < 8; ++k) border.push_back({1 - k / 8.0, 1});
-  for (int k = 0; k < 4; ++k) border.push_back({0, 1 - k / 4.0});
-  const auto grid = spread_inside(border, 5, 9);
-  ASSERT_TRUE(grid.has_value());
-  for (int r = 0; r < 5; ++r)
-    for (int c = 0; c < 9; ++c) {
-      EXPECT_NEAR(grid->at(r, c).x, c / 8.0, 1e-3);
-      EXPECT_NEAR(grid->at(r, c).y, r / 4.0, 1e-3);
-    }
 }
 
 TEST(Garment, MakesChartsOfAllSharedPatterns) {

@@ -12,6 +12,8 @@ namespace {
 constexpr int steps_a_round = 80, max_rounds = 40, max_halvings = 30;
 /// A round that lowers the energy by less than this part of it, with nothing folded, is the last.
 constexpr double settled = 1e-3;
+/// Coarse grids have at least so many samples a side, and the coarsest no more than this.
+constexpr int min_coarse_side = 16, max_coarse_side = 64;
 
 /// The part of a direction that moves no point by more than a tenth of a typical side.
 double first_length(const PlaneGrid& grid, const Vectors& direction) {
@@ -70,14 +72,28 @@ void unfold(PlaneGrid& grid, const int rounds = max_rounds) {
   }
 }
 
-void place_border(PlaneGrid& grid, const Vectors& border, int stride) {
+/// The border of a grid of all its samples.
+struct FineBorder {
+  const Vectors& points;
+  int rows = 0, cols = 0;
+};
+
+/// Takes as many samples of each side as the grid has, evenly.
+void place_border(PlaneGrid& grid, const FineBorder& fine) {
   const int right = grid.cols - 1, up = grid.rows - 1;
-  std::size_t k = 0;
-  const auto next = [&] { return border[stride * k++]; };
-  for (int c = 0; c < right; ++c) grid.at(0, c) = next();
-  for (int r = 0; r < up; ++r) grid.at(r, right) = next();
-  for (int c = right; c > 0; --c) grid.at(up, c) = next();
-  for (int r = up; r > 0; --r) grid.at(r, 0) = next();
+  const int fine_right = fine.cols - 1, fine_up = fine.rows - 1;
+  const int opposite = fine_right + fine_up, count = 2 * opposite;
+  const auto at = [&](int place) { return fine.points[place % count]; };
+  for (int c = 0; c < right; ++c) {
+    const int along = c * fine_right / right;
+    grid.at(0, c) = at(along);
+    grid.at(up, right - c) = at(opposite + along);
+  }
+  for (int r = 0; r < up; ++r) {
+    const int along = r * fine_up / up;
+    grid.at(r, right) = at(fine_right + along);
+    grid.at(up - r, 0) = at(opposite + fine_right + along);
+  }
 }
 
 /// The sum of both ways of filling in between opposite sides, less what both have. [coons67]
@@ -93,23 +109,51 @@ void fill_inside(PlaneGrid& grid) {
     }
 }
 
-/// Fills in between the points of a grid of half as many cells.
+/// Where a place between two others lies: after how many intervals, and which part of the next.
+struct Place {
+  int before = 0;
+  double part = 0;
+  Place(int k, int intervals, int coarse_intervals)
+      : before(k * coarse_intervals / intervals),
+        part(static_cast<double>(k * coarse_intervals % intervals) / intervals) {}
+};
+
+/// Fills in between the points of a coarser grid.
 void refine_inside(PlaneGrid& grid, const PlaneGrid& coarse) {
   for (int r = 1; r + 1 < grid.rows; ++r)
     for (int c = 1; c + 1 < grid.cols; ++c) {
-      const int r1 = (r + 1) / 2, c1 = (c + 1) / 2;
-      grid.at(r, c) = 0.25 * (coarse.at(r / 2, c / 2) + coarse.at(r1, c / 2) +
-                              coarse.at(r / 2, c1) + coarse.at(r1, c1));
+      const Place v(r, grid.rows - 1, coarse.rows - 1), u(c, grid.cols - 1, coarse.cols - 1);
+      const auto in_row = [&](int row) {
+        return (1 - u.part) * coarse.at(row, u.before) + u.part * coarse.at(row, u.before + 1);
+      };
+      grid.at(r, c) = (1 - v.part) * in_row(v.before) + v.part * in_row(v.before + 1);
     }
 }
 
-PlaneGrid coarse_grid(const Vectors& border, int rows, int cols, int rounds) {
-  PlaneGrid coarse{rows / 2 + 1, cols / 2 + 1, {}};
-  coarse.points.resize(static_cast<std::size_t>(coarse.rows) * coarse.cols);
-  place_border(coarse, border, 2);
-  fill_inside(coarse);
-  unfold(coarse, rounds);
-  return coarse;
+/// Samples of a side of the next coarser grid.
+int coarser(int samples) { return (samples - 1) / 2 + 1; }
+
+/// A grid of at most so many samples, with its border alone.
+PlaneGrid bordered(const FineBorder& fine, int rows, int cols) {
+  PlaneGrid grid{rows, cols, {}};
+  grid.points.resize(static_cast<std::size_t>(rows) * cols);
+  place_border(grid, fine);
+  return grid;
+}
+
+bool is_coarsest(int rows, int cols) {
+  return std::min(rows, cols) < min_coarse_side || std::max(rows, cols) <= max_coarse_side;
+}
+
+/// Spreads grids from coarse to fine, each from the one before.
+PlaneGrid spread(const FineBorder& fine, int rows, int cols) {
+  PlaneGrid grid = bordered(fine, rows, cols);
+  if (is_coarsest(rows, cols))
+    fill_inside(grid);
+  else
+    refine_inside(grid, spread(fine, coarser(rows), coarser(cols)));
+  unfold(grid);
+  return grid;
 }
 
 }  // namespace
@@ -125,19 +169,21 @@ bool PlaneGrid::unfolded() const {
 }
 
 std::optional<PlaneGrid> spread_inside(const std::vector<Vec2d>& border, int rows, int cols) {
-  const PlaneGrid coarse = coarse_grid(border, rows, cols, max_rounds);
-  PlaneGrid grid{rows, cols, {}};
-  grid.points.resize(static_cast<std::size_t>(rows) * cols);
-  place_border(grid, border, 1);
-  refine_inside(grid, coarse);
-  unfold(grid);
+  PlaneGrid grid = spread({border, rows, cols}, rows, cols);
   if (!grid.unfolded()) return std::nullopt;
   return grid;
 }
 
 double spread_cost(const std::vector<Vec2d>& border, int rows, int cols) {
   constexpr int few_rounds = 4;
-  const PlaneGrid grid = coarse_grid(border, rows, cols, few_rounds);
+  const FineBorder fine{border, rows, cols};
+  do {
+    rows = coarser(rows);
+    cols = coarser(cols);
+  } while (!is_coarsest(rows, cols));
+  PlaneGrid grid = bordered(fine, rows, cols);
+  fill_inside(grid);
+  unfold(grid, few_rounds);
   const GridEnergy measure(grid, GridEnergy::Cell::square);
   if (!(measure.least_area(grid) > 0)) return HUGE_VAL;
   Vectors gradient(grid.points.size());

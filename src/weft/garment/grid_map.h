@@ -27,13 +27,14 @@ struct PlaneGrid {
 /// and all are as near as may be to equal rectangles: the least sum over cells of
 ///   (|a|^2 + |b|^2 + area^2 + 1) / area
 /// for the pairs of sides a, b of each cell, in units of the wanted cell. Folded cells are unfolded
-/// by a bound on the area that tends to it from above, after [garanzha21].
+/// by a bound on the area that tends to it from above, after [garanzha21]. Large grids begin from
+/// coarser ones.
 /// @param border  [2 (rows - 1) + 2 (cols - 1)] counter-clockwise from the first row and column
-///                along the first row, both sides even
+///                along the first row
 /// @return nothing where cells stay folded
 std::optional<PlaneGrid> spread_inside(const std::vector<Vec2d>& border, int rows, int cols);
 
-/// How far a grid in that outline would be from squares of equal size, estimated on half as many
+/// How far a grid in that outline would be from squares of equal size, estimated on fewer
 /// cells: the mean of the sum's terms, 4 at least; infinite where it stays folded.
 double spread_cost(const std::vector<Vec2d>& border, int rows, int cols);
 
