@@ -8,10 +8,11 @@ namespace weft {
 namespace {
 
 using testing::MadeUpStep;
+using Drive = EnergyBudget::Drive;
 
 TEST(EnergyBudget, NothingIsTakenOutOfAStepThatAddsNothing) {
   MadeUpStep step;
-  const EnergyBudget::Added added = step.budget.measure_added({0}, false);
+  const EnergyBudget::Added added = step.budget.measure_added({0}, Drive::bodies);
   EXPECT_NEAR(added.energy, 0, 1e-9);
   EXPECT_EQ(added.excess, 0);
   EXPECT_FALSE(added.too_much);
@@ -25,7 +26,7 @@ TEST(EnergyBudget, TakesOutWhatIsBeyondTheBoundAndKeepsMomentum) {
   ASSERT_GT(more, step.lent());
   step.add(more);
   const Vec3d momentum = step.momentum_now();
-  const EnergyBudget::Added added = step.budget.measure_added({0}, false);
+  const EnergyBudget::Added added = step.budget.measure_added({0}, Drive::bodies);
   EXPECT_NEAR(added.energy, more, 1e-5);
   EXPECT_NEAR(added.excess, more - step.lent(), 1e-5);
   EXPECT_FALSE(added.too_much);
@@ -38,27 +39,61 @@ TEST(EnergyBudget, WorkExplainsWhatItAdds) {
   MadeUpStep step;
   const double more = 0.05 * step.mass();
   step.add(more);
-  EXPECT_EQ(step.budget.measure_added({more}, false).excess, 0);
-  EXPECT_EQ(step.budget.measure_added({0}, true).excess, 0);  // seams that are sewn
+  EXPECT_EQ(step.budget.measure_added({more}, Drive::bodies).excess, 0);
+  EXPECT_EQ(step.budget.measure_added({0}, Drive::seams).excess, 0);  // seams that are sewn
 }
 
 TEST(EnergyBudget, PinsAndBodiesDoNoMoreThroughTheFilterThanItAdds) {
   MadeUpStep step;
-  EXPECT_NEAR(step.budget.measure_added({1, 5}, false).work, 1, 1e-9);
-  EXPECT_NEAR(step.budget.measure_added({1, -5}, false).work, 1, 1e-9);
+  EXPECT_NEAR(step.budget.measure_added({1, 5}, Drive::bodies).work, 1, 1e-9);
+  EXPECT_NEAR(step.budget.measure_added({1, -5}, Drive::bodies).work, 1, 1e-9);
   const double more = 0.05 * step.mass();
   step.add(more);
-  EXPECT_NEAR(step.budget.measure_added({1, 5}, false).work, 1 + more, 1e-5);
-  EXPECT_NEAR(step.budget.measure_added({1, 0.5 * more}, false).work, 1 + 0.5 * more, 1e-5);
-  EXPECT_EQ(step.budget.measure_added({1, -5}, false).work, 1);
+  EXPECT_NEAR(step.budget.measure_added({1, 5}, Drive::bodies).work, 1 + more, 1e-5);
+  EXPECT_NEAR(step.budget.measure_added({1, 0.5 * more}, Drive::bodies).work, 1 + 0.5 * more, 1e-5);
+  EXPECT_EQ(step.budget.measure_added({1, -5}, Drive::bodies).work, 1);
 }
 
 TEST(EnergyBudget, TellsStepsThatAddTooMuch) {
   MadeUpStep step;
   step.add(step.mass());
-  EXPECT_TRUE(step.budget.measure_added({0}, false).too_much);
-  EXPECT_FALSE(step.budget.measure_added({0}, true).too_much);
-  EXPECT_FALSE(step.budget.measure_added({step.mass()}, false).too_much);
+  EXPECT_TRUE(step.budget.measure_added({0}, Drive::bodies).too_much);
+  EXPECT_FALSE(step.budget.measure_added({0}, Drive::seams).too_much);
+  EXPECT_FALSE(step.budget.measure_added({step.mass()}, Drive::bodies).too_much);
+}
+
+TEST(EnergyBudget, WhatASolveGainsCountsWhereNothingMovesTheCloth) {
+  MadeUpStep step;
+  step.stretch(1.05F, true);
+  const double gained = step.total() - step.at_start();
+  ASSERT_GT(gained, step.lent());
+  EXPECT_EQ(step.budget.measure_added({0}, Drive::bodies).excess, 0);
+  const EnergyBudget::Added added = step.budget.measure_added({0}, Drive::none);
+  EXPECT_NEAR(added.excess, gained - step.lent(), 1e-4 * gained);
+  EXPECT_TRUE(added.unpaid);
+  EXPECT_TRUE(added.too_much);
+}
+
+TEST(EnergyBudget, AStepIsShortenedUntilMotionPaysWhatItGains) {
+  for (const float factor : {1.05F, 1.5F, 20.0F}) {
+    MadeUpStep step;
+    step.stretch(factor);
+    const double moved = step.moved();
+    ASSERT_TRUE(step.budget.measure_added({0}, Drive::none).unpaid);
+    const EnergyBudget::Added added = step.budget.shorten({0});
+    EXPECT_FALSE(added.unpaid);
+    EXPECT_LT(step.moved(), 0.6 * moved);
+    if (added.excess > 0) step.budget.take_out(added.excess);
+    EXPECT_LE(step.total(), step.at_start() + 1.3 * step.lent()) << factor;
+  }
+}
+
+TEST(EnergyBudget, AStepThatGainsFromItsBeginningIsNotGone) {
+  MadeUpStep step;
+  step.stretch(20);
+  EXPECT_EQ(step.budget.shorten({0}).excess, 0);
+  EXPECT_EQ(step.moved(), 0);
+  EXPECT_EQ(length(step.momentum_now()), 0);
 }
 
 TEST(EnergyBudget, ASolveThatMissedMuchIsLostWhereTheStepMayBeShorter) {

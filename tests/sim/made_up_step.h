@@ -58,8 +58,22 @@ class MadeUpStep {
     for (int s = 0; s < n * n; ++s)
       puppet_->next.velocity.set(s, factor * puppet_->next.velocity.at(s));
   }
+  /// The filter stretches the cloth along x, or the solve does.
+  void stretch(float factor, bool in_solve = false) {
+    Planes3& position = puppet_->next.position;
+    for (int s = 0; s < n * n; ++s) {
+      Vec3f p = position.at(s);
+      p.x *= factor;
+      position.set(s, p);
+    }
+    if (in_solve) mover().solved = mover().meter.measure(puppet_->next);
+  }
   void miss(double energy) { puppet_->error = energy; }
   [[nodiscard]] double total() { return mover().meter.measure(puppet_->next).total(); }
+  [[nodiscard]] double at_start() { return mover().meter.measure(state()).total(); }
+  [[nodiscard]] double moved() const {
+    return largest_displacement(cloths_[0].state.position, puppet_->next.position);
+  }
   [[nodiscard]] Vec3d momentum_now() { return momentum(*cloths_[0].model, puppet_->next); }
   [[nodiscard]] double mass() const { return total_mass(*cloths_[0].model); }
   /// What collisions may lend: 0.003 m g times the side of 1 m [J].

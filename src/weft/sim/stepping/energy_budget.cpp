@@ -28,6 +28,10 @@ constexpr double lent_part = 0.003;
 /// bad.
 constexpr double max_unpaid_part = 0.25;
 
+/// A step that gains energy is shortened to no less than this part of its way before it is not gone
+/// at all.
+constexpr double least_part = 1.0 / 8;
+
 /// @param mass  [kg] @param density  [kg/m^2] @return [J]
 double lent_energy(double mass, double density) {
   return lent_part * mass * standard_gravity * std::sqrt(mass / density);
@@ -48,6 +52,15 @@ double work_of(const EnergyBudget::StepWork& work, double added) {
 /// Largest energy that a step may add. [J]
 double limit_for(const Energy& within, double mass) {
   return max_added_part * within.inner() + max_added * mass;
+}
+
+/// Shortens the way from `start` to a proposal, and slows it as much.
+void shorten_way(const Planes3& start, float part, ClothState& proposal) {
+  for (int s = 0; s < start.size() * start.size(); ++s) {
+    const Vec3f from = start.at(s);
+    proposal.position.set(s, from + part * (proposal.position.at(s) - from));
+    proposal.velocity.set(s, part * proposal.velocity.at(s));
+  }
 }
 
 }  // namespace
@@ -89,7 +102,7 @@ void EnergyBudget::lend(bool sewing) {
   for (Mover& mover : movers_) mover.integrator->lend(left * mover.meter.mass() / mass);
 }
 
-EnergyBudget::Added EnergyBudget::measure_added(const StepWork& work, bool sewing) {
+EnergyBudget::Added EnergyBudget::measure_added(const StepWork& work, Drive drive) {
   Energy start, solved, end;
   double mass = 0;
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
@@ -102,15 +115,31 @@ EnergyBudget::Added EnergyBudget::measure_added(const StepWork& work, bool sewin
   }
   Added added{end.total() - solved.total()};
   added.work = work_of(work, added.energy);
-  const double gained = std::min(added.energy, end.total() - start.total() - added.work);
+  double gained = end.total() - start.total() - added.work;
+  if (drive != Drive::none) gained = std::min(gained, added.energy);
+  const bool sewing = drive == Drive::seams;
   const double limit = limit_for(solved, mass);
   // What cloth gains while it is sewn is the work of its seams, which end it where they close.
   if (!sewing)
     added.excess = std::max(0.0, std::min(gained, end.total() - added.work - max_energy_));
-  const bool unpaid = added.excess - removable(added.excess) > max_unpaid_part * lent_;
+  added.unpaid = added.excess - removable(added.excess) > max_unpaid_part * lent_;
   const double fault = std::max(end.elastic - solved.elastic, gained);
-  added.too_much = !sewing && (!(fault <= limit) || unpaid);
+  added.too_much = !sewing && (!(fault <= limit) || added.unpaid);
   added.calm = fault < calm_part * limit;
+  return added;
+}
+
+EnergyBudget::Added EnergyBudget::shorten(const StepWork& work) {
+  Added added;
+  double part = 1;
+  do {
+    const double next = part > least_part ? part / 2 : 0;
+    for (std::size_t i = 0; i < cloths_.size(); ++i)
+      shorten_way(cloths_[i].state.position, static_cast<float>(next / part),
+                  movers_[i].integrator->proposal());
+    part = next;
+    added = measure_added(work, Drive::none);
+  } while (added.unpaid && part > 0);
   return added;
 }
 

@@ -38,16 +38,28 @@ class EnergyBudget {
     double solve = 0;   ///< by the forces before the filter
     double filter = 0;  ///< what the forces that the filter leaves would make more of it
   };
+  /// What moves cloth in a step beside gravity and wind.
+  enum class Drive {
+    none,    ///< all that cloth gains, in the solve too, is too much
+    bodies,  ///< bodies or pins, whose work is known less well: only what follows the solve counts
+    seams    ///< that are sewn: their work is not known
+  };
   /// What response and filter did to the energy in a step.
   struct Added {
-    double energy = 0;  ///< added [J]
-    double work = 0;    ///< done by pins and bodies, also through the filter [J]
-    double excess = 0;  ///< to be taken out if the step is accepted [J]
+    double energy = 0;    ///< added [J]
+    double work = 0;      ///< done by pins and bodies, also through the filter [J]
+    double excess = 0;    ///< to be taken out if the step is accepted [J]
+    bool unpaid = false;  ///< motion cannot give a good part of the excess back
     bool too_much = false;
     bool calm = false;  ///< far from too much
   };
   /// @pre the filter is done
-  [[nodiscard]] Added measure_added(const StepWork& work, bool sewing);
+  [[nodiscard]] Added measure_added(const StepWork& work, Drive drive);
+  /// Goes only a part of a step that gained energy which its motion cannot give back: the filter
+  /// left the whole straight path free, and at its start nothing is gained.
+  /// @pre neither pins nor bodies move, which would meet cloth that lags behind
+  /// @return what the shorter step adds
+  Added shorten(const StepWork& work);
   /// Takes an excess out of the motion of each cloth in proportion to what it gained.
   void take_out(double excess);
 

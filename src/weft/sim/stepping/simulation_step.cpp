@@ -12,7 +12,8 @@
 // 5. Samples of seams that have nearly met are put in one place, and the collider filters the
 //    proposals, which is the last change of positions.
 // A step to which the filter adds much energy, or that fails otherwise, is refused: the state
-// before it is restored, and two steps of half the length replace it.
+// before it is restored, and two steps of half the length replace it. One that gains energy while
+// nothing moves the cloth, and may not be halved, is gone a part of its way.
 #include <algorithm>
 #include <cmath>
 
@@ -131,7 +132,8 @@ void Simulation::Parts::solve_all(FrameReport& report) {
 
 void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   const bool sewing_now = garments.any_open();
-  const EnergyBudget::Added added = energy.measure_added(tried.forces_work, sewing_now);
+  const EnergyBudget::Drive drive = drive_now();
+  EnergyBudget::Added added = energy.measure_added(tried.forces_work, drive);
   tried.work = added.work;
   // A step is bad, too, when points fall back to its start.
   const bool fallen = tried.filtered.fell_back > 0;
@@ -148,7 +150,26 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   // Bodies do work by way of the filter, too.
   if (driven.any_moves())
     tried.pushed = std::max(0.0, added.energy - (added.work - tried.forces_work.solve));
-  if (!tried.refused && added.excess > 0) energy.take_out(added.excess);
+  if (tried.refused || added.excess <= 0) return;
+  if (added.unpaid && drive == EnergyBudget::Drive::none) {
+    added = energy.shorten(tried.forces_work);
+    tried.work = added.work;
+    // Shorter steps may well do: were there none, cloth would stand still here for ever.
+    tried.verdict = StepVerdict::near;
+  }
+  if (added.excess > 0) energy.take_out(added.excess);
+}
+
+EnergyBudget::Drive Simulation::Parts::drive_now() const {
+  if (garments.any_open()) return EnergyBudget::Drive::seams;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].moves && largest_displacement(bodies[i].positions, *driven.ends()[i]) > 0)
+      return EnergyBudget::Drive::bodies;
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    for (const Pin& pin : cloths[i].model->pins)
+      if (moving[i].position.at(pin.sample) != moving[i].start.at(pin.sample))
+        return EnergyBudget::Drive::bodies;
+  return EnergyBudget::Drive::none;
 }
 
 void Simulation::Parts::refuse_step() {
