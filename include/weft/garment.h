@@ -7,6 +7,7 @@
 
 #include "weft/geometry_image.h"
 #include "weft/grid.h"
+#include "weft/progress.h"
 #include "weft/vec.h"
 
 namespace weft {
@@ -94,9 +95,11 @@ struct Garment {
 
 /// Makes charts of a pattern's panels. Edges that are sewn together get as many samples as the
 /// longer one asks for; samples lie evenly along edges, and inside so that no cell is folded.
-/// @param spacing  wanted distance of samples [m]
+/// @param spacing   wanted distance of samples [m]
+/// @param progress  may be null
 /// @throws InputError for panels that cannot be joined to an oriented surface, or are too large
-Garment make_garment(const Pattern& pattern, const std::string& name, double spacing);
+Garment make_garment(const Pattern& pattern, const std::string& name, double spacing,
+                     Progress* progress = nullptr);
 
 /// The default distance of samples of a garment. [m]
 inline constexpr double default_spacing = 0.008;

@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include "python/src/arrays.h"
+#include "python/src/calls.h"
 #include "python/src/images.h"
 #include "weft/garment.h"
 
@@ -70,12 +71,11 @@ std::vector<std::int32_t> sewn_classes(const BorderMates& mates) {
 }
 
 /// Image, places in the pattern [n, n, 2], sewn classes [n, n] and seams as (name, [k, 2]).
-py::tuple sew_panels(const std::string& path, double spacing) {
-  std::unique_ptr<Garment> made;
-  {
-    const py::gil_scoped_release released;
-    made = std::make_unique<Garment>(make_garment(read_pattern(path), path, spacing));
-  }
+py::tuple sew_panels(const std::string& path, double spacing, const py::object& progress) {
+  const auto made = std::make_shared<Garment>();
+  run_released(progress, [path, spacing, made](Progress& told) {
+    *made = make_garment(read_pattern(path), path, spacing, &told);
+  });
   const py::ssize_t n = made->image.size();
   std::vector<Vec2f> places;
   for (const Vec3f p : samples_of(made->texture)) places.push_back({p.x, p.y});

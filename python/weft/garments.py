@@ -69,13 +69,13 @@ class Pattern:
                        for panel in panels]
         self.stitches = [Stitch(*stitch) for stitch in stitches]
 
-    def garment(self, spacing=_weft.default_spacing):
+    def garment(self, spacing=_weft.default_spacing, progress=None):
         """Its panels as charts of an image, and which of their samples are sewn together: a `Garment`.
 
-        spacing: of the samples along edges [m].
+        spacing: of the samples along edges [m]. progress: see `geometry_image`.
         Raises InputError for panels that cannot be joined, or are too large.
         """
-        return Garment(*_weft.sew_pattern(self.path, _arguments.number(spacing, "spacing", above=0)))
+        return Garment(*_weft.sew_pattern(self.path, _arguments.number(spacing, "spacing", above=0), _arguments.progress(progress)))
 
     def __repr__(self):
         return f"<weft.Pattern {os.path.basename(self.path)!r}, {len(self.panels)} panels, {len(self.stitches)} stitches>"

@@ -72,6 +72,32 @@ TEST(Garment, RefusesOneThatHasOneSideOnly) {
   EXPECT_THROW(make_garment(parse_pattern(text, "p"), "p", 0.02), InputError);
 }
 
+/// Remembers fractions, and stops the work after so many.
+class Listener final : public Progress {
+ public:
+  explicit Listener(std::size_t most) : most_(most) {}
+  void update(std::string_view /*stage*/, double fraction) override {
+    told.push_back(fraction);
+    if (told.size() == most_) throw Interrupted();
+  }
+  std::vector<double> told;
+
+ private:
+  std::size_t most_;
+};
+
+TEST(Garment, TellsHowFarItIsAndStopsWhenAsked) {
+  const Pattern pattern = parse_pattern(test::tube_pattern(40, 30, 20, 100), "p");
+  Listener whole(0);
+  make_garment(pattern, "p", 0.01, &whole);
+  EXPECT_TRUE(std::is_sorted(whole.told.begin(), whole.told.end()));
+  EXPECT_GE(whole.told.front(), 0);
+  EXPECT_GE(whole.told.back(), 0.5);
+  EXPECT_LE(whole.told.back(), 1);
+  Listener part(whole.told.size() / 2);
+  EXPECT_THROW(make_garment(pattern, "p", 0.01, &part), Interrupted);
+}
+
 TEST(Garment, MakesChartsOfAllSharedPatterns) {
   const std::filesystem::path folder = std::filesystem::path(WEFT_SHARED_DIR) / "patterns";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";

@@ -149,7 +149,8 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
   if (!surface.mesh && is_pattern_name(name)) {
     const Pattern pattern = read_pattern(name);
     LoadedSurface loaded;
-    loaded.garment = std::make_shared<const Garment>(make_garment(pattern, name, options.spacing));
+    loaded.garment = std::make_shared<const Garment>(
+        make_garment(pattern, name, options.spacing, options.progress));
     loaded.image = loaded.garment->image;
     loaded.notes = pattern.notes;
     return loaded;

@@ -24,11 +24,12 @@ double first_length(const PlaneGrid& grid, const Vectors& direction) {
 }
 
 /// Lowers the energy. @return it
-double descend(const GridEnergy& measure, PlaneGrid& grid) {
+double descend(const GridEnergy& measure, PlaneGrid& grid, Progress* progress) {
   Vectors gradient(grid.points.size()), next_gradient(grid.points.size());
   double energy = measure.measure(grid, gradient);
   QuasiNewton method;
   for (int step = 0; step < steps_a_round; ++step) {
+    update(progress, "", 0);
     const Vectors direction = method.direction(gradient);
     const double slope = dot_of(direction, gradient);
     if (!(slope > 0)) break;
@@ -60,13 +61,13 @@ double descend(const GridEnergy& measure, PlaneGrid& grid) {
   return energy;
 }
 
-void unfold(PlaneGrid& grid, const int rounds = max_rounds) {
+void unfold(PlaneGrid& grid, int rounds, Progress* progress) {
   GridEnergy measure(grid, GridEnergy::Cell::as_border);
   double before = HUGE_VAL;
   for (int round = 0; round < rounds; ++round) {
     const double folded = std::min(0.0, measure.least_area(grid));
     measure.set_epsilon(1e-12 + 0.04 * folded * folded);
-    const double energy = descend(measure, grid);
+    const double energy = descend(measure, grid, progress);
     if (folded == 0 && before - energy < settled * energy) return;
     before = folded == 0 ? energy : HUGE_VAL;
   }
@@ -146,13 +147,13 @@ bool is_coarsest(int rows, int cols) {
 }
 
 /// Spreads grids from coarse to fine, each from the one before.
-PlaneGrid spread(const FineBorder& fine, int rows, int cols) {
+PlaneGrid spread(const FineBorder& fine, int rows, int cols, Progress* progress) {
   PlaneGrid grid = bordered(fine, rows, cols);
   if (is_coarsest(rows, cols))
     fill_inside(grid);
   else
-    refine_inside(grid, spread(fine, coarser(rows), coarser(cols)));
-  unfold(grid);
+    refine_inside(grid, spread(fine, coarser(rows), coarser(cols), progress));
+  unfold(grid, max_rounds, progress);
   return grid;
 }
 
@@ -168,13 +169,14 @@ bool PlaneGrid::unfolded() const {
   return true;
 }
 
-std::optional<PlaneGrid> spread_inside(const std::vector<Vec2d>& border, int rows, int cols) {
-  PlaneGrid grid = spread({border, rows, cols}, rows, cols);
+std::optional<PlaneGrid> spread_inside(const std::vector<Vec2d>& border, int rows, int cols,
+                                       Progress* progress) {
+  PlaneGrid grid = spread({border, rows, cols}, rows, cols, progress);
   if (!grid.unfolded()) return std::nullopt;
   return grid;
 }
 
-double spread_cost(const std::vector<Vec2d>& border, int rows, int cols) {
+double spread_cost(const std::vector<Vec2d>& border, int rows, int cols, Progress* progress) {
   constexpr int few_rounds = 4;
   const FineBorder fine{border, rows, cols};
   do {
@@ -183,7 +185,7 @@ double spread_cost(const std::vector<Vec2d>& border, int rows, int cols) {
   } while (!is_coarsest(rows, cols));
   PlaneGrid grid = bordered(fine, rows, cols);
   fill_inside(grid);
-  unfold(grid, few_rounds);
+  unfold(grid, few_rounds, progress);
   const GridEnergy measure(grid, GridEnergy::Cell::square);
   if (!(measure.least_area(grid) > 0)) return HUGE_VAL;
   Vectors gradient(grid.points.size());

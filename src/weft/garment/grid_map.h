@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "weft/progress.h"
 #include "weft/vec.h"
 
 namespace weft {
@@ -31,11 +32,14 @@ struct PlaneGrid {
 /// coarser ones.
 /// @param border  [2 (rows - 1) + 2 (cols - 1)] counter-clockwise from the first row and column
 ///                along the first row
+/// @param progress  told nothing but that work goes on; may be null
 /// @return nothing where cells stay folded
-std::optional<PlaneGrid> spread_inside(const std::vector<Vec2d>& border, int rows, int cols);
+std::optional<PlaneGrid> spread_inside(const std::vector<Vec2d>& border, int rows, int cols,
+                                       Progress* progress = nullptr);
 
 /// How far a grid in that outline would be from squares of equal size, estimated on fewer
 /// cells: the mean of the sum's terms, 4 at least; infinite where it stays folded.
-double spread_cost(const std::vector<Vec2d>& border, int rows, int cols);
+double spread_cost(const std::vector<Vec2d>& border, int rows, int cols,
+                   Progress* progress = nullptr);
 
 }  // namespace weft

@@ -16,9 +16,9 @@ namespace weft {
 namespace {
 
 /// The samples of a panel, in its own axes.
-PlaneGrid samples_of(const PanelOutline& outline, const std::string& place) {
+PlaneGrid samples_of(const PanelOutline& outline, const std::string& place, Progress* progress) {
   std::optional<PlaneGrid> grid =
-      spread_inside(outline.border_from(outline.start), outline.rows, outline.cols);
+      spread_inside(outline.border_from(outline.start), outline.rows, outline.cols, progress);
   if (!grid)
     throw InputError(place, "an outline that no unfolded grid fits into",
                      "a simpler outline, or more samples, are wanted");
@@ -94,10 +94,11 @@ const Pattern& checked(const Pattern& pattern, const std::string& name, double s
 
 class Maker {
  public:
-  Maker(const Pattern& pattern, const std::string& name, double spacing)
+  Maker(const Pattern& pattern, const std::string& name, double spacing, Progress* progress)
       : pattern_(pattern),
         name_(name),
-        outlines_(lay_outlines(checked(pattern, name, spacing), name, spacing)) {}
+        progress_(progress),
+        outlines_(lay_outlines(checked(pattern, name, spacing), name, spacing, progress)) {}
 
   Garment make() {
     Garment garment;
@@ -123,8 +124,10 @@ class Maker {
  private:
   void lay(std::size_t p, const Chart& chart, Garment& garment) {
     const PatternPanel& panel = pattern_.panels[p];
+    const auto count = static_cast<double>(pattern_.panels.size());
+    PartOfProgress part(progress_, "lay panels", 0.5 + 0.5 * static_cast<double>(p) / count, 1);
     const PlaneGrid grid =
-        samples_of(outlines_[p], fmt::format("{}: panel '{}'", name_, panel.name));
+        samples_of(outlines_[p], fmt::format("{}: panel '{}'", name_, panel.name), &part);
     Vec2d middle;
     for (const Vec2d& q : grid.points)
       middle = middle + (1.0 / static_cast<double>(grid.points.size())) * q;
@@ -201,6 +204,7 @@ class Maker {
 
   const Pattern& pattern_;
   std::string name_;
+  Progress* progress_;
   std::vector<PanelOutline> outlines_;
   int size_ = 0;
   std::vector<Vec3d> world_;  // [n * n] [m]
@@ -208,8 +212,9 @@ class Maker {
 
 }  // namespace
 
-Garment make_garment(const Pattern& pattern, const std::string& name, double spacing) {
-  return Maker(pattern, name, spacing).make();
+Garment make_garment(const Pattern& pattern, const std::string& name, double spacing,
+                     Progress* progress) {
+  return Maker(pattern, name, spacing, progress).make();
 }
 
 }  // namespace weft

@@ -107,13 +107,16 @@ std::vector<Vec2d> PanelOutline::border_from(int point) const {
 }
 
 std::vector<PanelOutline> lay_outlines(const Pattern& pattern, const std::string& name,
-                                       double spacing) {
+                                       double spacing, Progress* progress) {
   const std::vector<bool> turned = find_turned(pattern, name);
   const std::vector<std::vector<int>> intervals = share_samples(pattern, name, spacing);
   std::vector<PanelOutline> outlines;
+  // Grids come next and take as long.
+  const double whole = 0.5 / static_cast<double>(pattern.panels.size());
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     outlines.push_back(walk(pattern.panels[p], intervals[p], turned[p]));
-    choose_corners(outlines.back());
+    PartOfProgress part(progress, "lay panels", whole * static_cast<double>(p), 1);
+    choose_corners(outlines.back(), &part);
   }
   return outlines;
 }

@@ -24,8 +24,9 @@ struct PanelOutline {
 
 /// Finds which way every outline is walked, so that all stitches join an oriented surface, and
 /// shares out samples: edges that are sewn together get as many as the longer one asks for.
+/// @param progress  may be null
 /// @throws InputError naming the stitch that cannot be
 std::vector<PanelOutline> lay_outlines(const Pattern& pattern, const std::string& name,
-                                       double spacing);
+                                       double spacing, Progress* progress);
 
 }  // namespace weft

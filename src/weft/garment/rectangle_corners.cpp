@@ -93,14 +93,14 @@ std::vector<Choice> likely_choices(const Measured& measured) {
 }
 
 /// The choice whose grid comes nearest to squares; the first where all stay folded.
-Choice best_of(const std::vector<Choice>& likely, const PanelOutline& outline) {
+Choice best_of(const std::vector<Choice>& likely, const PanelOutline& outline, Progress* progress) {
   const int count = static_cast<int>(outline.points.size());
   Choice best = likely.front();
   double least = HUGE_VAL;
   int unfolded = 0;
   for (const Choice& one : likely) {
-    const double cost =
-        spread_cost(outline.border_from(one.start), count / 2 - one.cols + 1, one.cols + 1);
+    const double cost = spread_cost(outline.border_from(one.start), count / 2 - one.cols + 1,
+                                    one.cols + 1, progress);
     if (cost < least) {
       least = cost;
       best = one;
@@ -112,10 +112,10 @@ Choice best_of(const std::vector<Choice>& likely, const PanelOutline& outline) {
 
 }  // namespace
 
-void choose_corners(PanelOutline& outline) {
+void choose_corners(PanelOutline& outline, Progress* progress) {
   const Measured measured(outline);
   const int half = measured.size() / 2;
-  const Choice chosen = best_of(likely_choices(measured), outline);
+  const Choice chosen = best_of(likely_choices(measured), outline, progress);
   outline.start = chosen.start;
   const int cols = chosen.cols;
   // Of the four ways to lay the rectangle, that whose columns go with the grain (y) from one to the

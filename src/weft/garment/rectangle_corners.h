@@ -7,6 +7,7 @@ namespace weft {
 /// Chooses which four border points of a panel are the corners of its rectangle: sharp corners of
 /// the outline, with opposite sides about equally long, for as many samples on both. Rows then run
 /// along the grain as nearly as they can. Sets start, rows and cols.
-void choose_corners(PanelOutline& outline);
+/// @param progress  told nothing but that work goes on; may be null
+void choose_corners(PanelOutline& outline, Progress* progress = nullptr);
 
 }  // namespace weft
