@@ -12,6 +12,7 @@ namespace {
 /// The border of a unit square with so many intervals a side, whose first row goes as given.
 std::vector<Vec2d> square(int rows, int cols, const std::function<double(double)>& first_row) {
   std::vector<Vec2d> border;
+  border.reserve(2 * static_cast<std::size_t>(rows + cols));
   const auto part = [](int k, int of) { return static_cast<double>(k) / of; };
   for (int k = 0; k < cols; ++k) border.push_back({part(k, cols), first_row(part(k, cols))});
   for (int k = 0; k < rows; ++k) border.push_back({1, part(k, rows)});
