@@ -134,7 +134,7 @@ void refine_inside(PlaneGrid& grid, const PlaneGrid& coarse) {
 /// Samples of a side of the next coarser grid.
 int coarser(int samples) { return (samples - 1) / 2 + 1; }
 
-/// A grid of at most so many samples, with its border alone.
+/// A grid of so many samples, of which the border is placed.
 PlaneGrid bordered(const FineBorder& fine, int rows, int cols) {
   PlaneGrid grid{rows, cols, {}};
   grid.points.resize(static_cast<std::size_t>(rows) * cols);

@@ -32,6 +32,7 @@ struct PlaneGrid {
 /// coarser ones.
 /// @param border  [2 (rows - 1) + 2 (cols - 1)] counter-clockwise from the first row and column
 ///                along the first row
+/// @param rows, cols  samples a side, at least 3 each
 /// @param progress  told nothing but that work goes on; may be null
 /// @return nothing where cells stay folded
 std::optional<PlaneGrid> spread_inside(const std::vector<Vec2d>& border, int rows, int cols,

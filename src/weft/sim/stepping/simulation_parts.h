@@ -105,6 +105,7 @@ struct Simulation::Parts : LoadedScene {
   /// Accepts or refuses the step by the energy that response and filter added, and removes any
   /// excess energy of an accepted step. @pre the filter is done
   void assess_step(StepChoices choices, Tried& tried);
+  /// What moves cloth in this step. @pre driven things and proposals are at its end
   [[nodiscard]] EnergyBudget::Drive drive_now() const;
   void finish_step(const Tried& tried, FrameReport& report);
   void refuse_step();

@@ -131,8 +131,8 @@ void Simulation::Parts::solve_all(FrameReport& report) {
 }
 
 void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
-  const bool sewing_now = garments.any_open();
   const EnergyBudget::Drive drive = drive_now();
+  const bool sewing_now = drive == EnergyBudget::Drive::seams;
   EnergyBudget::Added added = energy.measure_added(tried.forces_work, drive);
   tried.work = added.work;
   // A step is bad, too, when points fall back to its start.
