@@ -53,7 +53,9 @@ struct FrameReport {
   int stopped = 0;          ///< points that the collision filter stopped, largest of its steps
   int fell_back = 0;        ///< of these, points reset to the step's start, largest of its steps
   int whole_fell_back = 0;  ///< cloths whose points were all reset, largest of its steps
-  double work = 0;          ///< of pins, moving bodies and wind [J]
+  /// Time by which cloth lags behind, since steps that gained energy were gone in part only. [s]
+  double lost_time = 0;
+  double work = 0;  ///< of pins, moving bodies and wind [J]
   /// The minimum signed distance of a particle to an obstacle, negative on its wrong side. Bodies
   /// count within twice the thickness; infinite when nothing counts. [m]
   double smallest_gap = HUGE_VAL;

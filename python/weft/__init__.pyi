@@ -166,6 +166,7 @@ class Frame:
     self_contacts: int
     stopped: int
     fell_back: int
+    lost_time: float
     smallest_gap: float
     centre_of_mass: NDArray[np.float64]
     def positions(self, cloth: Cloth, on: Literal["mesh", "samples", "input"] = "mesh") -> NDArray[np.float32]: ...

@@ -153,7 +153,7 @@ class Simulate(SceneTest):
         rows = self.table("fall")
         self.assertEqual(list(rows[0]), ["frame", "ms", "forces_ms", "solve_ms", "collide_ms", "limit_ms", "iterations",
                                          "residual", "strain_mean", "strain_p99", "strain_max", "kinetic_energy",
-                                         "potential_energy", "contacts", "stopped", "fell_back", "blocked_share", "work",
+                                         "potential_energy", "contacts", "stopped", "fell_back", "blocked_share", "lost_time", "work",
                                          "smallest_gap", "seam_gap",
                                          "com_x", "com_y", "com_z"])
         for frame, row in enumerate(rows, 1):

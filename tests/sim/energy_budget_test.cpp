@@ -82,6 +82,7 @@ TEST(EnergyBudget, AStepIsShortenedUntilMotionPaysWhatItGains) {
     ASSERT_TRUE(step.budget.measure_added({0}, Drive::none).unpaid);
     const EnergyBudget::Added added = step.budget.shorten({0});
     EXPECT_FALSE(added.unpaid);
+    EXPECT_NEAR(step.moved(), added.gone * moved, 1e-3 * moved);
     EXPECT_LT(step.moved(), 0.6 * moved);
     if (added.excess > 0) step.budget.take_out(added.excess);
     EXPECT_LE(step.total(), step.at_start() + 1.3 * step.lent()) << factor;

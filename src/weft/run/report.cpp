@@ -75,6 +75,13 @@ OrderedJson worst_count(const RunReport& report, int FrameReport::*count) {
   return {{"count", (*worst).*count}, {"frame", worst - report.history.begin() + 1}};
 }
 
+/// Time by which cloth lagged behind in all frames together. [s]
+double lost_time(const RunReport& report) {
+  double sum = 0;
+  for (const FrameReport& frame : report.history) sum += frame.lost_time;
+  return sum;
+}
+
 /// The part of all points that the filter held back in a frame.
 double blocked_share(const FrameReport& frame, int particles) {
   return particles > 0 ? static_cast<double>(frame.stopped) / particles : 0;
@@ -161,6 +168,7 @@ std::string to_json(const RunReport& report) {
       {"stopped", worst_count(report, &FrameReport::stopped)},
       {"fell_back", worst_count(report, &FrameReport::fell_back)},
       {"blocked_share", worst_blocked_share(report)},
+      {"lost_time", lost_time(report)},
       {"energy_gained", energy_gained(report)},
       {"energy_gained_mgl", relative_energy_gained(report)},
       {"thickness_used", thickness_json(report)},
@@ -187,7 +195,8 @@ std::string to_json(const RunReport& report) {
 std::string frames_csv_header() {
   return "frame,ms,forces_ms,solve_ms,collide_ms,limit_ms,iterations,residual,strain_mean,strain_"
          "p99,strain_max,"
-         "kinetic_energy,potential_energy,contacts,stopped,fell_back,blocked_share,work,smallest_"
+         "kinetic_energy,potential_energy,contacts,stopped,fell_back,blocked_share,lost_time,work,"
+         "smallest_"
          "gap,seam_gap,com_x,com_y,"
          "com_z\n";
 }
@@ -198,11 +207,11 @@ std::string frames_csv_line(int frame, const FrameReport& f, int particles) {
       std::isfinite(f.smallest_gap) ? fmt::format("{:.6g}", f.smallest_gap) : "";
   return fmt::format(
              "{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{:.4g},{:.6g},{:.6g},{:.6g},{:.9g},{:.9g},{}"
-             ",{},{},{:.4g},{:.6g},{},",
+             ",{},{},{:.4g},{:.6g},{:.6g},{},",
              frame, f.milliseconds, f.forces_ms, f.solve_ms, f.collide_ms, f.limit_ms, f.iterations,
              f.residual, f.strain.mean, f.strain.p99, f.strain.max, f.kinetic_energy,
              f.potential_energy, f.contacts, f.stopped, f.fell_back, blocked_share(f, particles),
-             f.work, gap) +
+             f.lost_time, f.work, gap) +
          fmt::format("{:.6g},{:.9g},{:.9g},{:.9g}\n", f.seam_gap, f.centre_of_mass.x,
                      f.centre_of_mass.y, f.centre_of_mass.z);
 }

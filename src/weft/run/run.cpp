@@ -12,6 +12,7 @@
 #include "weft/run/disk_reservation.h"
 #include "weft/run/recorder.h"
 #include "weft/run/run_identity.h"
+#include "weft/run/standstill_notes.h"
 #include "weft/scene_file.h"
 #include "weft/sim/loading/insides.h"
 
@@ -22,9 +23,6 @@ namespace fs = std::filesystem;
 
 /// Upper bounds on the sizes of frames.csv and the manifests [bytes].
 constexpr std::size_t min_room = 16384, room_of_surface = 1024, room_of_frame = 256;
-
-/// Part of all points that fall back in a frame, above which the run notes it.
-constexpr double max_fallen_part = 0.01;
 
 /// How far the collar or waist of a garment may sink before it counts as fallen off. [m]
 constexpr double max_sunk = 0.2;
@@ -155,7 +153,7 @@ class Run {
         keep_worst(simulation_.intersections());
       }
       note_untangling();
-      note_fallen();
+      note_what_stood_still(report_);
       report_garments();
       report_.state_hash = simulation_.state_hash();
     } catch (...) {
@@ -257,20 +255,6 @@ class Run {
       report_.notes.push_back(fmt::format("what crossed at the start is apart since frame {}",
                                           *report_.untangled_frame));
     }
-  }
-
-  void note_fallen() {
-    const auto many = [&](const FrameReport& frame) {
-      return frame.fell_back > max_fallen_part * report_.particles;
-    };
-    const auto first = std::find_if(report_.history.begin(), report_.history.end(), many);
-    if (first == report_.history.end()) return;
-    // Notes on the run as a whole stay last.
-    report_.notes.insert(
-        report_.notes.begin(),
-        fmt::format("frame {}: {} of {} points were put back to where their step began, since they "
-                    "had nowhere else to go; more substeps are wanted",
-                    first - report_.history.begin() + 1, first->fell_back, report_.particles));
   }
 
   void keep_worst(const IntersectionCounts& counts) {

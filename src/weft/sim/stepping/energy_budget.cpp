@@ -139,6 +139,7 @@ EnergyBudget::Added EnergyBudget::shorten(const StepWork& work) {
                   movers_[i].integrator->proposal());
     part = next;
     added = measure_added(work, Drive::none);
+    added.gone = part;
   } while (added.unpaid && part > 0);
   return added;
 }

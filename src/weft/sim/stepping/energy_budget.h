@@ -49,6 +49,7 @@ class EnergyBudget {
     double energy = 0;    ///< added [J]
     double work = 0;      ///< done by pins and bodies, also through the filter [J]
     double excess = 0;    ///< to be taken out if the step is accepted [J]
+    double gone = 1;      ///< part of the step's way, where it was shortened
     bool unpaid = false;  ///< motion cannot give a good part of the excess back
     bool too_much = false;
     bool calm = false;  ///< far from too much

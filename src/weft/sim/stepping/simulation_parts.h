@@ -73,7 +73,8 @@ struct Simulation::Parts : LoadedScene {
     FilterCounts filtered;
     EnergyBudget::StepWork forces_work;  // of pins and bodies, if the step is watched
     double work = 0;                     // done by pins and bodies [J]
-    double pushed = 0;  // energy that response and filter added beside it while bodies moved [J]
+    double pushed = 0;     // energy that response and filter added beside it while bodies moved [J]
+    double lost_time = 0;  // by which a shortened step lags behind [s]
   };
   /// What may become of a trial step that is bad; halving comes first.
   struct StepChoices {

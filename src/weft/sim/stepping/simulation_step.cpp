@@ -154,6 +154,7 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   if (added.unpaid && drive == EnergyBudget::Drive::none) {
     added = energy.shorten(tried.forces_work);
     tried.work = added.work;
+    tried.lost_time = (1 - added.gone) * time_step;
     // Shorter steps may well do: were there none, cloth would stand still here for ever.
     tried.verdict = StepVerdict::near;
   }
@@ -198,6 +199,7 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
   report.stopped = std::max(report.stopped, tried.filtered.stopped);
   report.fell_back = std::max(report.fell_back, tried.filtered.fell_back);
   report.whole_fell_back = std::max(report.whole_fell_back, tried.filtered.whole);
+  report.lost_time += tried.lost_time;
   bodies_arrive();
 }
 
