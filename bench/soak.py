@@ -37,8 +37,8 @@ MATERIALS = ("cotton", "silk", "wool", "denim", "leather", "linen", "jersey", "c
 # What a run may come to: parts of springs (more in soft cloth: most_strain), of points put back, of m g 1 m gained, and metres off free
 # fall.
 MOST_STRAIN, MOST_FELL_BACK, MOST_GAINED, MOST_OFF = 0.2, 0.01, 0.01, 1e-3
-FIGURES = ("seed", "failure", "strain_p99", "fell_back_share", "blocked_share", "energy_gained_mgl", "off_free_fall", "contacts_max",
-           "self_contacts_max", "intersections", "passed", "swallowed", "ms_median", "seconds", "program")
+FIGURES = ("seed", "failure", "strain_p99", "fell_back_share", "blocked_share", "lost_share", "energy_gained_mgl", "off_free_fall",
+           "contacts_max", "self_contacts_max", "intersections", "passed", "swallowed", "ms_median", "seconds", "program")
 GAP = 0.03  # between the spheres around all things at the start [m]
 
 
@@ -209,9 +209,10 @@ def most_strain(scene):
 
 def figures_of(seed, scene, report, frames):
     share = [int(frame["fell_back"]) / report["particles"] for frame in frames]
+    lost = [float(frame["lost_time"]) / (report["time_step"] * report["substeps"]) for frame in frames]
     verified = report["verification"]
     figures = {"seed": seed, "strain_p99": max(float(frame["strain_p99"]) for frame in frames), "fell_back_share": max(share),
-               "blocked_share": report["blocked_share"], "energy_gained_mgl": report["energy_gained_mgl"],
+               "blocked_share": report["blocked_share"], "lost_share": max(lost), "energy_gained_mgl": report["energy_gained_mgl"],
                "off_free_fall": off_free_fall(scene, report, frames), "contacts_max": report["contacts_max"],
                "self_contacts_max": report["self_contacts_max"], "intersections": report["intersections"],
                "passed": verified["passed"]["count"], "swallowed": verified["swallowed"]["count"],
@@ -282,6 +283,21 @@ def figures_in(path):
         return {int(row["seed"]): row for row in csv.DictReader(file) if row.get("program") == program_name()}
 
 
+def worst_of(rows):
+    """A line on what comes nearest to the bounds, of the starts that came to their end."""
+    def largest(name):
+        row = max(rows, key=lambda row: float(row[name]))
+        return f"{float(row[name]):.2g} (seed {row['seed']})" if float(row[name]) > 0 else "nothing"
+
+    rows = [row for row in rows if row.get("strain_p99")]
+    if not rows:
+        return ""
+    late = sum(float(row["lost_share"]) > 0 for row in rows)
+    return (f"Largest: {largest('energy_gained_mgl')} of m g 1 m gained, {largest('fell_back_share')} of the points put back, "
+            f"p99 of strain {largest('strain_p99')}. In {late} starts some step was cut short since it gained energy"
+            + (f"; the most that a frame lost so of its time is {largest('lost_share')}" if late else "") + ".\n")
+
+
 def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--seeds", type=int, default=200)
@@ -301,6 +317,7 @@ def main():
         return
     seeds = range(options.first, options.first + options.seeds)
     known = figures_in(options.figures) if options.resume else {}
+    rows = [known[seed] for seed in seeds if seed in known]
     left = [seed for seed in seeds if seed not in known]
     failures = [(seed, known[seed]["failure"]) for seed in seeds if seed in known and known[seed]["failure"]]
     look = functools.partial(look_at, keep=options.keep, most_seconds=options.most_seconds)
@@ -314,10 +331,11 @@ def main():
         for figures in jobs.map(look, left):
             table.writerow(figures)
             file.flush()
+            rows.append(figures)
             if figures["failure"]:
                 failures.append((figures["seed"], figures["failure"]))
                 print(f"seed {figures['seed']}: {figures['failure']}", flush=True)
-    text = f"{len(seeds)} random starts of {FRAMES} frames, {len(failures)} failed.\n"
+    text = f"{len(seeds)} random starts of {FRAMES} frames, {len(failures)} failed. " + worst_of(rows)
     print(text, end="")
     lines = [f"- seed {seed}: {failure}\n" for seed, failure in sorted(failures)]
     text += "\n" + "".join(lines) if lines else ""
