@@ -22,6 +22,7 @@
 #include "weft/files.h"
 #include "weft/image_file.h"
 #include "weft/image_quality.h"
+#include "weft/shapes.h"
 
 namespace weft::app {
 namespace {
@@ -79,7 +80,7 @@ void choose_charts(const std::string& arg, ConvertOptions& options) {
 }
 
 SurfaceColours colours_of(const std::string& mesh) {
-  if (mesh.starts_with("builtin:"))
+  if (is_builtin(mesh))
     throw UsageError("--colours", "of " + mesh, "a mesh file with colours is wanted");
   return read_colours(mesh);
 }

@@ -9,6 +9,7 @@
 #include "weft/drape_scene.h"
 #include "weft/image_file.h"
 #include "weft/mesh.h"
+#include "weft/shapes.h"
 
 namespace weft::app {
 namespace {
@@ -22,7 +23,7 @@ struct DrapeArgs {
 /// Warns of an implausible cloth size. Cloth keeps its size, which affects its motion; bodies are
 /// scaled.
 void warn_of_size(const std::string& cloth, const MeshFrame& files, const Context& context) {
-  if (is_image_name(cloth) || cloth.starts_with("builtin:")) return;
+  if (is_image_name(cloth) || is_builtin(cloth)) return;
   const auto remark = implausible_size(in_metres_y_up(load_mesh(cloth), files), files.unit);
   if (remark) warn(context, cloth + ": " + *remark);
 }

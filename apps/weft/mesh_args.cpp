@@ -4,6 +4,7 @@
 
 #include "weft/convert.h"
 #include "weft/mesh.h"
+#include "weft/shapes.h"
 
 namespace weft::app {
 
@@ -17,6 +18,7 @@ void add_mesh_options(CLI::App& command, MeshArgs& args) {
 }
 
 NamedMesh load_named_mesh(const std::string& name, const MeshArgs& args) {
+  if (is_builtin(name)) return {load_mesh(name), {}};
   MeshFrame frame;
   frame.z_up = args.up == "z";
   for (const LengthUnit& unit : length_units)

@@ -18,6 +18,7 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/picture.h"
+#include "weft/shapes.h"
 
 namespace weft::app {
 namespace {
@@ -63,7 +64,7 @@ void check(const RenderArgs& args) {
 
 /// The last part of a path without its ending, or the built-in shape's name.
 std::string name_of(const std::string& subject) {
-  if (subject.starts_with("builtin:")) return subject.substr(subject.find(':') + 1);
+  if (is_builtin(subject)) return subject.substr(builtin_prefix.size());
   std::filesystem::path path = subject;
   if (!path.has_filename()) path = path.parent_path();
   return is_run(subject) ? path.filename().string() : path.stem().string();

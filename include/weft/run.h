@@ -162,7 +162,8 @@ std::string frames_csv_line(int frame, const FrameReport& report, int particles)
 
 /// Estimates the peak memory of a run from the sizes in the scene, within a quarter for scenes of
 /// 257 samples a side and more. Excludes the conversion of meshes, some hundred bytes a triangle.
-/// Reads the geometry images among the surfaces. @throws InputError for these
+/// Reads the geometry images among the surfaces, and the sewing patterns, of which it takes what
+/// they need at least. @throws InputError for images
 /// @return bytes
 std::uint64_t estimate_memory(const Scene& scene);
 /// The same of surfaces that are loaded.

@@ -7,6 +7,10 @@
 
 namespace weft {
 
+/// What names of built-in shapes begin with where files may be named.
+inline constexpr std::string_view builtin_prefix = "builtin:";
+inline bool is_builtin(std::string_view surface) { return surface.starts_with(builtin_prefix); }
+
 /// A built-in shape.
 struct ShapeInfo {
   std::string_view name;

@@ -129,8 +129,12 @@ struct SimulationState {
   std::vector<std::vector<int>> marks{};
   /// Of each cloth, the forces of its contacts in the last step.
   std::vector<std::vector<PastContact>> contacts{};
-  StepLevels levels{};  ///< of the next substep
-  WorkDone work{};      ///< up to this frame
+  /// Of each cloth, where its pins hold it, which a hand may have changed; empty in checkpoints.
+  /// [m]
+  std::vector<std::vector<Vec3d>> pin_targets{};
+  StepLevels levels{};         ///< of the next substep
+  WorkDone work{};             ///< up to this frame
+  int frames_unexplained = 0;  ///< consecutive ones up to this, with energy that nothing put in
 };
 
 /// Samples a side that a scene's surfaces were loaded with; a mesh may need more than were asked

@@ -70,6 +70,8 @@ TEST(Files, ErrorsNameThePathAndTheReason) {
   };
   EXPECT_NE(read(folder / "none").find("none: cannot be opened: No such file"), std::string::npos);
   EXPECT_NE(read(folder.path()).find("is a folder"), std::string::npos);
+  // The first page of memory, which nothing is mapped to.
+  EXPECT_NE(read("/proc/self/mem").find("mem: cannot be read: "), std::string::npos);
   EXPECT_NE(write(folder / "no/f").find("cannot be written: No such file"), std::string::npos);
   EXPECT_NE(write(folder.path()).find("is a folder"), std::string::npos);
 }

@@ -22,6 +22,14 @@ TEST(Math, SineStaysAccurateForLargeAngles) {
     EXPECT_NEAR(sine(angle), std::sin(angle), 1e-15) << angle;
 }
 
+TEST(Math, SineAndCosineOfAnyAngleLieOnTheCircle) {
+  for (const double angle : {1e6, -3.7e9, 1e19, -1e40, 1e300}) {
+    EXPECT_NEAR(sine(angle) * sine(angle) + cosine(angle) * cosine(angle), 1, 1e-15) << angle;
+    EXPECT_EQ(sine(-angle), -sine(angle));
+  }
+  EXPECT_NEAR(sine(1e6), std::sin(1e6), 1e-9);
+}
+
 TEST(Math, SpecialAnglesAreExact) {
   EXPECT_EQ(sine(0), 0);
   EXPECT_EQ(cosine(0), 1);

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <numeric>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "weft/core/ordered_sum.h"
 #include "weft/core/random.h"
@@ -29,6 +32,21 @@ TEST(ThreadTeam, SharesCoverEveryIndexOnce) {
     EXPECT_EQ(*std::max_element(touched.begin(), touched.end()), 1) << size;
   }
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Without room for their stacks threads cannot be started.
+TEST(ThreadTeam, IsSmallerWhereTheSystemHasNoMoreThreads) {
+  const auto work_in_small_memory = [] {
+    const rlimit most{std::size_t{1} << 28, std::size_t{1} << 28};
+    if (setrlimit(RLIMIT_AS, &most) != 0) std::exit(1);
+    ThreadTeam team(1000);
+    std::atomic<int> workers = 0;
+    team.run([&](Worker&) { ++workers; });
+    std::exit(team.size() < 1000 && workers == team.size() ? 7 : 2);
+  };
+  EXPECT_EXIT(work_in_small_memory(), testing::ExitedWithCode(7), "");
+}
+#endif
 
 TEST(ThreadTeam, BarrierMakesEarlierWritesVisible) {
   for (const int size : team_sizes) {

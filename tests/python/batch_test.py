@@ -84,6 +84,26 @@ class Batch(BatchTest):
         self.batch("jobs.jsonl", "-o", "out", "--quiet")
         self.assertEqual(self.rows()[0]["frames"], 2)
 
+    def test_what_names_files_depends_on_them_all(self):
+        def identity(job):
+            return weft.batch.jobs.Reader(PROGRAM).read(self.write_jobs(job))[0].id
+        weft.write_mesh("plain.obj", *weft.read_mesh("builtin:torus"))
+        (self.folder / "mesh.obj").write_text("mtllib colours.mtl\n" + (self.folder / "plain.obj").read_text())
+        (self.folder / "colours.mtl").write_text("newmtl a\nmap_Kd -o 1 1 picture.png\n")
+        body = {"surface": "mesh.obj", "animation": "walk#1.glb#Walk"}
+        (self.folder / "clip.json").write_text(json.dumps({"version": 1, "bodies": [body]}))
+        (self.folder / "frames.json").write_text(json.dumps({"version": 1, "bodies": [body | {"animation": "step%03d.obj"}]}))
+        (self.folder / "self.json").write_text(json.dumps({"of": "other.json"}))
+        (self.folder / "other.json").write_text(json.dumps({"of": "self.json"}))
+        mesh, clip = {"mesh": "mesh.obj"}, {"command": "simulate", "scene": "clip.json"}
+        frames, loop = {"command": "simulate", "scene": "frames.json"}, {"command": "simulate", "scene": "self.json"}
+        for job, name in ((mesh, "picture.png"), (clip, "walk#1.glb"), (clip, "colours.mtl"), (frames, "step007.obj"), (loop, "other.json")):
+            before = identity(job)
+            self.assertEqual(identity(job), before)
+            with (self.folder / name).open("a") as file:
+                file.write("\n")
+            self.assertNotEqual(identity(job), before, name)
+
     def test_tables_and_lines_say_the_same(self):
         (self.folder / "jobs.csv").write_text("mesh,size,fit,parameterizer,timeout\nbuiltin:torus,17,true,,\nbuiltin:knot,33,,floater,9.5\n")
         lines = self.write_jobs({"mesh": "builtin:torus", "size": 17, "fit": True},

@@ -44,6 +44,7 @@ Checkpoint sample() {
     checkpoint.history.push_back(frame);
   }
   checkpoint.state = {3, {numbered(5, 1), numbered(6, 100)}};
+  checkpoint.state.frames_unexplained = 1;
   checkpoint.state.contacts = {{}, {{{1, 2, -1, -1}, 1, {0, 1, 0}, {3, -4, 5}, 6, 7}}};
   return checkpoint;
 }
@@ -77,6 +78,7 @@ TEST(Checkpoint, ReadsBackBitByBit) {
   EXPECT_EQ(read->history[2].smallest_gap, HUGE_VAL);
   EXPECT_EQ(read->history[2].whole_fell_back, 3);
   EXPECT_EQ(read->history[2].lost_time, 1e-3 * 3);
+  EXPECT_EQ(read->state.frames_unexplained, 1);
   EXPECT_EQ(read->verification.swallowed.frame, 2);
   EXPECT_EQ(read->verification.swallowed.count, 1LL << 40);
   ASSERT_EQ(read->state.cloths.size(), 2);

@@ -1,8 +1,14 @@
+#include <cmath>
+#include <ostream>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/errors.h"
+#include "tests/support/patterns.h"
 #include "tests/support/temporary_folder.h"
 #include "weft/error.h"
+#include "weft/files.h"
+#include "weft/garment.h"
 #include "weft/image/builtin.h"
 #include "weft/image_file.h"
 #include "weft/run.h"
@@ -71,6 +77,20 @@ TEST(MemoryEstimate, OfLoadedSurfacesIsThatOfTheirSizes) {
   EXPECT_GT(estimate_memory(scene, found), estimate_memory(scene));
   scene.bodies[0].size = found.bodies[0];
   EXPECT_EQ(estimate_memory(scene, found), estimate_memory(scene));
+}
+
+TEST(MemoryEstimate, TakesTheSizeOfAGarmentFromThePanelsOfItsPattern) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "tube.json",
+             [](std::ostream& out) { out << test::tube_pattern(100, 100, 20, 0); });
+  Scene scene = sheet(5);
+  scene.cloths[0].surface = folder / "tube.json";
+  scene.cloths[0].spacing = 0.002;
+  const int least = least_garment_size(read_pattern(folder / "tube.json"), 0.002);
+  EXPECT_NEAR(least, std::sqrt(0.8 * 2) / 0.002, 1);
+  EXPECT_EQ(estimate_memory(scene), estimate_memory(sheet(least)));
+  scene.cloths[0].surface = folder / "none.json";
+  EXPECT_EQ(estimate_memory(scene), estimate_memory(sheet(5)));
 }
 
 TEST(MemoryEstimate, WhatCertainlyDoesNotFitIsRefusedWithBothFigures) {

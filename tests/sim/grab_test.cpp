@@ -156,6 +156,23 @@ TEST(Grab, ResetLetsGo) {
   EXPECT_EQ(simulation.state_hash(), untouched);
 }
 
+TEST(Grab, ResetTakesPinsBackToWhereTheyWere) {
+  Scene scene = floating_sheet(0.5);
+  scene.cloths[0].pins = {ImagePin{{0, 0}}, ImagePin{{1, 0}}};
+  Simulation simulation(scene, "sheet", 1);
+  run(simulation, 3);
+  SimulationState saved;
+  simulation.save(saved);
+  run(simulation, 5);
+  const std::string untouched = simulation.state_hash();
+  simulation.grab(0, 0);
+  simulation.pull({0, 2, 0});
+  run(simulation, 5);
+  simulation.restore(saved);
+  run(simulation, 5);
+  EXPECT_EQ(simulation.state_hash(), untouched);
+}
+
 TEST(Grab, CorrectionsOfEverySampleHaveTheResidualAsTheLargest) {
   for (const IntegratorOptions& integrator :
        {IntegratorOptions{MultigridOptions{}}, IntegratorOptions{ImplicitOptions{}}}) {

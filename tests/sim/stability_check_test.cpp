@@ -52,6 +52,22 @@ TEST(StabilityCheck, StopsFarStretchedClothInOneFrameWhoseEnergyNoForceExplains)
   EXPECT_FALSE(stops(step, 20, 1.5)) << "stretched by work";
 }
 
+TEST(StabilityCheck, GoesOnAfterAFrameThatARestoredStateCounted) {
+  MadeUpStep step;
+  const std::string name = "made up";
+  FrameReport report;
+  report.kinetic_energy = step.total() + 20;
+  const auto look = [&](StabilityCheck& check) {
+    check.check_energy({}, report, report.kinetic_energy, false, step.budget);
+  };
+  StabilityCheck before(name, step.cloths(), step.movers());
+  look(before);
+  EXPECT_EQ(before.frames_beyond(), 1);
+  StabilityCheck resumed(name, step.cloths(), step.movers());
+  resumed.restore(before.frames_beyond());
+  EXPECT_THROW(look(resumed), Unstable);
+}
+
 TEST(StabilityCheck, InstabilityThatTheLimiterTamesIsStillFound) {
   // At this step explicit Euler shakes the sheet to pieces of twice their size, slowly.
   Scene scene = free_fall(ExplicitOptions{});

@@ -153,6 +153,7 @@ class Reader:
                 self._hashes[path] = f"missing {path}"  # the job will say so
                 return self._hashes[path]
             whole = hashlib.sha256(data)
+            self._hashes[path] = ""  # files may name each other
             for named in _named_in(path, data):
                 whole.update(self._hash_of(named).encode())
             self._hashes[path] = f"{os.path.basename(path)} {whole.hexdigest()}"
@@ -160,22 +161,41 @@ class Reader:
 
 
 def _named_in(path, data):
-    """Files that a scene, a pattern or a glTF file names."""
-    if not path.lower().endswith((".json", ".gltf")):
-        return
-    todo = []
+    """Files that a scene, a pattern, a glTF file, an OBJ file or its materials name."""
+    for name in _names_in(path, data):
+        for named in _files_of(os.path.join(os.path.dirname(path), name)):
+            if not os.path.samefile(named, path):
+                yield named
+
+
+def _names_in(path, data):
+    """What may be names of files."""
+    ending = os.path.splitext(path)[1].lower()
+    if ending in (".obj", ".mtl"):
+        line = rb"^[ \t]*mtllib[ \t]+(.+)$" if ending == ".obj" else rb"^[ \t]*map_\w+[ \t].*?(\S+)[ \t\r]*$"
+        return [name.decode(errors="replace").strip() for name in re.findall(line, data, re.MULTILINE)]
+    if ending not in (".json", ".gltf"):
+        return []
     try:
-        todo = [json.loads(data)]
+        todo, names = [json.loads(data)], []
     except ValueError:
-        pass
+        return []
     while todo:
         value = todo.pop()
         if isinstance(value, (dict, list)):
             todo += value.values() if isinstance(value, dict) else value
-        elif isinstance(value, str) and len(value) < 1000 and not value.startswith(("builtin:", "data:")):
-            named = os.path.join(os.path.dirname(path), value)
-            if value and "\0" not in value and os.path.isfile(named) and not os.path.samefile(named, path):
-                yield named
+        elif isinstance(value, str) and not value.startswith(("builtin:", "data:")):
+            names.append(value)
+    return names
+
+
+def _files_of(name):
+    """The file of a name, the file of FILE#CLIP, or the numbered files of a name with %d in it."""
+    if len(name) > 4000 or "\0" in name:
+        return []
+    numbered = re.sub(r"%0?\d*d", "*", glob.escape(name))
+    files = sorted(glob.glob(numbered)) if numbered != glob.escape(name) else [name, *(name[:mark.start()] for mark in re.finditer("#", name))]
+    return [file for file in files if os.path.isfile(file)]
 
 
 def _resolved(name, folder):

@@ -12,6 +12,7 @@
 #include "weft/error.h"
 #include "weft/image_quality.h"
 #include "weft/param/square_map.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 constexpr int rotation_unit = 4;
 
 std::string source_name(const std::string& name) {
-  return name.starts_with("builtin:") ? name : std::filesystem::path(name).filename().string();
+  return is_builtin(name) ? name : std::filesystem::path(name).filename().string();
 }
 
 std::string hash_of(const TriangleMesh& mesh) {

@@ -16,8 +16,6 @@
 namespace weft {
 namespace {
 
-constexpr std::string_view builtin_prefix = "builtin:";
-
 /// The triangle of the mesh that each sample lies in; none of holes. [n * n]
 std::vector<SurfacePlace> sample_places(const Conversion& made) {
   const int n = made.image.size();
@@ -91,7 +89,7 @@ std::vector<Vec2d> places_of(const Conversion& made, int vertices) {
 
 /// Built-in shapes are in metres with y up; files are what their user says.
 MeshFile load_mesh_file(const std::string& name, const MeshFrame& files) {
-  if (name.starts_with(builtin_prefix)) {
+  if (is_builtin(name)) {
     MeshFile made{make_shape(name.substr(builtin_prefix.size())), {}};
     made.faces = faces_of(made.mesh);
     return made;
@@ -119,19 +117,19 @@ void check_texture(const TriangleMesh& mesh, const std::string& name) {
 
 bool is_image_name(const std::string& name) {
   const std::string ending = ending_of(name);
-  return !name.starts_with(builtin_prefix) &&
+  return !is_builtin(name) &&
          (ending == ".exr" || ending == ".png" || ending == ".weft");
 }
 
 TriangleMesh load_mesh(const std::string& name) {
-  if (name.starts_with(builtin_prefix)) return make_shape(name.substr(builtin_prefix.size()));
+  if (is_builtin(name)) return make_shape(name.substr(builtin_prefix.size()));
   return read_mesh(name);
 }
 
 bool is_image_surface(const Surface& surface) {
   if (surface.in_memory()) return surface.image != nullptr;
   const std::string& name = surface.name;
-  return is_image_name(name) || (name.starts_with(builtin_prefix) &&
+  return is_image_name(name) || (is_builtin(name) &&
                                  is_image_by_nature(name.substr(builtin_prefix.size())));
 }
 

@@ -35,11 +35,13 @@ std::string read_file(const fs::path& path) {
   if (!in)
     throw InputError(path.string(), "cannot be opened: " + system_reason(),
                      "a readable file is wanted");
-  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad())
+  // A buffer that fails throws, and iterators over it do not tell the stream.
+  try {
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  } catch (const std::ios_base::failure&) {
     throw InputError(path.string(), "cannot be read: " + system_reason(),
                      "a readable file is wanted");
-  return bytes;
+  }
 }
 
 void make_folder(const fs::path& path) {
@@ -51,8 +53,9 @@ void make_folder(const fs::path& path) {
 }
 
 void check_not_input(const fs::path& output, std::span<const fs::path> inputs) {
+  std::error_code ignored;
+  if (!fs::exists(output, ignored)) return;
   for (const fs::path& input : inputs) {
-    std::error_code ignored;
     if (fs::equivalent(output, input, ignored))
       throw OutputError(output.string(), "would be overwritten, and is read here",
                         "another place for what is written is wanted");

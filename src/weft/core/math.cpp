@@ -32,6 +32,8 @@ struct Reduced {
 };
 
 Reduced reduce(double angle) {
+  // Whole turns of more than an integer holds; fmod is exact.
+  if (std::fabs(angle) > 1e5) angle = std::fmod(angle, 2 * pi);
   const double turns = std::nearbyint(angle * (2.0 / pi));
   const double rest = ((angle - turns * half_pi_1) - turns * half_pi_2) - turns * half_pi_3;
   return {rest, static_cast<int>(static_cast<long long>(turns) & 3)};

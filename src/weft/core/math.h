@@ -12,8 +12,8 @@ inline constexpr double standard_gravity = 9.81;
 // processor. These use plain arithmetic without tables. Tests bound their error over the stated
 // range.
 
-/// Sine and cosine of an angle [rad], |angle| <= 1e5: within 4e-16 of the exact value for small
-/// angles; the error grows with |angle| by rounding of the reduction only.
+/// Sine and cosine of a finite angle [rad]: within 4e-16 of the exact value for small angles; the
+/// error grows with |angle| by rounding of the reduction only, beyond 1e5 to 1e-16 |angle|.
 double sine(double angle);
 double cosine(double angle);
 /// The angle of (x, y) in (-pi, pi]; 0 for the zero vector. [rad]

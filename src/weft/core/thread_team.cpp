@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 
 #include "weft/core/assert.h"
 
@@ -37,7 +38,11 @@ ThreadTeam::ThreadTeam(const TeamOptions& options)
   WEFT_ASSERT(size_ >= 1);
   WEFT_ASSERT(has_instruction_set(set_));
   threads_.reserve(static_cast<std::size_t>(size_ - 1));
-  for (int rank = 1; rank < size_; ++rank) threads_.emplace_back([this, rank] { serve(rank); });
+  try {
+    for (int rank = 1; rank < size_; ++rank) threads_.emplace_back([this, rank] { serve(rank); });
+  } catch (const std::system_error&) {  // the system has no more of them
+    size_ = static_cast<int>(threads_.size()) + 1;
+  }
 }
 
 ThreadTeam::~ThreadTeam() {

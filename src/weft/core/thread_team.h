@@ -57,6 +57,7 @@ class Worker {
 /// team, so only the time differs.
 class ThreadTeam {
  public:
+  /// As many workers as are asked for, or as the system has threads for.
   explicit ThreadTeam(const TeamOptions& options);
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;

@@ -72,7 +72,7 @@ void note_narrow_circles(Pattern& pattern, int index) {
   for (std::size_t k = 0; k < panel.edges.size(); ++k) {
     const PatternEdge& edge = panel.edges[k];
     const Vec2d chord = panel.vertices[edge.to] - panel.vertices[edge.from];
-    const double half = 0.5 * std::hypot(chord.x, chord.y);
+    const double half = 0.5 * length(chord);
     if (edge.curve.kind != PatternCurve::Kind::arc || edge.curve.radius > 0.999 * half) continue;
     pattern.notes.push_back(
         fmt::format("panel '{}', edge {}: a half circle of radius {:.3g} mm, as one of {:.3g} mm "

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "weft/core/math.h"
 
 namespace weft {
 namespace {
@@ -21,20 +22,20 @@ Vec2d on_bezier(Vec2d from, const std::vector<Vec2d>& controls, Vec2d to, double
 /// is walked counter-clockwise or a long one clockwise.
 std::vector<Vec2d> arc(Vec2d from, Vec2d to, const PatternCurve& curve) {
   const Vec2d chord = to - from;
-  const double half = 0.5 * std::hypot(chord.x, chord.y);
+  const double half = 0.5 * length(chord);
   const double radius = std::max(curve.radius, half);  // rounding of half circles
   const double away = std::sqrt(std::max(0.0, radius * radius - half * half)) / (2 * half);
   const double side = curve.counterclockwise != curve.large ? 1 : -1;
   const Vec2d centre = from + 0.5 * chord + side * away * Vec2d{-chord.y, chord.x};
-  const double first = std::atan2(from.y - centre.y, from.x - centre.x);
-  double turn = std::atan2(to.y - centre.y, to.x - centre.x) - first;
-  const double whole = 2 * std::numbers::pi;
+  const double first = arc_tangent(from.y - centre.y, from.x - centre.x);
+  double turn = arc_tangent(to.y - centre.y, to.x - centre.x) - first;
+  const double whole = 2 * pi;
   if (curve.counterclockwise && turn <= 0) turn += whole;
   if (!curve.counterclockwise && turn >= 0) turn -= whole;
   std::vector<Vec2d> points;
   for (int k = 0; k <= fine; ++k) {
     const double angle = first + turn * k / fine;
-    points.push_back(centre + radius * Vec2d{std::cos(angle), std::sin(angle)});
+    points.push_back(centre + radius * Vec2d{cosine(angle), sine(angle)});
   }
   points.front() = from;
   points.back() = to;
@@ -55,8 +56,7 @@ std::vector<Vec2d> edge_polyline(const PatternPanel& panel, const PatternEdge& e
 
 double length_of(const std::vector<Vec2d>& polyline) {
   double sum = 0;
-  for (std::size_t k = 1; k < polyline.size(); ++k)
-    sum += std::hypot(polyline[k].x - polyline[k - 1].x, polyline[k].y - polyline[k - 1].y);
+  for (std::size_t k = 1; k < polyline.size(); ++k) sum += length(polyline[k] - polyline[k - 1]);
   return sum;
 }
 
@@ -70,7 +70,7 @@ std::vector<Vec2d> spread_along(const std::vector<Vec2d>& polyline, int interval
     double here = 0;
     for (; piece < polyline.size(); ++piece) {
       const Vec2d step = polyline[piece] - polyline[piece - 1];
-      here = std::hypot(step.x, step.y);
+      here = length(step);
       if (before + here >= wanted || piece + 1 == polyline.size()) break;
       before += here;
     }

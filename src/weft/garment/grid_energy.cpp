@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-double distance(Vec2d a, Vec2d b) { return std::hypot(b.x - a.x, b.y - a.y); }
+double distance(Vec2d a, Vec2d b) { return length(b - a); }
 
 /// Sine of the angle at a corner of the grid up to which the outline counts as straight there: its
 /// cell cannot have an area at that corner.
@@ -40,7 +40,7 @@ GridEnergy::GridEnergy(const PlaneGrid& grid, Cell cell) {
       const int left = c * (last_col - 1), low = r * (last_row - 1);
       const Vec2d a = grid.at(row, left + 1) - grid.at(row, left);
       const Vec2d b = grid.at(low + 1, col) - grid.at(low, col);
-      corner_counts_[r][c] = cross(a, b) > straight * std::hypot(a.x, a.y) * std::hypot(b.x, b.y);
+      corner_counts_[r][c] = cross(a, b) > straight * length(a) * length(b);
     }
 }
 

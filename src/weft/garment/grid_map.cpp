@@ -19,8 +19,8 @@ constexpr int min_coarse_side = 16, max_coarse_side = 64;
 double first_length(const PlaneGrid& grid, const Vectors& direction) {
   const Vec2d side = grid.at(0, 1) - grid.at(0, 0);
   double most = 0;
-  for (const Vec2d& v : direction) most = std::max(most, std::hypot(v.x, v.y));
-  return 0.1 * std::hypot(side.x, side.y) / most;
+  for (const Vec2d& v : direction) most = std::max(most, length(v));
+  return 0.1 * length(side) / most;
 }
 
 /// Lowers the energy. @return it

@@ -78,15 +78,19 @@ double area_of(const PatternPanel& panel) {
   return 0.5 * std::abs(twice);
 }
 
-/// Refuses samples so close that no image holds them, before any are laid. A fifth of the area is
-/// left to curved edges.
-const Pattern& checked(const Pattern& pattern, const std::string& name, double spacing) {
+/// Of all panels. [m^2]
+double area_of(const Pattern& pattern) {
   double area = 0;
   for (const PatternPanel& panel : pattern.panels) area += area_of(panel);
-  const double side = std::sqrt(0.8 * area) / spacing;
-  if (side > largest_image_size)
+  return area;
+}
+
+/// Refuses samples so close that no image holds them, before any are laid.
+const Pattern& checked(const Pattern& pattern, const std::string& name, double spacing) {
+  if (least_garment_size(pattern, spacing) > largest_image_size)
     throw InputError(
-        name, fmt::format("{:.3g} m^2 with samples {:.3g} mm apart", area, 1000 * spacing),
+        name,
+        fmt::format("{:.3g} m^2 with samples {:.3g} mm apart", area_of(pattern), 1000 * spacing),
         fmt::format("an image has at most {} samples a side: a wider spacing is wanted",
                     largest_image_size));
   return pattern;
@@ -211,6 +215,12 @@ class Maker {
 };
 
 }  // namespace
+
+int least_garment_size(const Pattern& pattern, double spacing) {
+  constexpr double curved_part = 0.2;  // of the area, which edges may leave out
+  const double side = std::sqrt((1 - curved_part) * area_of(pattern)) / spacing;
+  return static_cast<int>(std::min(side, 2.0 * largest_image_size));
+}
 
 Garment make_garment(const Pattern& pattern, const std::string& name, double spacing,
                      Progress* progress) {

@@ -1,11 +1,11 @@
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "weft/core/json.h"
+#include "weft/core/math.h"
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/garment.h"
@@ -75,7 +75,7 @@ struct Node {
 
 /// Refuses a point that is farther from its panel's origin than panels are large.
 void check_reach(const Node& node, const std::string& what, Vec2d p) {
-  const double away = std::hypot(p.x, p.y);
+  const double away = length(p);
   if (away > largest_panel)
     node.fail(fmt::format("{} {:.3g} m away", what, away),
               fmt::format("a panel of at most {} m is wanted (properties.units_in_meter)",
@@ -189,11 +189,11 @@ Stitch read_stitch(const Node& node, const Pattern& pattern,
 }  // namespace
 
 Vec3d PatternPanel::placed(Vec2d point) const {
-  constexpr double degree = std::numbers::pi / 180;
+  constexpr double degree = pi / 180;
   Vec3d p{point.x, point.y, 0};
-  const double cx = std::cos(degree * rotate.x), sx = std::sin(degree * rotate.x);
-  const double cy = std::cos(degree * rotate.y), sy = std::sin(degree * rotate.y);
-  const double cz = std::cos(degree * rotate.z), sz = std::sin(degree * rotate.z);
+  const double cx = cosine(degree * rotate.x), sx = sine(degree * rotate.x);
+  const double cy = cosine(degree * rotate.y), sy = sine(degree * rotate.y);
+  const double cz = cosine(degree * rotate.z), sz = sine(degree * rotate.z);
   p = {p.x, cx * p.y - sx * p.z, sx * p.y + cx * p.z};
   p = {cy * p.x + sy * p.z, p.y, -sy * p.x + cy * p.z};
   p = {cz * p.x - sz * p.y, sz * p.x + cz * p.y, p.z};

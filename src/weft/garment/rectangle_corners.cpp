@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 
+#include "weft/core/math.h"
 #include "weft/garment/grid_map.h"
 
 namespace weft {
@@ -32,13 +32,12 @@ struct Measured {
     along.push_back(0);
     for (int i = 0; i < count; ++i) {
       const Vec2d before = at(i) - at(i - 1), after = at(i + 1) - at(i);
-      double turn = std::atan2(cross(before, after), dot(before, after));
+      double turn = arc_tangent(cross(before, after), dot(before, after));
       if (outline.mirrored) turn = -turn;
       // The square of what a right angle misses, less that of what a straight one does.
-      const double right = turn / (std::numbers::pi / 2) - 1,
-                   straight = turn / (std::numbers::pi / 2);
+      const double right = turn / (pi / 2) - 1, straight = turn / (pi / 2);
       corner_cost.push_back(right * right - straight * straight);
-      along.push_back(along.back() + std::hypot(after.x, after.y));
+      along.push_back(along.back() + weft::length(after));
     }
   }
   [[nodiscard]] int size() const { return static_cast<int>(outline.points.size()); }

@@ -149,7 +149,7 @@ void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   out.add(static_cast<std::int32_t>(state.levels.first));
   out.add(static_cast<std::int32_t>(state.levels.most));
   out.add(state.work.net), out.add(state.work.gross), out.add(state.work.pulled);
-  out.add(state.work.least);
+  out.add(state.work.least), out.add(static_cast<std::int32_t>(state.frames_unexplained));
   out.add(static_cast<std::uint32_t>(checkpoint.state.cloths.size()));
   for (const ClothState& cloth : checkpoint.state.cloths) add_cloth(cloth, out);
   for (std::size_t i = 0; i < checkpoint.state.cloths.size(); ++i)
@@ -180,6 +180,9 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
   if (!is_valid(levels)) return std::nullopt;
   WorkDone& work = checkpoint.state.work;
   in.read(work.net), in.read(work.gross), in.read(work.pulled), in.read(work.least);
+  int& unexplained = checkpoint.state.frames_unexplained;
+  in.read(unexplained);
+  if (unexplained < 0 || unexplained > checkpoint.state.frame) return std::nullopt;
   const auto cloths = in.next<std::uint32_t>();
   for (std::uint32_t i = 0; i < cloths; ++i) {
     std::optional<ClothState> cloth = next_cloth(in);

@@ -14,10 +14,9 @@ constexpr double body_side = 1;          // [m]
 constexpr double cloth_over_body = 1.6;  // side of a flat cloth over the body's
 constexpr double gap_above = 0.02;       // [m]
 constexpr double worn_share = 0.5;
-constexpr std::string_view builtin_prefix = "builtin:";
 
 std::string_view shape_of(const std::string& surface) {
-  return surface.starts_with(builtin_prefix)
+  return is_builtin(surface)
              ? std::string_view(surface).substr(builtin_prefix.size())
              : std::string_view();
 }
@@ -32,7 +31,7 @@ Box3d surface_box(const std::string& surface, const MeshFrame& files) {
   if (is_image_name(surface)) {
     box = box_of(world_positions(read_image(surface)));
   } else {
-    const bool built_in = surface.starts_with(builtin_prefix);
+    const bool built_in = is_builtin(surface);
     for (const Vec3d& p : load_mesh(surface).positions)
       box.add(built_in ? p : in_metres_y_up(p, files));
   }

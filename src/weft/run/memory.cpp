@@ -9,6 +9,7 @@
 
 #include "weft/convert.h"
 #include "weft/error.h"
+#include "weft/garment.h"
 #include "weft/image_file.h"
 #include "weft/point_cache.h"
 #include "weft/run.h"
@@ -104,12 +105,21 @@ int size_of(const Surface& surface, int size) {
   return surface.image ? surface.image->size() : is_file ? read_image(surface.name).size() : size;
 }
 
+int size_of(const SceneCloth& cloth) {
+  if (cloth.surface.in_memory() || !is_pattern_name(cloth.surface.name))
+    return size_of(cloth.surface, cloth.size);
+  try {
+    return least_garment_size(read_pattern(cloth.surface.name), cloth.spacing);
+  } catch (const InputError&) {
+    return cloth.size;  // reported when it is made
+  }
+}
+
 }  // namespace
 
 std::uint64_t estimate_memory(const Scene& scene) {
   LoadedSizes sizes;
-  for (const SceneCloth& cloth : scene.cloths)
-    sizes.cloths.push_back(size_of(cloth.surface, cloth.size));
+  for (const SceneCloth& cloth : scene.cloths) sizes.cloths.push_back(size_of(cloth));
   for (const SceneBody& body : scene.bodies)
     sizes.bodies.push_back(size_of(body.surface, body.size));
   return estimate_memory(scene, sizes);

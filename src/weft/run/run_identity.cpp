@@ -14,6 +14,7 @@
 #include "weft/run/checkpoint.h"
 #include "weft/run/run_manifest.h"
 #include "weft/scene_file.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {
@@ -158,14 +159,13 @@ std::string identity_difference(const std::string& found, const std::string& wan
 std::vector<fs::path> input_files(const Scene& scene) {
   std::vector<fs::path> files;
   const auto add = [&](const Surface& surface) {
-    if (!surface.in_memory()) files.emplace_back(surface.name);
+    if (!surface.in_memory() && !is_builtin(surface.name)) files.emplace_back(surface.name);
   };
   for (const SceneCloth& cloth : scene.cloths) add(cloth.surface);
   for (const SceneBody& body : scene.bodies) {
     add(body.surface);
-    if (body.animation.in_memory()) continue;
+    if (body.animation.in_memory() || body.animation.empty()) continue;
     files.emplace_back(body.animation.name);
-    if (body.animation.empty()) continue;
     try {
       for (const fs::path& file : point_cache_files(body.animation.name)) files.push_back(file);
     } catch (const InputError&) {  // they were there when they were read, which was enough

@@ -120,14 +120,18 @@ void Simulation::save(SimulationState& state) const {
   state.frame = parts_->frame;
   state.levels = parts_->levels;
   state.work = parts_->energy.work();
+  state.frames_unexplained = parts_->stability.frames_beyond();
   state.cloths.resize(parts_->cloths.size());
   state.marks.resize(parts_->cloths.size());
   state.contacts.resize(parts_->cloths.size());
+  state.pin_targets.resize(parts_->cloths.size());
   for (std::size_t i = 0; i < state.cloths.size(); ++i) {
     state.cloths[i] = parts_->cloths[i].state;
     parts_->collider->save_marks(i, state.marks[i]);
     const std::span<const PastContact> past = parts_->movers[i].integrator->past_contacts();
     state.contacts[i].assign(past.begin(), past.end());
+    state.pin_targets[i].clear();
+    for (const Pin& pin : parts_->cloths[i].model->pins) state.pin_targets[i].push_back(pin.target);
   }
 }
 
@@ -137,7 +141,12 @@ void Simulation::restore(const SimulationState& state) {
   parts_->frame = state.frame;
   parts_->levels = state.levels;
   parts_->energy.restore(state.work);
+  parts_->stability.restore(state.frames_unexplained);
   for (std::size_t i = 0; i < state.cloths.size(); ++i) parts_->cloths[i].state = state.cloths[i];
+  // A pin that a hand had added at the end is gone.
+  for (std::size_t i = 0; i < state.pin_targets.size(); ++i)
+    for (std::size_t k = 0; k < parts_->cloths[i].model->pins.size(); ++k)
+      parts_->cloths[i].model->pins[k].target = state.pin_targets[i].at(k);
   parts_->follow_sewing();
   if (parts_->driven.any_moves()) {
     parts_->driven.move_to(parts_->frame_start(), parts_->team);

@@ -4,6 +4,7 @@
 #include "weft/core/names.h"
 #include "weft/fabric.h"
 #include "weft/point_cache.h"
+#include "weft/shapes.h"
 #include "weft/sim/scene_file/scene_parts.h"
 
 namespace weft {
@@ -15,7 +16,7 @@ constexpr NumberRange friction_range{0, 10, false};
 constexpr int max_layers = 20;
 
 std::string resolved(const std::string& surface, const fs::path& folder) {
-  if (surface.starts_with("builtin:")) return surface;
+  if (is_builtin(surface)) return surface;
   return fs::absolute(folder / surface).lexically_normal().string();
 }
 
@@ -54,10 +55,10 @@ Animation read_animation(const JsonObject& object, const std::string& surface,
   if (!object.has("animation")) return {};
   const std::string name = object.text("animation", "");
   if (is_point_cache_name(name)) return resolved(name, folder);
-  const std::size_t mark = name.find('#');
-  const std::string file = name.substr(0, mark);
-  if (mark != name.npos && is_gltf_name(file))
-    return {resolved(file, folder), name.substr(mark + 1)};
+  // Folders may have the mark in their names, and animations, too.
+  for (std::size_t mark = name.find('#'); mark != name.npos; mark = name.find('#', mark + 1))
+    if (const std::string file = name.substr(0, mark); is_gltf_name(file))
+      return {resolved(file, folder), name.substr(mark + 1)};
   if (is_gltf_name(surface) && !name.empty()) return {surface, name};
   object.place()
       .key("animation")

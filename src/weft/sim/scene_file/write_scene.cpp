@@ -7,6 +7,7 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/scene_file.h"
+#include "weft/shapes.h"
 
 namespace weft {
 namespace {
@@ -23,7 +24,7 @@ std::string surface_text(const Surface& surface, const fs::path& folder) {
   if (surface.in_memory())
     throw UsageError("scene", fmt::format("the surface '{}' is in memory alone", surface.name),
                      "a file or builtin:NAME, which a scene file can tell of, is wanted");
-  if (surface.name.starts_with("builtin:")) return surface.name;
+  if (is_builtin(surface.name)) return surface.name;
   return fs::absolute(surface.name)
       .lexically_normal()
       .lexically_proximate(fs::absolute(folder).lexically_normal())

@@ -36,6 +36,10 @@ class StabilityCheck {
   void check_energy(const Now& now, const FrameReport& report, double own, bool held,
                     const EnergyBudget& budget);
 
+  /// Consecutive frames with unexplained energy, up to the last one.
+  [[nodiscard]] int frames_beyond() const { return frames_beyond_; }
+  void restore(int frames_beyond) { frames_beyond_ = frames_beyond; }
+
  private:
   /// @param gained  beyond the work of forces [J]
   void check_strained(const Now& now, double p99, double gained, const WorkDone& work) const;
@@ -46,7 +50,7 @@ class StabilityCheck {
   const std::string& name_;
   const std::vector<SimulatedCloth>& cloths_;
   std::vector<Mover>& movers_;
-  int frames_beyond_ = 0;  // consecutive frames with unexplained energy
+  int frames_beyond_ = 0;
 };
 
 }  // namespace weft
