@@ -150,9 +150,9 @@ class Reader(ProgramTest):
 
     def test_shapes_of_one_chart(self):
         for name in ("box", "sphere", "torus", "tshirt"):
-            self.check_mesh(f"builtin:{name}", (33, 65, 129))
+            self.check_mesh(f"builtin:{name}", (33, 65))
         self.check_mesh("builtin:knot", (33, 129))
-        self.check_mesh("builtin:genus20", (65, 129), charts="1")  # else it would be several
+        self.check_mesh("builtin:genus20", (65,), charts="1")  # else it would be several
         self.check_mesh("builtin:mannequin", (65,))
 
     def test_colours_are_stepped_over(self):
@@ -167,16 +167,16 @@ class Reader(ProgramTest):
     def test_pieces_pages_and_bands_of_several_charts(self):
         pieces = beside([self.shape(name) for name in ("sphere", "torus", "tshirt")])
         self.check_mesh(self.write("pieces.obj", pieces), (65, 129), version=2)
-        self.check_mesh(self.write("book.obj", book(3)), (33, 65, 129), version=2)
-        self.check_mesh(self.write("band.obj", moebius_band()), (33, 65, 129), version=2)
+        self.check_mesh(self.write("book.obj", book(3)), (33, 65), version=2)
+        self.check_mesh(self.write("band.obj", moebius_band()), (33, 65), version=2)
 
     def test_images_whose_borders_are_joined_in_any_way(self):
-        for path, wanted in self.drawn_images(200):
+        for path, wanted in self.drawn_images(80):
             with self.subTest(path.name):
                 self.assert_same(run_inside(READER.read_text(), path), wanted)
 
     def test_leaving_out_any_part_of_the_rule_is_seen(self):
-        images = self.drawn_images(200)
+        images = self.drawn_images(80)
         source = READER.read_text()
         for part, other in PARTS:
             with self.subTest(part):

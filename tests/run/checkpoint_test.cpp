@@ -84,7 +84,7 @@ TEST(Checkpoint, ReadsBackBitByBit) {
   ASSERT_EQ(read->state.cloths.size(), 2);
   EXPECT_TRUE(std::signbit(read->state.cloths[0].velocity.y(0, 0)));
   ASSERT_EQ(read->state.contacts[1].size(), 1);
-  EXPECT_EQ(read->state.contacts[1][0].friction, Vec3f(3, -4, 5));
+  EXPECT_EQ(read->state.contacts[1][0].friction, (Vec3f{3, -4, 5}));
   EXPECT_EQ(read->state.contacts[1][0].acceleration, 7);
   // Every bit of every field.
   EXPECT_EQ(encode_checkpoint(*read), encode_checkpoint(written));
