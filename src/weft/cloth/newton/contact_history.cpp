@@ -1,8 +1,7 @@
 #include "weft/cloth/newton/contact_history.h"
 
-#include <algorithm>
 #include <array>
-#include <tuple>
+#include <bit>
 
 namespace weft {
 namespace {
@@ -26,6 +25,8 @@ std::uint64_t key_of(const std::array<int, 4>& samples, int second) {
   return key;
 }
 
+std::uint32_t tag_of(std::uint64_t key) { return static_cast<std::uint32_t>(key >> 32); }
+
 }  // namespace
 
 void ContactHistory::add(const Contact& contact, int second, const PastContact& done) {
@@ -38,34 +39,36 @@ void ContactHistory::add(const Contact& contact, int second, const PastContact& 
 void ContactHistory::accept() {
   past_.swap(next_);
   next_.clear();
-  sort();
+  hash_all();
 }
 
 void ContactHistory::restore(std::span<const PastContact> past) {
   past_.assign(past.begin(), past.end());
   next_.clear();
-  sort();
+  hash_all();
 }
 
-void ContactHistory::sort() {
-  entries_.clear();
-  for (std::size_t i = 0; i < past_.size(); ++i)
-    entries_.push_back({key_of(past_[i].samples, past_[i].second), static_cast<int>(i)});
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    return std::tie(a.key, a.index) < std::tie(b.key, b.index);
-  });
+void ContactHistory::hash_all() {
+  slots_.assign(std::bit_ceil(2 * past_.size() + 1), {});
+  const std::size_t mask = slots_.size() - 1;
+  for (std::size_t i = 0; i < past_.size(); ++i) {
+    const std::uint64_t key = key_of(past_[i].samples, past_[i].second);
+    std::size_t place = key & mask;
+    while (slots_[place].index >= 0) place = (place + 1) & mask;
+    slots_[place] = {tag_of(key), static_cast<int>(i)};
+  }
 }
 
 const PastContact* ContactHistory::find(const Contact& contact, int second) const {
-  if (entries_.empty()) return nullptr;
+  if (past_.empty()) return nullptr;
   const std::array<int, 4> samples = samples_of(contact);
   const std::uint64_t key = key_of(samples, second);
-  auto entry = std::lower_bound(entries_.begin(), entries_.end(), key,
-                                [](const Entry& e, std::uint64_t k) { return e.key < k; });
   const PastContact* best = nullptr;
   float closest = min_cosine;
-  for (; entry != entries_.end() && entry->key == key; ++entry) {
-    const PastContact& past = past_[entry->index];
+  const std::size_t mask = slots_.size() - 1;
+  for (std::size_t place = key & mask; slots_[place].index >= 0; place = (place + 1) & mask) {
+    if (slots_[place].tag != tag_of(key)) continue;
+    const PastContact& past = past_[slots_[place].index];
     const float cosine = dot(past.normal, contact.normal);
     if (past.samples != samples || past.second != second || cosine < closest) continue;
     closest = cosine;

@@ -29,14 +29,14 @@ class ContactHistory {
   void restore(std::span<const PastContact> past);
 
  private:
-  void sort();
+  void hash_all();
 
-  struct Entry {
-    std::uint64_t key;
-    int index;  // in past_
+  struct Slot {
+    std::uint32_t tag = 0;  // upper half of the key
+    int index = -1;         // in past_; -1: the slot is free
   };
   std::vector<PastContact> past_, next_;
-  std::vector<Entry> entries_;  // by key, then by index
+  std::vector<Slot> slots_;  // each contact in the first free one from the lower half of its key on
 };
 
 }  // namespace weft
