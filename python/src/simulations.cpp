@@ -37,7 +37,9 @@ class Stepper {
     relay_.listener = &listener;
     simulation.save(before_);
     try {
-      return simulation.advance();
+      const FrameReport report = simulation.advance();
+      frame = simulation.frame();
+      return report;
     } catch (...) {
       simulation.restore(before_);
       throw;
@@ -58,6 +60,7 @@ class Stepper {
  public:
   Simulation simulation;
   std::atomic<bool> busy = false;
+  std::atomic<int> frame = 0;  // done, which may be asked for while another call is at work
   /// Whether the call at work was told to stop and its caller has gone on without waiting.
   std::atomic<bool> stopping = false;
 };
@@ -180,6 +183,7 @@ class Simulated {
       fits = state.cloths[i].position.size() == cloths[i].image.size();
     if (!fits) throw py::value_error("a state of this simulation is wanted");
     claim->simulation.restore(state);
+    claim->frame = state.frame;
   }
   [[nodiscard]] std::vector<std::string> names(bool cloths) const {
     std::vector<std::string> found;
@@ -189,6 +193,7 @@ class Simulated {
       for (const PlacedBody& body : stepper_->simulation.bodies()) found.push_back(body.name);
     return found;
   }
+  [[nodiscard]] int frame() const { return stepper_->frame; }
   [[nodiscard]] const Simulation& simulation() const { return stepper_->simulation; }
 
  private:
@@ -338,7 +343,7 @@ void add_simulations(py::module_& module) {
       .def("save", &Simulated::save)
       .def("restore", &Simulated::restore)
       .def("names", &Simulated::names)
-      .def_property_readonly("frame", [](const Simulated& s) { return s.simulation().frame(); })
+      .def_property_readonly("frame", &Simulated::frame)
       .def_property_readonly("particles",
                              [](const Simulated& s) { return s.simulation().particles(); })
       .def_property_readonly("mass", [](const Simulated& s) { return s.simulation().mass(); })

@@ -143,10 +143,12 @@ void Simulation::restore(const SimulationState& state) {
   parts_->energy.restore(state.work);
   parts_->stability.restore(state.frames_unexplained);
   for (std::size_t i = 0; i < state.cloths.size(); ++i) parts_->cloths[i].state = state.cloths[i];
-  // A pin that a hand had added at the end is gone.
-  for (std::size_t i = 0; i < state.pin_targets.size(); ++i)
-    for (std::size_t k = 0; k < parts_->cloths[i].model->pins.size(); ++k)
-      parts_->cloths[i].model->pins[k].target = state.pin_targets[i].at(k);
+  for (std::size_t i = 0; i < state.pin_targets.size(); ++i) {
+    std::vector<Pin>& pins = parts_->cloths[i].model->pins;
+    // One that a hand had added at the end is gone.
+    const std::size_t both = std::min(pins.size(), state.pin_targets[i].size());
+    for (std::size_t k = 0; k < both; ++k) pins[k].target = state.pin_targets[i][k];
+  }
   parts_->follow_sewing();
   if (parts_->driven.any_moves()) {
     parts_->driven.move_to(parts_->frame_start(), parts_->team);
