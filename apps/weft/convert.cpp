@@ -179,7 +179,10 @@ void check_outputs(const ConvertArgs& args, const ConvertOptions& options, const
   if (args.normal_map > 0) outputs.push_back(normals_file(image));
   if (args.colours) outputs.push_back(colours_file(image));
   if (args.keep_uv) outputs.push_back(texture_file(image));
-  for (const fs::path& output : outputs) check_not_input(output, inputs);
+  for (const fs::path& output : outputs) {
+    check_not_input(output, inputs);
+    const NewFile probe(output);
+  }
 }
 
 Json convert_one(const ConvertArgs& args, const Context& context, const NamedMesh& named,

@@ -33,7 +33,8 @@ void add_inspect(CLI::App& program, const Context& context) {
   CLI::App* command = program.add_subcommand("inspect", "Say what a mesh or a geometry image is");
   command->add_option("MESH|IMAGE", args->subject, "Mesh, builtin:NAME, or geometry image")
       ->required();
-  command->add_option("--against", args->against, "Mesh to measure the distance to");
+  command->add_option("--against", args->against, "Mesh to measure the distance to")
+      ->check([](const std::string& mesh) { return mesh.empty() ? "a mesh is wanted" : ""; });
   add_mesh_options(*command, args->frame);
   command->footer("Example: weft inspect bunny.exr --against bunny.obj");
   command->callback([args, &context] { inspect(*args, context); });

@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <string>
 #include <thread>
@@ -119,6 +120,8 @@ int main(int argc, char** argv) {
   using weft::ExitCode;
   try {
     weft::app::stop_on_signals();
+    // A limit on the size of files is an error of writing.
+    (void)std::signal(SIGXFSZ, SIG_IGN);
     return weft::app::run(argc, argv);
   } catch (const weft::Error& error) {
     return weft::app::fail(error.code(), error.what());

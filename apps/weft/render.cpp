@@ -43,6 +43,10 @@ bool is_run(const std::string& subject) {
 }
 
 void check(const RenderArgs& args) {
+  for (const auto& [option, angle] :
+       {std::pair{"--azimuth", args.azimuth}, {"--elevation", args.elevation}})
+    if (!std::isfinite(angle))
+      throw UsageError(option, fmt::format("{}", angle), "a finite angle is wanted");
   const auto runs = std::count_if(args.subjects.begin(), args.subjects.end(), is_run);
   const bool any_run = runs > 0, only_runs = runs == std::ssize(args.subjects);
   if (only_runs && !args.shown.show.empty() && args.shown.show != "run")

@@ -58,6 +58,9 @@ inline Vec3d in_metres_y_up(Vec3d point, const MeshFrame& frame) {
   return frame.z_up ? Vec3d{point.x, point.z, -point.y} : point;
 }
 
+/// The box of the vertices that triangles have, of finite ones: files may hold others, anywhere.
+Box3d box_of(const TriangleMesh& mesh);
+
 /// A warning for a mesh whose largest side is below 5 cm or above 10 m, implausible for a garment
 /// or a body, with the likely unit of its numbers; nothing for other meshes.
 /// @param mesh  in metres by the unit `taken`

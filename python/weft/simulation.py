@@ -294,6 +294,11 @@ class Simulation:
         self._record[self.frame] = samples
         return samples
 
+    def _catch_up(self):
+        """Keeps a frame that Ctrl-C came after, before it was kept."""
+        if self.frame not in self._record and self.frame - 1 in self._record:
+            self._keep()
+
     def run(self, frames, *, record=True, progress=None):
         """Simulates so many frames more: a generator of each `Frame` as it is done.
 
@@ -306,7 +311,7 @@ class Simulation:
         return self._frames(frames, bool(record), tell)
 
     def _frames(self, frames, record, tell):
-        self.start()
+        self.start()._catch_up()
         for done in range(1, frames + 1):
             told = self._core.advance(None)
             samples = self._keep()
@@ -337,7 +342,8 @@ class Simulation:
         Raises RuntimeError where frames were not recorded.
         """
         index = self._index(cloth)
-        frames = range(self.start().frame + 1)
+        self.start()._catch_up()
+        frames = range(self.frame + 1)
         if any(frame not in self._record for frame in frames):
             raise RuntimeError("frames were not recorded: run(n, record=True) is wanted from the start on")
         return np.stack([self._on(on, index, self._record[frame][index]) for frame in frames])

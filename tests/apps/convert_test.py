@@ -112,6 +112,20 @@ class Convert(ProgramTest):
         self.assertFalse((self.folder / "ball.exr").exists())
         self.run_weft("convert", "ball.obj", "-o", "other.exr", "--colours")
 
+    def test_what_lies_beside_the_image_is_looked_at_before_any_is_written(self):
+        (self.folder / "ring-normals.exr").mkdir()
+        line = self.error_of("convert", "builtin:torus", "-o", "ring.exr", "--size", "17", "--normal-map", "17", code=3)
+        self.assertIn("ring-normals.exr: is a folder", line)
+        self.assertFalse((self.folder / "ring.exr").exists())
+
+    def test_vertices_of_no_triangle_change_no_measure(self):
+        self.run_weft("shapes", "sphere", "-o", "ball.obj")
+        (self.folder / "stray.obj").write_text((self.folder / "ball.obj").read_text() + "v 100 100 100\n")
+        image = self.run_json("convert", "stray.obj", "-o", "stray.exr", "--size", "33")["image"]
+        for mesh in ("ball.obj", "stray.obj"):
+            found = self.run_json("inspect", "stray.exr", "--against", mesh)["against"]
+            self.assertAlmostEqual(found["psnr_db"], image["psnr_db"], places=6, msg=mesh)
+
     def test_normals_of_a_compressed_image_are_an_exr(self):
         report = self.run_json("convert", "builtin:torus", "-o", "ring.weft", "--size", "33", "--normal-map", "33")
         self.assertEqual(report["outputs"], ["ring.weft", "ring-normals.exr"])

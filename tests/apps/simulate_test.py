@@ -102,6 +102,15 @@ class Simulate(SceneTest):
         for field in ("start_intersections", "untangled_frame", "state_hash"):
             self.assertEqual(again[field], report[field], field)
 
+    def test_what_crosses_after_a_free_start_has_not_come_apart(self):
+        scene = sheet_scene(frames=40, ground=None, bodies=[{"surface": "builtin:sphere", "size": 33, "translate": [0, 0.5, 0]}],
+                            cloths=[{"surface": "builtin:sheet", "size": 17, "translate": [0, 1.05, 0], "self_collision": False}])
+        name = self.write_scene(scene)
+        plain = self.run_json("simulate", name, "-o", "plain")
+        done = self.run_weft("simulate", name, "-o", "verified", "--verify", "--json", code=4)
+        self.assertEqual((plain["untangled_frame"], json.loads(done.stdout)["untangled_frame"]), (0, 0))
+        self.assertNotIn("is apart since", done.stderr)
+
     def test_unknown_instruction_sets_are_usage_errors(self):
         scene = self.write_scene(sheet_scene())
         self.assertIn("sse9", self.error_of("simulate", scene, "-o", "none", "--instructions", "sse9", code=2))

@@ -78,6 +78,22 @@ TEST_F(ColouredFiles, PlyVerticesHaveBytesOrFloats) {
   EXPECT_EQ(linear_colour({NAN, -1, HUGE_VALF}), (Vec3f{0, 0, 1}));
 }
 
+TEST_F(ColouredFiles, PlyNumbersOfAnyTypeGoUpTo255WhereTheyAreAboveOne) {
+  for (const std::string type : {"int", "uint", "short", "float", "double"}) {
+    std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\n";
+    for (const std::string axis : {"red", "green", "blue"})
+      head += "property " + type + " " + axis + "\n";
+    const SurfaceColours colours =
+        read("c.ply", head +
+                          "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                          "0 0 0 255 0 0\n1 0 0 0 128 0\n0 1 0 200 100 50\n3 0 1 2\n");
+    EXPECT_EQ(display_bytes(colours.at(0, second)), (Bytes{0, 128, 0})) << type;
+    EXPECT_EQ(display_bytes(colours.at(0, third)), (Bytes{200, 100, 50})) << type;
+  }
+}
+
 TEST_F(ColouredFiles, PlyNamesItsPictureInAComment) {
   put("four.png", four_texels);
   const SurfaceColours colours = read(

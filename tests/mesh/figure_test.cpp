@@ -16,12 +16,6 @@ namespace {
 using test::topology_of;
 using test::volume_of;
 
-Box3d box_of(const TriangleMesh& mesh) {
-  Box3d box;
-  for (const Vec3d p : mesh.positions) box.add(p);
-  return box;
-}
-
 void expect_fat_triangles(const TriangleMesh& mesh) {
   double min = 1, mean = 0;
   for (const auto& [a, b, c] : mesh.triangles) {

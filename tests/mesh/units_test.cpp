@@ -39,6 +39,16 @@ TEST(Units, PlausibleSizesGoWithoutAWord) {
     EXPECT_FALSE(implausible_size(tetrahedron_of_side(side), unit("m"))) << side;
 }
 
+TEST(Units, VerticesThatNoTriangleHasCountForNoSize) {
+  TriangleMesh mesh = tetrahedron_of_side(1);
+  const Box3d box = box_of(mesh);
+  mesh.positions.push_back({1e30, -100, 0});
+  EXPECT_EQ(box_of(mesh).lower, box.lower);
+  EXPECT_EQ(box_of(mesh).upper, box.upper);
+  EXPECT_FALSE(implausible_size(mesh, length_units[0]));
+  EXPECT_TRUE(box_of({}).empty());
+}
+
 TEST(Units, ImplausibleSizesNameTheLikelyUnit) {
   EXPECT_EQ(implausible_size(tetrahedron_of_side(175), unit("m")),
             "its largest side is 175 m, which is large for a garment or a body; "

@@ -40,6 +40,16 @@ TEST(Drape, SheetIsLaidOverABodyOfOneMetre) {
   EXPECT_NEAR(cloth.translate.z, 0.25, 1e-12);
 }
 
+TEST(Drape, ABodyFarFromTheOriginIsBroughtThere) {
+  const test::TemporaryFolder folder;
+  const auto placed = [&](Vec3d at) {
+    const std::string body = box_file(folder / "box.obj", at, at + Vec3d{1, 1, 1});
+    return make_drape_scene("builtin:sheet", body, {}).bodies[0].placement.translate;
+  };
+  EXPECT_EQ(placed({30000, -20000, 10000}), (Vec3d{-30000.5, 20000, -10000.5}));
+  EXPECT_EQ(placed({50, 3, 0}), (Vec3d{0, -3, 0}));
+}
+
 TEST(Drape, AsIsKeepsTheBodysSize) {
   const test::TemporaryFolder folder;
   DrapeOptions options;

@@ -158,6 +158,8 @@ TEST(SceneFile, RestIsTheMeshOrItsTexture) {
   EXPECT_NE(error_of(with_cloth(R"("rest":"uv","uv_scale":"large")")).find("'large'"),
             std::string::npos);
   EXPECT_NE(error_of(with_cloth(R"("uv_scale":2)")).find("scales nothing"), std::string::npos);
+  EXPECT_NE(error_of(with_cloth(R"("layer":2)")).find("layer: is of no garment"),
+            std::string::npos);
   // Written and read again.
   for (const char* keys : {R"("rest":"uv")", R"("rest":"uv","uv_scale":0.25)"}) {
     const Scene scene = parse_scene(with_cloth(keys), "s.json", "");
@@ -168,10 +170,11 @@ TEST(SceneFile, RestIsTheMeshOrItsTexture) {
 
 TEST(SceneFile, LayerIsACountOrTheOrderOfTheScene) {
   EXPECT_EQ(parse_scene(with_cloth(""), "s.json", "").cloths[0].layer, std::nullopt);
-  const Scene scene = parse_scene(with_cloth(R"("layer":3)"), "s.json", "");
+  const Scene scene = parse_scene(with_cloth(R"("surface":"tee.json","layer":3)"), "s.json", "");
   EXPECT_EQ(scene.cloths[0].layer, 3);
   EXPECT_EQ(parse_scene(scene_text(scene, "s.json"), "s.json", "").cloths[0].layer, 3);
-  EXPECT_NE(error_of(with_cloth(R"("layer":-1)")).find("layer"), std::string::npos);
+  EXPECT_NE(error_of(with_cloth(R"("surface":"tee.json","layer":-1)")).find("layer"),
+            std::string::npos);
 }
 
 TEST(SceneFile, WriterTellsWarpAndWeftApartOnlyWhereTheyDiffer) {

@@ -37,11 +37,7 @@ double area_of(const TriangleMesh& mesh) {
   return area;
 }
 
-double diagonal(const TriangleMesh& mesh) {
-  Box3d box;
-  for (const Vec3d p : mesh.positions) box.add(p);
-  return box.diagonal();
-}
+double diagonal(const TriangleMesh& mesh) { return box_of(mesh).diagonal(); }
 
 /// Part of a surface's area that faces the other way than the triangle of another one closest to
 /// it, by the centres of its triangles, or of evenly spread ones of many. Where walls of the other

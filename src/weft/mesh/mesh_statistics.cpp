@@ -154,11 +154,9 @@ void examine_vertices(const TriangleMesh& mesh, MeshStatistics& statistics) {
   for (const Triangle& t : mesh.triangles)
     for (const int v : t) used[v] = true;
   statistics.unreferenced_vertices = static_cast<int>(std::count(used.begin(), used.end(), false));
-  for (const Vec3d p : mesh.positions)
-    if (is_finite(p))
-      statistics.box.add(p);
-    else
-      ++statistics.not_finite_vertices;
+  statistics.box = box_of(mesh);
+  statistics.not_finite_vertices = static_cast<int>(
+      std::ranges::count_if(mesh.positions, [](const Vec3d& p) { return !is_finite(p); }));
 }
 
 /// The triangles with three different vertices, on finite positions.

@@ -16,9 +16,8 @@ constexpr double gap_above = 0.02;       // [m]
 constexpr double worn_share = 0.5;
 
 std::string_view shape_of(const std::string& surface) {
-  return is_builtin(surface)
-             ? std::string_view(surface).substr(builtin_prefix.size())
-             : std::string_view();
+  return is_builtin(surface) ? std::string_view(surface).substr(builtin_prefix.size())
+                             : std::string_view();
 }
 
 bool is_flat_shape(const std::string& surface) {
@@ -32,8 +31,8 @@ Box3d surface_box(const std::string& surface, const MeshFrame& files) {
     box = box_of(world_positions(read_image(surface)));
   } else {
     const bool built_in = is_builtin(surface);
-    for (const Vec3d& p : load_mesh(surface).positions)
-      box.add(built_in ? p : in_metres_y_up(p, files));
+    const TriangleMesh mesh = load_mesh(surface);
+    box = box_of(built_in ? mesh : in_metres_y_up(mesh, files));
   }
   return box;
 }
@@ -65,6 +64,16 @@ Placement laid_above(const Box3d& cloth, double cloth_scale, const Box3d& placed
            over.z - own.z}};
 }
 
+/// Where a body stands that is not worn: on the ground, and, where it is so far from the origin
+/// that single precision would leave little of its shape, there.
+Placement stood_up(const Box3d& body, double scale, double side) {
+  constexpr double far_away = 100;  // sides
+  const Vec3d middle = scale * body.centre();
+  const bool is_far = std::max(std::abs(middle.x), std::abs(middle.z)) > far_away * side;
+  const Vec3d moved{is_far ? -middle.x : 0, -scale * body.lower.y, is_far ? -middle.z : 0};
+  return {all_sides(scale), {}, moved};
+}
+
 double largest_side(const Box3d& box) {
   const Vec3d extent = box.extent();
   return std::max({extent.x, extent.y, extent.z, 1e-12});
@@ -78,7 +87,8 @@ Scene make_drape_scene(const std::string& cloth, const std::string& body,
               body_box = surface_box(body, options.files);
   const bool worn = is_worn(cloth, cloth_box, body_box);
   const double scale = options.as_is || worn ? 1 : body_side / largest_side(body_box);
-  const Placement standing{all_sides(scale), {}, {0, worn ? 0 : -scale * body_box.lower.y, 0}};
+  const Placement standing = worn ? Placement{all_sides(scale), {}, {}}
+                                  : stood_up(body_box, scale, scale * largest_side(body_box));
   const Box3d placed_body{scale * body_box.lower + standing.translate,
                           scale * body_box.upper + standing.translate};
 

@@ -232,7 +232,9 @@ class Run {
     const bool tangled = !report_.untangled_frame || simulation_.crossings() > 0;
     if (!options_.verify && !tangled) return;
     const IntersectionCounts counts = simulation_.intersections();
-    if (tangled_pairs(counts) > 0) {
+    if (tangled_pairs(report_.start_intersections) == 0) {
+      // What crosses later has not come apart since the start.
+    } else if (tangled_pairs(counts) > 0) {
       report_.untangled_frame.reset();
     } else if (!report_.untangled_frame) {
       report_.untangled_frame = simulation_.frame();

@@ -83,12 +83,7 @@ Box3d bounds(const Planes3& positions) {
   return box;
 }
 
-Box3d bounds(const TriangleMesh& mesh) {
-  Box3d box;
-  for (const Vec3d p : mesh.positions)
-    if (is_finite(p)) box.add(p);
-  return box;
-}
+Box3d bounds(const TriangleMesh& mesh) { return box_of(mesh); }
 
 namespace {
 

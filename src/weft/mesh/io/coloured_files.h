@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "weft/mesh_colours.h"
 
@@ -30,6 +31,10 @@ class NeighbourFiles {
   std::string_view name_;
   std::map<std::string, int> pictures_;
 };
+
+/// Display colours of vertices as linear light. Where one is above 1, all go up to 255; one that is
+/// not finite, as of a vertex without colour where others have one, is white.
+std::vector<Vec3f> linear_colours(const std::vector<Vec3f>& displays);
 
 /// Colours of a file that parse_ply, parse_obj or parse_gltf reads; without parts and corners where
 /// it has none. @throws InputError as those

@@ -44,12 +44,23 @@ std::optional<LengthUnit> find_length_unit(std::string_view name) {
   return std::nullopt;
 }
 
+Box3d box_of(const TriangleMesh& mesh) {
+  const auto is_finite = [](Vec3d p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  };
+  Box3d box;
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t)
+      if (is_finite(mesh.positions[v])) box.add(mesh.positions[v]);
+  return box;
+}
+
 std::optional<std::string> implausible_size(const TriangleMesh& mesh, const LengthUnit& taken) {
   constexpr double min = 0.05, max = 10;
   // The range of most garments and bodies: a wider one would make the guess of the unit useless.
   constexpr double likely_min = 0.3, likely_max = 3;
-  Box3d box;
-  for (const Vec3d p : mesh.positions) box.add(p);
+  const Box3d box = box_of(mesh);
+  if (box.empty()) return std::nullopt;
   const Vec3d extent = box.extent();
   const double side = std::max({extent.x, extent.y, extent.z});
   if (!(side > 0) || (side >= min && side <= max)) return std::nullopt;

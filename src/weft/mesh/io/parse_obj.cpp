@@ -259,18 +259,6 @@ TriangleMesh parse(std::string_view bytes, std::string_view name, const ObjExtra
   return mesh;
 }
 
-/// A vertex without colour, where others have one, is white. Whole numbers above 1 go up to 255.
-std::vector<Vec3f> linear_colours(const std::vector<Vec3f>& displays) {
-  float most = 0;
-  for (const Vec3f c : displays) most = std::max({most, c.x, c.y, c.z});
-  std::vector<Vec3f> linear;
-  for (const Vec3f c : displays) {
-    const bool known = std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
-    linear.push_back(known ? linear_colour((most > 1 ? 1 / 255.0F : 1.0F) * c) : Vec3f{1, 1, 1});
-  }
-  return linear;
-}
-
 using Materials = std::map<std::string, SurfaceColours::Part, std::less<>>;
 
 Materials materials_of(const ObjScan& scan, NeighbourFiles& files, SurfaceColours& colours) {

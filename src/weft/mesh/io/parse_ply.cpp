@@ -78,9 +78,11 @@ int colour_axis(std::string_view name) {
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-/// What the number of full light is: whole numbers go up to their type's largest, others to 1.
+/// What the number of full light is: those of a type of their own size go up to its largest, other
+/// whole numbers to 255, and fractions to 1.
 double full_light(PlyType type) {
-  return type == PlyType::uint8 ? 255 : type == PlyType::uint16 ? 65535 : 1;
+  if (type == PlyType::float32 || type == PlyType::float64) return 1;
+  return type == PlyType::uint16 ? 65535 : 255;
 }
 
 /// A file's mesh, and what its vertices have besides.
@@ -247,12 +249,11 @@ SurfaceColours ply_colours(std::string_view bytes, std::string_view name, Neighb
   SurfaceColours colours;
   colours.part_of.assign(mesh.triangles.size(), textured ? 0 : -1);
   if (textured) colours.parts.push_back({{1, 1, 1}, files.picture(picture, colours), false});
+  const std::vector<Vec3f> lights = linear_colours(file.read.displays);
   for (const auto& [a, b, c] : mesh.triangles) {
     const PlyMesh& read = file.read;
     if (textured) colours.uv.push_back({read.texture[a], read.texture[b], read.texture[c]});
-    if (has_colours(file.vertex))
-      colours.corners.push_back({linear_colour(read.displays[a]), linear_colour(read.displays[b]),
-                                 linear_colour(read.displays[c])});
+    if (has_colours(file.vertex)) colours.corners.push_back({lights[a], lights[b], lights[c]});
   }
   return colours;
 }

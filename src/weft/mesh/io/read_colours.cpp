@@ -50,6 +50,17 @@ int NeighbourFiles::picture(const std::string& file, SurfaceColours& colours) {
   return known->second;
 }
 
+std::vector<Vec3f> linear_colours(const std::vector<Vec3f>& displays) {
+  float most = 0;
+  for (const Vec3f c : displays) most = std::max({most, c.x, c.y, c.z});
+  std::vector<Vec3f> linear;
+  for (const Vec3f c : displays) {
+    const bool known = std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+    linear.push_back(known ? linear_colour((most > 1 ? 1 / 255.0F : 1.0F) * c) : Vec3f{1, 1, 1});
+  }
+  return linear;
+}
+
 SurfaceColours read_colours(const fs::path& path) {
   const std::string bytes = read_file(path);
   SurfaceColours colours = colours_by_ending(bytes, path);

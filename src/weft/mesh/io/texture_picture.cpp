@@ -42,6 +42,8 @@ TexturePicture decode_png_texture(std::string_view bytes, std::string_view name)
   check_size(file.image.width, file.image.height, name);
   // With alpha, so that colours under what shines through stay as they are.
   file.image.format = PNG_FORMAT_RGBA;
+  // Of 16 bits too, which libpng else takes for linear light where the file does not say.
+  file.image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(file.image));
   require(png_image_finish_read(&file.image, nullptr, rgba.data(), 0, nullptr));
   TexturePicture picture{
@@ -87,6 +89,8 @@ class JpegFile {
   TexturePicture read(std::string_view bytes) {
     require(read_header(bytes));
     check_size(file_.image_width, file_.image_height, name_);
+    if (file_.num_components == 4)
+      throw InputError(name_, "a JPEG picture in four inks (CMYK)", "RGB or grey is wanted");
     TexturePicture picture{
         static_cast<int>(file_.image_width), static_cast<int>(file_.image_height), {}};
     picture.rgb.resize(std::size_t{3} * file_.image_width * file_.image_height);

@@ -56,6 +56,7 @@ class Loader : public LoadedScene {
   void check_collider(const char* kind, const BorderMates& mates, const std::string& what) const;
   void check_charts(const BorderMates& mates, const std::string& what) const;
   Cloth make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded);
+  [[nodiscard]] std::vector<PinMotion> pins_of(const SceneCloth& wanted, Cloth& cloth) const;
   /// Gives a garment the bending of panels that are sewn. @return that of its fabric
   BendingPlanes stiffen(SceneCloth wanted, const Planes3& placed, const LoadedSurface& loaded,
                         Cloth& cloth);
@@ -92,6 +93,14 @@ LoadedSurface Loader::load(const Surface& surface, ConvertOptions options,
 Cloth Loader::make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded) {
   try {
     return cloth_of(wanted, placed, loaded, notes);
+  } catch (const SceneError& error) {
+    throw SceneError(name_, fmt::format("'{}': {}", wanted.name, error.what()), "");
+  }
+}
+
+std::vector<PinMotion> Loader::pins_of(const SceneCloth& wanted, Cloth& cloth) const {
+  try {
+    return pin_places(cloth, wanted.pins);
   } catch (const SceneError& error) {
     throw SceneError(name_, fmt::format("'{}': {}", wanted.name, error.what()), "");
   }
@@ -163,7 +172,7 @@ void Loader::load_cloths() {
     Cloth cloth = make(wanted, placed, loaded);
     other_bending.push_back(loaded.garment ? stiffen(wanted, placed, loaded, cloth)
                                            : BendingPlanes());
-    pin_motions.push_back(pin_places(cloth, wanted.pins));
+    pin_motions.push_back(pins_of(wanted, cloth));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
     sewing.push_back(loaded.garment
                          ? std::optional<Sewing>(std::in_place, *loaded.garment, state.position)

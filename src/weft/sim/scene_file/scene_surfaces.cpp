@@ -3,6 +3,7 @@
 
 #include "weft/core/names.h"
 #include "weft/fabric.h"
+#include "weft/garment.h"
 #include "weft/point_cache.h"
 #include "weft/shapes.h"
 #include "weft/sim/scene_file/scene_parts.h"
@@ -141,6 +142,9 @@ SceneCloth read_cloth(const nlohmann::json& value, const JsonPlace& place, const
   cloth.name = read_name(object, cloth.name);
   cloth.surface = read_surface(object, cloth.surface.name, folder);
   cloth.size = object.integer("size", cloth.size, min_image_size, largest_image_size);
+  for (const char* key : {"sew", "layer"})
+    if (object.has(key) && !is_pattern_name(cloth.surface.name))
+      place.key(key).fail("is of no garment", "a sewing pattern as the surface is wanted");
   if (const nlohmann::json* sew = object.find("sew"))
     cloth.spacing = JsonObject(*sew, place.key("sew"), scene_keys::sew)
                         .number("spacing", cloth.spacing, {0.0001, 1, false});
