@@ -27,7 +27,7 @@ std::string surface_text(const Surface& surface, const fs::path& folder) {
   if (is_builtin(surface.name)) return surface.name;
   return fs::absolute(surface.name)
       .lexically_normal()
-      .lexically_proximate(fs::absolute(folder).lexically_normal())
+      .lexically_proximate((fs::current_path() / folder).lexically_normal())
       .string();
 }
 
