@@ -123,7 +123,7 @@ class Convert(ProgramTest):
         (self.folder / "stray.obj").write_text((self.folder / "ball.obj").read_text() + "v 100 100 100\n")
         image = self.run_json("convert", "stray.obj", "-o", "stray.exr", "--size", "33")["image"]
         for mesh in ("ball.obj", "stray.obj"):
-            found = self.run_json("inspect", "stray.exr", "--against", mesh)["against"]
+            found = self.run_json("inspect", "stray.exr", "--against", mesh)["image"]
             self.assertAlmostEqual(found["psnr_db"], image["psnr_db"], places=6, msg=mesh)
 
     def test_normals_of_a_compressed_image_are_an_exr(self):
