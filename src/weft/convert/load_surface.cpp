@@ -117,8 +117,7 @@ void check_texture(const TriangleMesh& mesh, const std::string& name) {
 
 bool is_image_name(const std::string& name) {
   const std::string ending = ending_of(name);
-  return !is_builtin(name) &&
-         (ending == ".exr" || ending == ".png" || ending == ".weft");
+  return !is_builtin(name) && (ending == ".exr" || ending == ".png" || ending == ".weft");
 }
 
 TriangleMesh load_mesh(const std::string& name) {
@@ -129,8 +128,8 @@ TriangleMesh load_mesh(const std::string& name) {
 bool is_image_surface(const Surface& surface) {
   if (surface.in_memory()) return surface.image != nullptr;
   const std::string& name = surface.name;
-  return is_image_name(name) || (is_builtin(name) &&
-                                 is_image_by_nature(name.substr(builtin_prefix.size())));
+  return is_image_name(name) ||
+         (is_builtin(name) && is_image_by_nature(name.substr(builtin_prefix.size())));
 }
 
 LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options) {
