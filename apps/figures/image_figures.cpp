@@ -64,7 +64,7 @@ void draw_pyramid(const GeometryImage& image, const std::filesystem::path& path)
 void draw_rebuilt(const std::filesystem::path& path) {
   const ViewFrom view{170, 290, 0.5, 0.15};
   const TriangleMesh mesh = make_shape("mannequin");
-  const double diagonal = bounds(mesh).diagonal();
+  const double diagonal = box_of(mesh).diagonal();
   constexpr double scale_end = 0.01;  // of the diagonal
   std::vector<Panel> surfaces, errors;
   for (const int size : {17, 33, 65, 129}) {

@@ -81,7 +81,7 @@ void draw_repair(const std::filesystem::path& path) {
 
 void draw_cube(const std::filesystem::path& path) {
   const TriangleMesh mesh = make_shape("mannequin");
-  const Box3d box = bounds(mesh);
+  const Box3d box = box_of(mesh);
   const Vec3d extent = box.extent();
   const double scale = std::max({extent.x, extent.y, extent.z});
   SurfaceDrawing drawing;

@@ -30,8 +30,8 @@ class Portrait {
   }
   /// Frames the upper part of the mesh alone, which has the most detail.
   void look_at_head() {
-    const Vec3d middle = 0.5 * (bounds(mesh_).lower + bounds(mesh_).upper);
-    const double top = bounds(mesh_).upper.y;
+    const Vec3d middle = 0.5 * (box_of(mesh_).lower + box_of(mesh_).upper);
+    const double top = box_of(mesh_).upper.y;
     Outline outline;
     for (const Vec3d p : mesh_.positions)
       if (p.y > top - 0.22 * (top - middle.y) * 2) outline.add(p);

@@ -31,8 +31,6 @@ inline constexpr double frame_margin = 0.06;
 
 /// The box of the finite samples; empty when there is none.
 Box3d bounds(const Planes3& positions);
-/// The box of the finite vertices; empty when there is none.
-Box3d bounds(const TriangleMesh& mesh);
 
 /// The extreme points of a point set along 134 fixed directions: a small set that stands for all
 /// points when a camera is framed. No point lies more than 2 percent of the set's size beyond them.
@@ -42,7 +40,7 @@ class Outline {
   /// No-op for a point that is not finite.
   void add(Vec3d point);
   void add(const Planes3& positions);
-  void add(const TriangleMesh& mesh);
+  void add(const TriangleMesh& mesh);  ///< its vertices that triangles have
   void add(const Outline& other);
   /// [m]; empty when nothing was added
   [[nodiscard]] std::vector<Vec3d> points() const;

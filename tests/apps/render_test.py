@@ -55,6 +55,13 @@ class Render(ProgramTest):
         self.assertEqual(green, 0)
         self.assertEqual(self.colours_of("plain.png"), [0, 0, 0])
 
+    def test_vertices_of_no_triangle_move_no_camera(self):
+        self.run_weft("shapes", "sphere", "-o", "ball.obj")
+        (self.folder / "stray.obj").write_text((self.folder / "ball.obj").read_text() + "v 100 100 100\n")
+        for name in ("ball", "stray"):
+            self.run_weft("render", f"{name}.obj", "-o", f"{name}.png", "--show", "surface", "--width", 96, "--height", 72)
+        self.assertEqual((self.folder / "ball.png").read_bytes(), (self.folder / "stray.png").read_bytes())
+
     def test_the_same_words_give_the_same_bytes(self):
         for name in ("a.png", "b.png"):
             self.run_weft("render", "builtin:torus", "-o", name, "--width", "160", "--height", "120")

@@ -20,16 +20,22 @@ namespace {
 using Bytes = std::array<std::uint8_t, 3>;
 constexpr std::array<double, 3> first{1, 0, 0}, second{0, 1, 0}, third{0, 0, 1};
 
-/// 2 x 2 texels: red, green; blue, white. As PNG of 8-bit RGB.
-const std::string four_texels = [] {
-  constexpr std::string_view digits =
-      "89504e470d0a1a0a0000000d4948445200000002000000020802000000fdd49a73000000124944415478da63"
-      "f8cfc0c000c20cff8100001fee05fbf1abba770000000049454e44ae426082";
+std::string bytes_of(std::string_view digits) {
   std::string bytes;
   for (std::size_t i = 0; i < digits.size(); i += 2)
     bytes += static_cast<char>(std::stoi(std::string(digits.substr(i, 2)), nullptr, 16));
   return bytes;
-}();
+}
+
+/// 2 x 2 texels: red, green; blue, white. As PNG of 8-bit RGB.
+const std::string four_texels = bytes_of(
+    "89504e470d0a1a0a0000000d4948445200000002000000020802000000fdd49a73000000124944415478da63"
+    "f8cfc0c000c20cff8100001fee05fbf1abba770000000049454e44ae426082");
+
+/// One texel, 100 200 50 of 255, as PNG of 16-bit RGB.
+const std::string deep_texel = bytes_of(
+    "89504e470d0a1a0a0000000d4948445200000001000000011002000000c0e78f9d0000000f49444154789c6348"
+    "493971c2c808000a6102bde90eb0bb0000000049454e44ae426082");
 
 class ColouredFiles : public ::testing::Test {
  protected:
@@ -237,6 +243,10 @@ TEST(TexturePictures, RepeatOrGoOnBeyondTheirBorder) {
   colours.uv = {{Vec2f{1.25F, 1.75F}, {}, {}}, {Vec2f{1.25F, 1.75F}, {}, {}}};
   EXPECT_EQ(display_bytes(colours.at(0, first)), (Bytes{255, 0, 0}));
   EXPECT_EQ(display_bytes(colours.at(1, first)), (Bytes{0, 255, 0}));
+}
+
+TEST(TexturePictures, OfSixteenBitsAreAsBrightAsOfEight) {
+  EXPECT_EQ(decode_texture(deep_texel, "deep").rgb, (std::vector<std::uint8_t>{100, 200, 50}));
 }
 
 TEST(WriteColours, ComeBackFromPlyAndObj) {

@@ -74,7 +74,7 @@ TEST(Camera, FramesPointsMoreTightlyThanTheirBox) {
 
 TEST(Camera, WhatIsFramedForATurnStaysInTheFrameAllAround) {
   Outline outline;
-  outline.add(TriangleMesh{{{-2, 0, 0.1}, {2, 1, -0.1}, {0, 3, 0.3}}, {}});
+  outline.add(TriangleMesh{{{-2, 0, 0.1}, {2, 1, -0.1}, {0, 3, 0.3}}, {{0, 1, 2}}});
   const std::vector<Vec3d> turning = outline.points_turning();
   const Camera first = frame_points(turning, 0, 0.3, 1.2);
   for (double azimuth = 0; azimuth < 6; azimuth += 0.37) {

@@ -119,7 +119,7 @@ TEST(Renderer, MeshWithMarkedEdgesLooksAsItDid) {
   DrawnScene scene;
   scene.meshes.push_back(mesh);
   scene.ground = -0.5;
-  scene.camera = frame_box(bounds(cube), 0.5, 0.5, 4.0 / 3);
+  scene.camera = frame_box(box_of(cube), 0.5, 0.5, 4.0 / 3);
   expect_golden("cube", Renderer(width, height).draw(scene));
 }
 

@@ -226,15 +226,14 @@ class Run {
     }
   }
 
-  /// Counts intersections: in every frame with verify, else only while cloths are known to cross,
-  /// by an earlier count or by the collider.
+  /// Counts intersections: in every frame with verify, else only while cloths that crossed at the
+  /// start are known to cross still, by an earlier count or by the collider.
   void count_intersections() {
-    const bool tangled = !report_.untangled_frame || simulation_.crossings() > 0;
+    const bool began_tangled = tangled_pairs(report_.start_intersections) > 0;
+    const bool tangled = began_tangled && (!report_.untangled_frame || simulation_.crossings() > 0);
     if (!options_.verify && !tangled) return;
     const IntersectionCounts counts = simulation_.intersections();
-    if (tangled_pairs(report_.start_intersections) == 0) {
-      // What crosses later has not come apart since the start.
-    } else if (tangled_pairs(counts) > 0) {
+    if (began_tangled && tangled_pairs(counts) > 0) {
       report_.untangled_frame.reset();
     } else if (!report_.untangled_frame) {
       report_.untangled_frame = simulation_.frame();

@@ -83,8 +83,6 @@ Box3d bounds(const Planes3& positions) {
   return box;
 }
 
-Box3d bounds(const TriangleMesh& mesh) { return box_of(mesh); }
-
 namespace {
 
 constexpr int spiral_count = 128;
@@ -129,7 +127,11 @@ void Outline::add(const Planes3& positions) {
 }
 
 void Outline::add(const TriangleMesh& mesh) {
-  for (const Vec3d p : mesh.positions) add(p);
+  std::vector<bool> used(mesh.positions.size());
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t) used[v] = true;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v]) add(mesh.positions[v]);
 }
 
 void Outline::add(const Outline& other) {

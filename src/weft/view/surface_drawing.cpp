@@ -144,7 +144,7 @@ SurfaceDrawing draw_error(const SurfaceValues& error) {
   const double largest = *std::max_element(error.values.begin(), error.values.end());
   for (const double value : error.values)
     drawing.colours.push_back(amount_colour(largest > 0 ? value / largest : 0));
-  const double percent = 100 * largest / bounds(error.mesh).diagonal();
+  const double percent = 100 * largest / box_of(error.mesh).diagonal();
   drawing.legend = amount_legend("distance to the mesh", fmt::format("{:.2g} %", percent));
   return drawing;
 }
@@ -187,7 +187,7 @@ SurfacePainter::SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& vi
   surface.mark_width = 1;
   scene_.meshes.push_back(surface);
 
-  const double radius = drawing_.curve_radius * bounds(*drawing_.mesh).diagonal();
+  const double radius = drawing_.curve_radius * box_of(*drawing_.mesh).diagonal();
   DrawnMesh marks;
   const auto add = [&](const TriangleMesh& part, Vec3f colour) {
     append(marks_, part);

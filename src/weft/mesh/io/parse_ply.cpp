@@ -249,11 +249,12 @@ SurfaceColours ply_colours(std::string_view bytes, std::string_view name, Neighb
   SurfaceColours colours;
   colours.part_of.assign(mesh.triangles.size(), textured ? 0 : -1);
   if (textured) colours.parts.push_back({{1, 1, 1}, files.picture(picture, colours), false});
-  const std::vector<Vec3f> lights = linear_colours(file.read.displays);
+  const std::vector<Vec3f> lights =
+      has_colours(file.vertex) ? linear_colours(file.read.displays) : std::vector<Vec3f>();
   for (const auto& [a, b, c] : mesh.triangles) {
     const PlyMesh& read = file.read;
     if (textured) colours.uv.push_back({read.texture[a], read.texture[b], read.texture[c]});
-    if (has_colours(file.vertex)) colours.corners.push_back({lights[a], lights[b], lights[c]});
+    if (!lights.empty()) colours.corners.push_back({lights[a], lights[b], lights[c]});
   }
   return colours;
 }

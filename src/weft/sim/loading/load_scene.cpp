@@ -56,7 +56,9 @@ class Loader : public LoadedScene {
   void check_collider(const char* kind, const BorderMates& mates, const std::string& what) const;
   void check_charts(const BorderMates& mates, const std::string& what) const;
   Cloth make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded);
-  [[nodiscard]] std::vector<PinMotion> pins_of(const SceneCloth& wanted, Cloth& cloth) const;
+  /// What `made` gives; its errors name the scene and the cloth.
+  template <class Made>
+  auto of_cloth(const std::string& cloth, const Made& made) const;
   /// Gives a garment the bending of panels that are sewn. @return that of its fabric
   BendingPlanes stiffen(SceneCloth wanted, const Planes3& placed, const LoadedSurface& loaded,
                         Cloth& cloth);
@@ -90,20 +92,17 @@ LoadedSurface Loader::load(const Surface& surface, ConvertOptions options,
   return loaded;
 }
 
-Cloth Loader::make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded) {
+template <class Made>
+auto Loader::of_cloth(const std::string& cloth, const Made& made) const {
   try {
-    return cloth_of(wanted, placed, loaded, notes);
+    return made();
   } catch (const SceneError& error) {
-    throw SceneError(name_, fmt::format("'{}': {}", wanted.name, error.what()), "");
+    throw SceneError(name_, fmt::format("'{}': {}", cloth, error.what()), "");
   }
 }
 
-std::vector<PinMotion> Loader::pins_of(const SceneCloth& wanted, Cloth& cloth) const {
-  try {
-    return pin_places(cloth, wanted.pins);
-  } catch (const SceneError& error) {
-    throw SceneError(name_, fmt::format("'{}': {}", wanted.name, error.what()), "");
-  }
+Cloth Loader::make(const SceneCloth& wanted, const Planes3& placed, const LoadedSurface& loaded) {
+  return of_cloth(wanted.name, [&] { return cloth_of(wanted, placed, loaded, notes); });
 }
 
 void Loader::check_collider(const char* kind, const BorderMates& mates,
@@ -172,7 +171,7 @@ void Loader::load_cloths() {
     Cloth cloth = make(wanted, placed, loaded);
     other_bending.push_back(loaded.garment ? stiffen(wanted, placed, loaded, cloth)
                                            : BendingPlanes());
-    pin_motions.push_back(pins_of(wanted, cloth));
+    pin_motions.push_back(of_cloth(wanted.name, [&] { return pin_places(cloth, wanted.pins); }));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
     sewing.push_back(loaded.garment
                          ? std::optional<Sewing>(std::in_place, *loaded.garment, state.position)

@@ -156,7 +156,7 @@ void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normal
 void SurfaceBuffers::load(const DrawnMesh& drawn) {
   WEFT_ASSERT(drawn.mesh != nullptr);
   revision_ = 0;
-  box_ = bounds(*drawn.mesh);
+  box_ = box_of(*drawn.mesh);
   ShadedMesh shaded = shade_mesh(usable(*drawn.mesh));
   upload_folded(positions_, std::move(shaded.positions));
   upload_folded(normals_, std::move(shaded.normals));
