@@ -280,6 +280,29 @@ def scene_files():
     yield "explicit", {"integrator": {"type": "explicit"}, "ground": -1, "cloths": [{"name": "a"}, {"name": "a"}]}
 
 
+def pattern_files():
+    def panel(vertices, curvature=None, **more):
+        count = len(vertices)
+        edges = [{"endpoints": [k, (k + 1) % count]} for k in range(count)]
+        if curvature:
+            edges[0]["curvature"] = curvature
+        return {"vertices": vertices, "edges": edges, **more}
+
+    square = [[0, 0], [40, 0], [40, 60], [0, 60]]
+    sides = [[{"panel": "front", "edge": k}, {"panel": "back", "edge": k}] for k in (1, 3)]
+    yield "two", {"pattern": {"panels": {"front": panel(square, translation=[0, 90, 25], rotation=[0, 0, 0]),
+                                         "back": panel(square, translation=[0, 90, -25], rotation=[0, 180, 0])},
+                              "stitches": [sides[0], [*sides[1], "right_wrong"]]},
+                  "properties": {"units_in_meter": 100}}
+    curves = [[0.5, 0.2], {"type": "quadratic", "params": [[0.5, -0.2]]}, {"type": "cubic", "params": [[0.3, 0.2], [0.6, -0.1]]},
+              {"type": "circle", "params": [25, 0, 1]}, {"type": "circle", "params": [19, 1, 0]}]
+    yield "curves", {"pattern": {"panels": {f"p{k}": panel(square, curve) for k, curve in enumerate(curves)}, "stitches": []}}
+    short = [[0, 0], [40, 0], [40, 0.001], [40, 60], [0, 60]]
+    yield "short_edge", {"pattern": {"panels": {"a": panel(short), "b": panel(square)},
+                                     "stitches": [[{"panel": "a", "edge": 3}, {"panel": "b", "edge": 3}]]}}
+    yield "crossed", {"pattern": {"panels": {"a": panel([[0, 0], [40, 60], [40, 0], [0, 60]])}}}
+
+
 def checkpoint_files():
     def text(words):
         return struct.pack("<Q", len(words)) + words
@@ -316,8 +339,8 @@ def query_files():
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parent / "corpus"
     kinds = {"obj": obj_files, "off": off_files, "ply": ply_files, "stl": stl_files, "glb": glb_files,
-             "image": image_files, "cache": cache_files, "npz": npz_files, "scene": scene_files, "checkpoint": checkpoint_files,
-             "queries": query_files}
+             "image": image_files, "cache": cache_files, "npz": npz_files, "scene": scene_files, "pattern": pattern_files,
+             "checkpoint": checkpoint_files, "queries": query_files}
     for kind, files in kinds.items():
         (folder / kind).mkdir(parents=True, exist_ok=True)
         for name, content in files():
