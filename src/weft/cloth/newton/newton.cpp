@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "weft/cloth/integrator.h"
 #include "weft/cloth/newton/level_layout.h"
 #include "weft/cloth/newton/newton_solver.h"
+#include "weft/core/math.h"
 #include "weft/error.h"
 
 namespace weft {
@@ -74,6 +76,19 @@ class Newton final : public Integrator {
   }
 
   [[nodiscard]] std::string stability_advice(double /*time_step*/) const override { return {}; }
+
+  /// Below a strain of this, positions of single precision do not show a cloth's own weight.
+  [[nodiscard]] std::string caution() const override {
+    constexpr double least_strain = 0x1p-23;
+    const Material& material = cloth_.material;
+    const double stretch = std::max(material.stretch.warp, material.stretch.weft);
+    const double most = part_.side_length() * material.density * standard_gravity / least_strain;
+    if (stretch <= most) return {};
+    return fmt::format(
+        "a stretch of {:.3g} N/m is so stiff for its weight that rounding holds it back: at most "
+        "{:.2g} is wanted",
+        stretch, most);
+  }
 
   [[nodiscard]] NewtonPart& part() { return part_; }
   void spend(double seconds) { report_.solve_seconds += seconds; }

@@ -17,9 +17,10 @@ constexpr double harmless_part = 0.25;
 /// is touched: positions are rounded to 2^-24 of them. Losses by rounding are not given back: were
 /// such gains taken out, small swings would be slowed, and stopped where they turn.
 constexpr double rounding_part = 0x1p-24;
-/// Steps longer than this are linearised again until particles end within good_way of where the
-/// energy is least: the error of one linearisation grows with the square of the step [s], [m].
-constexpr double long_step = 1.0 / 220, good_way = 3e-5;
+/// Steps are linearised again until particles end within this part of the cloth's length from where
+/// the energy is least: one linearisation holds small, stiff cloth back that swings round. In steps
+/// longer than long_step [s] the error is larger, and less of it is good.
+constexpr double good_part = 1e-4, good_part_if_long = 1.5e-5, long_step = 1.0 / 220;
 /// Largest number of linearisations in a run, and of halvings of a step that raises the energy.
 constexpr int max_linearisations = 4, max_halvings = 5;
 
@@ -28,8 +29,7 @@ constexpr int max_linearisations = 4, max_halvings = 5;
 double NewtonSolver::rounding() const {
   double energy = 0;
   for (const NewtonPart* part : parts_)
-    energy += rounding_part * part->total_mass() * standard_gravity *
-              std::sqrt(part->total_mass() / part->cloth().material.density);
+    energy += rounding_part * part->total_mass() * standard_gravity * part->side_length();
   return energy;
 }
 
@@ -122,8 +122,11 @@ double NewtonSolver::error_of(const Progress& progress, double known, Worker& wo
   return now - known - (contacts_.active() > 0 ? contacts_.work(steps_, worker) : 0);
 }
 
-bool NewtonSolver::is_long() const {
-  return contacts_.empty() && parts_.front()->input().time_step > long_step;
+double NewtonSolver::good_way() const {
+  double length = HUGE_VAL;
+  for (const NewtonPart* part : parts_) length = std::min(length, part->side_length());
+  const bool is_long = parts_.front()->input().time_step > long_step;
+  return (is_long ? good_part_if_long : good_part) * length;
 }
 
 /// How far particles are from the end of the step, as their inertia takes the energy by which the
@@ -156,7 +159,7 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
     advance(options, progress, worker);
     error = error_of(progress, known, worker);
     if (error > allowed && shorten_step(worker)) error = error_of(progress, known, worker);
-    again = is_long() && missed_way(progress, worker) > good_way;
+    again = contacts_.empty() && missed_way(progress, worker) > good_way();
   }
   double left = 0;
   if (is_pulled_unlike())

@@ -46,6 +46,10 @@ class NewtonPart {
   [[nodiscard]] const std::optional<Vec3d>& pin_step() const { return pin_step_; }
   /// Mass of all particles [kg].
   [[nodiscard]] double total_mass() const { return total_mass_; }
+  /// Side of a square of the cloth's area [m].
+  [[nodiscard]] double side_length() const {
+    return std::sqrt(total_mass_ / cloth_.material.density);
+  }
   /// Energy that may be gained from contacts in this step [J].
   double lent = 0;
   /// See Integrator::missed; of all cloths that were solved with this one [J].

@@ -39,7 +39,7 @@ class NewtonSolver {
     double slope = 0;      ///< residual . direction [N m]
     double curvature = 0;  ///< direction . A direction; 0: there is none yet [N m]
     double force = 0;      ///< of the last correction, over particles' weight
-    double before = 0;     ///< energy at the linearisation, if pins move or the step is long [J]
+    double before = 0;     ///< energy at the linearisation, if that is compared [J]
     double promised = 0;   ///< decrease of that by the linearisation [J]
     int iterations = 0;
   };
@@ -66,9 +66,9 @@ class NewtonSolver {
   /// Advances until the energy error is acceptable, then takes out the energy gained.
   void descend(const NewtonOptions& options, Progress& progress, Worker& worker);
   bool shorten_step(Worker& worker);
-  /// Whether the step is so long that one linearisation may miss its end, though it gains nothing.
-  [[nodiscard]] bool is_long() const;
-  /// How far from there the last linearisation ended [m].
+  /// How far from the end of a step without contacts a linearisation may end [m].
+  [[nodiscard]] double good_way() const;
+  /// How far from there the last one ended [m].
   double missed_way(const Progress& progress, Worker& worker);
   /// Energy error of the last linearisation [J].
   double error_of(const Progress& progress, double known, Worker& worker);
