@@ -175,13 +175,13 @@ TEST(StepEnergy, WhatAStrainLimitHoldsIsEnergyToo) {
   EXPECT_LT(gained(simulation, reports), 5e-5 * simulation.mass() * standard_gravity);
 }
 
-/// A sheet that lies on a box and is pulled off it at 12 m/s.
-Scene tablecloth() {
+/// A sheet that lies on a box and is pulled off it, this far in 0.15 s [m].
+Scene tablecloth(double far = 1.8) {
   Scene scene;
   scene.cloths = {sheet(33, {0, 0.61, 0})};
   scene.cloths[0].friction = 0.3;
   scene.cloths[0].pins = {
-      ScenePin{RegionPin{{1, 0}, {1, 1}}, {{0.1, {}, {}}, {0.25, {}, {1.8, 0, 0}}}}};
+      ScenePin{RegionPin{{1, 0}, {1, 1}}, {{0.1, {}, {}}, {0.25, {}, {far, 0, 0}}}}};
   SceneBody table;
   table.surface = "builtin:box";
   table.size = 33;
@@ -193,10 +193,17 @@ Scene tablecloth() {
 }
 
 TEST(StepEnergy, ASheetPulledOffATableStrainsLittleAndGainsNone) {
-  Simulation simulation(tablecloth(), "tablecloth", 1);
-  const std::vector<FrameReport> reports = run(simulation, 20);
-  for (const FrameReport& report : reports) EXPECT_LT(report.strain.p99, 0.05);
-  EXPECT_LT(gained(simulation, reports), 0.02 * simulation.mass() * 9.81);
+  int gains = 0;
+  for (const double far : {1.6, 1.7, 1.8, 1.9, 2.0}) {
+    Simulation simulation(tablecloth(far), "tablecloth", 1);
+    const std::vector<FrameReport> reports = run(simulation, 20);
+    for (const FrameReport& report : reports) EXPECT_LT(report.strain.p99, 0.05);
+    SimulationState state;
+    simulation.save(state);
+    EXPECT_LT(gained(simulation, reports), 0.002 * state.work.gross);
+    gains += gained(simulation, reports) > 1e-3 * simulation.mass() * 9.81 ? 1 : 0;
+  }
+  EXPECT_LE(gains, 1);
 }
 
 /// Two sheets on each other that a ball lifts: the upper one is touched by the lower alone.
