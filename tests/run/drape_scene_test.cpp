@@ -75,6 +75,18 @@ TEST(Drape, GarmentOnItsBodyStaysThere) {
   EXPECT_NEAR(apart.cloths.at(0).placement.translate.y, 1.02 - 1, 1e-12);
 }
 
+TEST(Drape, ClothThatIsSunkInABodyIsLaidOnTop) {
+  const test::TemporaryFolder folder;
+  const std::string body = box_file(folder / "b.obj", {0, 0, 0}, {1, 3, 1}),
+                    cloth = box_file(folder / "c.obj", {0.1, 1, 0.1}, {0.9, 2, 0.9});
+  EXPECT_NEAR(make_drape_scene(cloth, body, {}).cloths.at(0).placement.translate.y, 1.02 - 1,
+              1e-12);
+  // About half of the points of a surface on itself are inside.
+  EXPECT_GT(
+      make_drape_scene("builtin:sphere", "builtin:sphere", {}).cloths.at(0).placement.translate.y,
+      1);
+}
+
 TEST(Drape, RingIsLaidOnTopOfASphereOfItsSize) {
   const Scene scene = make_drape_scene("builtin:torus", "builtin:sphere", {});
   EXPECT_EQ(scene.cloths.at(0).placement.scale.x, 1);

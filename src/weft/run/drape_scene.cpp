@@ -1,10 +1,14 @@
 #include "weft/drape_scene.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "weft/convert.h"
 #include "weft/image_file.h"
+#include "weft/mesh/winding.h"
 #include "weft/shapes.h"
+#include "weft/sim/loading/insides.h"
 #include "weft/sim/placement.h"
 
 namespace weft {
@@ -13,7 +17,9 @@ namespace {
 constexpr double body_side = 1;          // [m]
 constexpr double cloth_over_body = 1.6;  // side of a flat cloth over the body's
 constexpr double gap_above = 0.02;       // [m]
-constexpr double worn_share = 0.5;
+/// A cloth is worn where more than worn_share of its box overlaps the body's, and less than
+/// sunk_share of its points is inside of the body.
+constexpr double worn_share = 0.5, sunk_share = 0.25;
 
 std::string_view shape_of(const std::string& surface) {
   return is_builtin(surface) ? std::string_view(surface).substr(builtin_prefix.size())
@@ -25,16 +31,33 @@ bool is_flat_shape(const std::string& surface) {
   return shape == "sheet" || shape == "disk";
 }
 
-Box3d surface_box(const std::string& surface, const MeshFrame& files) {
-  Box3d box;
-  if (is_image_name(surface)) {
-    box = box_of(world_positions(read_image(surface)));
-  } else {
-    const bool built_in = is_builtin(surface);
-    const TriangleMesh mesh = load_mesh(surface);
-    box = box_of(built_in ? mesh : in_metres_y_up(mesh, files));
-  }
-  return box;
+/// The triangles of an image, whose vertices are its samples.
+TriangleMesh mesh_of(const GeometryImage& image) {
+  const Planes3 samples = world_positions(image);
+  TriangleMesh mesh;
+  for (int s = 0; s < samples.size() * samples.size(); ++s)
+    mesh.positions.push_back(vec_cast<double>(samples.at(s)));
+  mesh.triangles = joined_triangles(image);
+  return mesh;
+}
+
+TriangleMesh mesh_of(const std::string& surface, const MeshFrame& files) {
+  if (is_image_name(surface)) return mesh_of(read_image(surface));
+  TriangleMesh mesh = load_mesh(surface);
+  return is_builtin(surface) ? mesh : in_metres_y_up(std::move(mesh), files);
+}
+
+/// The part of the cloth's corners that are inside of a closed body; 0 where it is not closed.
+double inside_part(const TriangleMesh& cloth, const TriangleMesh& body) {
+  if (cloth.triangles.empty() || !is_closed(body.triangles)) return 0;
+  std::vector<Corners> corners;
+  for (const Triangle& t : body.triangles)
+    corners.push_back({body.positions[t[0]], body.positions[t[1]], body.positions[t[2]]});
+  const WindingNumbers winding(std::move(corners));
+  std::size_t inside = 0;
+  for (const Triangle& t : cloth.triangles)
+    for (const int corner : t) inside += winding.at(cloth.positions[corner]) != 0 ? 1 : 0;
+  return static_cast<double>(inside) / (3.0 * static_cast<double>(cloth.triangles.size()));
 }
 
 /// The part of interval a that lies within b; 1 for an empty interval within b.
@@ -44,13 +67,17 @@ double shared_part(double a_lower, double a_upper, double b_lower, double b_uppe
   return a_upper > a_lower ? shared / (a_upper - a_lower) : 1;
 }
 
-bool is_worn(const std::string& cloth, const Box3d& a, const Box3d& b) {
-  const std::string_view shape = shape_of(cloth);
-  if (!shape.empty() && is_image_by_nature(shape)) return false;
+bool boxes_overlap(const Box3d& a, const Box3d& b) {
   return shared_part(a.lower.x, a.upper.x, b.lower.x, b.upper.x) *
              shared_part(a.lower.y, a.upper.y, b.lower.y, b.upper.y) *
              shared_part(a.lower.z, a.upper.z, b.lower.z, b.upper.z) >
          worn_share;
+}
+
+bool is_worn(const std::string& name, const TriangleMesh& cloth, const TriangleMesh& body) {
+  const std::string_view shape = shape_of(name);
+  if (!shape.empty() && is_image_by_nature(shape)) return false;
+  return boxes_overlap(box_of(cloth), box_of(body)) && inside_part(cloth, body) < sunk_share;
 }
 
 Vec3d all_sides(double scale) { return {scale, scale, scale}; }
@@ -83,9 +110,10 @@ double largest_side(const Box3d& box) {
 
 Scene make_drape_scene(const std::string& cloth, const std::string& body,
                        const DrapeOptions& options) {
-  const Box3d cloth_box = surface_box(cloth, options.files),
-              body_box = surface_box(body, options.files);
-  const bool worn = is_worn(cloth, cloth_box, body_box);
+  const TriangleMesh cloth_mesh = mesh_of(cloth, options.files),
+                     body_mesh = mesh_of(body, options.files);
+  const Box3d cloth_box = box_of(cloth_mesh), body_box = box_of(body_mesh);
+  const bool worn = is_worn(cloth, cloth_mesh, body_mesh);
   const double scale = options.as_is || worn ? 1 : body_side / largest_side(body_box);
   const Placement standing = worn ? Placement{all_sides(scale), {}, {}}
                                   : stood_up(body_box, scale, scale * largest_side(body_box));
