@@ -167,6 +167,8 @@ void Loader::load_cloths() {
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
     check_charts(loaded.garment ? loaded.garment->sewn : loaded.image.mates, wanted.name);
     const Planes3 placed = place(wanted, loaded, garments);
+    if (const std::string far = far_off_text(placed, wanted.material.thickness); !far.empty())
+      notes.push_back(fmt::format("{}: {}", wanted.name, far));
     if (loaded.garment) ++garments;
     Cloth cloth = make(wanted, placed, loaded);
     other_bending.push_back(loaded.garment ? stiffen(wanted, placed, loaded, cloth)
