@@ -20,7 +20,7 @@ constexpr double rounding_part = 0x1p-24;
 /// Steps are linearised again until particles end within this part of the cloth's length from where
 /// the energy is least: one linearisation holds small, stiff cloth back that swings round. In steps
 /// longer than long_step [s] the error is larger, and less of it is good.
-constexpr double good_part = 1e-4, good_part_if_long = 1.5e-5, long_step = 1.0 / 220;
+constexpr double good_part = 1e-4, good_part_if_long = 3e-5, long_step = 1.0 / 220;
 /// Largest number of linearisations in a run, and of halvings of a step that raises the energy.
 constexpr int max_linearisations = 4, max_halvings = 5;
 
