@@ -176,7 +176,7 @@ TEST(StepEnergy, WhatAStrainLimitHoldsIsEnergyToo) {
 }
 
 /// A sheet that lies on a box and is pulled off it, this far in 0.15 s [m].
-Scene tablecloth(double far = 1.8) {
+Scene tablecloth(double far) {
   Scene scene;
   scene.cloths = {sheet(33, {0, 0.61, 0})};
   scene.cloths[0].friction = 0.3;

@@ -47,7 +47,8 @@ TriangleMesh mesh_of(const std::string& surface, const MeshFrame& files) {
   return is_builtin(surface) ? mesh : in_metres_y_up(std::move(mesh), files);
 }
 
-/// The part of the cloth's corners that are inside of a closed body; 0 where it is not closed.
+/// The part of the cloth's triangles whose first corner is inside of a closed body; 0 where the
+/// body is not closed.
 double inside_part(const TriangleMesh& cloth, const TriangleMesh& body) {
   if (cloth.triangles.empty() || !is_closed(body.triangles)) return 0;
   std::vector<Corners> corners;
@@ -56,8 +57,8 @@ double inside_part(const TriangleMesh& cloth, const TriangleMesh& body) {
   const WindingNumbers winding(std::move(corners));
   std::size_t inside = 0;
   for (const Triangle& t : cloth.triangles)
-    for (const int corner : t) inside += winding.at(cloth.positions[corner]) != 0 ? 1 : 0;
-  return static_cast<double>(inside) / (3.0 * static_cast<double>(cloth.triangles.size()));
+    inside += winding.at(cloth.positions[t[0]]) != 0 ? 1 : 0;
+  return static_cast<double>(inside) / static_cast<double>(cloth.triangles.size());
 }
 
 /// The part of interval a that lies within b; 1 for an empty interval within b.

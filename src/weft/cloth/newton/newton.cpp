@@ -77,8 +77,8 @@ class Newton final : public Integrator {
 
   [[nodiscard]] std::string stability_advice(double /*time_step*/) const override { return {}; }
 
-  /// Below a strain of this, positions of single precision do not show a cloth's own weight.
   [[nodiscard]] std::string caution() const override {
+    // Positions of single precision do not show a weight that strains cloth by less.
     constexpr double least_strain = 0x1p-23;
     const Material& material = cloth_.material;
     const double stretch = std::max(material.stretch.warp, material.stretch.weft);

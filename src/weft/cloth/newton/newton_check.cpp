@@ -136,8 +136,8 @@ double NewtonSolver::missed_way(const Progress& progress, Worker& worker) {
   return parts_.front()->input().time_step * std::sqrt(2 * missed / mass_);
 }
 
-/// One linearisation is enough for smooth motion in short steps. It is repeated where its energy
-/// error is large, as after an impact.
+/// One linearisation is enough for smooth motion. It is repeated where its energy error is large,
+/// as after an impact, and, without contacts, where it ends far from the least energy.
 void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Worker& worker) {
   const double kinetic = total(worker, [&](std::size_t i, Worker& own) {
     return carried_ ? parts_[i]->start_kinetic_beside(pin_velocity(), own)
