@@ -65,6 +65,18 @@ class SheetOnFloor {
     run([&](Worker& worker) { found = system.work(this->step(), worker); });
     return found;
   }
+  [[nodiscard]] double work_on_cloths(Vec3f step) {
+    set_step(step);
+    double found = 0;
+    run([&](Worker& worker) { found = system.work_on_cloths(this->step(), worker); });
+    return found;
+  }
+  /// Decides anew after a step.
+  void choose_after(Vec3f moved) {
+    set_step(moved);
+    const ContactSystem::Fields steps = step();
+    run([&](Worker& worker) { system.choose(&steps, worker); });
+  }
   [[nodiscard]] PastContact measured() {
     run([&](Worker& worker) { system.measure(position(), worker); });
     ContactHistory history;
@@ -150,6 +162,27 @@ TEST(ContactSystem, MovingObstaclesWorkByTheirForce) {
   ASSERT_EQ(sheet.system.active(), 1);
   EXPECT_GT(sheet.work({}), 0);
   EXPECT_NEAR(sheet.work({}), dot(sheet.force({}), vec_cast<double>(up)), 1e-9);
+}
+
+TEST(ContactSystem, ItsForcesWorkOnClothByTheirMeanBetweenChoices) {
+  SheetOnFloor sheet;
+  sheet.add(3, 0, 0.5F);
+  sheet.add(40, -2e-4F);
+  sheet.choose_at({0, -1e-4F, 0});
+  ASSERT_EQ(sheet.system.active(), 1);
+  EXPECT_EQ(sheet.work_on_cloths({}), 0);
+  const Vec3f down{2e-5F, -3e-4F, 0}, back{0, 5e-5F, 0};
+  const auto mean_work = [&](Vec3f from, Vec3f to) {
+    return dot(0.5 * (sheet.force(from) + sheet.force(to)), vec_cast<double>(to - from));
+  };
+  const double first = mean_work({}, down);
+  EXPECT_LT(first, 0);
+  EXPECT_NEAR(sheet.work_on_cloths(down), first, 1e-5 * std::abs(first));
+  sheet.choose_after(down);  // where the floor holds the other point as well
+  ASSERT_EQ(sheet.system.active(), 2);
+  const double second = mean_work(down, back);
+  EXPECT_GT(second, 0);
+  EXPECT_NEAR(sheet.work_on_cloths(back), first + second, 1e-5 * second);
 }
 
 TEST(ContactSystem, FrictionStaysWithinItsCone) {

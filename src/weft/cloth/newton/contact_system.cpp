@@ -82,6 +82,8 @@ void ContactSystem::set_contacts(std::span<const Own> own, std::span<const Share
   limiting_.assign(count, 0.0F);
   friction_.assign(count, Vec3f{});
   acceleration_.assign(count, 0.0F);
+  moved_.assign(count, Vec3d{});
+  worked_.assign(count, 0.0);
   first_slip_.assign(count, 0.0);
   past_.assign(count, nullptr);
   gained_.assign(count, Vec3f{});
@@ -225,9 +227,13 @@ bool ContactSystem::choose(const Fields* step, Worker& worker) {
   const Range mine = share(worker);
   for (int i = mine.first; i < mine.last; ++i) {
     if (step == nullptr) {
+      worked_[i] = 0;
+      moved_[i] = {};
       choose(i, {}, {});
     } else {
       const Vec3d moved = sum(i, *step);
+      worked_[i] += work_since_choice(i, moved);
+      moved_[i] = moved;
       choose(i, moved, force_after(i, moved));
     }
   }
@@ -243,12 +249,25 @@ Vec3d ContactSystem::force_after(int index, Vec3d moved) const {
          grip * slid_after(index, moved);
 }
 
+/// Forces are linear in the displacement between two choices.
+double ContactSystem::work_since_choice(int index, Vec3d moved) const {
+  const Vec3d mean = 0.5 * (force_after(index, moved_[index]) + force_after(index, moved));
+  return dot(mean, moved - moved_[index]);
+}
+
 double ContactSystem::sum_of_energies(Worker& worker) {
   worker.barrier();
   double total = 0;
   for (const double one : energy_) total += one;
   worker.barrier();
   return total;
+}
+
+double ContactSystem::work_on_cloths(Fields step, Worker& worker) {
+  const Range mine = share(worker);
+  for (int i = mine.first; i < mine.last; ++i)
+    energy_[i] = worked_[i] + work_since_choice(i, sum(i, step));
+  return sum_of_energies(worker);
 }
 
 double ContactSystem::work(Fields step, Worker& worker) {

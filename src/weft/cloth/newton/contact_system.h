@@ -56,6 +56,9 @@ class ContactSystem {
   /// The energy of all contacts after a part of a step: of penetrations, and of the linear
   /// friction; all workers get it [J].
   double energy(Fields step, float part, Worker& worker);
+  /// The work of the contact forces on the cloths along a step from the linearisation, under the
+  /// choices made on the way; all workers get it [J].
+  double work_on_cloths(Fields step, Worker& worker);
   /// The work of moving obstacles with the contact forces after a step; all workers get it [J].
   double work(Fields step, Worker& worker);
   /// The sum of the forces of obstacles on all cloths after a step; all workers get it [N].
@@ -115,6 +118,7 @@ class ContactSystem {
   [[nodiscard]] double depth_after(int index, Vec3d step) const;
   [[nodiscard]] Vec3d slid_after(int index, Vec3d step) const;
   [[nodiscard]] Vec3d force_after(int index, Vec3d moved) const;
+  [[nodiscard]] double work_since_choice(int index, Vec3d moved) const;
   double sum_of_energies(Worker& worker);
   [[nodiscard]] Range share(const Worker& worker) const {
     return worker.share(static_cast<int>(contacts_.size()));
@@ -141,6 +145,8 @@ class ContactSystem {
   std::vector<float> force_, limiting_;   // normal force now, and the one that limits friction [N]
   std::vector<Vec3f> friction_;           // [N]
   std::vector<float> acceleration_;       // see PastContact [m/s^2]
+  std::vector<Vec3d> moved_;              // from the linearisation to the last choice [m]
+  std::vector<double> worked_;            // by its force on the way there [J]
   std::vector<double> first_slip_;        // slip distance of the guess [m]
   std::vector<double> energy_;            // or work [J]
   std::vector<char> changed_, touched_;   // by the last choice; active before or after it

@@ -19,8 +19,10 @@ constexpr double harmless_part = 0.25;
 constexpr double rounding_part = 0x1p-24;
 /// Steps are linearised again until particles end within this part of the cloth's length from where
 /// the energy is least: one linearisation holds small, stiff cloth back that swings round. In steps
-/// longer than long_step [s] the error is larger, and less of it is good.
-constexpr double good_part = 1e-4, good_part_if_long = 3e-5, long_step = 1.0 / 220;
+/// longer than long_step [s] the error is larger, and less of it is good. Where something is
+/// touched, contacts that change between the linearisations err by more.
+constexpr double good_part = 1e-4, good_part_if_long = 3e-5, good_part_in_contact = 8e-4,
+                 long_step = 1.0 / 220;
 /// Largest number of linearisations in a run, and of halvings of a step that raises the energy.
 constexpr int max_linearisations = 4, max_halvings = 5;
 
@@ -33,10 +35,12 @@ double NewtonSolver::rounding() const {
   return energy;
 }
 
+double NewtonSolver::inner_energy(Worker& worker) {
+  return total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->step_energy(own); });
+}
+
 double NewtonSolver::energy(float length, Worker& worker) {
-  const double inner =
-      total(worker, [&](std::size_t i, Worker& own) { return parts_[i]->step_energy(own); });
-  return inner + (contacts_.empty() ? 0 : contacts_.energy(steps_, length, worker));
+  return inner_energy(worker) + (contacts_.empty() ? 0 : contacts_.energy(steps_, length, worker));
 }
 
 /// Halves the last step until it lowers the energy. @return whether it had to
@@ -114,7 +118,8 @@ void NewtonSolver::tell_pin_force() {
 /// differently is not known: with those, the shortfall of the energy decrease below that of the
 /// linearisation.
 double NewtonSolver::error_of(const Progress& progress, double known, Worker& worker) {
-  if (is_pulled_unlike()) return energy(1, worker) - progress.before + progress.promised;
+  if (is_pulled_unlike())
+    return energy(1, worker) - progress.inner - progress.contacts + progress.promised;
   if (carried_) return gained_beside_pins(known, worker);
   const double now = total(worker, [&](std::size_t i, Worker& own) {
     return parts_[i]->potential(own) + parts_[i]->kinetic(own);
@@ -125,19 +130,22 @@ double NewtonSolver::error_of(const Progress& progress, double known, Worker& wo
 double NewtonSolver::good_way() const {
   double length = HUGE_VAL;
   for (const NewtonPart* part : parts_) length = std::min(length, part->side_length());
+  if (!contacts_.empty()) return good_part_in_contact * length;
   const bool is_long = parts_.front()->input().time_step > long_step;
   return (is_long ? good_part_if_long : good_part) * length;
 }
 
 /// How far particles are from the end of the step, as their inertia takes the energy by which the
-/// linearisation was wrong [m].
+/// linearisation of the cloths was wrong [m]. What contacts do is linear between two choices.
 double NewtonSolver::missed_way(const Progress& progress, Worker& worker) {
-  const double missed = std::abs(energy(1, worker) - progress.before + progress.promised);
+  const double pressed = contacts_.empty() ? 0 : contacts_.work_on_cloths(steps_, worker);
+  const double missed =
+      std::abs(inner_energy(worker) - progress.inner + progress.promised - pressed);
   return parts_.front()->input().time_step * std::sqrt(2 * missed / mass_);
 }
 
 /// One linearisation is enough for smooth motion. It is repeated where its energy error is large,
-/// as after an impact, and, without contacts, where it ends far from the least energy.
+/// as after an impact, and where it ends far from the least energy.
 void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Worker& worker) {
   const double kinetic = total(worker, [&](std::size_t i, Worker& own) {
     return carried_ ? parts_[i]->start_kinetic_beside(pin_velocity(), own)
@@ -159,7 +167,7 @@ void NewtonSolver::descend(const NewtonOptions& options, Progress& progress, Wor
     advance(options, progress, worker);
     error = error_of(progress, known, worker);
     if (error > allowed && shorten_step(worker)) error = error_of(progress, known, worker);
-    again = contacts_.empty() && missed_way(progress, worker) > good_way();
+    again = missed_way(progress, worker) > good_way();
   }
   double left = 0;
   if (is_pulled_unlike())

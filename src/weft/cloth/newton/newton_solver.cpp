@@ -163,7 +163,9 @@ void NewtonSolver::move_state(float length, Worker& worker) {
 void NewtonSolver::advance(const NewtonOptions& options, Progress& progress, Worker& worker) {
   linearise(worker);
   choose_contacts(false, worker);
-  if (is_pulled_unlike() || contacts_.empty()) progress.before = energy(0, worker);
+  progress.inner = inner_energy(worker);
+  if (is_pulled_unlike() && !contacts_.empty())
+    progress.contacts = contacts_.energy(steps_, 0, worker);
   progress.promised = drift(worker);
   for (int round = 0; round < max_contact_rounds; ++round) {
     each(worker, [&](std::size_t i, Worker& own) { parts_[i]->set_up(contacts_of(i), own); });

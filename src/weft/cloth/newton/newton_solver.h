@@ -39,8 +39,9 @@ class NewtonSolver {
     double slope = 0;      ///< residual . direction [N m]
     double curvature = 0;  ///< direction . A direction; 0: there is none yet [N m]
     double force = 0;      ///< of the last correction, over particles' weight
-    double before = 0;     ///< energy at the linearisation, if that is compared [J]
-    double promised = 0;   ///< decrease of that by the linearisation [J]
+    double inner = 0;      ///< energy at the linearisation, without that of contacts [J]
+    double contacts = 0;   ///< that of contacts there, if it is compared [J]
+    double promised = 0;   ///< decrease of all energy by the linearisation [J]
     int iterations = 0;
   };
   /// Calls act for each part: all workers together on every part, or each worker on its own parts.
@@ -66,7 +67,7 @@ class NewtonSolver {
   /// Advances until the energy error is acceptable, then takes out the energy gained.
   void descend(const NewtonOptions& options, Progress& progress, Worker& worker);
   bool shorten_step(Worker& worker);
-  /// How far from the end of a step without contacts a linearisation may end [m].
+  /// How far from the end of a step a linearisation may end [m].
   [[nodiscard]] double good_way() const;
   /// How far from there the last one ended [m].
   double missed_way(const Progress& progress, Worker& worker);
@@ -83,6 +84,8 @@ class NewtonSolver {
   void tell_pin_force();
   /// Whether pins move so that the energy gained is not known.
   [[nodiscard]] bool is_pulled_unlike() const { return pulled_ && !carried_; }
+  /// E at the state without that of contacts [J].
+  double inner_energy(Worker& worker);
   /// E at the state, which is at a part `length` of the step [J].
   double energy(float length, Worker& worker);
   void move_state(float length, Worker& worker);
