@@ -26,7 +26,7 @@ struct TopologyCounts {
 /// @throws TopologyError for any other
 TopologyCounts count_topology(int vertex_count, std::span<const Triangle> triangles);
 /// For triangles that hang together in any way: edges of more than two triangles count once,
-/// borders are the connected parts that edges of one triangle make. The genus is -1: there is none.
+/// borders are the connected parts that edges of one triangle make.
 TopologyCounts count_complex(int vertex_count, std::span<const Triangle> triangles);
 
 /// Distances from one surface to another: mean and root mean square over samples of its area, the

@@ -185,7 +185,8 @@ TEST_F(ColouredFiles, GltfHasColoursOfVerticesAndMaterials) {
   EXPECT_EQ(read_ones.at(1, second), (Vec3f{0.25F, 0.5F, 0.25F}));
 }
 
-TEST_F(ColouredFiles, GltfPicturesLieInTheFileOrBesideIt) {
+/// Two triangles with a picture of four texels in the file, whose corners are in texels' middles.
+test::CreasedPair pictured_pair() {
   test::CreasedPair pair;
   const std::size_t start = pair.binary.size();
   test::put(pair.binary,
@@ -204,6 +205,11 @@ TEST_F(ColouredFiles, GltfPicturesLieInTheFileOrBesideIt) {
   pair.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
   pair.json["textures"] = {{{"source", 0}}};
   pair.json["images"] = {{{"bufferView", 3}, {"mimeType", "image/png"}}};
+  return pair;
+}
+
+TEST_F(ColouredFiles, GltfPicturesLieInTheFileOrBesideIt) {
+  test::CreasedPair pair = pictured_pair();
   const auto check = [](const SurfaceColours& found) {
     // In glTF v runs downwards: (0.25, 0.25) is the upper left texel.
     EXPECT_EQ(display_bytes(found.at(0, first)), (Bytes{255, 0, 0}));
@@ -218,6 +224,26 @@ TEST_F(ColouredFiles, GltfPicturesLieInTheFileOrBesideIt) {
   EXPECT_NE(refusal("c.glb", pair.bytes()).find("lies in '../four.png'"), std::string::npos);
   pair.json["textures"] = {{{"sampler", 0}}};
   EXPECT_NE(refusal("d.glb", pair.bytes()).find("has no picture"), std::string::npos);
+}
+
+TEST_F(ColouredFiles, GltfPicturesAreMovedAsTheirMaterialSays) {
+  test::CreasedPair pair = pictured_pair();
+  nlohmann::json& picture = pair.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+  const auto colours_by = [&](const nlohmann::json& transform) {
+    picture["extensions"] = {{"KHR_texture_transform", transform}};
+    const SurfaceColours found = read("a.glb", pair.bytes());
+    return std::array{display_bytes(found.at(0, first)), display_bytes(found.at(0, second)),
+                      display_bytes(found.at(1, second))};
+  };
+  const Bytes red{255, 0, 0}, green{0, 255, 0}, blue{0, 0, 255}, white{255, 255, 255};
+  EXPECT_EQ(colours_by(nlohmann::json::object()), (std::array{red, green, white}));
+  EXPECT_EQ(colours_by({{"offset", {0.5, 0}}}), (std::array{green, red, blue}));
+  EXPECT_EQ(colours_by({{"scale", {1, -1}}, {"offset", {0, 1}}}), (std::array{blue, white, green}));
+  constexpr double quarter = 1.57079632679;
+  EXPECT_EQ(colours_by({{"offset", {0, 1}}, {"rotation", quarter}}),
+            (std::array{blue, red, green}));
+  picture["extensions"]["KHR_texture_transform"] = {{"rotation", "much"}};
+  EXPECT_NE(refusal("b.glb", pair.bytes()).find("a finite number is wanted"), std::string::npos);
 }
 
 TEST_F(ColouredFiles, TrianglesAreThoseOfTheMesh) {

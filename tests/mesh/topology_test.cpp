@@ -95,6 +95,26 @@ TEST(Topology, BordersThatTouchAtAVertexStayTwoLoops) {
   EXPECT_EQ(border_loops(bow_tie, half_edges(5, bow_tie)).size(), 2U);
 }
 
+TEST(Topology, ComplexesThatAreManifoldsHaveTheirGenus) {
+  for (const TriangleMesh& mesh : {test::tetrahedron(), test::torus(5, 7),
+                                   test::together(test::torus(5, 7), test::ring(6, false))}) {
+    const int vertices = static_cast<int>(mesh.positions.size());
+    const TopologyCounts wanted = test::topology_of(mesh);
+    const TopologyCounts counts = count_complex(vertices, mesh.triangles);
+    EXPECT_EQ(counts.genus, wanted.genus);
+    EXPECT_EQ(counts.euler, wanted.euler);
+    EXPECT_EQ(counts.boundaries, wanted.boundaries);
+  }
+}
+
+TEST(Topology, OtherComplexesHaveNoGenus) {
+  const Triangle first{0, 1, 2};
+  // A third triangle on an edge, one that runs the same way along it, and a second fan at a vertex.
+  for (const std::vector<Triangle>& triangles :
+       {std::vector<Triangle>{first, {1, 0, 3}, {0, 1, 4}}, {first, {0, 1, 3}}, {first, {0, 3, 4}}})
+    EXPECT_EQ(count_complex(5, triangles).genus, -1);
+}
+
 TEST(Topology, ThirdTriangleOnAnEdgeIsRefusedByName) {
   const std::vector<Triangle> book{{4, 7, 0}, {7, 4, 1}, {4, 7, 2}};
   const std::string message = test::message_of<TopologyError>([&] { half_edges(8, book); });

@@ -288,18 +288,5 @@ TEST(Simulation, RegionWithoutSamplesIsRefused) {
   EXPECT_THROW(Simulation(scene, "pins", 1), SceneError);
 }
 
-TEST(Simulation, ClothFarFromTheOriginIsTold) {
-  for (const double far : {1000.0, 30000.0}) {
-    Scene scene;
-    scene.cloths.resize(1);
-    scene.cloths[0].size = 9;
-    scene.cloths[0].placement.translate = {0.3, 1, -far};
-    const Simulation simulation(scene, "scene", 1);
-    std::string all;
-    for (const std::string& note : simulation.notes()) all += note;
-    EXPECT_EQ(all.find("begins 3e+04 m from the origin") != all.npos, far > 2000) << all;
-  }
-}
-
 }  // namespace
 }  // namespace weft

@@ -141,6 +141,32 @@ TopologyCounts count_topology(std::span<const Triangle> triangles, const HalfEdg
   return counts;
 }
 
+namespace {
+
+/// Whether edges have at most two triangles, which run along them in opposite directions, and
+/// vertices one fan of them.
+bool is_oriented_manifold(int vertex_count, std::span<const Triangle> triangles,
+                          const EdgeUses& edges) {
+  const int corners = 3 * static_cast<int>(triangles.size());
+  DisjointSets fans(corners);
+  for (int e = 0; e < edges.edge_count(); ++e) {
+    const std::span<const int> along = edges.of(e);
+    if (along.size() < 2) continue;
+    if (along.size() > 2 || from_vertex(triangles, along[0]) == from_vertex(triangles, along[1]))
+      return false;
+    fans.join(along[0], HalfEdges::next(along[1]));
+    fans.join(HalfEdges::next(along[0]), along[1]);
+  }
+  std::vector<char> seen(static_cast<std::size_t>(vertex_count), 0);
+  for (int corner = 0; corner < corners; ++corner)
+    if (fans.root(corner) == corner &&
+        std::exchange(seen[from_vertex(triangles, corner)], char{1}) != 0)
+      return false;
+  return true;
+}
+
+}  // namespace
+
 TopologyCounts count_complex(int vertex_count, std::span<const Triangle> triangles) {
   const EdgeUses edges = edge_uses(vertex_count, triangles);
   TopologyCounts counts;
@@ -165,7 +191,9 @@ TopologyCounts count_complex(int vertex_count, std::span<const Triangle> triangl
   counts.edges = edges.edge_count();
   counts.triangles = static_cast<int>(triangles.size());
   counts.euler = counts.vertices - counts.edges + counts.triangles;
-  counts.genus = -1;
+  counts.genus = is_oriented_manifold(vertex_count, triangles, edges)
+                     ? (2 * counts.components - counts.boundaries - counts.euler) / 2
+                     : -1;
   return counts;
 }
 

@@ -1,9 +1,5 @@
 #include "weft/sim/placement.h"
 
-#include <algorithm>
-
-#include <fmt/format.h>
-
 #include "weft/core/math.h"
 
 namespace weft {
@@ -64,20 +60,6 @@ Box3d box_of(const Planes3& positions) {
   const int n = positions.size();
   for (int s = 0; s < n * n; ++s) box.add(vec_cast<double>(positions.at(s)));
   return box;
-}
-
-std::string far_off_text(const Planes3& placed, double thickness) {
-  constexpr double least_steps = 8;  // of numbers within a thickness
-  const Box3d box = box_of(placed);
-  const auto away = [](double lower, double upper) { return std::max({lower, -upper, 0.0}); };
-  const double nearest = std::max({away(box.lower.x, box.upper.x), away(box.lower.y, box.upper.y),
-                                   away(box.lower.z, box.upper.z)});
-  const double step = 0x1p-23 * nearest;
-  if (least_steps * step <= thickness) return {};
-  return fmt::format(
-      "begins {:.2g} m from the origin, where positions are {:.2g} m apart and its thickness of "
-      "{:.2g} m is lost: move all nearer to the origin",
-      nearest, step, thickness);
 }
 
 }  // namespace weft

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 
 #include "weft/geometry_image.h"
 #include "weft/scene.h"
@@ -30,9 +29,5 @@ NormalMap placed_normals(const NormalMap& normals, const PlacementMap& map);
 
 /// Bounding box of all samples. [m]
 Box3d box_of(const Planes3& positions);
-
-/// Where all of a cloth is so far from the origin that single precision does not resolve its
-/// thickness: what to say about it; else empty.
-std::string far_off_text(const Planes3& placed, double thickness);
 
 }  // namespace weft

@@ -33,7 +33,7 @@ void GltfColours::add(const GltfObject& primitive, const GltfObject& attributes,
   const Material material = material_of(primitive);
   colours_.part_of.insert(colours_.part_of.end(), triangles.size(), material.part);
   add_corners(attributes, triangles, vertices);
-  add_texture(attributes, material.texture_set, triangles, vertices);
+  add_texture(attributes, material, triangles, vertices);
 }
 
 SurfaceColours GltfColours::take() {
@@ -61,11 +61,7 @@ GltfColours::Material GltfColours::read_material(int index) {
   if (base.empty() && !use) return {};
   Material material{static_cast<int>(colours_.parts.size()), 0};
   if (use) {
-    if (const auto extensions = use->object("extensions");
-        extensions && extensions->has("KHR_texture_transform"))
-      use->fail("moves its picture", "one that lies as it is is wanted");
-    material.texture_set =
-        static_cast<int>(use->integer("texCoord", 0, most_texture_sets - 1).value_or(0));
+    read_place(*use, material);
     const std::optional<int> number = use->index("index", root.count("textures"));
     if (!number) use->fail("has no index", "a texture is wanted");
     const GltfObject texture = root.element("textures", static_cast<std::size_t>(*number));
@@ -74,6 +70,20 @@ GltfColours::Material GltfColours::read_material(int index) {
   }
   colours_.parts.push_back(part);
   return material;
+}
+
+/// Which texture coordinates a picture lies at, and how it is moved.
+void GltfColours::read_place(const GltfObject& use, Material& material) {
+  const auto set_of = [](const GltfObject& object) {
+    return object.integer("texCoord", 0, most_texture_sets - 1);
+  };
+  material.texture_set = static_cast<int>(set_of(use).value_or(0));
+  const std::optional<GltfObject> extensions = use.object("extensions");
+  if (!extensions) return;
+  const std::optional<GltfObject> moved = extensions->object("KHR_texture_transform");
+  if (!moved) return;
+  material.moved.emplace(*moved);
+  material.texture_set = static_cast<int>(set_of(*moved).value_or(material.texture_set));
 }
 
 int GltfColours::read_picture(const GltfObject& texture) {
@@ -120,15 +130,17 @@ void GltfColours::add_corners(const GltfObject& attributes, const std::vector<Tr
     colours_.corners.push_back({colour(a), colour(b), colour(c)});
 }
 
-void GltfColours::add_texture(const GltfObject& attributes, int set,
+void GltfColours::add_texture(const GltfObject& attributes, const Material& material,
                               const std::vector<Triangle>& triangles, std::size_t vertices) {
   const GltfObject& root = document_.root();
   const std::optional<int> index =
-      attributes.index(fmt::format("TEXCOORD_{}", set), root.count("accessors"));
+      attributes.index(fmt::format("TEXCOORD_{}", material.texture_set), root.count("accessors"));
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<Vec2f> texture =
-      index ? read_gltf_texture(root, document_.buffers(), *index, vertices)
-            : std::vector<Vec2f>(vertices, {none, none});
+  std::vector<Vec2f> texture = index
+                                   ? read_gltf_texture(root, document_.buffers(), *index, vertices)
+                                   : std::vector<Vec2f>(vertices, {none, none});
+  if (material.moved)
+    for (Vec2f& uv : texture) uv = (*material.moved)(uv);
   for (const auto& [a, b, c] : triangles)
     colours_.uv.push_back({texture[a], texture[b], texture[c]});
 }

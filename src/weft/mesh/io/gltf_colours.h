@@ -10,6 +10,7 @@
 #include "weft/mesh.h"
 #include "weft/mesh/io/coloured_files.h"
 #include "weft/mesh/io/gltf_document.h"
+#include "weft/mesh/io/gltf_texture_transform.h"
 
 namespace weft {
 
@@ -29,15 +30,17 @@ class GltfColours {
  private:
   struct Material {
     int part = -1;
-    int texture_set = 0;  ///< the n of TEXCOORD_n
+    int texture_set = 0;                        ///< the n of TEXCOORD_n
+    std::optional<GltfTextureTransform> moved = {};  ///< if it is
   };
   Material material_of(const GltfObject& primitive);
   Material read_material(int index);
+  static void read_place(const GltfObject& use, Material& material);
   int read_picture(const GltfObject& texture);
   void add_corners(const GltfObject& attributes, const std::vector<Triangle>& triangles,
                    std::size_t vertices);
-  void add_texture(const GltfObject& attributes, int set, const std::vector<Triangle>& triangles,
-                   std::size_t vertices);
+  void add_texture(const GltfObject& attributes, const Material& material,
+                   const std::vector<Triangle>& triangles, std::size_t vertices);
 
   GltfDocument& document_;
   std::string_view name_;

@@ -67,6 +67,14 @@ std::optional<std::string> GltfObject::text(std::string_view key) const {
   return value->get<std::string>();
 }
 
+std::optional<double> GltfObject::number(std::string_view key) const {
+  const Json* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_number() || !std::isfinite(value->get<double>()))
+    fail_at(key, "a finite number is wanted");
+  return value->get<double>();
+}
+
 std::vector<double> GltfObject::numbers(std::string_view key, std::size_t count) const {
   std::vector<double> numbers;
   const Json* values = list(key);

@@ -30,6 +30,8 @@ class GltfObject {
   [[nodiscard]] std::optional<int> index(std::string_view key, std::size_t count) const;
   [[nodiscard]] bool boolean(std::string_view key) const;  ///< false when absent
   [[nodiscard]] std::optional<std::string> text(std::string_view key) const;
+  /// A finite number; nothing when the key is absent.
+  [[nodiscard]] std::optional<double> number(std::string_view key) const;
   /// Finite numbers, `count` of them; empty when the key is absent.
   [[nodiscard]] std::vector<double> numbers(std::string_view key, std::size_t count) const;
   /// Indices into another list, of `count` elements; empty when the key is absent.

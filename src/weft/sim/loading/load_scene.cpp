@@ -9,8 +9,10 @@
 #include "weft/geometry_image.h"
 #include "weft/image/diagonals.h"
 #include "weft/scene_file.h"
+#include "weft/shapes.h"
 #include "weft/sim/loading/cloth_shape.h"
 #include "weft/sim/loading/exits.h"
+#include "weft/sim/loading/start_notes.h"
 #include "weft/sim/placement.h"
 #include "weft/sim/sewing/panel_starts.h"
 
@@ -46,12 +48,15 @@ class Loader : public LoadedScene {
         team_(with) {}
   void load_bodies();
   void load_cloths();
+  /// Notes bodies from files whose unit may be another.
+  void compare_sizes();
   /// Ties cloths to bodies, at the initial positions of both.
   void tie_cloths();
   /// Finds the closed bodies that cloths begin inside of, at the initial positions of both.
   void find_insides();
 
  private:
+  void tell(const std::string& name, const std::string& odd);
   LoadedSurface load(const Surface& surface, ConvertOptions options, const std::string& what);
   void check_collider(const char* kind, const BorderMates& mates, const std::string& what) const;
   void check_charts(const BorderMates& mates, const std::string& what) const;
@@ -167,8 +172,9 @@ void Loader::load_cloths() {
     LoadedSurface loaded = load(wanted.surface, options, wanted.name);
     check_charts(loaded.garment ? loaded.garment->sewn : loaded.image.mates, wanted.name);
     const Planes3 placed = place(wanted, loaded, garments);
-    if (const std::string far = far_off_text(placed, wanted.material.thickness); !far.empty())
-      notes.push_back(fmt::format("{}: {}", wanted.name, far));
+    const double thickness = wanted.material.thickness;
+    for (const std::string& odd : {far_off_text(placed, thickness), thick_text(placed, thickness)})
+      tell(wanted.name, odd);
     if (loaded.garment) ++garments;
     Cloth cloth = make(wanted, placed, loaded);
     other_bending.push_back(loaded.garment ? stiffen(wanted, placed, loaded, cloth)
@@ -215,6 +221,19 @@ void Loader::load_bodies() {
     if (bodies[i].moves) bodies[i].positions = *driven.ends()[i];
 }
 
+/// Notes what is odd about a surface, if anything is.
+void Loader::tell(const std::string& name, const std::string& odd) {
+  if (!odd.empty()) notes.push_back(fmt::format("{}: {}", name, odd));
+}
+
+void Loader::compare_sizes() {
+  std::vector<Box3d> boxes;
+  for (const SimulatedCloth& cloth : cloths) boxes.push_back(box_of(cloth.state.position));
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!is_builtin(scene_.bodies[i].surface.name))
+      tell(bodies[i].name, unlike_text(box_of(bodies[i].positions), boxes));
+}
+
 void Loader::tie_cloths() {
   std::vector<TiedSurface> surfaces;
   for (const PlacedBody& body : bodies)
@@ -249,6 +268,7 @@ LoadedScene load_scene(const Scene& scene, const std::string& name, const Simula
   Loader loader(scene, name, help, team);
   loader.load_bodies();
   loader.load_cloths();
+  loader.compare_sizes();
   loader.tie_cloths();
   loader.find_insides();
   return std::move(static_cast<LoadedScene&>(loader));
