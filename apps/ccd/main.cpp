@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -51,7 +52,6 @@ int run(int argc, char** argv) {
   program
       .add_option("--tolerance", options.tolerance,
                   "Largest distance of a pair that is reported though it does not touch")
-      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   try {
     program.parse(argc, argv);
@@ -60,6 +60,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(ExitCode::usage, error.what());
   }
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
+    return fail(ExitCode::usage, "--tolerance: a finite number from 0 is wanted");
   Counts counts;
   for (const std::string& path : paths) ask(read_queries(path), options, counts);
   const nlohmann::ordered_json json{{"queries", counts.queries},

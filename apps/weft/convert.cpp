@@ -1,13 +1,16 @@
 #include "weft/convert.h"
 
+#include <charconv>
 #include <chrono>
 #include <climits>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -264,6 +267,15 @@ void require_all(const ConvertArgs& args, const Context& context, const Json& re
       written > 0 ? "the others were written" : "none was written");
 }
 
+/// For CLI11, whose own check prints the largest number in 309 digits.
+std::string check_positive(const std::string& text) {
+  const char* end = text.data() + text.size();
+  double value = 0;
+  const auto [read_to, error] = std::from_chars(text.data(), end, value);
+  const bool good = error == std::errc{} && read_to == end && value > 0 && std::isfinite(value);
+  return good ? "" : "'" + text + "'; a number above 0 is wanted";
+}
+
 void check_args(const ConvertArgs& args) {
   check_output(args.output, {".exr", ".png", ".weft"});
   for (const auto& [option, given] :
@@ -345,7 +357,7 @@ void add_convert(CLI::App& program, const Context& context) {
   command
       ->add_option("--error", args->error,
                    "Instead of bits: how far samples of a compressed image may move [mm]")
-      ->check(CLI::PositiveNumber)
+      ->check(check_positive)
       ->excludes(precision);
   command->add_option("--cut", args->seam,
                       "Cut along the vertex paths in this text file, one a line, counted from 0");

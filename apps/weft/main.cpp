@@ -1,6 +1,10 @@
+#include <charconv>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -24,6 +28,15 @@ std::string check_instructions(const std::string& name) {
   return has_instruction_set(*set) ? "" : "this processor has no " + name;
 }
 
+std::string check_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* end = text.data() + text.size();
+  const auto [read_to, error] = std::from_chars(text.data(), end, seed);
+  if (error == std::errc{} && read_to == end) return "";
+  return "'" + text + "'; a whole number from 0 to " +
+         std::to_string(std::numeric_limits<std::uint64_t>::max()) + " is wanted";
+}
+
 void add_globals(CLI::App& program, Context& context) {
   program.add_flag("--json", context.json,
                    "Print one JSON object on stdout and nothing else there");
@@ -43,9 +56,7 @@ void add_globals(CLI::App& program, Context& context) {
   program
       .add_option("--seed", context.seed,
                   "Of anything random: the samples that distances are measured by")
-      ->check([](const std::string& arg) {
-        return arg.starts_with('-') ? "a number from 0 is wanted" : std::string();
-      })
+      ->check(check_seed)
       ->capture_default_str();
   program.set_version_flag("--version", "weft " WEFT_VERSION);
   program.fallthrough();

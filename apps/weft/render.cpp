@@ -133,7 +133,10 @@ void render(RenderArgs& args, const Context& context) {
 }
 
 void add_view_options(CLI::App& command, RenderArgs& args) {
-  command.add_option("--width", args.shown.view.width, "Pixels")
+  command
+      .add_option("--width", args.shown.view.width,
+                  "Pixels; colours, map and mates have whole pixels a sample, and at least the "
+                  "shorter side")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();
   command.add_option("--height", args.shown.view.height, "Pixels")
@@ -184,7 +187,10 @@ void add_render(CLI::App& program, const Context& context) {
   add_show_options(*command, *args);
   add_view_options(*command, *args);
   command->footer("Example: weft render draped -o draped.mp4");
-  command->callback([args, &context] { render(*args, context); });
+  command->callback([args, &context, command] {
+    args->shown.sized = command->count("--width") + command->count("--height") > 0;
+    render(*args, context);
+  });
 }
 
 }  // namespace weft::app

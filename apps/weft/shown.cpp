@@ -128,7 +128,7 @@ void Shown::show_conversion(const ShownArgs& args, const Context& context,
 
 void Shown::show_image(const ShownArgs& args, const GeometryImage& image) {
   if (args.show == "colours") {
-    flat_ = colours_of(image);
+    flat_ = args.sized ? colours_of(image, flat_side(args.view)) : colours_of(image);
   } else if (args.show == "mates" && !image.has_one_chart()) {
     flat_ = marked_by_mates(colours_of(image, flat_side(args.view)), image.mates);
   } else if (args.show == "mates") {

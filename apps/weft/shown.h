@@ -17,6 +17,7 @@ struct ShownArgs {
   int size = 0;                        ///< of the conversion, where one is needed; 0: 257
   std::string parameterizer;           ///< empty: stretch
   ViewFrom view;
+  bool sized = false;  ///< whether the size of the view was asked for
 };
 
 /// What can be shown of a mesh and of an image, the default first.

@@ -71,7 +71,13 @@ class BadInput(ProgramTest):
     def test_a_missing_or_unknown_command_is_named(self):
         self.assertIn("'draw'", self.error_of("draw", "me", code=2))
         self.assertIn("convert, rebuild", self.error_of(code=2))
-        self.error_of("shapes", "--seed", "-1", code=2)
+
+    def test_numbers_that_an_option_does_not_take_are_named(self):
+        for seed in ("-1", "1.5", "1" + 20 * "0"):
+            self.assertIn("a whole number from 0", self.error_of("shapes", "--seed", seed, code=2))
+        for error in ("0", "-1", "nan", "1e-400"):
+            line = self.error_of("convert", "builtin:sphere", "-o", "m.weft", "--error", error, code=2)
+            self.assertIn("a number above 0 is wanted", line)
         line = self.error_of("convert", "builtin:sphere", "-o", "m.exr", "--seed-triangle", "-1", code=2)
         self.assertLess(len(line), 120)
 

@@ -32,6 +32,8 @@ class Render(ProgramTest):
                       "--width", "160", "--height", "120")
         self.run_weft("render", "t.exr", "-o", "colours.png")
         self.assertEqual(self.size_of("colours.png"), (33 * 8, 33 * 8))
+        self.run_weft("render", "t.exr", "-o", "small.png", "--width", "160", "--height", "120")
+        self.assertEqual(self.size_of("small.png"), (33 * 4, 33 * 4))
 
     def colours_of(self, name):
         """How many pixels of a picture are clearly red, green, blue."""

@@ -4,6 +4,7 @@
 
 #include "tests/cloth/sheets.h"
 #include "tests/sim/falling_sheet.h"
+#include "tests/support/errors.h"
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/wind.h"
 #include "weft/collide/contacts/block_motion.h"
@@ -286,6 +287,13 @@ TEST(Simulation, RegionWithoutSamplesIsRefused) {
   Scene scene = free_fall(ImplicitOptions{});
   scene.cloths[0].pins = {RegionPin{{0.01, 0.01}, {0.02, 0.02}}};
   EXPECT_THROW(Simulation(scene, "pins", 1), SceneError);
+}
+
+TEST(Simulation, MethodsThatSuitNoClothOfThatSizeNameTheSceneAndTheCloth) {
+  Scene scene = free_fall(TwoLevelOptions{.global_size = 7});
+  scene.cloths[0].name = "flag";
+  const std::string told = test::message_of<SceneError>([&] { Simulation(scene, "s.json", 1); });
+  EXPECT_TRUE(told.starts_with("s.json: 'flag': integrator.global_size: 7; ")) << told;
 }
 
 }  // namespace

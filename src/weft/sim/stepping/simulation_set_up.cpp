@@ -76,7 +76,12 @@ void Simulation::Parts::join_movers() {
 
 void Simulation::Parts::make_movers() {
   for (std::size_t i = 0; i < cloths.size(); ++i) {
-    movers.push_back(make_mover(i));
+    try {
+      movers.push_back(make_mover(i));
+    } catch (const SceneError& error) {
+      // What suits no cloth of this size is known here first.
+      throw SceneError(name, fmt::format("'{}': {}", cloths[i].name, error.what()), "");
+    }
     if (const std::string caution = movers.back().integrator->caution(); !caution.empty())
       notes.push_back(fmt::format("{}: {}", cloths[i].name, caution));
   }
