@@ -25,15 +25,16 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Warns of motion that nothing explains.
+/// Warns of motion that nothing explains, beside what cloth that large has to fall.
 void tell_gain(const Context& context, const RunReport& report) {
-  constexpr double worth_telling = 0.01;
-  const double gain = relative_energy_gained(report);
+  constexpr double worth_telling = 0.01, usual_height = 1;  // [m]
+  const double height = std::max(usual_height, report.side);
+  const double gain = relative_energy_gained(report) * usual_height / height;
   if (gain <= worth_telling) return;
   const bool by_default = report.integrator == name_of(Scene{}.integrator);
-  warn(context, fmt::format("energy gained that nothing put in: {:.2g} times the weight times 1 m; "
-                            "more substeps{} are wanted",
-                            gain, by_default ? "" : " or the default integrator"));
+  warn(context, fmt::format("energy gained that nothing put in: {:.2g} times the weight times "
+                            "{:.3g} m; more substeps{} are wanted",
+                            gain, height, by_default ? "" : " or the default integrator"));
 }
 
 void print_summary(const Context& context, const RunReport& report) {

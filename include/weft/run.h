@@ -88,6 +88,7 @@ struct RunReport {
   double time_step = 0;              ///< [s]
   double start_energy = 0;           ///< kinetic plus potential, of frame 0 [J]
   double mass = 0;                   ///< of all cloths [kg]
+  double side = 0;                   ///< of the largest cloth: the root of its area [m]
   std::vector<FrameReport> history;  ///< one a frame, from frame 1
   /// Of each cloth: its name, and the gap that it kept to cloth [m].
   std::vector<std::pair<std::string, double>> thickness_used;

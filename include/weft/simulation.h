@@ -223,6 +223,7 @@ class Simulation {
   [[nodiscard]] int particles() const;
   [[nodiscard]] Vec3d centre_of_mass() const;
   [[nodiscard]] double mass() const;  ///< of all cloths together [kg]
+  [[nodiscard]] double side() const;  ///< of the largest cloth: the root of its area [m]
   /// Kinetic plus potential energy before the first frame [J].
   [[nodiscard]] double start_energy() const;
   /// The gap that a cloth keeps to itself and others: its material's thickness, or less where its

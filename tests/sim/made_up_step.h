@@ -33,9 +33,12 @@ class Puppet final : public Integrator {
 /// A sheet of 1 m whose samples fly in all directions, in a step that a test makes up.
 class MadeUpStep {
  public:
-  MadeUpStep() {
+  /// @param density  of the sheet [kg/m^2]
+  explicit MadeUpStep(double density = soft_fabric.density) {
     SimulatedCloth one;
-    one.model = std::make_shared<Cloth>(sheet_cloth(n));
+    Material material = soft_fabric;
+    material.density = density;
+    one.model = std::make_shared<Cloth>(sheet_cloth(n, material));
     one.state = rest_state(*one.model);
     shake(*one.model, 1, one.state.velocity);
     cloths_.push_back(std::move(one));

@@ -64,6 +64,7 @@ RunReport start_report(const Simulation& simulation, const Scene& scene, const s
   report.notes = simulation.notes();
   report.start_energy = simulation.start_energy();
   report.mass = simulation.mass();
+  report.side = simulation.side();
   for (std::size_t i = 0; i < simulation.cloths().size(); ++i)
     report.thickness_used.emplace_back(simulation.cloths()[i].name, simulation.used_thickness(i));
   report.start_insides = simulation.start_insides();

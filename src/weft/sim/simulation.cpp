@@ -212,6 +212,13 @@ double Simulation::mass() const {
   return mass;
 }
 
+double Simulation::side() const {
+  double area = 0;
+  for (const SimulatedCloth& cloth : parts_->cloths)
+    area = std::max(area, mass_of(*cloth.model) / cloth.model->material.density);
+  return std::sqrt(area);
+}
+
 double Simulation::start_energy() const { return parts_->energy.at_start().total(); }
 
 double Simulation::used_thickness(std::size_t cloth) const {

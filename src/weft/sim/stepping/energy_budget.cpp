@@ -65,6 +65,13 @@ void shorten_way(const Planes3& start, float part, ClothState& proposal) {
 
 }  // namespace
 
+double EnergyBudget::most_lent() const {
+  double most = 0;
+  for (std::size_t i = 0; i < cloths_.size(); ++i)
+    most += lent_energy(movers_[i].meter.mass(), cloths_[i].model->material.density);
+  return most;
+}
+
 void EnergyBudget::begin_run() {
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     at_start_ += movers_[i].meter.measure(cloths_[i].state);
@@ -83,22 +90,21 @@ bool EnergyBudget::solve_is_lost(double part) const {
 }
 
 void EnergyBudget::lend(bool sewing) {
-  double start = 0, mass = 0, most = 0, explained = work_.net;
+  double start = 0, mass = 0, explained = work_.net;
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     Mover& mover = movers_[i];
     if (!known_) mover.start = mover.meter.measure(cloths_[i].state);
     start += mover.start.total();
     mass += mover.meter.mass();
     explained += mover.wind_work;
-    most += lent_energy(mover.meter.mass(), cloths_[i].model->material.density);
   }
   known_ = true;
   work_.least = std::min(work_.least, start - explained);
-  lent_ = most;
-  max_energy_ = work_.least + explained + most;
+  lent_ = most_lent();
+  max_energy_ = work_.least + explained + lent_;
   // Where seams move the cloth its energy tells nothing, and many linearisations would gain
   // nothing.
-  const double left = sewing ? most / lent_part : std::max(0.0, max_energy_ - start);
+  const double left = sewing ? lent_ / lent_part : std::max(0.0, max_energy_ - start);
   for (Mover& mover : movers_) mover.integrator->lend(left * mover.meter.mass() / mass);
 }
 

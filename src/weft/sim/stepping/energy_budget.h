@@ -71,6 +71,8 @@ class EnergyBudget {
   void add_pulled(double energy) { work_.pulled += energy; }
 
   [[nodiscard]] const WorkDone& work() const { return work_; }
+  /// Energy that contacts and the filter may lend all cloths [J].
+  [[nodiscard]] double most_lent() const;
   void restore(const WorkDone& work) {
     work_ = work;
     forget();

@@ -12,8 +12,10 @@ namespace weft {
 namespace {
 
 /// A run stops when its energy exceeds the start energy plus the work done on it by more than this,
-/// and by more than max_unexplained_part of the energy that cloths can have come by.
+/// by more than max_times_lent of what contacts may lend, which is much in cloth of 10 m, and by
+/// more than max_unexplained_part of the energy that cloths can have come by.
 constexpr double max_unexplained = 1;  // [J]
+constexpr double max_times_lent = 2;
 constexpr double max_unexplained_part = 0.05;
 /// Uncertainty of the measured work, as a part of it, which is added to the second bound. It is
 /// large for work done in few steps: after a jump of a pin, solves leave a good part of the forces
@@ -86,7 +88,8 @@ void StabilityCheck::check_energy(const Now& now, const FrameReport& report, dou
   const double come_by = start.own() + fallen + work.pulled;
   const double most = max_unexplained_part * come_by + max_unexplained_work * work.gross;
   if (!held) check_strained(now, report.strain.p99, gained + work.pulled, work);
-  const bool beyond = !held && gained > std::max(max_unexplained, most);
+  const bool beyond =
+      !held && gained > std::max({max_unexplained, max_times_lent * budget.most_lent(), most});
   frames_beyond_ = beyond ? frames_beyond_ + 1 : 0;
   if (frames_beyond_ < frames_that_tell) return;
   stop(now, wildest_cloth(),
