@@ -23,7 +23,7 @@ Scene sheet_onto_ball(double side, int substeps) {
   return scene;
 }
 
-/// One linearisation a step makes it slip off late: it is 0.67 of its side too high then.
+/// One linearisation a step makes it slip off late: it is 0.67 of its side away from there then.
 TEST(Impact, SmallStiffClothSlipsOffABallWhenItDoesInShortSteps) {
   constexpr double side = 0.03;
   Simulation usual(sheet_onto_ball(side, 4), "usual", 2),

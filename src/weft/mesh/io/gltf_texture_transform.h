@@ -10,8 +10,6 @@ namespace weft {
 /// that the picture turns clockwise.
 class GltfTextureTransform {
  public:
-  /// Leaves all as it is.
-  GltfTextureTransform() = default;
   /// @throws InputError for what are no finite numbers
   explicit GltfTextureTransform(const GltfObject& extension);
 
