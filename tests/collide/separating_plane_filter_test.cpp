@@ -28,9 +28,11 @@ struct Held {
         planes, static_cast<int>(points.size()), [&](int i) { return points[i]; }, team);
   }
   SeparatingPlaneFilter::Result hold(double slack, double farthest) {
-    return filter.hold(
+    const auto result = filter.find_ends(
         planes, static_cast<int>(points.size()), {slack, farthest},
-        [&](int i) { return points[i]; }, [&](int i, Vec3f end) { points[i].end = end; }, team);
+        [&](int i) { return points[i]; }, team);
+    filter.put_ends([&](int i, Vec3f end) { points[i].end = end; });
+    return result;
   }
 };
 

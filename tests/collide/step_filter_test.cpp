@@ -10,7 +10,7 @@ namespace {
 using test::pyramid;
 using test::TestCloth;
 
-constexpr double step = 1.0 / 240;
+constexpr double time_step = 1.0 / 240;
 constexpr int n = 9;
 
 Obstacles floor_at(double height) {
@@ -19,23 +19,28 @@ Obstacles floor_at(double height) {
   return obstacles;
 }
 
-/// A flat sheet 1 cm above the ground, and the filter alone.
+/// A sheet above the ground, and the filter alone.
 class OverGround {
  public:
-  OverGround() {
-    cloth_.place([](int r, int c) { return Vec3d{0.1 * c, 0.01, 0.1 * r}; });
+  explicit OverGround(const std::function<Vec3d(int, int)>& at = [](int r, int c) {
+    return Vec3d{0.1 * c, 0.01, 0.1 * r};
+  }) {
+    cloth_.place(at);
     const SurfaceGrid* grid = &world_.cloths[0].grid;
     untangler_.set_up(std::span(&grid, 1), std::span(&properties_, 1));
   }
   void move_all(Vec3f way) {
     for (int s = 0; s < n * n; ++s) {
       cloth_.position.set(s, cloth_.start.at(s) + way);
-      cloth_.velocity.set(s, (1 / static_cast<float>(step)) * way);
+      cloth_.velocity.set(s, (1 / static_cast<float>(time_step)) * way);
     }
+  }
+  void move_on(int sample, Vec3f way) {
+    cloth_.position.set(sample, cloth_.position.at(sample) + way);
   }
   FilterCounts run(StepFilter::Pass pass) {
     const MovingCloth moving = cloth_.moving();
-    return filter.run(std::span(&moving, 1), step, pass, team_);
+    return filter.run(std::span(&moving, 1), time_step, pass, team_);
   }
   [[nodiscard]] Vec3f end(int sample) const { return cloth_.position.at(sample); }
   [[nodiscard]] Vec3f velocity(int sample) const { return cloth_.velocity.at(sample); }
@@ -75,7 +80,7 @@ TEST(StepFilter, HoldsEndsAboveTheGroundAndTakesTheirSpeedInto) {
     EXPECT_GE(sheet.end(s).y, 0);
     EXPECT_LT(sheet.end(s).y, 1e-4F);
     EXPECT_NEAR(sheet.velocity(s).y, 0, 1e-6);
-    EXPECT_NEAR(sheet.velocity(s).x, 0.003 / step, 1e-5);  // along the ground it goes on
+    EXPECT_NEAR(sheet.velocity(s).x, 0.003 / time_step, 1e-5);  // along the ground it goes on
   }
 }
 
@@ -85,8 +90,19 @@ TEST(StepFilter, LeavesVelocitiesOfGuesses) {
   EXPECT_EQ(sheet.run(StepFilter::Pass::guess).moved, n * n);
   for (int s = 0; s < n * n; ++s) {
     EXPECT_GE(sheet.end(s).y, 0);
-    EXPECT_NEAR(sheet.velocity(s).y, -0.015 / step, 1e-5);
+    EXPECT_NEAR(sheet.velocity(s).y, -0.015 / time_step, 1e-5);
   }
+}
+
+/// Corners thrown through the layer below them, in a sheet that falls.
+TEST(StepFilter, TakesStoppedPointsAlongWithClothThatMovesAsAWhole) {
+  OverGround folded([](int r, int c) {
+    return c < 5 ? Vec3d{0.1 * c, 5, 0.1 * r} : Vec3d{0.1 * (8 - c) + 0.03, 5.02, 0.1 * r};
+  });
+  folded.move_all({0, -0.4F, 0});
+  folded.move_on(4 * n + 7, {0, -0.3F, 0});
+  EXPECT_GT(folded.run(StepFilter::Pass::end).stopped, 0);
+  for (int s = 0; s < n * n; ++s) EXPECT_NEAR(folded.end(s).y, 5.01 - 0.4, 0.05);
 }
 
 }  // namespace

@@ -9,6 +9,9 @@ namespace {
 /// Rounding of single precision, relative to the size of positions, generously.
 constexpr double close_enough = 1e-6;
 
+/// A distance that avoids divisions by none [m].
+constexpr double nothing = 1e-9;
+
 /// The sample with the largest measure, the first of several.
 template <class Measure>
 int largest(int count, const Measure& measure) {
@@ -86,6 +89,17 @@ class Shift {
   double weights_ = 0;
 };
 
+/// Distance of a point to the nearest obstacle, or `reach` where none is nearer. [m]
+double distance_within(double reach, Vec3d at, const SafePositionSurroundings& obstacles) {
+  double nearest = reach;
+  if (obstacles.ground != nullptr)
+    nearest = std::min(nearest, std::abs(at.y - obstacles.ground->height));
+  for (const ContactBody& body : obstacles.bodies)
+    if (const auto found = body.query->closest(at, nearest))
+      nearest = std::min(nearest, std::sqrt(found->squared_distance));
+  return nearest;
+}
+
 }  // namespace
 
 Vec3d SafePositions::Carrier::displacement(Vec3d start, const BodyPoint& at, bool slides) const {
@@ -108,6 +122,19 @@ Vec3d SafePositions::shift_at(Vec3d start, const SafePositionSurroundings& aroun
   if (around.ground != nullptr)
     shift.add(std::abs(start.y - around.ground->height), around.held, {});
   return shift.mean();
+}
+
+void SafePositions::find_along(const Planes3& start, const SafePositionSurroundings& obstacles,
+                               Vec3d translation, Planes3& safe_position, ThreadTeam& team) {
+  const double reach = std::max(nothing, length(translation) / max_part_of_distance);
+  team.run([&](Worker& worker) {
+    const Range mine = worker.share(start.size() * start.size());
+    for (int s = mine.first; s < mine.last; ++s) {
+      const Vec3d at = vec_cast<double>(start.at(s));
+      const double part = distance_within(reach, at, obstacles) / reach;
+      safe_position.set(s, vec_cast<float>(at + part * translation));
+    }
+  });
 }
 
 void SafePositions::find(const Planes3& start, const SafePositionSurroundings& surroundings,

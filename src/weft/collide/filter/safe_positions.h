@@ -44,6 +44,16 @@ class SafePositions {
   /// @param safe_position  [n x n] out [m]
   void find(const Planes3& start, const SafePositionSurroundings& surroundings,
             Planes3& safe_position, ThreadTeam& team);
+  /// Points that go along with their cloth go this part of their distance from an obstacle at most.
+  /// The map of starts to safe positions then differs so little from a translation that it folds
+  /// nothing over.
+  static constexpr double max_part_of_distance = 0.125;
+  /// The same for cloth that moves as a whole while nothing else does: points go along, but near
+  /// obstacles by no more than max_part_of_distance.
+  /// @param obstacles    bodies and the ground; none of them may move
+  /// @param translation  that of the whole cloth [m]
+  static void find_along(const Planes3& start, const SafePositionSurroundings& obstacles,
+                         Vec3d translation, Planes3& safe_position, ThreadTeam& team);
 
  private:
   /// A body with its motion, which points near it follow.

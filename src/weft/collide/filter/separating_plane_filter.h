@@ -29,9 +29,9 @@ class SeparatingPlaneFilter {
     int stopped = 0;  ///< points that were held back on their paths
     int lost = 0;     ///< points that still violate a plane
   };
-  /// Numbers of the points that the last hold stopped or lost, ascending.
+  /// Numbers of the points that the last search stopped or lost, ascending.
   [[nodiscard]] std::span<const int> stopped() const { return stopped_; }
-  /// Numbers of the points that the last hold lost, ascending.
+  /// Numbers of the points that the last search lost, ascending.
   [[nodiscard]] std::span<const int> lost() const { return lost_; }
   /// Numbers of the planes that moved points had violated with their proposed ends.
   [[nodiscard]] std::span<const int> struck() const { return struck_; }
@@ -40,17 +40,20 @@ class SeparatingPlaneFilter {
     double slack = 0;     ///< displacement that planes allow for [m]
     double farthest = 0;  ///< at least the slack; displacements beyond that need a new search [m]
   };
-  /// Whether all ends satisfy their planes already: hold would change nothing.
+  /// Whether all ends satisfy their planes already, so that none would be moved.
   template <class At>
   bool all_satisfied(std::span<const SeparatingPlane> planes, int count, const At& at,
                      ThreadTeam& team);
-  /// Moves the ends of all points to their sides of the planes.
+  /// Finds ends for all points on their sides of the planes.
   /// @param planes  changed: those of stopped points get their `still` levels
   /// @param count   number of points; planes refer to them by number
-  /// @param at      the FilteredPoint of a number; put(point, end) changes the end
-  template <class At, class Put>
-  Result hold(std::span<SeparatingPlane> planes, int count, const Aside& aside, const At& at,
-              const Put& put, ThreadTeam& team);
+  /// @param at      the FilteredPoint of a number
+  template <class At>
+  Result find_ends(std::span<SeparatingPlane> planes, int count, const Aside& aside, const At& at,
+                   ThreadTeam& team);
+  /// Passes every end that the last search moved to put(point, end).
+  template <class Put>
+  void put_ends(const Put& put) const;
 
  private:
   struct Side {
@@ -120,14 +123,14 @@ bool SeparatingPlaneFilter::all_satisfied(std::span<const SeparatingPlane> plane
   return std::all_of(fates_.begin(), fates_.end(), [](Fate fate) { return fate == Fate::free; });
 }
 
-template <class At, class Put>
-SeparatingPlaneFilter::Result SeparatingPlaneFilter::hold(std::span<SeparatingPlane> planes,
-                                                          int count, const Aside& aside,
-                                                          const At& at, const Put& put,
-                                                          ThreadTeam& team) {
+template <class At>
+SeparatingPlaneFilter::Result SeparatingPlaneFilter::find_ends(std::span<SeparatingPlane> planes,
+                                                               int count, const Aside& aside,
+                                                               const At& at, ThreadTeam& team) {
   stopped_.clear();
   lost_.clear();
   struck_.clear();
+  fates_.clear();
   if (planes.empty()) return {};
   gather(planes, count);
   const int points = static_cast<int>(involved_.size());
@@ -143,9 +146,13 @@ SeparatingPlaneFilter::Result SeparatingPlaneFilter::hold(std::span<SeparatingPl
   });
   update_planes(planes, aside);
   find_struck(planes);
-  for (int i = 0; i < points; ++i)
-    if (fates_[i] != Fate::free) put(involved_[i], ends_[i]);
   return count_fates();
+}
+
+template <class Put>
+void SeparatingPlaneFilter::put_ends(const Put& put) const {
+  for (std::size_t i = 0; i < fates_.size(); ++i)
+    if (fates_[i] != Fate::free) put(involved_[i], ends_[i]);
 }
 
 }  // namespace weft

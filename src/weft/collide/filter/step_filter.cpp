@@ -143,19 +143,38 @@ bool StepFilter::all_pass(std::span<const MovingCloth> moving, ThreadTeam& team)
       planes_, world_.points(), [&](int point) { return point_at(moving, point); }, team);
 }
 
+SeparatingPlaneFilter::Result StepFilter::find_ends(std::span<const MovingCloth> moving,
+                                                    double farthest, ThreadTeam& team) {
+  add_ground_planes(moving);
+  return plane_filter_.find_ends(
+      planes_, world_.points(), {world_.slack(), farthest},
+      [&](int point) { return point_at(moving, point); }, team);
+}
+
+SeparatingPlaneFilter::Result StepFilter::find_ends_anew(std::span<const MovingCloth> moving,
+                                                         double farthest, ThreadTeam& team) {
+  find_planes(true, team);
+  return find_ends(moving, farthest, team);
+}
+
 SeparatingPlaneFilter::Result StepFilter::hold(std::span<const MovingCloth> moving, double farthest,
                                                ThreadTeam& team) {
-  const auto at = [&](int point) { return point_at(moving, point); };
-  const auto put = [&](int point, Vec3f end) {
-    const std::size_t cloth = world_.cloth_of(point);
-    put_end(moving[cloth], point, end);
+  SeparatingPlaneFilter::Result found = find_ends(moving, farthest, team);
+  if (found.stopped + found.lost > 0 && std::exchange(may_go_along_, false) &&
+      take_safe_positions_along(moving, team))
+    found = find_ends_anew(moving, farthest, team);
+  if (found.lost > 0 && along_) {
+    return_safe_positions(moving);
+    found = find_ends_anew(moving, farthest, team);
+  }
+  new_points_.assign(static_cast<std::size_t>(world_.points()), 0);
+  plane_filter_.put_ends([&](int point, Vec3f end) {
+    put_end(moving[world_.cloth_of(point)], point, end);
     fates_[point] = std::max<char>(fates_[point], moved_point);
-  };
-  const SeparatingPlaneFilter::Result held =
-      plane_filter_.hold(planes_, world_.points(), {world_.slack(), farthest}, at, put, team);
+  });
   for (const int point : plane_filter_.stopped())
     fates_[point] = std::max<char>(fates_[point], stopped_point);
-  return held;
+  return found;
 }
 
 void StepFilter::fall_back_to_safe_positions(std::span<const MovingCloth> moving, int around,
@@ -259,9 +278,27 @@ void StepFilter::carry_safe_positions(std::span<const MovingCloth> moving, doubl
   }
 }
 
+bool StepFilter::take_safe_positions_along(std::span<const MovingCloth> moving, ThreadTeam& team) {
+  common_motion_.find(moving, 1 / SafePositions::max_part_of_distance);
+  if (!common_motion_.any()) return false;
+  SafePositionSurroundings obstacles{world_.contact_bodies, world_.ground()};
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    Filtered& one = cloths_[i];
+    if (one.carried.size() == 0) one.carried = Planes3(world_.cloths[i].properties.size);
+    SafePositions::find_along(moving[i].start, obstacles, common_motion_.of(i), one.carried, team);
+    one.safe_position = &one.carried;
+  }
+  return along_ = true;
+}
+
+void StepFilter::return_safe_positions(std::span<const MovingCloth> moving) {
+  for (std::size_t i = 0; i < moving.size(); ++i) cloths_[i].safe_position = &moving[i].start;
+  along_ = false;
+}
+
 void StepFilter::begin(std::span<const MovingCloth> moving) {
   world_.gather_surfaces(moving);
-  for (std::size_t i = 0; i < moving.size(); ++i) cloths_[i].safe_position = &moving[i].start;
+  return_safe_positions(moving);
   carried_ = false;
   all_anew_ = true;
   struck_.clear();
@@ -272,6 +309,7 @@ void StepFilter::begin(std::span<const MovingCloth> moving) {
 FilterCounts StepFilter::run(std::span<const MovingCloth> moving, double time_step, Pass pass,
                              ThreadTeam& team, FilterEnd end) {
   begin(moving);
+  may_go_along_ = world_.fastest_body(time_step) == 0;
   // Once the quick test fails in a frame it is skipped: points will be held back again.
   bool& may_pass = may_pass_[static_cast<std::size_t>(pass)];
   may_pass = may_pass && all_pass(moving, team);
@@ -291,8 +329,6 @@ bool StepFilter::do_round(std::span<const MovingCloth> moving, double time_step,
   const bool bodies_move = world_.fastest_body(time_step) > 0;
   world_.refit(team);
   find_planes(std::exchange(all_anew_, false), team);
-  add_ground_planes(moving);
-  new_points_.assign(static_cast<std::size_t>(world_.points()), 0);
   const SeparatingPlaneFilter::Result held =
       hold(moving, round < rounds_aside ? world_.max_aside() : world_.slack(), team);
   if (pass == Pass::end) {

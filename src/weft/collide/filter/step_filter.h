@@ -6,6 +6,7 @@
 
 #include "weft/collide/collision_world.h"
 #include "weft/collide/filter/cell_planes.h"
+#include "weft/collide/filter/common_motion.h"
 #include "weft/collide/filter/impact.h"
 #include "weft/collide/filter/safe_positions.h"
 #include "weft/collide/filter/separating_plane_filter.h"
@@ -40,7 +41,7 @@ class StepFilter {
   /// State of one cloth during a run.
   struct Filtered {
     std::vector<char> new_cells{};           // of a round, see PlaneSide
-    Planes3 carried{};                       // safe positions among moving bodies
+    Planes3 carried{};                       // safe positions other than the start
     const Planes3* safe_position = nullptr;  // the start, or `carried`
   };
   void begin(std::span<const MovingCloth> moving);
@@ -64,6 +65,11 @@ class StepFilter {
 
   SeparatingPlaneFilter::Result hold(std::span<const MovingCloth> moving, double farthest,
                                      ThreadTeam& team);
+  SeparatingPlaneFilter::Result find_ends(std::span<const MovingCloth> moving, double farthest,
+                                          ThreadTeam& team);
+  /// The same with other safe positions than before.
+  SeparatingPlaneFilter::Result find_ends_anew(std::span<const MovingCloth> moving, double farthest,
+                                               ThreadTeam& team);
   /// Applies inelastic impacts to both sides of the planes that held points back.
   void strike_all(std::span<const MovingCloth> moving, double time_step);
   [[nodiscard]] ImpactSides sides_of(const SeparatingPlane& plane,
@@ -72,6 +78,10 @@ class StepFilter {
                       std::span<const MovingCloth> moving) const;
   /// @param spread  how far the bodies' motion reaches, in rest spacings
   void carry_safe_positions(std::span<const MovingCloth> moving, double spread, ThreadTeam& team);
+  /// Safe positions that go along with cloths that move as wholes. @pre no body moves
+  /// @return whether any does
+  bool take_safe_positions_along(std::span<const MovingCloth> moving, ThreadTeam& team);
+  void return_safe_positions(std::span<const MovingCloth> moving);
   /// Puts stopped points, and those within `around` samples of them, at their safe positions; or
   /// all points.
   void fall_back_to_safe_positions(std::span<const MovingCloth> moving, int around, bool all);
@@ -90,11 +100,14 @@ class StepFilter {
   std::vector<char> fates_;        // [points] of one run: free, moved, stopped, fell back
   std::vector<char> new_points_;   // [points] of a round, see PlaneSearch
   bool carried_ = false;           // safe positions go along with bodies in this run
+  bool along_ = false;             // safe positions go along with cloth
+  bool may_go_along_ = false;      // they have not been tried to in this run
   bool all_anew_ = false;          // the next round finds all its planes anew
   double spread_ = 0;              // of the bodies' motion, in rest spacings
   CellPlanes cell_planes_;
   SeparatingPlaneFilter plane_filter_;
   SafePositions safe_positions_;
+  CommonMotion common_motion_;
 };
 
 }  // namespace weft

@@ -1,0 +1,53 @@
+#include "weft/collide/filter/common_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/collide/test_bodies.h"
+
+namespace weft {
+namespace {
+
+using test::TestCloth;
+
+constexpr int n = 9;
+constexpr double far_apart = 8;
+
+/// A flat sheet of 0.8 m that moves.
+TestCloth sheet_at(Vec3d corner, Vec3d way) {
+  TestCloth cloth(n);
+  cloth.place([&](int r, int c) { return corner + Vec3d{0.1 * c, 0, 0.1 * r}; });
+  for (int s = 0; s < n * n; ++s)
+    cloth.position.set(s, vec_cast<float>(vec_cast<double>(cloth.start.at(s)) + way));
+  return cloth;
+}
+
+CommonMotion motion_of(TestCloth& a, TestCloth& b) {
+  const std::array moving{a.moving(), b.moving()};
+  CommonMotion motion;
+  motion.find(moving, far_apart);
+  return motion;
+}
+
+TEST(CommonMotion, IsThatOfEachClothFarApart) {
+  TestCloth a = sheet_at({0, 1, 0}, {0, -0.04, 0}), b = sheet_at({2, 1, 0}, {0.01, 0, 0});
+  const CommonMotion motion = motion_of(a, b);
+  EXPECT_TRUE(motion.any());
+  EXPECT_NEAR(motion.of(0).y, -0.04, 1e-7);
+  EXPECT_NEAR(motion.of(1).x, 0.01, 1e-7);
+  EXPECT_NEAR(motion.of(1).y, 0, 1e-7);
+}
+
+TEST(CommonMotion, IsTheMeanOfClothsBesideEachOther) {
+  TestCloth a = sheet_at({0, 1, 0}, {0, -0.04, 0}), b = sheet_at({0, 1.1, 0}, {0, -0.044, 0});
+  const CommonMotion motion = motion_of(a, b);
+  EXPECT_NEAR(motion.of(0).y, -0.042, 1e-7);
+  EXPECT_EQ(motion.of(0), motion.of(1));
+}
+
+TEST(CommonMotion, IsNoneWhereSamplesDoNotMoveAlike) {
+  TestCloth a = sheet_at({0, 1, 0}, {0, -0.04, 0}), b = sheet_at({0, 1.1, 0}, {});
+  EXPECT_FALSE(motion_of(a, b).any());
+}
+
+}  // namespace
+}  // namespace weft
