@@ -6,6 +6,7 @@
 
 #include "weft/convert/fit_samples.h"
 #include "weft/convert/sample.h"
+#include "weft/convert/unfold_samples.h"
 #include "weft/cut/seam.h"
 #include "weft/error.h"
 #include "weft/param/augment.h"
@@ -168,6 +169,7 @@ void ChartConversion::map(ChartSize size, int unit) {
 }
 
 void ChartConversion::sample() {
+  mapped_->map.sample_places = unfolded_places(*mapped_);
   image_ = sample_image(*mapped_);
   if (options_.fit_samples) image_ = fit_samples(*mapped_, image_, {.progress = options_.progress});
 }

@@ -60,7 +60,7 @@ class ChartConversion {
   /// @throws TopologyError as sample_image
   void sample();
 
-  [[nodiscard]] const std::shared_ptr<const MappedDisk>& mapped() const { return mapped_; }
+  [[nodiscard]] std::shared_ptr<const MappedDisk> mapped() const { return mapped_; }
   [[nodiscard]] const GeometryImage& image() const { return image_; }
   [[nodiscard]] const CutSummary& cut() const { return cut_summary_; }
   [[nodiscard]] int rounds() const { return shape().rounds; }
@@ -93,7 +93,7 @@ class ChartConversion {
   int min_side_ = 0, min_free_intervals_ = 0;
   double border_length_ = 0;
   CutSummary cut_summary_;
-  std::shared_ptr<const MappedDisk> mapped_;
+  std::shared_ptr<MappedDisk> mapped_;
   GeometryImage image_;
   std::vector<std::string> warnings_;
 };

@@ -16,15 +16,9 @@ using CornerUv = std::array<Vec2d, 3>;
 void rasterise(const DiskMesh& disk, const SquareMap& map, ChartSize size,
                const std::function<void(int row, int col, int triangle)>& visit);
 
-/// The position of sample k of `size` along a side of the map's chart, in the map's units.
-inline double sample_place(int k, int size, int map_size) {
-  return static_cast<double>(k) * (map_size - 1) / (size - 1);
-}
-
-/// The position of a sample of such a grid.
-inline Vec2d sample_place(int row, int col, ChartSize size, const SquareMap& map) {
-  return {sample_place(col, size.cols, map.size.cols), sample_place(row, size.rows, map.size.rows)};
-}
+/// The position of a sample of a grid over the map's chart, in the map's units: of finer grids
+/// between the places of the chart's own samples.
+Vec2d sample_place(int row, int col, ChartSize size, const SquareMap& map);
 
 /// Barycentric coordinates of a point in or next to a triangle: >= 0, summing to 1.
 std::array<double, 3> corner_weights(const CornerUv& corners, Vec2d point);

@@ -17,29 +17,6 @@
 namespace weft {
 namespace {
 
-/// Unit normals at the vertices of a disk, weighted by the angles of the triangles there and summed
-/// over all disk vertices of one surface point, so that mates get the same bits. A vertex whose
-/// triangles have no area gets the normal (0, 1, 0). [D]
-std::vector<Vec3d> disk_vertex_normals(const DiskMesh& disk) {
-  int count = 0;
-  for (const int s : disk.surface_vertex) count = std::max(count, s + 1);
-  std::vector<Vec3d> sums(static_cast<std::size_t>(count));
-  for (const Triangle& t : disk.triangles) {
-    const std::array<Vec3d, 3> p{disk.positions[t[0]], disk.positions[t[1]], disk.positions[t[2]]};
-    const Vec3d normal = normalized(cross(p[1] - p[0], p[2] - p[0]));
-    for (int k = 0; k < 3; ++k) {
-      const Vec3d to_next = normalized(p[(k + 1) % 3] - p[k]);
-      const Vec3d to_last = normalized(p[(k + 2) % 3] - p[k]);
-      sums[disk.surface_vertex[t[k]]] += arc_cosine(dot(to_next, to_last)) * normal;
-    }
-  }
-  for (Vec3d& sum : sums) sum = squared_length(sum) > 0 ? normalized(sum) : Vec3d{0, 1, 0};
-  std::vector<Vec3d> normals;
-  normals.reserve(disk.surface_vertex.size());
-  for (const int s : disk.surface_vertex) normals.push_back(sums[s]);
-  return normals;
-}
-
 BorderMates mates_of(const MappedDisk& mapped) {
   std::vector<MateInterval> intervals;
   const int around = mapped.layout.size.around();
@@ -100,6 +77,26 @@ void join_mates(GeometryImage& image) {
       image.cube.set(sample, image.cube.at(image.mates.mates(k)[0]));
 }
 
+std::vector<Vec3d> disk_vertex_normals(const DiskMesh& disk) {
+  int count = 0;
+  for (const int s : disk.surface_vertex) count = std::max(count, s + 1);
+  std::vector<Vec3d> sums(static_cast<std::size_t>(count));
+  for (const Triangle& t : disk.triangles) {
+    const std::array<Vec3d, 3> p{disk.positions[t[0]], disk.positions[t[1]], disk.positions[t[2]]};
+    const Vec3d normal = normalized(cross(p[1] - p[0], p[2] - p[0]));
+    for (int k = 0; k < 3; ++k) {
+      const Vec3d to_next = normalized(p[(k + 1) % 3] - p[k]);
+      const Vec3d to_last = normalized(p[(k + 2) % 3] - p[k]);
+      sums[disk.surface_vertex[t[k]]] += arc_cosine(dot(to_next, to_last)) * normal;
+    }
+  }
+  for (Vec3d& sum : sums) sum = squared_length(sum) > 0 ? normalized(sum) : Vec3d{0, 1, 0};
+  std::vector<Vec3d> normals;
+  normals.reserve(disk.surface_vertex.size());
+  for (const int s : disk.surface_vertex) normals.push_back(sums[s]);
+  return normals;
+}
+
 GeometryImage sample_image(const MappedDisk& mapped) {
   const DiskMesh& disk = mapped.cut.disk;
   const ChartSize size = mapped.map.size;
@@ -117,8 +114,7 @@ GeometryImage sample_image(const MappedDisk& mapped) {
   Grid<int> times(size.rows, size.cols);
   rasterise(disk, mapped.map, size, [&](int row, int col, int index) {
     const Triangle& t = disk.triangles[index];
-    const std::array<double, 3> w =
-        weights_at(mapped, t, {static_cast<double>(col), static_cast<double>(row)});
+    const std::array<double, 3> w = weights_at(mapped, t, sample_place(row, col, size, mapped.map));
     const Vec3d p = weighted(w, disk.positions[t[0]], disk.positions[t[1]], disk.positions[t[2]]);
     image.cube.set(row, col, to_cube(image.world, p));
     ++times(row, col);

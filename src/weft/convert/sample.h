@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "weft/geometry_image.h"
 #include "weft/param/square_map.h"
@@ -14,7 +15,12 @@ Vec3f to_cube(const WorldMap& world, Vec3d position);
 /// Gives samples that are one surface point the bits of their representative.
 void join_mates(GeometryImage& image);
 
-/// Stage 9: samples a mapped surface at the whole points of its chart, which is the whole image
+/// Unit normals at the vertices of a disk, weighted by the angles of the triangles there and summed
+/// over all disk vertices of one surface point, so that mates get the same bits. A vertex whose
+/// triangles have no area gets the normal (0, 1, 0). [D]
+std::vector<Vec3d> disk_vertex_normals(const DiskMesh& disk);
+
+/// Stage 9: samples a mapped surface at the samples' places in its chart, which is the whole image
 /// where it is square; else the image has its longer side, and the chart begins at sample 0.
 /// Interior samples come from the triangle that covers them, by exact orientation and a top-left
 /// rule; border samples are computed once a path and written to both mates.

@@ -3,62 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/core/quasi_newton.h"
 #include "weft/garment/grid_energy.h"
-#include "weft/garment/quasi_newton.h"
 
 namespace weft {
 namespace {
 
-constexpr int steps_a_round = 80, max_rounds = 40, max_halvings = 30;
+constexpr int steps_a_round = 80, max_rounds = 40;
 /// A round that lowers the energy by less than this part of it, with nothing folded, is the last.
 constexpr double settled = 1e-3;
 /// Coarse grids have at least so many samples a side, and the coarsest no more than this.
 constexpr int min_coarse_side = 16, max_coarse_side = 64;
 
-/// The part of a direction that moves no point by more than a tenth of a typical side.
-double first_length(const PlaneGrid& grid, const Vectors& direction) {
-  const Vec2d side = grid.at(0, 1) - grid.at(0, 0);
-  double most = 0;
-  for (const Vec2d& v : direction) most = std::max(most, length(v));
-  return 0.1 * length(side) / most;
-}
-
 /// Lowers the energy. @return it
-double descend(const GridEnergy& measure, PlaneGrid& grid, Progress* progress) {
-  Vectors gradient(grid.points.size()), next_gradient(grid.points.size());
-  double energy = measure.measure(grid, gradient);
-  QuasiNewton method;
-  for (int step = 0; step < steps_a_round; ++step) {
+double descend(const GridEnergy& energy, PlaneGrid& grid, Progress* progress) {
+  constexpr double first_step = 0.1, still = 1e-7;
+  PlaneGrid trial = grid;
+  const auto measure = [&](const Vectors& points, Vectors& gradient) {
     update(progress, "", 0);
-    const Vectors direction = method.direction(gradient);
-    const double slope = dot_of(direction, gradient);
-    if (!(slope > 0)) break;
-    double length = method.knows_nothing() ? first_length(grid, direction) : 1;
-    PlaneGrid trial = grid;
-    double lower = energy;
-    int halvings = 0;
-    for (; halvings < max_halvings; ++halvings, length *= 0.5) {
-      trial.points = grid.points;
-      add_scaled(trial.points, -length, direction);
-      lower = measure.measure(trial, next_gradient);
-      if (lower <= energy - 1e-4 * length * slope) break;
-    }
-    if (halvings == max_halvings) {
-      if (method.knows_nothing()) break;
-      method.forget();
-      continue;
-    }
-    Vectors moved = trial.points, turned = next_gradient;
-    add_scaled(moved, -1, grid.points);
-    add_scaled(turned, -1, gradient);
-    method.learn(std::move(moved), std::move(turned));
-    const bool still = energy - lower < 1e-7 * energy;
-    grid = std::move(trial);
-    gradient = next_gradient;
-    energy = lower;
-    if (still) break;
-  }
-  return energy;
+    trial.points = points;
+    return energy.measure(trial, gradient);
+  };
+  return descend(measure, grid.points,
+                 {steps_a_round, first_step * length(grid.at(0, 1) - grid.at(0, 0)), still});
 }
 
 void unfold(PlaneGrid& grid, int rounds, Progress* progress) {

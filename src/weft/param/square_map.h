@@ -16,6 +16,9 @@ namespace weft {
 struct SquareMap {
   ChartSize size;
   std::vector<Vec2d> uv;  ///< [D]
+  /// [rows * cols] where the chart's samples lie, those of its border at their whole numbers;
+  /// empty: all do.
+  std::vector<Vec2d> sample_places{};
 };
 
 MapQuality measure_map(const DiskMesh& disk, const SquareMap& map);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "weft/vec.h"
@@ -30,5 +31,17 @@ class QuasiNewton {
   };
   std::deque<Pair> pairs_;
 };
+
+struct DescentOptions {
+  int max_steps = 60;
+  double first_step = 0.1;  ///< displacement of the point that the first step moves most
+  double still = 0;         ///< ends with a step that lowers the value by less than this part of it
+};
+/// Lowers a smooth function of points in the plane by that method, with steps that are halved until
+/// they lower it enough.
+/// @param measure  returns the value at its first argument, and puts the gradient into its second
+/// @return the value at the end
+double descend(const std::function<double(const Vectors&, Vectors&)>& measure, Vectors& at,
+               const DescentOptions& options);
 
 }  // namespace weft

@@ -1,0 +1,136 @@
+#include "weft/convert/patch_unfolding.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+/// A minimisation ends where a step lowers the energy by less than this part of it.
+constexpr double still = 1e-6;
+/// Minimisations, each with a regularisation by what the last one left: at most, and at least.
+constexpr int max_rounds = 12, min_rounds = 4;
+/// The softness of the first round, and the least of all.
+constexpr double first_softness = 0.1, least_softness = 1e-6;
+/// Part of a negative area that softness adds to its least.
+constexpr double softness_of_area = 0.2;
+constexpr int smoothing_sweeps = 100;
+/// Weight of a triangle's shape in the energy; that of its area is the rest.
+constexpr double weight_of_shape = 0.5;
+
+double softness_for(double least_area) {
+  const double of_area = softness_of_area * std::min(0.0, least_area);
+  return std::sqrt(least_softness * least_softness + of_area * of_area);
+}
+
+}  // namespace
+
+PatchUnfolding::Axes PatchUnfolding::axes_of(Vec3d normal) {
+  const Vec3d aside = std::abs(normal.x) < 0.7 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d first = normalized(cross(normal, aside));
+  return {first, cross(normal, first)};
+}
+
+PatchUnfolding::PatchUnfolding(std::span<const Point> points, std::span<const Triangle> triangles)
+    : points_(points.begin(), points.end()) {
+  for (const Point& point : points) axes_.push_back(axes_of(point.normal));
+  double twice_area = 0;
+  for (const Triangle& t : triangles) {
+    const Point &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+    triangles_.push_back({t, axes_of(normalized(a.normal + b.normal + c.normal))});
+    twice_area += length(cross(b.position - a.position, c.position - a.position));
+  }
+  if (twice_area > 0) spacing_ = std::sqrt(twice_area / static_cast<double>(triangles.size()));
+}
+
+Vec3d PatchUnfolding::displacement(const Vectors& at, int point) const {
+  const Axes& axes = axes_[point];
+  return spacing_ * (at[point].x * axes.first + at[point].y * axes.second);
+}
+
+Vec3d PatchUnfolding::place(const Vectors& at, int point) const {
+  return points_[point].position + displacement(at, point);
+}
+
+PatchUnfolding::Jacobian PatchUnfolding::jacobian(const Flat& triangle, const Vectors& at) const {
+  const Vec3d first = place(at, triangle.corners[0]);
+  const auto edge = [&](int corner) {
+    const Vec3d to = (1 / spacing_) * (place(at, triangle.corners[corner]) - first);
+    return Vec2d{dot(to, triangle.axes.first), dot(to, triangle.axes.second)};
+  };
+  return {edge(1), edge(2)};
+}
+
+double PatchUnfolding::least_area(const Vectors& at) const {
+  double least = HUGE_VAL;
+  for (const Flat& triangle : triangles_) least = std::min(least, jacobian(triangle, at).area());
+  return least;
+}
+
+/// (w |J|^2 + (1 - w) (d^2 + 1)) / (2 chi) with the determinant d of J and
+/// chi = (d + sqrt(s^2 + d^2)) / 2: about d where that is positive, else small and positive.
+PatchUnfolding::Slopes PatchUnfolding::energy_of(const Jacobian& j, double softness) {
+  const double area = j.area(), root = std::sqrt(softness * softness + area * area);
+  const double chi = 0.5 * (area + root), slope_of_chi = 0.5 + 0.5 * area / root;
+  const double shape = dot(j.to_second, j.to_second) + dot(j.to_third, j.to_third);
+  const double value =
+      0.5 * (weight_of_shape * shape + (1 - weight_of_shape) * (area * area + 1)) / chi;
+  const double by_area = ((1 - weight_of_shape) * area - value * slope_of_chi) / chi,
+               by_shape = weight_of_shape / chi;
+  return {value, by_shape * j.to_second + by_area * Vec2d{j.to_third.y, -j.to_third.x},
+          by_shape * j.to_third + by_area * Vec2d{-j.to_second.y, j.to_second.x}};
+}
+
+double PatchUnfolding::energy(const Vectors& at, double softness, Vectors& gradient) const {
+  double sum = 0;
+  std::fill(gradient.begin(), gradient.end(), Vec2d{});
+  for (const Flat& triangle : triangles_) {
+    const Slopes slopes = energy_of(jacobian(triangle, at), softness);
+    sum += slopes.value;
+    const std::array<Vec2d, 3> corners{Vec2d{} - slopes.second - slopes.third, slopes.second,
+                                       slopes.third};
+    for (int k = 0; k < 3; ++k) {
+      const int point = triangle.corners[k];
+      if (!points_[point].moves) continue;
+      const Vec3d pull = corners[k].x * triangle.axes.first + corners[k].y * triangle.axes.second;
+      gradient[point] =
+          gradient[point] + Vec2d{dot(pull, axes_[point].first), dot(pull, axes_[point].second)};
+    }
+  }
+  return sum;
+}
+
+void PatchUnfolding::smooth(Vectors& at) const {
+  for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
+    std::vector<Vec3d> sums(points_.size());
+    std::vector<double> counts(points_.size());
+    for (const Flat& triangle : triangles_)
+      for (int k = 0; k < 3; ++k)
+        for (const int other : {(k + 1) % 3, (k + 2) % 3}) {
+          sums[triangle.corners[k]] += place(at, triangle.corners[other]);
+          counts[triangle.corners[k]] += 1;
+        }
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      if (!points_[p].moves) continue;
+      const Vec3d way = (1 / spacing_) * ((1 / counts[p]) * sums[p] - points_[p].position);
+      at[p] = {dot(way, axes_[p].first), dot(way, axes_[p].second)};
+    }
+  }
+}
+
+std::vector<Vec3d> PatchUnfolding::find(const Attempt& attempt) const {
+  Vectors at(points_.size());
+  if (attempt.from_smooth) smooth(at);
+  double softness = std::max(first_softness, softness_for(least_area(at)));
+  for (int round = 0; round < max_rounds && (round < min_rounds || least_area(at) <= 0); ++round) {
+    descend([&](const Vectors& to, Vectors& slopes) { return energy(to, softness, slopes); }, at,
+            {.max_steps = attempt.max_steps, .still = still});
+    softness = softness_for(least_area(at));
+  }
+  std::vector<Vec3d> displacements;
+  for (int p = 0; p < static_cast<int>(points_.size()); ++p)
+    displacements.push_back(displacement(at, p));
+  return displacements;
+}
+
+}  // namespace weft

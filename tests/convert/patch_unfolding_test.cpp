@@ -1,0 +1,74 @@
+#include "weft/convert/patch_unfolding.h"
+
+#include <gtest/gtest.h>
+
+namespace weft {
+namespace {
+
+constexpr int side = 7;
+
+/// A flat grid whose triangles all turn the same way, but for what a test moves.
+struct Patch {
+  std::vector<PatchUnfolding::Point> points;
+  std::vector<Triangle> triangles;
+
+  Patch() {
+    for (int r = 0; r < side; ++r)
+      for (int c = 0; c < side; ++c)
+        points.push_back(
+            {{0.1 * c, 0, -0.1 * r}, {0, 1, 0}, r > 0 && c > 0 && r < side - 1 && c < side - 1});
+    for (int r = 0; r + 1 < side; ++r)
+      for (int c = 0; c + 1 < side; ++c) {
+        const int s = r * side + c;
+        triangles.push_back({s, s + 1, s + side});
+        triangles.push_back({s + side + 1, s + side, s + 1});
+      }
+  }
+  void unfold() {
+    const std::vector<Vec3d> displacements = PatchUnfolding(points, triangles).find({});
+    for (std::size_t k = 0; k < points.size(); ++k) points[k].position += displacements[k];
+  }
+  /// Of the triangles, along the normal, in squares of the spacing.
+  [[nodiscard]] double least_area() const {
+    double least = HUGE_VAL;
+    for (const auto& [a, b, c] : triangles)
+      least = std::min(least, cross(points[b].position - points[a].position,
+                                    points[c].position - points[a].position)
+                                  .y);
+    return least / 0.01;
+  }
+};
+
+TEST(PatchUnfolding, LeavesARegularGrid) {
+  Patch patch;
+  const std::vector<Vec3d> displacements = PatchUnfolding(patch.points, patch.triangles).find({});
+  for (const Vec3d d : displacements) EXPECT_LT(length(d), 1e-7);
+}
+
+TEST(PatchUnfolding, TurnsTrianglesRound) {
+  Patch patch;
+  const std::vector<PatchUnfolding::Point> before = patch.points;
+  patch.points[3 * side + 3].position = {0.56, 0, -0.14};
+  patch.points[2 * side + 4].position = {0.15, 0, -0.5};
+  ASSERT_LT(patch.least_area(), -0.5);
+  patch.unfold();
+  EXPECT_GT(patch.least_area(), 0.5);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_EQ(patch.points[k].position.y, 0);
+    if (!before[k].moves) {
+      EXPECT_EQ(patch.points[k].position, before[k].position);
+    }
+  }
+}
+
+TEST(PatchUnfolding, DoesWhatItCanBetweenPointsThatStay) {
+  Patch patch;
+  for (PatchUnfolding::Point& point : patch.points) point.moves = false;
+  patch.points[3 * side + 3].position = {0.56, 0, -0.14};
+  const double area = patch.least_area();
+  patch.unfold();
+  EXPECT_EQ(patch.least_area(), area);
+}
+
+}  // namespace
+}  // namespace weft
