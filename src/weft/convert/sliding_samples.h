@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,11 @@ class SlidingSurface {
   /// back of the surface, or its border.
   [[nodiscard]] std::optional<SurfaceSample> moved(const SurfaceSample& sample,
                                                    Vec3d displacement) const;
+
+  /// Distance of a point from the surface. [m]
+  [[nodiscard]] double distance(Vec3d point) const {
+    return std::sqrt(query_.closest(point).squared_distance);
+  }
 
  private:
   [[nodiscard]] SurfaceSample at(const Triangle& t, const std::array<double, 3>& weights) const;

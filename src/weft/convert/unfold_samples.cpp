@@ -26,6 +26,9 @@ constexpr std::size_t max_samples = 1024;
 /// No sample's old place may be farther from the new triangles than this part of the spacing:
 /// fingers and ears are not to lose their tips.
 constexpr double max_lost = 0.5;
+/// Nor may the middle of a new triangle be farther from the surface than this, or than one was
+/// before: no triangle is to bridge an armpit.
+constexpr double max_off = 0.3;
 
 /// Of each spot the best is kept.
 constexpr std::array attempts{PatchUnfolding::Attempt{false, 60},
@@ -48,6 +51,7 @@ struct Spot {
   struct State {
     std::vector<SurfaceSample> samples{};
     int reversed = 0;   // triangles
+    double off = 0;     // see off_surface
     int crossings = 0;  // pairs of triangles that cross of which one touches it
     [[nodiscard]] bool is_unfolded() const { return reversed == 0 && crossings == 0; }
     [[nodiscard]] bool is_better_than(const State& other) const {
@@ -109,10 +113,12 @@ class Unfolding {
   void try_again(const PatchUnfolding::Attempt& attempt, const SlidingSurface& surface);
   void slide(const Spot& spot, const PatchUnfolding::Attempt& attempt,
              const SlidingSurface& surface);
-  void keep_if_less_reversed(Spot& spot);
+  void keep_if_less_reversed(Spot& spot, const SlidingSurface& surface);
   [[nodiscard]] std::vector<int> triangles_near_spots() const;
   void count_crossings(Spot::State Spot::*state);
+  [[nodiscard]] double spacing_of(const Spot& spot) const;
   [[nodiscard]] double lost_by(const Spot& spot) const;
+  [[nodiscard]] double off_surface(const Spot& spot, const SlidingSurface& surface) const;
 
   ChartSize size_;
   GeometryImage image_;
@@ -190,7 +196,10 @@ bool is_promising(const Spot& spot) {
 void Unfolding::run() {
   const SlidingSurface surface(mapped_);
   count_crossings(&Spot::before);
-  for (Spot& spot : spots_) spot.best = spot.before;
+  for (Spot& spot : spots_) {
+    spot.before.off = off_surface(spot, surface);
+    spot.best = spot.before;
+  }
   for (const PatchUnfolding::Attempt& attempt : attempts) try_again(attempt, surface);
 }
 
@@ -207,7 +216,7 @@ void Unfolding::try_again(const PatchUnfolding::Attempt& attempt, const SlidingS
       if (spot.goes_on) slide(spot, next, surface);
     next.from_smooth = false;
     choose_triangles();
-    for (Spot& spot : spots_) keep_if_less_reversed(spot);
+    for (Spot& spot : spots_) keep_if_less_reversed(spot, surface);
   }
   for (const Spot& spot : spots_) put(spot, spot.tried);
   choose_triangles();
@@ -241,11 +250,14 @@ void Unfolding::slide(const Spot& spot, const PatchUnfolding::Attempt& attempt,
           surface.moved(samples_[own[k]], displacements[k]).value_or(samples_[own[k]]);
 }
 
-void Unfolding::keep_if_less_reversed(Spot& spot) {
+void Unfolding::keep_if_less_reversed(Spot& spot, const SlidingSurface& surface) {
   if (!spot.goes_on) return;
   const int reversed = count_reversed(spot);
   const bool better = reversed < spot.tried.reversed;
-  if (better && lost_by(spot) <= max_lost) spot.tried = {samples_of(spot), reversed};
+  if (better && lost_by(spot) <= max_lost) {
+    const double off = off_surface(spot, surface);
+    if (off <= std::max(max_off, spot.before.off)) spot.tried = {samples_of(spot), reversed, off};
+  }
   spot.goes_on = better && reversed > 0;
 }
 
@@ -287,20 +299,35 @@ void Unfolding::count_crossings(Spot::State Spot::*state) {
   });
 }
 
+double Unfolding::spacing_of(const Spot& spot) const {
+  double area = 0;
+  for (const Triangle& t : spot.triangles) area += length(area_of(t));
+  return std::sqrt(2 * area / static_cast<double>(spot.triangles.size()));
+}
+
 /// The largest distance of an old sample from the new triangles, in spacings.
 double Unfolding::lost_by(const Spot& spot) const {
   TriangleMesh mesh;
-  double area = 0, farthest = 0;
   for (const Triangle& t : spot.triangles) {
     const int first = static_cast<int>(mesh.positions.size());
     for (const Vec3d corner : corners(t)) mesh.positions.push_back(corner);
     mesh.triangles.push_back({first, first + 1, first + 2});
-    area += length(area_of(t));
   }
   const ClosestPointQuery query(mesh);
+  double farthest = 0;
   for (const SurfaceSample& old : spot.before.samples)
     farthest = std::max(farthest, query.closest(old.position).squared_distance);
-  return std::sqrt(farthest / (2 * area / static_cast<double>(spot.triangles.size())));
+  return std::sqrt(farthest) / spacing_of(spot);
+}
+
+/// The largest distance of a triangle's middle from the surface, in spacings.
+double Unfolding::off_surface(const Spot& spot, const SlidingSurface& surface) const {
+  double farthest = 0;
+  for (const Triangle& t : spot.triangles) {
+    const auto [a, b, c] = corners(t);
+    farthest = std::max(farthest, surface.distance((1.0 / 3) * (a + b + c)));
+  }
+  return farthest / spacing_of(spot);
 }
 
 std::vector<Vec2d> Unfolding::places() const {
