@@ -128,6 +128,7 @@ std::vector<Vec3d> PatchUnfolding::find(const Attempt& attempt) const {
     softness = softness_for(least_area(at));
   }
   std::vector<Vec3d> displacements;
+  displacements.reserve(points_.size());
   for (int p = 0; p < static_cast<int>(points_.size()); ++p)
     displacements.push_back(displacement(at, p));
   return displacements;

@@ -137,10 +137,12 @@ Unfolding::Unfolding(const MappedDisk& mapped)
       mapped_(mapped),
       triangles_(grid_triangles(image_)) {
   const NormalMap normals = sample_normals(mapped, size_);
-  for (int s = 0; s < n_ * n_; ++s)
+  for (int s = 0; s < n_ * n_; ++s) {
+    const int row = s / n_, col = s % n_;
     samples_.push_back({image_.world.to_world(image_.cube.at(s)),
                         vec_cast<double>(normals.normal.at(s)),
-                        {static_cast<double>(s % n_), static_cast<double>(s / n_)}});
+                        {static_cast<double>(col), static_cast<double>(row)}});
+  }
   find_spots();
 }
 
