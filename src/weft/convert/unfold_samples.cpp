@@ -190,7 +190,8 @@ void Unfolding::choose_triangles() {
     if (const int spot = spot_of(t); spot >= 0) spots_[spot].triangles.push_back(t);
 }
 
-/// Whether the last attempt at a spot turned most of its triangles round, if there was one.
+/// Whether the last attempt at a spot, if there was one, left no more than three quarters of its
+/// reversed triangles.
 bool is_promising(const Spot& spot) {
   return spot.tried.samples.empty() || 4 * spot.tried.reversed <= 3 * spot.before.reversed;
 }
