@@ -11,6 +11,7 @@ constexpr int side = 7;
 struct Patch {
   std::vector<PatchUnfolding::Point> points;
   std::vector<Triangle> triangles;
+  PlaneAt foot{{}, {0, 1, 0}};
 
   Patch() {
     for (int r = 0; r < side; ++r)
@@ -24,8 +25,12 @@ struct Patch {
         triangles.push_back({s + side + 1, s + side, s + 1});
       }
   }
+  [[nodiscard]] std::vector<Vec3d> displacements() const {
+    const std::vector<PlaneAt> feet(triangles.size(), foot);
+    return PatchUnfolding(points, triangles, feet).find({});
+  }
   void unfold() {
-    const std::vector<Vec3d> displacements = PatchUnfolding(points, triangles).find({});
+    const std::vector<Vec3d> displacements = this->displacements();
     for (std::size_t k = 0; k < points.size(); ++k) points[k].position += displacements[k];
   }
   /// Of the triangles, along the normal, in squares of the spacing.
@@ -41,8 +46,7 @@ struct Patch {
 
 TEST(PatchUnfolding, LeavesARegularGrid) {
   Patch patch;
-  const std::vector<Vec3d> displacements = PatchUnfolding(patch.points, patch.triangles).find({});
-  for (const Vec3d d : displacements) EXPECT_LT(length(d), 1e-7);
+  for (const Vec3d d : patch.displacements()) EXPECT_LT(length(d), 1e-7);
 }
 
 TEST(PatchUnfolding, TurnsTrianglesRound) {
@@ -59,6 +63,26 @@ TEST(PatchUnfolding, TurnsTrianglesRound) {
       EXPECT_EQ(patch.points[k].position, before[k].position);
     }
   }
+}
+
+/// Points slide along planes that lean, to where the middles of triangles lie on the surface.
+TEST(PatchUnfolding, MiddlesComeToTheSurface) {
+  Patch patch;
+  for (PatchUnfolding::Point& point : patch.points) {
+    point.normal = normalized(Vec3d{1, 1, 0});
+    if (point.moves) point.position.y += 0.02;
+  }
+  const auto farthest = [&] {
+    double most = 0;
+    for (const auto& [a, b, c] : patch.triangles)
+      most = std::max(most, std::abs(patch.points[a].position.y + patch.points[b].position.y +
+                                     patch.points[c].position.y) /
+                                3);
+    return most;
+  };
+  ASSERT_GT(farthest(), 0.0199);
+  patch.unfold();
+  EXPECT_LT(farthest(), 0.002);
 }
 
 TEST(PatchUnfolding, DoesWhatItCanBetweenPointsThatStay) {

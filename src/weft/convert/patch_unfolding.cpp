@@ -17,6 +17,9 @@ constexpr double softness_of_area = 0.2;
 constexpr int smoothing_sweeps = 100;
 /// Weight of a triangle's shape in the energy; that of its area is the rest.
 constexpr double weight_of_shape = 0.5;
+/// Of the square of a middle's distance from the surface, in spacings. With less, triangles bridge
+/// what is concave; with more, they hardly move.
+constexpr double weight_of_distance = 256;
 
 double softness_for(double least_area) {
   const double of_area = softness_of_area * std::min(0.0, least_area);
@@ -31,13 +34,15 @@ PatchUnfolding::Axes PatchUnfolding::axes_of(Vec3d normal) {
   return {first, cross(normal, first)};
 }
 
-PatchUnfolding::PatchUnfolding(std::span<const Point> points, std::span<const Triangle> triangles)
+PatchUnfolding::PatchUnfolding(std::span<const Point> points, std::span<const Triangle> triangles,
+                               std::span<const PlaneAt> feet)
     : points_(points.begin(), points.end()) {
   for (const Point& point : points) axes_.push_back(axes_of(point.normal));
   double twice_area = 0;
-  for (const Triangle& t : triangles) {
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    const Triangle& t = triangles[k];
     const Point &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-    triangles_.push_back({t, axes_of(normalized(a.normal + b.normal + c.normal))});
+    triangles_.push_back({t, axes_of(normalized(a.normal + b.normal + c.normal)), feet[k]});
     twice_area += length(cross(b.position - a.position, c.position - a.position));
   }
   if (twice_area > 0) spacing_ = std::sqrt(twice_area / static_cast<double>(triangles.size()));
@@ -89,15 +94,27 @@ double PatchUnfolding::energy(const Vectors& at, double softness, Vectors& gradi
     sum += slopes.value;
     const std::array<Vec2d, 3> corners{Vec2d{} - slopes.second - slopes.third, slopes.second,
                                        slopes.third};
-    for (int k = 0; k < 3; ++k) {
-      const int point = triangle.corners[k];
-      if (!points_[point].moves) continue;
-      const Vec3d pull = corners[k].x * triangle.axes.first + corners[k].y * triangle.axes.second;
-      gradient[point] =
-          gradient[point] + Vec2d{dot(pull, axes_[point].first), dot(pull, axes_[point].second)};
-    }
+    const double off = distance(triangle, at);
+    sum += weight_of_distance * off * off;
+    const Vec3d towards = (2.0 / 3 * weight_of_distance * off) * triangle.foot.normal;
+    for (int k = 0; k < 3; ++k)
+      pull(triangle.corners[k],
+           corners[k].x * triangle.axes.first + corners[k].y * triangle.axes.second + towards,
+           gradient);
   }
   return sum;
+}
+
+void PatchUnfolding::pull(int point, Vec3d slope, Vectors& gradient) const {
+  if (!points_[point].moves) return;
+  const Axes& axes = axes_[point];
+  gradient[point] = gradient[point] + Vec2d{dot(slope, axes.first), dot(slope, axes.second)};
+}
+
+double PatchUnfolding::distance(const Flat& triangle, const Vectors& at) const {
+  const auto [a, b, c] = triangle.corners;
+  const Vec3d middle = (1.0 / 3) * (place(at, a) + place(at, b) + place(at, c));
+  return (1 / spacing_) * dot(middle - triangle.foot.position, triangle.foot.normal);
 }
 
 void PatchUnfolding::smooth(Vectors& at) const {

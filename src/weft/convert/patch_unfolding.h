@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "weft/convert/sliding_samples.h"
 #include "weft/core/quasi_newton.h"
 #include "weft/mesh.h"
 
@@ -22,7 +23,9 @@ class PatchUnfolding {
     bool moves = false;
   };
   /// @param triangles  corners are numbers of points; the first is to have the right angle
-  PatchUnfolding(std::span<const Point> points, std::span<const Triangle> triangles);
+  /// @param feet       of the triangles: in these planes their middles are to lie
+  PatchUnfolding(std::span<const Point> points, std::span<const Triangle> triangles,
+                 std::span<const PlaneAt> feet);
 
   struct Attempt {
     /// Whether every point begins amid its neighbours. Triangles may all turn the right way round,
@@ -42,6 +45,7 @@ class PatchUnfolding {
   struct Flat {
     Triangle corners{};
     Axes axes;  // of the plane in which it is judged
+    PlaneAt foot;
   };
   /// A triangle's edges from its first corner, in units of spacing_.
   struct Jacobian {
@@ -63,6 +67,9 @@ class PatchUnfolding {
   void smooth(Vectors& at) const;
   /// @param at  displacements in the tangent planes, in units of spacing_
   double energy(const Vectors& at, double softness, Vectors& gradient) const;
+  /// From the plane at its foot, in units of spacing_.
+  [[nodiscard]] double distance(const Flat& triangle, const Vectors& at) const;
+  void pull(int point, Vec3d slope, Vectors& gradient) const;
 
   std::vector<Point> points_;
   std::vector<Axes> axes_;  // of the points

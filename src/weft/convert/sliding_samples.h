@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <vector>
 
+#include "weft/mesh/crossings.h"
 #include "weft/mesh/distance.h"
 #include "weft/param/square_map.h"
 
@@ -15,6 +15,12 @@ struct SurfaceSample {
   Vec3d position;  ///< [m]
   Vec3d normal;    ///< unit
   Vec2d place;     ///< in the map's units
+};
+
+/// A plane by a point of it.
+struct PlaneAt {
+  Vec3d position;  ///< [m]
+  Vec3d normal;    ///< unit
 };
 
 /// The mapped surface, for samples that slide over it.
@@ -28,12 +34,11 @@ class SlidingSurface {
   [[nodiscard]] std::optional<SurfaceSample> moved(const SurfaceSample& sample,
                                                    Vec3d displacement) const;
 
-  /// Distance of a point from the surface. [m]
-  [[nodiscard]] double distance(Vec3d point) const {
-    return std::sqrt(query_.closest(point).squared_distance);
-  }
+  /// The plane through the closest point of the surface, square to the way there.
+  [[nodiscard]] PlaneAt foot(Vec3d point) const;
 
  private:
+  [[nodiscard]] Corners corners(int triangle) const;
   [[nodiscard]] SurfaceSample at(const Triangle& t, const std::array<double, 3>& weights) const;
 
   const DiskMesh& disk_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "weft/convert/patch_deviation.h"
 #include "weft/convert/patch_unfolding.h"
 #include "weft/convert/rasterise.h"
 #include "weft/convert/sample.h"
@@ -23,12 +24,10 @@ constexpr int reach = 3;
 constexpr int max_moves = 6;
 /// Larger spots are limbs that are sampled too coarsely, which nothing unfolds.
 constexpr std::size_t max_samples = 1024;
-/// No sample's old place may be farther from the new triangles than this part of the spacing:
-/// fingers and ears are not to lose their tips.
-constexpr double max_lost = 0.5;
-/// Nor may the middle of a new triangle be farther from the surface than this, or than one was
-/// before: no triangle is to bridge an armpit.
-constexpr double max_off = 0.3;
+/// Of samples' old places from the new triangles, and of those triangles' middles from the surface,
+/// in spacings, unless it was more before: fingers and ears are to keep their tips, and no triangle
+/// is to bridge an armpit.
+constexpr PatchDeviation max_deviation{0.9, 0.15};
 
 /// Of each spot the best is kept.
 constexpr std::array attempts{PatchUnfolding::Attempt{false, 60},
@@ -50,8 +49,8 @@ struct Spot {
   /// Of its samples, with the triangles that touch it.
   struct State {
     std::vector<SurfaceSample> samples{};
-    int reversed = 0;   // triangles
-    double off = 0;     // see off_surface
+    int reversed = 0;  // triangles
+    PatchDeviation deviation{};
     int crossings = 0;  // pairs of triangles that cross of which one touches it
     [[nodiscard]] bool is_unfolded() const { return reversed == 0 && crossings == 0; }
     [[nodiscard]] bool is_better_than(const State& other) const {
@@ -79,6 +78,10 @@ class Unfolding {
   }
   [[nodiscard]] Corners corners(const Triangle& t) const {
     return {samples_[t[0]].position, samples_[t[1]].position, samples_[t[2]].position};
+  }
+  [[nodiscard]] Vec3d middle_of(const Triangle& t) const {
+    const auto [a, b, c] = corners(t);
+    return (1.0 / 3) * (a + b + c);
   }
   [[nodiscard]] Vec3d area_of(const Triangle& t) const {
     const auto [a, b, c] = corners(t);
@@ -116,9 +119,7 @@ class Unfolding {
   void keep_if_less_reversed(Spot& spot, const SlidingSurface& surface);
   [[nodiscard]] std::vector<int> triangles_near_spots() const;
   void count_crossings(Spot::State Spot::*state);
-  [[nodiscard]] double spacing_of(const Spot& spot) const;
-  [[nodiscard]] double lost_by(const Spot& spot) const;
-  [[nodiscard]] double off_surface(const Spot& spot, const SlidingSurface& surface) const;
+  [[nodiscard]] PatchDeviation deviation_of(const Spot& spot, const SlidingSurface& surface) const;
 
   ChartSize size_;
   GeometryImage image_;
@@ -190,6 +191,11 @@ void Unfolding::choose_triangles() {
     if (const int spot = spot_of(t); spot >= 0) spots_[spot].triangles.push_back(t);
 }
 
+bool is_allowed(const PatchDeviation& now, const PatchDeviation& before) {
+  return now.largest <= std::max(max_deviation.largest, before.largest) &&
+         now.rms <= std::max(max_deviation.rms, before.rms);
+}
+
 /// Whether the last attempt at a spot, if there was one, left no more than three quarters of its
 /// reversed triangles.
 bool is_promising(const Spot& spot) {
@@ -200,7 +206,7 @@ void Unfolding::run() {
   const SlidingSurface surface(mapped_);
   count_crossings(&Spot::before);
   for (Spot& spot : spots_) {
-    spot.before.off = off_surface(spot, surface);
+    spot.before.deviation = deviation_of(spot, surface);
     spot.best = spot.before;
   }
   for (const PatchUnfolding::Attempt& attempt : attempts) try_again(attempt, surface);
@@ -235,7 +241,9 @@ void Unfolding::slide(const Spot& spot, const PatchUnfolding::Attempt& attempt,
   std::vector<int> number(samples_.size(), -1), own;
   std::vector<PatchUnfolding::Point> points;
   std::vector<Triangle> patch;
+  std::vector<PlaneAt> feet;
   for (const Triangle& t : spot.triangles) {
+    feet.push_back(surface.foot(middle_of(t)));
     patch.push_back(from_right_angle(t, n_));
     for (int& s : patch.back()) {
       if (number[s] < 0) {
@@ -246,7 +254,7 @@ void Unfolding::slide(const Spot& spot, const PatchUnfolding::Attempt& attempt,
       s = number[s];
     }
   }
-  const std::vector<Vec3d> displacements = PatchUnfolding(points, patch).find(attempt);
+  const std::vector<Vec3d> displacements = PatchUnfolding(points, patch, feet).find(attempt);
   for (std::size_t k = 0; k < own.size(); ++k)
     if (points[k].moves)
       samples_[own[k]] =
@@ -257,9 +265,10 @@ void Unfolding::keep_if_less_reversed(Spot& spot, const SlidingSurface& surface)
   if (!spot.goes_on) return;
   const int reversed = count_reversed(spot);
   const bool better = reversed < spot.tried.reversed;
-  if (better && lost_by(spot) <= max_lost) {
-    const double off = off_surface(spot, surface);
-    if (off <= std::max(max_off, spot.before.off)) spot.tried = {samples_of(spot), reversed, off};
+  if (better) {
+    const PatchDeviation deviation = deviation_of(spot, surface);
+    if (is_allowed(deviation, spot.before.deviation))
+      spot.tried = {samples_of(spot), reversed, deviation};
   }
   spot.goes_on = better && reversed > 0;
 }
@@ -302,35 +311,10 @@ void Unfolding::count_crossings(Spot::State Spot::*state) {
   });
 }
 
-double Unfolding::spacing_of(const Spot& spot) const {
-  double area = 0;
-  for (const Triangle& t : spot.triangles) area += length(area_of(t));
-  return std::sqrt(2 * area / static_cast<double>(spot.triangles.size()));
-}
-
-/// The largest distance of an old sample from the new triangles, in spacings.
-double Unfolding::lost_by(const Spot& spot) const {
-  TriangleMesh mesh;
-  for (const Triangle& t : spot.triangles) {
-    const int first = static_cast<int>(mesh.positions.size());
-    for (const Vec3d corner : corners(t)) mesh.positions.push_back(corner);
-    mesh.triangles.push_back({first, first + 1, first + 2});
-  }
-  const ClosestPointQuery query(mesh);
-  double farthest = 0;
-  for (const SurfaceSample& old : spot.before.samples)
-    farthest = std::max(farthest, query.closest(old.position).squared_distance);
-  return std::sqrt(farthest) / spacing_of(spot);
-}
-
-/// The largest distance of a triangle's middle from the surface, in spacings.
-double Unfolding::off_surface(const Spot& spot, const SlidingSurface& surface) const {
-  double farthest = 0;
-  for (const Triangle& t : spot.triangles) {
-    const auto [a, b, c] = corners(t);
-    farthest = std::max(farthest, surface.distance((1.0 / 3) * (a + b + c)));
-  }
-  return farthest / spacing_of(spot);
+PatchDeviation Unfolding::deviation_of(const Spot& spot, const SlidingSurface& surface) const {
+  std::vector<Corners> triangles;
+  for (const Triangle& t : spot.triangles) triangles.push_back(corners(t));
+  return PatchDeviation::of(triangles, spot.before.samples, surface);
 }
 
 std::vector<Vec2d> Unfolding::places() const {
