@@ -50,7 +50,7 @@ RunSource::RunSource(const std::string& folder, const SourceMaker& maker)
                               cloths_[i], true, run_.cloths[i].image.colours});
   for (const RecordedBody& body : run_.bodies)
     subject.bodies.push_back({body.name, body.image.mates, body.normals, body.positions_at(0),
-                              body.recorded.has_value(), body.image.colours});
+                              body.recorded.has_value(), body.image.colours, body.positions});
   subject_ = std::make_shared<Subject>(std::move(subject));
 }
 
@@ -70,6 +70,7 @@ bool RunSource::advance() {
 void RunSource::show(const Colouring& colouring, Snapshot& snapshot) const {
   snapshot.cloths = cloths_;
   snapshot.bodies = bodies_;
+  carry_normals(*subject_, snapshot);
   snapshot.colours.resize(cloths_.size());
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     colour_surface(colouring, run_.cloths[i].image.mates, cloths_[i], snapshot.colours[i]);

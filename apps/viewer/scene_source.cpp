@@ -20,7 +20,7 @@ Subject subject_of(const Scene& scene, const Simulation& simulation, const std::
                               true, cloth.image.colours});
   for (const PlacedBody& body : simulation.bodies())
     subject.bodies.push_back({body.name, body.image.mates, body.normals, body.positions, body.moves,
-                              body.image.colours});
+                              body.image.colours, body.placed});
   return subject;
 }
 
@@ -110,6 +110,7 @@ void SceneSource::show(const Colouring& colouring, Snapshot& snapshot) const {
   }
   for (std::size_t i = 0; i < bodies; ++i)
     if (simulation_.bodies()[i].moves) snapshot.bodies[i] = simulation_.bodies()[i].positions;
+  carry_normals(*subject_, snapshot);
   snapshot.frame = simulation_.frame();
   snapshot.report = report_;
   snapshot.centre_of_mass = simulation_.centre_of_mass();

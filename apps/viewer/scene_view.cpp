@@ -34,7 +34,10 @@ DrawnSurface body_surface(const Snapshot& snapshot, std::size_t i) {
   DrawnSurface drawn;
   drawn.positions = &body_now(snapshot, i);
   drawn.mates = &body.mates;
-  drawn.normals = body.normals ? &*body.normals : nullptr;
+  if (body.moves && i < snapshot.body_normals.size() && snapshot.body_normals[i].size() > 0)
+    drawn.normals = &snapshot.body_normals[i];
+  else if (body.normals && !body.moves)
+    drawn.normals = &*body.normals;
   drawn.colour = plaster;
   paint(drawn, body);
   drawn.look = Look::body;

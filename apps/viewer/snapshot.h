@@ -16,10 +16,11 @@ namespace weft::viewer {
 struct SubjectSurface {
   std::string name;
   BorderMates mates;
-  std::optional<NormalMap> normals;  ///< where it does not move
+  std::optional<NormalMap> normals;  ///< where it does not move, or of `placed`
   Planes3 start;                     ///< initial positions [m]
   bool moves = false;
   Planes3 colours{};  ///< of the image, linear RGB; size 0: none
+  Planes3 placed{};   ///< of a body that moves, before it does [m]
 };
 
 /// The constant data of what is shown.
@@ -40,6 +41,7 @@ struct Snapshot {
   std::vector<Planes3> cloths;   ///< of the subject's, now [m]
   std::vector<Planes3> colours;  ///< linear RGB of each cloth's samples; size 0: its own colour
   std::vector<Planes3> bodies;   ///< of those that move, now [m]; the others are empty
+  std::vector<NormalMap> body_normals;  ///< the same of their normals, where they have some
   int frame = 0;
   FrameReport report;  ///< of the last frame that was made
   Vec3d centre_of_mass;
@@ -47,6 +49,9 @@ struct Snapshot {
   bool running = false, held = false;
   double speed = 0;  ///< scene time over real time; 0 while it stands still
 };
+
+/// Turns the normals of bodies that move as these are now.
+void carry_normals(const Subject& subject, Snapshot& snapshot);
 
 /// Status of the simulating thread, as text.
 struct Status {

@@ -146,7 +146,8 @@ class SurfacePainter {
 
  private:
   SurfaceDrawing drawing_;
-  TriangleMesh marks_;  // tubes and balls
+  Vec3d origin_;  // of what is drawn, in the drawing's coordinates: the middle of its mesh
+  TriangleMesh surface_, marks_;  // marks: tubes and balls
   DrawnScene scene_;
   std::array<int, 2> size_;  // without the legend
   Renderer renderer_;
@@ -227,7 +228,10 @@ void add_cut(SurfaceDrawing& drawing, const GeometryImage& image);
 /// @param rest     [n x n] positions before [m], finite
 /// @param normals  [k x k] normals before, any size k >= 2
 /// @param moved    [n x n] positions after [m], finite
+/// @param mates    of the same n, whose maps are joined, and whose charts nothing is interpolated
+///                 between; or null
 /// @throws UsageError when the grids differ in size
-NormalMap carried_normals(const Planes3& rest, const NormalMap& normals, const Planes3& moved);
+NormalMap carried_normals(const Planes3& rest, const NormalMap& normals, const Planes3& moved,
+                          const BorderMates* mates);
 
 }  // namespace weft

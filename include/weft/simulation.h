@@ -79,9 +79,11 @@ struct SimulatedCloth {
 struct PlacedBody {
   std::string name;
   GeometryImage image;
-  /// Rotated into the world, where the surface came from a mesh and the body stands still.
+  /// Rotated into the world as the body is placed, before it moves, where the surface came from a
+  /// mesh.
   std::optional<NormalMap> normals;
   std::optional<NormalMap> image_normals;  ///< the same as loaded
+  Planes3 placed;                          ///< world, before it moves; size 0: it does not [m]
   Planes3 positions;                       ///< world, now [m]
   bool moves = false;                      ///< by motion or animation
   std::optional<SourceMesh> source;        ///< unplaced, where the surface came from a mesh

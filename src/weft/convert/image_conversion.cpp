@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "weft/convert/joined_normals.h"
 #include "weft/convert/sample.h"
 #include "weft/core/hash.h"
 #include "weft/core/stopwatch.h"
@@ -272,9 +273,14 @@ void ImageConversion::sample_normal_map() {
   const int scale = std::max(1, (options_.normal_map_size - 1) / (places_.size - 1));
   made_.normals = NormalMap{Planes3(scale * (places_.size - 1) + 1)};
   made_.normals->normal.y.fill(1);
-  for (std::size_t k = 0; k < charts_.size(); ++k)
-    insert(sample_normals(*charts_[k].mapped(), refined(size_of(k), scale)).normal,
-           places_.charts[k], scale, made_.normals->normal);
+  const JoinedNormals normals(made_.input);
+  for (std::size_t k = 0; k < charts_.size(); ++k) {
+    const MappedDisk& mapped = *charts_[k].mapped();
+    insert(
+        sample_normals(mapped, refined(size_of(k), scale), normals.of(mapped.cut.disk, pieces_[k]))
+            .normal,
+        places_.charts[k], scale, made_.normals->normal);
+  }
 }
 
 void ImageConversion::sample_textures() {

@@ -77,19 +77,39 @@ void join_mates(GeometryImage& image) {
       image.cube.set(sample, image.cube.at(image.mates.mates(k)[0]));
 }
 
-std::vector<Vec3d> disk_vertex_normals(const DiskMesh& disk) {
-  int count = 0;
-  for (const int s : disk.surface_vertex) count = std::max(count, s + 1);
-  std::vector<Vec3d> sums(static_cast<std::size_t>(count));
-  for (const Triangle& t : disk.triangles) {
-    const std::array<Vec3d, 3> p{disk.positions[t[0]], disk.positions[t[1]], disk.positions[t[2]]};
+namespace {
+
+/// Calls use(v, normal) for each corner of each triangle, at vertex v, its normal as long as its
+/// angle.
+template <class Use>
+void for_corner_normals(std::span<const Vec3d> positions, std::span<const Triangle> triangles,
+                        const Use& use) {
+  for (const Triangle& t : triangles) {
+    const std::array<Vec3d, 3> p{positions[t[0]], positions[t[1]], positions[t[2]]};
     const Vec3d normal = normalized(cross(p[1] - p[0], p[2] - p[0]));
     for (int k = 0; k < 3; ++k) {
       const Vec3d to_next = normalized(p[(k + 1) % 3] - p[k]);
       const Vec3d to_last = normalized(p[(k + 2) % 3] - p[k]);
-      sums[disk.surface_vertex[t[k]]] += arc_cosine(dot(to_next, to_last)) * normal;
+      use(t[k], arc_cosine(dot(to_next, to_last)) * normal);
     }
   }
+}
+
+}  // namespace
+
+std::vector<Vec3d> angle_weighted_normals(std::span<const Vec3d> positions,
+                                          std::span<const Triangle> triangles) {
+  std::vector<Vec3d> sums(positions.size());
+  for_corner_normals(positions, triangles, [&](int v, Vec3d normal) { sums[v] += normal; });
+  return sums;
+}
+
+std::vector<Vec3d> disk_vertex_normals(const DiskMesh& disk) {
+  int count = 0;
+  for (const int s : disk.surface_vertex) count = std::max(count, s + 1);
+  std::vector<Vec3d> sums(static_cast<std::size_t>(count));
+  for_corner_normals(disk.positions, disk.triangles,
+                     [&](int v, Vec3d normal) { sums[disk.surface_vertex[v]] += normal; });
   for (Vec3d& sum : sums) sum = squared_length(sum) > 0 ? normalized(sum) : Vec3d{0, 1, 0};
   std::vector<Vec3d> normals;
   normals.reserve(disk.surface_vertex.size());
@@ -125,8 +145,11 @@ GeometryImage sample_image(const MappedDisk& mapped) {
 }
 
 NormalMap sample_normals(const MappedDisk& mapped, ChartSize size) {
+  return sample_normals(mapped, size, disk_vertex_normals(mapped.cut.disk));
+}
+
+NormalMap sample_normals(const MappedDisk& mapped, ChartSize size, std::span<const Vec3d> normals) {
   const DiskMesh& disk = mapped.cut.disk;
-  const std::vector<Vec3d> normals = disk_vertex_normals(disk);
   const int n = std::max(size.rows, size.cols);
   NormalMap map{Planes3(n)};
   const BorderWalk border(mapped);

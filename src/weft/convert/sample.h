@@ -15,6 +15,10 @@ Vec3f to_cube(const WorldMap& world, Vec3d position);
 /// Gives samples that are one surface point the bits of their representative.
 void join_mates(GeometryImage& image);
 
+/// At each vertex the sum of its triangles' unit normals, weighted by their angles there. [V]
+std::vector<Vec3d> angle_weighted_normals(std::span<const Vec3d> positions,
+                                          std::span<const Triangle> triangles);
+
 /// Unit normals at the vertices of a disk, weighted by the angles of the triangles there and summed
 /// over all disk vertices of one surface point, so that mates get the same bits. A vertex whose
 /// triangles have no area gets the normal (0, 1, 0). [D]
@@ -32,6 +36,8 @@ GeometryImage sample_image(const MappedDisk& mapped);
 /// points over the same chart, placed as by sample_image. Mates hold the same bits wherever both
 /// are samples, always when rows - 1 is a multiple of the chart's.
 NormalMap sample_normals(const MappedDisk& mapped, ChartSize size);
+/// @param normals  unit, at the vertices of the disk, instead of its own [D]
+NormalMap sample_normals(const MappedDisk& mapped, ChartSize size, std::span<const Vec3d> normals);
 
 /// The mesh's own texture coordinates at the samples of the image, x = u, y = v, z = 0. Each comes
 /// from the triangle that contains the sample, so that mates differ where a seam of the texture

@@ -66,9 +66,21 @@ void append(TriangleMesh& whole, const TriangleMesh& part) {
     whole.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
 }
 
+void shift(TriangleMesh& mesh, Vec3d by) {
+  for (Vec3d& p : mesh.positions) p += by;
+}
+
+/// Of the finite vertices; the origin where there are none.
+Vec3d middle_of(const TriangleMesh& mesh) {
+  Box3d box;
+  for (const Vec3d p : mesh.positions)
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) box.add(p);
+  return box.empty() ? Vec3d{} : box.centre();
+}
+
 TriangleMesh ball(Vec3d centre, double radius) {
   TriangleMesh mesh = icosphere(radius, 2);
-  for (Vec3d& p : mesh.positions) p += centre;
+  shift(mesh, centre);
   return mesh;
 }
 
@@ -177,17 +189,21 @@ TriangleMesh tube(std::span<const Vec3d> points, double radius) {
 
 SurfacePainter::SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& view)
     : drawing_(drawing),
+      origin_(middle_of(*drawing.mesh)),
+      surface_(*drawing.mesh),
       size_{view.width, view.height - (drawing.legend ? legend_height(view.width) : 0)},
       renderer_(size_[0], size_[1]) {
+  // Coordinates of pictures have single precision, which does not do far from the origin.
+  shift(surface_, -origin_);
   DrawnMesh surface;
-  surface.mesh = drawing_.mesh;
+  surface.mesh = &surface_;
   for (const Vec3f colour : drawing_.colours) surface.colours.push_back(linear_light(colour));
   if (drawing_.show_edges) surface.marked_edges = edges_of(*drawing_.mesh);
   surface.mark_colour = linear_light(edge_colour);
   surface.mark_width = 1;
   scene_.meshes.push_back(surface);
 
-  const double radius = drawing_.curve_radius * box_of(*drawing_.mesh).diagonal();
+  const double radius = drawing_.curve_radius * box_of(surface_).diagonal();
   DrawnMesh marks;
   const auto add = [&](const TriangleMesh& part, Vec3f colour) {
     append(marks_, part);
@@ -200,6 +216,7 @@ SurfacePainter::SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& vi
       add(ball(end, radius), curve.colour);
   }
   for (const Vec3d node : drawing_.nodes) add(ball(node, ball_share * radius), node_colour);
+  shift(marks_, -origin_);
   marks.mesh = &marks_;
   if (!marks_.triangles.empty()) scene_.meshes.push_back(marks);
   scene_.on_white = drawing_.on_white;
@@ -209,6 +226,8 @@ double SurfacePainter::aspect() const { return static_cast<double>(size_[0]) / s
 
 Picture SurfacePainter::draw(const Camera& camera) {
   scene_.camera = camera;
+  scene_.camera.eye -= origin_;
+  scene_.camera.target -= origin_;
   Picture picture = renderer_.draw(scene_);
   if (drawing_.legend) add_legend(picture, *drawing_.legend);
   return picture;

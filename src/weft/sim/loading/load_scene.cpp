@@ -208,9 +208,10 @@ void Loader::load_bodies() {
     PlacedBody body;
     body.name = wanted.name;
     body.moves = motion.moves();
-    if (loaded.normals && !body.moves) body.normals = placed_normals(*loaded.normals, map);
+    if (loaded.normals) body.normals = placed_normals(*loaded.normals, map);
     body.image_normals = std::move(loaded.normals);
     body.positions = placed_positions(loaded.image, map);
+    if (body.moves) body.placed = body.positions;
     body.image = std::move(loaded.image);
     body.source = std::move(loaded.source);
     driven.add(std::move(motion));

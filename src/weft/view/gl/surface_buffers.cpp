@@ -78,6 +78,13 @@ std::vector<Chart> charts_of(const DrawnSurface& surface) {
   return {{"", 0, 0, side, side}};
 }
 
+/// A side of the light map. Where there are several charts its texels are to lie on the samples, so
+/// that nothing is interpolated from one chart to another.
+int light_samples_of(std::span<const Chart> charts, int side) {
+  if (charts.size() < 2) return light_samples;
+  return std::max(1, (light_samples - 1) / (side - 1)) * (side - 1) + 1;
+}
+
 void fit(Texture& texture, GLenum format, int width, int height) {
   if (texture.width() != width || texture.height() != height)
     texture = Texture(format, width, height);
@@ -137,7 +144,8 @@ bool SurfaceBuffers::load(const DrawnSurface& surface) {
               surface.normals != nullptr ? without_holes(surface.normals->normal)
                                          : grid_normals(positions, surface.mates),
               charts_of(surface));
-  make_sky_target(light_samples, light_samples);
+  const int light_side = light_samples_of(charts_, grid_side_);
+  make_sky_target(light_side, light_side);
   return true;
 }
 
