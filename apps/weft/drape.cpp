@@ -1,7 +1,9 @@
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "apps/weft/commands.h"
 #include "apps/weft/run_args.h"
@@ -28,11 +30,20 @@ void warn_of_size(const std::string& cloth, const MeshFrame& files, const Contex
   if (remark) warn(context, cloth + ": " + *remark);
 }
 
+/// Bodies are scaled to 1 m, which who brings one of a known size does not expect.
+void tell_scale(const Scene& scene, const Context& context) {
+  for (const SceneBody& body : scene.bodies)
+    if (!is_builtin(body.surface.name) && std::abs(body.placement.scale.x - 1) > 1e-3)
+      note(context, fmt::format("{}: scaled by {:.3g} to 1 m; --as-is keeps its size",
+                                body.surface.name, body.placement.scale.x));
+}
+
 void drape(const DrapeArgs& args, const Context& context) {
   DrapeOptions options = args.options;
   options.files = frame_of(args.run, options.files);
   const Scene scene = make_drape_scene(args.cloth, args.body, options);
   warn_of_size(args.cloth, options.files, context);
+  tell_scale(scene, context);
   RunArgs run = args.run;
   run.scene_file = std::filesystem::path(args.run.folder) / "scene.json";
   run_and_report(scene, run.scene_file.string(), run, context);

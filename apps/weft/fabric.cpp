@@ -58,6 +58,8 @@ void check_args(const FabricArgs& args) {
     throw UsageError("fabric", "no --mass", "the mass of a square metre in grams is wanted");
   if (!(args.mass > 0) || !std::isfinite(args.mass))
     throw UsageError("fabric", fmt::format("--mass {:g}", args.mass), "a mass > 0 is wanted");
+  if (args.test.size % 2 == 0)
+    throw UsageError("fabric", fmt::format("--size {}", args.test.size), "an odd size is wanted");
   std::string given;
   for (const CLI::Option* one : {args.bending_given, args.length_given, args.drape_given})
     if (one->count() > 0) given += (given.empty() ? "" : " and ") + one->get_name();
@@ -124,6 +126,12 @@ Json drape_json(const DrapeResult& drape) {
 
 void fabric(const FabricArgs& args, const Context& context) {
   check_args(args);
+  constexpr double lightest = 3, heaviest = 5000;  // [g/m^2]
+  if (args.mass < lightest || args.mass > heaviest)
+    warn(context,
+         fmt::format("--mass {:g}: fabrics weigh {:g} to {:g} g a square metre: is the unit "
+                     "right?",
+                     args.mass, lightest, heaviest));
   Fabric made = make_fabric(args, context);
   made.material = rounded(made.material);
   const Json material = Json::parse(material_text(made.material));

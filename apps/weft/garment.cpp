@@ -7,6 +7,8 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/run_args.h"
+#include "weft/error.h"
+#include "weft/files.h"
 #include "weft/scene.h"
 
 namespace weft::app {
@@ -22,6 +24,9 @@ struct GarmentArgs {
 };
 
 void sew_garment(const GarmentArgs& args, const Context& context) {
+  if (ending_of(args.pattern) != ".json")
+    throw InputError(args.pattern, "is no sewing pattern",
+                     "a GarmentCode pattern (.json) is wanted");
   Scene scene;
   scene.frames = default_frames;
   SceneCloth garment;

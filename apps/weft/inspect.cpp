@@ -12,6 +12,7 @@
 #include "apps/weft/terminal_progress.h"
 #include "weft/convert.h"
 #include "weft/error.h"
+#include "weft/garment.h"
 #include "weft/image_file.h"
 #include "weft/image_quality.h"
 
@@ -22,6 +23,7 @@ void compare_meshes(const InspectArgs& args, const Context& context);
 
 void inspect(const InspectArgs& args, const Context& context) {
   if (is_image_name(args.subject)) return inspect_image(args, context);
+  if (is_pattern_name(args.subject)) return inspect_pattern(args, context);
   if (!args.against.empty()) return compare_meshes(args, context);
   inspect_mesh(args, context);
 }
@@ -30,8 +32,11 @@ void inspect(const InspectArgs& args, const Context& context) {
 
 void add_inspect(CLI::App& program, const Context& context) {
   auto args = std::make_shared<InspectArgs>();
-  CLI::App* command = program.add_subcommand("inspect", "Say what a mesh or a geometry image is");
-  command->add_option("MESH|IMAGE", args->subject, "Mesh, builtin:NAME, or geometry image")
+  CLI::App* command =
+      program.add_subcommand("inspect", "Say what a mesh, a geometry image or a pattern is");
+  command
+      ->add_option("MESH|IMAGE|PATTERN", args->subject,
+                   "Mesh, builtin:NAME, geometry image or sewing pattern (.json)")
       ->required();
   command->add_option("--against", args->against, "Mesh to measure the distance to")
       ->check([](const std::string& mesh) { return mesh.empty() ? "a mesh is wanted" : ""; });

@@ -15,6 +15,9 @@ struct InspectArgs {
 /// Prints the statistics of a mesh and whether it converts. @throws as load_mesh
 void inspect_mesh(const InspectArgs& args, const Context& context);
 
+/// Prints the panels of a sewing pattern and what they are sewn to. @throws as read_pattern
+void inspect_pattern(const InspectArgs& args, const Context& context);
+
 /// Prints the properties of a geometry image, and its distance to the mesh `against`, if there is
 /// one.
 /// @throws as read_image, load_mesh

@@ -84,6 +84,13 @@ Json statistics_json(const MeshStatistics& statistics) {
           {"self_intersection_list", statistics.self_intersection_list}};
 }
 
+/// What a list of the first few leaves out.
+void say_rest(const Context& context, const char* what, std::size_t count) {
+  if (count > max_told)
+    say(context,
+        fmt::format("              and {} more {}; --json lists more", count - max_told, what));
+}
+
 void say_components(const Context& context, const MeshStatistics& statistics) {
   for (std::size_t k = 0; k < std::min(statistics.component_list.size(), max_told); ++k) {
     const ComponentStatistics& c = statistics.component_list[k];
@@ -92,11 +99,13 @@ void say_components(const Context& context, const MeshStatistics& statistics) {
                     c.triangles, c.vertices, c.area, c.boundaries,
                     c.genus() ? fmt::format("genus {}", *c.genus()) : "no genus"));
   }
+  say_rest(context, "components", statistics.component_list.size());
   for (std::size_t k = 0; k < std::min(statistics.border_loops.size(), max_told); ++k) {
     const BorderLoopStatistics& loop = statistics.border_loops[k];
     say(context, fmt::format("border {:<6} {} vertices, {:.4g} m, at vertex {}, component {}", k,
                              loop.edges, loop.length, loop.min_vertex, loop.component));
   }
+  say_rest(context, "borders", statistics.border_loops.size());
 }
 
 void say_bad_places(const Context& context, const MeshStatistics& statistics) {
@@ -106,7 +115,9 @@ void say_bad_places(const Context& context, const MeshStatistics& statistics) {
                           statistics.nonmanifold_edge_list[k][1]);
   for (std::size_t k = 0; k < std::min(statistics.nonmanifold_vertex_list.size(), max_told); ++k)
     places += fmt::format(" {}", statistics.nonmanifold_vertex_list[k]);
-  if (!places.empty()) places = "; vertices from 0:" + places;
+  const bool more = std::max(statistics.nonmanifold_edge_list.size(),
+                             statistics.nonmanifold_vertex_list.size()) > max_told;
+  if (!places.empty()) places = "; vertices from 0:" + places + (more ? " ..." : "");
   say(context, fmt::format("non-manifold  {} edges, {} vertices{}", statistics.nonmanifold_edges,
                            statistics.nonmanifold_vertices, places));
 }

@@ -25,6 +25,9 @@
 namespace weft::app {
 namespace {
 
+/// Programs show GIFs of more pictures a second slowly. [1/s]
+constexpr double max_gif_rate = 50;
+
 struct RenderArgs {
   std::vector<std::string> subjects, labels;
   ShownArgs shown;  // of each mesh and image
@@ -54,6 +57,12 @@ void check(const RenderArgs& args) {
   if (only_runs && !args.shown.show.empty() && args.shown.show != "run")
     throw UsageError("--show", "'" + args.shown.show + "' of a run",
                      "a run shows itself; leave it out");
+  for (const auto& [option, given] : {std::pair{"--size", args.shown.size > 0},
+                                      {"--against", !args.shown.against.empty()},
+                                      {"--parameterizer", !args.shown.parameterizer.empty()}})
+    if (only_runs && given)
+      throw UsageError(option, "the subject is a run",
+                       "a mesh or an image is wanted, or leave it out");
   if (!any_run && is_movie(args) && !args.turntable)
     throw UsageError(args.output, "a movie of something that does not move",
                      "--turntable or a PNG is wanted for images and meshes");
@@ -99,7 +108,10 @@ void film(const RenderArgs& args, Shots& shots, const Context& context) {
     throw UsageError("--turntable", "a flat picture does not turn",
                      "--show cut, stretch, surface or error is wanted");
   const auto frame = args.frame >= 0 ? std::optional<int>(args.frame) : std::nullopt;
-  const Shots::Take take = args.turntable ? shots.turning(frame) : shots.playing();
+  const bool is_gif = ending_of(args.output) == ".gif";
+  const Shots::Take take = args.turntable ? shots.turning(frame)
+                           : is_gif       ? shots.playing(max_gif_rate)
+                                          : shots.playing();
   TerminalProgress progress(context.quiet || context.json);
   std::optional<MovieWriter> movie;
   for (int i = 0; i < take.count; ++i) {

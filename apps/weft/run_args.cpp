@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/error.h"
+#include "weft/fabric.h"
 #include "weft/run.h"
 
 namespace weft::app {
@@ -37,10 +39,23 @@ void tell_gain(const Context& context, const RunReport& report) {
                             gain, height, by_default ? "" : " or the default integrator"));
 }
 
-void print_summary(const Context& context, const RunReport& report) {
+/// Warns of seams that are open at the end, and of garments that nobody wears any more.
+void tell_garments(const Context& context, const RunReport& report) {
+  if (report.seams && report.seams->closed < report.seams->count)
+    warn(context, fmt::format("{} of {} seams are open, by up to {:.2f} mm; more frames or a "
+                              "smaller spacing may close them",
+                              report.seams->count - report.seams->closed, report.seams->count,
+                              1000 * report.seams->largest_gap));
+  for (const std::string& name : report.fell_off) warn(context, name + ": fell off");
+}
+
+/// @param told  the notes that were printed before the first frame
+void print_summary(const Context& context, const RunReport& report,
+                   const std::set<std::string>& told) {
   std::vector<double> milliseconds;
   for (const FrameReport& frame : report.history) milliseconds.push_back(frame.milliseconds);
-  for (const std::string& line : report.notes) note(context, line);
+  for (const std::string& line : report.notes)
+    if (told.count(line) == 0) note(context, line);
   say(context, fmt::format("ran     {} frames of {} particles, {} with {} substeps, {} thread(s)",
                            report.frames, report.particles, report.integrator, report.substeps,
                            report.threads));
@@ -53,7 +68,7 @@ void print_summary(const Context& context, const RunReport& report) {
   if (report.seams)
     say(context, fmt::format("seams   {} of {} closed, largest gap {:.2f} mm", report.seams->closed,
                              report.seams->count, 1000 * report.seams->largest_gap));
-  for (const std::string& name : report.fell_off) warn(context, name + ": fell off");
+  tell_garments(context, report);
   tell_gain(context, report);
   say(context, "state   " + report.state_hash);
   for (const auto& path : report.outputs) say(context, "wrote   " + path.string());
@@ -109,7 +124,8 @@ void check_verification(const Verification& found, const std::string& name) {
   check(found.written, "pairs of triangles cross in the meshes that are written");
 }
 
-RunOptions options_of(const RunArgs& args, const Context& context, TerminalProgress& progress) {
+RunOptions options_of(const RunArgs& args, const Context& context, TerminalProgress& progress,
+                      std::set<std::string>& told) {
   RunOptions options;
   options.folder = args.folder;
   options.exports = args.exports;
@@ -123,11 +139,18 @@ RunOptions options_of(const RunArgs& args, const Context& context, TerminalProgr
   options.tell = [&](const std::string& line) {
     progress.clear();
     note(context, line);
+    told.insert(line);
   };
   options.checkpoint_frames = args.checkpoint;
   options.resume = args.resume;
   options.scene_file = args.scene_file;
   return options;
+}
+
+std::vector<std::string_view> material_names() {
+  std::vector<std::string_view> names;
+  for (const NamedMaterial& material : named_materials()) names.push_back(material.name);
+  return names;
 }
 
 CLI::IsMember is_one_of(const std::vector<std::string_view>& names) {
@@ -141,6 +164,12 @@ void add_run_options(CLI::App& command, RunArgs& args) {
       ->required();
   command.add_option("--frames", args.frames, "Frames to run instead of the scene's")
       ->check(CLI::Range(1, INT_MAX));
+  command.add_option("--substeps", args.substeps, "Steps a frame instead of the scene's")
+      ->check(CLI::Range(1, INT_MAX));
+  command
+      .add_option("--material", args.material,
+                  "Named material of all cloths instead of the scene's: cotton, silk, ...")
+      ->check(is_one_of(material_names()));
   command
       .add_option("--integrator", args.integrator, "Instead of the scene's, with default options")
       ->check(is_one_of(Integrators::names()));
@@ -184,6 +213,9 @@ MeshFrame frame_of(const RunArgs& args, const MeshFrame& otherwise) {
 
 void apply_run_args(const RunArgs& args, Scene& scene) {
   if (args.frames > 0) scene.frames = args.frames;
+  if (args.substeps > 0) scene.substeps = args.substeps;
+  if (const auto material = find_material(args.material))
+    for (SceneCloth& cloth : scene.cloths) cloth.material = *material;
   if (const auto found = Integrators::find(args.integrator)) scene.integrator = *found;
   scene.files = frame_of(args, scene.files);
   if (const auto collider = Colliders::find(args.collider)) scene.collider = *collider;
@@ -194,11 +226,12 @@ void run_and_report(Scene scene, const std::string& name, const RunArgs& args,
   apply_run_args(args, scene);
   tell_memory(scene, name, context);
   RunReport report;
+  std::set<std::string> told;
   {
     TerminalProgress progress(context.quiet || context.json);
-    report = run_scene(scene, name, options_of(args, context, progress));
+    report = run_scene(scene, name, options_of(args, context, progress, told));
   }
-  print_summary(context, report);
+  print_summary(context, report, told);
   auto json = nlohmann::ordered_json::parse(to_json(report));
   const std::optional<double> memory = peak_memory_mb();
   json["peak_memory_mb"] = memory ? nlohmann::ordered_json(*memory) : nlohmann::ordered_json();

@@ -14,10 +14,10 @@ class App;
 
 namespace weft::app {
 
-/// The options that simulate and drape share.
+/// The options that simulate, drape and garment share.
 struct RunArgs {
-  std::string folder, integrator, collider;
-  int frames = 0;  ///< 0: as the scene says
+  std::string folder, integrator, collider, material;
+  int frames = 0, substeps = 0;  ///< 0: as the scene says
   std::vector<std::string> exports{"obj", "pc2"};
   std::string on = "auto";
   std::string unit, up;  ///< empty: as the scene says

@@ -65,6 +65,13 @@ struct Pattern {
 Pattern parse_pattern(std::string_view text, const std::string& name);
 Pattern read_pattern(const std::string& path);
 
+struct PanelMeasures {
+  double area = 0;                   ///< [m^2]
+  Vec2d extent;                      ///< of its box along its own axes [m]
+  std::vector<double> edge_lengths;  ///< of its edges, along their curves [m]
+};
+PanelMeasures measure_panel(const PatternPanel& panel);
+
 /// True when a name ends as pattern files do: .json.
 bool is_pattern_name(std::string_view name);
 

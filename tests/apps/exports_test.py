@@ -11,6 +11,7 @@ import unittest
 
 import numpy
 
+from patterns import pattern_of_a_tube
 from program import PROGRAM, ProgramTest
 
 ALL = "obj,pc2,mdd,glb,ply,vtp,exr,usda"
@@ -43,20 +44,6 @@ def read_pc2(path):
     data = path.read_bytes()
     points, frames = struct.unpack_from("<i", data, 16)[0], struct.unpack_from("<i", data, 28)[0]
     return [list(struct.iter_unpack("<3f", data[32 + 12 * points * k:32 + 12 * points * (k + 1)])) for k in range(frames)]
-
-
-def pattern_of_a_tube():
-    """Two panels of 30 x 20 cm that face each other, sewn along both sides."""
-    def panel(z, corners):
-        edges = [{"endpoints": [k, (k + 1) % 4]} for k in range(4)]
-        return {"vertices": corners, "edges": edges, "translation": [-15, 100, z], "rotation": [0, 0, 0]}
-    front = panel(12, [[0, 0], [30, 0], [30, 20], [0, 20]])
-    back = panel(-12, [[0, 0], [0, 20], [30, 20], [30, 0]])
-    stitches = [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}],
-                [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]
-    return {"pattern": {"panels": {"front": front, "back/left": back}, "stitches": [
-        [{**end, "panel": end["panel"].replace("back", "back/left")} for end in stitch] for stitch in stitches]},
-        "properties": {"units_in_meter": 100}}
 
 
 class ExportTest(ProgramTest):
@@ -244,11 +231,19 @@ class ExportsOfGarments(ProgramTest):
         with numpy.load(self.folder / "run/garment.panels.npz") as arrays:
             self.assertEqual(sorted(arrays), ["back_left.pattern", "back_left.position", "front.pattern", "front.position"])
             flat, placed = arrays["front.pattern"], arrays["front.position"]
+        groups = {line.split()[1] for line in (self.folder / "run/garment.obj").read_text().splitlines() if line.startswith("g ")}
+        self.assertLessEqual({"back_left", "front"}, groups)
         self.assertEqual(flat.shape[:2], placed.shape[:2])
         self.assertEqual((flat.dtype, flat.shape[2], placed.shape[2]), (numpy.float32, 2, 3))
         numpy.testing.assert_allclose((flat.min(), flat[..., 0].max(), flat[..., 1].max()), (0, 30, 20), rtol=1e-6)
         last = read_pc2(self.folder / "run/garment.image.pc2")[-1]
         self.assertIn(tuple(placed[0, 0]), last)
+
+    def test_open_seams_are_warned_of_and_meshes_are_no_patterns(self):
+        said = self.run_weft(*self.words[:-1], "1", "-o", "run").stderr
+        self.assertIn("seams are open", said)
+        self.assertIn("is no sewing pattern",
+                      self.error_of("garment", "builtin:tshirt", "--body", "builtin:sphere", "-o", "mesh", code=3))
 
     def test_on_image_leaves_panels_apart(self):
         self.run_weft(*self.words, "-o", "sewn")

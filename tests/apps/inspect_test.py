@@ -1,7 +1,9 @@
 """The contract of inspect: what it says of meshes, broken ones too, and of images."""
+import json
 import math
 import unittest
 
+from patterns import pattern_of_a_tube
 from program import ProgramTest
 
 # Two unit cubes, the second moved by half its side along x, y and z.
@@ -33,6 +35,16 @@ class Inspect(ProgramTest):
         self.assertEqual(found["self_intersections"], 0)
         self.assertGreaterEqual(found["least_size"], 5)
         self.assertEqual(found["input"]["genus"], 0)
+
+    def test_patterns_are_told_panel_by_panel(self):
+        found = self.run_json("inspect", self.write("tube.json", json.dumps(pattern_of_a_tube())))["pattern"]
+        front = next(panel for panel in found["panels"] if panel["name"] == "front")
+        self.assertAlmostEqual(front["area"], 0.06)
+        self.assertEqual([round(x, 9) for x in front["extent"]], [0.3, 0.2])
+        self.assertEqual(sorted(round(edge["length"], 9) for edge in front["edges"]), [0.2, 0.2, 0.3, 0.3])
+        self.assertEqual(sum(len(edge["sewn_to"]) for panel in found["panels"] for edge in panel["edges"]), 2 * found["seams"])
+        self.assertIn("--against", self.error_of("inspect", "tube.json", "--against", "builtin:sphere", code=2))
+        self.assertIn("GarmentCode pattern is wanted", self.error_of("inspect", self.write("odd.json", "{}"), code=3))
 
     def test_two_cubes_pushed_into_each_other_cross(self):
         found = self.run_json("inspect", self.write("two.obj", cube(0, 0) + cube(0.5, 8)))

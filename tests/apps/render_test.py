@@ -97,7 +97,7 @@ class Render(ProgramTest):
         report = self.run_json("render", "short", "long", "-o", "two.gif", *small)
         self.assertEqual(report["inputs"], [{"path": "short"}, {"path": "long"}])
         self.assertEqual(report["input"], {"path": "short"})
-        self.assertEqual(self.frames_of("two.gif"), 6)
+        self.assertEqual(self.frames_of("two.gif"), 5)  # five sixtieths of a second, at fifty pictures a second
 
     def test_a_turntable_of_a_run_plays_it_and_turns_for_four_seconds(self):
         (self.folder / "slow.json").write_text(
@@ -111,6 +111,15 @@ class Render(ProgramTest):
         done = self.run_weft("render", "fan.obj", "-o", "fan.png", "--width", "160", "--height", "120")
         self.assertEqual(done.stderr, "")
         self.assertTrue((self.folder / "fan.png").exists())
+
+    def test_far_from_the_origin_looks_as_near_it(self):
+        self.run_weft("shapes", "box", "-o", "box.obj")
+        lines = (self.folder / "box.obj").read_text().splitlines()
+        moved = [f"v {float(line.split()[1]) + 2**20} {' '.join(line.split()[2:])}" if line.startswith("v ") else line for line in lines]
+        (self.folder / "far.obj").write_text("\n".join(moved) + "\n")
+        for name in ("box", "far"):
+            self.run_weft("render", f"{name}.obj", "-o", f"{name}.png", "--show", "surface", "--width", 96, "--height", 72)
+        self.assertEqual((self.folder / "box.png").read_bytes(), (self.folder / "far.png").read_bytes())
 
     def test_words_that_make_no_sense_together(self):
         self.run_weft("convert", "builtin:torus", "-o", "t.exr", "--size", "17")

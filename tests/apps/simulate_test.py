@@ -70,11 +70,12 @@ class Simulate(SceneTest):
         *notes, error = done.stderr.strip().splitlines()
         self.assertIn(f"{report['intersections']} intersections in frame 1: 0 pairs", error)
         # Its collider knows nothing of cloth and cloth: both ends of the run say so.
-        self.assertEqual([note.split(":")[1] for note in notes], [" note"] * 3)
+        self.assertEqual([note.split(":")[1] for note in notes], [" note"] * 4)
         self.assertIn(f"at the start {kinds['bodies']} pairs of triangles of cloths and bodies cross", notes[0])
+        self.assertIn(f"at the start {kinds['ground']} triangles of cloths are below the ground", notes[1])
         self.assertIn(f"at the start {kinds['cloths']} pairs of triangles of cloth cross, 0 of one cloth and {kinds['cloths']} of "
-                      "two; this collider leaves them so", notes[1])
-        self.assertIn("still tangled", notes[2])
+                      "two; this collider leaves them so", notes[2])
+        self.assertIn("still tangled", notes[3])
         self.assertIsNone(report["untangled_frame"])
         # Without the word, the last frame is reported and nothing fails.
         self.assertEqual(self.run_json("simulate", name, "-o", "run")["intersections"], report["intersections"])
@@ -137,6 +138,23 @@ class Simulate(SceneTest):
         replaced = self.run_json("simulate", printed, "-o", "a", "--collider", "polar_map")["state_hash"]
         self.assertEqual(replaced, self.run_json("simulate", walking, "-o", "b")["state_hash"])
         self.assertNotEqual(replaced, self.run_json("simulate", printed, "-o", "c")["state_hash"])
+
+    def test_substeps_and_material_on_the_command_line_replace_the_scenes(self):
+        scene = sheet_scene(frames=3)
+        told = self.write_scene(dict(scene, substeps=2, cloths=[dict(scene["cloths"][0], material="silk")]), "told.json")
+        replaced = self.run_json("simulate", self.write_scene(scene), "-o", "a", "--substeps", "2", "--material", "silk")
+        self.assertEqual(replaced["substeps"], 2)
+        self.assertEqual(replaced["state_hash"], self.run_json("simulate", told, "-o", "b")["state_hash"])
+        self.run_weft("simulate", told, "-o", "c", "--material", "tin", code=2)
+
+    def test_what_is_odd_is_told_before_the_first_frame(self):
+        for wrong, line in (({"scale": 0.001}, "is the unit of its file right?"), ({"translate": [0, -1, 0]}, "below the ground")):
+            scene = {"version": 1, "frames": 1, "cloths": [{"size": 17, "translate": [0, 1, 0], **wrong}]}
+            said = self.run_weft("simulate", self.write_scene(scene), "-o", "run").stderr
+            self.assertEqual(said.count(line), 1, said)
+        stiff = {"version": 1, "frames": 30, "cloths": [{"size": 33, "translate": [0, 0.05, 0], "scale": 0.001}]}
+        said = self.run_weft("simulate", self.write_scene(stiff), "-o", "run", code=3).stderr
+        self.assertLess(said.index("is the unit of its file right?"), said.index("ran away"))
 
     def test_pc2_holds_the_frames_of_the_obj_vertices(self):
         self.run_weft("simulate", self.write_scene(sheet_scene()), "-o", "run")

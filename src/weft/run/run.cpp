@@ -207,23 +207,32 @@ class Run {
                        fmt::format("at least {} frames are wanted", from.state.frame));
   }
 
+  void tell(const std::string& line) {
+    if (options_.tell) options_.tell(line);
+  }
+
   void tell_start() {
-    for (const StartInside& found : report_.start_insides)
-      if (options_.tell) options_.tell(start_inside_text(found));
+    for (const std::string& line : report_.notes) tell(line);
+    for (const StartInside& found : report_.start_insides) tell(start_inside_text(found));
     const IntersectionCounts counts = simulation_.intersections();
     report_.start_intersections = counts;
-    if (counts.bodies > 0 && options_.tell)
-      options_.tell(
+    if (counts.bodies > 0)
+      tell(
           fmt::format("at the start {} pairs of triangles of cloths and bodies cross; "
                       "only closed bodies push out what they cross",
                       counts.bodies));
+    if (counts.ground > 0)
+      tell(
+          fmt::format("at the start {} triangles of cloths are below the ground, which lifts them "
+                      "slowly",
+                      counts.ground));
     if (tangled_pairs(counts) == 0) {
       report_.untangled_frame = 0;
-    } else if (options_.tell) {
+    } else {
       const char* then = Colliders::traits_of(scene_.collider).self_collision
                              ? "the run takes them apart"
                              : "this collider leaves them so";
-      options_.tell(fmt::format("at the start {}; {}", tangle_text(counts), then));
+      tell(fmt::format("at the start {}; {}", tangle_text(counts), then));
     }
   }
 

@@ -70,11 +70,14 @@ void shift(TriangleMesh& mesh, Vec3d by) {
   for (Vec3d& p : mesh.positions) p += by;
 }
 
-/// Of the finite vertices; the origin where there are none.
+/// Of the triangles' finite corners; the origin where there are none.
 Vec3d middle_of(const TriangleMesh& mesh) {
   Box3d box;
-  for (const Vec3d p : mesh.positions)
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) box.add(p);
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t) {
+      const Vec3d p = mesh.positions[v];
+      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) box.add(p);
+    }
   return box.empty() ? Vec3d{} : box.centre();
 }
 

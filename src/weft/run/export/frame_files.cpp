@@ -155,9 +155,6 @@ class Text {
   fmt::memory_buffer text_;
 };
 
-/// Whether a character would make several groups of a name.
-bool ends_a_word(char c) { return static_cast<unsigned char>(c) <= ' ' || c == '\\'; }
-
 /// Writes a face, with texture indices only where all its corners have one.
 void write_face(Text& text, std::span<const int> corners, std::span<const int> texture) {
   const bool textured = !texture.empty() && std::all_of(texture.begin(), texture.end(),
@@ -182,7 +179,7 @@ void write_faces(Text& text, const MeshFaces& faces, const std::vector<NamedRun>
   for (std::size_t f = 0; f < faces.sizes.size(); ++f) {
     while (panel != panels.end() && panel->count == 0) ++panel;
     if (panel != panels.end() && static_cast<std::size_t>(panel->first) == f)
-      text.add("g {}\n", groups.add((panel++)->name, ends_a_word));
+      text.add("g {}\n", groups.add((panel++)->name));
     const auto count = static_cast<std::size_t>(faces.sizes[f]);
     write_face(text, corners.subspan(first, count),
                faces.has_texture() ? texture.subspan(first, count) : texture);
@@ -194,7 +191,7 @@ void write_faces(Text& text, const MeshFaces& faces, const std::vector<NamedRun>
 void write_seams(Text& text, const std::vector<NamedRun>& seams, DistinctNames& groups) {
   for (const NamedRun& seam : seams) {
     if (seam.vertices.size() < 2) continue;
-    text.add("g {}\nl", groups.add("seam_" + seam.name, ends_a_word));
+    text.add("g {}\nl", groups.add("seam_" + seam.name));
     for (const int vertex : seam.vertices) text.add(" {}", vertex + 1);
     text.add("\n");
   }

@@ -22,12 +22,11 @@ struct PanelImages {
   std::string npz;
 };
 
-/// Names of panels as names of files, which unpacking may make of them, no two alike.
+/// Names of panels as names of files, which unpacking may make of them.
 std::vector<std::string> plain_names(const std::vector<Chart>& charts) {
   std::vector<std::string> names;
   DistinctNames distinct;
-  const auto unwanted = [](char c) { return c == '/' || c == '\\' || c == '\0'; };
-  for (const Chart& chart : charts) names.push_back(distinct.add(chart.name, unwanted));
+  for (const Chart& chart : charts) names.push_back(distinct.add(chart.name));
   return names;
 }
 
