@@ -17,12 +17,16 @@ void add_mesh_options(CLI::App& command, MeshArgs& args) {
       ->capture_default_str();
 }
 
-NamedMesh load_named_mesh(const std::string& name, const MeshArgs& args) {
-  if (is_builtin(name)) return {load_mesh(name), {}};
+MeshFrame frame_of(const MeshArgs& args) {
   MeshFrame frame;
   frame.z_up = args.up == "z";
-  for (const LengthUnit& unit : length_units)
-    if (unit.name == args.unit) frame.unit = unit;
+  if (const auto unit = find_length_unit(args.unit)) frame.unit = *unit;
+  return frame;
+}
+
+NamedMesh load_named_mesh(const std::string& name, const MeshArgs& args) {
+  if (is_builtin(name)) return {load_mesh(name), {}};
+  const MeshFrame frame = frame_of(args);
   NamedMesh named{in_metres_y_up(load_mesh(name), frame), {}};
   if (const auto warning = implausible_size(named.mesh, frame.unit))
     named.warnings.push_back(name + ": " + *warning);

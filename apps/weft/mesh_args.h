@@ -16,6 +16,7 @@ struct MeshArgs {
   std::string unit = "m", up = "y";
 };
 void add_mesh_options(CLI::App& command, MeshArgs& args);
+MeshFrame frame_of(const MeshArgs& args);
 
 /// A mesh in metres with y up, and warnings about it.
 struct NamedMesh {

@@ -1,3 +1,4 @@
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/mesh_args.h"
 #include "apps/weft/reports.h"
 #include "weft/error.h"
 #include "weft/files.h"
@@ -20,7 +22,23 @@ namespace {
 struct RebuildArgs {
   std::string image, output;
   int level = 0;
+  int texture = 0;  // pixels a side of the picture; 0: none
+  MeshArgs frame;
 };
+
+/// Texture coordinates of the triangles' corners: where samples lie in a picture of the image, the
+/// middles of whose outermost pixels are the outermost samples.
+std::vector<std::array<Vec2f, 3>> corner_texture(const GeometryImage& image, int pixels) {
+  const int n = image.size();
+  const auto along = [&](int line) { return (line * (pixels - 1.0) / (n - 1.0) + 0.5) / pixels; };
+  const auto pixel = [&](int sample) {
+    return Vec2f{static_cast<float>(along(sample % n)), static_cast<float>(1 - along(sample / n))};
+  };
+  std::vector<std::array<Vec2f, 3>> corners;
+  for (const Triangle& t : grid_triangles(image))
+    corners.push_back({pixel(t[0]), pixel(t[1]), pixel(t[2])});
+  return corners;
+}
 
 /// The level of the image that is asked for.
 GeometryImage read_level(const RebuildArgs& args) {
@@ -34,9 +52,11 @@ GeometryImage read_level(const RebuildArgs& args) {
 
 void rebuild(const RebuildArgs& args, const Context& context) {
   check_output(args.output, {".obj", ".ply"});
+  if (args.texture > 0 && ending_of(args.output) != ".obj")
+    throw UsageError("--texture", "PLY files hold none here", ".obj is wanted");
   check_not_input(args.output, std::vector<std::filesystem::path>{args.image});
   const GeometryImage image = read_level(args);
-  const RebuiltMesh rebuilt = rebuild_mesh(image);
+  RebuiltMesh rebuilt = rebuild_mesh(image);
   const Json found = [&] {
     try {
       return image_json(image);
@@ -44,6 +64,9 @@ void rebuild(const RebuildArgs& args, const Context& context) {
       throw TopologyError(args.image, error.what(), "");
     }
   }();
+  if (args.texture > 0) rebuilt.mesh.corner_uv = corner_texture(image, args.texture);
+  const MeshFrame frame = frame_of(args.frame);
+  for (Vec3d& position : rebuilt.mesh.positions) position = in_frame(position, frame);
   write_mesh(args.output, rebuilt.mesh, vertex_colours(image, rebuilt));
   say(context, fmt::format("mesh    {} vertices, {} triangles, {}, {} borders",
                            found["vertices"].get<int>(), found["triangles"].get<int>(),
@@ -65,6 +88,11 @@ void add_rebuild(CLI::App& program, const Context& context) {
       ->add_option("--level", args->level, "Of every 2^L-th sample: levels of detail, seams closed")
       ->check(CLI::Range(0, 12))
       ->capture_default_str();
+  command
+      ->add_option("--texture", args->texture,
+                   "Write texture coordinates, for a picture of the image of so many pixels a side")
+      ->check(CLI::Range(2, 65536));
+  add_mesh_options(*command, args->frame);
   command->footer("Example: weft rebuild bunny.exr -o bunny-again.obj");
   command->callback([args, &context] { rebuild(*args, context); });
 }

@@ -99,6 +99,24 @@ class Convert(ProgramTest):
             for x, colour in far:
                 self.assertEqual(colour, [255, 0, 0] if x < 0 else [0, 0, 255])
 
+    def test_rebuilt_meshes_hold_texture_coordinates_and_units(self):
+        self.run_weft("convert", "builtin:torus", "-o", "t.exr", "--size", "17")
+        self.run_weft("rebuild", "t.exr", "-o", "plain.obj")
+        self.run_weft("rebuild", "t.exr", "-o", "t.obj", "--texture", "33", "--unit", "cm", "--up", "z")
+        lines = {name: [line.split() for line in (self.folder / name).read_text().splitlines()] for name in ("plain.obj", "t.obj")}
+        points = {name: [[float(x) for x in line[1:]] for line in found if line[0] == "v"] for name, found in lines.items()}
+        for (x, y, z), moved in zip(points["plain.obj"], points["t.obj"], strict=True):
+            for a, b in zip((100 * x, -100 * z, 100 * y), moved, strict=True):
+                self.assertAlmostEqual(a, b, places=9)
+        texture = sorted([float(x) for x in line[1:]] for line in lines["t.obj"] if line[0] == "vt")
+        self.assertGreaterEqual(len(texture), 15 * 15)
+        for found, wanted in ((texture[0], (0.5 / 33, 0.5 / 33)), (texture[-1], (32.5 / 33, 32.5 / 33))):
+            for a, b in zip(found, wanted, strict=True):
+                self.assertAlmostEqual(a, b, places=6)
+        faces = [[corner.split("/")[0] for corner in line[1:]] for line in lines["t.obj"] if line[0] == "f"]
+        self.assertEqual(faces, [line[1:] for line in lines["plain.obj"] if line[0] == "f"])
+        self.assertIn("--texture", self.error_of("rebuild", "t.exr", "-o", "t.ply", "--texture", "33", code=2))
+
     def test_pictures_of_the_mesh_are_not_written_over(self):
         self.run_weft("convert", self.painted(), "-o", "ball.exr", "--size", "33", "--colours")
         (self.folder / "ball.exr").unlink()

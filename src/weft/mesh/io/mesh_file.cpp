@@ -105,8 +105,14 @@ std::string obj_text(const TriangleMesh& mesh, std::span<const Vec3f> colours) {
         fmt::format_to(out, " {:.4g}", value / 255.0);
     text.push_back('\n');
   }
-  for (const Triangle& t : mesh.triangles)
-    fmt::format_to(out, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  const MeshFaces faces = faces_of(mesh);
+  for (const Vec2f uv : faces.texture) fmt::format_to(out, "vt {} {}\n", uv.x, uv.y);
+  for (std::size_t corner = 0; corner < faces.corners.size(); ++corner) {
+    text += corner % 3 == 0 ? "f " : " ";
+    fmt::format_to(out, "{}", faces.corners[corner] + 1);
+    if (!faces.texture.empty()) fmt::format_to(out, "/{}", faces.texture_corners[corner] + 1);
+    if (corner % 3 == 2) text.push_back('\n');
+  }
   return text;
 }
 
