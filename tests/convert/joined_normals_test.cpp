@@ -13,10 +13,10 @@ namespace {
 
 Conversion in_charts(const TriangleMesh& mesh, int count) {
   ConvertOptions options;
-  options.size = 65;
+  options.size = 33;
   options.charts = ChartChoice::regions;
   options.max_charts = count;
-  options.normal_map_size = 129;
+  options.normal_map_size = 65;
   options.measure = false;
   return convert_mesh(mesh, "mesh", options);
 }
@@ -36,7 +36,7 @@ double worst_at_mates(const Conversion& made) {
 }
 
 TEST(JoinedNormals, GoOnWhereChartsMeet) {
-  for (const char* name : {"sphere", "torus", "knot"})
+  for (const char* name : {"sphere", "knot"})
     EXPECT_GT(worst_at_mates(in_charts(make_shape(name), 5)), 0.9999) << name;
 }
 

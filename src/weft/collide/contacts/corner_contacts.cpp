@@ -37,6 +37,30 @@ PathBox path_of(Vec3f start, Vec3f end) {
           {end.x, end.y, end.z}};
 }
 
+/// Box of the paths of points of a body.
+PathBox path_of(const ContactBody& body, std::span<const int> points) {
+  PathBox box = path_of(body.start->at(points[0]), body.end->at(points[0]));
+  for (const int point : points.subspan(1)) {
+    const PathBox one = path_of(body.start->at(point), body.end->at(point));
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.lower_start[k] = std::min(box.lower_start[k], one.lower_start[k]);
+      box.upper_start[k] = std::max(box.upper_start[k], one.upper_start[k]);
+      box.lower_end[k] = std::min(box.lower_end[k], one.lower_end[k]);
+      box.upper_end[k] = std::max(box.upper_end[k], one.upper_end[k]);
+    }
+  }
+  return box;
+}
+
+/// A side of the squares of samples by which sharp points are searched together.
+constexpr int square_side = 8;
+
+/// The square that a sample lies in; squares are numbered row by row.
+int tile_of(int sample, int size) {
+  const int across = (size + square_side - 1) / square_side;
+  return sample / size / square_side * across + sample % size / square_side;
+}
+
 /// Calls visit(node) for the cells reached from a node by the children that near(node) marks.
 template <class Near, class Visit>
 void for_near_cells(const Node& node, const Near& near, const Visit& visit) {
@@ -57,10 +81,19 @@ CornerContacts::CornerContacts(const SurfaceGrid& grid, const CollidingCloth& cl
 
 void CornerContacts::add_body(const SurfaceGrid& grid, const BodyQuery& body,
                               const Planes3& shape) {
-  sharp_.push_back(find_sharp_points(grid, body, shape,
-                                     {kept_.gap, aside_in_spacings * spacing_,
-                                      away_in_gaps * kept_.gap, keeps_in(sharp_.size())}));
-  any_sharp_ = any_sharp_ || !sharp_.back().empty();
+  SharpBody sharp{find_sharp_points(grid, body, shape,
+                                    {kept_.gap, aside_in_spacings * spacing_,
+                                     away_in_gaps * kept_.gap, keeps_in(sharp_.size())}),
+                  {}};
+  const auto tile = [&](int point) { return tile_of(point, grid.size()); };
+  std::stable_sort(sharp.points.begin(), sharp.points.end(),
+                   [&](int a, int b) { return tile(a) < tile(b); });
+  for (int k = 0; k < static_cast<int>(sharp.points.size()); ++k) {
+    if (k == 0 || tile(sharp.points[k]) != tile(sharp.points[k - 1])) sharp.tiles.push_back({k, 0});
+    ++sharp.tiles.back().count;
+  }
+  any_sharp_ = any_sharp_ || !sharp.points.empty();
+  sharp_.push_back(std::move(sharp));
 }
 
 void CornerContacts::find(const Step& step, std::span<const ContactBody> bodies, ThreadTeam& team) {
@@ -87,13 +120,17 @@ void CornerContacts::find(const Step& step, std::span<const ContactBody> bodies,
 }
 
 /// The closest sharp point of each triangle that has any, in the triangles' order.
-void CornerContacts::find_touches(const Search& search, std::span<const int> points,
-                                  ThreadTeam& team) {
+void CornerContacts::find_touches(const Search& search, const SharpBody& sharp, ThreadTeam& team) {
   touches_.clear();
-  if (points.empty()) return;
+  if (sharp.points.empty()) return;
   team.run([&](Worker& worker) {
-    near_.fill(static_cast<int>(points.size()), worker,
-               [&](int i, std::vector<Touch>& out) { find_touches_of(search, points[i], out); });
+    near_.fill(static_cast<int>(sharp.tiles.size()), worker, [&](int i, std::vector<Touch>& out) {
+      const std::span<const int> points =
+          std::span(sharp.points).subspan(sharp.tiles[i].first, sharp.tiles[i].count);
+      const Nodes near = near_tile(search, points);
+      if (near.count == 0) return;
+      for (const int point : points) find_touches_of(search, near, point, out);
+    });
   });
   append(near_, touches_);
   const auto order = [](const Touch& touch) {
@@ -105,20 +142,48 @@ void CornerContacts::find_touches(const Search& search, std::span<const int> poi
   touches_.erase(std::unique(touches_.begin(), touches_.end(), same), touches_.end());
 }
 
-void CornerContacts::find_touches_of(const Search& search, int point,
+/// Where a tile's points may be near the cloth: the finest level of which there are few such nodes.
+CornerContacts::Nodes CornerContacts::near_tile(const Search& search,
+                                                std::span<const int> points) const {
+  const PathBoxLevels& boxes = *search.step.boxes;
+  const PathBox box = path_of(search.body, points);
+  Nodes near{{Node{boxes.top(), 0, 0}}, 1};
+  while (near.count > 0 && near.nodes[0].level > 1) {
+    Nodes finer;
+    for (int i = 0; i < near.count; ++i) {
+      const Node& node = near.nodes[i];
+      const unsigned marked =
+          search.kernels.near_children(box, boxes.children(node), reach_of(search));
+      for (int k = 0; k < 4; ++k) {
+        if ((marked >> k & 1U) == 0) continue;
+        if (finer.count == static_cast<int>(finer.nodes.size())) return near;
+        finer.nodes[finer.count++] = {node.level - 1, 2 * node.row + k / 2, 2 * node.col + k % 2};
+      }
+    }
+    near = finer;
+  }
+  return near;
+}
+
+float CornerContacts::reach_of(const Search& search) const {
+  return static_cast<float>(contact_margin * kept_.gap) + search.step.aside;
+}
+
+void CornerContacts::find_touches_of(const Search& search, const Nodes& nodes, int point,
                                      std::vector<Touch>& out) const {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
-  const auto reach = static_cast<float>(contact_margin * kept_.gap) + search.step.aside;
+  const float reach = reach_of(search);
   const PathBox at = path_of(search.body.start->at(point), search.body.end->at(point));
   const PathBoxLevels& boxes = *search.step.boxes;
   const auto near = [&](const Node& node) {
     return search.kernels.near_children(at, boxes.children(node), reach);
   };
-  for_near_cells({boxes.top(), 0, 0}, near, [&](const Node& node) {
-    const int cell = node.row * grid_.cells() + node.col;
-    for (const int triangle : {2 * cell, 2 * cell + 1})
-      try_triangle(search, {triangle, point}, out);
-  });
+  for (int i = 0; i < nodes.count; ++i)
+    for_near_cells(nodes.nodes[i], near, [&](const Node& node) {
+      const int cell = node.row * grid_.cells() + node.col;
+      for (const int triangle : {2 * cell, 2 * cell + 1})
+        try_triangle(search, {triangle, point}, out);
+    });
   // An edge counts where it is the closest part of both its triangles: otherwise the direction to
   // it may lie along the cloth, where a push would strain it.
   const auto twin = [&](const Touch& touch) {

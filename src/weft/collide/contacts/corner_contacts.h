@@ -52,19 +52,36 @@ class CornerContacts {
     const ContactBody& body;
     const CollideKernels& kernels;
   };
+  /// Sharp points that lie side by side on a body.
+  struct Tile {
+    int first = 0, count = 0;
+  };
+  struct SharpBody {
+    std::vector<int> points;  // by tiles
+    std::vector<Tile> tiles;
+  };
+  /// Nodes of one level of the cloth's pyramid.
+  struct Nodes {
+    std::array<Node, 16> nodes{};
+    int count = 0;
+  };
   [[nodiscard]] bool keeps_in(std::size_t body) const {
     return !kept_in_.empty() && kept_in_[body] != 0;
   }
-  void find_touches(const Search& search, std::span<const int> points, ThreadTeam& team);
-  void find_touches_of(const Search& search, int point, std::vector<Touch>& out) const;
+  void find_touches(const Search& search, const SharpBody& sharp, ThreadTeam& team);
+  [[nodiscard]] Nodes near_tile(const Search& search, std::span<const int> points) const;
+  /// How near a point has to be to the cloth. [m]
+  [[nodiscard]] float reach_of(const Search& search) const;
+  void find_touches_of(const Search& search, const Nodes& nodes, int point,
+                       std::vector<Touch>& out) const;
   void try_triangle(const Search& search, Touch touch, std::vector<Touch>& out) const;
   void make_contact(const Search& search, const Touch& touch, std::vector<Contact>& out) const;
 
   const SurfaceGrid& grid_;
   KeptGap kept_;
-  double spacing_;                       // [m]
-  std::vector<char> kept_in_;            // per body; empty: by none
-  std::vector<std::vector<int>> sharp_;  // of each body
+  double spacing_;                // [m]
+  std::vector<char> kept_in_;     // per body; empty: by none
+  std::vector<SharpBody> sharp_;  // of each body
   bool any_sharp_ = false;
   PathBoxLevels boxes_;  // where the broad phase has none
   ChunkedLists<std::vector<Touch>> near_;
