@@ -288,7 +288,11 @@ void ScenePainter::draw_ground(const Matrix& to_clip) {
   ground_.set("sky_front", unit_front);
   floor_.bind(ground_);
   floor_.sky_front().bind(unit_front);
+  // Bodies that lie flat in the ground are seen.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1, 16);
   floor_.draw(1);
+  glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
 void ScenePainter::draw_edges(const DrawnScene& scene, const Matrix& to_clip,
