@@ -9,10 +9,10 @@ namespace {
 
 using test::TestCloth;
 
-constexpr int n = 9;
+constexpr int n = 11;
 constexpr double far_apart = 8;
 
-/// A flat sheet of 0.8 m that moves.
+/// A flat sheet of 1 m that moves.
 TestCloth sheet_at(Vec3d corner, Vec3d way) {
   TestCloth cloth(n);
   cloth.place([&](int r, int c) { return corner + Vec3d{0.1 * c, 0, 0.1 * r}; });
@@ -22,9 +22,10 @@ TestCloth sheet_at(Vec3d corner, Vec3d way) {
 }
 
 CommonMotion motion_of(TestCloth& a, TestCloth& b) {
-  const std::array moving{a.moving(), b.moving()};
   CommonMotion motion;
-  motion.find(moving, far_apart);
+  for (TestCloth* cloth : {&a, &b})
+    motion.add(cloth->moving(), SurfaceGrid(n, BorderMates(n, {}), {}));
+  motion.find(far_apart);
   return motion;
 }
 
@@ -42,6 +43,29 @@ TEST(CommonMotion, IsTheMeanOfClothsBesideEachOther) {
   const CommonMotion motion = motion_of(a, b);
   EXPECT_NEAR(motion.of(0).y, -0.042, 1e-7);
   EXPECT_EQ(motion.of(0), motion.of(1));
+}
+
+TEST(CommonMotion, IsNoneOfWhatIsPinnedOrBesideIt) {
+  TestCloth a = sheet_at({0, 1, 0}, {0, -0.04, 0}), b = sheet_at({0, 1.1, 0}, {0, -0.04, 0});
+  b.inverse_mass(3, 4) = 0;
+  EXPECT_FALSE(motion_of(a, b).any());
+  TestCloth c = sheet_at({9, 1, 0}, {0, -0.04, 0});
+  EXPECT_EQ(motion_of(b, c).of(0), Vec3d{});
+  EXPECT_NE(motion_of(b, c).of(1), Vec3d{});
+}
+
+/// Samples between charts are no part of the cloth.
+TEST(CommonMotion, IsThatOfChartsAlone) {
+  TestCloth cloth = sheet_at({0, 1, 0}, {0, -0.04, 0});
+  for (int r = 0; r < n; ++r) {
+    cloth.inverse_mass(r, 5) = 0;
+    cloth.position.set(r, 5, cloth.start.at(r, 5));
+  }
+  const BorderMates charts(n, {{"", 0, 0, n, 5}, {"", 0, 6, n, 5}}, {});
+  CommonMotion motion;
+  motion.add(cloth.moving(), SurfaceGrid(n, charts, {}));
+  motion.find(far_apart);
+  EXPECT_NEAR(motion.of(0).y, -0.04, 1e-7);
 }
 
 TEST(CommonMotion, IsNoneWhereSamplesDoNotMoveAlike) {

@@ -38,6 +38,22 @@ TEST(Simulation, FreeFallIsTheFormulaOfTheStep) {
   }
 }
 
+/// Within what the filter moves them to keep layers apart that fly past them.
+TEST(Simulation, PinnedSamplesDoNotFlyAwayInAStorm) {
+  Scene scene;
+  scene.cloths = {sheet(33, {0, 1, 0})};
+  scene.cloths[0].pins = {ScenePin{ImagePin{{0, 0}}, {}}, ScenePin{ImagePin{{1, 0}}, {}}};
+  scene.wind = WindOptions{{0, 60, 0}, 1, 1};
+  Simulation simulation(scene, "storm", 1);
+  const Planes3 start = simulation.cloths()[0].state.position;
+  for (int frame = 0; frame < 6; ++frame) {
+    simulation.advance();
+    for (const int col : {0, 32})
+      ASSERT_LT(length(simulation.cloths()[0].state.position.at(0, col) - start.at(0, col)), 0.02F)
+          << frame;
+  }
+}
+
 TEST(Simulation, PlacementScalesThenRotatesThenMoves) {
   Scene scene = free_fall(ImplicitOptions{});
   scene.cloths[0].placement = {{2, 1, 1}, {0, 0, 90}, {0, 3, 0}};
@@ -123,7 +139,7 @@ TEST(Simulation, LimiterCarriesTheSoftSpringsOfTwoLevel) {
   Scene scene = free_fall(TwoLevelOptions{});
   scene.cloths[0] = sheet(65, {0, 2, 0});
   scene.cloths[0].material = weft::testing::soft_fabric;
-  scene.cloths[0].pins = {ImagePin{{0, 0}}, ImagePin{{1, 0}}};
+  scene.cloths[0].pins = {ScenePin{ImagePin{{0, 0}}, {}}, ScenePin{ImagePin{{1, 0}}, {}}};
   Simulation simulation(scene, "hang", 2);
   FrameReport report;
   for (int frame = 0; frame < 30; ++frame) report = simulation.advance();
@@ -141,7 +157,7 @@ std::string hash_of_hanging(const IntegratorOptions& integrator, std::optional<i
   scene.limiter_passes = passes;
   scene.cloths[0].velocity = {};
   scene.cloths[0].material = {.stretch = 20, .shear = 2, .strain_limit = strain_limit};
-  scene.cloths[0].pins = {ImagePin{{0, 0}}, ImagePin{{1, 0}}};
+  scene.cloths[0].pins = {ScenePin{ImagePin{{0, 0}}, {}}, ScenePin{ImagePin{{1, 0}}, {}}};
   Simulation simulation(scene, "hang", 1);
   for (int frame = 0; frame < 10; ++frame) simulation.advance();
   return simulation.state_hash();

@@ -23,26 +23,33 @@ void CommonMotion::Displacements::add(Vec3d start, Vec3d end) {
 
 void CommonMotion::Displacements::add(const Displacements& others) {
   count += others.count;
+  pinned = pinned || others.pinned;
   sum += others.sum;
   squares += others.squares;
 }
 
 Vec3d CommonMotion::Displacements::common() const {
+  if (pinned) return {};
   const Vec3d mean = (1.0 / count) * sum;
   const double spread = squares / count - squared_length(mean);
   return spread <= max_spread * max_spread * squared_length(mean) ? mean : Vec3d{};
 }
 
-void CommonMotion::find(std::span<const MovingCloth> moving, double far_apart) {
-  cloths_.clear();
-  double farthest = 0;
-  for (const MovingCloth& cloth : moving) {
-    Displacements all;
-    for (int s = 0; s < cloth.start.size() * cloth.start.size(); ++s)
-      all.add(vec_cast<double>(cloth.start.at(s)), vec_cast<double>(cloth.position.at(s)));
-    farthest = std::max(farthest, length(all.sum) / all.count);
-    cloths_.push_back(all);
+void CommonMotion::add(const MovingCloth& cloth, const SurfaceGrid& grid) {
+  Displacements all;
+  const int n = grid.size();
+  for (int s = 0; s < n * n; ++s) {
+    if (grid.point(s) != s) continue;
+    all.add(vec_cast<double>(cloth.start.at(s)), vec_cast<double>(cloth.position.at(s)));
+    all.pinned = all.pinned || cloth.inverse_mass(s / n, s % n) == 0;
   }
+  cloths_.push_back(all);
+}
+
+void CommonMotion::find(double far_apart) {
+  double farthest = 0;
+  for (const Displacements& cloth : cloths_)
+    farthest = std::max(farthest, length(cloth.sum) / cloth.count);
   join_near(far_apart * farthest);
   share();
 }

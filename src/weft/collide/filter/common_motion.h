@@ -1,20 +1,23 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "weft/collide/collider.h"
+#include "weft/collide/moving_surface.h"
 #include "weft/core/disjoint_sets.h"
 
 namespace weft {
 
 /// Translations of cloths as wholes in a step: the mean displacement of their samples, where cloths
-/// that are not far apart count as one. None where samples do not move alike.
+/// that are not far apart count as one. None where samples do not move alike, and of what is
+/// pinned.
 class CommonMotion {
  public:
+  void clear() { cloths_.clear(); }
+  void add(const MovingCloth& cloth, const SurfaceGrid& grid);
   /// @param far_apart  distance beyond which cloths count as several, relative to the largest
   ///                   displacement of one
-  void find(std::span<const MovingCloth> moving, double far_apart);
+  void find(double far_apart);
   /// Whether any cloth moves as a whole.
   [[nodiscard]] bool any() const;
   /// Translation of a cloth. [m]
@@ -24,9 +27,10 @@ class CommonMotion {
   void join_near(double distance);
   void share();
 
-  /// Displacements of some samples.
+  /// Displacements of some points.
   struct Displacements {
     int count = 0;
+    bool pinned = false;
     Vec3d sum;           // [m]
     double squares = 0;  // sum of squared lengths [m^2]
     Box3d box;           // of starts and ends

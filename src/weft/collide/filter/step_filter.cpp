@@ -279,7 +279,10 @@ void StepFilter::carry_safe_positions(std::span<const MovingCloth> moving, doubl
 }
 
 bool StepFilter::take_safe_positions_along(std::span<const MovingCloth> moving, ThreadTeam& team) {
-  common_motion_.find(moving, 1 / SafePositions::max_part_of_distance);
+  common_motion_.clear();
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    common_motion_.add(moving[i], world_.cloths[i].grid);
+  common_motion_.find(1 / SafePositions::max_part_of_distance);
   if (!common_motion_.any()) return false;
   SafePositionSurroundings obstacles{world_.contact_bodies, world_.ground()};
   for (std::size_t i = 0; i < moving.size(); ++i) {
