@@ -58,12 +58,10 @@ std::vector<GLuint> quad_triangles(const std::vector<Chart>& charts, int side, i
   return indices;
 }
 
-/// The mesh without triangles of invalid indices; vertices that are not finite are 0.
+/// The mesh without triangles of invalid indices.
 TriangleMesh usable(const TriangleMesh& mesh) {
   TriangleMesh whole;
   whole.positions = mesh.positions;
-  for (Vec3d& p : whole.positions)
-    if (!is_finite(vec_cast<float>(p))) p = {};
   const int vertices = static_cast<int>(mesh.positions.size());
   for (const Triangle& t : mesh.triangles)
     if (std::all_of(t.begin(), t.end(), [&](int v) { return v >= 0 && v < vertices; }))
@@ -164,8 +162,11 @@ void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normal
 void SurfaceBuffers::load(const DrawnMesh& drawn) {
   WEFT_ASSERT(drawn.mesh != nullptr);
   revision_ = 0;
-  box_ = box_of(*drawn.mesh);
-  ShadedMesh shaded = shade_mesh(usable(*drawn.mesh));
+  TriangleMesh mesh = usable(*drawn.mesh);
+  box_ = box_of(mesh);
+  for (Vec3d& p : mesh.positions)
+    if (!is_finite(vec_cast<float>(p))) p = {};
+  ShadedMesh shaded = shade_mesh(mesh);
   upload_folded(positions_, std::move(shaded.positions));
   upload_folded(normals_, std::move(shaded.normals));
   std::vector<Vec3f> colours(shaded.source.size(), drawn.colour);
