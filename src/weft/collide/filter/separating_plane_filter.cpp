@@ -111,8 +111,9 @@ SeparatingPlaneFilter::Fate SeparatingPlaneFilter::place(int involved,
   end = point.end;
   if (held_[involved] == 0 && satisfies_all(involved, planes, point, end)) return Fate::free;
   FilteredPoint tried = point;
-  const double distance =
-      held_[involved] == 0 ? put_aside(involved, planes, aside.farthest, tried) : HUGE_VAL;
+  const double distance = held_[involved] == 0 && !point.stays
+                              ? put_aside(involved, planes, aside.farthest, tried)
+                              : HUGE_VAL;
   if (distance < HUGE_VAL) {
     end = tried.end;
     return distance <= aside.slack ? Fate::aside : Fate::far;

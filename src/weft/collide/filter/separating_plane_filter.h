@@ -14,6 +14,7 @@ struct FilteredPoint {
   Vec3f start;          ///< [m]
   Vec3f safe_position;  ///< see SafePositions [m]
   Vec3f end;            ///< [m]; may be changed
+  bool stays = false;   ///< pinned where it is
 };
 
 /// Moves the ends of points so that each lies on its side of all its planes. A point beyond planes

@@ -128,8 +128,12 @@ void StepFilter::add_ground_planes(std::span<const MovingCloth> moving) {
 FilteredPoint StepFilter::point_at(std::span<const MovingCloth> moving, int point) const {
   const std::size_t cloth = world_.cloth_of(point);
   const int sample = point - world_.cloths[cloth].first_point;
-  return {moving[cloth].start.at(sample), cloths_[cloth].safe_position->at(sample),
-          moving[cloth].position.at(sample)};
+  const int n = world_.cloths[cloth].properties.size;
+  FilteredPoint at{moving[cloth].start.at(sample), cloths_[cloth].safe_position->at(sample),
+                   moving[cloth].position.at(sample)};
+  // Pins that move are put aside as other points are: stopped, they would hold back all around.
+  at.stays = moving[cloth].inverse_mass(sample / n, sample % n) == 0 && at.start == at.end;
+  return at;
 }
 
 /// Whether all proposed ends may stay. Only features whose paths nearly touch need planes for this,
