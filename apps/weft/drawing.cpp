@@ -47,7 +47,8 @@ void add_body(RunFrame& drawn, const RecordedBody& body, int frame) {
   surface.mates = &body.image.mates;
   surface.revision = body.recorded ? static_cast<std::uint64_t>(frame) + 1 : 1;
   if (body.normals && body.recorded) {
-    drawn.normals.push_back(carried_normals(body.positions, *body.normals, drawn.bodies.back(), &body.image.mates));
+    drawn.normals.push_back(
+        carried_normals(body.positions, *body.normals, drawn.bodies.back(), &body.image.mates));
     surface.normals = &drawn.normals.back();
   } else if (body.normals) {
     surface.normals = &*body.normals;

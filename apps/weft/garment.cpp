@@ -8,7 +8,6 @@
 #include "apps/weft/commands.h"
 #include "apps/weft/run_args.h"
 #include "weft/error.h"
-#include "weft/files.h"
 #include "weft/scene.h"
 
 namespace weft::app {
@@ -24,7 +23,7 @@ struct GarmentArgs {
 };
 
 void sew_garment(const GarmentArgs& args, const Context& context) {
-  if (ending_of(args.pattern) != ".json")
+  if (!is_pattern_name(args.pattern))
     throw InputError(args.pattern, "is no sewing pattern",
                      "a GarmentCode pattern (.json) is wanted");
   Scene scene;

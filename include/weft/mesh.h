@@ -120,7 +120,8 @@ TriangleMesh parse_gltf(std::string_view bytes, std::string_view name,
                         const std::optional<std::filesystem::path>& folder = std::nullopt);
 
 /// Writes OBJ, with texture coordinates where the mesh has some, or PLY (binary, double precision)
-/// by the ending of the name. Numbers are written so that reading them back gives the same bits. @throws OutputError; UsageError on another ending
+/// by the ending of the name. Numbers are written so that reading them back gives the same bits.
+/// @throws OutputError; UsageError on another ending
 /// @param colours  [V] linear RGB: written as vertex colours (PLY: bytes; OBJ: behind positions),
 /// in
 ///                 display values of sRGB; none when empty

@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-/// Samples move alike while the root of their mean squared distance from the mean displacement is
+/// Points move alike while the root of their mean squared distance from the mean displacement is
 /// at most this part of it.
 constexpr double max_spread = 0.25;
 

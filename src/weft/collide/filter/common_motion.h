@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// Translations of cloths as wholes in a step: the mean displacement of their samples, where cloths
-/// that are not far apart count as one. None where samples do not move alike, and of what is
+/// Translations of cloths as wholes in a step: the mean displacement of their points, where cloths
+/// that are not far apart count as one. None where points do not move alike, and of what is
 /// pinned.
 class CommonMotion {
  public:
