@@ -168,10 +168,10 @@ void ChartConversion::map(ChartSize size, int unit) {
   mapped_ = std::make_shared<MappedDisk>(std::move(mapped));
 }
 
-void ChartConversion::sample() {
-  mapped_->map.sample_places = unfolded_places(*mapped_);
+void ChartConversion::sample(Progress* progress) {
+  mapped_->map.sample_places = unfolded_places(*mapped_, progress);
   image_ = sample_image(*mapped_);
-  if (options_.fit_samples) image_ = fit_samples(*mapped_, image_, {.progress = options_.progress});
+  if (options_.fit_samples) image_ = fit_samples(*mapped_, image_, {.progress = progress});
 }
 
 }  // namespace weft

@@ -57,8 +57,9 @@ class ChartConversion {
   /// Maps the disk to such a chart. @param unit  of rotations, see RotationOptions
   /// @throws TopologyError as map_to_square
   void map(ChartSize size, int unit);
+  /// Threads may sample several charts at once. @param progress  may be null
   /// @throws TopologyError as sample_image
-  void sample();
+  void sample(Progress* progress);
 
   [[nodiscard]] std::shared_ptr<const MappedDisk> mapped() const { return mapped_; }
   [[nodiscard]] const GeometryImage& image() const { return image_; }

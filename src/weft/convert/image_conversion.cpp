@@ -9,6 +9,7 @@
 #include "weft/convert/joined_normals.h"
 #include "weft/convert/sample.h"
 #include "weft/core/hash.h"
+#include "weft/core/share_out.h"
 #include "weft/core/stopwatch.h"
 #include "weft/error.h"
 #include "weft/image_quality.h"
@@ -88,10 +89,9 @@ void ImageConversion::run() {
   const int unit = squares ? 1 : rotation_unit;
   for (std::size_t k = 0; k < charts_.size(); ++k) charts_[k].map(size_of(k), unit);
   made_.seconds.map = watch.lap();
-  for (ChartConversion& chart : charts_) {
-    tell("sample");
-    chart.sample();
-  }
+  tell("sample");
+  share_out(static_cast<int>(charts_.size()), options_.threads, options_.progress, "sample",
+            [&](int k, Progress* progress) { charts_[k].sample(progress); });
   gather();
   made_.seconds.sample = watch.lap();
 }

@@ -39,13 +39,34 @@ PatchUnfolding::PatchUnfolding(std::span<const Point> points, std::span<const Tr
     : points_(points.begin(), points.end()) {
   for (const Point& point : points) axes_.push_back(axes_of(point.normal));
   double twice_area = 0;
-  for (std::size_t k = 0; k < triangles.size(); ++k) {
-    const Triangle& t = triangles[k];
-    const Point &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-    triangles_.push_back({t, axes_of(normalized(a.normal + b.normal + c.normal)), feet[k]});
-    twice_area += length(cross(b.position - a.position, c.position - a.position));
-  }
+  for (const auto& [a, b, c] : triangles)
+    twice_area += length(
+        cross(points[b].position - points[a].position, points[c].position - points[a].position));
   if (twice_area > 0) spacing_ = std::sqrt(twice_area / static_cast<double>(triangles.size()));
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+    triangles_.push_back(flat(triangles[k], feet[k]));
+}
+
+/// All of it is linear in the displacements, so that their energy needs no more than this.
+PatchUnfolding::Flat PatchUnfolding::flat(const Triangle& corners, const PlaneAt& foot) const {
+  const auto [a, b, c] = corners;
+  const Vec3d first = points_[a].position;
+  const Axes plane = axes_of(normalized(points_[a].normal + points_[b].normal + points_[c].normal));
+  const auto within = [&](Vec3d way) {
+    return Vec2d{dot(way, plane.first), dot(way, plane.second)};
+  };
+  Flat made{corners};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& [along, across] = axes_[corners[k]];
+    if (points_[corners[k]].moves)
+      made.moves[k] = {within(along), within(across),
+                       (1.0 / 3) * Vec2d{dot(along, foot.normal), dot(across, foot.normal)}};
+  }
+  made.rest = {(1 / spacing_) * within(points_[b].position - first),
+               (1 / spacing_) * within(points_[c].position - first)};
+  const Vec3d middle = (1.0 / 3) * (first + points_[b].position + points_[c].position);
+  made.off = (1 / spacing_) * dot(middle - foot.position, foot.normal);
+  return made;
 }
 
 Vec3d PatchUnfolding::displacement(const Vectors& at, int point) const {
@@ -57,13 +78,11 @@ Vec3d PatchUnfolding::place(const Vectors& at, int point) const {
   return points_[point].position + displacement(at, point);
 }
 
-PatchUnfolding::Jacobian PatchUnfolding::jacobian(const Flat& triangle, const Vectors& at) const {
-  const Vec3d first = place(at, triangle.corners[0]);
-  const auto edge = [&](int corner) {
-    const Vec3d to = (1 / spacing_) * (place(at, triangle.corners[corner]) - first);
-    return Vec2d{dot(to, triangle.axes.first), dot(to, triangle.axes.second)};
-  };
-  return {edge(1), edge(2)};
+PatchUnfolding::Jacobian PatchUnfolding::jacobian(const Flat& triangle, const Vectors& at) {
+  const auto moved = [&](int k) { return triangle.moves[k].moved(at[triangle.corners[k]]); };
+  const Vec2d first = moved(0);
+  return {triangle.rest.to_second + (moved(1) - first),
+          triangle.rest.to_third + (moved(2) - first)};
 }
 
 double PatchUnfolding::least_area(const Vectors& at) const {
@@ -76,12 +95,12 @@ double PatchUnfolding::least_area(const Vectors& at) const {
 /// chi = (d + sqrt(s^2 + d^2)) / 2: about d where that is positive, else small and positive.
 PatchUnfolding::Slopes PatchUnfolding::energy_of(const Jacobian& j, double softness) {
   const double area = j.area(), root = std::sqrt(softness * softness + area * area);
-  const double chi = 0.5 * (area + root), slope_of_chi = 0.5 + 0.5 * area / root;
+  const double per_chi = 2 / (area + root), slope_of_chi = 0.5 + 0.5 * area / root;
   const double shape = dot(j.to_second, j.to_second) + dot(j.to_third, j.to_third);
   const double value =
-      0.5 * (weight_of_shape * shape + (1 - weight_of_shape) * (area * area + 1)) / chi;
-  const double by_area = ((1 - weight_of_shape) * area - value * slope_of_chi) / chi,
-               by_shape = weight_of_shape / chi;
+      0.5 * per_chi * (weight_of_shape * shape + (1 - weight_of_shape) * (area * area + 1));
+  const double by_area = per_chi * ((1 - weight_of_shape) * area - value * slope_of_chi),
+               by_shape = per_chi * weight_of_shape;
   return {value, by_shape * j.to_second + by_area * Vec2d{j.to_third.y, -j.to_third.x},
           by_shape * j.to_third + by_area * Vec2d{-j.to_second.y, j.to_second.x}};
 }
@@ -91,30 +110,23 @@ double PatchUnfolding::energy(const Vectors& at, double softness, Vectors& gradi
   std::fill(gradient.begin(), gradient.end(), Vec2d{});
   for (const Flat& triangle : triangles_) {
     const Slopes slopes = energy_of(jacobian(triangle, at), softness);
-    sum += slopes.value;
+    const double off = distance(triangle, at);
+    sum += slopes.value + weight_of_distance * off * off;
     const std::array<Vec2d, 3> corners{Vec2d{} - slopes.second - slopes.third, slopes.second,
                                        slopes.third};
-    const double off = distance(triangle, at);
-    sum += weight_of_distance * off * off;
-    const Vec3d towards = (2.0 / 3 * weight_of_distance * off) * triangle.foot.normal;
-    for (int k = 0; k < 3; ++k)
-      pull(triangle.corners[k],
-           corners[k].x * triangle.axes.first + corners[k].y * triangle.axes.second + towards,
-           gradient);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Flat::Corner& corner = triangle.moves[k];
+      Vec2d& slope = gradient[triangle.corners[k]];
+      slope = slope + corner.pulled(corners[k]) + (2 * weight_of_distance * off) * corner.off;
+    }
   }
   return sum;
 }
 
-void PatchUnfolding::pull(int point, Vec3d slope, Vectors& gradient) const {
-  if (!points_[point].moves) return;
-  const Axes& axes = axes_[point];
-  gradient[point] = gradient[point] + Vec2d{dot(slope, axes.first), dot(slope, axes.second)};
-}
-
-double PatchUnfolding::distance(const Flat& triangle, const Vectors& at) const {
-  const auto [a, b, c] = triangle.corners;
-  const Vec3d middle = (1.0 / 3) * (place(at, a) + place(at, b) + place(at, c));
-  return (1 / spacing_) * dot(middle - triangle.foot.position, triangle.foot.normal);
+double PatchUnfolding::distance(const Flat& triangle, const Vectors& at) {
+  double off = triangle.off;
+  for (std::size_t k = 0; k < 3; ++k) off += dot(triangle.moves[k].off, at[triangle.corners[k]]);
+  return off;
 }
 
 void PatchUnfolding::smooth(Vectors& at) const {

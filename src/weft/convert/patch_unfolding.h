@@ -42,15 +42,26 @@ class PatchUnfolding {
   struct Axes {
     Vec3d first, second;
   };
-  struct Flat {
-    Triangle corners{};
-    Axes axes;  // of the plane in which it is judged
-    PlaneAt foot;
-  };
   /// A triangle's edges from its first corner, in units of spacing_.
   struct Jacobian {
     Vec2d to_second, to_third;
     [[nodiscard]] double area() const { return cross(to_second, to_third); }
+  };
+  /// A triangle in the plane in which it is judged: how it lies, and how it moves with its corners.
+  struct Flat {
+    /// What a corner's displacement along each of its axes does; nothing where it does not move.
+    struct Corner {
+      Vec2d first, second;  // in the triangle's plane
+      Vec2d off;            // to the distance of its middle from the surface
+      [[nodiscard]] Vec2d moved(Vec2d by) const { return by.x * first + by.y * second; }
+      [[nodiscard]] Vec2d pulled(Vec2d slope) const {
+        return {dot(slope, first), dot(slope, second)};
+      }
+    };
+    Triangle corners{};
+    std::array<Corner, 3> moves;
+    Jacobian rest;
+    double off = 0;  // distance of its middle from the plane at its foot, in units of spacing_
   };
   /// An energy, and its derivatives by a triangle's second and third corner.
   struct Slopes {
@@ -58,18 +69,17 @@ class PatchUnfolding {
     Vec2d second, third;
   };
   static Axes axes_of(Vec3d normal);
+  [[nodiscard]] Flat flat(const Triangle& corners, const PlaneAt& foot) const;
   static Slopes energy_of(const Jacobian& j, double softness);
   [[nodiscard]] Vec3d displacement(const Vectors& at, int point) const;
   [[nodiscard]] Vec3d place(const Vectors& at, int point) const;
-  [[nodiscard]] Jacobian jacobian(const Flat& triangle, const Vectors& at) const;
+  static Jacobian jacobian(const Flat& triangle, const Vectors& at);
   [[nodiscard]] double least_area(const Vectors& at) const;
   /// Puts points amid those that they share triangles with, by sweeps.
   void smooth(Vectors& at) const;
   /// @param at  displacements in the tangent planes, in units of spacing_
   double energy(const Vectors& at, double softness, Vectors& gradient) const;
-  /// From the plane at its foot, in units of spacing_.
-  [[nodiscard]] double distance(const Flat& triangle, const Vectors& at) const;
-  void pull(int point, Vec3d slope, Vectors& gradient) const;
+  static double distance(const Flat& triangle, const Vectors& at);
 
   std::vector<Point> points_;
   std::vector<Axes> axes_;  // of the points

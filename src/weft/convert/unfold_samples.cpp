@@ -22,17 +22,21 @@ constexpr int reach = 3;
 /// Times that the samples of a spot are moved. Each time they slide over the surface as it is bent,
 /// and quads choose their diagonals anew.
 constexpr int max_moves = 6;
-/// Larger spots are limbs that are sampled too coarsely, which nothing unfolds.
-constexpr std::size_t max_samples = 1024;
 /// Of samples' old places from the new triangles, and of those triangles' middles from the surface,
 /// in spacings, unless it was more before: fingers and ears are to keep their tips, and no triangle
 /// is to bridge an armpit.
 constexpr PatchDeviation max_deviation{0.9, 0.15};
 
+/// At spots of no more samples than this. Larger ones are limbs that are sampled too coarsely, of
+/// which many steps unfolded none that few did not.
+struct Attempt {
+  PatchUnfolding::Attempt unfolding;
+  std::size_t max_samples;
+};
 /// Of each spot the best is kept.
-constexpr std::array attempts{PatchUnfolding::Attempt{false, 60},
-                              PatchUnfolding::Attempt{false, 600},
-                              PatchUnfolding::Attempt{true, 600}};
+constexpr std::array attempts{Attempt{{false, 60}, 1024}, Attempt{{false, 600}, 512},
+                              Attempt{{true, 600}, 512}};
+constexpr std::size_t max_samples = attempts[0].max_samples;
 
 /// The right-angled corner of a triangle of the grid comes first.
 Triangle from_right_angle(const Triangle& t, int n) {
@@ -66,7 +70,8 @@ struct Spot {
 
 class Unfolding {
  public:
-  explicit Unfolding(const MappedDisk& mapped);
+  /// @param progress  may be null
+  Unfolding(const MappedDisk& mapped, Progress* progress);
 
   [[nodiscard]] bool has_spots() const { return !spots_.empty(); }
   void run();
@@ -113,7 +118,7 @@ class Unfolding {
   void find_spots();
   void choose_triangles();
   /// Tries to unfold all spots that still are not.
-  void try_again(const PatchUnfolding::Attempt& attempt, const SlidingSurface& surface);
+  void try_again(const Attempt& attempt, const SlidingSurface& surface, Progress& progress);
   void slide(const Spot& spot, const PatchUnfolding::Attempt& attempt,
              const SlidingSurface& surface);
   void keep_if_less_reversed(Spot& spot, const SlidingSurface& surface);
@@ -121,6 +126,7 @@ class Unfolding {
   void count_crossings(Spot::State Spot::*state);
   [[nodiscard]] PatchDeviation deviation_of(const Spot& spot, const SlidingSurface& surface) const;
 
+  Progress* progress_;
   ChartSize size_;
   GeometryImage image_;
   int n_;
@@ -131,8 +137,9 @@ class Unfolding {
   std::vector<int> spot_of_;  // [n * n] of samples that slide; -1: none
 };
 
-Unfolding::Unfolding(const MappedDisk& mapped)
-    : size_(mapped.map.size),
+Unfolding::Unfolding(const MappedDisk& mapped, Progress* progress)
+    : progress_(progress),
+      size_(mapped.map.size),
       image_(sample_image(mapped)),
       n_(image_.size()),
       mapped_(mapped),
@@ -209,20 +216,29 @@ void Unfolding::run() {
     spot.before.deviation = deviation_of(spot, surface);
     spot.best = spot.before;
   }
-  for (const PatchUnfolding::Attempt& attempt : attempts) try_again(attempt, surface);
+  for (std::size_t k = 0; k < attempts.size(); ++k) {
+    const double all = attempts.size();
+    PartOfProgress part(progress_, "unfold", k / all, (k + 1) / all);
+    try_again(attempts[k], surface, part);
+  }
 }
 
-void Unfolding::try_again(const PatchUnfolding::Attempt& attempt, const SlidingSurface& surface) {
-  PatchUnfolding::Attempt next = attempt;
+void Unfolding::try_again(const Attempt& attempt, const SlidingSurface& surface,
+                          Progress& progress) {
+  PatchUnfolding::Attempt next = attempt.unfolding;
   for (Spot& spot : spots_) {
-    spot.goes_on = !spot.best.is_unfolded() && is_promising(spot);
+    spot.goes_on = !spot.best.is_unfolded() && is_promising(spot) &&
+                   spot.samples.size() <= attempt.max_samples;
     spot.tried = spot.goes_on ? spot.before : spot.best;
     put(spot, spot.tried);
   }
   choose_triangles();
   for (int move = 0; move < max_moves; ++move) {
-    for (const Spot& spot : spots_)
-      if (spot.goes_on) slide(spot, next, surface);
+    for (std::size_t k = 0; k < spots_.size(); ++k) {
+      if (!spots_[k].goes_on) continue;
+      progress.update("", (move + static_cast<double>(k) / spots_.size()) / max_moves);
+      slide(spots_[k], next, surface);
+    }
     next.from_smooth = false;
     choose_triangles();
     for (Spot& spot : spots_) keep_if_less_reversed(spot, surface);
@@ -326,8 +342,8 @@ std::vector<Vec2d> Unfolding::places() const {
 
 }  // namespace
 
-std::vector<Vec2d> unfolded_places(const MappedDisk& mapped) {
-  Unfolding unfolding(mapped);
+std::vector<Vec2d> unfolded_places(const MappedDisk& mapped, Progress* progress) {
+  Unfolding unfolding(mapped, progress);
   if (!unfolding.has_spots()) return {};
   unfolding.run();
   return unfolding.places();

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "weft/core/ordered_sum.h"
+
 namespace weft {
 namespace {
 
@@ -28,9 +30,7 @@ Vectors difference(Vectors a, const Vectors& b) {
 }  // namespace
 
 double dot_of(const Vectors& a, const Vectors& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += dot(a[k], b[k]);
-  return sum;
+  return lane_sum(static_cast<int>(a.size()), [&](int k) { return dot(a[k], b[k]); });
 }
 
 void add_scaled(Vectors& to, double factor, const Vectors& what) {

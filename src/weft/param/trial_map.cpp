@@ -1,9 +1,9 @@
 #include "weft/param/trial_map.h"
 
 #include <algorithm>
-#include <exception>
+#include <utility>
 
-#include "weft/core/thread_team.h"
+#include "weft/core/share_out.h"
 #include "weft/param/border_relaxation.h"
 #include "weft/param/chords.h"
 #include "weft/param/disk_geometry.h"
@@ -74,63 +74,16 @@ TrialMap try_map(const CutDisk& cut, int rotation, const TrialOptions& options) 
   return trial;
 }
 
-namespace {
-
-/// A trial map for each of several rotations, shared out to threads.
-class Trials {
- public:
-  Trials(const CutDisk& cut, std::span<const int> rotations, const TrialOptions& options)
-      : cut_(cut),
-        rotations_(rotations),
-        options_(options),
-        made_(rotations.size()),
-        failures_(rotations.size()) {}
-
-  void run() {
-    ThreadTeam team(std::clamp(options_.threads, 1, count()));
-    team.run([&](Worker& worker) {
-      const Range mine = worker.share(count());
-      // Progress is told by the caller's thread alone, which may also be asked to stop there.
-      Progress* const progress = worker.rank() == 0 ? options_.progress : nullptr;
-      for (int k = mine.first; k < mine.last && !failures_[mine.first]; ++k)
-        attempt(k, mine, progress);
-    });
-    for (const std::exception_ptr& failure : failures_)
-      if (failure) std::rethrow_exception(failure);
-  }
-  [[nodiscard]] TrialMap& best() {
-    return *std::min_element(made_.begin(), made_.end(), [](const TrialMap& a, const TrialMap& b) {
-      return a.energy < b.energy;
-    });
-  }
-
- private:
-  [[nodiscard]] int count() const { return static_cast<int>(rotations_.size()); }
-  /// A thread ends at its first failure, which stands at the beginning of its share.
-  void attempt(int k, Range mine, Progress* progress) {
-    const double all = mine.last - mine.first;
-    PartOfProgress part(progress, "cut", (k - mine.first) / all, (k - mine.first + 1) / all);
-    try {
-      made_[k] = try_map(cut_, rotations_[k], {.size = options_.size, .progress = &part});
-    } catch (...) {
-      failures_[mine.first] = std::current_exception();
-    }
-  }
-
-  const CutDisk& cut_;
-  std::span<const int> rotations_;
-  const TrialOptions& options_;
-  std::vector<TrialMap> made_;
-  std::vector<std::exception_ptr> failures_;
-};
-
-}  // namespace
-
 TrialMap try_rotations(const CutDisk& cut, std::span<const int> rotations,
                        const TrialOptions& options) {
-  Trials trials(cut, rotations, options);
-  trials.run();
-  return std::move(trials.best());
+  std::vector<TrialMap> made(rotations.size());
+  share_out(static_cast<int>(rotations.size()), options.threads, options.progress, "cut",
+            [&](int k, Progress* progress) {
+              made[k] = try_map(cut, rotations[k], {.size = options.size, .progress = progress});
+            });
+  return std::move(
+      *std::min_element(made.begin(), made.end(),
+                        [](const TrialMap& a, const TrialMap& b) { return a.energy < b.energy; }));
 }
 
 }  // namespace weft
