@@ -114,6 +114,7 @@ TEST(StabilityCheck, InstabilityNamesFrameClothParticleAndTheStableStep) {
   const std::string text = runaway_of(scene);
   EXPECT_NE(text.find("scene.json: cloth 'stiff' ran away at frame "), std::string::npos) << text;
   EXPECT_NE(text.find("particle (row "), std::string::npos) << text;
+  EXPECT_NE(text.find("), which moves at "), std::string::npos) << text;
   EXPECT_NE(text.find("largest stable step"), std::string::npos) << text;
 }
 

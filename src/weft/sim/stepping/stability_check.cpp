@@ -1,6 +1,7 @@
 #include "weft/sim/stepping/stability_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -43,17 +44,28 @@ void StabilityCheck::stop(const Now& now, std::size_t cloth, const std::string& 
       advice_for(now, cloth), {now.frame + 1, cloths_[cloth].name});
 }
 
+namespace {
+
+std::string motion_text(const ClothState& state, BadParticle bad) {
+  const double speed = length(vec_cast<double>(state.velocity.at(bad.row, bad.col)));
+  if (!std::isfinite(speed)) return "which is at no finite place";
+  return fmt::format("which moves at {:.3g} m/s", speed);
+}
+
+}  // namespace
+
 bool StabilityCheck::check_proposals(const Now& now, bool may_refuse, ThreadTeam& team) {
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     const std::string& cloth = cloths_[i].name;
-    const auto bad = movers_[i].runaway.find(*cloths_[i].model, movers_[i].integrator->proposal(),
-                                             now.end, team);
+    const ClothState& proposal = movers_[i].integrator->proposal();
+    const auto bad = movers_[i].runaway.find(*cloths_[i].model, proposal, now.end, team);
     if (bad && may_refuse) return false;
     if (bad)
-      throw Unstable(name_,
-                     fmt::format("cloth '{}' ran away at frame {}, particle (row {}, col {})",
-                                 cloth, now.frame + 1, bad->row, bad->col),
-                     advice_for(now, i), {now.frame + 1, cloth, bad->row, bad->col});
+      throw Unstable(
+          name_,
+          fmt::format("cloth '{}' ran away at frame {}, particle (row {}, col {}), {}", cloth,
+                      now.frame + 1, bad->row, bad->col, motion_text(proposal, *bad)),
+          advice_for(now, i), {now.frame + 1, cloth, bad->row, bad->col});
   }
   return true;
 }
