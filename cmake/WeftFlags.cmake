@@ -20,7 +20,8 @@ target_compile_options(weft_warnings INTERFACE -Wall -Wextra -Wpedantic -Wnon-vi
   $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>)
 if(WEFT_WARNINGS_AS_ERRORS)
   # Names may hide those of another source that is compiled together with theirs.
-  target_compile_options(weft_warnings INTERFACE -Werror -Wshadow)
+  target_compile_options(weft_warnings INTERFACE -Werror
+    $<$<NOT:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wshadow>)
 endif()
 
 # For code where little time is spent, such as tests: compiled in half the time. At -O1 GCC 12 sees
