@@ -245,6 +245,11 @@ class ExportsOfGarments(ProgramTest):
         self.assertIn("is no sewing pattern",
                       self.error_of("garment", "builtin:tshirt", "--body", "builtin:sphere", "-o", "mesh", code=3))
 
+    def test_panels_of_few_samples_are_warned_of(self):
+        words = ["160" if word == "30" else word for word in self.words]
+        said = self.run_weft(*words, "-o", "run").stderr
+        self.assertIn("2 of 2 panels are narrower than two spacings of samples, 160 mm each", said)
+
     def test_on_image_leaves_panels_apart(self):
         self.run_weft(*self.words, "-o", "sewn")
         self.run_weft(*self.words, "-o", "apart", "--on", "image")

@@ -62,8 +62,9 @@ TEST(PatternFile, SaysWhichStitchesGoWithEdgesThatAreLeftOut) {
           "stitches":[[{"panel":"p","edge":2},{"panel":"p","edge":4}]]}})",
       "p");
   EXPECT_TRUE(pattern.stitches.empty());
-  ASSERT_EQ(pattern.notes.size(), 1U);
+  ASSERT_EQ(pattern.notes.size(), 2U);
   EXPECT_EQ(pattern.notes[0], "panel 'p', edge 2: left out with its stitch, it is 2 mm long");
+  EXPECT_EQ(pattern.notes[1], "1 of 1 panels sewn to nothing and held by no label, the first 'p'");
 }
 
 TEST(PatternFile, NotesCirclesThatDoNotReachFromEndToEnd) {

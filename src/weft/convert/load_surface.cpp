@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -8,6 +9,7 @@
 #include "weft/convert/surface_places.h"
 #include "weft/error.h"
 #include "weft/files.h"
+#include "weft/garment.h"
 #include "weft/image/builtin.h"
 #include "weft/image_file.h"
 #include "weft/mesh.h"
@@ -125,6 +127,22 @@ TriangleMesh load_mesh(const std::string& name) {
   return read_mesh(name);
 }
 
+namespace {
+
+/// Of panels with no room for two intervals. @return empty where there are none
+std::string note_of_coarse(const Pattern& pattern, double spacing) {
+  std::size_t coarse = 0;
+  for (const PatternPanel& panel : pattern.panels) {
+    const Vec2d extent = measure_panel(panel).extent;
+    coarse += std::min(extent.x, extent.y) < 2 * spacing ? 1 : 0;
+  }
+  if (coarse == 0) return "";
+  return fmt::format("{} of {} panels are narrower than two spacings of samples, {:.3g} mm each",
+                     coarse, pattern.panels.size(), 1000 * spacing);
+}
+
+}  // namespace
+
 bool is_image_surface(const Surface& surface) {
   if (surface.in_memory()) return surface.image != nullptr;
   const std::string& name = surface.name;
@@ -150,6 +168,8 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
         make_garment(pattern, name, options.spacing, options.progress));
     loaded.image = loaded.garment->image;
     loaded.notes = pattern.notes;
+    if (std::string note = note_of_coarse(pattern, options.spacing); !note.empty())
+      loaded.notes.push_back(std::move(note));
     return loaded;
   }
   ConvertOptions quick = options;

@@ -128,6 +128,25 @@ void check_stitches(const Pattern& pattern, const std::string& name) {
   }
 }
 
+/// Notes panels that nothing holds: a file may have lost its stitches.
+void note_unsewn(Pattern& pattern) {
+  std::vector<bool> is_held(pattern.panels.size(), false);
+  for (const Stitch& stitch : pattern.stitches)
+    is_held[stitch.a.panel] = is_held[stitch.b.panel] = true;
+  for (std::size_t k = 0; k < is_held.size(); ++k) {
+    const std::vector<PatternEdge>& edges = pattern.panels[k].edges;
+    is_held[k] = is_held[k] || std::any_of(edges.begin(), edges.end(), [](const PatternEdge& edge) {
+                   return !edge.label.empty();
+                 });
+  }
+  const auto loose = std::count(is_held.begin(), is_held.end(), false);
+  if (loose == 0) return;
+  const auto first = std::find(is_held.begin(), is_held.end(), false) - is_held.begin();
+  pattern.notes.push_back(
+      fmt::format("{} of {} panels sewn to nothing and held by no label, the first '{}'", loose,
+                  is_held.size(), pattern.panels[static_cast<std::size_t>(first)].name));
+}
+
 }  // namespace
 
 std::string place_of(const Pattern& pattern, PanelEdge edge, const std::string& name) {
@@ -143,6 +162,7 @@ void check_pattern(Pattern& pattern, const std::string& name) {
     check_left(pattern.panels[k], name);
     check_crossings(pattern, k, name);
   }
+  note_unsewn(pattern);
 }
 
 }  // namespace weft
