@@ -187,11 +187,12 @@ void add_show_options(CLI::App& command, RenderArgs& args) {
 
 void add_render(CLI::App& program, const Context& context) {
   auto args = std::make_shared<RenderArgs>();
-  CLI::App* command = program.add_subcommand("render", "Draw runs, geometry images or meshes");
+  CLI::App* command =
+      program.add_subcommand("render", "Draw runs, geometry images, meshes or sewing patterns");
   command
-      ->add_option("DIR|IMAGE|MESH", args->subjects,
-                   "Folder of a run, geometry image, mesh or builtin:NAME; several are drawn side "
-                   "by side from one camera")
+      ->add_option("DIR|IMAGE|MESH|PATTERN", args->subjects,
+                   "Folder of a run, geometry image, mesh, builtin:NAME or sewing pattern; several "
+                   "are drawn side by side from one camera")
       ->required();
   command->add_option("-o,--output", args->output, "PICTURE.png, or MOVIE.mp4 or .gif")->required();
   command->add_option("--frame", args->frame, "Of a run; the last when not given")

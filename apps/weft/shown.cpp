@@ -1,10 +1,12 @@
 #include "apps/weft/shown.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "apps/weft/terminal_progress.h"
 #include "weft/drawing.h"
 #include "weft/error.h"
+#include "weft/garment.h"
 #include "weft/geometry_image.h"
 #include "weft/image_file.h"
 #include "weft/repair.h"
@@ -60,6 +62,10 @@ const std::vector<std::string>& shown_of_images() {
 }
 
 Shown::Shown(const ShownArgs& asked, const Context& context) : view_(asked.view) {
+  if (is_pattern_name(asked.subject)) {
+    show_pattern(asked);
+    return;
+  }
   const bool is_image = is_image_name(asked.subject);
   ShownArgs args = asked;
   if (args.show.empty())
@@ -77,6 +83,17 @@ Shown::Shown(const ShownArgs& asked, const Context& context) : view_(asked.view)
 void Shown::show(SurfaceDrawing drawing, const ViewFrom& view) {
   drawing.mesh = &surface_.mesh;
   painter_ = std::make_unique<SurfacePainter>(drawing, view);
+}
+
+void Shown::show_pattern(const ShownArgs& args) {
+  for (const auto& [option, given] : {std::pair{"--show", !args.show.empty()},
+                                      {"--size", args.size > 0},
+                                      {"--against", !args.against.empty()},
+                                      {"--parameterizer", !args.parameterizer.empty()}})
+    if (given)
+      throw UsageError(option, "the subject is a sewing pattern",
+                       "it shows its panels; leave it out");
+  flat_ = draw_pattern(read_pattern(args.subject), args.view.width, args.view.height);
 }
 
 void Shown::show_mesh(const ShownArgs& args, const Context& context) {

@@ -24,7 +24,8 @@ struct ShownArgs {
 const std::vector<std::string>& shown_of_meshes();
 const std::vector<std::string>& shown_of_images();
 
-/// A mesh or an image: a flat picture (colours, mates, map), or a surface.
+/// A mesh, an image or a sewing pattern: a flat picture (colours, mates, map, pattern), or a
+/// surface.
 class Shown : public Subject {
  public:
   /// Converts where that is needed. @throws UsageError for options that do not fit together;
@@ -36,6 +37,7 @@ class Shown : public Subject {
   Picture draw(int frame, const Camera& camera) override;
 
  private:
+  void show_pattern(const ShownArgs& args);
   void show_mesh(const ShownArgs& args, const Context& context);
   void show_cut(const ShownArgs& args, const Context& context, const TriangleMesh& mesh);
   void show_conversion(const ShownArgs& args, const Context& context, const TriangleMesh& mesh);

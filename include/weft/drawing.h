@@ -20,6 +20,7 @@ namespace weft {
 
 struct CutDisk;
 struct MappedDisk;
+struct Pattern;
 
 /// fabric: two-sided, woven, with sheen. body: satin plaster.
 enum class Look { fabric, body };
@@ -182,6 +183,10 @@ SurfaceDrawing draw_error(const SurfaceValues& error);
 /// images are enlarged a whole number of times, without smoothing.
 /// @param min_side  sides below it are enlarged to reach it [pixels]
 Picture colours_of(const GeometryImage& image, int min_side = 256);
+
+/// The panels of a sewing pattern laid flat as in their file, grain upwards, with their names. Both
+/// edges of a stitch have one colour; edges that are sewn to nothing are dark.
+Picture draw_pattern(const Pattern& pattern, int width, int height);
 
 struct MapDrawing {
   int side = 1024;  ///< of the square [pixels]

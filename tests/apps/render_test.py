@@ -1,8 +1,10 @@
 """The contract of render: what can be shown of meshes and images, sizes of pictures, errors."""
+import json
 import struct
 import subprocess
 import unittest
 
+from patterns import pattern_of_a_tube
 from program import ProgramTest
 
 
@@ -120,6 +122,16 @@ class Render(ProgramTest):
         for name in ("box", "far"):
             self.run_weft("render", f"{name}.obj", "-o", f"{name}.png", "--show", "surface", "--width", 96, "--height", 72)
         self.assertEqual((self.folder / "box.png").read_bytes(), (self.folder / "far.png").read_bytes())
+
+    def test_patterns_are_drawn_flat(self):
+        (self.folder / "tube.json").write_text(json.dumps(pattern_of_a_tube()))
+        self.run_weft("render", "tube.json", "-o", "tube.png", "--width", "320", "--height", "200")
+        self.assertEqual(struct.unpack(">II", (self.folder / "tube.png").read_bytes()[16:24]), (320, 200))
+        self.run_weft("render", "tube.json", "builtin:torus", "-o", "both.png")
+        self.assertIn("--show", self.error_of("render", "tube.json", "-o", "p.png", "--show", "surface", code=2))
+        self.assertIn("flat", self.error_of("render", "tube.json", "-o", "p.gif", "--turntable", code=2))
+        (self.folder / "scene.json").write_text("{}")
+        self.assertIn("scene.json", self.error_of("render", "scene.json", "-o", "p.png", code=3))
 
     def test_words_that_make_no_sense_together(self):
         self.run_weft("convert", "builtin:torus", "-o", "t.exr", "--size", "17")
