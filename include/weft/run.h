@@ -110,6 +110,11 @@ struct RunReport {
   std::vector<std::filesystem::path> outputs;
 };
 
+/// What users are told of how a simulation begins: cloth inside of bodies, triangles that cross,
+/// cloth below the ground. A line each. @param counts  of its start
+std::vector<std::string> begin_notes(const Simulation& simulation, const Scene& scene,
+                                     const IntersectionCounts& counts);
+
 /// Runs a whole scene into a folder, which is made when missing: for each cloth and body its
 /// geometry image NAME.exr (at rest, unplaced) and its exports; caches.json, which describes the
 /// exports; frames.csv; weft-run.json, which open_run_folder reads. When the run stops early by

@@ -32,6 +32,8 @@ pybind11::array_t<Number> array_of(std::vector<Item> items, std::vector<pybind11
 
 /// The mesh of arrays (n, 3) and (m, 3). @throws ValueError for other shapes
 TriangleMesh mesh_of(const Doubles& vertices, const Ints& faces);
+/// Gives a mesh the texture coordinates (m, 3, 2) of its faces' corners. @throws ValueError as that
+void set_texture(TriangleMesh& mesh, const Floats& corners);
 /// (V, F): arrays (n, 3) of float64 and (m, 3) of int32.
 pybind11::tuple arrays_of(TriangleMesh mesh);
 /// All samples of planes. [n * n]

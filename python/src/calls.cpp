@@ -72,7 +72,7 @@ class Shared final : public Progress {
 };
 
 bool wait_released(Shared& shared, std::chrono::milliseconds time) {
-  const py::gil_scoped_release released;
+  const Released released;
   return shared.wait(time);
 }
 
@@ -86,6 +86,15 @@ void attend(Shared& shared, const py::object& progress) {
 }
 
 }  // namespace
+
+Released::~Released() {
+  try {
+    PyEval_RestoreThread(state_);
+  } catch (...) {
+    // The thread is being unwound, to end. To wait here keeps what it holds as it is.
+    for (;;) std::this_thread::sleep_for(1h);
+  }
+}
 
 void run_released(const py::object& progress, std::function<void(Progress&)> work) {
   const auto shared = std::make_shared<Shared>();

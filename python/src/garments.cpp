@@ -53,7 +53,7 @@ py::dict panel_of(const PatternPanel& panel) {
 py::tuple read_panels(const std::string& path) {
   Pattern pattern;
   {
-    const py::gil_scoped_release released;
+    const Released released;
     pattern = read_pattern(path);
   }
   py::list panels, stitches;

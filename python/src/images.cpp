@@ -51,11 +51,7 @@ std::vector<Vec3f> samples_of(const Planes3& planes) {
   return samples;
 }
 
-namespace {
-
-using Corners = pybind11::array_t<float, pybind11::array::c_style>;
-
-void set_texture(TriangleMesh& mesh, const Corners& corners) {
+void set_texture(TriangleMesh& mesh, const Floats& corners) {
   if (corners.ndim() != 3 || corners.shape(0) != static_cast<py::ssize_t>(mesh.triangles.size()) ||
       corners.shape(1) != 3 || corners.shape(2) != 2)
     throw py::value_error("an array (m, 3, 2) of texture coordinates is wanted");
@@ -65,12 +61,10 @@ void set_texture(TriangleMesh& mesh, const Corners& corners) {
         {{{uv(i, 0, 0), uv(i, 0, 1)}, {uv(i, 1, 0), uv(i, 1, 1)}, {uv(i, 2, 0), uv(i, 2, 1)}}});
 }
 
+namespace {
+
 py::tuple read(const std::string& path) {
-  TriangleMesh mesh;
-  {
-    const py::gil_scoped_release released;
-    mesh = load_mesh(path);
-  }
+  TriangleMesh mesh = made_released([path] { return load_mesh(path); });
   std::vector<std::array<Vec2f, 3>> uv = std::move(mesh.corner_uv);
   const py::tuple arrays = arrays_of(std::move(mesh));
   const auto faces = static_cast<py::ssize_t>(uv.size());
@@ -81,7 +75,7 @@ py::tuple read(const std::string& path) {
 
 void write(const std::string& path, const Doubles& vertices, const Ints& faces) {
   const TriangleMesh mesh = mesh_of(vertices, faces);
-  const py::gil_scoped_release released;
+  const Released released;
   write_mesh(path, mesh);
 }
 
@@ -171,7 +165,7 @@ ConvertOptions options_of(const py::dict& given) {
 }
 
 /// (image, what is told of it, normals (N, N, 3) or None)
-py::tuple convert(const Doubles& vertices, const Ints& faces, const std::optional<Corners>& uv,
+py::tuple convert(const Doubles& vertices, const Ints& faces, const std::optional<Floats>& uv,
                   const std::string& name, const py::dict& given, const py::object& progress) {
   auto mesh = std::make_shared<TriangleMesh>(mesh_of(vertices, faces));
   if (uv) set_texture(*mesh, *uv);
@@ -206,8 +200,8 @@ Image built_in(const std::string& name, int size, int threads, const py::object&
 }
 
 Image read_picture(const std::string& path) {
-  const py::gil_scoped_release released;
-  return {std::make_shared<const GeometryImage>(read_image(path))};
+  return {
+      made_released([path] { return std::make_shared<const GeometryImage>(read_image(path)); })};
 }
 
 py::list charts_of(const Image& self) {
@@ -240,20 +234,19 @@ py::array_t<std::int32_t> classes_of(const Image& self) {
   return array_of<std::int32_t>(std::move(classes), {n, n});
 }
 
+/// @return the rebuilt mesh of a level, and the samples a side of its image
+std::pair<RebuiltMesh, int> rebuild_level(const GeometryImage& image, int level) {
+  const std::optional<GeometryImage> coarse = coarser_image(image, level);
+  if (!coarse)
+    throw UsageError("level", std::to_string(level),
+                     "a level from 0 to " + std::to_string(coarsest_level(image)) + " is wanted");
+  return {rebuild_mesh(*coarse), coarse->size()};
+}
+
 /// (V, F, the vertex of every sample (n, n), the sample of every vertex)
 py::tuple rebuilt_of(const Image& self, int level) {
-  RebuiltMesh rebuilt;
-  int n = self.image->size();
-  {
-    const py::gil_scoped_release released;
-    const std::optional<GeometryImage> coarse = coarser_image(*self.image, level);
-    if (!coarse)
-      throw UsageError(
-          "level", std::to_string(level),
-          "a level from 0 to " + std::to_string(coarsest_level(*self.image)) + " is wanted");
-    n = coarse->size();
-    rebuilt = rebuild_mesh(*coarse);
-  }
+  auto [rebuilt, n] =
+      made_released([image = self.image, level] { return rebuild_level(*image, level); });
   const py::tuple arrays = arrays_of(std::move(rebuilt.mesh));
   const auto vertices = static_cast<py::ssize_t>(rebuilt.sample_of.size());
   return py::make_tuple(arrays[0], arrays[1],
@@ -262,21 +255,21 @@ py::tuple rebuilt_of(const Image& self, int level) {
 }
 
 void save(const Image& self, const std::string& path) {
-  const py::gil_scoped_release released;
+  const Released released;
   write_image(path, *self.image);
 }
 
 py::bytes exr_of(const Image& self) {
   std::string bytes;
   {
-    const py::gil_scoped_release released;
+    const Released released;
     bytes = exr_bytes(*self.image);
   }
   return bytes;
 }
 
 Image from_exr(const std::string& bytes) {
-  const py::gil_scoped_release released;
+  const Released released;
   return {std::make_shared<const GeometryImage>(parse_image(bytes, "image"))};
 }
 
@@ -305,8 +298,11 @@ void add_images(py::module_& module) {
       .def_property_readonly("source", [](const Image& self) { return self.image->source; })
       .def_property_readonly("source_hash",
                              [](const Image& self) { return self.image->source_hash; })
-      .def_property_readonly("coarsest_level",
-                             [](const Image& self) { return coarsest_level(*self.image); })
+      .def_property_readonly(
+          "coarsest_level",
+          [](const Image& self) {
+            return made_released([image = self.image] { return coarsest_level(*image); });
+          })
       .def("charts", &charts_of)
       .def("positions", &positions_of)
       .def("classes", &classes_of)

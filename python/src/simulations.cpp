@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -25,6 +26,12 @@ namespace weft::python {
 namespace {
 
 namespace py = pybind11;
+
+/// A state that knows of which simulation it is.
+struct State {
+  SimulationState state;
+  std::string identity;
+};
 
 /// The simulation, and what hands on its progress: each call has a listener of its own.
 class Stepper {
@@ -59,6 +66,8 @@ class Stepper {
 
  public:
   Simulation simulation;
+  std::vector<std::string> notes;  // of loading and of how it begins
+  std::string identity;            // of the scene and where it begins
   std::atomic<bool> busy = false;
   std::atomic<int> frame = 0;  // done, which may be asked for while another call is at work
   /// Whether the call at work was told to stop and its caller has gone on without waiting.
@@ -68,7 +77,7 @@ class Stepper {
 /// Waits a little without the interpreter's lock. @throws py::error_already_set on a signal
 void wait_a_little() {
   {
-    const py::gil_scoped_release released;
+    const Released released;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -120,13 +129,17 @@ class Simulated {
   /// (self, cloths, bodies, ground)
   std::tuple<std::int64_t, std::int64_t, std::int64_t, std::int64_t> intersections() {
     const Claim claim(stepper_);
-    const py::gil_scoped_release released;
+    const Released released;
     const IntersectionCounts counts = claim->simulation.intersections();
     return {counts.self, counts.cloths, counts.bodies, counts.ground};
   }
   py::array_t<float> cloth_samples(std::size_t index) {
     const Claim claim(stepper_);
     return samples(claim->simulation.cloths().at(index).state.position);
+  }
+  py::array_t<float> velocities(std::size_t index) {
+    const Claim claim(stepper_);
+    return samples(claim->simulation.cloths().at(index).state.velocity);
   }
   py::array_t<float> body_samples(std::size_t index) {
     const Claim claim(stepper_);
@@ -169,21 +182,19 @@ class Simulated {
     const Claim claim(stepper_);
     return claim->simulation.state_hash();
   }
-  std::shared_ptr<SimulationState> save() {
+  std::shared_ptr<State> save() {
     const Claim claim(stepper_);
-    auto state = std::make_shared<SimulationState>();
-    claim->simulation.save(*state);
-    return state;
+    auto kept = std::make_shared<State>();
+    claim->simulation.save(kept->state);
+    kept->identity = claim->identity;
+    return kept;
   }
-  void restore(const SimulationState& state) {
+  void restore(const State& kept) {
     const Claim claim(stepper_);
-    const std::vector<SimulatedCloth>& cloths = claim->simulation.cloths();
-    bool fits = state.cloths.size() == cloths.size();
-    for (std::size_t i = 0; fits && i < cloths.size(); ++i)
-      fits = state.cloths[i].position.size() == cloths[i].image.size();
-    if (!fits) throw py::value_error("a state of this simulation is wanted");
-    claim->simulation.restore(state);
-    claim->frame = state.frame;
+    if (kept.identity != claim->identity)
+      throw py::value_error("state: one of this simulation, or of one made alike, is wanted");
+    claim->simulation.restore(kept.state);
+    claim->frame = kept.state.frame;
   }
   [[nodiscard]] std::vector<std::string> names(bool cloths) const {
     std::vector<std::string> found;
@@ -195,6 +206,7 @@ class Simulated {
   }
   [[nodiscard]] int frame() const { return stepper_->frame; }
   [[nodiscard]] const Simulation& simulation() const { return stepper_->simulation; }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return stepper_->notes; }
 
  private:
   static py::array_t<float> samples(const Planes3& planes) {
@@ -226,7 +238,7 @@ class Simulated {
   std::vector<std::unique_ptr<CarriedVertices>> carried_;  // of cloths, made when asked for
 };
 
-/// A surface in memory: None, an Image, or a mesh as (V, F, name).
+/// A surface in memory: None, an Image, or a mesh as (V, F, texture coordinates or None, name).
 void put_surface(const py::handle& given, Surface& surface, const std::string& name) {
   if (given.is_none()) return;
   if (py::isinstance<Image>(given)) {
@@ -235,8 +247,11 @@ void put_surface(const py::handle& given, Surface& surface, const std::string& n
     surface.mesh = nullptr;
     return;
   }
-  const auto [vertices, faces, called] = given.cast<std::tuple<Doubles, Ints, std::string>>();
-  surface = Surface(mesh_of(vertices, faces), called);
+  const auto [vertices, faces, uv, called] =
+      given.cast<std::tuple<Doubles, Ints, std::optional<Floats>, std::string>>();
+  TriangleMesh mesh = mesh_of(vertices, faces);
+  if (uv) set_texture(mesh, *uv);
+  surface = Surface(std::move(mesh), called);
 }
 
 /// A motion in memory: None, or (positions (T, n, 3), frames a second, seconds of wait, of
@@ -285,13 +300,32 @@ Scene scene_of(const py::dict& given) {
   return scene;
 }
 
+/// Of what a simulation is made of: only states of its like fit to it.
+std::string identity_of(const std::string& json, const Simulation& simulation) {
+  std::string identity = json + '\n' + simulation.state_hash();
+  for (const PlacedBody& body : simulation.bodies()) {
+    const std::vector<Vec3f> samples = samples_of(body.positions);
+    const std::string_view bytes(reinterpret_cast<const char*>(samples.data()),
+                                 samples.size() * sizeof(Vec3f));
+    identity += '\n' + std::to_string(std::hash<std::string_view>{}(bytes));
+  }
+  return identity;
+}
+
 std::unique_ptr<Simulated> simulate(const py::dict& given, int threads,
                                     const py::object& progress) {
   const Scene scene = scene_of(given);
   const auto name = given["name"].cast<std::string>();
   const auto made = std::make_shared<std::shared_ptr<Stepper>>();
-  run_released(progress, [scene, name, threads, made](Progress& told) {
-    *made = std::make_shared<Stepper>(scene, name, threads, told);
+  const auto json = given["json"].cast<std::string>();
+  run_released(progress, [scene, name, threads, json, made](Progress& told) {
+    auto stepper = std::make_shared<Stepper>(scene, name, threads, told);
+    const Simulation& simulation = stepper->simulation;
+    stepper->notes = simulation.notes();
+    for (std::string& note : begin_notes(simulation, scene, simulation.intersections()))
+      stepper->notes.push_back(std::move(note));
+    stepper->identity = identity_of(json, simulation);
+    *made = std::move(stepper);
   });
   return std::make_unique<Simulated>(*made, scene.cloths);
 }
@@ -306,17 +340,15 @@ void write_cache(const std::string& path, const Floats& positions) {
   const float* p = positions.data();
   for (py::ssize_t i = 0; i < positions.size(); i += 3)
     cache.positions.push_back({p[i], p[i + 1], p[i + 2]});
-  const py::gil_scoped_release released;
+  const Released released;
   write_pc2(path, cache);
 }
 
 /// (positions (T, n, 3), times (T) in seconds or frames, whether they are frames)
 py::tuple read_cache(const std::string& path, double frame_rate, const std::string& clip) {
-  PointCache cache;
-  {
-    const py::gil_scoped_release released;
-    cache = read_point_cache(path, {clip, frame_rate});
-  }
+  PointCache cache = made_released([path, frame_rate, clip] {
+    return read_point_cache(path, {clip, frame_rate});
+  });
   const py::ssize_t samples = cache.samples(), points = cache.points;
   return py::make_tuple(array_of<float>(std::move(cache.positions), {samples, points, 3}),
                         array_of<double>(std::move(cache.times), {samples}), cache.times_in_frames);
@@ -328,13 +360,14 @@ void add_simulations(py::module_& module) {
   module.def("simulate", &simulate);
   module.def("write_pc2", &write_cache);
   module.def("read_point_cache", &read_cache);
-  py::class_<SimulationState, std::shared_ptr<SimulationState>>(module, "State")
-      .def_readonly("frame", &SimulationState::frame);
+  py::class_<State, std::shared_ptr<State>>(module, "State")
+      .def_property_readonly("frame", [](const State& kept) { return kept.state.frame; });
   py::class_<Simulated>(module, "Simulated")
       .def("advance", &Simulated::advance)
       .def("intersections", &Simulated::intersections)
       .def("cloth_samples", &Simulated::cloth_samples)
       .def("body_samples", &Simulated::body_samples)
+      .def("velocities", &Simulated::velocities)
       .def("strains", &Simulated::strains)
       .def("cloth_image", &Simulated::cloth_image)
       .def("body_image", &Simulated::body_image)
@@ -347,7 +380,7 @@ void add_simulations(py::module_& module) {
       .def_property_readonly("particles",
                              [](const Simulated& s) { return s.simulation().particles(); })
       .def_property_readonly("mass", [](const Simulated& s) { return s.simulation().mass(); })
-      .def_property_readonly("notes", [](const Simulated& s) { return s.simulation().notes(); });
+      .def_property_readonly("notes", &Simulated::notes);
 }
 
 }  // namespace weft::python

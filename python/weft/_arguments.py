@@ -1,4 +1,5 @@
 """What callers give, as the library takes it: arrays of any type and order, paths, threads, progress."""
+import copy
 import errno
 import operator
 import os
@@ -11,6 +12,8 @@ _INT32 = np.iinfo(np.int32)
 
 
 def _numbers(given, what, kinds="fiu"):
+    if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
+        raise ValueError(f"{what}: an array without a mask is wanted")
     try:
         array = np.asarray(given)
     except ValueError as error:  # lists of different lengths
@@ -29,8 +32,8 @@ def _shaped(array, shape, what):
 
 
 def vertices(given, what="V"):
-    """(n, 3) float64, C-contiguous."""
-    return np.ascontiguousarray(_shaped(_numbers(given, what), (None, 3), what), dtype=np.float64)
+    """(n, 3) float64, C-contiguous: a copy, which does not follow what the caller does to its own."""
+    return np.array(_shaped(_numbers(given, what), (None, 3), what), dtype=np.float64, order="C")
 
 
 def _whole(array, what):
@@ -38,19 +41,23 @@ def _whole(array, what):
         raise ValueError(f"{what}: whole numbers are wanted")
     if array.size and not (_INT32.min <= array.min() and array.max() <= _INT32.max):
         raise ValueError(f"{what}: an index is beyond 32 bits")
-    return np.ascontiguousarray(array, dtype=np.int32)
+    return np.array(array, dtype=np.int32, order="C")
 
 
 def faces(given, what="F"):
-    """(m, 3) int32, C-contiguous."""
+    """(m, 3) int32, C-contiguous: a copy."""
     return _whole(_shaped(_numbers(given, what), (None, 3), what), what)
 
 
 def texture(given, face_count, what="uv"):
-    """(m, 3, 2) float32 of the corners of faces, or None."""
+    """(m, 3, 2) float32 of the corners of faces, finite; or None."""
     if given is None:
         return None
-    return np.ascontiguousarray(_shaped(_numbers(given, what), (face_count, 3, 2), what), dtype=np.float32)
+    with np.errstate(over="ignore"):
+        array = np.array(_shaped(_numbers(given, what), (face_count, 3, 2), what), dtype=np.float32, order="C")
+    if not np.isfinite(array).all():
+        raise ValueError(f"{what}: face {np.argwhere(~np.isfinite(array))[0][0]} has a number that is not finite")
+    return array
 
 
 def sequence(given, what):
@@ -59,7 +66,7 @@ def sequence(given, what):
     if 0 in array.shape:
         raise ValueError(f"{what}: at least one frame and one point are wanted, not {array.shape}")
     with np.errstate(over="ignore"):
-        array = np.ascontiguousarray(array, dtype=np.float32)
+        array = np.array(array, dtype=np.float32, order="C")
     if not np.isfinite(array).all():
         frame, point, _ = (int(k) for k in np.argwhere(~np.isfinite(array))[0])
         raise ValueError(f"{what}: point {point} of frame {frame} is not finite")
@@ -119,9 +126,37 @@ def threads(given):
 def path(given, what="path"):
     """A path as text."""
     try:
-        return os.fsdecode(given)
+        name = os.fsdecode(given)
     except TypeError:
         raise TypeError(f"{what}: a path is wanted, not {given!r:.60}") from None
+    if "\0" in name:
+        raise ValueError(f"{what}: a path without null bytes is wanted, not {name!r:.60}")
+    return text(name, what)
+
+
+def text(given, what):
+    """Text that is UTF-8."""
+    try:
+        given.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"{what}: a name in UTF-8 is wanted, not {given!r:.60}") from None
+    return given
+
+
+def flag(given, what):
+    if not isinstance(given, (bool, np.bool_)):
+        raise TypeError(f"{what}: True or False is wanted, not {given!r:.60}")
+    return bool(given)
+
+
+def entries(given, what):
+    """A copy of a list of dictionaries; None is an empty one."""
+    if given is None:
+        return []
+    try:
+        return copy.deepcopy(list(given))
+    except TypeError:
+        raise TypeError(f"{what}: a list of dictionaries is wanted, not {given!r:.60}") from None
 
 
 def word(given, what):

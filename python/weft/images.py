@@ -1,6 +1,8 @@
 """Meshes as arrays, and geometry images."""
 import importlib
 
+import numpy as np
+
 from . import _arguments, _weft
 
 _CHOICES = {"auto": 0, "pieces": -1, "uv": -2, "one": -4}  # as the library numbers them
@@ -44,7 +46,9 @@ class GeometryImage:
         self._core = image
         self.report = report or {}
         self.normals = normals
-        self._positions = self._rebuilt = None
+        if normals is not None:
+            normals.flags.writeable = False
+        self._positions = self._rebuilt = self._coarsest = None
 
     @property
     def size(self):
@@ -88,7 +92,9 @@ class GeometryImage:
     @property
     def coarsest_level(self):
         """The coarsest level that `to_mesh` can rebuild; 0: itself alone."""
-        return self._core.coarsest_level
+        if self._coarsest is None:
+            self._coarsest = self._core.coarsest_level
+        return self._coarsest
 
     def _mesh(self):
         if self._rebuilt is None:
@@ -113,11 +119,10 @@ class GeometryImage:
         level: of every 2**level-th sample, from 0 to ``coarsest_level``.
         Returns V (n, 3) float64 [m], F (m, 3) int32.
         """
-        level = _arguments.integer(level, "level", 0, self.coarsest_level)
         if level == 0:
             V, F = self._mesh()[:2]
             return V.copy(), F.copy()
-        return self._core.rebuild(level)[:2]
+        return self._core.rebuild(_arguments.integer(level, "level", 0, self.coarsest_level))[:2]
 
     def save(self, path, format=None, **options):
         """Writes the image, whole or not at all.
@@ -166,7 +171,11 @@ def read_mesh(path, uv=False):
 def write_mesh(path, V, F):
     """Writes OBJ or PLY by the ending of the name; read again, the numbers have the same bits."""
     V, F = _arguments.vertices(V), _arguments.faces(F)
-    if F.size and not 0 <= F.min() <= F.max() < len(V):
+    if not (len(V) and len(F)):
+        raise ValueError("V, F: at least one vertex and one face are wanted")
+    if not np.isfinite(V).all():
+        raise ValueError(f"V: vertex {np.argwhere(~np.isfinite(V))[0][0]} is not finite")
+    if not 0 <= F.min() <= F.max() < len(V):
         raise ValueError(f"F: indices from 0 to {len(V) - 1} are wanted, not {F.min()} to {F.max()}")
     _weft.write_mesh(_arguments.to_write(path), V, F)
 
@@ -184,6 +193,8 @@ def _component_number(component):
 
 
 def _cut_paths(cut):
+    if any(np.ndim(path) != 1 for path in cut):
+        raise ValueError(f"cut: a list of paths, each a list of vertices, is wanted, not {cut!r:.60}")
     return [[_arguments.integer(vertex, "cut", 0, 2**31 - 1) for vertex in path] for path in cut]
 
 
@@ -207,7 +218,9 @@ def geometry_image(V, F, size=257, charts="auto", *, uv=None, parameterizer="str
     Raises ValueError for shapes and ranges, InputError, TopologyError.
     """
     V, F = _arguments.vertices(V), _arguments.faces(F)
-    options = {"charts": _chart_number(charts), "fit": bool(fit), "measure": bool(measure),
+    if uv is not None and charts != "uv":
+        raise ValueError(f"uv: goes with charts='uv', not {charts!r:.60}")
+    options = {"charts": _chart_number(charts), "fit": _arguments.flag(fit, "fit"), "measure": _arguments.flag(measure, "measure"),
                "seed": _arguments.integer(seed, "seed", 0, 2**64 - 1), "threads": _arguments.threads(threads),
                "parameterizer": _arguments.choice(parameterizer, "parameterizer", ("stretch", "floater")),
                "size": 0 if isinstance(size, str) and _arguments.choice(size, "size", ("auto",)) else _arguments.size(size)}
@@ -219,7 +232,7 @@ def geometry_image(V, F, size=257, charts="auto", *, uv=None, parameterizer="str
         options["normal_map"] = _arguments.size(normal_map, "normal_map")
     if cut is not None:
         options["cut"] = _cut_paths(cut)
-    made = _weft.convert(V, F, _arguments.texture(uv, len(F)), str(name), options, _arguments.progress(progress))
+    made = _weft.convert(V, F, _arguments.texture(uv, len(F)), _arguments.text(str(name), "name"), options, _arguments.progress(progress))
     return GeometryImage(*made)
 
 

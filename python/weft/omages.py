@@ -10,6 +10,8 @@ of this format join pixels that are neighbours. Pixels that are one point of the
 """
 import io
 import os
+import zipfile
+import zlib
 
 import numpy as np
 
@@ -79,6 +81,8 @@ def arrays(image, size=None, *, geometry_only=False, colour=_GREY, metal=0.0, ro
         raise ValueError(f"size: {least} or more are wanted for the charts of this image, not {size}")
     V, F = image.to_mesh()
     look = [*_arguments.vector(colour, "colour"), _arguments.number(metal, "metal"), _arguments.number(rough, "rough")]
+    if not 0 <= min(look) <= max(look) <= 1:
+        raise ValueError(f"colour, metal, rough: numbers from 0 to 1 are wanted, not {look}")
     layers = [_cube(image.positions, V) / 2 + 0.5, np.ones((*image.positions.shape[:2], 1))]
     if not geometry_only:
         layers += [vertex_normals(V, F)[image.vertex_of] / 2 + 0.5, np.broadcast_to(look, (*image.positions.shape[:2], 5))]
@@ -143,9 +147,9 @@ def load(path):
     """Reads the array of a file. Raises FileNotFoundError, InputError for what is none."""
     name = _arguments.existing(path)
     try:
-        with np.load(name, allow_pickle=False) as file:
-            array = file["arr_0"]
-    except (ValueError, KeyError, OSError, EOFError) as error:
+        with open(name, "rb") as file, np.load(file, allow_pickle=False) as arrays_of_file:
+            array = arrays_of_file["arr_0"]
+    except (ValueError, KeyError, OSError, EOFError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
         raise InputError(f"{name}: no omage: {error}", where=name, found="no omage", wanted="an .npz with arr_0") from error
     if array.ndim != 3 or array.shape[2] not in (4, 12) or array.dtype != np.uint16:
         raise InputError(f"{name}: an array {array.shape} of {array.dtype}; (S, S, 4) or (S, S, 12) of uint16 is wanted", where=name,
@@ -156,8 +160,14 @@ def load(path):
 def to_mesh(array):
     """The surface of an array in [-1, 1]^3: two triangles for four neighbours of the surface, pixels of equal position joined.
 
-    Returns V (n, 3) float64, F (m, 3) int32, turned as the normals are where there are some.
+    Returns V (n, 3) float64, F (m, 3) int32, turned as the normals are where there are some. Raises ValueError for an array of
+    another shape, TypeError for one of other numbers: values in [0, 1] are to be multiplied by 65535 and rounded first.
     """
+    array = np.asarray(array)
+    if array.ndim != 3 or array.shape[2] not in (4, 12):
+        raise ValueError(f"array: one of shape (S, S, 4) or (S, S, 12) is wanted, not {array.shape}")
+    if array.dtype != np.uint16:
+        raise TypeError(f"array: uint16 is wanted, not {array.dtype}")
     values = array.astype(np.float64) / FULL
     occupied = values[..., 3] > 0.5
     _, first, joined = np.unique(array[..., :3][occupied], axis=0, return_index=True, return_inverse=True)

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _arguments, _weft
+from .errors import SceneError
 from .garments import Pattern
 from .images import GeometryImage
 
@@ -38,20 +39,23 @@ class _Surface:
             given = given.path
         if isinstance(given, GeometryImage):
             self.memory = given._core
-        elif faces is not None or isinstance(given, tuple):
-            V, F = (given, faces) if faces is not None else self._pair(given, what)
-            self.memory = (_arguments.vertices(V), _arguments.faces(F), what)
-            self.vertices = len(self.memory[0])
+            if faces is not None:
+                raise ValueError(f"{what}: an image has its own faces")
+        elif faces is not None or isinstance(given, (tuple, list)):
+            V, F, uv = self._mesh(given, what) if faces is None else (given, faces, None)
+            V, F = _arguments.vertices(V), _arguments.faces(F)
+            self.memory = (V, F, _arguments.texture(uv, len(F), f"{what}: uv"), what)
+            self.vertices = len(V)
         else:
             self.name = _arguments.path(given, what)
             if not self.name.startswith("builtin:"):
                 self.name = os.path.abspath(_arguments.existing(self.name, what))
 
     @staticmethod
-    def _pair(given, what):
-        if len(given) != 2:
-            raise ValueError(f"{what}: (V, F) is wanted, not {len(given)} arrays")
-        return given
+    def _mesh(given, what):
+        if len(given) not in (2, 3):
+            raise ValueError(f"{what}: (V, F) or (V, F, uv) is wanted, not {len(given)} arrays")
+        return (*given, None)[:3]
 
 
 def _placement(scale, rotate, translate):
@@ -75,7 +79,7 @@ class Body:
         self._size = _arguments.size(size)
         if motion is not None and keys is not None:
             raise ValueError("body: motion or keys are wanted, not both")
-        self._keys, self._motion = keys, None
+        self._keys, self._motion = None if keys is None else _arguments.entries(keys, "keys"), None
         if motion is not None:
             positions = _arguments.sequence(motion, "motion")
             wanted = self._surface.vertices
@@ -166,14 +170,14 @@ class Simulation:
                  collider="pyramid", threads=None, name="scene"):
         self._threads = _arguments.threads(threads)
         self._name, self._folder = str(name), ""
-        self.frame_rate = _arguments.number(frame_rate, "frame_rate", above=0)
+        self._frame_rate = _arguments.number(frame_rate, "frame_rate", above=0)
         self._scene = {"version": 1, "frame_rate": self.frame_rate,
-                       "substeps": _arguments.integer(substeps, "substeps", 1, 10**6),
+                       "substeps": _arguments.integer(substeps, "substeps", 1, 10**4),
                        "gravity": _arguments.vector(gravity, "gravity"),
                        "ground": None if ground is None else _arguments.number(ground, "ground"),
                        "integrator": _method(integrator), "collider": _method(collider), "cloths": [], "bodies": []}
         if wind is not None:
-            self._scene["wind"] = wind if isinstance(wind, dict) else {"velocity": _arguments.vector(wind, "wind")}
+            self._scene["wind"] = dict(wind) if isinstance(wind, dict) else {"velocity": _arguments.vector(wind, "wind")}
         self._cloth_memory, self._body_memory, self._motions = [], [], []
         self._names, self._images = [], {}  # of cloths, which know their simulation: it does not know them
         self._core, self._record = None, {}
@@ -183,13 +187,21 @@ class Simulation:
         """The simulation of a scene file. Raises FileNotFoundError, SceneError with FILE:KEY."""
         name = _arguments.existing(path)
         simulation = cls(threads=threads, name=name)
-        with open(name, encoding="utf-8") as file:
-            simulation._scene = file.read()
+        try:
+            with open(name, encoding="utf-8-sig") as file:
+                simulation._scene = file.read()
+        except UnicodeDecodeError as error:
+            raise SceneError(f"{name}: is not JSON here: {error}", where=name, found="is not JSON here") from error
         simulation._folder = os.path.dirname(os.path.abspath(name))
         simulation.start()
         told = json.loads(simulation._scene)
-        simulation.frame_rate = float(told.get("frame_rate", 60))
+        simulation._frame_rate = float(told.get("frame_rate", 60))
         return simulation
+
+    @property
+    def frame_rate(self):
+        """Frames a second."""
+        return self._frame_rate
 
     def add_body(self, body, *, friction=0.4, name=None, scale=1.0, rotate=(0, 0, 0), translate=(0, 0, 0), wait=0.0, lead_in=0.0):
         """Adds a `Body`, or what one is made of.
@@ -215,14 +227,17 @@ class Simulation:
             told.update(pauses)
 
     def add_cloth(self, surface, *, fabric="cotton", name=None, size=129, scale=1.0, rotate=(0, 0, 0), translate=(0, 0, 0),
-                  friction=0.4, velocity=(0, 0, 0), pins=(), attach=(), self_collision=None, spacing=None, rest="mesh", uv_scale=None):
+                  friction=0.4, velocity=(0, 0, 0), pins=(), attach=(), self_collision=None, spacing=None, rest="mesh", uv_scale=None,
+                  layer=None):
         """Adds a cloth.
 
-        surface: a `GeometryImage`; or a mesh (V, F) [m, y up]; or a `Pattern`; or the name of a mesh, an image, a pattern or builtin:NAME.
+        surface: a `GeometryImage`; or a mesh (V, F) or (V, F, uv) [m, y up], uv (m, 3, 2) of the faces' corners, which its
+        grain follows; or a `Pattern`; or the name of a mesh, an image, a pattern or builtin:NAME. Arrays are copied.
         fabric: a name, or a dictionary of its values, as ``material`` in scene files.
         size: samples a side of the image that a mesh or a name is turned into.
         spacing: of the samples along edges of a pattern [m].
-        rest: "mesh", or "uv": the texture coordinates of a mesh file as its flat rest shape, ``uv_scale`` metres a unit (None: by area).
+        rest: "mesh", or "uv": the texture coordinates of a mesh as its flat rest shape, ``uv_scale`` metres a unit (None: by area).
+        layer: of garments over each other, as in scene files.
         pins, attach: lists as in scene files, for example ``pins=[{"image": [0, 0]}]``. velocity: at the start [m/s].
         Returns a `Cloth`.
         """
@@ -231,7 +246,8 @@ class Simulation:
         index = len(self._scene["cloths"])
         told = {"name": name or (f"cloth{index}" if index else "cloth"), "surface": made_of.name, "size": _arguments.size(size),
                 "material": fabric, "friction": _arguments.number(friction, "friction"),
-                "velocity": _arguments.vector(velocity, "velocity"), "pins": list(pins), "attach": list(attach),
+                "velocity": _arguments.vector(velocity, "velocity"), "pins": _arguments.entries(pins, "pins"),
+                "attach": _arguments.entries(attach, "attach"),
                 **_placement(scale, rotate, translate)}
         if spacing is not None:
             told["sew"] = {"spacing": _arguments.number(spacing, "spacing", above=0)}
@@ -240,7 +256,9 @@ class Simulation:
         if uv_scale is not None:
             told["uv_scale"] = _arguments.number(uv_scale, "uv_scale", above=0)
         if self_collision is not None:
-            told["self_collision"] = bool(self_collision)
+            told["self_collision"] = _arguments.flag(self_collision, "self_collision")
+        if layer is not None:
+            told["layer"] = _arguments.integer(layer, "layer", 0, 20)
         self._scene["cloths"].append(told)
         self._cloth_memory.append(made_of.memory)
         self._names.append(told["name"])
@@ -304,11 +322,12 @@ class Simulation:
 
         record: whether positions are kept for `cache`.
         progress: called with ("simulate", fraction) after every frame, or a bar like tqdm's.
-        Raises Unstable, after which the simulation stands at the frame before, as it does after Ctrl-C.
+        Raises Unstable, after which the simulation stands at the frame before. After Ctrl-C it stands there, or, where the frame was
+        done at that moment, after it: `frame` tells, and `cache` has it.
         """
         frames = _arguments.integer(frames, "frames", 0, 2**31 - 1)
         tell = _arguments.progress(progress)
-        return self._frames(frames, bool(record), tell)
+        return self._frames(frames, _arguments.flag(record, "record"), tell)
 
     def _frames(self, frames, record, tell):
         self.start()._catch_up()
@@ -333,7 +352,8 @@ class Simulation:
 
     @property
     def notes(self):
-        """What was repaired while loading, and the like: list of sentences."""
+        """What was repaired while loading, and what is odd at the start (cloth inside of bodies, or below the ground, or
+        tangled): list of sentences, as the program tells them."""
         return self.start()._core.notes
 
     def cache(self, cloth, on="mesh"):
@@ -345,17 +365,24 @@ class Simulation:
         self.start()._catch_up()
         frames = range(self.frame + 1)
         if any(frame not in self._record for frame in frames):
-            raise RuntimeError("frames were not recorded: run(n, record=True) is wanted from the start on")
+            raise RuntimeError("frames before this one were not recorded, or forgotten by `restore`: run(n, record=True) is wanted from "
+                               "the start on")
         return np.stack([self._on(on, index, self._record[frame][index]) for frame in frames])
 
     def body_positions(self, index):
         """(N, N, 3) float32 [m]: where the samples of a body, numbered as it was added, are now."""
         bodies = self.start()._core.names(False)
+        if not bodies:
+            raise ValueError("body: this simulation has none")
         return self._core.body_samples(_arguments.integer(index, "body", 0, len(bodies) - 1))
 
     def strain_at_samples(self, cloth):
         """(N, N) float32: the mean of l / r - 1 over the springs around each sample, now."""
         return self.start()._core.strains(self._index(cloth))
+
+    def velocity_at_samples(self, cloth):
+        """(N, N, 3) float32 [m/s]: how fast each sample moves now."""
+        return self.start()._core.velocities(self._index(cloth))
 
     @property
     def state_hash(self):
@@ -367,7 +394,10 @@ class Simulation:
         return self.start()._core.save()
 
     def restore(self, state):
-        """Goes back, or on, to a saved state of this simulation; what follows has the same bits."""
+        """Goes back, or on, to a saved state of this simulation, or of one that was made alike; what follows has the same bits.
+
+        `cache` keeps the frames before it. Raises ValueError for a state of another simulation.
+        """
         if not isinstance(state, _weft.State):
             raise TypeError(f"state: what save() gave is wanted, not {state!r:.60}")
         self.start()._core.restore(state)

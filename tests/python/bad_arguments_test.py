@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 import weft
+import weft.omages
 from module import ModuleTest, sphere_on_floor
 
 V, F = weft.read_mesh("builtin:tshirt")
@@ -238,6 +239,21 @@ CASES = [
     (Shape, "state", foreign_state),
     (Type, "state", lambda: late(lambda simulation: simulation.restore(None))),
     (Shape, "body", lambda: late(lambda simulation: simulation.body_positions(3))),
+    (Shape, "null bytes", lambda: image().save("x\0y.exr")),
+    (Shape, "UTF-8", lambda: weft.read_mesh(b"\xff.obj")),
+    (Shape, "finite", lambda: convert(V, F, charts="uv", uv=np.full((len(F), 3, 2), np.nan))),
+    (Shape, "charts", lambda: convert(V, F, uv=np.zeros((len(F), 3, 2)))),
+    (Shape, "mask", lambda: convert(np.ma.masked_array(V, V > 0), F)),
+    (Type, "fit", lambda: convert(V, F, fit="no")),
+    (Shape, "cut", lambda: convert(V, F, cut=[1, 2, 3])),
+    (Shape, "finite", lambda: weft.write_mesh("x.obj", V * np.nan, F)),
+    (Shape, "own faces", lambda: body(image(), F)),
+    (weft.SceneError, "JSON", lambda: weft.Simulation.from_scene("latin.json")),
+    (weft.InputError, "omage", lambda: weft.omages.load("cut.npz")),
+    (weft.InputError, "omage", lambda: weft.omages.load("array.npy")),
+    (Type, "uint16", lambda: weft.omages.to_mesh(np.zeros((4, 4, 12)))),
+    (Shape, "(S, S, 4)", lambda: weft.omages.to_mesh(np.zeros((4, 4, 3), np.uint16))),
+    (Shape, "from 0 to 1", lambda: weft.omages.arrays(image(), colour=(255, 0, 0))),
     (Missing, "none.json", lambda: weft.Simulation.from_scene("none.json")),
     (weft.SceneError, "scene.json:frmes", lambda: weft.Simulation.from_scene("scene.json")),
 ]
@@ -251,6 +267,10 @@ class BadArguments(ModuleTest):
         image().save("whole.exr")
         whole = self.folder.joinpath("whole.exr").read_bytes()
         self.folder.joinpath("cut.exr").write_bytes(whole[:len(whole) // 2])
+        weft.omages.save(image(), "cut.npz")
+        self.folder.joinpath("cut.npz").write_bytes(self.folder.joinpath("cut.npz").read_bytes()[:-60])
+        np.save("array.npy", np.zeros(3))
+        self.folder.joinpath("latin.json").write_bytes('{"name": "\xe4"}'.encode("latin-1"))
         self.folder.joinpath("scene.json").write_text('{"frmes": 3, "cloths": [{"surface": "builtin:sheet"}]}')
         self.kept = sorted(os.listdir("."))
 

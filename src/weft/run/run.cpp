@@ -7,6 +7,7 @@
 #include "weft/cloth/cloth.h"
 #include "weft/error.h"
 #include "weft/files.h"
+#include "weft/run/begin_notes.h"
 #include "weft/run/checkpoint.h"
 #include "weft/run/checkpoint_clock.h"
 #include "weft/run/disk_reservation.h"
@@ -14,7 +15,6 @@
 #include "weft/run/run_identity.h"
 #include "weft/run/standstill_notes.h"
 #include "weft/scene_file.h"
-#include "weft/sim/loading/insides.h"
 
 namespace weft {
 namespace {
@@ -79,14 +79,6 @@ void add_to_report(RunReport& report, const FrameReport& frame) {
   report.contacts_max = std::max(report.contacts_max, frame.contacts);
   report.self_contacts_max = std::max(report.self_contacts_max, frame.self_contacts);
   report.centre_of_mass.push_back(frame.centre_of_mass);
-}
-
-/// Crossing pairs of triangles of cloths alone.
-std::int64_t tangled_pairs(const IntersectionCounts& counts) { return counts.self + counts.cloths; }
-
-std::string tangle_text(const IntersectionCounts& counts) {
-  return fmt::format("{} pairs of triangles of cloth cross, {} of one cloth and {} of two",
-                     tangled_pairs(counts), counts.self, counts.cloths);
 }
 
 class Run {
@@ -213,27 +205,10 @@ class Run {
 
   void tell_start() {
     for (const std::string& line : report_.notes) tell(line);
-    for (const StartInside& found : report_.start_insides) tell(start_inside_text(found));
     const IntersectionCounts counts = simulation_.intersections();
     report_.start_intersections = counts;
-    if (counts.bodies > 0)
-      tell(
-          fmt::format("at the start {} pairs of triangles of cloths and bodies cross; "
-                      "only closed bodies push out what they cross",
-                      counts.bodies));
-    if (counts.ground > 0)
-      tell(
-          fmt::format("at the start {} triangles of cloths are below the ground, which lifts them "
-                      "slowly",
-                      counts.ground));
-    if (tangled_pairs(counts) == 0) {
-      report_.untangled_frame = 0;
-    } else {
-      const char* then = Colliders::traits_of(scene_.collider).self_collision
-                             ? "the run takes them apart"
-                             : "this collider leaves them so";
-      tell(fmt::format("at the start {}; {}", tangle_text(counts), then));
-    }
+    for (const std::string& line : begin_notes(simulation_, scene_, counts)) tell(line);
+    if (tangled_pairs(counts) == 0) report_.untangled_frame = 0;
   }
 
   /// Counts intersections: in every frame with verify, else only while cloths that crossed at the
