@@ -110,7 +110,51 @@ bool BlockMultigrid::renew_pins() {
     }
     pin_starts_[r + 1] = static_cast<int>(pinned_.size());
   }
+  find_coarse_pins();
   return true;
+}
+
+void BlockMultigrid::find_coarse_pins() {
+  std::vector<bool> held(static_cast<std::size_t>(cloth_.size) * cloth_.size, false);
+  for (const int s : pinned_) held[s] = true;
+  for (std::size_t i = 1; i < levels_.size(); ++i) {
+    const BlockLevel& fine = levels_[i - 1];
+    BlockLevel& level = levels_[i];
+    hold_pins(level, false);
+    level.pins.clear();
+    std::vector<bool> coarse(static_cast<std::size_t>(level.size) * level.size, false);
+    for (std::size_t k = 0; k < level.layout.charts.size(); ++k) {
+      const Chart &from = fine.layout.charts[k], &to = level.layout.charts[k];
+      for (int r = 0; r < from.rows; ++r)
+        for (int c = 0; c < from.cols; ++c)
+          if (held[(from.row + r) * fine.size + from.col + c])
+            for (const int row : {r / 2, (r + 1) / 2})
+              for (const int col : {c / 2, (c + 1) / 2})
+                coarse[(to.row + row) * level.size + to.col + col] = true;
+    }
+    level.pin_starts.assign(static_cast<std::size_t>(level.size) + 1, 0);
+    for (int s = 0; s < level.size * level.size; ++s) {
+      const int r = s / level.size;
+      if (coarse[s]) level.pins.push_back({s, level.extra(r, s % level.size)});
+      level.pin_starts[r + 1] = static_cast<int>(level.pins.size());
+    }
+    held = std::move(coarse);
+  }
+}
+
+void BlockMultigrid::hold_pins(BlockLevel& level, bool held) {
+  level.holds_pins = held && !level.pins.empty();
+  for (const BlockLevel::Pin& pin : level.pins)
+    level.extra(pin.sample / level.size, pin.sample % level.size) =
+        held ? holding_stiffness : pin.extra;
+}
+
+void BlockMultigrid::clear_coarse_pins(const BlockLevel& level, int row, PaddedVectors& field) {
+  if (!level.holds_pins) return;
+  for (int i = level.pin_starts[row]; i < level.pin_starts[row + 1]; ++i) {
+    const int c = level.pins[i].sample % level.size;
+    field.x(row, c) = field.y(row, c) = field.z(row, c) = 0;
+  }
 }
 
 float* BlockMultigrid::scratch(const Workers& workers) { return scratch_[workers.rank()].row(0); }
@@ -154,8 +198,11 @@ void BlockMultigrid::find_bending_rates() {
 }
 
 void BlockMultigrid::choose_bending(double time_step) {
-  for (BlockLevel& level : levels_)
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    BlockLevel& level = levels_[i];
     level.bends = level.bending_rate * time_step * time_step > negligible_bending;
+    if (i > 0) hold_pins(level, levels_[i - 1].bends);
+  }
 }
 
 void BlockMultigrid::clear_pins(PaddedVectors& field, const Workers& workers) const {
@@ -370,7 +417,7 @@ void BlockMultigrid::residual(std::size_t index, const Loads& contacts, const Wo
       stencil_residual_row(level, r, sweep);
   };
   const auto finish = [&](int r) {
-    if (index > 0) return;
+    if (index > 0) return clear_coarse_pins(level, r, level.residual);
     add_load_row(contacts, r, -1, level.residual);
     clear_pins_of_row(r, level.residual);
   };

@@ -101,6 +101,9 @@ class BlockMultigrid {
   /// Decides which levels' products include bending.
   void choose_bending(double time_step);
   void find_bending_rates();
+  void find_coarse_pins();
+  static void hold_pins(BlockLevel& level, bool held);
+  static void clear_coarse_pins(const BlockLevel& level, int row, PaddedVectors& field);
   void stencil_residual_row(BlockLevel& level, int row, RowSweep& sweep) const;
   [[nodiscard]] bool pins_changed() const;
   void clear_pinned_blocks(int row);

@@ -74,6 +74,7 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
       add_block(other, node_[s], level.stencil, 1 + d, s);
     }
   }
+  hold_pins(level);
   for (int i = 0; i < unknowns_; ++i) {
     first_[i] = 0;
     while (first_[i] < i && at(i, first_[i]) == 0) ++first_[i];
@@ -83,6 +84,9 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
     double pivot = before;
     for (int k = first_[j]; k < j; ++k) pivot -= at(j, k) * at(j, k) * at(k, k);
     // The diagonal keeps D, 0 for unknowns that do not move.
+    // One clearly below 0 is not made by rounding: parts of bending's border whose rest is masked
+    // by pins have less than no energy. Such an unknown is left to its own diagonal.
+    if (pivot < -min_pivot * before) pivot = before;
     pivot = std::max(pivot, min_pivot * before);
     const bool moves = pivot > 0;
     for (int i = j + 1; i < unknowns_; ++i) {
@@ -94,6 +98,14 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
     }
     at(j, j) = moves ? pivot : 0;
   }
+}
+
+void CoarsestSolver::hold_pins(const BlockLevel& level) {
+  if (!level.holds_pins) return;
+  for (const BlockLevel::Pin& pin : level.pins)
+    for (int k = 0; k < 3; ++k)
+      for (int other = 0; other < unknowns_; ++other)
+        at(3 * node_[pin.sample] + k, other) = at(other, 3 * node_[pin.sample] + k) = 0;
 }
 
 void CoarsestSolver::solve(BlockLevel& level) noexcept {

@@ -25,6 +25,8 @@ class CoarsestSolver {
  private:
   /// @param block  of the stencil
   void add_block(int from, int to, const PlaneSet& stencil, int block, int sample);
+  /// Takes the held pins of a level out of the matrix.
+  void hold_pins(const BlockLevel& level);
   [[nodiscard]] double& at(int row, int col) {
     return matrix_[static_cast<std::size_t>(row) * unknowns_ + col];
   }
