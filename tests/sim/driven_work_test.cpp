@@ -28,6 +28,15 @@ class Touched {
     end_.velocity.set(sample, gained);
     return work_.measure({start_, end_, step}, {std::span(&contact_, 1), forces});
   }
+  /// The body and another one, which presses from the other side and goes the same way along it.
+  double work_between(Vec3f gained, std::span<const float> forces) {
+    Contact other = contact_;
+    other.normal = {0.1F, -0.995F, 0};
+    contact_.surface_displacement = other.surface_displacement = {0.01F, 0, 0};
+    const std::array both{contact_, other};
+    end_.velocity.set(sample, gained);
+    return work_.measure({start_, end_, step}, {both, forces});
+  }
   [[nodiscard]] double mass() const { return double{cloth_.mass(2, 2)}; }
 
  private:
@@ -56,6 +65,14 @@ TEST(DrivenWork, IsWhatAFilterPushedWithWhereASolveToldOfLess) {
 TEST(DrivenWork, OfABodyThatGoesAwayIsNoPull) {
   Touched touched;
   EXPECT_NEAR(touched.work({0, -2, 0}, {}), 0, 1e-6);
+}
+
+/// The sum of both normals, which nearly cancel, is no direction of what presses: a particle that
+/// stays as fast as it was has no work done on it.
+TEST(DrivenWork, BetweenTwoBodiesIsThatOfEach) {
+  Touched touched;
+  const std::array forces{500.0F, 500.0F};
+  EXPECT_NEAR(touched.work_between({}, forces), 0, 0.01);
 }
 
 TEST(DrivenWork, AlongTheSurfaceIsFrictionsAtMost) {

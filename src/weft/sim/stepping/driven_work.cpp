@@ -7,6 +7,12 @@
 #include "weft/cloth/strain_stiffening.h"
 
 namespace weft {
+namespace {
+
+/// Normals whose mean is shorter than this are of bodies on several sides.
+constexpr double one_sided = 0.8;
+
+}  // namespace
 
 DrivenWork::DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team, bool stiffens)
     : cloth_(cloth),
@@ -89,9 +95,14 @@ void DrivenWork::add_contacts(const PressingObstacles& obstacles) {
       const int sample = cloth_.mates.representative(contact.samples[k]);
       Driven& found = driven(sample);
       if (found.pinned) continue;
-      found.displacement += weight * vec_cast<double>(contact.surface_displacement);
-      found.normal += weight * vec_cast<double>(contact.normal);
-      if (i < obstacles.forces.size()) found.pressing += weight * double{obstacles.forces[i]};
+      const Vec3d way = vec_cast<double>(contact.surface_displacement),
+                  normal = vec_cast<double>(contact.normal);
+      const double force = i < obstacles.forces.size() ? double{obstacles.forces[i]} : 0;
+      found.displacement += weight * way;
+      found.normal += weight * normal;
+      found.pressing += weight * force;
+      found.pressed += weight * force * normal;
+      found.pressing_work += weight * force * dot(normal, way);
       found.friction = std::max(found.friction, double{contact.friction});
       found.weight += weight;
     }
@@ -118,15 +129,19 @@ void DrivenWork::find_forces(const DoneStep& step) {
   });
 }
 
-Vec3d DrivenWork::force_on(const Driven& driven, Vec3d reaction) {
+double DrivenWork::work_of(const Driven& driven, Vec3d reaction) {
+  const Vec3d way = (1 / driven.weight) * driven.displacement;
+  const auto friction = [&](Vec3d drag, double pressing) {
+    const double most = driven.friction * pressing, has = length(drag);
+    return (has > most ? most / has : 1.0) * drag;
+  };
   const double size = length(driven.normal);
-  if (!(size > 0)) return {};
+  if (size < one_sided * driven.weight)
+    return driven.pressing_work + dot(friction(reaction - driven.pressed, driven.pressing), way);
   const Vec3d normal = (1 / size) * driven.normal;
   const double along = dot(reaction, normal);
   const double pressing = std::max({0.0, along, driven.pressing});
-  const Vec3d drag = reaction - along * normal;
-  const double most = driven.friction * pressing, has = length(drag);
-  return pressing * normal + (has > most ? most / has : 1.0) * drag;
+  return dot(pressing * normal + friction(reaction - along * normal, pressing), way);
 }
 
 Vec3d DrivenWork::reaction_on(int sample, const DoneStep& step) const {
@@ -182,9 +197,7 @@ double DrivenWork::measure(const DoneStep& step, const PressingObstacles& obstac
     find_forces(step);
     work = work_of_pins(step, pin_force);
     for (const int s : samples_) {
-      if (!driven_[s].pinned)
-        work += dot(force_on(driven_[s], reaction_on(s, step)),
-                    (1 / driven_[s].weight) * driven_[s].displacement);
+      if (!driven_[s].pinned) work += work_of(driven_[s], reaction_on(s, step));
       driven_[s] = {};
     }
   }

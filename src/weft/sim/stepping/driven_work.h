@@ -30,7 +30,8 @@ struct PressingObstacles {
 /// solved one, or the normal part of the reaction where that is larger, and never a pull; the
 /// tangential force is limited by friction. Springs that the filter stretched pull at the end of a
 /// step only: before the filter this measures what the solve did, after it what the filter did too,
-/// but much too large.
+/// but much too large. Where bodies press from several sides, each does the work of its solved
+/// force by its own way; what else moves the particle is friction.
 ///
 /// Solves end with small forces unbalanced on free particles, too. Next to the pins' own reaction
 /// they are small, but stiff cloth hands on within a step what a pin does: all together they are of
@@ -56,6 +57,8 @@ class DrivenWork {
   struct Driven {
     Vec3d displacement, normal;  // weighted sums over contacts [m]
     double pressing = 0;         // normal force, weighted sum [N]
+    Vec3d pressed;               // the same with directions [N]
+    double pressing_work = 0;    // of each by its own displacement [J]
     double friction = 0;
     double weight = 0;
     bool pinned = false;
@@ -64,7 +67,7 @@ class DrivenWork {
   void add_contacts(const PressingObstacles& obstacles);
   double work_of_pins(const DoneStep& step, const std::optional<Vec3d>& force);
   [[nodiscard]] Vec3d mean_pin_displacement() const;
-  [[nodiscard]] static Vec3d force_on(const Driven& driven, Vec3d reaction);
+  [[nodiscard]] static double work_of(const Driven& driven, Vec3d reaction);
   Driven& driven(int sample);
   void find_forces(const DoneStep& step);
   void find_nearest_pins();
