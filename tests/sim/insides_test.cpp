@@ -203,6 +203,37 @@ TEST(Insides, AClothALittleInsideIsNotRefused) {
     }
 }
 
+/// Rows of samples lie in the plane of the box's side, where rounding decides on which side they
+/// are: what kept them off the surface drove them in.
+TEST(Insides, WhatBeginsOnTheSurfaceIsNotDrivenIn) {
+  Scene scene = around("box", sheet({0, 0.69, 0}, 1));
+  Simulation simulation(scene, "s.json", 1);
+  for (int frame = 1; frame <= 16; ++frame) {
+    const FrameReport report = simulation.advance();
+    if (frame > 3) {
+      EXPECT_GT(report.smallest_gap, -3e-4) << frame;
+    }
+  }
+}
+
+/// As a body does, and by work.
+TEST(Insides, TheGroundPushesOutWhatBeginsBelow) {
+  Scene scene;
+  scene.cloths = {sheet({0, 0.2, 0}, 1)};
+  scene.cloths[0].placement.rotate = {90, 0, 0};
+  Simulation simulation(scene, "s.json", 1);
+  const double start = simulation.start_energy();
+  double work = 0;
+  FrameReport report;
+  for (int frame = 0; frame < 60; ++frame) {
+    report = simulation.advance();
+    work += report.work;
+    EXPECT_LT(report.kinetic_energy + report.potential_energy - start - work,
+              1e-3 * simulation.mass() * 9.81);
+  }
+  EXPECT_GT(report.smallest_gap, 0);
+}
+
 /// Which of the two is above nobody can tell: they were thrown apart by the joules.
 TEST(Insides, ClothsInTheSamePlaceAreRefused) {
   Scene scene;

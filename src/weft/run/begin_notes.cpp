@@ -28,8 +28,8 @@ std::vector<std::string> begin_notes(const Simulation& simulation, const Scene& 
                     counts.bodies));
   if (counts.ground > 0)
     notes.push_back(
-        fmt::format("at the start {} triangles of cloths are below the ground, which lifts them "
-                    "slowly",
+        fmt::format("at the start {} triangles of cloths are below the ground, which pushes them "
+                    "out",
                     counts.ground));
   if (tangled_pairs(counts) > 0)
     notes.push_back(fmt::format("at the start {}; {}", tangle_text(counts),

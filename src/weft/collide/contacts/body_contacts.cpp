@@ -4,6 +4,16 @@
 #include <cmath>
 
 namespace weft {
+namespace {
+
+/// Part of the gap within which a sample is doubtful: it is among triangles that still cross the
+/// body, which no plane parts from it, so a step may put it on the other side. There, what keeps it
+/// off the surface would drive it in.
+constexpr float touching_part = 0.25F;
+/// Part of the gap by which what is below the ground is more than rounding.
+constexpr double below_part = 0.02;
+
+}  // namespace
 
 BodyContacts::BodyContacts(const SurfaceGrid& grid, const CollidingCloth& cloth)
     : grid_(grid),
@@ -13,6 +23,7 @@ BodyContacts::BodyContacts(const SurfaceGrid& grid, const CollidingCloth& cloth)
   const std::size_t samples = static_cast<std::size_t>(grid.size()) * grid.size();
   marks_.inside.resize(samples, 0);
   marks_.doubted.resize(samples, 0);
+  touching_.resize(static_cast<std::size_t>(grid.size()), 0);
   commit();
 }
 
@@ -59,18 +70,33 @@ void BodyContacts::find_ground(const MovingCloth& cloth, const Ground& ground, i
   contact.normal = {0, 1, 0};
   put_offset(ground.height, double{cloth.start.y(row, col)} - ground.height, kept_.gap, contact);
   contact.friction = static_cast<float>(pair_friction(kept_.friction, ground.friction));
+  // What is well below is on its way back, as what is inside of a body.
+  if (double{cloth.start.y(row, col)} < ground.height - below_part * kept_.gap)
+    bring_back(farthest_exit_, contact);
   out.push_back(contact);
 }
 
 void BodyContacts::find_row(const MovingCloth& cloth, std::span<const ContactBody> bodies,
-                            const Ground* ground, int row, std::vector<Contact>& out) const {
+                            const Ground* ground, int row, std::vector<Contact>& out) {
   const int n = grid_.size();
   const double low = ground != nullptr ? ground->height + contact_margin * kept_.gap : -HUGE_VAL;
   for (int c = 0; c < n; ++c) {
     for (std::size_t b = 0; b < bodies.size(); ++b)
       near_[b].add_contact(cloth, bodies[b], row, c, out);
+    doubt_touching(bodies, row, c);
     if (cloth.position.y(row, c) < low && grid_.point(row * n + c) == row * n + c)
       find_ground(cloth, *ground, row, c, out);
+  }
+}
+
+/// Doubts a sample that touches a closed body, so that the next step asks on which side it is.
+void BodyContacts::doubt_touching(std::span<const ContactBody> bodies, int row, int col) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const NearSample* near = near_[b].find(row, col);
+    if (near == nullptr || near->triangle < 0 || !bodies[b].query->closed()) continue;
+    if (!(std::abs(near->gap) < touching_part * static_cast<float>(kept_.gap))) continue;
+    marks_.doubted[row * grid_.size() + col] = 1;
+    touching_[row] = 1;
   }
 }
 
@@ -98,10 +124,12 @@ void BodyContacts::find(const MovingCloth& cloth, std::span<const ContactBody> b
   if (looks_deep) mark_inside(bodies);
   marks_.looked = true;
   if (bodies.empty() && ground == nullptr) return;
+  std::fill(touching_.begin(), touching_.end(), 0);
   found_.fill(grid_.size(), team, [&](int row, std::vector<Contact>& out) {
     find_row(cloth, bodies, ground, row, out);
   });
   append(found_, contacts_);
+  marks_.any = marks_.any || std::find(touching_.begin(), touching_.end(), 1) != touching_.end();
 }
 
 double BodyContacts::smallest_gap(const Planes3& positions, const ContactBody& body, double reach,

@@ -56,7 +56,8 @@ class BodyContacts {
   [[nodiscard]] NearSamples& near(const ContactBody& body);
   [[nodiscard]] std::span<const char> find_deep(const ContactBody& body);
   void find_row(const MovingCloth& cloth, std::span<const ContactBody> bodies, const Ground* ground,
-                int row, std::vector<Contact>& out) const;
+                int row, std::vector<Contact>& out);
+  void doubt_touching(std::span<const ContactBody> bodies, int row, int col);
   void find_ground(const MovingCloth& cloth, const Ground& ground, int row, int col,
                    std::vector<Contact>& out) const;
   void mark_inside(std::span<const ContactBody> bodies);
@@ -76,7 +77,8 @@ class BodyContacts {
     bool any = false;  // a sample is inside or doubted
   };
   Marks marks_, kept_marks_;
-  std::vector<char> deep_;  // [n * n] scratch
+  std::vector<char> deep_;      // [n * n] scratch
+  std::vector<char> touching_;  // [n] whether a sample of the row is to be doubted
   ChunkedLists<std::vector<Contact>> found_;
   std::vector<Contact> contacts_;
 };

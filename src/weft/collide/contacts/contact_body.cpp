@@ -28,14 +28,32 @@ void put_offset(double surface, double gap_at_start, double gap, Contact& contac
   contact.lift = static_cast<float>(std::clamp(gap - gap_at_start, 0.0, max_recovery * gap));
 }
 
+void bring_back(double farthest, Contact& contact) {
+  const float exit = std::min(contact.lift, static_cast<float>(farthest));
+  contact.offset += exit;
+  contact.surface_displacement += exit * contact.normal;
+  contact.lift = contact.friction = 0;
+}
+
+namespace {
+
+/// Nearer than this to a surface, rounding chooses the direction from it.
+double touching_distance(Vec3d place) {
+  constexpr double roundings = 256;
+  const double farthest = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+  return 1e-9 + roundings * 0x1p-24 * farthest;
+}
+
+}  // namespace
+
 PlaceBefore place_before(const ContactBody& body, const BodyPoint& at, const ClothPoint& point) {
-  const double distance = std::sqrt(at.squared_distance);
-  // On the surface itself rounding would choose the direction.
-  constexpr double touching = 1e-9;
-  const Vec3d normal = distance > touching
-                           ? ((point.astray ? -1 : 1) / distance) * (point.start - at.position)
-                           : (point.kept_in ? -1.0 : 1.0) * body.query->normal_at(at);
-  return {normal, point.astray ? -distance : distance};
+  const double distance = std::sqrt(at.squared_distance), side = point.astray ? -1 : 1;
+  const Vec3d way = point.start - at.position;
+  if (distance > touching_distance(point.start)) return {(side / distance) * way, side * distance};
+  Vec3d normal = (point.kept_in ? -1.0 : 1.0) * body.query->normal_at(at);
+  // An open surface is touched from the side on which the point is.
+  if (!body.query->closed() && dot(normal, way) < 0) normal = -normal;
+  return {normal, side * distance};
 }
 
 /// A surface that slides or turns in place does not approach, though its points move.
@@ -63,13 +81,8 @@ Contact contact_at(const ContactBody& body, const BodyPoint& at, const ClothPoin
   contact.normal = vec_cast<float>(before.normal);
   put_offset(dot(before.normal, at.position + surface_displacement), before.gap, kept.gap, contact);
   contact.friction = static_cast<float>(pair_friction(kept.friction, body.friction));
-  if (point.astray) {
-    // No force presses there: the point is on its way back, by a part of the gap in every step, or
-    // by less in a short one.
-    contact.offset += std::min(contact.lift, static_cast<float>(point.farthest));
-    contact.lift = contact.friction = 0;
-  }
   contact.surface_displacement = vec_cast<float>(surface_displacement);
+  if (point.astray) bring_back(point.farthest, contact);
   return contact;
 }
 
