@@ -152,7 +152,8 @@ class Simulate(SceneTest):
             scene = {"version": 1, "frames": 1, "cloths": [{"size": 17, "translate": [0, 1, 0], **wrong}]}
             said = self.run_weft("simulate", self.write_scene(scene), "-o", "run").stderr
             self.assertEqual(said.count(line), 1, said)
-        stiff = {"version": 1, "frames": 30, "cloths": [{"size": 33, "translate": [0, 0.05, 0], "scale": 0.001}]}
+        stiff = {"version": 1, "frames": 30, "integrator": {"type": "explicit"}, "substeps": 1,
+                 "cloths": [{"size": 17, "translate": [0, 0.05, 0], "scale": 0.001, "pins": [{"image": [0, 0]}]}]}
         said = self.run_weft("simulate", self.write_scene(stiff), "-o", "run", code=3).stderr
         self.assertLess(said.index("is the unit of its file right?"), said.index("ran away"))
 
