@@ -132,6 +132,7 @@ class PatternDrawing {
   [[nodiscard]] int side() const { return std::min(picture_.width, picture_.height); }
   [[nodiscard]] std::vector<Vec2d> pixels(std::size_t k, const std::vector<Vec2d>& points) const {
     std::vector<Vec2d> pixels;
+    pixels.reserve(points.size());
     for (const Vec2d p : points) pixels.push_back(layout_.pixel(k, p));
     return pixels;
   }
