@@ -185,7 +185,9 @@ SurfaceDrawing draw_error(const SurfaceValues& error);
 Picture colours_of(const GeometryImage& image, int min_side = 256);
 
 /// The panels of a sewing pattern laid flat as in their file, grain upwards, with their names. Both
-/// edges of a stitch have one colour; edges that are sewn to nothing are dark.
+/// edges of a stitch have one colour; edges that are sewn to nothing are dark. Names are left out
+/// of pictures that would have no room but for them.
+/// @param width, height  of the picture [pixels]
 Picture draw_pattern(const Pattern& pattern, int width, int height);
 
 struct MapDrawing {

@@ -111,7 +111,7 @@ struct RunReport {
 };
 
 /// What users are told of how a simulation begins: cloth inside of bodies, triangles that cross,
-/// cloth below the ground. A line each. @param counts  of its start
+/// cloth below the ground. A line each. @param scene  that it is of  @param counts  of its start
 std::vector<std::string> begin_notes(const Simulation& simulation, const Scene& scene,
                                      const IntersectionCounts& counts);
 

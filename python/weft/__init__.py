@@ -5,11 +5,12 @@ y up, right-handed. Long calls let other threads of Python run, take ``threads=`
 ``progress=``, and stop on Ctrl-C. Errors are ``weft.Error``s; wrong shapes and ranges ValueErrors.
 """
 from . import _weft
+from .bodies import Body
 from .caches import read_pc2, write_pc2
 from .errors import Error, InputError, OutputError, SceneError, TopologyError, Unstable, UsageError
 from .garments import Edge, Garment, Panel, Pattern, Stitch, read_pattern
 from .images import Chart, GeometryImage, builtin, geometry_image, load, read_mesh, shapes, write_mesh
-from .simulation import Body, Cloth, Frame, Intersections, Simulation, Strain
+from .simulation import Cloth, Frame, Intersections, Simulation, Strain
 
 __version__ = _weft.version
 __all__ = [

@@ -83,5 +83,14 @@ TEST(PatternPicture, HoldsAnyNumberOfPanels) {
   }
 }
 
+/// Names as wide as the picture, or panels without end, leave no panel out.
+TEST(PatternPicture, PanelsComeBeforeTheirNames) {
+  for (const int count : {1, 60, 700}) {
+    Pattern pattern;
+    for (int k = 0; k < count; ++k) pattern.panels.push_back(square(std::string(60, 'n'), 0.3));
+    EXPECT_GT(ink_of(draw_pattern(pattern, 120, 90)), 0.02 * 120 * 90) << count;
+  }
+}
+
 }  // namespace
 }  // namespace weft

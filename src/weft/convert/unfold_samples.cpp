@@ -27,8 +27,9 @@ constexpr int max_moves = 6;
 /// is to bridge an armpit.
 constexpr PatchDeviation max_deviation{0.9, 0.15};
 
-/// At spots of no more samples than this. Larger ones are limbs that are sampled too coarsely, of
-/// which many steps unfolded none that few did not.
+/// An attempt at spots of at most so many samples. Larger ones are limbs that are sampled too
+/// coarsely: nothing unfolds those beyond the first limit, and between both many steps unfolded
+/// none that few did not.
 struct Attempt {
   PatchUnfolding::Attempt unfolding;
   std::size_t max_samples;

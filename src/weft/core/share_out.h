@@ -11,8 +11,8 @@
 
 namespace weft {
 
-/// Calls body(k, progress) for every k < count on a team of threads, each for every so manyth k. A
-/// thread ends at its first failure.
+/// Calls body(k, progress) for every k < count on a team of threads: thread r of n for r, r + n,
+/// r + 2 n and so on. A thread ends at its first failure.
 /// @param progress  of `stage`, may be null; told by the caller's thread alone, which may also be
 ///                  asked to stop there. Bodies of other threads get null.
 /// @throws what the first call that failed threw, by k, whatever the number of threads

@@ -15,8 +15,8 @@ namespace {
 
 constexpr Vec3f white{1, 1, 1}, fabric{0.93F, 0.91F, 0.87F}, hem{0.25F, 0.26F, 0.28F},
     name_colour{0.15F, 0.15F, 0.17F};
-/// Of the picture's height: between panels, and of lines.
-constexpr double gap_share = 0.035, seam_share = 0.007, hem_share = 0.003;
+/// Of the picture's shorter side: between panels, less where they are many, and of lines.
+constexpr double gap_share = 0.035, gap_share_of_many = 0.2, seam_share = 0.007, hem_share = 0.003;
 /// Halvings of the scale's bounds.
 constexpr int halvings = 30;
 
@@ -46,7 +46,10 @@ FlatPanel flat_of(const PatternPanel& panel) {
 class PanelLayout {
  public:
   PanelLayout(const Pattern& pattern, int width, int height)
-      : width_(width), height_(height), gap_(gap_share * std::min(width, height)) {
+      : width_(width),
+        height_(height),
+        gap_(std::min(width, height) *
+             std::min(gap_share, gap_share_of_many / std::sqrt(pattern.panels.size()))) {
     for (const PatternPanel& panel : pattern.panels) {
       panels_.push_back(flat_of(panel));
       panels_.back().name_width = text_width(panel.name, text_scale());
@@ -55,12 +58,14 @@ class PanelLayout {
     std::iota(order_.begin(), order_.end(), 0);
     std::stable_sort(order_.begin(), order_.end(),
                      [&](int a, int b) { return panels_[a].extent.y > panels_[b].extent.y; });
+    if (!place(0)) leave_names_out();
     scale_ = largest_scale();
     place(scale_);
     for (Vec2d& corner : corners_) corner.y += 0.5 * (height_ - bottom_);
   }
 
   [[nodiscard]] int text_scale() const { return std::max(1, std::min(width_, height_) / 480); }
+  [[nodiscard]] bool has_names() const { return has_names_; }
   [[nodiscard]] const FlatPanel& panel(std::size_t k) const { return panels_[k]; }
   /// Of a point of the panel. [pixels]
   [[nodiscard]] Vec2d pixel(std::size_t k, Vec2d point) const {
@@ -72,6 +77,11 @@ class PanelLayout {
   }
 
  private:
+  /// For a picture that would have no room but for them.
+  void leave_names_out() {
+    has_names_ = false;
+    for (FlatPanel& panel : panels_) panel.name_width = 0;
+  }
   /// Bisection: what fits at a scale fits at smaller ones, but for rows that break otherwise.
   double largest_scale() {
     double low = 0, high = 0;
@@ -107,6 +117,7 @@ class PanelLayout {
 
   int width_, height_;
   double gap_, scale_ = 0, bottom_ = 0;  // [pixels], [pixels a metre], [pixels]
+  bool has_names_ = true;
   std::vector<FlatPanel> panels_;
   std::vector<int> order_;
   std::vector<Vec2d> corners_;  // upper left [pixels]
@@ -124,7 +135,7 @@ class PatternDrawing {
     for (std::size_t s = 0; s < pattern_.stitches.size(); ++s)
       for (const PanelEdge& edge : {pattern_.stitches[s].a, pattern_.stitches[s].b})
         draw_edge(edge, seam_share, curve_colour(static_cast<int>(s)));
-    for (std::size_t k = 0; k < pattern_.panels.size(); ++k) draw_name(k);
+    for (std::size_t k = 0; layout_.has_names() && k < pattern_.panels.size(); ++k) draw_name(k);
     return std::move(picture_);
   }
 

@@ -79,10 +79,7 @@ void BlockMultigrid::prolong(const BlockLevel& coarse, std::size_t fine_index,
                             shifted(coarse.value.row(from.row + (row + 1) / 2), from.col),
                             shifted(fine.value.row(r), to.col));
     }
-    if (fine_index == 0)
-      clear_pins_of_row(r, fine.value);
-    else
-      clear_coarse_pins(fine, r, fine.value);
+    clear_pins_of_row(fine, r, fine.value);
   }
   workers.barrier();
   if (fine.seams.empty()) return;

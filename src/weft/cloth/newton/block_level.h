@@ -39,14 +39,14 @@ struct BlockLevel {
   /// Largest diagonal entry of bending over the mass of its particle [1/s^2].
   double bending_rate = 0;
   bool bends = true;  ///< whether products of the cycle include bending
-  /// A coarse node at a pinned sample, or one of those around one that has none. Where bending
-  /// counts it is held, too: what is interpolated from it would have a kink at the pin, whose
-  /// energy the level does not know.
+  /// A pinned sample; on coarse levels a node at one, or one of those around one that has none.
+  /// There it is held only where bending counts: what is interpolated from it would have a kink at
+  /// the pin, whose energy the level does not know.
   struct Pin {
     int sample = 0;
     float extra = 0;  ///< of the sample where it is not held
   };
-  std::vector<Pin> pins;        ///< of coarse levels
+  std::vector<Pin> pins;        ///< all copies
   std::vector<int> pin_starts;  ///< [size + 1] first of each row, in pins
   bool holds_pins = false;
 

@@ -56,8 +56,9 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
       galerkin_(cloth.size, workers),
       joined_lines_(seams(), seams().edges()),
       apart_lines_(seams(), {}),
-      mask_(cloth.size, cloth.size),
-      free_extra_(cloth.size, cloth.size) {
+      mask_(cloth.size, cloth.size) {
+  find_bending_rates();
+  PaddedPlane& extra = levels_.front().extra;
   // Second-neighbour springs are not in the stencil: the smoother adds a bound of them.
   const auto far_stiffness = static_cast<float>(8 * cloth.material.bend_springs);
   for (int r = 0; r < cloth.size; ++r)
@@ -65,96 +66,20 @@ BlockMultigrid::BlockMultigrid(const Cloth& cloth, int workers, const NewtonKern
       // Nor are the free-border edges of bending, which at corners more than double the diagonal.
       const float bordered =
           cloth.bending.active ? bending_share * cloth.bending.diagonal(r, c) : 0.0F;
-      const float bending = std::max(levels_.front().extra(r, c), bordered);
-      free_extra_(r, c) = bending + far_stiffness;
+      extra(r, c) = std::max(extra(r, c), bordered) + far_stiffness;
     }
   // The smoother has what bends a particle once, at its first copy.
   for (int i = 0; i < seams().class_count(); ++i)
-    for (const int s : seams().samples(i).subspan(1))
-      free_extra_(s / cloth.size, s % cloth.size) = 0;
+    for (const int s : seams().samples(i).subspan(1)) extra(s / cloth.size, s % cloth.size) = 0;
   for (int i = 0; i < workers; ++i) sweeps_.emplace_back(cloth.size);
   for (int i = 0; i < workers; ++i)
     scratch_.emplace_back(1, static_cast<int>(LineFactor::scratch_size(cloth.size)));
-  find_bending_rates();
   find_border_springs();
   parted_.reserve(static_cast<std::size_t>(4) * cloth.size * 6);
   for (const BlockLevel& level : levels_)
     parted_centres_.resize(std::max(
         parted_centres_.size(), static_cast<std::size_t>(level.seams.copies()) * block_entries));
   renew_pins();
-}
-
-bool BlockMultigrid::pins_changed() const {
-  const int n = cloth_.size;
-  int changed = 0;
-  for (int r = 0; r < n; ++r) {
-    const float *free = mask_.row(r), *inverse_mass = cloth_.inverse_mass.row(r);
-    for (int c = 0; c < n; ++c)
-      changed |= static_cast<int>(inverse_mass[c] > 0) ^ static_cast<int>(free[c] > 0);
-  }
-  return changed != 0;
-}
-
-bool BlockMultigrid::renew_pins() {
-  if (!pin_starts_.empty() && !pins_changed()) return false;
-  const int n = cloth_.size;
-  PaddedPlane& extra = levels_.front().extra;
-  pinned_.clear();
-  pin_starts_.assign(static_cast<std::size_t>(n) + 1, 0);
-  for (int r = 0; r < n; ++r) {
-    for (int c = 0; c < n; ++c) {
-      const bool moves = cloth_.inverse_mass(r, c) > 0;
-      mask_(r, c) = moves ? 1.0F : 0.0F;
-      extra(r, c) = moves ? free_extra_(r, c) : holding_stiffness;
-      if (!moves && !cloth_.mates.is_hole(r * n + c)) pinned_.push_back(r * n + c);
-    }
-    pin_starts_[r + 1] = static_cast<int>(pinned_.size());
-  }
-  find_coarse_pins();
-  return true;
-}
-
-void BlockMultigrid::find_coarse_pins() {
-  std::vector<bool> held(static_cast<std::size_t>(cloth_.size) * cloth_.size, false);
-  for (const int s : pinned_) held[s] = true;
-  for (std::size_t i = 1; i < levels_.size(); ++i) {
-    const BlockLevel& fine = levels_[i - 1];
-    BlockLevel& level = levels_[i];
-    hold_pins(level, false);
-    level.pins.clear();
-    std::vector<bool> coarse(static_cast<std::size_t>(level.size) * level.size, false);
-    for (std::size_t k = 0; k < level.layout.charts.size(); ++k) {
-      const Chart &from = fine.layout.charts[k], &to = level.layout.charts[k];
-      for (int r = 0; r < from.rows; ++r)
-        for (int c = 0; c < from.cols; ++c)
-          if (held[(from.row + r) * fine.size + from.col + c])
-            for (const int row : {r / 2, (r + 1) / 2})
-              for (const int col : {c / 2, (c + 1) / 2})
-                coarse[(to.row + row) * level.size + to.col + col] = true;
-    }
-    level.pin_starts.assign(static_cast<std::size_t>(level.size) + 1, 0);
-    for (int s = 0; s < level.size * level.size; ++s) {
-      const int r = s / level.size;
-      if (coarse[s]) level.pins.push_back({s, level.extra(r, s % level.size)});
-      level.pin_starts[r + 1] = static_cast<int>(level.pins.size());
-    }
-    held = std::move(coarse);
-  }
-}
-
-void BlockMultigrid::hold_pins(BlockLevel& level, bool held) {
-  level.holds_pins = held && !level.pins.empty();
-  for (const BlockLevel::Pin& pin : level.pins)
-    level.extra(pin.sample / level.size, pin.sample % level.size) =
-        held ? holding_stiffness : pin.extra;
-}
-
-void BlockMultigrid::clear_coarse_pins(const BlockLevel& level, int row, PaddedVectors& field) {
-  if (!level.holds_pins) return;
-  for (int i = level.pin_starts[row]; i < level.pin_starts[row + 1]; ++i) {
-    const int c = level.pins[i].sample % level.size;
-    field.x(row, c) = field.y(row, c) = field.z(row, c) = 0;
-  }
 }
 
 float* BlockMultigrid::scratch(const Workers& workers) { return scratch_[workers.rank()].row(0); }
@@ -202,21 +127,6 @@ void BlockMultigrid::choose_bending(double time_step) {
     BlockLevel& level = levels_[i];
     level.bends = level.bending_rate * time_step * time_step > negligible_bending;
     if (i > 0) hold_pins(level, levels_[i - 1].bends);
-  }
-}
-
-void BlockMultigrid::clear_pins(PaddedVectors& field, const Workers& workers) const {
-  const Range mine = workers.share(static_cast<int>(pinned_.size()));
-  for (int i = mine.first; i < mine.last; ++i) {
-    const int r = pinned_[i] / cloth_.size, c = pinned_[i] % cloth_.size;
-    field.x(r, c) = field.y(r, c) = field.z(r, c) = 0;
-  }
-}
-
-void BlockMultigrid::clear_pins_of_row(int row, PaddedVectors& field) const {
-  for (int i = pin_starts_[row]; i < pin_starts_[row + 1]; ++i) {
-    const int c = pinned_[i] % cloth_.size;
-    field.x(row, c) = field.y(row, c) = field.z(row, c) = 0;
   }
 }
 
@@ -283,7 +193,7 @@ void BlockMultigrid::complete(std::size_t index, PaddedVectors& out, const Worke
     level.seams.sum(workers, {&out.x, &out.y, &out.z});
     workers.barrier();
   }
-  if (index > 0 || pinned_.empty()) return;
+  if (index > 0 || level.pins.empty()) return;
   clear_pins(out, workers);
   workers.barrier();
 }
@@ -300,7 +210,7 @@ void BlockMultigrid::apply(const PaddedVectors& x, const ExactParts& parts, Padd
     if (parts.row_products != nullptr)
       parts.row_products[r] =
           kernels_->dot(whole_vectors(level.size), nullptr, x.row(r), std::as_const(out).row(r));
-    if (level.seams.empty()) clear_pins_of_row(r, out);
+    if (level.seams.empty()) clear_pins_of_row(level, r, out);
   };
   if (parts.curved != nullptr) {
     parts.curved->change(x, worker);
@@ -328,7 +238,7 @@ void BlockMultigrid::add_loads(const Loads& contacts, PaddedVectors& field, Work
   if (level.seams.empty()) {
     for (int r = mine.first; r < mine.last; ++r) {
       add_load_row(contacts, r, 1, field);
-      clear_pins_of_row(r, field);
+      clear_pins_of_row(level, r, field);
     }
     return worker.barrier();
   }
@@ -417,9 +327,8 @@ void BlockMultigrid::residual(std::size_t index, const Loads& contacts, const Wo
       stencil_residual_row(level, r, sweep);
   };
   const auto finish = [&](int r) {
-    if (index > 0) return clear_coarse_pins(level, r, level.residual);
     add_load_row(contacts, r, -1, level.residual);
-    clear_pins_of_row(r, level.residual);
+    clear_pins_of_row(level, r, level.residual);
   };
   const Range mine = workers.share(level.size);
   if (level.bends)
@@ -433,7 +342,7 @@ void BlockMultigrid::residual(std::size_t index, const Loads& contacts, const Wo
   if (level.seams.empty()) return;
   level.seams.sum_beside(workers, level.rhs, level.residual);
   workers.barrier();
-  if (index > 0 || pinned_.empty()) return;
+  if (index > 0 || level.pins.empty()) return;
   clear_pins(level.residual, workers);
   workers.barrier();
 }

@@ -101,13 +101,12 @@ class BlockMultigrid {
   /// Decides which levels' products include bending.
   void choose_bending(double time_step);
   void find_bending_rates();
-  void find_coarse_pins();
+  static void set_pins(BlockLevel& level, const std::vector<bool>& pinned);
   static void hold_pins(BlockLevel& level, bool held);
-  static void clear_coarse_pins(const BlockLevel& level, int row, PaddedVectors& field);
   void stencil_residual_row(BlockLevel& level, int row, RowSweep& sweep) const;
   [[nodiscard]] bool pins_changed() const;
   void clear_pinned_blocks(int row);
-  void clear_pins_of_row(int row, PaddedVectors& field) const;
+  static void clear_pins_of_row(const BlockLevel& level, int row, PaddedVectors& field);
   /// Sums over seam copies and clears pins.
   void complete(std::size_t index, PaddedVectors& out, const Workers& workers) const;
   void residual(std::size_t index, const Loads& contacts, const Workers& workers);
@@ -142,9 +141,6 @@ class BlockMultigrid {
   Galerkin galerkin_;
   SeamLines joined_lines_, apart_lines_;  // the latter while seams are being sewn
   PaddedPlane mask_;                      // 1 where the particle moves
-  PaddedPlane free_extra_;                // the finest level's `extra` without pins
-  std::vector<int> pinned_;               // samples, all copies
-  std::vector<int> pin_starts_;           // [n + 1] first pinned sample of each row, in pinned_
   std::vector<PaddedPlane> scratch_;
   std::vector<RowSweep> sweeps_;  // of each worker
   /// The free-border edges of bending are like springs to near neighbours without a direction: on a

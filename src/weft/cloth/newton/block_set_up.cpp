@@ -86,13 +86,6 @@ void BlockMultigrid::fill_diagonals(const SpringHessian& springs, int row) {
   clear_pinned_blocks(row);
 }
 
-/// Clears the centres of pinned samples, which have no part in coarser levels.
-void BlockMultigrid::clear_pinned_blocks(int row) {
-  for (int i = pin_starts_[row]; i < pin_starts_[row + 1]; ++i)
-    for (int k = 0; k < block_entries; ++k)
-      levels_.front().stencil(row, pinned_[i] % cloth_.size, k) = 0;
-}
-
 void BlockMultigrid::add_to_diagonals(const ContactProduct::Blocks& blocks, int row, int col) {
   BlockLevel& level = levels_.front();
   if (!(mask_(row, col) > 0)) return;

@@ -88,8 +88,8 @@ struct PlaceBefore {
 void put_offset(double surface, double gap_at_start, double gap, Contact& contact);
 
 /// Makes the contact of a point on the wrong side bring it back, by its lift but no farther than
-/// `farthest`: the surface is taken to move as much, which is work on the cloth. No force presses
-/// there, so there is no friction.
+/// `farthest` [m]: the surface is taken to move as much, which is work on the cloth. No force
+/// presses there, so there is no friction.
 void bring_back(double farthest, Contact& contact);
 
 }  // namespace weft
