@@ -195,7 +195,7 @@ TEST(TileGaps, LanesWithoutACellAreNeverNear) {
 /// What the kernels have to find, by exact closest points, and how much they find.
 class TileFeatures : public testing::Test {
  protected:
-  static constexpr float reach = 0.004F;
+  static constexpr float reach = 0.004F, beside = 0.003F;
   struct Count {
     int touching = 0, found = 0, all = 0;
     void check() const {
@@ -207,6 +207,16 @@ class TileFeatures : public testing::Test {
     for (int k = 0; k < count; ++k)
       if (!(weights[k] > 0)) return false;
     return true;
+  }
+  static Vec3d foot_on_plane(Vec3d point, const Feature& triangle) {
+    const auto& [a, b, c] = triangle.corners;
+    const Vec3d normal = cross(b - a, c - a);
+    return point - dot(normal, point - a) / squared_length(normal) * normal;
+  }
+  static double distance(Vec3d point, const Feature& triangle) {
+    const std::array<double, 3> w = closest_weights(point, triangle.corners);
+    return length(point - (w[0] * triangle.corners[0] + w[1] * triangle.corners[1] +
+                           w[2] * triangle.corners[2]));
   }
   /// Calls visit(pair, cell, tile, near, near of edges).
   template <class Visit>
@@ -249,19 +259,17 @@ TEST_F(TileFeatures, CornersOverTrianglesAreFoundBothWays) {
     const CellCorners own = pair.tiles_a.cell(cell / 5, cell % 5);
     for (int corner = 0; corner < 4; ++corner) {
       std::array<int, tile_cells> over_tile, over_cell;
-      baseline().corner_over_tile(own, corner, pair.tiles_b.tile(tile), near.data(),
+      baseline().corner_over_tile(own, corner, pair.tiles_b.tile(tile), near.data(), beside,
                                   over_tile.data());
-      baseline().tile_over_cell(own, pair.tiles_b.tile(tile), corner, near.data(),
+      baseline().tile_over_cell(own, pair.tiles_b.tile(tile), corner, near.data(), beside,
                                 over_cell.data());
       const auto check = [&](const Sheet& of_point, int point_cell, const Sheet& of_triangle,
                              int triangle_cell, int found, float within) {
         const Vec3d point = of_point.at(of_point.grid.corners(point_cell)[corner], 0);
         for (int half = 0; half < 2; ++half) {
           const Feature triangle = of_triangle.triangle(triangle_cell, half, 0);
-          const std::array<double, 3> w = closest_weights(point, triangle.corners);
-          const Vec3d on =
-              w[0] * triangle.corners[0] + w[1] * triangle.corners[1] + w[2] * triangle.corners[2];
-          const bool touches = inner(w, 3) && length(point - on) < within;
+          const Vec3d foot = foot_on_plane(point, triangle);
+          const bool touches = length(point - foot) < within && distance(foot, triangle) < beside;
           const bool is_found = (found >> half & 1) != 0;
           count.touching += touches ? 1 : 0;
           count.found += is_found ? 1 : 0;
@@ -314,8 +322,8 @@ TEST_F(TileFeatures, AreTheSameByEveryInstructionSet) {
       for (int i = 0; i < 2; ++i) {
         const CollideKernels& by = i == 0 ? baseline() : kernels;
         by.tile_gaps(own, other, 0.001F, 0.002F, gaps[i].data());
-        by.corner_over_tile(own, 2, other, near.data(), over_tile[i].data());
-        by.tile_over_cell(own, other, 1, near.data(), over_cell[i].data());
+        by.corner_over_tile(own, 2, other, near.data(), beside, over_tile[i].data());
+        by.tile_over_cell(own, other, 1, near.data(), beside, over_cell[i].data());
         by.tile_edges(own, other, edges.data(), crossing[i].data());
       }
       kernels.tile_reaches(own, other, reach, 0.5F * reach, reaches[0].data(), reaches[1].data());

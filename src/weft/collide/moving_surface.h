@@ -25,11 +25,22 @@ class SurfaceGrid {
   [[nodiscard]] int cells() const { return size_ - 1; }  ///< cells a side
   /// The representative of a sample's class of mates.
   [[nodiscard]] int point(int sample) const { return point_[static_cast<std::size_t>(sample)]; }
+  /// The next sample of its class of mates, after the last the first again.
+  [[nodiscard]] int next_copy(int sample) const {
+    return next_copy_[static_cast<std::size_t>(sample)];
+  }
   /// The representative of the class that a sample is being sewn into; its point where there is no
   /// sewing. Parts of the surface that share it are neighbours, though they may not touch yet.
   [[nodiscard]] int joint(int sample) const {
     return joint_.empty() ? point(sample) : joint_[static_cast<std::size_t>(sample)];
   }
+  /// Whether two samples lie in the same chart.
+  [[nodiscard]] bool same_chart(int a, int b) const {
+    return chart_.empty() ||
+           chart_[static_cast<std::size_t>(a)] == chart_[static_cast<std::size_t>(b)];
+  }
+  /// Whether its seams are being sewn.
+  [[nodiscard]] bool is_sewn() const { return !joint_.empty(); }
   /// The samples of one of a cell's two triangles.
   /// @param half  0 or 1
   [[nodiscard]] std::array<int, 3> triangle(int cell, int half) const {
@@ -100,6 +111,8 @@ class SurfaceGrid {
   int size_ = 0;
   bool has_missing_ = false;
   std::vector<int> point_;          // [n * n]
+  std::vector<int> next_copy_;      // [n * n]
+  std::vector<int> chart_;          // [n * n], or none for a single chart
   std::vector<int> joint_;          // [n * n], or none
   std::vector<Diagonal> diagonal_;  // [(n - 1)^2]
   SeamStrips seams_;

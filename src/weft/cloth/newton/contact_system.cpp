@@ -241,6 +241,22 @@ bool ContactSystem::choose(const Fields* step, Worker& worker) {
   return any_changed_;
 }
 
+bool ContactSystem::any_layer_passed(Fields step, double speed, Worker& worker) {
+  const Range mine = share(worker);
+  const double most = speed * input_.time_step;
+  for (int i = mine.first; i < mine.last; ++i) {
+    const bool idle = !(stiffness_[i] > 0) && work_stiffness_[i] > 0;
+    changed_[i] = idle && !is_with_obstacle(static_cast<std::size_t>(i)) &&
+                          depth_after(i, sum(i, step)) > most
+                      ? 1
+                      : 0;
+  }
+  worker.barrier();
+  const bool any = std::find(changed_.begin(), changed_.end(), 1) != changed_.end();
+  worker.barrier();
+  return any;
+}
+
 /// @param moved  the displacement of its point since the linearisation
 Vec3d ContactSystem::force_after(int index, Vec3d moved) const {
   const double k = stiffness_[index], grip = grip_[index];

@@ -53,6 +53,9 @@ class ContactSystem {
   /// @param step  null: none was made since the linearisation
   /// @return whether any contact changed
   bool choose(const Fields* step, Worker& worker);
+  /// Whether after a step any contact between layers that is not active is passed, by more than
+  /// this speed covers in a step [m/s]; all workers get it.
+  bool any_layer_passed(Fields step, double speed, Worker& worker);
   /// The energy of all contacts after a part of a step: of penetrations, and of the linear
   /// friction; all workers get it [J].
   double energy(Fields step, float part, Worker& worker);

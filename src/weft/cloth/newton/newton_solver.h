@@ -105,7 +105,7 @@ class NewtonSolver {
   double lent_ = 0;                      // energy that all may gain from contacts [J]
   double missed_ = 0;                    // see NewtonPart [J]
   bool apart_ = false;                   // whether each part is one worker's
-  bool pulled_ = false;                  // whether pins move
+  bool pulled_ = false, sewn_ = false;   // whether pins move; whether seams are being sewn
   std::optional<Vec3d> carried_;         // displacement of all pins, where they move alike [m]
   Vec3d pin_force_;                      // see Integrator [N]
 };

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "weft/collide/contacts/closest.h"
+#include "weft/collide/contacts/layer_features.h"
 
 namespace weft {
 namespace {
@@ -17,60 +18,18 @@ constexpr double softness = 100;
 /// The part of the gap kept by edges of layers that lie flat on each other, which samples and
 /// triangles hold apart as a rule, and by the two sides of a crease, which bending holds apart.
 constexpr double worn = 0.5;
+/// Distances along a cloth, in samples: up to crease_end two points lie on both sides of a crease,
+/// where edges get no contact; from layer_start on they keep the whole gap. The gap grows in
+/// between, so that no contact jumps where it goes on to another cell.
+constexpr double crease_end = 2, layer_start = 3;
 /// Cells no farther apart along the cloth than this many gaps get no contact: the cloth would have
 /// to turn within half a gap to lie on itself, which bending prevents.
 constexpr double beside_in_gaps = 3;
-
-/// One side of a contact: up to three samples of a cloth with weights that sum to 1.
-struct Side {
-  const MovingCloth* cloth;
-  std::array<int, 3> samples;
-  std::array<double, 3> weights;
-
-  [[nodiscard]] Vec3d mean(const Planes3& planes) const {
-    Vec3d sum;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (weights[k] != 0) sum += weights[k] * vec_cast<double>(planes.at(samples[k]));
-    return sum;
-  }
-  [[nodiscard]] Vec3d start() const { return mean(cloth->start); }
-  /// Inverse effective mass of the point. [1/kg]
-  [[nodiscard]] double compliance() const {
-    double sum = 0;
-    const int n = cloth->start.size();
-    for (std::size_t k = 0; k < 3; ++k)
-      sum += weights[k] * weights[k] * cloth->inverse_mass(samples[k] / n, samples[k] % n);
-    return sum;
-  }
-  [[nodiscard]] Vec3d displacement() const { return mean(cloth->position) - start(); }
-};
 
 /// The half-space against one side: its offset and how it moves.
 struct Plane {
   double offset;
   Vec3d surface_displacement;
-};
-
-/// A cell of one side of the search.
-struct Cell {
-  const SurfaceGrid* grid = nullptr;
-  int cell = 0, row = 0, col = 0;
-
-  Cell() = default;
-  Cell(const SurfaceGrid& of, int own_row, int own_col)
-      : grid(&of), cell(own_row * of.cells() + own_col), row(own_row), col(own_col) {}
-  [[nodiscard]] int sample(int corner) const {
-    return (row + corner / 2) * grid->size() + col + corner % 2;
-  }
-  [[nodiscard]] const CellFeatures& features() const { return grid->features(cell); }
-  [[nodiscard]] bool owns(int corner) const { return (features().own_corners >> corner & 1) != 0; }
-  [[nodiscard]] std::array<int, 2> edge(int number) const { return grid->edge(cell, number); }
-  [[nodiscard]] bool shares_corner(const Cell& other) const {
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j)
-        if (grid->joint(sample(i)) == grid->joint(other.sample(j))) return true;
-    return false;
-  }
 };
 
 /// Collects the contacts of one cell with those of a tile after the other.
@@ -80,7 +39,7 @@ class Finder {
       : pair_(pair), kernels_(kernels), share_(share), out_(out) {}
 
   void find(const CandidateTile& found) {
-    const Cell own(*pair_.grid_a, found.row_a, found.col_a);
+    const SurfaceCell own(*pair_.grid_a, found.row_a, found.col_a);
     const CellCorners corners = pair_.tiles_a->cell(found.row_a, found.col_a);
     const TileCorners& tile = pair_.tiles_b->tile(pair_.tiles_b->tiling().tile_b(found));
     gather(own, corners, tile, found);
@@ -99,12 +58,12 @@ class Finder {
  private:
   /// A cell of the tile that may come near.
   struct Other {
-    Cell cell;
+    SurfaceCell cell;
     int lane = 0;
     bool crease = false;  ///< whether both share a corner: they fold there alone
   };
 
-  void gather(const Cell& own, const CellCorners& corners, const TileCorners& tile,
+  void gather(const SurfaceCell& own, const CellCorners& corners, const TileCorners& tile,
               const CandidateTile& found) {
     std::array<float, tile_cells> gaps;
     const auto reach = static_cast<float>(contact_margin * pair_.gap);
@@ -113,22 +72,22 @@ class Finder {
     for_lanes(found.cells, [&](int lane) {
       if (!(gaps[lane] <= 0)) return;
       out_.near = true;
-      const Cell cell(*pair_.grid_b, found.row_b + lane / Tiling::cols,
-                      found.col_b + lane % Tiling::cols);
+      const SurfaceCell cell(*pair_.grid_b, found.row_b + lane / Tiling::cols,
+                             found.col_b + lane % Tiling::cols);
       const bool crease = pair_.same() && adjacent(own, cell);
       if (pair_.same() && (crease ? !pair_.creases : beside(own, cell))) return;
       others_[count_++] = {cell, lane, crease};
     });
   }
 
-  static bool adjacent(const Cell& a, const Cell& b) {
+  static bool adjacent(const SurfaceCell& a, const SurfaceCell& b) {
     if (std::abs(a.row - b.row) <= 1 && std::abs(a.col - b.col) <= 1) return true;
     return a.features().at_seam && b.features().at_seam && a.shares_corner(b);
   }
 
   /// Whether the distance between two cells along a row and a column at rest is at most
   /// beside_in_gaps.
-  [[nodiscard]] bool beside(const Cell& a, const Cell& b) const {
+  [[nodiscard]] bool beside(const SurfaceCell& a, const SurfaceCell& b) const {
     if (pair_.rest == nullptr) return false;
     const double limit = beside_in_gaps * pair_.gap;
     const auto [row, last_row] = std::minmax(a.row, b.row);
@@ -145,50 +104,73 @@ class Finder {
   }
 
   [[nodiscard]] const MovingCloth& cloth(bool b) const { return b ? *pair_.b : *pair_.a; }
+  [[nodiscard]] const SurfaceGrid& grid(bool b) const { return b ? *pair_.grid_b : *pair_.grid_a; }
+  /// How far beyond the edges of triangles samples have contacts with those. [m]
+  [[nodiscard]] float beside_reach() const {
+    return static_cast<float>(contact_margin * pair_.gap);
+  }
 
   /// A corner of the cell with the tile's triangles.
-  void own_corner(const Cell& own, const CellCorners& corners, const TileCorners& tile,
+  void own_corner(const SurfaceCell& own, const CellCorners& corners, const TileCorners& tile,
                   int corner) {
     if (!own.owns(corner)) return;
-    kernels_.corner_over_tile(corners, corner, tile, near_.data(), found_.data());
+    kernels_.corner_over_tile(corners, corner, tile, near_.data(), beside_reach(), found_.data());
     for (int i = 0; i < count_; ++i)
       samples_with_triangles(own.sample(corner), others_[i].cell, others_[i], false);
   }
 
   /// That corner of the tile's cells with the cell's triangles.
-  void tile_corner(const Cell& own, const CellCorners& corners, const TileCorners& tile,
+  void tile_corner(const SurfaceCell& own, const CellCorners& corners, const TileCorners& tile,
                    int corner) {
     const auto owns = [&](const Other& other) { return other.cell.owns(corner); };
     if (std::none_of(others_.begin(), others_.begin() + count_, owns)) return;
-    kernels_.tile_over_cell(corners, tile, corner, near_.data(), found_.data());
+    kernels_.tile_over_cell(corners, tile, corner, near_.data(), beside_reach(), found_.data());
     for (int i = 0; i < count_; ++i)
       if (owns(others_[i]))
         samples_with_triangles(others_[i].cell.sample(corner), own, others_[i], true);
   }
 
   /// @param swapped  whether the sample is of the second cloth
-  void samples_with_triangles(int sample, const Cell& with, const Other& other, bool swapped) {
+  void samples_with_triangles(int sample, const SurfaceCell& with, const Other& other,
+                              bool swapped) {
     const int halves = found_[other.lane];
     gap_ = other.crease ? worn * pair_.gap : pair_.gap;
-    for (int half = 0; half < 2; ++half) {
-      if ((halves >> half & 1) == 0) continue;
-      const std::array<int, 3> triangle = with.grid->triangle(with.cell, half);
-      if (!with.grid->folded(triangle)) sample_with_triangle(sample, triangle, swapped);
-    }
+    for (int half = 0; half < 2; ++half)
+      if ((halves >> half & 1) != 0) sample_with_triangle(sample, with, half, swapped);
   }
 
-  void sample_with_triangle(int sample, const std::array<int, 3>& triangle, bool swapped) {
-    if (pair_.same() && shares_point(sample, triangle)) return;
+  void sample_with_triangle(int sample, const SurfaceCell& with, int half, bool swapped) {
+    const std::array<int, 3> triangle = with.grid->triangle(with.cell, half);
+    if (with.grid->folded(triangle) || (pair_.same() && shares_point(sample, triangle))) return;
     const Planes3& at = cloth(!swapped).start;
     const std::array<double, 3> weights =
         closest_weights(vec_cast<double>(cloth(swapped).start.at(sample)),
                         {vec_cast<double>(at.at(triangle[0])), vec_cast<double>(at.at(triangle[1])),
                          vec_cast<double>(at.at(triangle[2]))});
-    // Where an edge or a corner is closest the direction to it may lie along the cloth, where a
-    // push would strain it: that is left to edges and to the filter.
-    if (std::any_of(weights.begin(), weights.end(), [](double w) { return !(w > 0); })) return;
-    add({&cloth(swapped), {sample, sample, sample}, {1, 0, 0}},
-        {&cloth(!swapped), triangle, weights}, swapped);
+    const ContactSide own{&cloth(swapped), {sample, sample, sample}, {1, 0, 0}},
+        other{&cloth(!swapped), triangle, weights};
+    const bool inside = std::all_of(weights.begin(), weights.end(), [](double w) { return w > 0; });
+    if (inside || (!pair_.is_sewn() && meets_ridge(own, with, half, other, swapped)))
+      add(own, other, swapped);
+  }
+
+  /// Whether a sample has a contact with an edge or a corner of a triangle.
+  [[nodiscard]] bool meets_ridge(const ContactSide& own, const SurfaceCell& with, int half,
+                                 const ContactSide& other, bool swapped) const {
+    const std::array<int, 2> feature = other.feature();
+    if (!with.gives(feature, half) || !is_ridge(other, !swapped, own)) return false;
+    // Two vertices may be found both ways.
+    return feature[0] != feature[1] || !swapped || !is_ridge(own, swapped, other);
+  }
+
+  /// Whether a point lies beyond a ridge of the cloth, to which nothing around is closer. The
+  /// direction to it may lie along the cloth, where a push would strain it: that is left to the
+  /// filter.
+  /// @param b  whether the ridge is of the second cloth
+  [[nodiscard]] bool is_ridge(const ContactSide& ridge, bool b, const ContactSide& of) const {
+    const FeatureRing ring(grid(b), ridge.cloth->start, ridge.feature());
+    const Vec3d point = of.start();
+    return ring.faces(point - ridge.start()) && ring.is_closest_to(point);
   }
 
   [[nodiscard]] bool shares_point(int sample, const std::array<int, 3>& triangle) const {
@@ -197,7 +179,7 @@ class Finder {
                        [&](int corner) { return grid.joint(corner) == grid.joint(sample); });
   }
 
-  void edges(const Cell& own, const CellCorners& corners, const TileCorners& tile) {
+  void edges(const SurfaceCell& own, const CellCorners& corners, const TileCorners& tile) {
     kernels_.tile_edges(corners, tile, near_edges_.data(), found_.data());
     for (int i = 0; i < count_; ++i) {
       const Other& other = others_[i];
@@ -212,14 +194,14 @@ class Finder {
   }
 
   /// Pairs of edges that have one at the last row or column of a chart.
-  void last_edges(const Cell& a, const Cell& b) {
+  void last_edges(const SurfaceCell& a, const SurfaceCell& b) {
     constexpr int last = CellFeatures::last_edges;
     if ((a.features().own_edges | b.features().own_edges) >> last == 0) return;
     for (int p = 0; p < CellFeatures::edges; ++p)
       for (int q = p < last ? last : 0; q < CellFeatures::edges; ++q) add_edges(a, p, b, q);
   }
 
-  void add_edges(const Cell& a, int p, const Cell& b, int q) {
+  void add_edges(const SurfaceCell& a, int p, const SurfaceCell& b, int q) {
     const bool own =
         (a.features().own_edges >> p & 1) != 0 && (b.features().own_edges >> q & 1) != 0;
     if (own) add_edges(a.edge(p), b.edge(q));
@@ -238,48 +220,61 @@ class Finder {
     const ClosestPair closest = closest_points(a, b);
     const auto inner = [](const std::array<double, 3>& w) { return w[0] > 0 && w[1] > 0; };
     if (!inner(closest.weights_a) || !inner(closest.weights_b)) return;
-    add({pair_.a, {p[0], p[1], p[1]}, {closest.weights_a[0], closest.weights_a[1], 0}},
-        {pair_.b, {q[0], q[1], q[1]}, {closest.weights_b[0], closest.weights_b[1], 0}}, false);
+    const ContactSide own{
+        pair_.a, {p[0], p[1], p[1]}, {closest.weights_a[0], closest.weights_a[1], 0}};
+    const ContactSide other{
+        pair_.b, {q[0], q[1], q[1]}, {closest.weights_b[0], closest.weights_b[1], 0}};
+    if (!pair_.same() || pair_.is_sewn() ||
+        samples_between(*pair_.grid_a, own, other) >= crease_end)
+      add(own, other, false);
   }
 
   /// Between layers that have come through each other a contact would push the wrong way.
-  [[nodiscard]] bool misled(const Side& own, const Side& other, bool swapped) const {
+  [[nodiscard]] bool misled(const ContactSide& own, const ContactSide& other, bool swapped) const {
     if (pair_.tangle == nullptr) return false;
-    const Side &a = swapped ? other : own, &b = swapped ? own : other;
+    const ContactSide &a = swapped ? other : own, &b = swapped ? own : other;
     return TangleMarks::misled(pair_.tangle->of(0, *pair_.grid_a, a.samples),
                                pair_.tangle->of(1, *pair_.grid_b, b.samples));
   }
 
-  void add(const Side& own, const Side& other, bool swapped) {
+  [[nodiscard]] double gap_between(const ContactSide& own, const ContactSide& other) const {
+    if (!pair_.same() || pair_.is_sewn()) return gap_;
+    const double part =
+        (samples_between(*pair_.grid_a, own, other) - crease_end) / (layer_start - crease_end);
+    return std::min(gap_, pair_.gap * std::clamp(worn + (1 - worn) * part, worn, 1.0));
+  }
+
+  void add(const ContactSide& own, const ContactSide& other, bool swapped) {
     if (misled(own, other, swapped)) return;
     const Vec3d apart = own.start() - other.start();
-    const double distance = length(apart);
+    const double distance = length(apart), gap = gap_between(own, other);
     if (!(distance > 0)) return;
     const Vec3d normal = (1 / distance) * apart;
     const Vec3d own_displacement = own.displacement(), other_displacement = other.displacement();
-    if (distance + dot(normal, own_displacement - other_displacement) >= contact_margin * gap_)
+    if (distance + dot(normal, own_displacement - other_displacement) >= contact_margin * gap)
       return;
     out_.patches.push_back(patches_);
     if (pair_.same()) {
-      out_.of_a.push_back(joint(own, other, normal));
+      out_.of_a.push_back(joint(own, other, normal, gap));
     } else if (share_) {
       const int a = pair_.number_a, b = pair_.number_b;
-      out_.shared.push_back({joint(own, other, normal), swapped ? b : a, swapped ? a : b});
+      out_.shared.push_back({joint(own, other, normal, gap), swapped ? b : a, swapped ? a : b});
     } else {
       const Vec3d middle =
           0.5 * (own.start() + other.start() + own_displacement + other_displacement);
-      const double half = 0.5 * gap_, along = dot(normal, middle);
+      const double half = 0.5 * gap, along = dot(normal, middle);
       add_half(own, normal, {along + half, other_displacement}, swapped ? out_.of_b : out_.of_a);
       add_half(other, -normal, {-along + half, own_displacement}, swapped ? out_.of_a : out_.of_b);
     }
   }
 
   /// Contact with both sides in it.
-  [[nodiscard]] Contact joint(const Side& own, const Side& other, Vec3d normal) const {
+  [[nodiscard]] Contact joint(const ContactSide& own, const ContactSide& other, Vec3d normal,
+                              double gap) const {
     Contact contact;
     contact.weights = {};
     std::size_t count = 0;
-    const auto put = [&](const Side& side, double sign) {
+    const auto put = [&](const ContactSide& side, double sign) {
       for (std::size_t k = 0; k < 3; ++k) {
         if (side.weights[k] == 0) continue;
         contact.samples[count] = side.samples[k];
@@ -288,12 +283,12 @@ class Finder {
     };
     put(own, 1);
     put(other, -1);
-    contact.offset = static_cast<float>(gap_);
+    contact.offset = static_cast<float>(gap);
     finish(normal, own.compliance() + other.compliance(), contact);
     return contact;
   }
 
-  void add_half(const Side& side, Vec3d normal, const Plane& plane,
+  void add_half(const ContactSide& side, Vec3d normal, const Plane& plane,
                 std::vector<Contact>& out) const {
     Contact contact;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -317,7 +312,7 @@ class Finder {
   const CollideKernels& kernels_;
   bool share_;
   PairFound& out_;
-  double gap_ = 0;  // that contacts of two cells keep [m]
+  double gap_ = 0;  // that contacts of two cells keep, apart from creases [m]
   // Of one cell and a tile:
   ContactPatches patches_;
   std::array<Other, tile_cells> others_;

@@ -29,6 +29,8 @@ struct ClothPair {
   bool creases = false;                 ///< whether cells that share a corner get contacts
   const TangleMarks* tangle = nullptr;  ///< where they cross; else null
   [[nodiscard]] bool same() const { return number_a == number_b; }
+  /// Whether seams are being sewn: contacts at ridges and creases would keep them open.
+  [[nodiscard]] bool is_sewn() const { return grid_a->is_sewn() || grid_b->is_sewn(); }
 };
 
 /// The patches of both sides of a contact.
@@ -53,9 +55,10 @@ struct MovedPatches {
   std::span<const char> a, b;
 };
 
-/// Finds contacts between parts of cloths that come closer than the contact margin during a step:
-/// of samples with triangles, and of edges that cross at an angle, between their closest points at
-/// the start of the step. Each belongs to one pair of cells, see CellFeatures.
+/// Finds contacts between parts of cloths that come closer than the contact margin during a step,
+/// between their closest points at the start of the step: of samples with triangles, and with the
+/// edges and vertices beyond which they lie, and of edges that cross at an angle. Each belongs to
+/// one pair of cells, see CellFeatures.
 class PairContacts {
  public:
   /// @param share  whether contacts of two cloths are shared

@@ -80,13 +80,14 @@ struct CollideKernels {
   /// where both cells are nearly parallel. [m]
   void (*tile_reaches)(const CellCorners& cell, const TileCorners& tile, float reach,
                        float flat_reach, float* near, float* near_edges);
-  /// Which triangles of a tile's cells may have a cell's corner above or below their inside, within
-  /// `near` at the start, rounding allowed for: bits 0 and 1 for both halves of each.
+  /// Which triangles of a tile's cells may have a cell's corner above or below them, within `near`
+  /// [m] at the start and up to `beside` [m] beyond their edges, rounding allowed for: bits 0 and 1
+  /// for both halves of each.
   void (*corner_over_tile)(const CellCorners& cell, int corner, const TileCorners& tile,
-                           const float* near, int* out);
+                           const float* near, float beside, int* out);
   /// The same of that corner of each of a tile's cells, and the two triangles of a cell.
   void (*tile_over_cell)(const CellCorners& cell, const TileCorners& tile, int corner,
-                         const float* near, int* out);
+                         const float* near, float beside, int* out);
   /// Which edges may have their closest points inside both, within `near` at the start, or are
   /// nearly parallel: bit 3 p + q for edges p of the cell and q of each of the tile's, from corner
   /// 0 to 1, from 0 to 2, and the diagonal.

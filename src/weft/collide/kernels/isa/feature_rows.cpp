@@ -56,26 +56,38 @@ __attribute__((always_inline)) inline Near near_of(const OwnMotion& own, const T
   return {reach + more, (flat ? flat_reach : reach) + more};
 }
 
-/// Whether a point, relative to a triangle's first corner, may lie over its inside within `near`.
-__attribute__((always_inline)) inline bool holds(Vec first, Vec second, Vec across,
-                                                 float squared_area, Vec from, float near) {
-  const float height = dot(across, from), least = -hair * squared_area;
-  const float u = dot(cross(from, second), across), v = dot(cross(first, from), across);
-  return (height * height <= near * near * squared_area) & (u >= least) & (v >= least) &
-         (squared_area - u - v >= least);
+/// How far from a triangle a point may lie: from its plane, and beside it there [m].
+struct Reach {
+  float along, beside;
+};
+/// Whether a point lies inside an edge of a triangle, or beside it within a distance.
+/// @param inner  the distance from the edge, times its length and the triangle's doubled area
+inline bool inside_edge(float inner, Vec edge, float squared_area, float beside) {
+  return (inner >= -hair * squared_area) |
+         (inner * inner <= beside * beside * squared_area * dot(edge, edge));
 }
-inline bool holds(Vec a, Vec b, Vec c, Vec point, float near) {
+/// Whether a point, relative to a triangle's first corner, may lie over it or beside that.
+__attribute__((always_inline)) inline bool holds(Vec first, Vec second, Vec across,
+                                                 float squared_area, Vec from, Reach reach) {
+  const float height = dot(across, from);
+  const float u = dot(cross(from, second), across), v = dot(cross(first, from), across);
+  return (height * height <= reach.along * reach.along * squared_area) &
+         inside_edge(u, second, squared_area, reach.beside) &
+         inside_edge(v, first, squared_area, reach.beside) &
+         inside_edge(squared_area - u - v, second - first, squared_area, reach.beside);
+}
+inline bool holds(Vec a, Vec b, Vec c, Vec point, Reach reach) {
   const Vec first = b - a, second = c - a, across = cross(first, second);
-  return holds(first, second, across, dot(across, across), point - a, near);
+  return holds(first, second, across, dot(across, across), point - a, reach);
 }
 inline Vec select(bool first, Vec a, Vec b) {
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 /// Bits 0 and 1: the two triangles of a cell.
-inline int holding(const Quad& cell, bool falling, Vec point, float near) {
+inline int holding(const Quad& cell, bool falling, Vec point, Reach reach) {
   const Vec third = select(falling, cell.c, cell.d), fourth = select(falling, cell.b, cell.a);
-  return (holds(cell.a, cell.b, third, point, near) ? 1 : 0) |
-         (holds(fourth, cell.d, cell.c, point, near) ? 2 : 0);
+  return (holds(cell.a, cell.b, third, point, reach) ? 1 : 0) |
+         (holds(fourth, cell.d, cell.c, point, reach) ? 2 : 0);
 }
 
 struct Edge {
@@ -111,13 +123,13 @@ __attribute__((always_inline)) inline int crossing(const Edge& own, Vec origin,
          (may_cross(own, diagonal, near) ? 4 : 0);
 }
 
-inline int over_lane(const float* start, int lane, bool falling, Vec point, float near) {
-  return holding(lane_of(start, lane, point), falling, {0, 0, 0}, near);
+inline int over_lane(const float* start, int lane, bool falling, Vec point, Reach reach) {
+  return holding(lane_of(start, lane, point), falling, {0, 0, 0}, reach);
 }
 inline int over_cell(const Quad& cell, bool falling, Vec origin, const float* start, int lane,
-                     float near) {
+                     Reach reach) {
   const float* x = start + lane;
-  return holding(cell, falling, Vec{x[0], x[4 * tile_cells], x[8 * tile_cells]} - origin, near);
+  return holding(cell, falling, Vec{x[0], x[4 * tile_cells], x[8 * tile_cells]} - origin, reach);
 }
 
 inline Vec origin_of(const CellCorners& cell) {
@@ -146,22 +158,23 @@ void tile_reaches(const CellCorners& cell, const TileCorners& tile, float reach,
 }
 
 void corner_over_tile(const CellCorners& cell, int corner, const TileCorners& tile,
-                      const float* near, int* __restrict out) {
+                      const float* near, float beside, int* __restrict out) {
   const Vec point{cell.start[0][corner], cell.start[1][corner], cell.start[2][corner]};
   const float* start = &tile.start[0][0][0];
 #pragma omp simd
   for (int k = 0; k < tile_cells; ++k)
-    out[k] = over_lane(start, k, tile.falling[k] != 0, point, near[k]);
+    out[k] = over_lane(start, k, tile.falling[k] != 0, point, {near[k], beside});
 }
 
 void tile_over_cell(const CellCorners& cell, const TileCorners& tile, int corner, const float* near,
-                    int* __restrict out) {
+                    float beside, int* __restrict out) {
   const Vec origin = origin_of(cell);
   const Quad own = quad_of(cell.start, origin);
   const bool falling = cell.falling != 0;
   const float* start = tile.start[0][corner];
 #pragma omp simd
-  for (int k = 0; k < tile_cells; ++k) out[k] = over_cell(own, falling, origin, start, k, near[k]);
+  for (int k = 0; k < tile_cells; ++k)
+    out[k] = over_cell(own, falling, origin, start, k, {near[k], beside});
 }
 
 void tile_edges(const CellCorners& cell, const TileCorners& tile, const float* near,

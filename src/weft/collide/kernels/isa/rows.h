@@ -21,9 +21,9 @@ void tile_gaps(const CellCorners& cell, const TileCorners& tile, float at_start,
 void tile_reaches(const CellCorners& cell, const TileCorners& tile, float reach, float flat_reach,
                   float* near, float* near_edges);
 void corner_over_tile(const CellCorners& cell, int corner, const TileCorners& tile,
-                      const float* near, int* out);
+                      const float* near, float beside, int* out);
 void tile_over_cell(const CellCorners& cell, const TileCorners& tile, int corner, const float* near,
-                    int* out);
+                    float beside, int* out);
 void tile_edges(const CellCorners& cell, const TileCorners& tile, const float* near, int* out);
 
 extern const CollideKernels collide_kernels;
