@@ -325,23 +325,25 @@ std::map<Meeting, int> as_uncut(const HalvedSheet& halved, const std::map<Meetin
   return same;
 }
 
-/// Whether the features of an uncut sheet are so far apart along it that they keep the whole gap.
-bool are_layers(const Meeting& meeting) {
-  const auto apart = [](int a, int b) {
-    constexpr int n = HalvedSheet::n;
-    return std::max(std::abs(a / n - b / n), std::abs(a % n - b % n)) >= 4;
+/// Whether the features of an uncut sheet lie on one side of the cut, or so far apart along it that
+/// they keep the whole gap: across a cut nothing tells how far they are.
+bool are_comparable(const Meeting& meeting) {
+  const auto pair = [](int a, int b) {
+    constexpr int n = HalvedSheet::n, cut = HalvedSheet::half;
+    return (a % n - cut) * (b % n - cut) > 0 ||
+           std::max(std::abs(a / n - b / n), std::abs(a % n - b % n)) >= 4;
   };
   return std::all_of(meeting.first.begin(), meeting.first.end(), [&](int a) {
     return std::all_of(meeting.second.begin(), meeting.second.end(),
-                       [&](int b) { return apart(a, b); });
+                       [&](int b) { return pair(a, b); });
   });
 }
 
-/// Those of layers, without an order of the two sides.
+/// Those that are comparable, without an order of the two sides.
 std::map<Meeting, int> unordered(const std::map<Meeting, int>& found) {
   std::map<Meeting, int> same;
   for (const auto& [meeting, times] : found)
-    if (are_layers(meeting)) same[std::minmax(meeting.first, meeting.second)] += times;
+    if (are_comparable(meeting)) same[std::minmax(meeting.first, meeting.second)] += times;
   return same;
 }
 
