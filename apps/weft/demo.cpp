@@ -114,7 +114,7 @@ void run_demo(const fs::path& folder, const Context& context) {
   Demo demo(folder, context);
   show_image(demo);
   show_drape(demo, {"sheet", "builtin:sheet", 120, 0.2});
-  show_drape(demo, {"tshirt", "builtin:tshirt", 60, 0.1});
+  show_drape(demo, {"tshirt", "builtin:tshirt", 120, 0.1});
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   demo.report["seconds"] = seconds.count();
   demo.report["outputs"] = paths_json(demo.outputs);
