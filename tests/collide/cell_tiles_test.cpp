@@ -14,11 +14,11 @@ namespace weft {
 namespace {
 
 /// A rough sheet in motion, whose diagonals alternate.
-struct Sheet {
+struct RoughSheet {
   SurfaceGrid grid;
   Planes3 start, end;
 
-  Sheet(int n, Random& random, Vec3d at, double rough)
+  RoughSheet(int n, Random& random, Vec3d at, double rough)
       : grid(n, BorderMates(), diagonals(n)), start(n), end(n) {
     const auto any = [&](double size) {
       return size * Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
@@ -61,7 +61,7 @@ struct Sheet {
   }
 };
 
-double distance(const Sheet& a, int cell_a, const Sheet& b, int cell_b, double time) {
+double distance(const RoughSheet& a, int cell_a, const RoughSheet& b, int cell_b, double time) {
   double min = HUGE_VAL;
   for (int i = 0; i < 4; ++i)
     min = std::min(min,
@@ -72,7 +72,7 @@ double distance(const Sheet& a, int cell_a, const Sheet& b, int cell_b, double t
 
 /// Two sheets and the tiles of both.
 struct Pair {
-  Sheet a, b;
+  RoughSheet a, b;
   CellTiles tiles_a, tiles_b;
   Pair(Random& random, Vec3d at, double height)
       : a(6, random, at, 0.002),
@@ -263,8 +263,9 @@ TEST_F(TileFeatures, CornersOverTrianglesAreFoundBothWays) {
                                   over_tile.data());
       baseline().tile_over_cell(own, pair.tiles_b.tile(tile), corner, near.data(), beside,
                                 over_cell.data());
-      const auto check = [&](const Sheet& of_point, int point_cell, const Sheet& of_triangle,
-                             int triangle_cell, int found, float within) {
+      const auto check = [&](const RoughSheet& of_point, int point_cell,
+                             const RoughSheet& of_triangle, int triangle_cell, int found,
+                             float within) {
         const Vec3d point = of_point.at(of_point.grid.corners(point_cell)[corner], 0);
         for (int half = 0; half < 2; ++half) {
           const Feature triangle = of_triangle.triangle(triangle_cell, half, 0);

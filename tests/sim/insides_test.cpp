@@ -216,6 +216,15 @@ TEST(Insides, WhatBeginsOnTheSurfaceIsNotDrivenIn) {
   }
 }
 
+/// Triangles round an edge of the box cross it though all their corners are outside; held off its
+/// triangles that they did not cross yet, they stayed for ever.
+TEST(Insides, WhatBeginsAcrossAnEdgeComesOffIt) {
+  Simulation simulation(around("box", sheet({0.02, 0.69, 0.01}, 1)), "s.json", 1);
+  EXPECT_GT(simulation.intersections().bodies, 100);
+  for (int frame = 1; frame <= 30; ++frame) simulation.advance();
+  EXPECT_EQ(simulation.intersections().bodies, 0);
+}
+
 /// As a body does, and by work.
 TEST(Insides, TheGroundPushesOutWhatBeginsBelow) {
   Scene scene;

@@ -46,6 +46,7 @@ CollisionWorld::CollisionWorld(MakeBroadPhase make_broad_phase, const Obstacles&
   for (const WorldBody& body : bodies) grids.push_back(&body.grid);
   const auto skin = static_cast<float>(skin_in_gaps * min_gap_);
   pairs_.emplace(make_broad_phase(grids, cloths.size()), grids, cloths.size(), skin);
+  for (WorldCloth& cloth : cloths) cloth.crossings.resize(bodies.size());
 }
 
 bool CollisionWorld::needs_boxes() const {
@@ -169,6 +170,20 @@ std::span<const CandidateTile> CollisionWorld::near_cells(std::size_t i, std::si
   const auto reach = static_cast<float>(contact_margin * gap_between(i, j));
   if (i == j) return pairs_->find_self(first, reach, static_cast<float>(slack_), team);
   return pairs_->find(first, second, reach, team);
+}
+
+void CollisionWorld::find_crossings(std::span<const MovingCloth> moving, ThreadTeam& team) {
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      BodyCrossings& crossings = cloths[i].crossings[b];
+      const ContactBody& body = contact_bodies[b];
+      if (!body.query->closed() ||
+          (!crossings.is_open() && !cloths[i].body_contacts->any_inside(body.number)))
+        continue;
+      const std::span<const CandidateTile> cells =
+          pairs_->find(static_cast<int>(i), static_cast<int>(cloths.size() + b), 0, team);
+      crossings.find({cloths[i].grid, moving[i].start, bodies[b].grid, body}, cells, team);
+    }
 }
 
 double CollisionWorld::fastest_body(double time_step) const {

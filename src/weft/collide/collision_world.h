@@ -9,6 +9,7 @@
 #include "weft/collide/collider.h"
 #include "weft/collide/contacts/block_motion.h"
 #include "weft/collide/contacts/body_contacts.h"
+#include "weft/collide/contacts/body_crossings.h"
 
 namespace weft {
 
@@ -18,6 +19,7 @@ struct WorldCloth {
   CollidingCloth properties;
   int first_point = 0;                          ///< number of its sample 0 among all points
   std::unique_ptr<BodyContacts> body_contacts;  ///< with the samples' inside marks
+  std::vector<BodyCrossings> crossings{};       ///< with each body
 };
 
 /// A body and its motion in a step.
@@ -62,6 +64,8 @@ class CollisionWorld {
   /// Places the bodies' queries for contact search at the start of the step, and at its end where
   /// bodies go far.
   void place_bodies(ThreadTeam& team);
+  /// Finds the triangles of cloths that cross closed bodies at the start of the step.
+  void find_crossings(std::span<const MovingCloth> moving, ThreadTeam& team);
   /// Copies positions and velocities of representatives to their mates.
   void copy_to_mates(std::span<const MovingCloth> moving) const;
 

@@ -24,6 +24,7 @@ void ContactPipeline::detect(std::span<const MovingCloth> cloths, double time_st
   world_.place_bodies(team);
   world_.gather_surfaces(cloths);
   world_.refit(team);
+  world_.find_crossings(cloths, team);
   finder_.find_with_bodies(cloths, time_step, team);
   find_tangles(cloths, team);
   finder_.find_between_cloths(cloths, time_step, untangler_, team);
@@ -109,6 +110,7 @@ void ContactPipeline::restore_marks(std::size_t cloth, std::span<const int> mark
                                                     : std::span<const int>());
   for (std::size_t k = 0; k < pairs; ++k)
     untangler_.set_open(cloth, cloth + k, !known || marks[samples + k] != 0);
+  for (BodyCrossings& crossings : world_.cloths[cloth].crossings) crossings.forget();
 }
 
 double ContactPipeline::smallest_gap(std::size_t cloth, const Planes3& positions,

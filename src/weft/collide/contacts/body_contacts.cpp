@@ -47,6 +47,11 @@ void BodyContacts::arrive(std::size_t body, int motion) {
   if (body < near_.size()) near_[body].arrive(motion);
 }
 
+bool BodyContacts::any_inside(int body) const {
+  return marks_.any &&
+         std::find(marks_.inside.begin(), marks_.inside.end(), body) != marks_.inside.end();
+}
+
 NearSamples& BodyContacts::near(const ContactBody& body) {
   const auto index = static_cast<std::size_t>(body.number - 1);
   while (near_.size() <= index) near_.emplace_back(grid_, kept_, keeps_in(near_.size()));

@@ -21,6 +21,28 @@ Vec3d displacement_of(const ContactBody& body, const BodyPoint& at) {
   return moved;
 }
 
+std::array<Vec3d, 3> corners_at(const Planes3& positions, const std::array<int, 3>& samples) {
+  return {vec_cast<double>(positions.at(samples[0])), vec_cast<double>(positions.at(samples[1])),
+          vec_cast<double>(positions.at(samples[2]))};
+}
+
+Vec3d blend(const std::array<Vec3d, 3>& corners, const std::array<double, 3>& w) {
+  return w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
+}
+
+ClothPoint point_of_triangle(const MovingCloth& cloth, const std::array<int, 3>& samples,
+                             const std::array<double, 3>& weights) {
+  ClothPoint point;
+  point.start = blend(corners_at(cloth.start, samples), weights);
+  point.displacement = blend(corners_at(cloth.position, samples), weights) - point.start;
+  point.weights = {};
+  for (std::size_t k = 0; k < 3; ++k) {
+    point.samples[k] = samples[k];
+    point.weights[k] = static_cast<float>(weights[k]);
+  }
+  return point;
+}
+
 double pair_friction(double a, double b) { return std::sqrt(a * b); }
 
 void put_offset(double surface, double gap_at_start, double gap, Contact& contact) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
+#include "weft/collide/collider.h"
 #include "weft/collide/contacts/block_motion.h"
 #include "weft/collide/contacts/body_query.h"
 #include "weft/contact.h"
@@ -37,6 +38,16 @@ struct ClothPoint {
   bool astray = false;         ///< it starts on the wrong side of the body
   double farthest = HUGE_VAL;  ///< that it comes out in the step where it is astray [m]
 };
+
+[[nodiscard]] std::array<Vec3d, 3> corners_at(const Planes3& positions,
+                                              const std::array<int, 3>& samples);
+/// The weighted mean of three corners.
+[[nodiscard]] Vec3d blend(const std::array<Vec3d, 3>& corners,
+                          const std::array<double, 3>& weights);
+/// A point of a cloth's triangle.
+[[nodiscard]] ClothPoint point_of_triangle(const MovingCloth& cloth,
+                                           const std::array<int, 3>& samples,
+                                           const std::array<double, 3>& weights);
 
 /// Gap and friction of a cloth against obstacles.
 struct KeptGap {

@@ -51,9 +51,23 @@ void ContactFinder::find_with_bodies(std::span<const MovingCloth> moving, double
     one.contacts.clear();
     for (const std::span<const Contact> found : {bodies.contacts(), one.corners->contacts()})
       one.contacts.insert(one.contacts.end(), found.begin(), found.end());
+    for (std::size_t b = 0; b < world_.bodies.size(); ++b)
+      add_crossings(i, b, moving[i], time_step);
     one.hard = one.contacts.size();
     near_ = near_ || one.hard > 0;
   }
+}
+
+/// Contacts that bring triangles of a cloth out of a body.
+void ContactFinder::add_crossings(std::size_t cloth, std::size_t body, const MovingCloth& moving,
+                                  double time_step) {
+  const WorldCloth& one = world_.cloths[cloth];
+  const CollidingCloth& properties = one.properties;
+  const bool kept_in = !properties.kept_in.empty() && properties.kept_in[body] != 0;
+  one.crossings[body].add_contacts(
+      one.grid, moving, world_.contact_bodies[body],
+      {{properties.thickness, properties.friction}, max_exit_speed * time_step, kept_in},
+      found_[cloth].contacts);
 }
 
 int ContactFinder::count() const {

@@ -77,6 +77,8 @@ class ContactFinder {
   void mark_moved(std::size_t cloth, const MovingCloth& moving);
   /// Adds what was found between cloths to the contacts with bodies.
   void add_found(std::size_t i, std::size_t j);
+  void add_crossings(std::size_t cloth, std::size_t body, const MovingCloth& moving,
+                     double time_step);
   [[nodiscard]] int count() const;
 
   CollisionWorld& world_;

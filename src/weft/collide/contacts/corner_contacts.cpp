@@ -19,15 +19,6 @@ constexpr double nearly_all = 0.99;
 
 using Corners = std::array<Vec3d, 3>;
 
-Corners corners_at(const Planes3& planes, const std::array<int, 3>& samples) {
-  return {vec_cast<double>(planes.at(samples[0])), vec_cast<double>(planes.at(samples[1])),
-          vec_cast<double>(planes.at(samples[2]))};
-}
-
-Vec3d blend(const Corners& corners, const std::array<double, 3>& w) {
-  return w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
-}
-
 std::array<int, 2> in_order(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 PathBox path_of(Vec3f start, Vec3f end) {
@@ -242,17 +233,10 @@ void CornerContacts::make_contact(const Search& search, const Touch& touch,
   if (!look()) return;
   w = closest_weights(at->position, start);
   if (!look() || std::max({w[0], w[1], w[2]}) > nearly_all) return;
-  ClothPoint point;
-  point.start = blend(start, w);
+  ClothPoint point = point_of_triangle(search.step.cloth, samples, w);
   point.kept_in = keeps_in(search.body.number - 1);
   if (search.body.query->closed() && search.body.query->behind(point.start, *at) != point.kept_in)
     return;
-  point.displacement = blend(corners_at(search.step.cloth.position, samples), w) - point.start;
-  point.weights = {};
-  for (std::size_t k = 0; k < 3; ++k) {
-    point.samples[k] = samples[k];
-    point.weights[k] = static_cast<float>(w[k]);
-  }
   if (const auto contact = contact_before(search.body, *at, point, kept_)) out.push_back(*contact);
 }
 

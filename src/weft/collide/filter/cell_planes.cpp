@@ -113,7 +113,7 @@ class CellSearch {
       joints_b_[k] = b.joint(samples_b_[k]);
     }
     for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j)
+      for (int j = 0; j < 2 && !crosses_body(cells.a, i); ++j)
         triangles(placed, a.triangle_corners(cells.a, i), b.triangle_corners(cells.b, j));
   }
 
@@ -235,6 +235,10 @@ class CellSearch {
     return search_.inside != nullptr && std::any_of(samples.begin(), samples.end(), [&](int s) {
              return (*search_.inside)[search_.a.surface.grid->point(s)] == search_.body_number;
            });
+  }
+
+  [[nodiscard]] bool crosses_body(int cell, int half) const {
+    return search_.crossings != nullptr && search_.crossings->crosses(cell, half);
   }
 
   void add(const MovingFeature& a, const MovingFeature& b) {

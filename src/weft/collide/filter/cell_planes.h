@@ -5,6 +5,7 @@
 
 #include "weft/collide/broad_phase/cell_tiles.h"
 #include "weft/collide/contacts/body_contacts.h"
+#include "weft/collide/contacts/body_crossings.h"
 #include "weft/collide/filter/separating_planes.h"
 #include "weft/collide/untangle/tangle_marks.h"
 #include "weft/core/thread_team.h"
@@ -29,7 +30,8 @@ struct PlaneSearch {
   PlaneOptions options;
   const InsideMarks* inside = nullptr;  ///< inside marks of a, where b is a body
   int body_number = 0;                  ///< triangles of a with a sample marked by it get no plane
-  const TangleMarks* tangle = nullptr;  ///< marks of cloths that cross; else null
+  const BodyCrossings* crossings = nullptr;  ///< of a, where b is a body: those get no plane either
+  const TangleMarks* tangle = nullptr;       ///< marks of cloths that cross; else null
   /// Per point of all cloths, whether its end has changed: only pairs of triangles with such a
   /// corner are searched; null: all are.
   const char* new_points = nullptr;

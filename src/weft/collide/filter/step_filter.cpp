@@ -100,6 +100,7 @@ void StepFilter::add_planes(bool all, double farthest, ThreadTeam& team) {
       if (search.b.body) {
         search.inside = &world_.cloths[i].body_contacts->inside();
         search.body_number = static_cast<int>(j - cloths_.size()) + 1;
+        search.crossings = &world_.cloths[i].crossings[j - cloths_.size()];
       }
       cell_planes_.find(search, cells, team, planes_);
     }
@@ -343,6 +344,7 @@ bool StepFilter::do_round(std::span<const MovingCloth> moving, double time_step,
     for (const int point : plane_filter_.lost()) {
       WorldCloth& cloth = world_.cloths[world_.cloth_of(point)];
       cloth.body_contacts->doubt(point - cloth.first_point);
+      for (BodyCrossings& crossings : cloth.crossings) crossings.look_again();
     }
   }
   all_anew_ = held.lost > 0 && bodies_move;
