@@ -67,7 +67,8 @@ struct TipThroughSheet {
   }
   [[nodiscard]] std::vector<Contact> contacts(bool kept_in = false) {
     std::vector<Contact> found;
-    crossings.add_contacts(grid, cloth.moving(), body, {{gap, 0.4}, 0.0005, kept_in}, found);
+    crossings.add_contacts(grid, cloth.moving(), body, {{gap, 0.4}, 0.0005, kept_in, inside},
+                           found);
     return found;
   }
 
@@ -78,6 +79,7 @@ struct TipThroughSheet {
   TestCloth cloth;
   ContactBody body;
   BodyCrossings crossings;
+  InsideMarks inside = InsideMarks(n * n, 0);
   ThreadTeam team{1};
 };
 
@@ -102,6 +104,14 @@ TEST(BodyCrossings, HaveContactsThatLeadOutByNoMoreThanIsAllowed) {
     EXPECT_NEAR(depth_of(contact, scene.cloth.start), 0.0005, 1e-6);
     EXPECT_EQ(contact.friction, 0);
   }
+}
+
+TEST(BodyCrossings, HaveNoContactsWhereASampleHasItsOwn) {
+  TipThroughSheet scene;
+  scene.find();
+  for (const int t : scene.crossed())
+    for (const int s : scene.grid.triangle(t / 2, t % 2)) scene.inside[s] = scene.body.number;
+  EXPECT_TRUE(scene.contacts().empty());
 }
 
 TEST(BodyCrossings, AreNotLookedForOnceThereAreNone) {

@@ -96,8 +96,11 @@ void BodyCrossings::add_contacts(const SurfaceGrid& grid, const MovingCloth& clo
                                  const ContactBody& body, const Exit& exit,
                                  std::vector<Contact>& out) const {
   for (const Meeting& meeting : meetings_) {
-    if (meeting.ends == 0) continue;
     const std::array<int, 3> samples = grid.triangle(meeting.triangle / 2, meeting.triangle % 2);
+    const bool has_own = std::any_of(samples.begin(), samples.end(), [&](int s) {
+      return exit.inside[grid.point(s)] == body.number;
+    });
+    if (has_own || meeting.ends == 0) continue;
     // Amid the ends of segments, so most likely inside.
     const Vec3d amid = (1.0 / meeting.ends) * meeting.sum;
     ClothPoint point =

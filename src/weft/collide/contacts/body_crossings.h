@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "weft/collide/broad_phase/chunks.h"
+#include "weft/collide/contacts/body_contacts.h"
 #include "weft/collide/contacts/contact_body.h"
 #include "weft/collide/moving_surface.h"
 #include "weft/contact.h"
@@ -42,8 +43,10 @@ class BodyCrossings {
     KeptGap kept;
     double farthest = 0;   ///< in the step [m]
     bool kept_in = false;  ///< the cloth belongs inside the body
+    const InsideMarks& inside;
   };
-  /// Adds a contact for each such triangle, of the proposals of the step.
+  /// Adds a contact for each such triangle of which no sample is inside, as those have their own;
+  /// of the proposals of the step.
   void add_contacts(const SurfaceGrid& grid, const MovingCloth& cloth, const ContactBody& body,
                     const Exit& exit, std::vector<Contact>& out) const;
 

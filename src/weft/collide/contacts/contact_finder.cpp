@@ -64,10 +64,12 @@ void ContactFinder::add_crossings(std::size_t cloth, std::size_t body, const Mov
   const WorldCloth& one = world_.cloths[cloth];
   const CollidingCloth& properties = one.properties;
   const bool kept_in = !properties.kept_in.empty() && properties.kept_in[body] != 0;
-  one.crossings[body].add_contacts(
-      one.grid, moving, world_.contact_bodies[body],
-      {{properties.thickness, properties.friction}, max_exit_speed * time_step, kept_in},
-      found_[cloth].contacts);
+  one.crossings[body].add_contacts(one.grid, moving, world_.contact_bodies[body],
+                                   {{properties.thickness, properties.friction},
+                                    max_exit_speed * time_step,
+                                    kept_in,
+                                    one.body_contacts->inside()},
+                                   found_[cloth].contacts);
 }
 
 int ContactFinder::count() const {

@@ -1,0 +1,119 @@
+#include "weft/collide/contacts/near_samples.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/collide/test_bodies.h"
+#include "weft/core/random.h"
+
+namespace weft {
+namespace {
+
+constexpr int n = 17, body_size = 33;
+constexpr KeptGap kept{0.01, 0.4};
+
+/// A sheet that moves about a ball, each sample on a way of its own.
+struct SheetAtBall {
+  SheetAtBall()
+      : given(test::octahedral_sphere(body_size, 0.3, {})),
+        body_grid(body_size, given.mates, {}),
+        grid(n, none, {}),
+        query(body_grid),
+        cloth(n) {
+    ThreadTeam alone(1);
+    query.place(given.positions, alone);
+    body.number = 1;
+    body.query = &query;
+    body.start = body.end = &given.positions;
+    body.placement = body.motion = 1;
+    cloth.place([](int r, int c) { return Vec3d{0.03 * (c - 8), 0.312, 0.03 * (r - 8)}; });
+  }
+  /// Moves every sample from where it is, by up to `most` along each axis. [m]
+  void step(Random& random, float most) {
+    const auto some = [&] { return most * static_cast<float>(2 * random.uniform() - 1); };
+    cloth.start = cloth.position;
+    for (int s = 0; s < n * n; ++s)
+      cloth.position.set(s, cloth.start.at(s) + Vec3f{some(), some(), some()});
+  }
+  /// The contact of a sample, by a search of the whole body.
+  [[nodiscard]] std::optional<Contact> expected(int sample) const {
+    ClothPoint point;
+    point.samples[0] = sample;
+    point.start = vec_cast<double>(cloth.start.at(sample));
+    point.displacement = vec_cast<double>(cloth.position.at(sample)) - point.start;
+    const BodyPoint at = *query.closest(point.start, HUGE_VAL);
+    point.astray = query.behind(point.start, at);
+    return contact_before(body, at, point, kept);
+  }
+
+  BorderMates none;
+  Body given;
+  SurfaceGrid body_grid, grid;
+  BodyQuery query;
+  test::TestCloth cloth;
+  ContactBody body;
+};
+
+/// What is known of earlier steps spares searches and changes nothing.
+TEST(NearSamples, HaveTheContactsThatASearchOfTheWholeBodyFinds) {
+  SheetAtBall scene;
+  NearSamples near(scene.grid, kept, false);
+  ThreadTeam team(2);
+  Random random(3);
+  const std::vector<char> deep(n * n, 1);
+  int contacts = 0;
+  for (int step = 0; step < 40; ++step) {
+    scene.step(random, step % 5 == 4 ? 0.02F : 0.001F);
+    near.find(scene.cloth.moving(), scene.body, {deep}, team);
+    for (int s = 0; s < n * n; ++s) {
+      std::vector<Contact> found;
+      near.add_contact(scene.cloth.moving(), scene.body, s / n, s % n, found);
+      const std::optional<Contact> expected = scene.expected(s);
+      ASSERT_EQ(found.size(), expected ? 1U : 0U) << step << ", sample " << s;
+      if (!expected) continue;
+      ++contacts;
+      EXPECT_EQ(found[0].samples[0], s);
+      EXPECT_LT(length(found[0].normal - expected->normal), 1e-5F);
+      EXPECT_NEAR(found[0].offset, expected->offset, 1e-6);
+    }
+  }
+  EXPECT_GT(contacts, 500);
+}
+
+TEST(NearSamples, TellTheSmallestGap) {
+  SheetAtBall scene;
+  NearSamples near(scene.grid, kept, false);
+  ThreadTeam team(2);
+  const double middle = 0.312 - 0.3;
+  EXPECT_NEAR(near.smallest_gap(scene.cloth.start, scene.body, 0.02, team), middle, 2e-3);
+  EXPECT_EQ(near.smallest_gap(scene.cloth.start, scene.body, 0.005, team), HUGE_VAL);
+  scene.cloth.start.set(8 * n + 8, {0, 0.29F, 0});
+  EXPECT_NEAR(near.smallest_gap(scene.cloth.start, scene.body, 0.02, team), -0.01, 2e-3);
+}
+
+TEST(NearSamples, KnowWhichAreAstray) {
+  SheetAtBall scene;
+  scene.cloth.place([](int r, int c) { return Vec3d{0.03 * (c - 8), 0.296, 0.03 * (r - 8)}; });
+  NearSamples near(scene.grid, kept, false);
+  ThreadTeam team(1);
+  const std::vector<char> deep(n * n, 1);
+  near.find(scene.cloth.moving(), scene.body, {deep}, team);
+  int astray = 0;
+  for (int s = 0; s < n * n; ++s) {
+    const NearSample* const one = near.find(s / n, s % n);
+    const bool inside = length(vec_cast<double>(scene.cloth.start.at(s))) < 0.298;
+    if (inside) {
+      ASSERT_NE(one, nullptr);
+      EXPECT_TRUE(one->astray) << s;
+      EXPECT_LT(one->gap, 0);
+      ++astray;
+    } else if (one != nullptr && one->triangle >= 0) {
+      EXPECT_EQ(one->astray, one->gap < 0) << s;
+    }
+  }
+  EXPECT_GE(astray, 5);
+}
+
+}  // namespace
+}  // namespace weft
