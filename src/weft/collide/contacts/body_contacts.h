@@ -32,7 +32,7 @@ class BodyContacts {
             ThreadTeam& team);
   [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
   [[nodiscard]] const InsideMarks& inside() const { return marks_.inside; }
-  /// Whether any sample is known to be on the wrong side of a body.
+  /// Whether any sample is known to be on the wrong side of a body. @param body  its number
   [[nodiscard]] bool any_inside(int body) const;
   /// Marks a sample as doubtful: a body moved onto it in the last step, so it may be inside now.
   void doubt(int sample) {

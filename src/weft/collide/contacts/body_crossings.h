@@ -41,9 +41,9 @@ class BodyCrossings {
   /// How contacts bring triangles out.
   struct Exit {
     KeptGap kept;
-    double farthest = 0;   ///< in the step [m]
-    bool kept_in = false;  ///< the cloth belongs inside the body
-    const InsideMarks& inside;
+    double farthest = 0;        ///< in the step [m]
+    bool kept_in = false;       ///< the cloth belongs inside the body
+    const InsideMarks& inside;  ///< of the samples
   };
   /// Adds a contact for each such triangle of which no sample is inside, as those have their own;
   /// of the proposals of the step.
