@@ -9,6 +9,7 @@
 
 #include "tests/collide/test_bodies.h"
 #include "weft/collide/broad_phase/tiling.h"
+#include "weft/collide/contacts/closest.h"
 #include "weft/core/contact_point.h"
 #include "weft/mesh/crossings.h"
 

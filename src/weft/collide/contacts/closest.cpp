@@ -73,6 +73,15 @@ void try_corners(const Feature& a, const Feature& b, ClosestPair& best, bool swa
 
 }  // namespace
 
+std::array<Vec3d, 3> corners_at(const Planes3& positions, const std::array<int, 3>& samples) {
+  return {vec_cast<double>(positions.at(samples[0])), vec_cast<double>(positions.at(samples[1])),
+          vec_cast<double>(positions.at(samples[2]))};
+}
+
+Vec3d blend(const std::array<Vec3d, 3>& corners, const std::array<double, 3>& w) {
+  return w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
+}
+
 std::array<double, 3> closest_weights(Vec3d p, const std::array<Vec3d, 3>& triangle) {
   const auto& [a, b, c] = triangle;
   const Vec3d ab = b - a, ac = c - a, ap = p - a;

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "weft/grid.h"
 #include "weft/vec.h"
 
 namespace weft {
@@ -25,6 +26,10 @@ struct ClosestPair {
 /// of the boundaries, not zero.
 ClosestPair closest_points(const Feature& a, const Feature& b);
 
+/// The places of a triangle's samples. [m]
+std::array<Vec3d, 3> corners_at(const Planes3& positions, const std::array<int, 3>& samples);
+/// The mean of three corners by weights that sum to 1.
+Vec3d blend(const std::array<Vec3d, 3>& corners, const std::array<double, 3>& weights);
 /// Weights of the point of a triangle that is closest to p, >= 0, sum 1.
 std::array<double, 3> closest_weights(Vec3d p, const std::array<Vec3d, 3>& triangle);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "weft/collide/contacts/closest.h"
+
 namespace weft {
 namespace {
 
@@ -19,15 +21,6 @@ Vec3d displacement_of(const ContactBody& body, const BodyPoint& at) {
     moved += at.weights[k] * (vec_cast<double>(body.end->at(at.samples[k])) -
                               vec_cast<double>(body.start->at(at.samples[k])));
   return moved;
-}
-
-std::array<Vec3d, 3> corners_at(const Planes3& positions, const std::array<int, 3>& samples) {
-  return {vec_cast<double>(positions.at(samples[0])), vec_cast<double>(positions.at(samples[1])),
-          vec_cast<double>(positions.at(samples[2]))};
-}
-
-Vec3d blend(const std::array<Vec3d, 3>& corners, const std::array<double, 3>& w) {
-  return w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
 }
 
 ClothPoint point_of_triangle(const MovingCloth& cloth, const std::array<int, 3>& samples,

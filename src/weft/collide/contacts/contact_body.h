@@ -39,12 +39,7 @@ struct ClothPoint {
   double farthest = HUGE_VAL;  ///< that it comes out in the step where it is astray [m]
 };
 
-[[nodiscard]] std::array<Vec3d, 3> corners_at(const Planes3& positions,
-                                              const std::array<int, 3>& samples);
-/// The weighted mean of three corners.
-[[nodiscard]] Vec3d blend(const std::array<Vec3d, 3>& corners,
-                          const std::array<double, 3>& weights);
-/// A point of a cloth's triangle.
+/// A point of a cloth's triangle, for which `weights` sum to 1.
 [[nodiscard]] ClothPoint point_of_triangle(const MovingCloth& cloth,
                                            const std::array<int, 3>& samples,
                                            const std::array<double, 3>& weights);

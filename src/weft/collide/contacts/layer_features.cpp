@@ -105,10 +105,7 @@ bool FeatureRing::any_beside(int sample, const Test& test) const {
         if (grid_->folded(triangle) || std::count_if(triangle.begin(), triangle.end(),
                                                      [&](int s) { return has(s); }) < corners)
           continue;
-        if (test(triangle, std::array{vec_cast<double>(at_->at(triangle[0])),
-                                      vec_cast<double>(at_->at(triangle[1])),
-                                      vec_cast<double>(at_->at(triangle[2]))}))
-          return true;
+        if (test(triangle, corners_at(*at_, triangle))) return true;
       }
   return false;
 }

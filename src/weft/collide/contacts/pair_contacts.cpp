@@ -142,11 +142,9 @@ class Finder {
   void sample_with_triangle(int sample, const SurfaceCell& with, int half, bool swapped) {
     const std::array<int, 3> triangle = with.grid->triangle(with.cell, half);
     if (with.grid->folded(triangle) || (pair_.same() && shares_point(sample, triangle))) return;
-    const Planes3& at = cloth(!swapped).start;
     const std::array<double, 3> weights =
         closest_weights(vec_cast<double>(cloth(swapped).start.at(sample)),
-                        {vec_cast<double>(at.at(triangle[0])), vec_cast<double>(at.at(triangle[1])),
-                         vec_cast<double>(at.at(triangle[2]))});
+                        corners_at(cloth(!swapped).start, triangle));
     const ContactSide own{&cloth(swapped), {sample, sample, sample}, {1, 0, 0}},
         other{&cloth(!swapped), triangle, weights};
     const bool inside = std::all_of(weights.begin(), weights.end(), [](double w) { return w > 0; });
