@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "weft/contact.h"
 #include "weft/grid.h"
 
@@ -18,6 +20,25 @@ inline Vec3d point_of(const Contact& contact, const Planes3& planes) {
 inline double depth_of(const Contact& contact, const Planes3& planes) {
   return double{contact.offset} - dot(vec_cast<double>(contact.normal), point_of(contact, planes));
 }
+
+/// Displacement of a contact's point by a force on it, from what the same force does to each of its
+/// samples: sum of w^2 y. Not less than a part of what it would be on its softest sample alone:
+/// a point that lies nearly on a pinned sample would press without limit on the rest of its
+/// triangle.
+class PointCompliance {
+ public:
+  void add(double weight, double yields) {
+    total_ += weight * weight * yields;
+    softest_ = std::max(softest_, yields);
+    largest_ = std::max(largest_, weight * weight);
+  }
+  [[nodiscard]] double value() const { return std::max(total_, min_part * softest_ * largest_); }
+
+ private:
+  static constexpr double min_part = 0.05;
+
+  double total_ = 0, softest_ = 0, largest_ = 0;
+};
 
 /// Maximum speed at which a point that penetrates at the start of a step is pushed out, so that it
 /// is not ejected. [m/s]

@@ -10,10 +10,6 @@ namespace {
 
 /// Contact stiffness over the stiffness by which the cloth holds the contact's point.
 constexpr double relative_stiffness = 0.125;
-/// Lower bound of a point's compliance, relative to that of its softest sample with its largest
-/// weight. Otherwise a point that lies nearly on a pinned sample would press without limit on the
-/// rest of its triangle.
-constexpr double min_yield = 0.05;
 /// Largest speed at which a point that is too close is lifted to its contact distance, too slow to
 /// be seen. [m/s]
 constexpr double lifting_speed = 0.02;
@@ -108,17 +104,14 @@ Vec3d ContactSystem::sum(int index, Fields fields) const {
 
 /// Displacement of the contact's point per unit of force, from the compliance of each sample.
 double ContactSystem::compliance(int index, std::span<const Grid<float>* const> softness) const {
-  double total = 0, softest = 0, largest = 0;
+  PointCompliance total;
   for (std::size_t k = 0; k < 4; ++k) {
     const double w = contacts_[index].weights[k];
     if (w == 0) continue;
     const Place& at = places_[index][k];
-    const double yields = (*softness[at.cloth])(at.row, at.col);
-    total += w * w * yields;
-    softest = std::max(softest, yields);
-    largest = std::max(largest, w * w);
+    total.add(w, (*softness[at.cloth])(at.row, at.col));
   }
-  return std::max(total, min_yield * softest * largest);
+  return total.value();
 }
 
 /// The offset that the step may reach: the exit from a penetration at its start has a bounded

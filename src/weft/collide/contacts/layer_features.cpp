@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "weft/collide/contacts/closest.h"
+#include "weft/core/contact_point.h"
 
 namespace weft {
 namespace {
@@ -47,11 +48,11 @@ Vec3d ContactSide::mean(const Planes3& planes) const {
 }
 
 double ContactSide::compliance() const {
-  double sum = 0;
+  PointCompliance total;
   const int n = cloth->start.size();
   for (std::size_t k = 0; k < 3; ++k)
-    sum += weights[k] * weights[k] * cloth->inverse_mass(samples[k] / n, samples[k] % n);
-  return sum;
+    if (weights[k] != 0) total.add(weights[k], cloth->inverse_mass(samples[k] / n, samples[k] % n));
+  return total.value();
 }
 
 std::array<int, 2> ContactSide::feature() const {

@@ -88,6 +88,7 @@ StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
   const Vec3d normal = of.put_in_order() ? -1.0 * plane.normal : plane.normal;
   contact.weights = {};
   Vec3d apart;
+  PointCompliance compliance;
   for (std::size_t k = 0; k < of.count; ++k) {
     const auto& [cloth, sample, weight] = of.points[k];
     (weight > 0 ? out.shared.first : out.shared.second) = static_cast<int>(cloth);
@@ -95,8 +96,9 @@ StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
     contact.weights[k] = static_cast<float>(weight);
     apart += weight * vec_cast<double>(moving[cloth].start.at(sample));
     const int n = world_.cloths[cloth].properties.size;
-    out.compliance += weight * weight * moving[cloth].inverse_mass(sample / n, sample % n);
+    compliance.add(weight, moving[cloth].inverse_mass(sample / n, sample % n));
   }
+  out.compliance = compliance.value();
   out.body = plane.body;
   hold_apart(plane, normal, dot(normal, apart - plane.body_point), out);
   out.body_velocity = vec_cast<float>((1 / time_step) * plane.body_point_displacement);

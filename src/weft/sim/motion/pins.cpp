@@ -31,25 +31,16 @@ Vec3d towards(Vec3d a, Vec3d b, double max) {
 /// @param displacement  of the pin in the step [m]
 Vec3d within_reach(const SimulatedCloth& held, const Pin& pin, double time_step,
                    Vec3d displacement) {
-  const int n = held.model->size;
+  const Cloth& cloth = *held.model;
   Vec3d place = vec_cast<double>(held.state.position.at(pin.sample)) + displacement;
   const Vec3d ahead = normalized(displacement);
-  const auto beside = [&](int copy, int down, int right) {
-    const int r = copy / n + down, c = copy % n + right;
-    if (std::min(r, c) < 0 || std::max(r, c) >= n) return;
-    if (!held.model->mates.same_chart(copy, r * n + c)) return;
-    const Vec3d rest = vec_cast<double>(held.model->rest.at(r, c) - held.model->rest.at(copy));
+  for_each_beside(cloth, pin, [&](int copy, int r, int c) {
+    const Vec3d rest = vec_cast<double>(cloth.rest.at(r, c) - cloth.rest.at(copy));
     const double along = dot(vec_cast<double>(held.state.velocity.at(r, c)), ahead);
     const Vec3d there = vec_cast<double>(held.state.position.at(r, c)) +
                         std::min(std::max(0.0, along) * time_step, length(displacement)) * ahead;
     place = towards(there, place, max_stretch * length(rest));
-  };
-  for (const int copy : pin.copies) {
-    beside(copy, -1, 0);
-    beside(copy, 1, 0);
-    beside(copy, 0, -1);
-    beside(copy, 0, 1);
-  }
+  });
   return place;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,10 +37,27 @@ std::vector<int> pin_place(Cloth& cloth, const PinPlace& place);
 /// Removes pins from the motions, as something else moves them from now on.
 void let_go(std::span<const int> held, std::vector<PinMotion>& motions);
 
+/// Visits the samples beside those of a pin in the grid, each by visit(sample of the pin, row,
+/// col).
+template <class Visit>
+void for_each_beside(const Cloth& cloth, const Pin& pin, const Visit& visit) {
+  const int n = cloth.size;
+  const auto try_at = [&](int copy, int down, int right) {
+    const int r = copy / n + down, c = copy % n + right;
+    if (std::min(r, c) < 0 || std::max(r, c) >= n) return;
+    if (cloth.mates.same_chart(copy, r * n + c)) visit(copy, r, c);
+  };
+  for (const int copy : pin.copies) {
+    try_at(copy, -1, 0);
+    try_at(copy, 1, 0);
+    try_at(copy, 0, -1);
+    try_at(copy, 0, 1);
+  }
+}
+
 /// The sample nearest to a point of the unit square.
 int sample_at(int size, Vec2d uv);
 
-struct Cloth;
 struct SimulatedCloth;
 
 /// A surface point of a cloth held by the user: a pin that follows a target.

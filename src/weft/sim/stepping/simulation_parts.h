@@ -8,6 +8,7 @@
 #include "weft/cloth/cloth.h"
 #include "weft/collide/collider.h"
 #include "weft/sim/loading/load_scene.h"
+#include "weft/sim/motion/driven_pins.h"
 #include "weft/sim/sewing/garments.h"
 #include "weft/sim/stepping/adaptive_substeps.h"
 #include "weft/sim/stepping/approach_limit.h"
@@ -59,8 +60,14 @@ struct Simulation::Parts : LoadedScene {
   [[nodiscard]] double frame_start() const { return substep_time * (frame * scene.substeps); }
   /// The step that bodies have been moved for.
   [[nodiscard]] ApproachLimit::Step approached() const { return {*collider, time_step, frame}; }
-  /// Number of steps, a power of 2, that moving bodies require of a substep ending at `seconds`.
-  [[nodiscard]] int subdivisions_until(double seconds);
+  /// Number of steps, a power of 2, that moving bodies and pins require of a substep.
+  /// @param begin, end  [s]
+  [[nodiscard]] int subdivisions_of(double begin, double end);
+  /// The level that they require of the rest of a substep; -1 where the step is short enough.
+  /// @param subdivisions  of the substep by the length of this step
+  [[nodiscard]] int required_level(int subdivisions);
+  /// Number of equal parts of the step that pins ask for.
+  [[nodiscard]] double wanted_by_pins() const;
   /// Advances by one substep, in as many steps as fast bodies and collisions require.
   /// @param number  from 0
   void substep(int number, FrameReport& report);
@@ -151,13 +158,15 @@ struct Simulation::Parts : LoadedScene {
   std::string name;
   Progress* progress;
   ThreadTeam team, lone_team;
-  double substep_time;                     // [s]
-  double time_step;                        // of the step: a substep or a piece of one [s]
-  double step_start = 0;                   // time at which the step begins [s]
-  bool soft;                               // springs that leave all stretch to the limiter
-  std::optional<double> moved_to;          // where the collider knows bodies to go [s]
-  std::vector<Mover> movers;               // one a cloth
-  std::unique_ptr<JointIntegrator> joint;  // of all; null: each is solved by itself
+  double substep_time;                      // [s]
+  double time_step;                         // of the step: a substep or a piece of one [s]
+  double step_start = 0;                    // time at which the step begins [s]
+  bool soft;                                // springs that leave all stretch to the limiter
+  std::optional<double> moved_to;           // where the collider knows bodies to go [s]
+  std::vector<DrivenPins> driven_pins;      // of each cloth
+  std::vector<const Planes3*> body_starts;  // where the step begins; null: it does not move
+  std::vector<Mover> movers;                // one a cloth
+  std::unique_ptr<JointIntegrator> joint;   // of all; null: each is solved by itself
   std::vector<std::span<const Contact>> own_contacts;
   std::unique_ptr<Collider> collider;
   std::vector<MovingCloth> moving;  // of this step

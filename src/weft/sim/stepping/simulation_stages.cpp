@@ -50,6 +50,10 @@ constexpr int coarse_passes = 2;
 /// a solve with contacts, as after an impact that went on beyond the last detection.
 constexpr double harmless_depth = 0.75;
 
+/// How far pins may go ahead of cloth in a step, as a part of what its substep was divided for,
+/// before the step is divided further.
+constexpr double max_excess_lead = 1.5;
+
 /// Displacements, as parts of the smallest gap. A solve that moved less than same_place from the
 /// filtered guess needs no second detection: contacts are found from half a gap before they press.
 /// A guess that moves less than next_to_start passes through nothing that is not closer.
@@ -72,10 +76,9 @@ void Simulation::Parts::move_bodies(double seconds) {
 
 void Simulation::Parts::move_driven(double seconds) {
   move_bodies(seconds);
-  for (std::size_t i = 0; i < cloths.size(); ++i) {
-    move_pins(pin_motions[i], seconds, *cloths[i].model);
-    move_tied(tied_pins[i], driven.ends(), *cloths[i].model);
-  }
+  const DrivenPins::Step step{step_start, seconds, body_starts, driven.ends(),
+                              time_step / substep_time};
+  for (std::size_t i = 0; i < cloths.size(); ++i) driven_pins[i].follow(step, cloths[i]);
   if (grab.holds()) grab.move(time_step, scene.ground, cloths[grab.cloth()]);
 }
 
@@ -191,10 +194,27 @@ void Simulation::Parts::gather_moving() {
   }
 }
 
-int Simulation::Parts::subdivisions_until(double seconds) {
-  if (!driven.any_moves()) return 1;
-  move_bodies(seconds);
-  return approach.subdivisions(approached());
+double Simulation::Parts::wanted_by_pins() const {
+  double wanted = 1;
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    wanted = std::max(wanted, driven_pins[i].wanted_subdivisions(cloths[i], time_step));
+  return wanted;
+}
+
+int Simulation::Parts::subdivisions_of(double begin, double end) {
+  step_start = begin;
+  time_step = substep_time;
+  move_driven(end);
+  const int of_bodies = driven.any_moves() ? approach.subdivisions(approached()) : 1;
+  return std::max(of_bodies, whole_subdivisions(wanted_by_pins()));
+}
+
+int Simulation::Parts::required_level(int subdivisions) {
+  const int of_bodies =
+      driven.any_moves() ? approach.required_level(approached(), subdivisions) : -1;
+  const double wanted = wanted_by_pins();
+  if (wanted <= max_excess_lead || subdivisions == max_pieces) return of_bodies;
+  return std::max(of_bodies, level_of(whole_subdivisions(wanted * subdivisions)));
 }
 
 void Simulation::Parts::iterate_together() {

@@ -32,8 +32,7 @@ constexpr int max_repeats = 2;
 void Simulation::Parts::substep(int number, FrameReport& report) {
   const double begin = substep_time * number, end = substep_time * (number + 1);
   int repeats = 0;
-  time_step = substep_time;
-  StepWalk walk(level_of(subdivisions_until(end)), levels);
+  StepWalk walk(level_of(subdivisions_of(begin, end)), levels);
   while (!walk.done()) {
     time_step = substep_time / walk.subdivisions();
     unlimited = walk.is_shortened();
@@ -41,12 +40,9 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
     const double seconds = piece < walk.subdivisions() ? begin + time_step * piece : end;
     step_start = seconds - time_step;
     move_driven(seconds);
-    if (driven.any_moves()) {
-      const int level = approach.required_level(approached(), walk.subdivisions());
-      if (level >= 0) {
-        walk.require(level);
-        continue;
-      }
+    if (const int level = required_level(walk.subdivisions()); level >= 0) {
+      walk.require(level);
+      continue;
     }
     const Tried tried = try_step(
         seconds,
@@ -74,8 +70,8 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
   gather_moving();
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tried.contacts += correct(i, movers[i].integrator->proposal(), report);
-  tried.refused = !stability.check_proposals({frame, time_step, seconds},
-                                             choices.halve_wild && watched, solvers());
+  tried.refused = !stability.check_proposals(
+      {frame, time_step, seconds}, choices.halve_wild && (watched || may_solve_again()), solvers());
   if (tried.refused) return tried;
   for (std::size_t i = 0; i < cloths.size(); ++i)
     garments.close(i, movers[i].integrator->proposal());

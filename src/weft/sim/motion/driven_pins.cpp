@@ -1,0 +1,65 @@
+#include "weft/sim/motion/driven_pins.h"
+
+#include <algorithm>
+
+namespace weft {
+namespace {
+
+/// What a pin was held back by shrinks by this speed at least, so that it does not last. [m/s]
+constexpr double catching_up_speed = 3;
+
+/// How far a pin goes ahead of the free samples beside it in a step, in rest lengths.
+double lead_of(const Pin& pin, const SimulatedCloth& cloth, double seconds) {
+  const Cloth& model = *cloth.model;
+  // Springs of degenerate cells are shorter, but pull no more than others do.
+  const double shortest = 0.5 * model.rest_spacing;
+  const Vec3d moved = pin.target - vec_cast<double>(cloth.state.position.at(pin.sample));
+  double lead = 0;
+  for_each_beside(model, pin, [&](int copy, int r, int c) {
+    if (model.inverse_mass(r, c) == 0) return;
+    const double rest = length(vec_cast<double>(model.rest.at(r, c) - model.rest.at(copy)));
+    const Vec3d flown = seconds * vec_cast<double>(cloth.state.velocity.at(r, c));
+    lead = std::max(lead, length(moved - flown) / std::max(rest, shortest));
+  });
+  return lead;
+}
+
+}  // namespace
+
+DrivenPins::DrivenPins(std::span<const PinMotion> paths, std::span<const TiedPin> tied)
+    : paths_(paths), tied_(tied) {
+  for (const PinMotion& motion : paths)
+    pins_.insert(pins_.end(), motion.pins.begin(), motion.pins.end());
+  for (const TiedPin& tie : tied) pins_.push_back(tie.pin);
+  lags_.resize(pins_.size());
+}
+
+void DrivenPins::place(double seconds, Bodies bodies, Cloth& cloth) const {
+  move_pins(paths_, seconds, cloth);
+  move_tied(tied_, bodies, cloth);
+}
+
+void DrivenPins::follow(const Step& step, SimulatedCloth& cloth) {
+  Cloth& model = *cloth.model;
+  const double least = catching_up_speed * (step.end - step.begin);
+  place(step.begin, step.from, model);
+  for (std::size_t i = 0; i < pins_.size(); ++i) {
+    const Pin& pin = model.pins[static_cast<std::size_t>(pins_[i])];
+    const Vec3d lag = vec_cast<double>(cloth.state.position.at(pin.sample)) - pin.target;
+    const double far = length(lag), left = (1 - step.part) * far - least;
+    lags_[i] = left > 0 ? (left / far) * lag : Vec3d{};
+  }
+  place(step.end, step.to, model);
+  for (std::size_t i = 0; i < pins_.size(); ++i)
+    model.pins[static_cast<std::size_t>(pins_[i])].target += lags_[i];
+}
+
+double DrivenPins::wanted_subdivisions(const SimulatedCloth& cloth, double seconds) const {
+  double lead = 0;
+  for (const int pin : pins_)
+    lead =
+        std::max(lead, lead_of(cloth.model->pins[static_cast<std::size_t>(pin)], cloth, seconds));
+  return lead / max_pin_lead;
+}
+
+}  // namespace weft

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "weft/cloth/cloth.h"
+#include "weft/sim/motion/attachments.h"
+#include "weft/sim/motion/pins.h"
+#include "weft/simulation.h"
+
+namespace weft {
+
+/// The pins of a cloth that paths and bodies move.
+class DrivenPins {
+ public:
+  using Bodies = std::span<const Planes3* const>;
+
+  /// A step that pins are to go along with.
+  struct Step {
+    double begin = 0, end = 0;  ///< [s]
+    Bodies from, to;            ///< positions of bodies at both; null where one does not move
+    double part = 1;            ///< its length in substeps, <= 1
+  };
+
+  /// Both are kept by reference.
+  DrivenPins(std::span<const PinMotion> paths, std::span<const TiedPin> tied);
+
+  /// Sets the targets to the end of a step. A pin that collisions have held back makes up for it
+  /// over a substep, not over a step that may be so short that it would be flung.
+  void follow(const Step& step, SimulatedCloth& cloth);
+  /// Number of equal parts of the step that the targets ask for: in one, no pin goes ahead of the
+  /// samples beside it, were these free, by more than `max_pin_lead` of the rest length between
+  /// them. In a longer step springs would be stretched so far that their linearisation says
+  /// nothing about them.
+  /// @param seconds  length of the step
+  [[nodiscard]] double wanted_subdivisions(const SimulatedCloth& cloth, double seconds) const;
+
+ private:
+  void place(double seconds, Bodies bodies, Cloth& cloth) const;
+
+  std::span<const PinMotion> paths_;
+  std::span<const TiedPin> tied_;
+  std::vector<int> pins_;    // of the cloth
+  std::vector<Vec3d> lags_;  // [pins_] scratch [m]
+};
+
+inline constexpr double max_pin_lead = 0.5;
+
+}  // namespace weft

@@ -1,0 +1,98 @@
+#include "weft/sim/motion/driven_pins.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/sim/falling_sheet.h"
+#include "weft/geometry_image.h"
+#include "weft/image/builtin.h"
+#include "weft/sim/placement.h"
+
+namespace weft {
+namespace {
+
+constexpr int pulled_size = 9;
+constexpr double pulled_cell = 1.0 / 8, pulled_substep = 0.01;
+
+SimulatedCloth sheet_at_rest() {
+  SimulatedCloth sheet;
+  sheet.image = make_image_shape("sheet", pulled_size);
+  sheet.model = std::make_shared<Cloth>(
+      make_cloth(placed_positions(sheet.image, placement_map({{1, 1, 1}, {}, {}})),
+                 BorderMates(pulled_size, {}), {}));
+  sheet.state = rest_state(*sheet.model);
+  return sheet;
+}
+
+/// A sheet whose corner is pulled by 8 m/s from the start.
+struct PulledSheet {
+  /// Where the corner is to be at the end of a step. @param part  of a substep
+  double follow(double begin, double part) {
+    driven.follow({begin, begin + part * pulled_substep, {}, {}, part}, cloth);
+    return cloth.model->pins[0].target.x - rest_place;
+  }
+  void put_corner(double x) {
+    Vec3f place = cloth.state.position.at(0);
+    place.x = static_cast<float>(rest_place + x);
+    cloth.state.position.set(0, place);
+  }
+
+  SimulatedCloth cloth = sheet_at_rest();
+  std::vector<PinMotion> paths = pin_places(
+      *cloth.model, std::vector{ScenePin(ImagePin{{0, 0}}, {{0, {}, {}}, {1, {}, {8, 0, 0}}})});
+  DrivenPins driven{paths, {}};
+  double rest_place = -0.5;
+};
+
+TEST(DrivenPins, GoAlongTheirPaths) {
+  PulledSheet sheet;
+  for (const double part : {1.0, 0.25})
+    EXPECT_NEAR(sheet.follow(0, part), 8 * part * pulled_substep, 1e-12);
+}
+
+TEST(DrivenPins, MakeUpOverASubstepForWhatHeldThemBack) {
+  PulledSheet sheet;
+  constexpr double begin = 0.5, held_back = 0.25;
+  sheet.put_corner(8 * begin - held_back);
+  EXPECT_NEAR(sheet.follow(begin, 1), 8 * (begin + pulled_substep), 1e-6);
+  for (const double part : {0.5, 1.0 / 1024}) {
+    const double goes_along = 8 * (begin + part * pulled_substep) - (1 - part) * held_back;
+    const double moved = sheet.follow(begin, part);
+    EXPECT_GE(moved, goes_along);
+    EXPECT_LT(moved, goes_along + 4 * part * pulled_substep);
+  }
+}
+
+TEST(DrivenPins, AskForStepsInWhichTheyDoNotOutrunTheCloth) {
+  PulledSheet sheet;
+  sheet.follow(0, 1);
+  EXPECT_NEAR(sheet.driven.wanted_subdivisions(sheet.cloth, pulled_substep),
+              8 * pulled_substep / (max_pin_lead * pulled_cell), 1e-6);
+}
+
+TEST(DrivenPins, AskForNoShorterStepsWhereTheClothComesAlong) {
+  PulledSheet sheet;
+  sheet.follow(0, 1);
+  for (int s = 0; s < pulled_size * pulled_size; ++s) sheet.cloth.state.velocity.set(s, {8, 0, 0});
+  EXPECT_LT(sheet.driven.wanted_subdivisions(sheet.cloth, pulled_substep), 1e-3);
+}
+
+/// Springs stretched by several cells in a step once flung its corners away at 7 km/s.
+TEST(Simulation, ASheetPulledAwayComesAlong) {
+  Scene scene;
+  scene.ground.reset();
+  scene.cloths = {testing::sheet(33, {0, 1, 0})};
+  const std::vector<MotionKey> path{{0.05, {}, {}}, {0.25, {}, {5, 0, 0}}};
+  scene.cloths[0].pins = {ScenePin(ImagePin{{0, 0}}, path), ScenePin(ImagePin{{1, 0}}, path)};
+  Simulation simulation(scene, "pulled", 1);
+  double largest_strain = 0;
+  for (int frame = 0; frame < 8; ++frame)
+    largest_strain = std::max(largest_strain, simulation.advance().strain.p99);
+  EXPECT_LT(largest_strain, 0.3);
+  EXPECT_NEAR(simulation.cloths()[0].state.position.at(0, 0).x, -0.5 + 25 * (8 / 60.0 - 0.05),
+              1e-5);
+}
+
+}  // namespace
+}  // namespace weft
