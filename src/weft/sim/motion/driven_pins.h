@@ -10,6 +10,9 @@
 
 namespace weft {
 
+/// How far a pin may go ahead of the samples beside it in a step, in rest lengths.
+inline constexpr double max_pin_lead = 0.5;
+
 /// The pins of a cloth that paths and bodies move.
 class DrivenPins {
  public:
@@ -43,7 +46,5 @@ class DrivenPins {
   std::vector<int> pins_;    // of the cloth
   std::vector<Vec3d> lags_;  // [pins_] scratch [m]
 };
-
-inline constexpr double max_pin_lead = 0.5;
 
 }  // namespace weft
