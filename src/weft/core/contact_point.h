@@ -22,9 +22,9 @@ inline double depth_of(const Contact& contact, const Planes3& planes) {
 }
 
 /// Displacement of a contact's point by a force on it, from what the same force does to each of its
-/// samples: sum of w^2 y. Not less than a part of what it would be on its softest sample alone:
-/// a point that lies nearly on a pinned sample would press without limit on the rest of its
-/// triangle.
+/// samples: sum of w^2 y. A point that lies nearly on a pinned sample would press without limit on
+/// the rest of its triangle, by ways that grow as its weight falls: beyond a part of what it would
+/// be on its softest sample alone the compliance grows again, and the contact fades.
 class PointCompliance {
  public:
   void add(double weight, double yields) {
@@ -32,10 +32,13 @@ class PointCompliance {
     softest_ = std::max(softest_, yields);
     largest_ = std::max(largest_, weight * weight);
   }
-  [[nodiscard]] double value() const { return std::max(total_, min_part * softest_ * largest_); }
+  [[nodiscard]] double value() const {
+    const double least = turning_part * softest_ * largest_;
+    return total_ >= least ? total_ : least * (least / total_);
+  }
 
  private:
-  static constexpr double min_part = 0.05;
+  static constexpr double turning_part = 0.05;
 
   double total_ = 0, softest_ = 0, largest_ = 0;
 };
