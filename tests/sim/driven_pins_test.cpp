@@ -41,7 +41,7 @@ struct PulledSheet {
   SimulatedCloth cloth = sheet_at_rest();
   std::vector<PinMotion> paths = pin_places(
       *cloth.model, std::vector{ScenePin(ImagePin{{0, 0}}, {{0, {}, {}}, {1, {}, {8, 0, 0}}})});
-  DrivenPins driven{paths, {}};
+  DrivenPins driven{paths, {}, {}};
   double rest_place = -0.5;
 };
 
@@ -62,6 +62,20 @@ TEST(DrivenPins, MakeUpOverASubstepForWhatHeldThemBack) {
     EXPECT_GE(moved, goes_along);
     EXPECT_LT(moved, goes_along + 4 * part * pulled_substep);
   }
+}
+
+/// What stands drives nothing: a target that is not set anew would creep to where the pin lags.
+TEST(DrivenPins, ThoseTiedToABodyThatStandsKeepTheirTargets) {
+  SimulatedCloth sheet = sheet_at_rest();
+  const Vec3d place = vec_cast<double>(sheet.state.position.at(0));
+  TiedPin tie;
+  tie.pin = pin(*sheet.model, 0, place + Vec3d{0, 0.2, 0});
+  const Planes3* const standing = nullptr;
+  const DrivenPins::Bodies bodies(&standing, 1);
+  DrivenPins driven({}, std::span(&tie, 1), bodies);
+  for (int step = 0; step < 3; ++step)
+    driven.follow({0, pulled_substep / 4, bodies, bodies, 0.25}, sheet);
+  EXPECT_EQ(sheet.model->pins[0].target, (place + Vec3d{0, 0.2, 0}));
 }
 
 TEST(DrivenPins, AskForStepsInWhichTheyDoNotOutrunTheCloth) {

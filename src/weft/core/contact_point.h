@@ -21,10 +21,11 @@ inline double depth_of(const Contact& contact, const Planes3& planes) {
   return double{contact.offset} - dot(vec_cast<double>(contact.normal), point_of(contact, planes));
 }
 
-/// Displacement of a contact's point by a force on it, from what the same force does to each of its
-/// samples: sum of w^2 y. A point that lies nearly on a pinned sample would press without limit on
-/// the rest of its triangle, by ways that grow as its weight falls: beyond a part of what it would
-/// be on its softest sample alone the compliance grows again, and the contact fades.
+/// Displacement of a contact's point by a force on it, from `yields`, what the same force does to
+/// each of its samples: sum of w^2 y, in the unit of y. A stiffness by that alone would let a point
+/// that lies nearly on a pinned sample fling the rest of its triangle, the farther the less it
+/// weighs: below a part of what it would be on its softest sample the value grows again, and the
+/// contact fades. 0 on pinned samples alone.
 class PointCompliance {
  public:
   void add(double weight, double yields) {

@@ -85,17 +85,15 @@ void ContactResponse::place_point(const Contact& contact, double force_squared_s
                                   Point& point) const {
   Vec3d start;
   double sum = 0;
-  PointCompliance compliance;
   for (std::size_t i = 0; i < point.weights.size(); ++i) {
     const double w = point.weights[i];
     if (w == 0) continue;
     point.particles[i] = uses_->index_of(point.particles[i]);
     const Particle& particle = particles_[point.particles[i]];
-    compliance.add(w, particle.inverse_mass);
+    point.compliance += w * w * particle.inverse_mass;
     start += w * particle.start;
     sum += w;
   }
-  point.compliance = compliance.value();
   point.normal = vec_cast<double>(contact.normal);
   point.surface_displacement = vec_cast<double>(contact.surface_displacement);
   point.friction = contact.friction;

@@ -26,11 +26,13 @@ double lead_of(const Pin& pin, const SimulatedCloth& cloth, double seconds) {
 
 }  // namespace
 
-DrivenPins::DrivenPins(std::span<const PinMotion> paths, std::span<const TiedPin> tied)
+DrivenPins::DrivenPins(std::span<const PinMotion> paths, std::span<const TiedPin> tied,
+                       Bodies bodies)
     : paths_(paths), tied_(tied) {
   for (const PinMotion& motion : paths)
     pins_.insert(pins_.end(), motion.pins.begin(), motion.pins.end());
-  for (const TiedPin& tie : tied) pins_.push_back(tie.pin);
+  for (const TiedPin& tie : tied)
+    if (bodies[static_cast<std::size_t>(tie.body)] != nullptr) pins_.push_back(tie.pin);
   lags_.resize(pins_.size());
 }
 

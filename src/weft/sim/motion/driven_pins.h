@@ -25,17 +25,19 @@ class DrivenPins {
     double part = 1;            ///< its length in substeps, <= 1
   };
 
-  /// Both are kept by reference.
-  DrivenPins(std::span<const PinMotion> paths, std::span<const TiedPin> tied);
+  /// @param paths, tied  kept by reference
+  /// @param bodies       of the scene: null where one does not move, which drives no pins
+  DrivenPins(std::span<const PinMotion> paths, std::span<const TiedPin> tied, Bodies bodies);
 
-  /// Sets the targets to the end of a step. A pin that collisions have held back makes up for it
-  /// over a substep, not over a step that may be so short that it would be flung.
+  /// Sets the targets to the end of a step, from the cloth's state at its start. A pin that
+  /// collisions have held back makes up for it over a substep, not over a step that may be so short
+  /// that it would be flung.
   void follow(const Step& step, SimulatedCloth& cloth);
   /// Number of equal parts of the step that the targets ask for: in one, no pin goes ahead of the
   /// samples beside it, were these free, by more than `max_pin_lead` of the rest length between
   /// them. In a longer step springs would be stretched so far that their linearisation says
   /// nothing about them.
-  /// @param seconds  length of the step
+  /// @pre follow() has set the targets  @param seconds  length of the step
   [[nodiscard]] double wanted_subdivisions(const SimulatedCloth& cloth, double seconds) const;
 
  private:

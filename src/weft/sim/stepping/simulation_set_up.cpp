@@ -86,10 +86,10 @@ void Simulation::Parts::make_movers() {
       notes.push_back(fmt::format("{}: {}", cloths[i].name, caution));
   }
   join_movers();
+  for (const PlacedBody& body : bodies)
+    body_starts.push_back(body.moves ? &body.positions : nullptr);
   for (std::size_t i = 0; i < cloths.size(); ++i)
-    driven_pins.emplace_back(pin_motions[i], tied_pins[i]);
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    body_starts.push_back(bodies[i].moves ? &bodies[i].positions : nullptr);
+    driven_pins.emplace_back(pin_motions[i], tied_pins[i], body_starts);
   own_contacts.reserve(cloths.size());
   moving.reserve(cloths.size());
   approach.set_up();
