@@ -1,6 +1,7 @@
 #include "weft/sim/motion/driven_pins.h"
 
 #include <algorithm>
+#include <array>
 
 #include <gtest/gtest.h>
 
@@ -41,7 +42,7 @@ struct PulledSheet {
   SimulatedCloth cloth = sheet_at_rest();
   std::vector<PinMotion> paths = pin_places(
       *cloth.model, std::vector{ScenePin(ImagePin{{0, 0}}, {{0, {}, {}}, {1, {}, {8, 0, 0}}})});
-  DrivenPins driven{paths, {}, {}};
+  DrivenPins driven{paths, {}, {}, *cloth.model};
   double rest_place = -0.5;
 };
 
@@ -64,18 +65,42 @@ TEST(DrivenPins, MakeUpOverASubstepForWhatHeldThemBack) {
   }
 }
 
-/// What stands drives nothing: a target that is not set anew would creep to where the pin lags.
-TEST(DrivenPins, ThoseTiedToABodyThatStandsKeepTheirTargets) {
-  SimulatedCloth sheet = sheet_at_rest();
-  const Vec3d place = vec_cast<double>(sheet.state.position.at(0));
-  TiedPin tie;
-  tie.pin = pin(*sheet.model, 0, place + Vec3d{0, 0.2, 0});
-  const Planes3* const standing = nullptr;
-  const DrivenPins::Bodies bodies(&standing, 1);
-  DrivenPins driven({}, std::span(&tie, 1), bodies);
-  for (int step = 0; step < 3; ++step)
-    driven.follow({0, pulled_substep / 4, bodies, bodies, 0.25}, sheet);
-  EXPECT_EQ(sheet.model->pins[0].target, (place + Vec3d{0, 0.2, 0}));
+/// A sheet with a corner tied to a body that stands, 0.2 m above where collisions hold it back.
+struct HeldBack {
+  void follow(double part) {
+    const Planes3* const standing = nullptr;
+    const DrivenPins::Bodies bodies(&standing, 1);
+    driven.follow({0, part * pulled_substep, bodies, bodies, part}, cloth);
+  }
+  Vec3d& target() { return cloth.model->pins[0].target; }
+
+  SimulatedCloth cloth = sheet_at_rest();
+  Vec3d held = vec_cast<double>(cloth.state.position.at(0)), place = held + Vec3d{0, 0.2, 0};
+  TiedPin tie{.pin = pin(*cloth.model, 0, place)};
+  std::array<const Planes3*, 1> standing{};
+  DrivenPins driven{{}, std::span(&tie, 1), standing, *cloth.model};
+};
+
+TEST(DrivenPins, ThoseThatStandReturnOverASubstep) {
+  HeldBack sheet;
+  sheet.follow(0.25);
+  EXPECT_NEAR(sheet.target().y, sheet.held.y + 0.25 * 0.2 + 3 * 0.25 * pulled_substep, 1e-12);
+  for (int step = 0; step < 3; ++step) sheet.follow(0.25);  // each from where it is held
+  sheet.driven.return_standing(*sheet.cloth.model);         // as it is saved
+  EXPECT_EQ(sheet.target(), sheet.place);
+  sheet.follow(1);
+  EXPECT_EQ(sheet.target(), sheet.place);
+}
+
+TEST(DrivenPins, ThoseThatStandStayWhereAHandPutsThem) {
+  HeldBack sheet;
+  sheet.follow(0.25);
+  const Vec3d put = sheet.place + Vec3d{0.1, 0, 0};
+  sheet.target() = put;
+  sheet.driven.return_standing(*sheet.cloth.model);
+  EXPECT_EQ(sheet.target(), put);
+  sheet.follow(1);
+  EXPECT_EQ(sheet.target(), put);
 }
 
 TEST(DrivenPins, AskForStepsInWhichTheyDoNotOutrunTheCloth) {

@@ -62,6 +62,21 @@ TEST(EnergyBudget, TellsStepsThatAddTooMuch) {
   EXPECT_FALSE(step.budget.measure_added({step.mass()}, Drive::bodies).too_much);
 }
 
+TEST(EnergyBudget, TellsStepsThatStretchSpringsWildly) {
+  const auto stretched = [](float factor) {
+    MadeUpStep step;
+    step.stretch(factor);
+    return step.budget.measure_added({0}, Drive::bodies);
+  };
+  EXPECT_TRUE(stretched(1.01F).too_much);
+  EXPECT_FALSE(stretched(1.01F).wild);
+  EXPECT_TRUE(stretched(1.5F).wild);
+  MadeUpStep faster;
+  faster.add(10 * faster.mass());
+  EXPECT_TRUE(faster.budget.measure_added({0}, Drive::bodies).too_much);
+  EXPECT_FALSE(faster.budget.measure_added({0}, Drive::bodies).wild);
+}
+
 TEST(EnergyBudget, WhatASolveGainsCountsWhereNothingMovesTheCloth) {
   MadeUpStep step;
   step.stretch(1.05F, true);

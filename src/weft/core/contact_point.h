@@ -21,11 +21,10 @@ inline double depth_of(const Contact& contact, const Planes3& planes) {
   return double{contact.offset} - dot(vec_cast<double>(contact.normal), point_of(contact, planes));
 }
 
-/// Displacement of a contact's point by a force on it, from `yields`, what the same force does to
-/// each of its samples: sum of w^2 y, in the unit of y. A stiffness by that alone would let a point
-/// that lies nearly on a pinned sample fling the rest of its triangle, the farther the less it
-/// weighs: below a part of what it would be on its softest sample the value grows again, and the
-/// contact fades. 0 on pinned samples alone.
+/// Displacement of a contact's point by a force on it, from what the same force does to each of its
+/// samples: sum of w^2 y. Not less than a part of what it would be on its softest sample alone:
+/// a point that lies nearly on a pinned sample would press without limit on the rest of its
+/// triangle.
 class PointCompliance {
  public:
   void add(double weight, double yields) {
@@ -33,13 +32,10 @@ class PointCompliance {
     softest_ = std::max(softest_, yields);
     largest_ = std::max(largest_, weight * weight);
   }
-  [[nodiscard]] double value() const {
-    const double least = turning_part * softest_ * largest_;
-    return total_ >= least ? total_ : least * (least / total_);
-  }
+  [[nodiscard]] double value() const { return std::max(total_, min_part * softest_ * largest_); }
 
  private:
-  static constexpr double turning_part = 0.05;
+  static constexpr double min_part = 0.05;
 
   double total_ = 0, softest_ = 0, largest_ = 0;
 };

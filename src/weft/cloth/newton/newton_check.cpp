@@ -88,7 +88,8 @@ double NewtonSolver::gained_beside_pins(double known, Worker& worker) {
   return now - known - work + dot(contacts_.obstacle_force(steps_, worker), *carried_);
 }
 
-/// What changed the cloths' momentum besides gravity and obstacles.
+/// What changed the cloths' momentum besides gravity and what obstacles do to free samples: where
+/// they press on pins, these press back.
 Vec3d NewtonSolver::force_of_pins(Worker& worker) {
   const StepInput& input = parts_.front()->input();
   each(worker, [&](std::size_t i, Worker& own) {
@@ -100,7 +101,7 @@ Vec3d NewtonSolver::force_of_pins(Worker& worker) {
   });
   Vec3d sum;
   for (const Vec3d& force : forces_) sum += force;
-  return contacts_.active() > 0 ? sum - contacts_.obstacle_force(steps_, worker) : sum;
+  return contacts_.active() > 0 ? sum - contacts_.obstacle_force_on_free(steps_, worker) : sum;
 }
 
 void NewtonSolver::tell_pin_force() {

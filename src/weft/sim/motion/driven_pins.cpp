@@ -13,7 +13,9 @@ double lead_of(const Pin& pin, const SimulatedCloth& cloth, double seconds) {
   const Cloth& model = *cloth.model;
   // Springs of degenerate cells are shorter, but pull no more than others do.
   const double shortest = 0.5 * model.rest_spacing;
-  const Vec3d moved = pin.target - vec_cast<double>(cloth.state.position.at(pin.sample));
+  const Vec3f at = cloth.state.position.at(pin.sample);
+  if (vec_cast<float>(pin.target) == at) return 0;
+  const Vec3d moved = pin.target - vec_cast<double>(at);
   double lead = 0;
   for_each_beside(model, pin, [&](int copy, int r, int c) {
     if (model.inverse_mass(r, c) == 0) return;
@@ -27,13 +29,16 @@ double lead_of(const Pin& pin, const SimulatedCloth& cloth, double seconds) {
 }  // namespace
 
 DrivenPins::DrivenPins(std::span<const PinMotion> paths, std::span<const TiedPin> tied,
-                       Bodies bodies)
-    : paths_(paths), tied_(tied) {
+                       Bodies bodies, const Cloth& cloth)
+    : paths_(paths), tied_(tied), lags_(cloth.pins.size()) {
+  std::vector<char> moves(cloth.pins.size(), 0);
   for (const PinMotion& motion : paths)
-    pins_.insert(pins_.end(), motion.pins.begin(), motion.pins.end());
+    for (const int pin : motion.pins) moves[static_cast<std::size_t>(pin)] = 1;
   for (const TiedPin& tie : tied)
-    if (bodies[static_cast<std::size_t>(tie.body)] != nullptr) pins_.push_back(tie.pin);
-  lags_.resize(pins_.size());
+    if (bodies[static_cast<std::size_t>(tie.body)] != nullptr)
+      moves[static_cast<std::size_t>(tie.pin)] = 1;
+  for (std::size_t i = 0; i < moves.size(); ++i)
+    if (moves[i] == 0) standing_.push_back({i, cloth.pins[i].target, cloth.pins[i].target});
 }
 
 void DrivenPins::place(double seconds, Bodies bodies, Cloth& cloth) const {
@@ -41,26 +46,34 @@ void DrivenPins::place(double seconds, Bodies bodies, Cloth& cloth) const {
   move_tied(tied_, bodies, cloth);
 }
 
+void DrivenPins::return_standing(Cloth& cloth) {
+  for (Standing& one : standing_) {
+    Vec3d& target = cloth.pins[one.pin].target;
+    if (target != one.put) one.place = target;
+    target = one.put = one.place;
+  }
+}
+
 void DrivenPins::follow(const Step& step, SimulatedCloth& cloth) {
   Cloth& model = *cloth.model;
   const double least = catching_up_speed * (step.end - step.begin);
+  return_standing(model);
   place(step.begin, step.from, model);
-  for (std::size_t i = 0; i < pins_.size(); ++i) {
-    const Pin& pin = model.pins[static_cast<std::size_t>(pins_[i])];
+  for (std::size_t i = 0; i < lags_.size(); ++i) {
+    const Pin& pin = model.pins[i];
     const Vec3d lag = vec_cast<double>(cloth.state.position.at(pin.sample)) - pin.target;
     const double far = length(lag), left = (1 - step.part) * far - least;
     lags_[i] = left > 0 ? (left / far) * lag : Vec3d{};
   }
   place(step.end, step.to, model);
-  for (std::size_t i = 0; i < pins_.size(); ++i)
-    model.pins[static_cast<std::size_t>(pins_[i])].target += lags_[i];
+  for (std::size_t i = 0; i < lags_.size(); ++i) model.pins[i].target += lags_[i];
+  for (Standing& one : standing_) one.put = model.pins[one.pin].target;
 }
 
 double DrivenPins::wanted_subdivisions(const SimulatedCloth& cloth, double seconds) const {
   double lead = 0;
-  for (const int pin : pins_)
-    lead =
-        std::max(lead, lead_of(cloth.model->pins[static_cast<std::size_t>(pin)], cloth, seconds));
+  for (std::size_t i = 0; i < lags_.size(); ++i)
+    lead = std::max(lead, lead_of(cloth.model->pins[i], cloth, seconds));
   return lead / max_pin_lead;
 }
 

@@ -92,7 +92,8 @@ class StepWalk {
   [[nodiscard]] bool may_halve_fallen() const {
     return level_ < std::min(most_fallen_, finest_level);
   }
-  /// The same for a step whose solve ran away: halving it is all that there is to be done.
+  /// The same for a step whose solve ran away, or that is wild: halving it is all that there is to
+  /// be done.
   [[nodiscard]] bool may_halve_wild() const { return level_ < finest_level; }
   /// Whether the step is shorter than moving bodies require.
   [[nodiscard]] bool is_shortened() const { return level_ > least_; }

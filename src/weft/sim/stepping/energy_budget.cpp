@@ -16,6 +16,10 @@ constexpr double max_added_part = 0.3, max_added = 0.01;
 /// Linearisation errors split a substep into at most this many steps: in crushed cloth, whose
 /// contacts want to separate at once, shorter steps are more violent.
 constexpr double max_pieces_for_solves = 8;
+/// A step that is too much is wild if what follows its solve stretches springs by this part of m g
+/// times the cloth's side length. Such springs draw points many cells far at once, of which the
+/// filter allows hardly a gap; only in the shortest steps do they draw them less.
+constexpr double wild_part = 0.1;
 /// A step that adds less than this part of the limit is calm.
 constexpr double calm_part = 0.2;
 
@@ -131,6 +135,7 @@ EnergyBudget::Added EnergyBudget::measure_added(const StepWork& work, Drive driv
   added.unpaid = added.excess - removable(added.excess) > max_unpaid_part * lent_;
   const double fault = std::max(end.elastic - solved.elastic, gained);
   added.too_much = !sewing && (!(fault <= limit) || added.unpaid);
+  added.wild = added.too_much && end.elastic - solved.elastic > wild_part / lent_part * lent_;
   added.calm = fault < calm_part * limit;
   return added;
 }

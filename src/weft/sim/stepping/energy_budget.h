@@ -52,6 +52,7 @@ class EnergyBudget {
     double gone = 1;      ///< part of the step's way, where it was shortened
     bool unpaid = false;  ///< motion cannot give a good part of the excess back
     bool too_much = false;
+    bool wild = false;  ///< far too much: the filter holds back what springs would tear away
     bool calm = false;  ///< far from too much
   };
   /// @pre the filter is done

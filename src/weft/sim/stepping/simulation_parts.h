@@ -86,7 +86,7 @@ struct Simulation::Parts : LoadedScene {
   /// What may become of a trial step that is bad; halving comes first.
   struct StepChoices {
     bool halve = false;         // it may be halved
-    bool halve_wild = false;    // it may be halved if it ran away
+    bool halve_wild = false;    // it may be halved if it ran away or is wild
     bool halve_fallen = false;  // it may be halved if points fell back while bodies moved
     bool repeat = false;        // it may be solved again
     // Whether it is halved if points fall back.

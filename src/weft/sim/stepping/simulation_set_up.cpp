@@ -89,7 +89,7 @@ void Simulation::Parts::make_movers() {
   for (const PlacedBody& body : bodies)
     body_starts.push_back(body.moves ? &body.positions : nullptr);
   for (std::size_t i = 0; i < cloths.size(); ++i)
-    driven_pins.emplace_back(pin_motions[i], tied_pins[i], body_starts);
+    driven_pins.emplace_back(pin_motions[i], tied_pins[i], body_starts, *cloths[i].model);
   own_contacts.reserve(cloths.size());
   moving.reserve(cloths.size());
   approach.set_up();

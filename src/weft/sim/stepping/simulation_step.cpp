@@ -61,6 +61,7 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
     }
   }
   levels = walk.next(levels);
+  for (std::size_t i = 0; i < cloths.size(); ++i) driven_pins[i].return_standing(*cloths[i].model);
 }
 
 Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices choices,
@@ -135,7 +136,8 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
   const bool fallen = tried.filtered.fell_back > 0;
   const bool bad =
       fallen || added.too_much || (!sewing_now && energy.solve_is_lost(time_step / substep_time));
-  const bool halve = fallen ? choices.refuses_fallen() : choices.halve;
+  const bool halve =
+      (added.wild && choices.halve_wild) || (fallen ? choices.refuses_fallen() : choices.halve);
   tried.repeat =
       bad && !sewing_now && !halve && choices.repeat && collider->learn_struck(moving, time_step);
   tried.refused = tried.repeat || (bad && halve);
