@@ -68,9 +68,7 @@ TEST(DrivenPins, MakeUpOverASubstepForWhatHeldThemBack) {
 /// A sheet with a corner tied to a body that stands, 0.2 m above where collisions hold it back.
 struct HeldBack {
   void follow(double part) {
-    const Planes3* const standing = nullptr;
-    const DrivenPins::Bodies bodies(&standing, 1);
-    driven.follow({0, part * pulled_substep, bodies, bodies, part}, cloth);
+    driven.follow({0, part * pulled_substep, standing, standing, part}, cloth);
   }
   Vec3d& target() { return cloth.model->pins[0].target; }
 

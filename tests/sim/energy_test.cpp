@@ -87,7 +87,6 @@ TEST(StepEnergy, WorkOfPinsAccountsForWhatTheyPutIn) {
   EXPECT_LT(gained(simulation, reports), 0.05 * work);
 }
 
-/// Closer than their thickness, which the contacts want back at once: in steps however short.
 /// A closed cloth hung by one sample, over which a cone goes: it takes the sample along.
 constexpr const char* overrun = R"({
   "version": 1, "ground": 0,
@@ -114,6 +113,7 @@ TEST(StepEnergy, APinThatABodyTakesAlongGoesBackAndGainsNone) {
   EXPECT_LT(gained(simulation, reports), 0.003 * simulation.mass() * standard_gravity);
 }
 
+/// Closer than their thickness, which the contacts want back at once: in steps however short.
 TEST(StepEnergy, LayersThatBeginTooCloseTogetherPartGently) {
   Scene scene;
   scene.ground.reset();

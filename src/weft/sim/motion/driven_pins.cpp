@@ -14,7 +14,7 @@ double lead_of(const Pin& pin, const SimulatedCloth& cloth, double seconds) {
   // Springs of degenerate cells are shorter, but pull no more than others do.
   const double shortest = 0.5 * model.rest_spacing;
   const Vec3f at = cloth.state.position.at(pin.sample);
-  if (vec_cast<float>(pin.target) == at) return 0;
+  if (vec_cast<float>(pin.target) == at) return 0;  // it stands where it is to be
   const Vec3d moved = pin.target - vec_cast<double>(at);
   double lead = 0;
   for_each_beside(model, pin, [&](int copy, int r, int c) {

@@ -28,6 +28,7 @@ class DrivenPins {
 
   /// @param paths, tied  kept by reference
   /// @param bodies       of the scene: null where one does not move, which drives no pins
+  /// @param cloth        whose pins have their first targets; follow() takes its state
   DrivenPins(std::span<const PinMotion> paths, std::span<const TiedPin> tied, Bodies bodies,
              const Cloth& cloth);
 
