@@ -114,11 +114,6 @@ TriangleMesh Polygoniser::run() {
 constexpr int newton_steps = 12;
 constexpr double close_enough = 1e-9;  // [m]
 
-Limb::Piece within_ball(const RoundCone& cone) {
-  const double reach = 0.5 * length(cone.b - cone.a) + std::max(cone.radius_a, cone.radius_b);
-  return {cone, 0.5 * (cone.a + cone.b), reach};
-}
-
 }  // namespace
 
 double distance_to(const RoundCone& cone, Vec3d point) {
@@ -144,7 +139,7 @@ double distance_to(const Ellipsoid& ellipsoid, Vec3d point) {
 }
 
 Limb::Limb(std::span<const Joint> joints) {
-  constexpr int parts = 4;  // of each span
+  WEFT_ASSERT(joints.size() <= max_joints);
   const auto blend = [](double wa, const Joint& a, double wb, const Joint& b) {
     return Joint{wa * a.centre + wb * b.centre, wa * a.radius + wb * b.radius};
   };
@@ -158,12 +153,18 @@ Limb::Limb(std::span<const Joint> joints) {
       const double t = static_cast<double>(part) / parts, rest = 1 - t;
       const Joint here = blend(1, blend(rest * rest * (1 + 2 * t), a, t * t * (1 + 2 * rest), b), 1,
                                blend(t * rest * rest, slope_a, -t * t * rest, slope_b));
-      pieces.push_back(within_ball({before.centre, here.centre, before.radius, here.radius}));
+      cones.push_back({before.centre, here.centre, before.radius, here.radius});
       before = here;
     }
   }
-  for (const auto& [cone, middle, reach] : pieces) {
+  for (std::size_t i = 0; i < cones.size(); ++i) {
+    const RoundCone& cone = cones[i];
+    const Vec3d middle = 0.5 * (cone.a + cone.b);
     const double radius = std::max(cone.radius_a, cone.radius_b);
+    balls.x[i] = middle.x;
+    balls.y[i] = middle.y;
+    balls.z[i] = middle.z;
+    balls.radius[i] = 0.5 * length(cone.b - cone.a) + radius;
     for (const Vec3d end : {cone.a, cone.b}) {
       box.add(end + Vec3d{radius, radius, radius});
       box.add(end - Vec3d{radius, radius, radius});
@@ -173,13 +174,20 @@ Limb::Limb(std::span<const Joint> joints) {
 
 double distance_to(const Limb& limb, Vec3d point, double enough) {
   constexpr double rounding = 1e-9;  // more than sums round, so that the least is found to the bit
-  const auto far = [&](const Limb::Piece& p) { return squared_length(point - p.middle); };
-  const auto& first = *std::ranges::min_element(limb.pieces, {}, far);
-  double min = std::min(enough, distance_to(first.cone, point));
-  for (const Limb::Piece& piece : limb.pieces) {
-    const double nearer = min + piece.reach + rounding;
-    if (&piece != &first && nearer > 0 && far(piece) < nearer * nearer)
-      min = std::min(min, distance_to(piece.cone, point));
+  const int count = static_cast<int>(limb.cones.size());
+  std::array<double, Limb::max_cones> squared;  // from the balls' centres
+#pragma omp simd
+  for (int i = 0; i < count; ++i) {
+    const double x = point.x - limb.balls.x[i], y = point.y - limb.balls.y[i],
+                 z = point.z - limb.balls.z[i];
+    squared[i] = x * x + y * y + z * z;
+  }
+  const auto first = std::min_element(squared.begin(), squared.begin() + count) - squared.begin();
+  double min = std::min(enough, distance_to(limb.cones[first], point));
+  for (int i = 0; i < count; ++i) {
+    const double nearer = min + limb.balls.radius[i] + rounding;
+    if (i != first && nearer > 0 && squared[i] < nearer * nearer)
+      min = std::min(min, distance_to(limb.cones[i], point));
   }
   return min;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -42,14 +43,15 @@ struct Limb {
     Vec3d centre;
     double radius;
   };
-  /// A cone within a ball around its middle, by which one that is too far away is told cheaply.
-  struct Piece {
-    RoundCone cone;
-    Vec3d middle;
-    double reach;
-  };
+  static constexpr int parts = 4;  ///< cones between two joints
+  static constexpr int max_joints = 12;
+  static constexpr int max_cones = (max_joints - 1) * parts;
   explicit Limb(std::span<const Joint> joints);
-  std::vector<Piece> pieces;
+  std::vector<RoundCone> cones;
+  /// Balls around the cones, by which those that are too far away are told cheaply [m].
+  struct {
+    std::array<double, max_cones> x{}, y{}, z{}, radius{};
+  } balls;
   Box3d box;  ///< holds all of it
 };
 /// Exact signed distance to the nearest of its cones, or `enough` where that is less.
