@@ -13,24 +13,24 @@ namespace {
 using testing::flat_sheet;
 using testing::no_mates;
 
-constexpr int n = 17;
+constexpr int side = 17;
 
 Planes3 even(Vec3f direction) {
-  Planes3 planes(n);
-  for (int s = 0; s < n * n; ++s) planes.set(s, direction);
+  Planes3 planes(side);
+  for (int s = 0; s < side * side; ++s) planes.set(s, direction);
   return planes;
 }
 
 Cloth cut_sheet(const Material& material, Vec3f along) {
-  const Planes3 rest = flat_sheet(n), warp = even(along);
-  const BorderMates mates = no_mates(n);
+  const Planes3 rest = flat_sheet(side), warp = even(along);
+  const BorderMates mates = no_mates(side);
   return make_cloth({rest, mates, nullptr, &warp}, material);
 }
 
 /// The elastic energy of a 1 m square that is stretched along x. [J]
 double energy_of_stretch(const Cloth& cloth, float strain) {
   ClothState state = rest_state(cloth);
-  for (int s = 0; s < n * n; ++s) {
+  for (int s = 0; s < side * side; ++s) {
     Vec3f p = state.position.at(s);
     p.x *= 1 + strain;
     state.position.set(s, p);
@@ -51,16 +51,17 @@ TEST(Grain, StretchGoesWithTheWarp) {
 
 TEST(Grain, WarpAlongRowsChangesNothing) {
   const Material fabric{.stretch = {8000, 1000}, .bending = {4e-5, 1e-5}};
-  const Cloth plain = make_cloth(flat_sheet(n), no_mates(n), fabric);
+  const Cloth plain = make_cloth(flat_sheet(side), no_mates(side), fabric);
   for (const Vec3f along : {Vec3f{2, 0, 0}, Vec3f{0, 0, 0}}) {
     const Cloth cut = cut_sheet(fabric, along);
     for (int d = 0; d < spring_directions; ++d)
-      for (int s = 0; s < n * n; ++s)
-        EXPECT_EQ(cut.springs[d].stiffness(s / n, s % n), plain.springs[d].stiffness(s / n, s % n));
+      for (int s = 0; s < side * side; ++s)
+        EXPECT_EQ(cut.springs[d].stiffness(s / side, s % side),
+                  plain.springs[d].stiffness(s / side, s % side));
     for (int k = 0; k < bending_neighbours; ++k)
-      for (int s = 0; s < n * n; ++s)
-        EXPECT_NEAR(cut.bending.weight[k](s / n, s % n), plain.bending.weight[k](s / n, s % n),
-                    1e-6);
+      for (int s = 0; s < side * side; ++s)
+        EXPECT_NEAR(cut.bending.weight[k](s / side, s % side),
+                    plain.bending.weight[k](s / side, s % side), 1e-6);
   }
 }
 
@@ -72,14 +73,14 @@ double operator_on_parabola(const Cloth& cloth, Vec2d along) {
     const double way = along.x * p.x + along.y * p.z;
     return 0.5 * way * way;
   };
-  const int r = n / 2 + 1, c = n / 2 + 2;
+  const int r = side / 2 + 1, c = side / 2 + 2;
   double sum = 0;
   for (int k = 0; k < bending_neighbours; ++k) {
     const double weight = cloth.bending.weight[k](r, c);
     const auto [down, right] = bending_offsets[k];
     sum += weight * (height(r + down, c + right) - height(r, c));
   }
-  return sum * (n - 1);
+  return sum * (side - 1);
 }
 
 TEST(Grain, BendingGoesWithTheWarpAtAnyAngle) {

@@ -9,14 +9,14 @@ namespace {
 
 using test::TestCloth;
 
-constexpr int n = 11;
+constexpr int side = 11;
 constexpr double far_apart = 8;
 
 /// A flat sheet of 1 m that moves.
 TestCloth sheet_at(Vec3d corner, Vec3d way) {
-  TestCloth cloth(n);
+  TestCloth cloth(side);
   cloth.place([&](int r, int c) { return corner + Vec3d{0.1 * c, 0, 0.1 * r}; });
-  for (int s = 0; s < n * n; ++s)
+  for (int s = 0; s < side * side; ++s)
     cloth.position.set(s, vec_cast<float>(vec_cast<double>(cloth.start.at(s)) + way));
   return cloth;
 }
@@ -24,7 +24,7 @@ TestCloth sheet_at(Vec3d corner, Vec3d way) {
 CommonMotion motion_of(TestCloth& a, TestCloth& b) {
   CommonMotion motion;
   for (TestCloth* cloth : {&a, &b})
-    motion.add(cloth->moving(), SurfaceGrid(n, BorderMates(n, {}), {}));
+    motion.add(cloth->moving(), SurfaceGrid(side, BorderMates(side, {}), {}));
   motion.find(far_apart);
   return motion;
 }
@@ -57,13 +57,13 @@ TEST(CommonMotion, IsNoneOfWhatIsPinnedOrBesideIt) {
 /// Samples between charts are no part of the cloth.
 TEST(CommonMotion, IsThatOfChartsAlone) {
   TestCloth cloth = sheet_at({0, 1, 0}, {0, -0.04, 0});
-  for (int r = 0; r < n; ++r) {
+  for (int r = 0; r < side; ++r) {
     cloth.inverse_mass(r, 5) = 0;
     cloth.position.set(r, 5, cloth.start.at(r, 5));
   }
-  const BorderMates charts(n, {{"", 0, 0, n, 5}, {"", 0, 6, n, 5}}, {});
+  const BorderMates charts(side, {{"", 0, 0, side, 5}, {"", 0, 6, side, 5}}, {});
   CommonMotion motion;
-  motion.add(cloth.moving(), SurfaceGrid(n, charts, {}));
+  motion.add(cloth.moving(), SurfaceGrid(side, charts, {}));
   motion.find(far_apart);
   EXPECT_NEAR(motion.of(0).y, -0.04, 1e-7);
 }

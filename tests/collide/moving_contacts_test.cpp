@@ -11,7 +11,7 @@ namespace {
 
 using test::octahedral_sphere;
 
-constexpr int cloth_size = 17, body_size = 33;
+constexpr int cloth_size = 17, obstacle_size = 33;
 constexpr double step = 1.0 / 240, radius = 0.25;
 constexpr float gap_kept = 0.001F;
 
@@ -80,7 +80,7 @@ bool same(const Contact& a, const Contact& b) {
 TEST(MovingContacts, WhatIsRememberedHidesNone) {
   const BorderMates none;
   Obstacles obstacles;
-  obstacles.bodies.push_back(octahedral_sphere(body_size, radius, {}));
+  obstacles.bodies.push_back(octahedral_sphere(obstacle_size, radius, {}));
   const Planes3 rest = obstacles.bodies[0].positions;
   Random random(5);
   Watch watch(obstacles, none);
@@ -116,7 +116,7 @@ TEST(MovingContacts, WhatIsRememberedHidesNone) {
 TEST(MovingContacts, ASecondLookSeesOtherEnds) {
   const BorderMates none;
   Obstacles obstacles;
-  obstacles.bodies.push_back(octahedral_sphere(body_size, radius, {}));
+  obstacles.bodies.push_back(octahedral_sphere(obstacle_size, radius, {}));
   const Planes3 rest = obstacles.bodies[0].positions, body_end = ball_at(rest, step);
   Random random(6);
   const Planes3 start = cloth_at(0, random);
@@ -135,7 +135,7 @@ TEST(MovingContacts, ASecondLookSeesOtherEnds) {
 TEST(MovingContacts, TheSmallestGapIsThatOfAllSamples) {
   const BorderMates none;
   Obstacles obstacles;
-  obstacles.bodies.push_back(octahedral_sphere(body_size, radius, {}));
+  obstacles.bodies.push_back(octahedral_sphere(obstacle_size, radius, {}));
   const Planes3 rest = obstacles.bodies[0].positions;
   Random random(8);
   Watch watch(obstacles, none);
@@ -154,10 +154,10 @@ TEST(MovingContacts, TheSmallestGapIsThatOfAllSamples) {
 }
 
 TEST(MovingContacts, BlocksNearAPlaceTellHowTheyMove) {
-  const Body ball = octahedral_sphere(body_size, radius, {});
-  const SurfaceGrid grid(body_size, ball.mates, {});
+  const Body ball = octahedral_sphere(obstacle_size, radius, {});
+  const SurfaceGrid grid(obstacle_size, ball.mates, {});
   Planes3 end = ball.positions;
-  for (int s = 0; s < body_size * body_size; ++s)
+  for (int s = 0; s < obstacle_size * obstacle_size; ++s)
     if (end.at(s).x > 0.1F) end.set(s, end.at(s) + Vec3f{0, 0.01F, 0});
   ThreadTeam team(2);
   BlockMotion motion;

@@ -11,7 +11,7 @@ using test::pyramid;
 using test::TestCloth;
 
 constexpr double time_step = 1.0 / 240;
-constexpr int n = 9;
+constexpr int side = 9;
 
 Obstacles floor_at(double height) {
   Obstacles obstacles;
@@ -30,7 +30,7 @@ class OverGround {
     untangler_.set_up(std::span(&grid, 1), std::span(&properties_, 1));
   }
   void move_all(Vec3f way) {
-    for (int s = 0; s < n * n; ++s) {
+    for (int s = 0; s < side * side; ++s) {
       cloth_.position.set(s, cloth_.start.at(s) + way);
       cloth_.velocity.set(s, (1 / static_cast<float>(time_step)) * way);
     }
@@ -46,10 +46,10 @@ class OverGround {
   [[nodiscard]] Vec3f velocity(int sample) const { return cloth_.velocity.at(sample); }
 
  private:
-  TestCloth cloth_{n};
+  TestCloth cloth_{side};
   BorderMates none_;
   CollidingCloth properties_{.mates = none_,
-                             .size = n,
+                             .size = side,
                              .thickness = 0.004,
                              .rest_spacing = 0.1,
                              .self_collision = true,
@@ -74,9 +74,9 @@ TEST(StepFilter, LeavesWhatMeetsNothing) {
 TEST(StepFilter, HoldsEndsAboveTheGroundAndTakesTheirSpeedInto) {
   OverGround sheet;
   sheet.move_all({0.003F, -0.015F, 0});
-  EXPECT_EQ(sheet.run(StepFilter::Pass::end).moved, n * n);
-  EXPECT_EQ(sheet.filter.struck().size(), std::size_t{n} * n);
-  for (int s = 0; s < n * n; ++s) {
+  EXPECT_EQ(sheet.run(StepFilter::Pass::end).moved, side * side);
+  EXPECT_EQ(sheet.filter.struck().size(), std::size_t{side} * side);
+  for (int s = 0; s < side * side; ++s) {
     EXPECT_GE(sheet.end(s).y, 0);
     EXPECT_LT(sheet.end(s).y, 1e-4F);
     EXPECT_NEAR(sheet.velocity(s).y, 0, 1e-6);
@@ -87,8 +87,8 @@ TEST(StepFilter, HoldsEndsAboveTheGroundAndTakesTheirSpeedInto) {
 TEST(StepFilter, LeavesVelocitiesOfGuesses) {
   OverGround sheet;
   sheet.move_all({0, -0.015F, 0});
-  EXPECT_EQ(sheet.run(StepFilter::Pass::guess).moved, n * n);
-  for (int s = 0; s < n * n; ++s) {
+  EXPECT_EQ(sheet.run(StepFilter::Pass::guess).moved, side * side);
+  for (int s = 0; s < side * side; ++s) {
     EXPECT_GE(sheet.end(s).y, 0);
     EXPECT_NEAR(sheet.velocity(s).y, -0.015 / time_step, 1e-5);
   }
@@ -100,9 +100,9 @@ TEST(StepFilter, TakesStoppedPointsAlongWithClothThatMovesAsAWhole) {
     return c < 5 ? Vec3d{0.1 * c, 5, 0.1 * r} : Vec3d{0.1 * (8 - c) + 0.03, 5.02, 0.1 * r};
   });
   folded.move_all({0, -0.4F, 0});
-  folded.move_on(4 * n + 7, {0, -0.3F, 0});
+  folded.move_on(4 * side + 7, {0, -0.3F, 0});
   EXPECT_GT(folded.run(StepFilter::Pass::end).stopped, 0);
-  for (int s = 0; s < n * n; ++s) EXPECT_NEAR(folded.end(s).y, 5.01 - 0.4, 0.05);
+  for (int s = 0; s < side * side; ++s) EXPECT_NEAR(folded.end(s).y, 5.01 - 0.4, 0.05);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ import unittest
 import weft
 from module import ModuleTest, small_torus, sphere_on_floor
 
-ROUNDS = int(os.environ.get("WEFT_LEAK_ROUNDS", 60))  # by hand: 1000
+ROUNDS = int(os.environ.get("WEFT_LEAK_ROUNDS", 30))  # by hand: 1000
 PAGE = os.sysconf("SC_PAGE_SIZE")
 
 # Converts what takes long, or simulates, until the signal comes; says what it was stopped by.
@@ -162,7 +162,7 @@ class Calls(ModuleTest):
         def resident():
             gc.collect()
             return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * PAGE
-        for _ in range(20):
+        for _ in range(10):
             once()
         before = resident()
         for _ in range(ROUNDS):

@@ -13,7 +13,7 @@ namespace {
 using test::as_floats;
 using test::ExportedRun;
 using test::thrown_ring;
-constexpr int frames = test::exported_frames;
+constexpr int frame_count = test::exported_frames;
 
 tinygltf::Model load_glb(const std::filesystem::path& path) {
   tinygltf::TinyGLTF loader;
@@ -46,22 +46,22 @@ TEST(Exports, GlbTargetsAndWeightsGiveEveryFrame) {
   const auto uv = values<Vec2f>(model, mesh.attributes.at("TEXCOORD_0"));
   // Both seams of the ring are there twice, their crossing four times.
   ASSERT_EQ(base.size(), 17 * 17);
-  ASSERT_EQ(mesh.targets.size(), frames);
+  ASSERT_EQ(mesh.targets.size(), frame_count);
   EXPECT_EQ(uv.size(), base.size());
   for (const Vec3f n : normals) EXPECT_NEAR(length(n), 1, 1e-6);
   const tinygltf::Animation& animation = model.animations.at(0);
   EXPECT_EQ(animation.channels.at(0).target_path, "weights");
   const auto times = values<float>(model, animation.samplers.at(0).input);
   const auto weights = values<float>(model, animation.samplers.at(0).output);
-  ASSERT_EQ(times.size(), frames + 1);
-  ASSERT_EQ(weights.size(), frames * (frames + 1));
-  for (int frame = 0; frame <= frames; ++frame) {
+  ASSERT_EQ(times.size(), frame_count + 1);
+  ASSERT_EQ(weights.size(), frame_count * (frame_count + 1));
+  for (int frame = 0; frame <= frame_count; ++frame) {
     EXPECT_FLOAT_EQ(times[frame], static_cast<float>(frame) / 60);
     std::vector<Vec3f> shown = base;
-    for (int k = 0; k < frames; ++k) {
+    for (int k = 0; k < frame_count; ++k) {
       const auto target = values<Vec3f>(model, mesh.targets[k].at("POSITION"));
       for (std::size_t v = 0; v < shown.size(); ++v)
-        shown[v] += weights[frame * frames + k] * target[v];
+        shown[v] += weights[frame * frame_count + k] * target[v];
     }
     const std::vector<Vec3f> wanted = run.points(frame);
     for (std::size_t v = 0; v < wanted.size(); ++v)

@@ -85,7 +85,7 @@ TEST(ChartBodies, TheSameBitsOnEveryTeam) {
 
 TEST(ChartBodies, MoveAsOne) {
   Scene scene = sheet_over({balls(2), "balls"});
-  scene.bodies[0].motion = {{0, {0, 0, 0}, {0, 0, 0}}, {0.5, {0, 0.1, 0}, {0, 40, 0}}};
+  scene.bodies[0].motion = {{0, {}, {}}, {0.5, {0, 40, 0}, {0, 0.1, 0}}};
   Simulation simulation(scene, "charts", 1);
   for (int frame = 0; frame < 25; ++frame)
     EXPECT_GT(simulation.advance().smallest_gap, 0) << "frame " << frame;

@@ -13,7 +13,7 @@
 namespace weft::viewer {
 namespace {
 
-constexpr int n = 17, middle = n / 2 * n + n / 2;
+constexpr int side = 17, middle = side / 2 * side + side / 2;
 
 class Simulating : public ::testing::Test {
  protected:
@@ -122,7 +122,7 @@ TEST_F(Simulating, ARunawayIsOneLineAndResetGoesOn) {
   simulator.push(Play{true});
   wait_for([&] { return !simulator.status().error.empty(); });
   EXPECT_NE(simulator.status().error.find("ran away"), std::string::npos);
-  EXPECT_EQ(simulator.status().error.find('\n'), std::string::npos);
+  EXPECT_EQ(simulator.status().error.find('\side'), std::string::npos);
   simulator.push(Play{false});
   simulator.push(Reset{});
   wait_for([&] { return now().frame == 0; });
@@ -154,7 +154,7 @@ TEST_F(Simulating, EveryColouringColoursEverySample) {
     const Colouring asked{static_cast<ColourBy>(by), 2};
     simulator.push(Recolour{asked});
     wait_for([&] { return now().colouring == asked; });
-    EXPECT_EQ(now().colours[0].size(), n) << colour_names[by];
+    EXPECT_EQ(now().colours[0].size(), side) << colour_names[by];
   }
   simulator.push(Recolour{{}});
   wait_for([&] { return now().colouring == Colouring{}; });

@@ -107,7 +107,7 @@ LoadedSurface image_alone(GeometryImage image) {
   return loaded;
 }
 
-void check_texture(const TriangleMesh& mesh, const std::string& name) {
+void check_texture_size(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.corner_uv.empty() || mesh.corner_uv.size() == mesh.triangles.size()) return;
   throw InputError(name,
                    fmt::format("texture coordinates for {} of {} triangles", mesh.corner_uv.size(),
@@ -175,7 +175,7 @@ LoadedSurface load_surface(const Surface& surface, const ConvertOptions& options
   ConvertOptions quick = options;
   quick.measure = false;
   MeshFile file = surface.mesh ? MeshFile{*surface.mesh, {}} : load_mesh_file(name, options.files);
-  if (surface.mesh) check_texture(*surface.mesh, name);
+  if (surface.mesh) check_texture_size(*surface.mesh, name);
   const auto vertices = static_cast<int>(file.mesh.positions.size());
   Conversion made = convert_mesh(file.mesh, name, quick);
   LoadedSurface loaded;

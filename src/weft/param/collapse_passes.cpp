@@ -1,12 +1,10 @@
 #include "weft/param/collapse_passes.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace weft {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Unit normal of a triangle times its shape quality, 4 sqrt(3) area / (sum of the squared sides):
 /// 1 for equal sides, 0 for no area.
@@ -61,12 +59,12 @@ class Passes {
   std::vector<int> resting_;  ///< [V] the last pass in which a vertex is skipped
   std::vector<Candidate> candidates_;
   int pass_ = 0;
-  double min_refused_ = infinity;
+  double min_refused_ = HUGE_VAL;
 };
 
 int Passes::run(double max) {
   ++pass_;
-  min_refused_ = infinity;
+  min_refused_ = HUGE_VAL;
   int count = 0;
   for (int v = 0; v < mesh_.vertex_count() && !is_done(); ++v)
     if (mesh_.is_inner(v) && resting_[v] != pass_ && take_away(v, max)) ++count;
@@ -125,7 +123,7 @@ void collapse_in_passes(CollapseHierarchy& mesh, const CollapseOrder& order,
   while (!passes.is_done()) {
     const int before = mesh.triangle_count();
     const int gone = passes.run(max);
-    if (gone == 0 && !(passes.min_refused() < infinity)) return;
+    if (gone == 0 && !(passes.min_refused() < HUGE_VAL)) return;
     if (gone > before / 40) continue;
     max = std::max(max * options.growth, gone == 0 ? passes.min_refused() : max);
   }

@@ -22,7 +22,7 @@ constexpr std::string_view magic = "WEFTCKPT";
 constexpr std::uint32_t format_version = 10;
 constexpr std::size_t size_at = magic.size() + sizeof(format_version);
 constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
-constexpr std::size_t header_bytes = hash_at + sizeof(std::uint64_t);
+constexpr std::size_t payload_at = hash_at + sizeof(std::uint64_t);
 constexpr std::string_view weft_version = WEFT_VERSION;
 
 /// Visits every field of a frame report in the order of the file; a field missing here would be
@@ -225,7 +225,7 @@ std::string encode_checkpoint(const Checkpoint& checkpoint) {
   out.add(std::uint64_t{0}), out.add(std::uint64_t{0});
   add_payload(checkpoint, out);
   std::string bytes = out.take();
-  const std::string_view payload = std::string_view(bytes).substr(header_bytes);
+  const std::string_view payload = std::string_view(bytes).substr(payload_at);
   const std::uint64_t size = payload.size(), hash = hash_of(payload);
   std::memcpy(bytes.data() + size_at, &size, sizeof(size));
   std::memcpy(bytes.data() + hash_at, &hash, sizeof(hash));

@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing;
 
-constexpr double frame = 1.0 / 60;
+constexpr double frame_time = 1.0 / 60;
 
 /// The sides of a square in the order of its border, a b a' b' c d c' d' in eighths: a closed
 /// surface of genus 2.
@@ -32,7 +32,9 @@ Cloth glued_square(int n, const BorderMates& mates) {
 
 struct Solver {
   Solver(const Cloth& of, int sweeps)
-      : cloth(of), levels(make_filter_levels(of, frame)), filter(of, {frame, sweeps}, team) {
+      : cloth(of),
+        levels(make_filter_levels(of, frame_time)),
+        filter(of, {frame_time, sweeps}, team) {
     Grid<float> moves(of.size, of.size, 1);
     for (const Pin& held : of.pins)
       for (const int s : held.copies) moves(s / of.size, s % of.size) = 0;

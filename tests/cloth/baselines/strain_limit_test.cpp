@@ -14,7 +14,7 @@ namespace {
 using namespace testing;
 
 /// Of the limiter where nothing else is said.
-constexpr double limit = 0.05;
+constexpr double max_strain = 0.05;
 
 ClothState stretched(const Cloth& cloth, float by) {
   ClothState state = rest_state(cloth);
@@ -46,7 +46,7 @@ TEST(StrainLimit, EnoughPassesBringEverySpringWithinTheLimit) {
     ClothState state = stretched(cloth, 1.3F);
     ThreadTeam team(1);
     EXPECT_GT(largest_elongation(cloth, state.position), 0.2);
-    limit_strain(cloth, {.passes = 2000, .strain = limit}, 1.0 / 240, state, team);
+    limit_strain(cloth, {.passes = 2000, .strain = max_strain}, 1.0 / 240, state, team);
     EXPECT_LT(largest_elongation(cloth, state.position), 0.0505);
   }
 }
@@ -77,12 +77,12 @@ TEST(StrainLimit, ShorteningAndDiagonalsAreLimitedAsPrintedAlone) {
   for (const ClothState& before : {shortened, sheared})
     for (const bool as_printed : {false, true}) {
       ClothState after = before;
-      limit_strain(cloth, {.passes = 40, .strain = limit, .as_printed = as_printed}, 1.0 / 240,
+      limit_strain(cloth, {.passes = 40, .strain = max_strain, .as_printed = as_printed}, 1.0 / 240,
                    after, team);
       EXPECT_EQ(hash_of(after) == hash_of(before), !as_printed);
     }
-  limit_strain(cloth, {.passes = 2000, .strain = limit, .as_printed = true}, 1.0 / 240, shortened,
-               team);
+  limit_strain(cloth, {.passes = 2000, .strain = max_strain, .as_printed = true}, 1.0 / 240,
+               shortened, team);
   EXPECT_LT(measure_strain(cloth, shortened).max, 0.0505);
 }
 
@@ -103,7 +103,8 @@ TEST(StrainLimit, OneSpringEndsExactlyAtTheLimit) {
   ThreadTeam team(1);
   const auto parting_after = [&](float parting, bool as_printed) {
     ClothState state = pulled_apart(cloth, parting);
-    limit_strain(cloth, {.passes = 300, .strain = limit, .as_printed = as_printed}, h, state, team);
+    limit_strain(cloth, {.passes = 300, .strain = max_strain, .as_printed = as_printed}, h, state,
+                 team);
     EXPECT_NEAR(state.position.x(0, 1) - state.position.x(0, 0), 1.05, 1e-3);
     // What is common to a pair stays.
     EXPECT_NEAR(state.velocity.x(0, 1) + state.velocity.x(0, 0), 6, 1e-5);
@@ -125,7 +126,7 @@ TEST(StrainLimit, KeepsTheCentreOfMassAndMomentum) {
     const Vec3d before = centre_of_mass(cloth, state), impulse = momentum(cloth, state);
     const std::string velocities = hash_of(state);
     ThreadTeam team(1);
-    limit_strain(cloth, {.passes = 20, .strain = limit}, 1.0 / 240, state, team);
+    limit_strain(cloth, {.passes = 20, .strain = max_strain}, 1.0 / 240, state, team);
     EXPECT_NE(hash_of(state), velocities);
     EXPECT_NEAR(length(centre_of_mass(cloth, state) - before), 0, 1e-7);
     EXPECT_NEAR(length(momentum(cloth, state) - impulse), 0, 1e-5);
@@ -141,7 +142,7 @@ TEST(StrainLimit, PinsStayAndMatesStayEqual) {
     shake(cloth, 1, state.velocity);
     const Vec3f place = state.position.at(0), speed = state.velocity.at(0);
     ThreadTeam team(2);
-    limit_strain(cloth, {.strain = limit, .as_printed = as_printed}, 1.0 / 240, state, team);
+    limit_strain(cloth, {.strain = max_strain, .as_printed = as_printed}, 1.0 / 240, state, team);
     EXPECT_EQ(state.position.at(0), place);
     EXPECT_EQ(state.velocity.at(0), speed);
     EXPECT_TRUE(mates_equal(cloth, state));
@@ -167,8 +168,8 @@ TEST(StrainLimit, AnyTeamGivesTheSameBits) {
           ClothState state = stretched(cloth, 1.2F);
           shake(cloth, 3, state.velocity);
           ThreadTeam team({threads, set});
-          limit_strain(cloth, {.passes = 3, .strain = limit, .as_printed = as_printed}, 1.0 / 240,
-                       state, team);
+          limit_strain(cloth, {.passes = 3, .strain = max_strain, .as_printed = as_printed},
+                       1.0 / 240, state, team);
           if (first.empty()) first = hash_of(state);
           EXPECT_EQ(hash_of(state), first) << threads << " threads, " << name_of(set);
         }
@@ -239,7 +240,8 @@ TEST(StrainLimit, AsPrintedStaysWhatItWas) {
       for (const float by : {1.3F, 0.8F}) {
         ClothState state = stretched(cloth, by);
         shake(cloth, 1, state.velocity, 2);
-        limit_both(cloth, {.passes = 12, .strain = limit, .as_printed = true}, 1.0 / 240, state);
+        limit_both(cloth, {.passes = 12, .strain = max_strain, .as_printed = true}, 1.0 / 240,
+                   state);
         found.push_back(hash_of(state));
       }
     }

@@ -9,7 +9,7 @@ namespace {
 
 /// Points move alike while the root of their mean squared distance from the mean displacement is
 /// at most this part of it.
-constexpr double max_spread = 0.25;
+constexpr double max_mean_spread = 0.25;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Vec3d CommonMotion::Displacements::common() const {
   if (pinned) return {};
   const Vec3d mean = (1.0 / count) * sum;
   const double spread = squares / count - squared_length(mean);
-  return spread <= max_spread * max_spread * squared_length(mean) ? mean : Vec3d{};
+  return spread <= max_mean_spread * max_mean_spread * squared_length(mean) ? mean : Vec3d{};
 }
 
 void CommonMotion::add(const MovingCloth& cloth, const SurfaceGrid& grid) {
