@@ -16,7 +16,7 @@ namespace {
 
 constexpr png_alloc_size_t min_chunk_memory = 4096;
 constexpr png_uint_32 max_texts = 32;
-constexpr std::size_t bytes_per_sample = 6;
+constexpr std::size_t png_sample_bytes = 6;
 
 // libpng reports errors by longjmp, which must not skip destructors: every call into libpng that
 // can fail goes through `guarded`, whose step holds nothing to destroy.
@@ -134,7 +134,7 @@ class Reader {
     require_image_size(png_get_image_width(png_, info_), png_get_image_height(png_, info_), where_);
     picture.width = static_cast<int>(png_get_image_width(png_, info_));
     picture.height = static_cast<int>(png_get_image_height(png_, info_));
-    require_enough_bytes(picture.width, bytes_per_sample, bytes_, where_);
+    require_enough_bytes(picture.width, png_sample_bytes, bytes_, where_);
     picture.bytes.resize(picture.row_bytes() * static_cast<std::size_t>(picture.height));
     require(guarded(png_, [this, &picture] { read_rows(picture); }));
     return picture;
