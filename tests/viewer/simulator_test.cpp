@@ -122,7 +122,7 @@ TEST_F(Simulating, ARunawayIsOneLineAndResetGoesOn) {
   simulator.push(Play{true});
   wait_for([&] { return !simulator.status().error.empty(); });
   EXPECT_NE(simulator.status().error.find("ran away"), std::string::npos);
-  EXPECT_EQ(simulator.status().error.find('\side'), std::string::npos);
+  EXPECT_EQ(simulator.status().error.find('\n'), std::string::npos);
   simulator.push(Play{false});
   simulator.push(Reset{});
   wait_for([&] { return now().frame == 0; });
