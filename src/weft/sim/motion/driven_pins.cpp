@@ -5,7 +5,7 @@
 namespace weft {
 namespace {
 
-/// What a pin was held back by shrinks by this speed at least, so that it does not last. [m/s]
+/// At which a pin makes up for what held it back: a hand's. [m/s]
 constexpr double catching_up_speed = 3;
 
 /// How far a pin goes ahead of the free samples beside it in a step, in rest lengths.
@@ -56,13 +56,13 @@ void DrivenPins::return_standing(Cloth& cloth) {
 
 void DrivenPins::follow(const Step& step, SimulatedCloth& cloth) {
   Cloth& model = *cloth.model;
-  const double least = catching_up_speed * (step.end - step.begin);
+  const double makes_up = catching_up_speed * (step.end - step.begin);
   return_standing(model);
   place(step.begin, step.from, model);
   for (std::size_t i = 0; i < lags_.size(); ++i) {
     const Pin& pin = model.pins[i];
     const Vec3d lag = vec_cast<double>(cloth.state.position.at(pin.sample)) - pin.target;
-    const double far = length(lag), left = (1 - step.part) * far - least;
+    const double far = length(lag), left = far - makes_up;
     lags_[i] = left > 0 ? (left / far) * lag : Vec3d{};
   }
   place(step.end, step.to, model);

@@ -23,7 +23,6 @@ class DrivenPins {
   struct Step {
     double begin = 0, end = 0;  ///< [s]
     Bodies from, to;            ///< positions of bodies at both; null where one does not move
-    double part = 1;            ///< its length in substeps, <= 1
   };
 
   /// @param paths, tied  kept by reference
@@ -33,8 +32,7 @@ class DrivenPins {
              const Cloth& cloth);
 
   /// Sets the targets to the end of a step, from the cloth's state at its start. A pin that
-  /// collisions have held back makes up for it over a substep, not over a step that may be so short
-  /// that it would be flung.
+  /// collisions have held back makes up for it at the speed of a hand: at once it would be flung.
   void follow(const Step& step, SimulatedCloth& cloth);
   /// Gives pins that stand the places where they are to be as targets again, or where a hand has
   /// put them since.

@@ -76,8 +76,7 @@ void Simulation::Parts::move_bodies(double seconds) {
 
 void Simulation::Parts::move_driven(double seconds) {
   move_bodies(seconds);
-  const DrivenPins::Step step{step_start, seconds, body_starts, driven.ends(),
-                              time_step / substep_time};
+  const DrivenPins::Step step{step_start, seconds, body_starts, driven.ends()};
   for (std::size_t i = 0; i < cloths.size(); ++i) driven_pins[i].follow(step, cloths[i]);
   if (grab.holds()) grab.move(time_step, scene.ground, cloths[grab.cloth()]);
 }
