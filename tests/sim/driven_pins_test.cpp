@@ -61,6 +61,12 @@ TEST(DrivenPins, MakeUpAtAHandsSpeedForWhatHeldThemBack) {
   EXPECT_NEAR(sheet.follow(begin, 0.1), 8 * (begin + 0.1), 1e-6);  // time enough
 }
 
+TiedPin tied(int pin) {
+  TiedPin tie;
+  tie.pin = pin;
+  return tie;
+}
+
 /// A sheet with a corner tied to a body that stands, 0.2 m above where collisions hold it back.
 struct HeldBack {
   void follow(double seconds) { driven.follow({0, seconds, standing, standing}, cloth); }
@@ -68,7 +74,7 @@ struct HeldBack {
 
   SimulatedCloth cloth = sheet_at_rest();
   Vec3d held = vec_cast<double>(cloth.state.position.at(0)), place = held + Vec3d{0, 0.2, 0};
-  TiedPin tie{.pin = pin(*cloth.model, 0, place)};
+  TiedPin tie = tied(pin(*cloth.model, 0, place));
   std::array<const Planes3*, 1> standing{};
   DrivenPins driven{{}, std::span(&tie, 1), standing, *cloth.model};
 };
