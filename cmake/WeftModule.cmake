@@ -7,8 +7,8 @@ target_precompile_headers(common_headers PRIVATE
   <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <mutex>
   <numeric> <optional> <span> <string> <string_view> <tuple> <utility> <variant> <vector> <fmt/format.h>)
 
-# Sources of a module are compiled twelve at a time, which saves a third of the processor time: most of what
-# one source alone takes is reading headers. So names within unnamed namespaces are unique within a module.
+# Sources of a module are compiled twelve at a time, which saves much processor time: most of what one
+# source alone takes is reading headers. So names within unnamed namespaces are unique within a module.
 # The preset dev compiles each alone.
 function(weft_unity target)
   if(NOT DEFINED CMAKE_UNITY_BUILD)

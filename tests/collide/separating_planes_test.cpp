@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-constexpr double between = 1e-5;
+constexpr double clearance = 1e-5;
 
 /// About an axis in the plane of both triangles, half a metre away.
 Vec3d swung(Vec3d p, double angle) {
@@ -31,7 +31,7 @@ MovingFeature riding(double height, double angle) {
 double along(Vec3d n, Vec3d p) { return dot(n, p); }
 
 TEST(SeparatingPlanes, HoldTwoThatTurnTogetherApartHoweverCloseTheyAre) {
-  const MovingFeature a = riding(between, 0.02), b = riding(0, 0.02);
+  const MovingFeature a = riding(clearance, 0.02), b = riding(0, 0.02);
   SeparatingPlane plane;
   ASSERT_EQ(separate(a, b, {1e-4, true}, plane), Separation::plane);
   ASSERT_TRUE(plane.turns);
@@ -46,19 +46,19 @@ TEST(SeparatingPlanes, HoldTwoThatTurnTogetherApartHoweverCloseTheyAre) {
 }
 
 TEST(SeparatingPlanes, ThatDoNotTurnLeaveNoRoomForThat) {
-  const MovingFeature a = riding(between, 0.02), b = riding(0, 0.02);
+  const MovingFeature a = riding(clearance, 0.02), b = riding(0, 0.02);
   SeparatingPlane plane;
   ASSERT_EQ(separate(a, b, {1e-4, false}, plane), Separation::plane);
   double min = HUGE_VAL;
   for (std::size_t k = 0; k < 3; ++k)
     min = std::min(min, along(plane.turned, a.safe_position[k]) - plane.still.a);
-  EXPECT_LT(min, -10 * between);
+  EXPECT_LT(min, -10 * clearance);
 }
 
 TEST(SeparatingPlanes, WhatHeedsATurningPlaneKeepsApartAtEveryTime) {
   Random random(7);
   for (int round = 0; round < 200; ++round) {
-    MovingFeature a = riding(between, random.uniform(0, 0.3)), b = riding(0, 0.1);
+    MovingFeature a = riding(clearance, random.uniform(0, 0.3)), b = riding(0, 0.1);
     b.safe_position = {};
     for (std::size_t k = 0; k < 3; ++k)
       b.safe_position[k] = swung(b.start[k], random.uniform(0, 0.3));

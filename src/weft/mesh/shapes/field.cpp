@@ -139,7 +139,7 @@ double distance_to(const Ellipsoid& ellipsoid, Vec3d point) {
 }
 
 Limb::Limb(std::span<const Joint> joints) {
-  WEFT_ASSERT(joints.size() <= max_joints);
+  WEFT_ASSERT(joints.size() >= 2 && joints.size() <= max_joints);
   const auto blend = [](double wa, const Joint& a, double wb, const Joint& b) {
     return Joint{wa * a.centre + wb * b.centre, wa * a.radius + wb * b.radius};
   };

@@ -46,6 +46,7 @@ struct Limb {
   static constexpr int parts = 4;  ///< cones between two joints
   static constexpr int max_joints = 12;
   static constexpr int max_cones = (max_joints - 1) * parts;
+  /// @pre 2 .. max_joints joints
   explicit Limb(std::span<const Joint> joints);
   std::vector<RoundCone> cones;
   /// Balls around the cones, by which those that are too far away are told cheaply [m].

@@ -5,9 +5,6 @@
 namespace weft {
 namespace {
 
-/// At which a pin makes up for what held it back: a hand's. [m/s]
-constexpr double catching_up_speed = 3;
-
 /// How far a pin goes ahead of the free samples beside it in a step, in rest lengths.
 double lead_of(const Pin& pin, const SimulatedCloth& cloth, double seconds) {
   const Cloth& model = *cloth.model;
@@ -56,7 +53,7 @@ void DrivenPins::return_standing(Cloth& cloth) {
 
 void DrivenPins::follow(const Step& step, SimulatedCloth& cloth) {
   Cloth& model = *cloth.model;
-  const double makes_up = catching_up_speed * (step.end - step.begin);
+  const double makes_up = hand_speed * (step.end - step.begin);
   return_standing(model);
   place(step.begin, step.from, model);
   for (std::size_t i = 0; i < lags_.size(); ++i) {

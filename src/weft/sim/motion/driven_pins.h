@@ -32,7 +32,7 @@ class DrivenPins {
              const Cloth& cloth);
 
   /// Sets the targets to the end of a step, from the cloth's state at its start. A pin that
-  /// collisions have held back makes up for it at the speed of a hand: at once it would be flung.
+  /// collisions have held back makes up for it by `hand_speed`: at once it would be flung.
   void follow(const Step& step, SimulatedCloth& cloth);
   /// Gives pins that stand the places where they are to be as targets again, or where a hand has
   /// put them since.

@@ -13,8 +13,6 @@
 namespace weft {
 namespace {
 
-/// Largest speed of the grabbed point [m/s].
-constexpr double max_speed = 3;
 /// Largest distance from the neighbouring samples, in rest lengths: the strain limit lets cloth
 /// stretch a little.
 constexpr double max_stretch = 1.08;
@@ -171,7 +169,7 @@ void Grab::take(std::size_t cloth, int sample, SimulatedCloth& held) {
 void Grab::move(double time_step, std::optional<double> ground, SimulatedCloth& held) const {
   Pin& pin = held.model->pins[static_cast<std::size_t>(pin_)];
   const Vec3d here = vec_cast<double>(held.state.position.at(pin.sample));
-  const Vec3d displacement = towards(here, wanted_, max_speed * time_step) - here;
+  const Vec3d displacement = towards(here, wanted_, hand_speed * time_step) - here;
   Vec3d next = within_reach(held, pin, time_step, displacement);
   const double thickness = held.model->material.thickness;
   if (ground) next.y = std::max(next.y, std::min(here.y, *ground + thickness));

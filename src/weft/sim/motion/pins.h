@@ -60,6 +60,9 @@ int sample_at(int size, Vec2d uv);
 
 struct SimulatedCloth;
 
+/// As fast as a hand moves cloth. [m/s]
+inline constexpr double hand_speed = 3;
+
 /// A surface point of a cloth held by the user: a pin that follows a target.
 class Grab {
  public:
