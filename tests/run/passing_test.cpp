@@ -111,7 +111,9 @@ struct OverPlate {
   [[nodiscard]] const Planes3& before() const { return simulation.cloths()[0].state.position; }
   [[nodiscard]] const Planes3& still() const { return simulation.bodies()[0].positions; }
   std::int64_t count(const Planes3& after) {
-    const StepMotion::Path cloth{&before(), &after}, body{&still(), &still()};
+    return count({&before(), &after}, {&still(), &still()});
+  }
+  std::int64_t count(const StepMotion::Path& cloth, const StepMotion::Path& body) {
     return check->count({std::span(&cloth, 1), std::span(&body, 1)});
   }
 
@@ -127,6 +129,23 @@ TEST(Passing, WhatDoesPassIsSeen) {
     after.set(s, after.at(s) - Vec3f{0, 0.1F, 0});
   // Nothing crosses before or after; every inner vertex and many edges meet the plate between.
   EXPECT_GT(over.count(after), 500);
+}
+
+// What stands still in one step after another is not looked at again: it must be once it moves.
+TEST(Passing, ABodyThatStoodStillIsSeenWhereItGoesAndWhereItStopped) {
+  OverPlate over;
+  const StepMotion::Path hangs{&over.before(), &over.before()};
+  Planes3 raised = over.still();
+  for (int s = 0; s < raised.size() * raised.size(); ++s)
+    raised.set(s, raised.at(s) + Vec3f{0, 0.1F, 0});
+  EXPECT_EQ(over.count(hangs, {&over.still(), &over.still()}), 0);
+  EXPECT_EQ(over.count(hangs, {&over.still(), &over.still()}), 0);
+  EXPECT_GT(over.count(hangs, {&over.still(), &raised}), 500);
+  EXPECT_EQ(over.count(hangs, {&raised, &raised}), 0);
+  Planes3 after = over.before();
+  for (int s = 0; s < after.size() * after.size(); ++s)
+    after.set(s, after.at(s) + Vec3f{0, 0.1F, 0});
+  EXPECT_GT(over.count({&over.before(), &after}, {&raised, &raised}), 500);
 }
 
 TEST(Passing, ASingleVertexThatPassesIsSeen) {

@@ -22,9 +22,9 @@ std::vector<Corners> all_corners(const Planes3& planes, std::span<const Triangle
   return corners;
 }
 
-void add(Box3d& box, const Box3d& other) {
-  box.add(other.lower);
-  box.add(other.upper);
+/// The box around two.
+Box3d joined(const Box3d& a, const Box3d& b) {
+  return {min(a.lower, b.lower), max(a.upper, b.upper)};
 }
 
 /// Both ends of an edge of a triangle.
@@ -36,16 +36,6 @@ VertexFace vertex_face(Vec3d vertex, const Planes3& of_face, const Triangle& fac
 EdgeEdge edge_edge(const Planes3& first, const std::array<int, 2>& p, const Planes3& second,
                    const std::array<int, 2>& q) {
   return {{at(first, p[0]), at(first, p[1])}, {at(second, q[0]), at(second, q[1])}};
-}
-
-template <class Features>
-Box3d swept(const StepMotion::Path& step, const Features& samples) {
-  Box3d box;
-  for (const int s : samples) {
-    box.add(at(*step.start, s));
-    box.add(at(*step.end, s));
-  }
-  return box;
 }
 
 }  // namespace
@@ -61,7 +51,8 @@ PassingSurface::PassingSurface(const GeometryImage& image, const Planes3& start,
     : triangles_(joined_triangles(image)),
       tree_(all_corners(start, triangles_)),
       boxes_(tree_.nodes.size()),
-      swept_boxes_(triangles_.size()) {
+      swept_boxes_(triangles_.size()),
+      sample_boxes_(start.size() * start.size()) {
   const int samples = image.size() * image.size();
   for (int v = 0; v < samples; ++v) joint_.push_back(sewn != nullptr ? sewn->representative(v) : v);
   own_features();
@@ -82,19 +73,32 @@ void PassingSurface::own_features() {
 }
 
 void PassingSurface::follow(const StepMotion::Path& step) {
+  const bool stands = step.start == step.end && step_.start == step.start && step_.end == step.end;
   step_ = step;
-  for (std::size_t t = 0; t < triangles_.size(); ++t) swept_boxes_[t] = swept(step, triangles_[t]);
-  for (int i = static_cast<int>(boxes_.size()) - 1; i >= 0; --i) {
-    const BoxTree::Node& node = tree_.nodes[static_cast<std::size_t>(i)];
-    Box3d& box = boxes_[static_cast<std::size_t>(i)];
-    box = {};
+  if (stands) return;  // in both steps: all boxes hold
+  for (std::size_t v = 0; v < sample_boxes_.size(); ++v) {
+    const int sample = static_cast<int>(v);
+    const Vec3d from = at(*step.start, sample), to = at(*step.end, sample);
+    sample_boxes_[v] = {min(from, to), max(from, to)};
+  }
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    swept_boxes_[t] = joined(joined(sample_boxes_[a], sample_boxes_[b]), sample_boxes_[c]);
+  }
+  fit_nodes();
+}
+
+void PassingSurface::fit_nodes() {
+  for (std::size_t i = boxes_.size(); i-- > 0;) {
+    const BoxTree::Node& node = tree_.nodes[i];
     if (node.right >= 0) {
-      add(box, boxes_[static_cast<std::size_t>(i) + 1]);
-      add(box, boxes_[static_cast<std::size_t>(node.right)]);
+      boxes_[i] = joined(boxes_[i + 1], boxes_[static_cast<std::size_t>(node.right)]);
       continue;
     }
+    boxes_[i] = {};
     for (int place = node.first; place < node.last; ++place)
-      add(box, swept_boxes_[static_cast<std::size_t>(tree_.triangle_at[place])]);
+      boxes_[i] =
+          joined(boxes_[i], swept_boxes_[static_cast<std::size_t>(tree_.triangle_at[place])]);
   }
 }
 
@@ -105,7 +109,7 @@ std::int64_t PassingSurface::count_vertices(int s, const PassingSurface& other, 
   for (std::size_t k = 0; k < 3; ++k) {
     const int v = own[k];
     if ((owned_[s].vertices >> k & 1U) == 0 || (same && touches(face, v))) continue;
-    if (!overlap(swept(step_, std::array{v}), other.swept_boxes_[t])) continue;
+    if (!overlap(sample_boxes_[v], other.swept_boxes_[t])) continue;
     const auto hit = time_of_impact(vertex_face(at(*step_.start, v), *other.step_.start, face),
                                     vertex_face(at(*step_.end, v), *other.step_.end, face));
     count += hit ? 1 : 0;
@@ -120,10 +124,11 @@ std::int64_t PassingSurface::count_between(int s, const PassingSurface& other, i
   for (std::size_t i = 0; i < 3; ++i) {
     if ((owned_[s].edges >> i & 1U) == 0) continue;
     const std::array<int, 2> p = edge_of(a, i);
-    const Box3d way = swept(step_, p);
+    const Box3d way = swept_edge(p);
+    if (!overlap(way, other.swept_boxes_[t])) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::array<int, 2> q = edge_of(b, k);
-      if ((other.owned_[t].edges >> k & 1U) == 0 || !overlap(way, swept(other.step_, q))) continue;
+      if ((other.owned_[t].edges >> k & 1U) == 0 || !overlap(way, other.swept_edge(q))) continue;
       if (same && (meet(p[0], q[0]) || meet(p[0], q[1]) || meet(p[1], q[0]) || meet(p[1], q[1])))
         continue;
       const auto hit = time_of_impact(edge_edge(*step_.start, p, *other.step_.start, q),
@@ -132,6 +137,10 @@ std::int64_t PassingSurface::count_between(int s, const PassingSurface& other, i
     }
   }
   return count;
+}
+
+Box3d PassingSurface::swept_edge(const std::array<int, 2>& ends) const {
+  return joined(sample_boxes_[ends[0]], sample_boxes_[ends[1]]);
 }
 
 /// Traverses both trees, or one with itself; each pair of triangles is tested once.

@@ -18,7 +18,8 @@ class PassingSurface {
   /// @param start  positions for which the tree is built [n x n] [m]
   /// @param sewn  the mates that are sewn together in the run; null: none
   PassingSurface(const GeometryImage& image, const Planes3& start, const BorderMates* sewn);
-  /// Sets the motion of the current step. @param step  kept by pointer until the next
+  /// Sets the motion of the current step. @param step  kept by pointer until the next; where its
+  /// end is its start, the surface stands still from then on until it is told of another path
   void follow(const StepMotion::Path& step);
 
   /// Number of vertex-face and edge-edge pairs of two surfaces that meet during the step.
@@ -36,6 +37,8 @@ class PassingSurface {
   };
   struct Pairs;
   void own_features();
+  void fit_nodes();
+  [[nodiscard]] Box3d swept_edge(const std::array<int, 2>& ends) const;
   void find(int node, const PassingSurface& other, int other_node, Pairs& pairs) const;
   [[nodiscard]] std::int64_t count_between(int s, const PassingSurface& other, int t,
                                            bool same) const;
@@ -52,8 +55,9 @@ class PassingSurface {
   std::vector<int> joint_;           // [n * n] the class that a sample is sewn into, or itself
   std::vector<Owned> owned_;         // [F]
   BoxTree tree_;
-  std::vector<Box3d> boxes_;        // [nodes] swept by the step
-  std::vector<Box3d> swept_boxes_;  // [F] the same, of triangles
+  std::vector<Box3d> boxes_;         // [nodes] swept by the step
+  std::vector<Box3d> swept_boxes_;   // [F] the same, of triangles
+  std::vector<Box3d> sample_boxes_;  // [n * n] the same, of samples
   StepMotion::Path step_{};
 };
 
