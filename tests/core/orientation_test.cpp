@@ -1,5 +1,8 @@
 #include "weft/core/orientation.h"
 
+#include <array>
+#include <cmath>
+
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
@@ -73,6 +76,45 @@ TEST(Orientation, InSpaceEqualsRationalArithmetic) {
     ASSERT_EQ(orientation(a, b, c, d), sign) << i;
   }
   EXPECT_GT(zeros, 100);
+}
+
+int exact(Vec2d a, Vec2d b, Vec2d c) {
+  const Rational determinant =
+      difference(a.x, c.x) * difference(b.y, c.y) - difference(a.y, c.y) * difference(b.x, c.x);
+  return determinant.compare(0);
+}
+
+// Points on a line or near it, in single precision or with all digits, of one size or of many.
+TEST(Orientation, InThePlaneEqualsRationalArithmetic) {
+  Random random(5);
+  std::array<int, 3> seen{};
+  for (int i = 0; i < 30000; ++i) {
+    const auto number = [&]() -> double {
+      const double drawn = 2 * random.uniform() - 1, size = std::ldexp(1, random.index(60) - 30);
+      if (i % 4 == 0) return random.index(5);
+      if (i % 4 == 1) return static_cast<float>(drawn);
+      return i % 4 == 2 ? drawn : drawn * size;
+    };
+    const Vec2d a{number(), number()}, way{number(), number()};
+    const double s = random.index(9) / 4.0 - 1, t = random.index(9) / 4.0 - 1;
+    Vec2d b = a + s * way, c = a + t * way;
+    if (i % 8 < 4) b = {static_cast<float>(b.x), static_cast<float>(b.y)};
+    if (i % 3 == 0) c.y += (random.index(3) - 1) * 0x1p-53;
+    const int sign = exact(a, b, c);
+    ++seen[static_cast<std::size_t>(sign + 1)];
+    ASSERT_EQ(orientation(a, b, c), sign) << i;
+  }
+  for (const int count : seen) EXPECT_GT(count, 3000);
+}
+
+TEST(Orientation, InThePlaneIsExactWhateverTheSizes) {
+  for (const double size : {1e-160, 1e-100, 1e-20, 1.0, 1e20, 1e99}) {
+    const Vec2d a{size, size}, b{3 * size, 3 * size}, above{2 * size, 2 * size * (1 + 0x1p-52)};
+    EXPECT_EQ(orientation(a, b, {2 * size, 2 * size}), exact(a, b, {2 * size, 2 * size})) << size;
+    EXPECT_EQ(orientation(a, b, above), 1) << size;
+    EXPECT_EQ(orientation({size, 1e-30}, {-size, -1e-30}, {0, 0}), 0) << size;
+    EXPECT_EQ(orientation({size, 1e-300}, {-size, -2e-300}, {0, 0}), -1) << size;
+  }
 }
 
 // Sizes apart by more than fixed room holds, and products that underflow.

@@ -21,6 +21,26 @@ constexpr double epsilon = 0x1p-53;
 constexpr double min_trusted = 1e-200;
 
 int sign_of(double value) { return (value > 0) - (value < 0); }
+int compare(double a, double b) { return (a > b) - (a < b); }
+
+/// The rounding error of a - b, exactly [shewchuk97].
+double error_of_difference(double a, double b) {
+  const double difference = a - b, subtracted = a - difference;
+  return (a - (difference + subtracted)) + (subtracted - b);
+}
+
+/// The rounding error of a * b, exactly where nothing underflows [shewchuk97].
+double error_of_product(double a, double b) {
+  const auto upper_half = [](double value) {
+    constexpr double splitter = 0x1p27 + 1;
+    const double wide = splitter * value;
+    return wide - (wide - value);
+  };
+  const double a_upper = upper_half(a), a_lower = a - a_upper;
+  const double b_upper = upper_half(b), b_lower = b - b_upper;
+  return a_lower * b_lower -
+         (((a * b - a_upper * b_upper) - a_lower * b_upper) - a_upper * b_lower);
+}
 
 /// A double as mantissa * 2^exponent.
 struct Scaled {
@@ -86,16 +106,30 @@ bool plainly_flat(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
   return level(&Vec3d::x) || level(&Vec3d::y) || level(&Vec3d::z);
 }
 
+/// Whether no digit is lost in the differences of two points' coordinates.
+bool have_exact_difference(Vec2d a, Vec2d b) {
+  return error_of_difference(a.x, b.x) == 0 && error_of_difference(a.y, b.y) == 0;
+}
+
 }  // namespace
 
 int orientation(Vec2d a, Vec2d b, Vec2d c) {
   constexpr double error_factor = (3.0 + 16.0 * epsilon) * epsilon;
-  const double left = (a.x - c.x) * (b.y - c.y);
-  const double right = (a.y - c.y) * (b.x - c.x);
+  const int sign_of_left = compare(a.x, c.x) * compare(b.y, c.y);
+  const int sign_of_right = compare(a.y, c.y) * compare(b.x, c.x);
+  if (sign_of_left != sign_of_right) return compare(sign_of_left, sign_of_right);
+  if (sign_of_left == 0) return 0;
+  const Vec2d p = a - c, q = b - c;
+  const double left = p.x * q.y, right = p.y * q.x;
   const double permanent = std::fabs(left) + std::fabs(right);
-  const double determinant = left - right;
-  if (permanent > min_trusted && std::fabs(determinant) > error_factor * permanent)
-    return sign_of(determinant);
+  if (permanent > min_trusted) {
+    const double determinant = left - right;
+    if (std::fabs(determinant) > error_factor * permanent) return sign_of(determinant);
+    // As of points with coordinates in single precision, which often lie on one line.
+    if (have_exact_difference(a, c) && have_exact_difference(b, c))
+      return left != right ? compare(left, right)
+                           : compare(error_of_product(p.x, q.y), error_of_product(p.y, q.x));
+  }
   return exact_sign<2>({scaled(a), scaled(b), scaled(c)});
 }
 
