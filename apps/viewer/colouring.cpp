@@ -147,7 +147,7 @@ void colour_positions(const Planes3& positions, Planes3& colours) {
 
 Legend legend_of(const Colouring& colouring, double limit) {
   Legend legend;
-  const auto percent = [](double part) { return fmt::format("{:+.1f} %", 100 * part); };
+  const auto percent = [](double part) { return fmt::format("{:+.3g} %", 100 * part); };
   switch (colouring.by) {
     case ColourBy::strain:
       legend.title = "stretch springs, mean at each sample";

@@ -45,6 +45,10 @@ RunSource::RunSource(const std::string& folder, const SourceMaker& maker)
   subject.name = folder;
   subject.ground = run_.ground;
   subject.plays = true;
+  for (const RecordedCloth& cloth : run_.cloths) {
+    strains_.emplace_back();
+    if (cloth.rest.size() > 0) strains_.back().emplace(cloth);
+  }
   for (std::size_t i = 0; i < run_.cloths.size(); ++i)
     subject.cloths.push_back({run_.cloths[i].name, run_.cloths[i].image.mates, std::nullopt,
                               cloths_[i], true, run_.cloths[i].image.colours});
@@ -67,13 +71,19 @@ bool RunSource::advance() {
   return run_.frames > 1;
 }
 
+void RunSource::colour(const Colouring& colouring, std::size_t cloth, Planes3& colours) const {
+  const RecordedCloth& shown = run_.cloths[cloth];
+  if (colouring.by == ColourBy::strain && strains_[cloth])
+    return colour_strain(strains_[cloth]->at_samples(cloths_[cloth]), 0, colours);
+  colour_surface(colouring, shown.image.mates, cloths_[cloth], colours);
+}
+
 void RunSource::show(const Colouring& colouring, Snapshot& snapshot) const {
   snapshot.cloths = cloths_;
   snapshot.bodies = bodies_;
   carry_normals(*subject_, snapshot);
   snapshot.colours.resize(cloths_.size());
-  for (std::size_t i = 0; i < cloths_.size(); ++i)
-    colour_surface(colouring, run_.cloths[i].image.mates, cloths_[i], snapshot.colours[i]);
+  for (std::size_t i = 0; i < cloths_.size(); ++i) colour(colouring, i, snapshot.colours[i]);
   snapshot.frame = frame_;
   snapshot.report = {};
   snapshot.centre_of_mass = cloths_.empty() ? Vec3d{} : middle_of(cloths_.front());

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "apps/viewer/source.h"
 #include "weft/run_folder.h"
 
@@ -43,8 +46,10 @@ class RunSource final : public Source {
 
  private:
   void go_to(int frame);
+  void colour(const Colouring& colouring, std::size_t cloth, Planes3& colours) const;
 
   RunFolder run_;
+  std::vector<std::optional<RecordedStrain>> strains_;  // of each cloth, where its rest is known
   int frame_ = 0;
   std::vector<Planes3> cloths_, bodies_;
 };

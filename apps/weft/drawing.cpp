@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "weft/drawing.h"
@@ -17,6 +18,7 @@ constexpr Vec3f cloth_colours[] = {
 /// A frame of a run: its scene, and the surfaces that the scene points to.
 struct RunFrame {
   std::vector<Planes3> cloths, bodies;
+  std::vector<Planes3> colours;  // of cloths
   std::vector<NormalMap> normals;
   DrawnScene scene;
 };
@@ -28,7 +30,15 @@ void paint(DrawnSurface& surface, const GeometryImage& image) {
   surface.colour = {1, 1, 1};
 }
 
-void add_cloth(RunFrame& drawn, const RecordedCloth& cloth, int frame) {
+/// In these colours, without weave or sheen.
+void paint(DrawnSurface& surface, const Planes3& colours) {
+  surface.colours = &colours;
+  surface.colour = {1, 1, 1};
+  surface.look = Look::body;
+}
+
+void add_cloth(RunFrame& drawn, const RecordedCloth& cloth, int frame,
+               const std::optional<StrainColours>& strain) {
   const std::size_t k = drawn.cloths.size();
   drawn.cloths.push_back(cloth.recorded.positions(frame));
   DrawnSurface surface;
@@ -37,6 +47,7 @@ void add_cloth(RunFrame& drawn, const RecordedCloth& cloth, int frame) {
   surface.revision = static_cast<std::uint64_t>(frame) + 1;
   surface.colour = cloth_colours[k % std::size(cloth_colours)];
   paint(surface, cloth.image);
+  if (strain) paint(surface, drawn.colours.emplace_back(strain->of(k, drawn.cloths.back())));
   drawn.scene.surfaces.push_back(surface);
 }
 
@@ -61,10 +72,17 @@ void add_body(RunFrame& drawn, const RecordedBody& body, int frame) {
 
 }  // namespace
 
-RunSubject::RunSubject(RunFolder run, const ViewFrom& size)
+RunSubject::RunSubject(RunFolder run, const ViewFrom& size, bool by_strain)
     : run_(std::move(run)),
-      aspect_(static_cast<double>(size.width) / size.height),
-      renderer_(size.width, size.height) {}
+      strain_(by_strain ? std::optional<StrainColours>(run_) : std::nullopt),
+      size_{size.width, size.height - (by_strain ? legend_height(size.width) : 0)},
+      renderer_(size_.width, size_.height) {}
+
+double RunSubject::most_strain(int frame) const {
+  std::vector<Planes3> cloths;
+  for (const RecordedCloth& cloth : run_.cloths) cloths.push_back(cloth.recorded.positions(frame));
+  return strain_->most_of(cloths);
+}
 
 void RunSubject::add_to(Outline& outline, int frame) const {
   for (const RecordedBody& body : run_.bodies) outline.add(body.positions_at(frame));
@@ -76,11 +94,14 @@ Picture RunSubject::draw(int frame, const Camera& camera) {
   drawn.scene.camera = camera;
   drawn.scene.ground = run_.ground;
   drawn.cloths.reserve(run_.cloths.size());
-  for (const RecordedCloth& cloth : run_.cloths) add_cloth(drawn, cloth, frame);
+  drawn.colours.reserve(run_.cloths.size());
+  for (const RecordedCloth& cloth : run_.cloths) add_cloth(drawn, cloth, frame, strain_);
   drawn.bodies.reserve(run_.bodies.size());
   drawn.normals.reserve(run_.bodies.size());
   for (const RecordedBody& body : run_.bodies) add_body(drawn, body, frame);
-  return renderer_.draw(drawn.scene);
+  Picture picture = renderer_.draw(drawn.scene);
+  if (strain_) add_legend(picture, strain_->legend());
+  return picture;
 }
 
 Picture draw_run(const RunFolder& run, const ViewFrom& view) {
@@ -91,14 +112,19 @@ Picture draw_run(const RunFolder& run, const ViewFrom& view) {
                                                    subject.aspect()));
 }
 
-Outline outline_of(const Subject& subject) {
+std::vector<int> frames_to_look_at(const Subject& subject) {
   constexpr int max_frames = 48;
   const int last = subject.frames() - 1, looked_at = std::min(last, max_frames - 1);
-  Outline outline;
+  if (looked_at == 0) return {last};
+  std::vector<int> frames;
   for (int i = 0; i <= looked_at; ++i)
-    subject.add_to(outline, looked_at == 0
-                                ? last
-                                : static_cast<int>(static_cast<long long>(last) * i / looked_at));
+    frames.push_back(static_cast<int>(static_cast<long long>(last) * i / looked_at));
+  return frames;
+}
+
+Outline outline_of(const Subject& subject) {
+  Outline outline;
+  for (const int frame : frames_to_look_at(subject)) subject.add_to(outline, frame);
   return outline;
 }
 

@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "apps/weft/shots.h"
+#include "apps/weft/strain_colours.h"
 #include "weft/drawing.h"
 #include "weft/progress.h"
 #include "weft/run_folder.h"
@@ -14,25 +17,35 @@ namespace weft::app {
 class RunSubject : public Subject {
  public:
   /// @param size  of the pictures; the rest of the view is the camera's
-  /// @throws Error as Renderer
-  RunSubject(RunFolder run, const ViewFrom& size);
+  /// @param by_strain  whether cloths are coloured by it, with a legend
+  /// @throws Error as Renderer; as StrainColours
+  RunSubject(RunFolder run, const ViewFrom& size, bool by_strain = false);
+  /// Strain that 99 of 100 samples have at most at a frame. @pre coloured by strain
+  [[nodiscard]] double most_strain(int frame) const;
+  /// @param strain  in full colour, > 0 @pre coloured by strain
+  void set_full_strain(double strain) { strain_->set_full(strain); }
   [[nodiscard]] int frames() const override { return run_.frames; }
   [[nodiscard]] double frame_rate() const override { return run_.frame_rate; }
-  [[nodiscard]] double aspect() const override { return aspect_; }
+  [[nodiscard]] double aspect() const override {
+    return static_cast<double>(size_.width) / size_.height;
+  }
   void add_to(Outline& outline, int frame) const override;
   /// @throws as RecordedPoints::positions
   Picture draw(int frame, const Camera& camera) override;
 
  private:
   RunFolder run_;
-  double aspect_;
+  std::optional<StrainColours> strain_;
+  ViewFrom size_;  // without the legend
   Renderer renderer_;
 };
 
 /// Draws the last frame of a run.
 Picture draw_run(const RunFolder& run, const ViewFrom& view);
 
-/// Outline of what a camera has to see over all frames (of long runs, 48 of them).
+/// All frames, of long runs 48 from the first to the last.
+std::vector<int> frames_to_look_at(const Subject& subject);
+/// Outline of what a camera has to see over all frames.
 Outline outline_of(const Subject& subject);
 
 /// Writes all frames as a movie, which appears whole, from one camera that sees them all.

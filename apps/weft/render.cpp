@@ -16,6 +16,7 @@
 #include "apps/weft/reports.h"
 #include "apps/weft/shots.h"
 #include "apps/weft/shown.h"
+#include "apps/weft/strain_colours.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/error.h"
 #include "weft/files.h"
@@ -33,6 +34,7 @@ struct RenderArgs {
   ShownArgs shown;  // of each mesh and image
   std::string output;
   int frame = -1;
+  double full_strain = 0;  // percent; 0: as the runs need
   bool turntable = false;
   double azimuth = 26, elevation = 14;  // degrees
 };
@@ -47,6 +49,8 @@ bool is_run(const std::string& subject) {
   return std::filesystem::is_directory(subject, ignored);
 }
 
+bool shows_strain(const RenderArgs& args) { return args.shown.show == "strain"; }
+
 void check(const RenderArgs& args) {
   for (const auto& [option, angle] :
        {std::pair{"--azimuth", args.azimuth}, {"--elevation", args.elevation}})
@@ -54,9 +58,11 @@ void check(const RenderArgs& args) {
       throw UsageError(option, fmt::format("{}", angle), "a finite angle is wanted");
   const auto runs = std::count_if(args.subjects.begin(), args.subjects.end(), is_run);
   const bool any_run = runs > 0, only_runs = runs == std::ssize(args.subjects);
-  if (only_runs && !args.shown.show.empty() && args.shown.show != "run")
+  if (only_runs && !args.shown.show.empty() && args.shown.show != "run" && !shows_strain(args))
     throw UsageError("--show", "'" + args.shown.show + "' of a run",
-                     "a run shows itself; leave it out");
+                     "run or strain is wanted, or leave it out");
+  if (args.full_strain > 0 && !shows_strain(args))
+    throw UsageError("--full-strain", "no strain is shown", "--show strain is wanted");
   for (const auto& [option, given] : {std::pair{"--size", args.shown.size > 0},
                                       {"--against", !args.shown.against.empty()},
                                       {"--parameterizer", !args.shown.parameterizer.empty()}})
@@ -85,14 +91,29 @@ std::string name_of(const std::string& subject) {
   return is_run(subject) ? path.filename().string() : path.stem().string();
 }
 
+/// The same scale for all, of the frames that are shown.
+void scale_strain(const RenderArgs& args, const std::vector<RunSubject*>& runs) {
+  double most = 0;
+  for (const RunSubject* run : runs) {
+    std::vector<int> frames{frame_of(*run, args.frame)};
+    if (args.frame < 0 && is_movie(args)) frames = frames_to_look_at(*run);
+    for (const int frame : frames) most = std::max(most, run->most_strain(frame));
+  }
+  for (RunSubject* run : runs)
+    run->set_full_strain(args.full_strain > 0 ? args.full_strain / 100 : rounded_scale(most));
+}
+
 Shots open_subjects(const RenderArgs& args, const Context& context) {
   const ViewFrom view = part_of_row(args.shown.view, static_cast<int>(args.subjects.size()));
   std::vector<std::unique_ptr<Subject>> subjects;
+  std::vector<RunSubject*> strained;
   std::vector<std::string> labels = args.labels;
   for (const std::string& name : args.subjects) {
     if (args.labels.empty() && args.subjects.size() > 1) labels.push_back(name_of(name));
     if (is_run(name)) {
-      subjects.push_back(std::make_unique<RunSubject>(open_run_folder(name), view));
+      auto run = std::make_unique<RunSubject>(open_run_folder(name), view, shows_strain(args));
+      if (shows_strain(args)) strained.push_back(run.get());
+      subjects.push_back(std::move(run));
     } else {
       ShownArgs shown = args.shown;
       shown.subject = name;
@@ -100,6 +121,7 @@ Shots open_subjects(const RenderArgs& args, const Context& context) {
       subjects.push_back(std::make_unique<Shown>(shown, context));
     }
   }
+  scale_strain(args, strained);
   return {std::move(subjects), std::move(labels), args.shown.view};
 }
 
@@ -165,9 +187,15 @@ void add_show_options(CLI::App& command, RenderArgs& args) {
   command
       .add_option("--show", args.shown.show,
                   "Of a mesh: cut (default), map, stretch, colours, surface, mates, error; of an "
-                  "image: colours (default), surface, cut, stretch, mates, error")
-      ->check(
-          CLI::IsMember({"run", "cut", "map", "stretch", "colours", "surface", "mates", "error"}));
+                  "image: colours (default), surface, cut, stretch, mates, error; of a run: run "
+                  "(default), strain")
+      ->check(CLI::IsMember(
+          {"run", "strain", "cut", "map", "stretch", "colours", "surface", "mates", "error"}));
+  command
+      .add_option("--full-strain", args.full_strain,
+                  "Percent that strain in full colour stands for; what 99 of 100 samples have at "
+                  "most, rounded up, when not given")
+      ->check(CLI::Range(0.001, 1e6));
   command.add_option("--against", args.shown.against, "Mesh to measure an image's error to");
   command
       .add_option("--size", args.shown.size,

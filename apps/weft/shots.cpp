@@ -17,12 +17,6 @@ constexpr int min_part = 32;          // [pixels]
 
 int text_scale_of(int height) { return std::max(1, (height + 100) / 240); }
 
-/// The frame itself; the last one for -1 and for what does not move.
-int frame_of(const Subject& subject, int frame) {
-  const int last = subject.frames() - 1;
-  return frame < 0 || last == 0 ? last : frame;
-}
-
 /// Frame of a subject at a time, played at its own rate; the last one after its end.
 int frame_at_time(const Subject& subject, double seconds) {
   const double frame = std::floor(seconds * subject.frame_rate() + 0.5);
@@ -30,6 +24,11 @@ int frame_at_time(const Subject& subject, double seconds) {
 }
 
 }  // namespace
+
+int frame_of(const Subject& subject, int frame) {
+  const int last = subject.frames() - 1;
+  return frame < 0 || last == 0 ? last : frame;
+}
 
 ViewFrom part_of_row(const ViewFrom& view, int count) {
   ViewFrom part = view;

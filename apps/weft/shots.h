@@ -76,6 +76,9 @@ class Shots {
   ViewFrom view_;
 };
 
+/// The frame itself; the last one for -1 and for what does not move.
+int frame_of(const Subject& subject, int frame);
+
 /// The size of each of `count` pictures of a row with labels, so that the row has the view's size.
 ViewFrom part_of_row(const ViewFrom& view, int count);
 

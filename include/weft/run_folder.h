@@ -1,10 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "weft/geometry_image.h"
+#include "weft/grid.h"
 #include "weft/run.h"
 
 namespace weft {
@@ -25,6 +28,25 @@ struct RecordedCloth {
   std::string name;
   GeometryImage image;  ///< at rest, unplaced
   RecordedPoints recorded;
+  /// Positions at rest, panels and textures laid flat; empty in folders of versions that did not
+  /// write it. [n x n] [m]
+  Planes3 rest;
+};
+
+/// Tells how far a recorded cloth is stretched.
+class RecordedStrain {
+ public:
+  /// @pre the cloth's rest shape is there
+  explicit RecordedStrain(const RecordedCloth& cloth);
+  RecordedStrain(RecordedStrain&&) noexcept;
+  RecordedStrain& operator=(RecordedStrain&&) = delete;
+  ~RecordedStrain();
+  /// As Simulation::strain_at_samples. @param positions  [n x n] [m]
+  [[nodiscard]] Grid<float> at_samples(const Planes3& positions) const;
+
+ private:
+  struct Springs;
+  std::unique_ptr<Springs> springs_;
 };
 
 struct RecordedBody {

@@ -101,6 +101,24 @@ class Render(ProgramTest):
         self.assertEqual(report["input"], {"path": "short"})
         self.assertEqual(self.frames_of("two.gif"), 5)  # five sixtieths of a second, at fifty pictures a second
 
+    def test_runs_are_coloured_by_strain(self):
+        self.make_runs()
+        small = ["--width", "320", "--height", "240"]
+        for name, words in {"plain": [], "strain": ["--show", "strain"], "five": ["--show", "strain", "--full-strain", 5],
+                            "six": ["--show", "strain", "--full-strain", 6]}.items():
+            self.run_weft("render", "long", "-o", f"{name}.png", *words, *small)
+            self.assertEqual(self.size_of(f"{name}.png"), (320, 240), name)
+        self.assertEqual(len({(self.folder / f"{name}.png").read_bytes() for name in ("plain", "strain", "five", "six")}), 4)
+        self.run_weft("render", "short", "long", "-o", "two.gif", "--show", "strain", *small)
+        self.assertEqual(self.frames_of("two.gif"), 5)
+        manifest = self.folder / "long/weft-run.json"
+        told = json.loads(manifest.read_text())
+        del told["cloths"][0]["rest"]  # as folders of before
+        manifest.write_text(json.dumps(told))
+        self.assertIn("rest shape was not recorded", self.error_of("render", "long", "-o", "p.png", "--show", "strain", code=2))
+        self.run_weft("render", "long", "-o", "plain again.png", *small)
+        self.assertEqual((self.folder / "plain.png").read_bytes(), (self.folder / "plain again.png").read_bytes())
+
     def test_a_turntable_of_a_run_plays_it_and_turns_for_four_seconds(self):
         (self.folder / "slow.json").write_text(
             '{"frame_rate": 10, "frames": 3, "cloths": [{"surface": "builtin:sheet", "size": 9}]}')
@@ -149,6 +167,8 @@ class Render(ProgramTest):
                 (["builtin:torus", "-o", "p.png", "--show", "surface", "--size", "33"], "--size"),
                 (["builtin:torus", "-o", "p.png", "--show", "cut", "--parameterizer", "floater"], "--parameterizer"),
                 (["builtin:torus", "-o", "p.png", "--show", "run"], "cut, map"),
+                (["builtin:torus", "-o", "p.png", "--show", "strain"], "cut, map"),
+                (["builtin:torus", "-o", "p.png", "--full-strain", "5"], "--show strain"),
                 (["builtin:torus", "-o", "p.png", "--show", "cats"], "--show")):
             with self.subTest(words):
                 self.assertIn(fragment, self.error_of("render", *words, code=2))

@@ -78,7 +78,7 @@ class SameBits(ModuleTest):
             self.assertEqual((self.folder / "module.exr").read_bytes(), wanted, f"{shape}, {threads} threads")
 
     def test_types_and_orders_of_arrays_do_not_matter(self):
-        V, F = weft.read_mesh("builtin:torus")
+        V, F = weft.read_mesh("builtin:disk")
         V = V.astype(np.float32).astype(float)
         wanted = weft.geometry_image(V, F, size=17).positions
         for vertices in (V.astype(np.float32), np.asfortranarray(V), V[::-1][::-1], V.tolist()):

@@ -125,26 +125,25 @@ std::optional<BadParticle> find_not_finite(const ClothState& state) {
   return std::nullopt;
 }
 
-void strain_at_samples(const Cloth& cloth, const Planes3& positions, Grid<float>& strains) {
-  const int n = cloth.size;
+void strain_at_samples(std::span<const SpringPlane> springs, const Planes3& positions,
+                       Grid<float>& strains) {
+  const int n = positions.size();
   Grid<float> counts(n, n);
   strains.fill(0);
   const auto add = [&](int row, int col, float strain) {
     strains(row, col) += strain;
     counts(row, col) += 1;
   };
-  for (const SpringDirection direction : {stretch_u, stretch_v}) {
-    const SpringPlane& springs = cloth.springs[direction];
-    for (int r = 0; r + springs.down < n; ++r)
-      for (int c = 0; c + springs.right < n; ++c) {
-        if (!(springs.stiffness(r, c) > 0)) continue;
-        const int row = r + springs.down, col = c + springs.right;
+  for (const SpringPlane& plane : springs)
+    for (int r = 0; r + plane.down < n; ++r)
+      for (int c = 0; c + plane.right < n; ++c) {
+        if (!(plane.stiffness(r, c) > 0)) continue;
+        const int row = r + plane.down, col = c + plane.right;
         const float strain =
-            length(positions.at(row, col) - positions.at(r, c)) / springs.rest_length(r, c) - 1;
+            length(positions.at(row, col) - positions.at(r, c)) / plane.rest_length(r, c) - 1;
         add(r, c, strain);
         add(row, col, strain);
       }
-  }
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c)
       if (counts(r, c) > 0) strains(r, c) /= counts(r, c);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "weft/cloth/cloth.h"
@@ -8,8 +9,10 @@
 namespace weft {
 
 StrainSummary measure_strain(const Cloth& cloth, const ClothState& state);
-/// The mean of l / r - 1 over the stretch springs around each sample. @param strains  [n x n]
-void strain_at_samples(const Cloth& cloth, const Planes3& positions, Grid<float>& strains);
+/// The mean of l / r - 1 over the springs around each sample. @param springs  those of stretch
+/// @param strains  [n x n]
+void strain_at_samples(std::span<const SpringPlane> springs, const Planes3& positions,
+                       Grid<float>& strains);
 
 /// Particles counted once, weighted by mass [m].
 Vec3d centre_of_mass(const Cloth& cloth, const ClothState& state);

@@ -58,7 +58,8 @@ void Recorder::record_cloths(const ExportOptions& options) {
                                          placement_map(scene_.cloths[i].placement),
                                          true,
                                          cloth.garment.get()};
-    write_rest(subject);
+    write_image_of(subject);
+    write_rest(cloth, scene_.cloths[i].placement);
     cloths_.push_back(std::make_unique<SurfaceRecord>(subject, options));
     cloths_.back()->write_still_files();
   }
@@ -79,7 +80,7 @@ void Recorder::record_bodies(const ExportOptions& options) {
                                          body.moves,
                                          nullptr,
                                          [this, i] { return simulation_.body_vertices(i); }};
-    write_rest(subject);
+    write_image_of(subject);
     write_normals(body);
     bodies_.push_back(std::make_unique<SurfaceRecord>(subject, options));
     bodies_.back()->write_still_files();
@@ -90,9 +91,19 @@ fs::path Recorder::file(const std::string& name, const std::string& ending) cons
   return options_.folder / (name + ending);
 }
 
-void Recorder::write_rest(const SurfaceRecord::Subject& subject) {
+void Recorder::write_image_of(const SurfaceRecord::Subject& subject) {
   write_image(file(subject.name, ".exr"), *subject.image);
   rests_.push_back(file(subject.name, ".exr"));
+}
+
+void Recorder::write_rest(const SimulatedCloth& cloth, const Placement& placement) {
+  const fs::path path = rest_path(options_.folder, cloth.name);
+  std::error_code ignored;
+  fs::remove(path, ignored);  // of an earlier run
+  if (!cloth.model->start && placement.scale == Vec3d{1, 1, 1}) return;
+  const std::string bytes = encode_exr(cloth.model->rest, "rest");
+  write_file(path, [&](std::ostream& out) { out << bytes; });
+  rests_.push_back(path);
 }
 
 void Recorder::write_normals(const PlacedBody& body) {

@@ -45,7 +45,9 @@ class Recorder {
                                            const std::string& ending) const;
   void record_cloths(const ExportOptions& options);
   void record_bodies(const ExportOptions& options);
-  void write_rest(const SurfaceRecord::Subject& subject);
+  void write_image_of(const SurfaceRecord::Subject& subject);
+  /// Of a cloth that is not its image at rest.
+  void write_rest(const SimulatedCloth& cloth, const Placement& placement);
   void write_normals(const PlacedBody& body);
   void write_manifests(RunReport& report);
   /// Whether it is a garment with open seams.

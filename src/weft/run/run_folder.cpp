@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "weft/cloth/measure.h"
+#include "weft/cloth/rest_shape.h"
 #include "weft/core/json.h"
 #include "weft/error.h"
 #include "weft/files.h"
@@ -44,7 +46,7 @@ Placement placement_of(const JsonObject& object) {
 
 constexpr std::array<std::string_view, 9> manifest_keys{
     "version", "scene", "unit", "up", "frame_rate", "frames", "ground", "cloths", "bodies"};
-constexpr std::array<std::string_view, 4> cloth_keys{"name", "image", "cache", "unwelded"};
+constexpr std::array<std::string_view, 5> cloth_keys{"name", "image", "rest", "cache", "unwelded"};
 constexpr std::array<std::string_view, 8> body_keys{"name",   "image",     "normals", "scale",
                                                     "rotate", "translate", "cache",   "unwelded"};
 
@@ -74,12 +76,26 @@ RecordedPoints open_cache(const RecordedPlace& place, const JsonObject& object,
   return recorded;
 }
 
+/// Nothing of a folder that does not tell.
+Planes3 rest_of(const RecordedPlace& from, const JsonObject& object, const GeometryImage& image) {
+  const std::string rest = object.text("rest", "");
+  if (rest.empty()) return {};
+  if (rest == object.text("image", "")) return world_positions(image);
+  const fs::path path = from.folder / rest;
+  Planes3 positions = decode_exr(read_file(path), path.string()).planes;
+  if (positions.size() != image.size())
+    throw InputError(path.string(), fmt::format("{} samples a side", positions.size()),
+                     fmt::format("the image has {}", image.size()));
+  return positions;
+}
+
 RecordedCloth open_cloth(const RecordedPlace& from, const Json& value, const JsonPlace& place) {
   const JsonObject object(value, place, cloth_keys);
   RecordedCloth cloth;
   cloth.name = object.text("name", "");
   cloth.image = read_image(from.folder / object.text("image", ""));
   cloth.recorded = open_cache(from, object, cloth.image);
+  cloth.rest = rest_of(from, object, cloth.image);
   return cloth;
 }
 
@@ -157,6 +173,25 @@ Planes3 RecordedPoints::positions(int frame) const {
   return positions;
 }
 
+struct RecordedStrain::Springs {
+  std::array<SpringPlane, 2> stretch;
+};
+
+RecordedStrain::RecordedStrain(const RecordedCloth& cloth) {
+  const RestShape shape(cloth.rest, cloth.image.mates);
+  springs_ = std::make_unique<Springs>(Springs{
+      {make_springs(shape, Material{}, stretch_u), make_springs(shape, Material{}, stretch_v)}});
+}
+
+RecordedStrain::RecordedStrain(RecordedStrain&&) noexcept = default;
+RecordedStrain::~RecordedStrain() = default;
+
+Grid<float> RecordedStrain::at_samples(const Planes3& positions) const {
+  Grid<float> strains(positions.size(), positions.size());
+  strain_at_samples(springs_->stretch, positions, strains);
+  return strains;
+}
+
 RunFolder open_run_folder(const fs::path& folder) {
   const fs::path path = folder / manifest_name;
   std::error_code closed;
@@ -185,11 +220,18 @@ void write_run_manifest(const fs::path& path, const Scene& scene, const RunRepor
             {"ground", scene.ground ? Json(*scene.ground) : Json()},
             {"cloths", Json::array()},
             {"bodies", Json::array()}};
-  for (std::size_t i = 0; i < scene.cloths.size(); ++i)
-    json["cloths"].push_back({{"name", scene.cloths[i].name},
-                              {"image", scene.cloths[i].name + ".exr"},
-                              {"cache", caches.cloths[i]},
-                              {"unwelded", caches.unwelded}});
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    const SceneCloth& cloth = scene.cloths[i];
+    const std::string image = cloth.name + ".exr";
+    const fs::path rest = rest_path(caches.folder, cloth.name);
+    std::error_code ignored;
+    json["cloths"].push_back(
+        {{"name", cloth.name},
+         {"image", image},
+         {"rest", fs::exists(rest, ignored) ? rest.filename().string() : image},
+         {"cache", caches.cloths[i]},
+         {"unwelded", caches.unwelded}});
+  }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const SceneBody& body = scene.bodies[i];
     Json placed = placed_json(body.name, body.placement);
@@ -204,6 +246,10 @@ void write_run_manifest(const fs::path& path, const Scene& scene, const RunRepor
   }
   const std::string text = json_text(json, 2);
   write_file(path, [&](std::ostream& out) { out << text << '\n'; });
+}
+
+fs::path rest_path(const fs::path& folder, const std::string& cloth) {
+  return folder / (cloth + ".rest.exr");
 }
 
 fs::path normals_path(const fs::path& folder, const std::string& body) {

@@ -36,7 +36,10 @@ std::vector<fs::path> output_files(const Scene& scene, const RunOptions& options
            {"." + format, std::string(format == "vtp" ? ".pvd" : ".obj")})
         files.push_back(folder / (name + ending));
   };
-  for (const SceneCloth& cloth : scene.cloths) add(cloth.name);
+  for (const SceneCloth& cloth : scene.cloths) {
+    add(cloth.name);
+    files.push_back(rest_path(folder, cloth.name));
+  }
   for (const SceneBody& body : scene.bodies) {
     add(body.name);
     files.push_back(normals_path(folder, body.name));

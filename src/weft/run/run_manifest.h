@@ -18,6 +18,8 @@ struct RunCaches {
 void write_run_manifest(const std::filesystem::path& path, const Scene& scene,
                         const RunReport& report, const RunCaches& caches);
 
+/// Path of a cloth's rest positions, where its image does not tell them. [n x n] [m]
+std::filesystem::path rest_path(const std::filesystem::path& folder, const std::string& cloth);
 /// Path of a body's normal map as it was loaded, beside its image, so that drawing needs no mesh.
 std::filesystem::path normals_path(const std::filesystem::path& folder, const std::string& body);
 

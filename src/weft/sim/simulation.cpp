@@ -249,7 +249,8 @@ int Simulation::crossings() const { return parts_->collider->crossings(); }
 
 void Simulation::strain_at_samples(std::size_t cloth, Grid<float>& strains) const {
   const SimulatedCloth& shown = parts_->cloths[cloth];
-  weft::strain_at_samples(*shown.model, shown.state.position, strains);
+  weft::strain_at_samples(std::span(shown.model->springs).subspan<stretch_u, 2>(),
+                          shown.state.position, strains);
 }
 
 bool Simulation::last_corrections(std::size_t cloth, Grid<float>& sizes) const {

@@ -88,10 +88,10 @@ void check_names(const Scene& scene, const JsonPlace& place) {
   };
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) check(scene.cloths[i].name, "cloths", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) check(scene.bodies[i].name, "bodies", i);
-  // A cloth's sample cache lies beside that of its mesh, as what is told of a garment does, a
-  // body's normal map beside its image.
+  // A cloth's sample cache lies beside that of its mesh, as its rest shape and what is told of a
+  // garment do, a body's normal map beside its image.
   for (std::size_t i = 0; i < scene.cloths.size(); ++i)
-    for (const char* const beside : {".image", ".panels", ".draped"})
+    for (const char* const beside : {".image", ".rest", ".panels", ".draped"})
       check(scene.cloths[i].name + beside, "cloths", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     check(scene.bodies[i].name + ".image", "bodies", i);
