@@ -193,5 +193,18 @@ TEST_F(Simulating, ARunIsPlayedAgainAndAgain) {
   EXPECT_TRUE(now().running);
 }
 
+TEST_F(Simulating, ARunIsColouredByItsStrain) {
+  const std::string path = scene(R"(, "frames": 3)");
+  const std::string run = (folder_ / "run").string();
+  run_scene(read_scene(path), path, {.folder = run});
+  open(run);
+  const Colouring strain{ColourBy::strain};
+  simulator.push(Recolour{strain});
+  wait_for([&] { return now().colouring == strain; });
+  ASSERT_EQ(now().colours.at(0).size(), side);
+  const Vec3f colour = now().colours[0].at(middle);
+  EXPECT_NEAR(colour.x, colour.z, 0.1) << "at rest it is neither red nor blue";
+}
+
 }  // namespace
 }  // namespace weft::viewer
