@@ -21,10 +21,10 @@ double StrainColours::most_of(const std::vector<Planes3>& cloths) const {
   constexpr double part = 0.99;
   double most = 0;
   for (std::size_t k = 0; k < cloths.size(); ++k) {
-    Grid<float> strains = strains_[k].at_samples(cloths[k]);
-    std::vector<float> sizes;
-    for (int s = 0; s < strains.rows() * strains.cols(); ++s)
-      sizes.push_back(std::abs(strains(s / strains.cols(), s % strains.cols())));
+    const Grid<float> strains = strains_[k].at_samples(cloths[k]);
+    const int n = strains.rows();
+    std::vector<float> sizes(static_cast<std::size_t>(n) * n);
+    for (int s = 0; s < n * n; ++s) sizes[s] = std::abs(strains(s / n, s % n));
     const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(part * (sizes.size() - 1));
     std::nth_element(sizes.begin(), at, sizes.end());
     most = std::max<double>(most, *at);
