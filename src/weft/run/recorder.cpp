@@ -198,6 +198,7 @@ std::int64_t Recorder::written_crossings() {
         open ? written.points(*record.subject().now) : record.points();
     std::vector<Corners> corners;
     const std::vector<Triangle> triangles = fans_of(written.faces()).triangles;
+    corners.reserve(triangles.size());
     for (const auto& [a, b, c] : triangles)
       corners.push_back(
           {vec_cast<double>(points[a]), vec_cast<double>(points[b]), vec_cast<double>(points[c])});
