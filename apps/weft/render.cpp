@@ -61,6 +61,10 @@ void check(const RenderArgs& args) {
   if (only_runs && !args.shown.show.empty() && args.shown.show != "run" && !shows_strain(args))
     throw UsageError("--show", "'" + args.shown.show + "' of a run",
                      "run or strain is wanted, or leave it out");
+  for (const std::string& subject : args.subjects)
+    if (shows_strain(args) && !is_run(subject))
+      throw UsageError("--show", "strain of " + subject + ", which is no folder of a run",
+                       "a run is wanted");
   if (args.full_strain > 0 && !shows_strain(args))
     throw UsageError("--full-strain", "no strain is shown", "--show strain is wanted");
   for (const auto& [option, given] : {std::pair{"--size", args.shown.size > 0},

@@ -24,7 +24,10 @@ double StrainColours::most_of(const std::vector<Planes3>& cloths) const {
     const Grid<float> strains = strains_[k].at_samples(cloths[k]);
     const int n = strains.rows();
     std::vector<float> sizes(static_cast<std::size_t>(n) * n);
-    for (int s = 0; s < n * n; ++s) sizes[s] = std::abs(strains(s / n, s % n));
+    for (int s = 0; s < n * n; ++s) {
+      const float size = std::abs(strains(s / n, s % n));
+      sizes[s] = std::isfinite(size) ? size : 0;  // of a damaged cache
+    }
     const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(part * (sizes.size() - 1));
     std::nth_element(sizes.begin(), at, sizes.end());
     most = std::max<double>(most, *at);

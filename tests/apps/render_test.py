@@ -167,7 +167,8 @@ class Render(ProgramTest):
                 (["builtin:torus", "-o", "p.png", "--show", "surface", "--size", "33"], "--size"),
                 (["builtin:torus", "-o", "p.png", "--show", "cut", "--parameterizer", "floater"], "--parameterizer"),
                 (["builtin:torus", "-o", "p.png", "--show", "run"], "cut, map"),
-                (["builtin:torus", "-o", "p.png", "--show", "strain"], "cut, map"),
+                (["builtin:torus", "-o", "p.png", "--show", "strain"], "no folder of a run"),
+                (["nowhere", "-o", "p.png", "--show", "strain"], "no folder of a run"),
                 (["builtin:torus", "-o", "p.png", "--full-strain", "5"], "--show strain"),
                 (["builtin:torus", "-o", "p.png", "--show", "cats"], "--show")):
             with self.subTest(words):
