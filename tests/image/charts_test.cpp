@@ -15,7 +15,7 @@ namespace {
 
 using test::expect_same_samples;
 
-std::string refusal(int size, std::vector<Chart> charts, std::vector<MateInterval> intervals = {}) {
+std::string chart_refusal(int size, std::vector<Chart> charts, std::vector<MateInterval> intervals = {}) {
   return test::message_of<InputError>(
       [&] { BorderMates(size, std::move(charts), std::move(intervals)); });
 }
@@ -74,23 +74,23 @@ TEST(Charts, OneChartThatFillsTheImageIsTheOldKind) {
 }
 
 TEST(Charts, WhatIsNoRectangleInTheImageIsRefused) {
-  EXPECT_NE(refusal(13, {}).find("without charts"), std::string::npos);
-  EXPECT_NE(refusal(13, {{"a", 0, 0, 5, 14}}).find("'a'"), std::string::npos);
-  EXPECT_NE(refusal(13, {{"a", -1, 0, 5, 5}}).find("'a'"), std::string::npos);
-  EXPECT_NE(refusal(13, {{"a", 0, 0, 4, 5}}).find("'a'"), std::string::npos) << "too narrow";
-  EXPECT_NE(refusal(13, {{"a", 0, 0, 5, 5}, {"b", 4, 4, 5, 5}}).find("overlaps"),
+  EXPECT_NE(chart_refusal(13, {}).find("without charts"), std::string::npos);
+  EXPECT_NE(chart_refusal(13, {{"a", 0, 0, 5, 14}}).find("'a'"), std::string::npos);
+  EXPECT_NE(chart_refusal(13, {{"a", -1, 0, 5, 5}}).find("'a'"), std::string::npos);
+  EXPECT_NE(chart_refusal(13, {{"a", 0, 0, 4, 5}}).find("'a'"), std::string::npos) << "too narrow";
+  EXPECT_NE(chart_refusal(13, {{"a", 0, 0, 5, 5}, {"b", 4, 4, 5, 5}}).find("overlaps"),
             std::string::npos);
-  EXPECT_NE(refusal(13, two, {{0, 45, 3}}).find("0 .. 43"), std::string::npos);
-  EXPECT_NE(refusal(13, two, {{0, 20, 21}}).find("1 .. 20"), std::string::npos)
+  EXPECT_NE(chart_refusal(13, two, {{0, 45, 3}}).find("0 .. 43"), std::string::npos);
+  EXPECT_NE(chart_refusal(13, two, {{0, 20, 21}}).find("1 .. 20"), std::string::npos)
       << "longer than the first chart's border";
-  EXPECT_NE(refusal(13, two, {{0, 20, 20}, {0, 20, 20}, {0, 20, 5}}).find("more than 44"),
+  EXPECT_NE(chart_refusal(13, two, {{0, 20, 20}, {0, 20, 20}, {0, 20, 5}}).find("more than 44"),
             std::string::npos)
       << "joined again and again";
 }
 
 TEST(Charts, ARunMayBeLongerThanTheBorderOfAChartThatItIsNotOn) {
-  EXPECT_EQ(refusal(13, two, {{20, 20, 24}}), "") << "the first chart's border has 20 intervals";
-  EXPECT_NE(refusal(13, two, {{20, 20, 25}}).find("1 .. 24"), std::string::npos);
+  EXPECT_EQ(chart_refusal(13, two, {{20, 20, 24}}), "") << "the first chart's border has 20 intervals";
+  EXPECT_NE(chart_refusal(13, two, {{20, 20, 25}}).find("1 .. 24"), std::string::npos);
 }
 
 TEST(Charts, AreSeparatePiecesWithoutSeams) {

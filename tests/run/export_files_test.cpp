@@ -17,7 +17,7 @@ using test::as_floats;
 using test::ExportedRun;
 using test::sized;
 using test::thrown_ring;
-constexpr int frames = test::exported_frames;
+using test::exported_frames;
 
 TEST(Exports, ObjIsFrameZeroOfTheCache) {
   const ExportedRun run(thrown_ring());
@@ -61,7 +61,7 @@ TEST(Exports, MddHasTheSamePointsAndTheTimesInSeconds) {
   const ExportedRun run(thrown_ring());
   const PointCache mdd = read_point_cache(run.folder / "ring.mdd");
   EXPECT_EQ(mdd.points, 256);
-  ASSERT_EQ(mdd.samples(), frames + 1);
+  ASSERT_EQ(mdd.samples(), exported_frames + 1);
   EXPECT_FALSE(mdd.times_in_frames);
   EXPECT_FLOAT_EQ(static_cast<float>(mdd.times[3]), 3 / 60.0F);
   EXPECT_EQ(mdd.positions, run.cache.positions);
@@ -69,7 +69,7 @@ TEST(Exports, MddHasTheSamePointsAndTheTimesInSeconds) {
 
 TEST(Exports, EveryFrameIsAPly) {
   const ExportedRun run(thrown_ring());
-  for (int frame = 0; frame <= frames; ++frame) {
+  for (int frame = 0; frame <= exported_frames; ++frame) {
     const TriangleMesh mesh =
         read_mesh(run.folder / ("ring_ply/ring_000" + std::to_string(frame) + ".ply"));
     EXPECT_EQ(as_floats(mesh.positions), run.points(frame));
@@ -81,7 +81,7 @@ TEST(Exports, EveryFrameIsAPly) {
 TEST(Exports, EveryFrameIsAnExrOfTheSamplesBitForBit) {
   const ExportedRun run(thrown_ring());
   Simulation again(thrown_ring(), "scene.json", 1);
-  for (int frame = 0; frame <= frames; ++frame) {
+  for (int frame = 0; frame <= exported_frames; ++frame) {
     const std::string name = "ring_exr/ring_000" + std::to_string(frame) + ".exr";
     const DecodedImage image = decode_exr(read_file(run.folder / name), name);
     ASSERT_EQ(image.planes.size(), 17);
@@ -157,8 +157,8 @@ TEST(Exports, UsdaIsBalancedAndHasASampleForEveryFrame) {
   const std::size_t points = bare.find("points.timeSamples"),
                     normals = bare.find("normals.timeSamples");
   ASSERT_TRUE(points < normals && normals != bare.npos);
-  EXPECT_EQ(count(bare, "(", points, bare.find("normal3f[]")), 256 * (frames + 1));
-  EXPECT_EQ(count(bare, "(", normals, bare.size()), 256 * (frames + 1));
+  EXPECT_EQ(count(bare, "(", points, bare.find("normal3f[]")), 256 * (exported_frames + 1));
+  EXPECT_EQ(count(bare, "(", normals, bare.size()), 256 * (exported_frames + 1));
   EXPECT_NE(bare.find("\n            3: ["), bare.npos);
   const Vec3f first = run.points(0)[0];
   const std::size_t begin = text.find("0: [(", text.find("points.timeSamples")) + 5;

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using test::as_floats;
 using test::ExportedRun;
 using test::thrown_ring;
-constexpr int frames = test::exported_frames;
+using test::exported_frames;
 
 /// A scene whose cloth is a quad tube from a file, in its unit.
 Scene tube(const fs::path& path, double unit) {
@@ -122,7 +122,7 @@ TEST(Exports, UnitsOfFilesChangeNothingButTheNumbers) {
   scene.files.unit = *find_length_unit("cm");
   const ExportedRun centimetres(scene);
   EXPECT_EQ(centimetres.points(0), as_floats(read_mesh(folder / "centimetres.obj").positions));
-  for (int frame = 0; frame <= frames; ++frame) {
+  for (int frame = 0; frame <= exported_frames; ++frame) {
     const std::vector<Vec3f> a = metres.points(frame), b = centimetres.points(frame);
     for (std::size_t v = 0; v < a.size(); ++v) EXPECT_LT(length(a[v] - 0.01F * b[v]), 2e-5);
   }

@@ -13,10 +13,10 @@
 namespace weft {
 namespace {
 
-constexpr int size = 17;
+constexpr int samples = 17;
 constexpr double frame_rate = 10;  // [1/s]
 
-LoadedSurface ring_surface() { return {make_image_shape("torus", size), {}, {}, {}, {}}; }
+LoadedSurface ring_surface() { return {make_image_shape("torus", samples), {}, {}, {}, {}}; }
 
 SceneBody moved(std::vector<MotionKey> motion) {
   SceneBody body;
@@ -27,7 +27,7 @@ SceneBody moved(std::vector<MotionKey> motion) {
 }
 
 /// By a motion that has placed nothing yet.
-Planes3 place_at(BodyMotion motion, double seconds, int n = size) {
+Planes3 place_at(BodyMotion motion, double seconds, int n = samples) {
   Planes3 places(n);
   ThreadTeam team(2);
   motion.place(seconds, places, team);
@@ -89,7 +89,7 @@ TEST(BodyMotion, FastestBoundsEverySpeed) {
   double fastest = 0;
   for (double seconds = 0; seconds < 4; seconds += step) {
     const Planes3 a = place_at(motion, seconds), b = place_at(motion, seconds + step);
-    for (int s = 0; s < size * size; ++s)
+    for (int s = 0; s < samples * samples; ++s)
       fastest = std::max(fastest, double{length(b.at(s) - a.at(s))} / step);
   }
   EXPECT_LE(fastest, motion.fastest() * (1 + 1e-4));
@@ -148,7 +148,7 @@ TEST(BodyMotion, AnimationOfAnImageHasItsSamplesOrItsVertices) {
     writer.add(std::vector<Vec3f>(static_cast<std::size_t>(points), {1, 0, 0}));
     writer.finish();
   };
-  for (const int points : {size * size, 16 * 16}) {
+  for (const int points : {samples * samples, 16 * 16}) {
     write(points);
     // Placed as the surface is: twice as large, turned by 90 degrees, moved.
     expect_near(place_at(BodyMotion(body, surface, {frame_rate, {}}), 0).at(9), {1, 2, 1});

@@ -25,23 +25,23 @@ Vec3d place_of(const Simulation& simulation, int sample) {
   return vec_cast<double>(simulation.cloths()[0].state.position.at(sample));
 }
 
-void run(Simulation& simulation, int frames) {
+void advance_by(Simulation& simulation, int frames) {
   for (int i = 0; i < frames; ++i) simulation.advance();
 }
 
 TEST(Grab, WhatIsHeldGoesWhereItIsPulledAndTheClothFollows) {
   Simulation simulation(floating_sheet(0.1), "sheet", 1);
-  run(simulation, 30);
+  advance_by(simulation, 30);
   const double lying = simulation.centre_of_mass().y;
   simulation.grab(0, middle);
   const Vec3d target = place_of(simulation, middle) + Vec3d{0.1, 0.8, 0};
   simulation.pull(target);
-  run(simulation, 60);
+  advance_by(simulation, 60);
   EXPECT_LT(length(place_of(simulation, middle) - target), 1e-6);
   EXPECT_GT(simulation.centre_of_mass().y, lying + 0.3);
   EXPECT_TRUE(simulation.holds());
   simulation.let_go();
-  run(simulation, 90);
+  advance_by(simulation, 90);
   EXPECT_FALSE(simulation.holds());
   EXPECT_LT(simulation.centre_of_mass().y, lying + 0.25);
 }
@@ -56,13 +56,13 @@ TEST(Grab, RefusesSamplesOutsideTheImage) {
 
 TEST(Grab, WhatWasLetGoBeforeAStepLeavesNoTrace) {
   Simulation touched(floating_sheet(0.3), "sheet", 1), untouched(floating_sheet(0.3), "sheet", 1);
-  run(touched, 5);
-  run(untouched, 5);
+  advance_by(touched, 5);
+  advance_by(untouched, 5);
   touched.grab(0, middle);
   touched.pull({3, 3, 3});
   touched.let_go();
-  run(touched, 20);
-  run(untouched, 20);
+  advance_by(touched, 20);
+  advance_by(untouched, 20);
   EXPECT_EQ(touched.state_hash(), untouched.state_hash());
 }
 
@@ -97,7 +97,7 @@ TEST(Grab, DoesNotTakeClothBelowTheGround) {
   Simulation simulation(floating_sheet(0.2), "sheet", 1);
   simulation.grab(0, middle);
   simulation.pull({0, -1, 0});
-  run(simulation, 40);
+  advance_by(simulation, 40);
   EXPECT_GT(place_of(simulation, middle).y, 0.0);
 }
 
@@ -135,9 +135,9 @@ TEST(Grab, APinStaysWhereItWasTaken) {
   const Vec3d target = place_of(simulation, 0) + Vec3d{0, 0.2, 0};
   simulation.grab(0, 0);
   simulation.pull(target);
-  run(simulation, 30);
+  advance_by(simulation, 30);
   simulation.let_go();
-  run(simulation, 30);
+  advance_by(simulation, 30);
   EXPECT_LT(length(place_of(simulation, 0) - target), 1e-6);
 }
 
@@ -145,14 +145,14 @@ TEST(Grab, ResetLetsGo) {
   Simulation simulation(floating_sheet(0.5), "sheet", 1);
   SimulationState start;
   simulation.save(start);
-  run(simulation, 10);
+  advance_by(simulation, 10);
   const std::string untouched = simulation.state_hash();
   simulation.grab(0, middle);
   simulation.pull({0, 2, 0});
-  run(simulation, 10);
+  advance_by(simulation, 10);
   simulation.restore(start);
   EXPECT_FALSE(simulation.holds());
-  run(simulation, 10);
+  advance_by(simulation, 10);
   EXPECT_EQ(simulation.state_hash(), untouched);
 }
 
@@ -160,16 +160,16 @@ TEST(Grab, ResetTakesPinsBackToWhereTheyWere) {
   Scene scene = floating_sheet(0.5);
   scene.cloths[0].pins = {ImagePin{{0, 0}}, ImagePin{{1, 0}}};
   Simulation simulation(scene, "sheet", 1);
-  run(simulation, 3);
+  advance_by(simulation, 3);
   SimulationState saved;
   simulation.save(saved);
-  run(simulation, 5);
+  advance_by(simulation, 5);
   const std::string untouched = simulation.state_hash();
   simulation.grab(0, 0);
   simulation.pull({0, 2, 0});
-  run(simulation, 5);
+  advance_by(simulation, 5);
   simulation.restore(saved);
-  run(simulation, 5);
+  advance_by(simulation, 5);
   EXPECT_EQ(simulation.state_hash(), untouched);
 }
 
@@ -199,7 +199,7 @@ TEST(SurfaceCache, WhatItKeptMakesTheSameSimulation) {
   Simulation first(scene, "sheet", 1, {nullptr, &surface_cache}),
       again(scene, "sheet", 1, {nullptr, &surface_cache});
   Simulation alone(scene, "sheet", 1);
-  for (Simulation* simulation : {&first, &again, &alone}) run(*simulation, 20);
+  for (Simulation* simulation : {&first, &again, &alone}) advance_by(*simulation, 20);
   EXPECT_EQ(first.state_hash(), alone.state_hash());
   EXPECT_EQ(again.state_hash(), alone.state_hash());
 }

@@ -1,7 +1,7 @@
 // What is wrong with scene files, and what is said of it.
 #include <gtest/gtest.h>
 
-#include "tests/support/errors.h"
+#include "tests/sim/scene_texts.h"
 #include "tests/support/temporary_folder.h"
 #include "weft/error.h"
 #include "weft/files.h"
@@ -10,11 +10,8 @@
 namespace weft {
 namespace {
 
-std::string error_of(const std::string& text) {
-  return test::message_of<SceneError>([&] { parse_scene(text, "s.json", ""); });
-}
-
-std::string with_cloth(const std::string& keys) { return R"({"cloths":[{)" + keys + "}]}"; }
+using test::error_of;
+using test::with_cloth;
 
 TEST(SceneFile, UnknownKeyNamesItsPathAndTheNearestKey) {
   EXPECT_EQ(error_of(with_cloth(R"("materail":"cotton")")),

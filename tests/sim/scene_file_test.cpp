@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/errors.h"
+#include "tests/sim/scene_texts.h"
 #include "tests/support/temporary_folder.h"
 #include "weft/core/json.h"
 #include "weft/error.h"
@@ -16,11 +16,8 @@
 namespace weft {
 namespace {
 
-std::string error_of(const std::string& text) {
-  return test::message_of<SceneError>([&] { parse_scene(text, "s.json", ""); });
-}
-
-std::string with_cloth(const std::string& keys) { return R"({"cloths":[{)" + keys + "}]}"; }
+using test::error_of;
+using test::with_cloth;
 
 TEST(SceneFile, EmptyClothIsTheDefaults) {
   const Scene scene = parse_scene(R"({"cloths":[{}]})", "s.json", "");

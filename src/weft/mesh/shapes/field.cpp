@@ -116,17 +116,24 @@ constexpr double close_enough = 1e-9;  // [m]
 
 }  // namespace
 
+RoundCone::RoundCone(Vec3d a_end, Vec3d b_end, double radius_at_a, double radius_at_b)
+    : a(a_end),
+      b(b_end),
+      radius_a(radius_at_a),
+      radius_b(radius_at_b),
+      axis(b - a),
+      axis_length(length(axis)),
+      slope((radius_a - radius_b) / axis_length),
+      cosine(std::sqrt(1 - slope * slope)) {}
+
 double distance_to(const RoundCone& cone, Vec3d point) {
-  const Vec3d axis = cone.b - cone.a, from_a = point - cone.a;
-  const double axis_length = length(axis);
-  const double along = dot(from_a, axis) / axis_length;
+  const Vec3d from_a = point - cone.a;
+  const double along = dot(from_a, cone.axis) / cone.axis_length;
   const double beside = std::sqrt(std::max(0.0, squared_length(from_a) - along * along));
-  const double slope = (cone.radius_a - cone.radius_b) / axis_length;
   // The ball nearest to the point: |point - centre(t)| - radius(t) is convex in t, and stationary
   // here.
-  const double t =
-      std::clamp(along - beside * slope / std::sqrt(1 - slope * slope), 0.0, axis_length);
-  return std::sqrt(beside * beside + (along - t) * (along - t)) - (cone.radius_a - slope * t);
+  const double t = std::clamp(along - beside * cone.slope / cone.cosine, 0.0, cone.axis_length);
+  return std::sqrt(beside * beside + (along - t) * (along - t)) - (cone.radius_a - cone.slope * t);
 }
 
 double distance_to(const Ellipsoid& ellipsoid, Vec3d point) {
@@ -153,7 +160,7 @@ Limb::Limb(std::span<const Joint> joints) {
       const double t = static_cast<double>(part) / parts, rest = 1 - t;
       const Joint here = blend(1, blend(rest * rest * (1 + 2 * t), a, t * t * (1 + 2 * rest), b), 1,
                                blend(t * rest * rest, slope_a, -t * t * rest, slope_b));
-      cones.push_back({before.centre, here.centre, before.radius, here.radius});
+      cones.emplace_back(before.centre, here.centre, before.radius, here.radius);
       before = here;
     }
   }
@@ -182,7 +189,9 @@ double distance_to(const Limb& limb, Vec3d point, double enough) {
                  z = point.z - limb.balls.z[i];
     squared[i] = x * x + y * y + z * z;
   }
-  const auto first = std::min_element(squared.begin(), squared.begin() + count) - squared.begin();
+  int first = 0;  // near enough for a bound by which most of the others are left out
+  for (int i = Limb::parts; i < count; i += Limb::parts)
+    if (squared[i] < squared[first]) first = i;
   double min = std::min(enough, distance_to(limb.cones[first], point));
   for (int i = 0; i < count; ++i) {
     const double nearer = min + limb.balls.radius[i] + rounding;

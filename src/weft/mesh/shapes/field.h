@@ -17,10 +17,15 @@ using Field = std::function<double(Vec3d)>;
 
 /// The union of all balls whose centre runs from a to b and whose radius changes linearly [m].
 struct RoundCone {
+  /// @pre |radius_at_a - radius_at_b| < |b_end - a_end|
+  RoundCone(Vec3d a_end, Vec3d b_end, double radius_at_a, double radius_at_b);
   Vec3d a, b;
-  double radius_a = 0, radius_b = 0;
+  double radius_a, radius_b;
+  // What every distance needs: b - a, its length, and the sine and cosine of the side's angle to it.
+  Vec3d axis;
+  double axis_length, slope, cosine;
 };
-/// Exact signed distance. @pre |radius_a - radius_b| < |b - a|
+/// Exact signed distance.
 double distance_to(const RoundCone& cone, Vec3d point);
 
 /// An ellipsoid with axes along the coordinates [m].

@@ -34,7 +34,7 @@ constexpr Vec3d shoulder{0.168, 1.398, -0.016}, elbow{0.372, 1.190, -0.022},
     wrist{0.536, 0.998, 0.026};
 
 /// Shoulder slope, chest and seat: what makes the trunk more than a barrel.
-constexpr std::array trunk_cones{
+const std::array trunk_cones{
     Part<RoundCone>{{{0.030, 1.478, -0.030}, {0.158, 1.412, -0.018}, 0.036, 0.044}, 0.040},
     Part<RoundCone>{{{0.125, 1.300, -0.040}, {0.165, 1.385, -0.020}, 0.050, 0.050}, 0.050}};
 constexpr std::array trunk_ellipsoids{
@@ -65,7 +65,7 @@ constexpr std::array<Limb::Joint, 12> leg_joints{{{{0.086, 0.930, -0.010}, 0.072
                                                   {{0.129, 0.040, -0.036}, 0.033}}};
 
 /// A flat hand, palm to the thigh: fingers side by side that touch, and a thumb.
-constexpr std::array hand_cones{
+const std::array hand_cones{
     Part<RoundCone>{{{0.545, 0.988, 0.044}, {0.594, 0.920, 0.068}, 0.017, 0.0150}, 0.018},
     Part<RoundCone>{{{0.544, 0.986, 0.036}, {0.592, 0.914, 0.0505}, 0.018, 0.0155}, 0.014},
     Part<RoundCone>{{{0.542, 0.984, 0.028}, {0.588, 0.912, 0.033}, 0.018, 0.0150}, 0.014},
@@ -77,7 +77,7 @@ constexpr std::array hand_cones{
     Part<RoundCone>{{{0.548, 0.978, 0.048}, {0.562, 0.934, 0.084}, 0.0180, 0.0150}, 0.018},
     Part<RoundCone>{{{0.562, 0.934, 0.084}, {0.576, 0.890, 0.106}, 0.0150, 0.0110}, 0.018}};
 
-constexpr std::array foot_cones{
+const std::array foot_cones{
     Part<RoundCone>{{{0.129, 0.085, -0.010}, {0.140, 0.028, 0.100}, 0.036, 0.032}, 0.030},
     Part<RoundCone>{{{0.129, 0.024, -0.035}, {0.158, 0.016, 0.095}, 0.036, 0.032}, 0.030},
     Part<RoundCone>{{{0.134, 0.024, 0.090}, {0.146, 0.010, 0.168}, 0.034, 0.024}, 0.020},
@@ -87,10 +87,10 @@ constexpr std::array head_ellipsoids{
     Part<Ellipsoid>{{{0.000, 1.654, -0.008}, {0.077, 0.095, 0.098}}, 0.020},
     Part<Ellipsoid>{{{0.000, 1.670, 0.032}, {0.060, 0.060, 0.064}}, 0.040},
     Part<Ellipsoid>{{{0.000, 1.602, 0.028}, {0.060, 0.084, 0.070}}, 0.040}};
-constexpr std::array head_pairs{
+const std::array head_pairs{
     Part<RoundCone>{{{0.004, 1.534, 0.074}, {0.050, 1.568, 0.006}, 0.018, 0.018}, 0.030},
     Part<RoundCone>{{{0.012, 1.650, 0.090}, {0.042, 1.648, 0.074}, 0.009, 0.009}, 0.020}};
-constexpr Part<RoundCone> nose{{{0, 1.642, 0.098}, {0, 1.604, 0.110}, 0.007, 0.013}, 0.016};
+const Part<RoundCone> nose{{{0, 1.642, 0.098}, {0, 1.604, 0.110}, 0.007, 0.013}, 0.016};
 constexpr Part<Ellipsoid> lips{{{0, 1.568, 0.090}, {0.024, 0.009, 0.011}}, 0.012};
 constexpr Part<Ellipsoid> eye_socket{{{0.033, 1.630, 0.110}, {0.018, 0.011, 0.020}}, 0.018};
 constexpr Part<Ellipsoid> ear{{{0.077, 1.612, -0.010}, {0.008, 0.032, 0.018}}, 0.008};
