@@ -39,13 +39,24 @@ void tell_gain(const Context& context, const RunReport& report) {
                             gain, height, by_default ? "" : " or the default integrator"));
 }
 
+/// How many seams are open, and the names of the widest.
+std::string open_seams(const SeamsReport& seams) {
+  constexpr std::size_t most = 3;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(most, seams.open.size()); ++k)
+    names += fmt::format("{}{} {:.2f}", k == 0 ? "" : ", ", seams.open[k].name,
+                         1000 * seams.open[k].gap);
+  if (seams.open.size() > most) names += ", ...";
+  return fmt::format("{} of {} seams are open, by up to {:.2f} mm ({})", seams.open.size(),
+                     seams.count, 1000 * seams.largest_gap, names);
+}
+
 /// Warns of seams that are open at the end, and of garments that nobody wears any more.
 void tell_garments(const Context& context, const RunReport& report) {
-  if (report.seams && report.seams->closed < report.seams->count)
-    warn(context, fmt::format("{} of {} seams are open, by up to {:.2f} mm; more frames or a "
-                              "smaller spacing may close them",
-                              report.seams->count - report.seams->closed, report.seams->count,
-                              1000 * report.seams->largest_gap));
+  if (report.seams && !report.seams->open.empty())
+    warn(context, open_seams(*report.seams) +
+                      "; more frames or a smaller spacing may close them, unless the body is too "
+                      "wide there");
   for (const std::string& name : report.fell_off) warn(context, name + ": fell off");
 }
 
@@ -101,12 +112,8 @@ void check_whole_cloths(const RunReport& report, const std::string& name) {
 
 /// Fails where a garment is not sewn or not worn.
 void check_garments(const RunReport& report, const std::string& name) {
-  if (report.seams && report.seams->closed < report.seams->count)
-    throw Error(ExitCode::check_failed, name,
-                fmt::format("{} of {} seams are open, by up to {:.2f} mm",
-                            report.seams->count - report.seams->closed, report.seams->count,
-                            1000 * report.seams->largest_gap),
-                "all closed is wanted");
+  if (report.seams && !report.seams->open.empty())
+    throw Error(ExitCode::check_failed, name, open_seams(*report.seams), "all closed is wanted");
   if (!report.fell_off.empty())
     throw Error(ExitCode::check_failed, name, fmt::format("'{}' fell off", report.fell_off.front()),
                 "a garment worn is wanted");

@@ -55,11 +55,18 @@ struct Verification {
   }
 };
 
+/// A seam that is not closed.
+struct OpenSeam {
+  std::string cloth, name;  ///< the name: PANEL.EDGE-PANEL.EDGE
+  double gap = 0;           ///< [m]
+};
+
 /// The seams of all garments of a run.
 struct SeamsReport {
   int count = 0, closed = 0;
-  double largest_gap = 0;       ///< in the last frame [m]
-  std::optional<int> frames{};  ///< the first frame in which all were closed; nothing: none was
+  std::vector<OpenSeam> open{};  ///< in the last frame, the widest first
+  double largest_gap = 0;        ///< in the last frame [m]
+  std::optional<int> frames{};   ///< the first frame in which all were closed; nothing: none was
 };
 
 struct RunOptions {

@@ -242,6 +242,13 @@ class ExportsOfGarments(ProgramTest):
     def test_open_seams_are_warned_of_and_meshes_are_no_patterns(self):
         said = self.run_weft(*self.words[:-1], "1", "-o", "run").stderr
         self.assertIn("seams are open", said)
+        seams = self.run_json(*self.words[:-1], "1", "-o", "run")["seams"]
+        self.assertEqual(len(seams["open"]), seams["count"] - seams["closed"])
+        gaps = [seam["gap_mm"] for seam in seams["open"]]
+        self.assertEqual(gaps, sorted(gaps, reverse=True))
+        self.assertEqual(gaps[0], seams["largest_gap_mm"])
+        self.assertEqual(seams["open"][0]["cloth"], "garment")
+        self.assertIn(f"({seams['open'][0]['seam']} {gaps[0]:.2f}", said)
         self.assertIn("is no sewing pattern",
                       self.error_of("garment", "builtin:tshirt", "--body", "builtin:sphere", "-o", "mesh", code=3))
 

@@ -124,10 +124,14 @@ OrderedJson verification_json(const RunReport& report) {
 }
 
 OrderedJson seams_json(const SeamsReport& seams) {
+  OrderedJson open = OrderedJson::array();
+  for (const OpenSeam& seam : seams.open)
+    open.push_back({{"cloth", seam.cloth}, {"seam", seam.name}, {"gap_mm", 1000 * seam.gap}});
   return {{"count", seams.count},
           {"closed", seams.closed},
           {"largest_gap_mm", 1000 * seams.largest_gap},
-          {"frames", seams.frames ? OrderedJson(*seams.frames) : OrderedJson()}};
+          {"frames", seams.frames ? OrderedJson(*seams.frames) : OrderedJson()},
+          {"open", open}};
 }
 
 }  // namespace

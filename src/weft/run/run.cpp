@@ -158,16 +158,28 @@ class Run {
   }
 
  private:
+  void report_seams(std::size_t cloth) {
+    if (!report_.seams) report_.seams.emplace();
+    SeamsReport& seams = *report_.seams;
+    const std::vector<double> gaps = simulation_.seam_gaps(cloth);
+    const SimulatedCloth& sewn = simulation_.cloths()[cloth];
+    for (std::size_t k = 0; k < gaps.size(); ++k) {
+      ++seams.count;
+      seams.largest_gap = std::max(seams.largest_gap, gaps[k]);
+      if (gaps[k] == 0)
+        ++seams.closed;
+      else
+        seams.open.push_back({sewn.name, sewn.garment->seams[k].name, gaps[k]});
+    }
+    std::stable_sort(seams.open.begin(), seams.open.end(),
+                     [](const OpenSeam& a, const OpenSeam& b) { return a.gap > b.gap; });
+  }
+
   void report_garments() {
     for (std::size_t i = 0; i < simulation_.cloths().size(); ++i) {
       if (!simulation_.cloths()[i].garment) continue;
       if (simulation_.sunk(i) > max_sunk) report_.fell_off.push_back(simulation_.cloths()[i].name);
-      if (!report_.seams) report_.seams.emplace();
-      for (const double gap : simulation_.seam_gaps(i)) {
-        ++report_.seams->count;
-        report_.seams->closed += gap == 0 ? 1 : 0;
-        report_.seams->largest_gap = std::max(report_.seams->largest_gap, gap);
-      }
+      report_seams(i);
     }
     const auto closed = std::find_if(report_.history.begin(), report_.history.end(),
                                      [](const FrameReport& frame) { return frame.seam_gap == 0; });
