@@ -157,7 +157,7 @@ class CellSearch {
   }
 
   void find(const PlacedCells& placed, const Part& a, const Part& b) {
-    if (!beside(placed, a, b) && !apart_along_face(placed, a, a, b) &&
+    if (!beyond_edge(placed, a, b) && !beside(placed, a, b) && !apart_along_face(placed, a, a, b) &&
         !apart_along_face(placed, b, a, b))
       add(feature_of(a), feature_of(b));
   }
@@ -174,6 +174,14 @@ class CellSearch {
       return placed.start(part.second, part.corners[k]);
     };
     return apart_along(placed, middle(a, start) - middle(b, start), a, b);
+  }
+  /// The same for the direction from a shared point to the edge opposite it: cloth goes on beyond
+  /// the edge, unless it is folded there.
+  [[nodiscard]] bool beyond_edge(const PlacedCells& placed, const Part& a, const Part& b) const {
+    if (a.first == 0) return false;
+    const auto corner = [&](int k) { return placed.start(a.second, a.corners[k]); };
+    const Vec3f along = corner(2) - corner(1), to_edge = corner(1) - corner(0);
+    return apart_along(placed, to_edge - dot(to_edge, along) / squared_length(along) * along, a, b);
   }
   /// The same for the normal of a part that is a triangle, in either direction.
   [[nodiscard]] bool apart_along_face(const PlacedCells& placed, const Part& face, const Part& a,

@@ -21,7 +21,8 @@ struct RoundCone {
   RoundCone(Vec3d a_end, Vec3d b_end, double radius_at_a, double radius_at_b);
   Vec3d a, b;
   double radius_a, radius_b;
-  // What every distance needs: b - a, its length, and the sine and cosine of the side's angle to it.
+  // What every distance needs: b - a, its length, and the sine and cosine of the side's angle to
+  // it.
   Vec3d axis;
   double axis_length, slope, cosine;
 };
