@@ -156,13 +156,13 @@ class Convert(ProgramTest):
         self.assertFalse((self.folder / "b.exr").exists())
 
     def test_compressed_images_are_small_and_keep_their_word(self):
-        whole = self.run_json("convert", "builtin:mannequin", "-o", "m.exr", "--size", "129")
-        small = self.run_json("convert", "builtin:mannequin", "-o", "m.weft", "--size", "129", "--precision", "11")
+        whole = self.run_json("convert", "builtin:knot", "-o", "m.exr", "--size", "129")
+        small = self.run_json("convert", "builtin:knot", "-o", "m.weft", "--size", "129", "--precision", "11")
         self.check_promises(small)
         self.assertEqual(small["image"]["bytes"], (self.folder / "m.weft").stat().st_size)
         self.assertLess(small["image"]["bytes"], whole["image"]["bytes"] / 6)
         self.assertGreater(small["image"]["psnr_db"], whole["image"]["psnr_db"] - 1.5)
-        against = self.run_json("inspect", "m.weft", "--against", "builtin:mannequin")["image"]
+        against = self.run_json("inspect", "m.weft", "--against", "builtin:knot")["image"]
         self.assertAlmostEqual(against["psnr_db"], small["image"]["psnr_db"], places=9)
         self.run_weft("rebuild", "m.weft", "-o", "m.ply")
         self.run_weft("rebuild", "m.exr", "-o", "whole.ply")
@@ -172,10 +172,10 @@ class Convert(ProgramTest):
 
     def test_error_says_how_far_samples_may_move(self):
         for error in (2, 0.1):
-            image = self.run_json("convert", "builtin:mannequin", "-o", "m.weft", "--size", "65", "--error", error)["image"]
+            image = self.run_json("convert", "builtin:sphere", "-o", "s.weft", "--size", "65", "--error", error)["image"]
             self.assertLessEqual(image["largest_error_mm"], error)
             self.assertGreater(image["largest_error_mm"], 0.98 * error)
-        line = self.error_of("convert", "builtin:mannequin", "-o", "m.weft", "--error", "1e-6", code=2)
+        line = self.error_of("convert", "builtin:sphere", "-o", "s.weft", "--size", "17", "--error", "1e-6", code=2)
         self.assertIn("--error", line)
         for option in ("--error", "--precision"):
             self.assertIn(option, self.error_of("convert", "builtin:sphere", "-o", "m.exr", option, "8", code=2))
@@ -293,7 +293,7 @@ class Interruption(ProgramTest):
                                 stderr=subprocess.PIPE, text=True)
 
     def test_a_stop_at_any_time_leaves_nothing_behind(self):
-        self.write_torus(400, 300)
+        self.write_torus(250, 200)
         start = time.monotonic()
         self.convert_torus().communicate()
         whole = time.monotonic() - start
