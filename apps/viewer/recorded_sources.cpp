@@ -50,11 +50,18 @@ RunSource::RunSource(const std::string& folder, const SourceMaker& maker)
     if (cloth.rest.size() > 0) strains_.back().emplace(cloth);
   }
   for (std::size_t i = 0; i < run_.cloths.size(); ++i)
-    subject.cloths.push_back({run_.cloths[i].name, run_.cloths[i].image.mates, std::nullopt,
-                              cloths_[i], true, run_.cloths[i].image.colours});
+    subject.cloths.push_back({run_.cloths[i].name,
+                              run_.cloths[i].image.mates,
+                              std::nullopt,
+                              cloths_[i],
+                              true,
+                              run_.cloths[i].image.colours,
+                              {},
+                              rising_quads(run_.cloths[i].image)});
   for (const RecordedBody& body : run_.bodies)
     subject.bodies.push_back({body.name, body.image.mates, body.normals, body.positions_at(0),
-                              body.recorded.has_value(), body.image.colours, body.positions});
+                              body.recorded.has_value(), body.image.colours, body.positions,
+                              rising_quads(body.image)});
   subject_ = std::make_shared<Subject>(std::move(subject));
 }
 
@@ -100,8 +107,14 @@ StillSource::StillSource(const std::string& name, const SourceMaker& maker) {
   Subject subject;
   subject.number = maker.number;
   subject.name = name;
-  subject.cloths.push_back({name, loaded.image.mates, std::move(loaded.normals),
-                            world_positions(loaded.image), false, loaded.image.colours});
+  subject.cloths.push_back({name,
+                            loaded.image.mates,
+                            std::move(loaded.normals),
+                            world_positions(loaded.image),
+                            false,
+                            loaded.image.colours,
+                            {},
+                            rising_quads(loaded.image)});
   subject.ground = bounds(subject.cloths[0].start).lower.y;
   subject_ = std::make_shared<Subject>(std::move(subject));
 }

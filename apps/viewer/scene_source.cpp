@@ -16,11 +16,17 @@ Subject subject_of(const Scene& scene, const Simulation& simulation, const std::
   subject.scene = scene;
   subject.plays = true;
   for (const SimulatedCloth& cloth : simulation.cloths())
-    subject.cloths.push_back({cloth.name, cloth.image.mates, std::nullopt, cloth.state.position,
-                              true, cloth.image.colours});
+    subject.cloths.push_back({cloth.name,
+                              cloth.image.mates,
+                              std::nullopt,
+                              cloth.state.position,
+                              true,
+                              cloth.image.colours,
+                              {},
+                              rising_quads(cloth.image)});
   for (const PlacedBody& body : simulation.bodies())
     subject.bodies.push_back({body.name, body.image.mates, body.normals, body.positions, body.moves,
-                              body.image.colours, body.placed});
+                              body.image.colours, body.placed, rising_quads(body.image)});
   return subject;
 }
 

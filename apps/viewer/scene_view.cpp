@@ -34,6 +34,7 @@ DrawnSurface body_surface(const Snapshot& snapshot, std::size_t i) {
   DrawnSurface drawn;
   drawn.positions = &body_now(snapshot, i);
   drawn.mates = &body.mates;
+  drawn.rising = &body.rising;
   if (body.moves && i < snapshot.body_normals.size() && snapshot.body_normals[i].size() > 0)
     drawn.normals = &snapshot.body_normals[i];
   else if (body.normals && !body.moves)
@@ -51,6 +52,7 @@ DrawnSurface cloth_surface(const Snapshot& snapshot, std::size_t i) {
   DrawnSurface drawn;
   drawn.positions = &snapshot.cloths[i];
   drawn.mates = &cloth.mates;
+  drawn.rising = &cloth.rising;
   drawn.normals = cloth.normals ? &*cloth.normals : nullptr;
   drawn.look = cloth.moves ? Look::fabric : Look::body;
   drawn.colour = cloth.moves ? fabrics[i % std::size(fabrics)] : plaster;

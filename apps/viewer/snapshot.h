@@ -19,8 +19,9 @@ struct SubjectSurface {
   std::optional<NormalMap> normals;  ///< where it does not move, or of `placed`
   Planes3 start;                     ///< initial positions [m]
   bool moves = false;
-  Planes3 colours{};  ///< of the image, linear RGB; size 0: none
-  Planes3 placed{};   ///< of a body that moves, before it does [m]
+  Planes3 colours{};           ///< of the image, linear RGB; size 0: none
+  Planes3 placed{};            ///< of a body that moves, before it does [m]
+  std::vector<char> rising{};  ///< see DrawnSurface
 };
 
 /// The constant data of what is shown.

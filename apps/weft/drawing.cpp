@@ -37,13 +37,14 @@ void paint(DrawnSurface& surface, const Planes3& colours) {
   surface.look = Look::body;
 }
 
-void add_cloth(RunFrame& drawn, const RecordedCloth& cloth, int frame,
-               const std::optional<StrainColours>& strain) {
+void add_cloth(RunFrame& drawn, const RecordedCloth& cloth, const std::vector<char>& rising,
+               int frame, const std::optional<StrainColours>& strain) {
   const std::size_t k = drawn.cloths.size();
   drawn.cloths.push_back(cloth.recorded.positions(frame));
   DrawnSurface surface;
   surface.positions = &drawn.cloths.back();
   surface.mates = &cloth.image.mates;
+  surface.rising = &rising;
   surface.revision = static_cast<std::uint64_t>(frame) + 1;
   surface.colour = cloth_colours[k % std::size(cloth_colours)];
   paint(surface, cloth.image);
@@ -51,11 +52,13 @@ void add_cloth(RunFrame& drawn, const RecordedCloth& cloth, int frame,
   drawn.scene.surfaces.push_back(surface);
 }
 
-void add_body(RunFrame& drawn, const RecordedBody& body, int frame) {
+void add_body(RunFrame& drawn, const RecordedBody& body, const std::vector<char>& rising,
+              int frame) {
   drawn.bodies.push_back(body.positions_at(frame));
   DrawnSurface surface;
   surface.positions = &drawn.bodies.back();
   surface.mates = &body.image.mates;
+  surface.rising = &rising;
   surface.revision = body.recorded ? static_cast<std::uint64_t>(frame) + 1 : 1;
   if (body.normals && body.recorded) {
     drawn.normals.push_back(
@@ -76,7 +79,10 @@ RunSubject::RunSubject(RunFolder run, const ViewFrom& size, bool by_strain)
     : run_(std::move(run)),
       strain_(by_strain ? std::optional<StrainColours>(run_) : std::nullopt),
       size_{size.width, size.height - (by_strain ? legend_height(size.width) : 0)},
-      renderer_(size_.width, size_.height) {}
+      renderer_(size_.width, size_.height) {
+  for (const RecordedCloth& cloth : run_.cloths) cloths_.push_back(rising_quads(cloth.image));
+  for (const RecordedBody& body : run_.bodies) bodies_.push_back(rising_quads(body.image));
+}
 
 double RunSubject::most_strain(int frame) const {
   std::vector<Planes3> cloths;
@@ -95,10 +101,12 @@ Picture RunSubject::draw(int frame, const Camera& camera) {
   drawn.scene.ground = run_.ground;
   drawn.cloths.reserve(run_.cloths.size());
   drawn.colours.reserve(run_.cloths.size());
-  for (const RecordedCloth& cloth : run_.cloths) add_cloth(drawn, cloth, frame, strain_);
+  for (std::size_t i = 0; i < run_.cloths.size(); ++i)
+    add_cloth(drawn, run_.cloths[i], cloths_[i], frame, strain_);
   drawn.bodies.reserve(run_.bodies.size());
   drawn.normals.reserve(run_.bodies.size());
-  for (const RecordedBody& body : run_.bodies) add_body(drawn, body, frame);
+  for (std::size_t i = 0; i < run_.bodies.size(); ++i)
+    add_body(drawn, run_.bodies[i], bodies_[i], frame);
   Picture picture = renderer_.draw(drawn.scene);
   if (strain_) add_legend(picture, strain_->legend());
   return picture;

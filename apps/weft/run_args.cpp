@@ -53,10 +53,11 @@ std::string open_seams(const SeamsReport& seams) {
 
 /// Warns of seams that are open at the end, and of garments that nobody wears any more.
 void tell_garments(const Context& context, const RunReport& report) {
-  if (report.seams && !report.seams->open.empty())
+  // With verify it is an error that says the same.
+  if (report.seams && !report.seams->open.empty() && !report.verification)
     warn(context, open_seams(*report.seams) +
                       "; more frames or a smaller spacing may close them, unless the body is too "
-                      "wide there");
+                      "wide there or lies between their edges");
   for (const std::string& name : report.fell_off) warn(context, name + ": fell off");
 }
 

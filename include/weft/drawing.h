@@ -31,6 +31,9 @@ struct DrawnSurface {
   const Planes3* positions = nullptr;  ///< [n x n] world [m], n >= 2
   const BorderMates* mates =
       nullptr;  ///< so that normals are smooth across seams, and nothing lies between charts
+  /// [(n - 1) * (n - 1)] how quads are split, see rising_quads; null: in turn one way and the
+  /// other. Split otherwise than a simulation sees it, folded cloth would show what lies behind it.
+  const std::vector<char>* rising = nullptr;
   const NormalMap* normals = nullptr;  ///< shading of bodies; null: made from the positions
   Vec3f colour{0.42F, 0.05F, 0.07F};   ///< linear RGB
   const Planes3* colours =

@@ -188,6 +188,11 @@ struct RebuiltMesh {
 };
 RebuiltMesh rebuild_mesh(const GeometryImage& image);
 
+/// How rebuild_mesh splits the quads of an image, and a simulation those of a cloth or body made
+/// from it: [(n - 1) * (n - 1)] by rows, 1 where the diagonal joins (row, col) and (row + 1, col +
+/// 1), 0 where the other two corners, or where there is no surface.
+std::vector<char> rising_quads(const GeometryImage& image);
+
 /// The colours of the vertices of a rebuilt mesh, linear RGB; empty where the image has none. [V]
 std::vector<Vec3f> vertex_colours(const GeometryImage& image, const RebuiltMesh& rebuilt);
 

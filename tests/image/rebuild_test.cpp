@@ -197,6 +197,24 @@ TEST(Rebuild, QuadsInsideAreSplitAlongTheShorterDiagonal) {
   }
 }
 
+TEST(Rebuild, RisingQuadsAreThoseOfItsTriangles) {
+  const int n = 9;
+  const GeometryImage image = random_image(n, {{8, 0, 8}}, 3);
+  const RebuiltMesh rebuilt = rebuild_mesh(image);
+  std::set<std::set<int>> edges;
+  for (const Triangle& t : rebuilt.mesh.triangles)
+    for (int k = 0; k < 3; ++k) edges.insert({t[k], t[(k + 1) % 3]});
+  const std::vector<char> rising = rising_quads(image);
+  ASSERT_EQ(rising.size(), (n - 1) * (n - 1));
+  for (int row = 1; row < n - 2; ++row)
+    for (int col = 1; col < n - 2; ++col) {
+      const auto vertex = [&](int r, int c) { return rebuilt.vertex_of[r * n + c]; };
+      const bool rises = rising[row * (n - 1) + col] != 0;
+      EXPECT_EQ(edges.count({vertex(row, col), vertex(row + 1, col + 1)}), rises ? 1 : 0);
+      EXPECT_EQ(edges.count({vertex(row, col + 1), vertex(row + 1, col)}), rises ? 0 : 1);
+    }
+}
+
 TEST(Rebuild, TrianglesTurnLeftInTheSquare) {
   const int n = 5;
   for (const Triangle& t : grid_triangles(random_image(n, {}, 5))) {

@@ -44,5 +44,16 @@ TEST(StartNotes, BodiesUnlikeAllClothAreTold) {
   EXPECT_NE(unlike_text(cube(0.0001), cloths), "");
 }
 
+TEST(StartNotes, GarmentsThatNobodyCanWearAreTold) {
+  const Box3d bodies[] = {cube(0.3), cube(1.8)};
+  EXPECT_EQ(unfit_text(cube(3), bodies), "");
+  EXPECT_EQ(unfit_text(cube(0.1), bodies), "");
+  EXPECT_EQ(unfit_text(cube(100), {}), "");
+  EXPECT_EQ(
+      unfit_text(cube(4.5), bodies),
+      "is 4.5 m across, and no body more than 1.8 m: is units_in_meter of its pattern right?");
+  EXPECT_NE(unfit_text(cube(0.01), bodies), "");
+}
+
 }  // namespace
 }  // namespace weft

@@ -55,6 +55,31 @@ TEST(Renderer, WavySheetOfFabricLooksAsItDid) {
   expect_golden("sheet", Renderer(width, height).draw(scene));
 }
 
+/// A floor below one diagonal of a folded quad and above the other.
+TEST(Renderer, QuadsAreSplitAsTheyAreToldToBe) {
+  Planes3 ridge(2);  // along the rising diagonal it is a roof, along the falling one a gutter
+  ridge.set(0, 0, {-1, 1, -1});
+  ridge.set(0, 1, {1, 0, -1});
+  ridge.set(1, 0, {-1, 0, 1});
+  ridge.set(1, 1, {1, 1, 1});
+  Planes3 floor(2);
+  for (int k = 0; k < 4; ++k) floor.set(k, {ridge.at(k).x, 0.5F, ridge.at(k).z});
+  const auto drawn = [&](const std::vector<char>* rising) {
+    DrawnSurface cloth;
+    cloth.positions = &ridge;
+    cloth.colour = {0, 0, 1};
+    cloth.threads = 0;
+    cloth.rising = rising;
+    DrawnScene scene;
+    scene.surfaces = {cloth, body_of(floor)};
+    scene.camera = frame_box({{-1, 0, -1}, {1, 1, 1}}, 0, 1.5, 4.0 / 3);
+    return Renderer(width, height).draw(scene);
+  };
+  const std::vector<char> roof{1}, gutter{0};
+  EXPECT_EQ(drawn(&roof).rgb, drawn(nullptr).rgb) << "the first quad rises";
+  EXPECT_NE(drawn(&roof).rgb, drawn(&gutter).rgb);
+}
+
 TEST(Renderer, ShadowsOfClothOnABodyAndOnTheGroundLookAsTheyDid) {
   const Planes3 sheet = wavy_sheet(65, 1.1F);
   const Planes3 ball = sphere_grid(33, {0.3F, 0.45F, 0}, 0.45F);

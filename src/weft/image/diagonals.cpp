@@ -113,4 +113,13 @@ Grid<Diagonal> choose_diagonals(const GeometryImage& image) {
   return diagonals;
 }
 
+std::vector<char> rising_quads(const GeometryImage& image) {
+  const Grid<Diagonal> diagonals = choose_diagonals(image);
+  std::vector<char> rising;
+  for (int row = 0; row < image.size() - 1; ++row)
+    for (int col = 0; col < image.size() - 1; ++col)
+      rising.push_back(diagonals(row, col) == Diagonal::rising ? 1 : 0);
+  return rising;
+}
+
 }  // namespace weft

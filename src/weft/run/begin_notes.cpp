@@ -22,10 +22,10 @@ std::vector<std::string> begin_notes(const Simulation& simulation, const Scene& 
   for (const StartInside& found : simulation.start_insides())
     notes.push_back(start_inside_text(found));
   if (counts.bodies > 0)
-    notes.push_back(
-        fmt::format("at the start {} pairs of triangles of cloths and bodies cross; "
-                    "only closed bodies push out what they cross",
-                    counts.bodies));
+    notes.push_back(fmt::format(
+        "at the start {} pairs of triangles of cloths and bodies cross; "
+        "closed bodies push out cloth that lies in them, not cloth that they pass through",
+        counts.bodies));
   if (counts.ground > 0)
     notes.push_back(
         fmt::format("at the start {} triangles of cloths are below the ground, which pushes them "

@@ -146,6 +146,7 @@ class Run {
         keep_worst(simulation_.intersections());
       }
       note_untangling();
+      note_crossed_bodies();
       note_what_stood_still(report_);
       report_garments();
       report_.state_hash = simulation_.state_hash();
@@ -243,6 +244,14 @@ class Run {
     verifier_->count_frame(simulation_.frame(), *report_.verification);
     if (options_.on == WrittenOn::input)
       report_.verification->written.add(simulation_.frame(), recorder_->written_crossings());
+  }
+
+  void note_crossed_bodies() {
+    if (report_.start_intersections.bodies == 0) return;
+    const auto left = simulation_.intersections().bodies;
+    if (left > 0)
+      report_.notes.push_back(fmt::format(
+          "in the last frame {} pairs of triangles of cloths and bodies cross still", left));
   }
 
   void note_untangling() {

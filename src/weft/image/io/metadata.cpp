@@ -35,6 +35,8 @@ std::string checksum(const Json& without_checksum, const Planes3& cube) {
 class Fields {
  public:
   Fields(std::string_view text, std::string_view where) : where_(where) {
+    if (text == "positions")
+      fail("positions of a frame, which do not tell what is joined", "the run's geometry image");
     try {
       json_ = parse_json(text, deepest_nesting);
     } catch (const JsonFault& fault) {

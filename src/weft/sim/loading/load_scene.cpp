@@ -48,7 +48,7 @@ class Loader : public LoadedScene {
         team_(with) {}
   void load_bodies();
   void load_cloths();
-  /// Notes bodies from files whose unit may be another.
+  /// Notes bodies from files, and garments, whose unit may be another.
   void compare_sizes();
   /// Ties cloths to bodies, at the initial positions of both.
   void tie_cloths();
@@ -142,9 +142,12 @@ Planes3 Loader::place(const SceneCloth& wanted, const LoadedSurface& loaded, int
   if (const int lifted = lift_above_ground(loaded.image.mates, height, placed))
     notes.push_back(fmt::format("{}: {} of {} panels reached below the ground and begin higher",
                                 wanted.name, lifted, loaded.image.mates.charts().size()));
-  if (const int moved = move_out_of_bodies(loaded.image, bodies, team_, placed))
-    notes.push_back(fmt::format("{}: {} of {} panels were in a body and begin farther outside",
-                                wanted.name, moved, loaded.image.mates.charts().size()));
+  const std::vector<Chart>& panels = loaded.image.mates.charts();
+  if (const MovedPanels moved = move_out_of_bodies(loaded.image, bodies, team_, placed);
+      moved.count > 0)
+    notes.push_back(fmt::format(
+        "{}: {} of {} panels were in a body and begin farther outside, '{}' by {:.2g} m",
+        wanted.name, moved.count, panels.size(), panels[moved.farthest].name, moved.distance));
   if (const int parted = part_panels(loaded.garment->sewn, placed))
     notes.push_back(fmt::format("{}: {} of {} panels touched others and begin farther outside",
                                 wanted.name, parted, loaded.image.mates.charts().size()));
@@ -233,6 +236,10 @@ void Loader::compare_sizes() {
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (!is_builtin(scene_.bodies[i].surface.name))
       tell(bodies[i].name, unlike_text(box_of(bodies[i].positions), boxes));
+  std::vector<Box3d> worn_by;
+  for (const PlacedBody& body : bodies) worn_by.push_back(box_of(body.positions));
+  for (std::size_t i = 0; i < cloths.size(); ++i)
+    if (cloths[i].garment) tell(cloths[i].name, unfit_text(boxes[i], worn_by));
 }
 
 void Loader::tie_cloths() {

@@ -14,6 +14,9 @@ namespace {
 constexpr double least_steps = 8, least_thicknesses = 12;
 /// Sizes of bodies over those of cloths that are taken for a mistake; 100 and more come of units.
 constexpr double unlike = 50;
+/// Sizes of garments over those of bodies, or the other way round, that are taken for a mistake:
+/// inches taken for centimetres are 2.5. Collars and cuffs are small.
+constexpr double too_large = 2.3, too_small = 20;
 
 double size_of(const Box3d& box) {
   const Vec3d sides = box.upper - box.lower;
@@ -55,6 +58,16 @@ std::string unlike_text(const Box3d& body, std::span<const Box3d> cloths) {
   if (!(nearest < HUGE_VAL) || nearest < std::log(unlike)) return {};
   return fmt::format("is {:.3g} m across, and cloth {:.3g} m: is the unit of its file right?", size,
                      other);
+}
+
+std::string unfit_text(const Box3d& garment, std::span<const Box3d> bodies) {
+  double largest = 0;
+  for (const Box3d& body : bodies) largest = std::max(largest, size_of(body));
+  const double size = size_of(garment);
+  if (largest == 0 || (size <= too_large * largest && size * too_small >= largest)) return {};
+  return fmt::format(
+      "is {:.3g} m across, and no body more than {:.3g} m: is units_in_meter of its pattern right?",
+      size, largest);
 }
 
 }  // namespace weft

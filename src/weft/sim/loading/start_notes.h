@@ -18,5 +18,8 @@ std::string thick_text(const Planes3& placed, double thickness);
 /// Where a body is so much larger or smaller than every cloth that its file may have another unit.
 /// @param cloths  their boxes [m]
 std::string unlike_text(const Box3d& body, std::span<const Box3d> cloths);
+/// Where a garment is too large for every body that may wear it, or too small.
+/// @param bodies  their boxes [m]
+std::string unfit_text(const Box3d& garment, std::span<const Box3d> bodies);
 
 }  // namespace weft

@@ -122,6 +122,15 @@ class StepsOut {
       if (those[i]) moved_[i] += step_[i];
     put();
   }
+  [[nodiscard]] MovedPanels moved() const {
+    MovedPanels found;
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      const double distance = length(moved_[i]);
+      if (distance > 0) ++found.count;
+      if (distance > found.distance) found = {found.count, static_cast<int>(i), distance};
+    }
+    return found;
+  }
   void take_back(const std::vector<bool>& those) {
     for (std::size_t i = 0; i < those.size(); ++i)
       if (those[i]) moved_[i] = {};
@@ -153,11 +162,11 @@ void put_round_layers(const BorderMates& mates, int layer, Planes3& placed) {
   move(mates, shift, placed);
 }
 
-int move_out_of_bodies(const GeometryImage& panels, std::span<const PlacedBody> bodies,
-                       ThreadTeam& team, Planes3& placed) {
+MovedPanels move_out_of_bodies(const GeometryImage& panels, std::span<const PlacedBody> bodies,
+                               ThreadTeam& team, Planes3& placed) {
   InsideCharts inside(panels, bodies, team, placed);
   const std::vector<bool> first = inside.find(placed);
-  if (!any(first)) return 0;
+  if (!any(first)) return {};
   StepsOut steps(panels.mates, step_out, placed);
   std::vector<bool> left = first;
   for (int i = 0; i < max_steps_out && any(left); ++i) {
@@ -168,7 +177,7 @@ int move_out_of_bodies(const GeometryImage& panels, std::span<const PlacedBody> 
   std::vector<bool> out = first;
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = first[i] && !left[i];
   steps.go(out);
-  return static_cast<int>(std::count(out.begin(), out.end(), true));
+  return steps.moved();
 }
 
 int part_panels(const BorderMates& sewn, Planes3& placed) {

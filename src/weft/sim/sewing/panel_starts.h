@@ -13,13 +13,19 @@ namespace weft {
 /// @param layer   from 0, the innermost  @param placed  samples of the panels [n x n] [m]
 void put_round_layers(const BorderMates& mates, int layer, Planes3& placed);
 
+/// Panels that begin elsewhere than a pattern places them.
+struct MovedPanels {
+  int count = 0;
+  int farthest = 0;     ///< number of the panel that was moved farthest
+  double distance = 0;  ///< how far that is [m]
+};
+
 /// Moves panels that begin inside a closed body or across it outwards, each as a whole along its
 /// outer side, as far as it takes to come out and then a little. A body that holds all panels stays
 /// round them, and panels that half a metre does not bring out stay where they are.
 /// @param panels  gives the triangles, by charts
-/// @return how many panels were moved
-int move_out_of_bodies(const GeometryImage& panels, std::span<const PlacedBody> bodies,
-                       ThreadTeam& team, Planes3& placed);
+MovedPanels move_out_of_bodies(const GeometryImage& panels, std::span<const PlacedBody> bodies,
+                               ThreadTeam& team, Planes3& placed);
 
 /// Moves panels outwards by millimetres that touch others elsewhere than along their seams: side by
 /// side in one plane they would overlap after a step.

@@ -88,13 +88,13 @@ void Simulation::Parts::propose(std::size_t index) {
   if (mover.wind || garments.is_open(index)) mover.calm_velocity = cloth.state.velocity;
   if (garments.any_open()) mover.unsewn_energy = mover.meter.measure(cloth.state).total();
   if (garments.is_open(index)) sew(index);
-  if (mover.wind) {
+  const double gravity_part = garments.gravity_part(index, step_start);
+  if (mover.wind && gravity_part == 1) {
     energy.forget();
     const double before = mover.meter.kinetic(cloth.state.velocity);
     mover.wind->blow(time_step, cloth.state, solvers());
     mover.wind_work = mover.meter.kinetic(cloth.state.velocity) - before;
   }
-  const double gravity_part = garments.gravity_part(index, step_start);
   mover.integrator->begin({time_step, vec_cast<float>(gravity_part * scene.gravity)}, cloth.state);
   if (!mover.integrator->starts_at_proposal()) mover.integrator->iterate({});
 }

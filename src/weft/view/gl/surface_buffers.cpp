@@ -33,31 +33,6 @@ std::vector<int> kept_lines(int first, int count, int step) {
   return lines;
 }
 
-/// Two triangles a quad, with alternating diagonals; front faces are in the direction of du x dv.
-void add_quad_triangles(const Chart& chart, int side, int step, std::vector<GLuint>& indices) {
-  const std::vector<int> rows = kept_lines(chart.row, chart.rows, step);
-  const std::vector<int> cols = kept_lines(chart.col, chart.cols, step);
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
-    for (std::size_t j = 0; j + 1 < cols.size(); ++j) {
-      const auto sample = [&](std::size_t row, std::size_t col) {
-        return static_cast<GLuint>(rows[row] * side + cols[col]);
-      };
-      const GLuint a = sample(i, j), b = sample(i, j + 1), c = sample(i + 1, j + 1),
-                   d = sample(i + 1, j);
-      if ((i + j) % 2 == 0)
-        indices.insert(indices.end(), {a, b, c, a, c, d});
-      else
-        indices.insert(indices.end(), {a, b, d, b, c, d});
-    }
-}
-
-std::vector<GLuint> quad_triangles(const std::vector<Chart>& charts, int side, int step) {
-  std::vector<GLuint> indices;
-  indices.reserve(static_cast<std::size_t>(side / step + 1) * (side / step + 1) * 6);
-  for (const Chart& chart : charts) add_quad_triangles(chart, side, step, indices);
-  return indices;
-}
-
 /// The mesh without triangles of invalid indices.
 TriangleMesh usable(const TriangleMesh& mesh) {
   TriangleMesh whole;
@@ -138,25 +113,26 @@ bool SurfaceBuffers::load(const DrawnSurface& surface) {
   fit(colours_, GL_RGB32F, colours, colours);
   colours_.upload(surface.colours != nullptr ? packed(*surface.colours) : white);
   const Planes3 positions = without_holes(*surface.positions);
-  upload_grid(positions,
-              surface.normals != nullptr ? without_holes(surface.normals->normal)
-                                         : grid_normals(positions, surface.mates),
-              charts_of(surface));
-  const int light_side = light_samples_of(charts_, grid_side_);
+  upload_grid(
+      positions,
+      surface.normals != nullptr ? without_holes(surface.normals->normal)
+                                 : grid_normals(positions, surface.mates),
+      {charts_of(surface), surface.rising != nullptr ? *surface.rising : std::vector<char>()});
+  const int light_side = light_samples_of(split_.charts, grid_side_);
   make_sky_target(light_side, light_side);
   return true;
 }
 
 void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normals,
-                                 std::vector<Chart> charts) {
+                                 Triangulation split) {
   const int side = positions.size();
   fit(positions_, GL_RGB32F, side, side);
   fit(normals_, GL_RGB32F, normals.size(), normals.size());
   positions_.upload(packed(positions));
   normals_.upload(packed(normals));
-  if (grid_side_ != side || charts_ != charts) triangles_.clear();
+  if (grid_side_ != side || split_ != split) triangles_.clear();
   grid_side_ = side;
-  charts_ = std::move(charts);
+  split_ = std::move(split);
 }
 
 void SurfaceBuffers::load(const DrawnMesh& drawn) {
@@ -192,7 +168,7 @@ void SurfaceBuffers::load_ground(Vec3d centre, double half_side) {
       positions.set(r, c, vec_cast<float>(centre + half_side * across));
       normals.set(r, c, {0, 1, 0});
     }
-  upload_grid(positions, normals, {{"", 0, 0, ground_side, ground_side}});
+  upload_grid(positions, normals, {{{"", 0, 0, ground_side, ground_side}}, {}});
   make_sky_target(ground_side, ground_side);
 }
 
@@ -209,10 +185,35 @@ void SurfaceBuffers::make_sky_target(int width, int height) {
   glDrawBuffers(2, both.data());
 }
 
+/// Two triangles a quad; front faces are in the direction of du x dv.
+std::vector<GLuint> SurfaceBuffers::quad_triangles(int step) const {
+  std::vector<GLuint> indices;
+  indices.reserve(static_cast<std::size_t>(grid_side_ / step + 1) * (grid_side_ / step + 1) * 6);
+  for (const Chart& chart : split_.charts) {
+    const std::vector<int> rows = kept_lines(chart.row, chart.rows, step);
+    const std::vector<int> cols = kept_lines(chart.col, chart.cols, step);
+    for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+      for (std::size_t j = 0; j + 1 < cols.size(); ++j) {
+        const auto sample = [&](std::size_t row, std::size_t col) {
+          return static_cast<GLuint>(rows[row] * grid_side_ + cols[col]);
+        };
+        const GLuint a = sample(i, j), b = sample(i, j + 1), c = sample(i + 1, j + 1),
+                     d = sample(i + 1, j);
+        const std::size_t quad = static_cast<std::size_t>(rows[i]) * (grid_side_ - 1) + cols[j];
+        const bool given = step == 1 && !split_.rising.empty();
+        if (given ? split_.rising[quad] != 0 : (i + j) % 2 == 0)
+          indices.insert(indices.end(), {a, b, c, a, c, d});
+        else
+          indices.insert(indices.end(), {a, b, d, b, c, d});
+      }
+  }
+  return indices;
+}
+
 void SurfaceBuffers::draw(int step) {
   const int lines = is_grid() ? std::clamp(step, 1, std::max(1, (grid_side_ - 1) / 4)) : 1;
   const auto [list, is_new] = triangles_.try_emplace(lines);
-  if (is_new) list->second.upload(quad_triangles(charts_, grid_side_, lines));
+  if (is_new) list->second.upload(quad_triangles(lines));
   list->second.draw_triangles();
 }
 

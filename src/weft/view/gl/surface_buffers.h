@@ -63,14 +63,21 @@ class SurfaceBuffers {
   void bind(const Program& program) const;
 
  private:
-  void upload_grid(const Planes3& positions, const Planes3& normals, std::vector<Chart> charts);
+  /// How a grid is made of triangles.
+  struct Triangulation {
+    std::vector<Chart> charts;
+    std::vector<char> rising;  // see DrawnSurface; empty: in turn
+    friend bool operator==(const Triangulation&, const Triangulation&) = default;
+  };
+  void upload_grid(const Planes3& positions, const Planes3& normals, Triangulation split);
+  [[nodiscard]] std::vector<GLuint> quad_triangles(int step) const;
   void make_sky_target(int width, int height);
 
   Texture positions_, normals_, colours_, sky_front_, sky_back_;
   Framebuffer sky_target_;
   std::map<int, IndexList> triangles_;  // by step; created when first drawn
   int grid_side_ = 0;                   // 0: a mesh
-  std::vector<Chart> charts_;           // of a grid
+  Triangulation split_;                 // of a grid
   std::uint64_t revision_ = 0;          // of the surface that was loaded
   Box3d box_;
   bool is_lit_ = false;
