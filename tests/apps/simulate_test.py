@@ -80,6 +80,15 @@ class Simulate(SceneTest):
         # Without the word, the last frame is reported and nothing fails.
         self.assertEqual(self.run_json("simulate", name, "-o", "run")["intersections"], report["intersections"])
 
+    def test_what_crosses_a_body_still_is_told_at_the_end(self):
+        scene = sheet_scene(frames=2, gravity=[0, 0, 0], cloths=[{"surface": "builtin:sheet", "size": 9}],
+                            bodies=[{"surface": "builtin:rod", "size": 17, "rotate": [0, 0, 90]}])
+        done = self.run_weft("simulate", self.write_scene(scene), "-o", "run", "--json")
+        left = json.loads(done.stdout)["intersections"]
+        self.assertGreater(left, 0)
+        self.assertIn("pairs of triangles of cloths and bodies cross; closed bodies push out cloth that lies in them", done.stderr)
+        self.assertIn(f"in the last frame {left} pairs of triangles of cloths and bodies cross still", done.stderr)
+
     def test_a_tangled_start_is_told_untangled_and_told_again(self):
         sheet = {"surface": "builtin:sheet", "size": 17}
         scene = sheet_scene(frames=60, ground=0, collider={"type": "pyramid"}, cloths=[

@@ -69,6 +69,20 @@ TEST_F(Sewing, PanelsComeTogetherFlat) {
   EXPECT_LT(inwards, 0.08);
 }
 
+TEST_F(Sewing, WindWaitsForGravity) {
+  scene_.bodies.clear();
+  Simulation still(scene_, "still", 1);
+  scene_.wind.emplace().velocity = {3, 0, 0};
+  Simulation windy(scene_, "windy", 1);
+  for (FrameReport report; still.frame() == 0 || report.seam_gap > 0;) {
+    ASSERT_EQ(windy.centre_of_mass(), still.centre_of_mass()) << "frame " << still.frame();
+    report = still.advance();
+    windy.advance();
+  }
+  for (int frame = 0; frame < 10; ++frame) windy.advance();
+  EXPECT_GT(windy.centre_of_mass().x, still.centre_of_mass().x + 0.01);
+}
+
 TEST_F(Sewing, PanelsBeginOutsideOfBodies) {
   scene_.bodies[0].placement.scale = {0.3, 0.3, 0.3};
   Simulation simulation(scene_, "scene", 1);
