@@ -80,8 +80,8 @@ RunSubject::RunSubject(RunFolder run, const ViewFrom& size, bool by_strain)
       strain_(by_strain ? std::optional<StrainColours>(run_) : std::nullopt),
       size_{size.width, size.height - (by_strain ? legend_height(size.width) : 0)},
       renderer_(size_.width, size_.height) {
-  for (const RecordedCloth& cloth : run_.cloths) cloths_.push_back(rising_quads(cloth.image));
-  for (const RecordedBody& body : run_.bodies) bodies_.push_back(rising_quads(body.image));
+  for (const RecordedCloth& cloth : run_.cloths) cloth_quads_.push_back(rising_quads(cloth.image));
+  for (const RecordedBody& body : run_.bodies) body_quads_.push_back(rising_quads(body.image));
 }
 
 double RunSubject::most_strain(int frame) const {
@@ -102,11 +102,11 @@ Picture RunSubject::draw(int frame, const Camera& camera) {
   drawn.cloths.reserve(run_.cloths.size());
   drawn.colours.reserve(run_.cloths.size());
   for (std::size_t i = 0; i < run_.cloths.size(); ++i)
-    add_cloth(drawn, run_.cloths[i], cloths_[i], frame, strain_);
+    add_cloth(drawn, run_.cloths[i], cloth_quads_[i], frame, strain_);
   drawn.bodies.reserve(run_.bodies.size());
   drawn.normals.reserve(run_.bodies.size());
   for (std::size_t i = 0; i < run_.bodies.size(); ++i)
-    add_body(drawn, run_.bodies[i], bodies_[i], frame);
+    add_body(drawn, run_.bodies[i], body_quads_[i], frame);
   Picture picture = renderer_.draw(drawn.scene);
   if (strain_) add_legend(picture, strain_->legend());
   return picture;

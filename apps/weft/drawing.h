@@ -35,7 +35,8 @@ class RunSubject : public Subject {
 
  private:
   RunFolder run_;
-  std::vector<std::vector<char>> cloths_, bodies_;  // how their quads are split, see DrawnSurface
+  std::vector<std::vector<char>> cloth_quads_,
+      body_quads_;  // how their quads are split, see DrawnSurface
   std::optional<StrainColours> strain_;
   ViewFrom size_;  // without the legend
   Renderer renderer_;

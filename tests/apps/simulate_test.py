@@ -70,12 +70,13 @@ class Simulate(SceneTest):
         *notes, error = done.stderr.strip().splitlines()
         self.assertIn(f"{report['intersections']} intersections in frame 1: 0 pairs", error)
         # Its collider knows nothing of cloth and cloth: both ends of the run say so.
-        self.assertEqual([note.split(":")[1] for note in notes], [" note"] * 4)
+        self.assertEqual([note.split(":")[1] for note in notes], [" note"] * 5)
         self.assertIn(f"at the start {kinds['bodies']} pairs of triangles of cloths and bodies cross", notes[0])
         self.assertIn(f"at the start {kinds['ground']} triangles of cloths are below the ground", notes[1])
         self.assertIn(f"at the start {kinds['cloths']} pairs of triangles of cloth cross, 0 of one cloth and {kinds['cloths']} of "
                       "two; this collider leaves them so", notes[2])
         self.assertIn("still tangled", notes[3])
+        self.assertRegex(notes[4], "in the last frame [0-9]+ pairs of triangles of cloths and bodies cross still")
         self.assertIsNone(report["untangled_frame"])
         # Without the word, the last frame is reported and nothing fails.
         self.assertEqual(self.run_json("simulate", name, "-o", "run")["intersections"], report["intersections"])
