@@ -52,17 +52,26 @@ TEST(StabilityCheck, StopsFarStretchedClothInOneFrameWhoseEnergyNoForceExplains)
   EXPECT_FALSE(stops(step, 20, 1.5)) << "stretched by work";
 }
 
-/// Whether two frames are stopped that end with so much energy more than the run began with.
-bool stops_in_two(MadeUpStep& step, double more) {
+/// What is said of two frames that end with so much energy more than the run began with.
+std::string said_of_two(MadeUpStep& step, double more, const StabilityCheck::Now& now = {}) {
   const std::string name = "made up";
   StabilityCheck check(name, step.cloths(), step.movers());
   FrameReport report;
   report.kinetic_energy = step.total() + more;
-  const auto look = [&] {
+  return test::message_of<Unstable>([&] {
     for (int i = 0; i < 2; ++i)
-      check.check_energy({}, report, report.kinetic_energy, false, step.budget);
-  };
-  return !test::message_of<Unstable>(look).empty();
+      check.check_energy(now, report, report.kinetic_energy, false, step.budget);
+  });
+}
+
+bool stops_in_two(MadeUpStep& step, double more) { return !said_of_two(step, more).empty(); }
+
+TEST(StabilityCheck, WantsOtherStartsOfClothThatIsTakenApart) {
+  MadeUpStep step;
+  StabilityCheck::Now now;
+  EXPECT_NE(said_of_two(step, 20, now).find("more substeps"), std::string::npos);
+  now.crossings = 1;
+  EXPECT_NE(said_of_two(step, 20, now).find("cloths that begin apart"), std::string::npos);
 }
 
 TEST(StabilityCheck, LetsHeavyClothGainWhatContactsMayLend) {

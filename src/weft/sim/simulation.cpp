@@ -48,7 +48,7 @@ Vec3d Simulation::Parts::centre() const {
 }
 
 void Simulation::Parts::measure(FrameReport& report) {
-  const StabilityCheck::Now now{frame, time_step};
+  const StabilityCheck::Now now{frame, time_step, 0, collider->crossings()};
   double weight = 0, own = 0;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const SimulatedCloth& cloth = cloths[i];

@@ -71,8 +71,9 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
   gather_moving();
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tried.contacts += correct(i, movers[i].integrator->proposal(), report);
-  tried.refused = !stability.check_proposals(
-      {frame, time_step, seconds}, choices.halve_wild && (watched || may_solve_again()), solvers());
+  tried.refused =
+      !stability.check_proposals({frame, time_step, seconds, collider->crossings()},
+                                 choices.halve_wild && (watched || may_solve_again()), solvers());
   if (tried.refused) return tried;
   for (std::size_t i = 0; i < cloths.size(); ++i)
     garments.close(i, movers[i].integrator->proposal());

@@ -33,6 +33,7 @@ constexpr double max_strain = 1;
 }  // namespace
 
 std::string StabilityCheck::advice_for(const Now& now, std::size_t cloth) const {
+  if (now.crossings > 0) return "cloths that begin apart, or less deep in each other, are wanted";
   const std::string advice = movers_[cloth].integrator->stability_advice(now.time_step);
   return advice.empty() ? "more substeps or a softer material are wanted" : advice;
 }

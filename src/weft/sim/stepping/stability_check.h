@@ -23,6 +23,7 @@ class StabilityCheck {
     int frame = 0;         ///< from 0
     double time_step = 0;  ///< [s]
     double end = 0;        ///< of the step, since the run's start [s]
+    int crossings = 0;     ///< of cloths that are being taken apart
   };
   /// Looks at proposals before the filter, which would hide runaway motion.
   /// @return whether motion is sane
