@@ -36,7 +36,8 @@ class Fields {
  public:
   Fields(std::string_view text, std::string_view where) : where_(where) {
     if (text == "positions")
-      fail("positions of a frame, which do not tell what is joined", "the run's geometry image");
+      fail("positions of a frame, which do not tell what is joined",
+           "the run's geometry image is wanted");
     try {
       json_ = parse_json(text, deepest_nesting);
     } catch (const JsonFault& fault) {
