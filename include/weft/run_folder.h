@@ -31,6 +31,8 @@ struct RecordedCloth {
   /// Positions at rest, panels and textures laid flat; empty in folders of versions that did not
   /// write it. [n x n] [m]
   Planes3 rest;
+  /// Samples that are one particle: also those of seams that are sewn in the run.
+  BorderMates mates;
 };
 
 /// Tells how far a recorded cloth is stretched.

@@ -56,6 +56,22 @@ inline std::string top_and_skirt(const std::string& top, const std::string& skir
          R"("properties":{"units_in_meter":100}})";
 }
 
+/// A band, 20 by 6 cm, and 10 cm below it a flounce of another width [cm] and 15 cm height, to be
+/// gathered on it.
+inline std::string band_and_flounce(double width) {
+  const auto panel = [](double wide, double high, double low) {
+    const std::string w = std::to_string(wide), h = std::to_string(high);
+    return R"({"vertices":[[0,0],[)" + w + ",0],[" + w + "," + h + "],[0," + h +
+           R"(]],"edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},)" +
+           R"({"endpoints":[3,0]}],"translation":[)" + std::to_string(-wide / 2) + "," +
+           std::to_string(low) + R"(,0],"rotation":[0,0,0]})";
+  };
+  return R"({"pattern":{"panels":{"band":)" + panel(20, 6, 125) + R"(,"flounce":)" +
+         panel(width, 15, 100) +
+         R"(},"stitches":[[{"panel":"band","edge":0},{"panel":"flounce","edge":2}]]},)" +
+         R"("properties":{"units_in_meter":100}})";
+}
+
 /// Two rectangles in one plane that touch along the y axis, the right one 3 cm higher, to be sewn
 /// together there.
 inline std::string panels_side_by_side() {

@@ -5,6 +5,7 @@
 
 #include "weft/cloth/border_springs.h"
 #include "weft/cloth/neighbours.h"
+#include "weft/cloth/seam_lengths.h"
 
 namespace weft {
 namespace {
@@ -18,12 +19,6 @@ double cell_area_at(const Planes3& p, int r, int c) {
   if (squared_length(e - a) <= squared_length(d - b))
     return triangle_area(a, b, e) + triangle_area(a, e, d);
   return triangle_area(a, b, d) + triangle_area(b, e, d);
-}
-
-/// Spring length in the arithmetic of the forces, so that a cloth at rest has exactly none.
-float spring_length(Vec3f a, Vec3f b) {
-  const Vec3f d = b - a;
-  return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
 }
 
 double mean_spacing_of(const Planes3& p, const BorderMates& mates) {
@@ -130,13 +125,17 @@ SpringPlane make_springs(const RestShape& shape, const Material& material,
   const auto [down, right] = spring_offsets[direction];
   SpringPlane plane{down, right, Grid<float>(n, n, 1), Grid<float>(n, n), Grid<float>(n, n)};
   const auto min = static_cast<float>(min_relative_length * shape.mean_spacing);
+  const SeamLengths seams(shape.position, shape.mates, std::max(down, std::abs(right)));
+  const auto length_of = [&](int from, int to) {
+    const float own = spring_length(shape.position.at(from), shape.position.at(to));
+    return down == 0 || right == 0 ? seams.shortest(from, to, own) : own;
+  };
   for (int r = 0; r + down < n; ++r)
     for (int c = std::max(0, -right); c + std::max(0, right) < n; ++c) {
       const int from = r * n + c, to = (r + down) * n + c + right;
       if (!shape.mates.same_chart(from, to)) continue;
       if (shape.mates.representative(from) == shape.mates.representative(to)) continue;
-      const float rest =
-          std::max(min, spring_length(shape.position.at(from), shape.position.at(to)));
+      const float rest = std::max(min, length_of(from, to));
       plane.rest_length(r, c) = rest;
       plane.stiffness(r, c) =
           static_cast<float>(stiffness_of(shape, material, direction, {r, c, rest}));

@@ -7,6 +7,7 @@
 #include "weft/files.h"
 #include "weft/garment.h"
 #include "weft/image/io/exr_codec.h"
+#include "weft/image/io/metadata.h"
 #include "weft/image_file.h"
 #include "weft/mesh.h"
 #include "weft/mesh/crossings.h"
@@ -101,7 +102,9 @@ void Recorder::write_rest(const SimulatedCloth& cloth, const Placement& placemen
   std::error_code ignored;
   fs::remove(path, ignored);  // of an earlier run
   if (!cloth.model->start && placement.scale == Vec3d{1, 1, 1}) return;
-  const std::string bytes = encode_exr(cloth.model->rest, "rest");
+  GeometryImage sewn = cloth.image;
+  sewn.mates = cloth.model->mates;
+  const std::string bytes = encode_exr(cloth.model->rest, metadata_text(sewn));
   write_file(path, [&](std::ostream& out) { out << bytes; });
   rests_.push_back(path);
 }

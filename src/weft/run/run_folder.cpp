@@ -14,6 +14,7 @@
 #include "weft/error.h"
 #include "weft/files.h"
 #include "weft/image/io/exr_codec.h"
+#include "weft/image/io/metadata.h"
 #include "weft/image_file.h"
 #include "weft/run/export/surface_points.h"
 #include "weft/run/run_manifest.h"
@@ -43,6 +44,9 @@ Placement placement_of(const JsonObject& object) {
   return {object.vector("scale", {1, 1, 1}), object.vector("rotate", {}),
           object.vector("translate", {})};
 }
+
+/// The metadata of rest shapes in folders of versions that did not tell what is sewn.
+constexpr const char* rest_without_seams = "rest";
 
 constexpr std::array<std::string_view, 9> manifest_keys{
     "version", "scene", "unit", "up", "frame_rate", "frames", "ground", "cloths", "bodies"};
@@ -76,17 +80,20 @@ RecordedPoints open_cache(const RecordedPlace& place, const JsonObject& object,
   return recorded;
 }
 
-/// Nothing of a folder that does not tell.
-Planes3 rest_of(const RecordedPlace& from, const JsonObject& object, const GeometryImage& image) {
+/// Reads the rest shape, if the folder tells it, and the seams that are sewn, if it does.
+void read_rest(const RecordedPlace& from, const JsonObject& object, RecordedCloth& cloth) {
+  const int n = cloth.image.size();
+  cloth.mates = cloth.image.mates;
   const std::string rest = object.text("rest", "");
-  if (rest.empty()) return {};
-  if (rest == object.text("image", "")) return world_positions(image);
+  if (rest == object.text("image", "")) cloth.rest = world_positions(cloth.image);
+  if (rest.empty() || rest == object.text("image", "")) return;
   const fs::path path = from.folder / rest;
-  Planes3 positions = decode_exr(read_file(path), path.string()).planes;
-  if (positions.size() != image.size())
-    throw InputError(path.string(), fmt::format("{} samples a side", positions.size()),
-                     fmt::format("the image has {}", image.size()));
-  return positions;
+  DecodedImage decoded = decode_exr(read_file(path), path.string());
+  if (decoded.planes.size() != n)
+    throw InputError(path.string(), fmt::format("{} samples a side", decoded.planes.size()),
+                     fmt::format("the image has {}", n));
+  cloth.rest = std::move(decoded.planes);
+  if (decoded.text != rest_without_seams) cloth.mates = mates_in(decoded.text, n, path.string());
 }
 
 RecordedCloth open_cloth(const RecordedPlace& from, const Json& value, const JsonPlace& place) {
@@ -95,7 +102,7 @@ RecordedCloth open_cloth(const RecordedPlace& from, const Json& value, const Jso
   cloth.name = object.text("name", "");
   cloth.image = read_image(from.folder / object.text("image", ""));
   cloth.recorded = open_cache(from, object, cloth.image);
-  cloth.rest = rest_of(from, object, cloth.image);
+  read_rest(from, object, cloth);
   return cloth;
 }
 
@@ -178,7 +185,7 @@ struct RecordedStrain::Springs {
 };
 
 RecordedStrain::RecordedStrain(const RecordedCloth& cloth) {
-  const RestShape shape(cloth.rest, cloth.image.mates);
+  const RestShape shape(cloth.rest, cloth.mates);
   springs_ = std::make_unique<Springs>(Springs{
       {make_springs(shape, Material{}, stretch_u), make_springs(shape, Material{}, stretch_v)}});
 }

@@ -99,7 +99,8 @@ FrameReport Simulation::advance() {
   Stopwatch clock;
   const int substeps = parts_->scene.substeps;
   // A frame depends only on what save() stores, so that a run can be resumed at any frame.
-  parts_->follow_sewing();
+  report.work = parts_->follow_sewing();
+  parts_->energy.add_work(report.work);
   for (const auto& mover : parts_->movers) mover.integrator->forget();
   parts_->collider->forget();
   for (int substep = 0; substep < substeps; ++substep) {

@@ -182,6 +182,8 @@ void Loader::load_cloths() {
     Cloth cloth = make(wanted, placed, loaded);
     other_bending.push_back(loaded.garment ? stiffen(wanted, placed, loaded, cloth)
                                            : BendingPlanes());
+    gathers.push_back(loaded.garment ? Gathers(cloth) : Gathers());
+    if (cloth.start) gathers.back().ripple(cloth, *cloth.start);
     pin_motions.push_back(of_cloth(wanted.name, [&] { return pin_places(cloth, wanted.pins); }));
     ClothState state = rest_state(cloth, vec_cast<float>(wanted.velocity));
     sewing.push_back(loaded.garment

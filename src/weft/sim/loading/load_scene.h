@@ -11,6 +11,7 @@
 #include "weft/sim/motion/attachments.h"
 #include "weft/sim/motion/body_motion.h"
 #include "weft/sim/motion/pins.h"
+#include "weft/sim/sewing/gathers.h"
 #include "weft/sim/sewing/sewing.h"
 #include "weft/simulation.h"
 
@@ -31,6 +32,7 @@ struct LoadedScene {
   /// Of each cloth, the bending that is not in use: of a garment that slides that of its fabric,
   /// later that of stiff panels; of other cloths none.
   std::vector<BendingPlanes> other_bending;
+  std::vector<Gathers> gathers;  // of each cloth; none but of garments
 };
 
 /// Loads and places the surfaces of a scene, and ties cloths to bodies.

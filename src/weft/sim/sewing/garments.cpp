@@ -42,7 +42,11 @@ Garments::Changes Garments::begin_frame(double seconds, double length) {
     const bool joined = join_closed(i);
     const bool other_stage = slides(i, seconds) != is_sliding(i);
     if (other_stage) std::swap(cloths_[i].model->bending, other_bending_[i]);
-    changes.fabric = changes.fabric || other_stage;
+    const double before = sewing_[i]->part_closed(seconds - length),
+                 now = sewing_[i]->part_closed(seconds);
+    const bool gathered = gathers_[i].gather(now, *cloths_[i].model);
+    changes.work += gathers_[i].work(before, now, *cloths_[i].model, cloths_[i].state.position);
+    changes.fabric = changes.fabric || other_stage || gathered;
     changes.contact = changes.contact || joined || other_stage;
   }
   return changes;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "weft/cloth/cloth.h"
+#include "weft/sim/sewing/gathers.h"
 #include "weft/sim/sewing/sewing.h"
 #include "weft/simulation.h"
 
@@ -14,10 +15,10 @@ class Garments {
  public:
   /// All are kept by reference.
   /// @param sewing         of each cloth; none: it is no garment
-  /// @param other_bending  of each cloth, see LoadedScene
+  /// @param other_bending, gathers  of each cloth, see LoadedScene
   Garments(std::vector<SimulatedCloth>& cloths, std::vector<std::optional<Sewing>>& sewing,
-           std::vector<BendingPlanes>& other_bending)
-      : cloths_(cloths), sewing_(sewing), other_bending_(other_bending) {}
+           std::vector<BendingPlanes>& other_bending, std::vector<Gathers>& gathers)
+      : cloths_(cloths), sewing_(sewing), other_bending_(other_bending), gathers_(gathers) {}
 
   /// Whether any seam is open yet.
   [[nodiscard]] bool any_open() const;
@@ -33,11 +34,12 @@ class Garments {
 
   /// What a frame changes.
   struct Changes {
-    bool fabric = false;   ///< of a cloth, which bends in another way
+    bool fabric = false;   ///< of a cloth, which bends in another way, or is gathered further
     bool contact = false;  ///< other samples than before are joined, or friction begins
+    double work = 0;       ///< of gathering edges [J]
   };
-  /// Begins a frame: joins what has closed, takes apart what is to close anew, and gives garments
-  /// the bending of their fabric where they no longer slide.
+  /// Begins a frame: joins what has closed, takes apart what is to close anew, gathers edges, and
+  /// gives garments the bending of their fabric where they no longer slide.
   /// @param seconds, length  at its start, and of it
   Changes begin_frame(double seconds, double length);
   /// Notes which cloths slide, as a collider that is made now knows them.
@@ -62,6 +64,7 @@ class Garments {
   std::vector<SimulatedCloth>& cloths_;
   std::vector<std::optional<Sewing>>& sewing_;
   std::vector<BendingPlanes>& other_bending_;
+  std::vector<Gathers>& gathers_;
   std::vector<char> sliding_;  // of each cloth: whether the collider's friction is none
 };
 

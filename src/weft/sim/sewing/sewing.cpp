@@ -54,7 +54,7 @@ double farthest_from(Vec3d middle, const Planes3& planes, std::span<const int> s
 
 /// The part of the distances that is left: it falls from 1 to 0, slowly at first and at last.
 double part_left(double seconds, double time_to_close) {
-  const double t = std::min(1.0, seconds / time_to_close);
+  const double t = std::clamp(seconds / time_to_close, 0.0, 1.0);
   return 1 - t * t * (3 - 2 * t);
 }
 
@@ -196,6 +196,8 @@ double Sewing::slack_of(int index) const {
     least = std::min(least, slack_[panels_.panel_of(s)]);
   return least;
 }
+
+double Sewing::part_closed(double seconds) const { return 1 - part_left(seconds, time_to_close_); }
 
 double Sewing::gravity_part(double seconds) const {
   const double since = seconds - std::max(gravity_after, time_to_close_);

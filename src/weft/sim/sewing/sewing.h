@@ -45,6 +45,9 @@ class Sewing {
   /// come together as they are, instead of crumpling at their edges.
   [[nodiscard]] static WarpWeft bending_for(const Material& material);
 
+  /// The part of their distances by which seams have closed, if nothing holds them back.
+  [[nodiscard]] double part_closed(double seconds) const;
+
   /// The part of gravity that acts on the cloth: none while seams close, but not for ever.
   [[nodiscard]] double gravity_part(double seconds) const;
 

@@ -178,8 +178,12 @@ void EnergyBudget::take_out(double excess) {
 void EnergyBudget::finish_step(double net_work, bool watched) {
   known_ = known_ && watched;
   for (Mover& mover : movers_) mover.start = mover.end;
-  work_.net += net_work;
-  work_.gross += std::abs(net_work);
+  add_work(net_work);
+}
+
+void EnergyBudget::add_work(double net) {
+  work_.net += net;
+  work_.gross += std::abs(net);
 }
 
 }  // namespace weft

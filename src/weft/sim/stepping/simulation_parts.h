@@ -50,9 +50,10 @@ struct Simulation::Parts : LoadedScene {
   void sew(std::size_t index);
   double work_of_sewing();
   /// Makes the collider anew where other samples than before are joined, or friction begins, and
-  /// movers where garments get the bending of their fabric.
-  void follow_sewing();
-  /// Makes movers anew, for fabrics that resist bending in another way.
+  /// movers where edges are gathered or garments get the bending of their fabric.
+  /// @return work of gathering [J]
+  double follow_sewing();
+  /// Makes movers anew, for cloths with other springs or bending.
   void renew_movers();
   /// Ends the step: bodies take their end positions.
   void bodies_arrive();
@@ -178,7 +179,7 @@ struct Simulation::Parts : LoadedScene {
   /// limiter do not shrink with the step, and would move cloth through itself again.
   bool unlimited = false;
   bool watched = false;  // the step's energy is checked: something is near cloth
-  Garments garments{cloths, sewing, other_bending};
+  Garments garments{cloths, sewing, other_bending, gathers};
   ApproachLimit approach{scene, name, *this};
   SceneCrossings crossings{scene, *this};
   EnergyBudget energy{cloths, movers};

@@ -106,16 +106,17 @@ void Simulation::Parts::sew(std::size_t index) {
   integrator.forget();
 }
 
-void Simulation::Parts::follow_sewing() {
+double Simulation::Parts::follow_sewing() {
   const Garments::Changes changes =
       garments.begin_frame(frame_start(), substep_time * scene.substeps);
   if (changes.fabric) renew_movers();
-  if (!changes.contact) return;
+  if (changes.fabric || changes.contact) energy.forget();
+  if (!changes.contact) return changes.work;
   std::vector<std::vector<int>> marks(cloths.size());
   for (std::size_t i = 0; i < cloths.size(); ++i) collider->save_marks(i, marks[i]);
   make_collider_of_scene();
   for (std::size_t i = 0; i < cloths.size(); ++i) collider->restore_marks(i, marks[i]);
-  energy.forget();
+  return changes.work;
 }
 
 void Simulation::Parts::renew_movers() {
