@@ -12,14 +12,20 @@ import urllib.request
 
 import weft.batch.jobs
 from batch_case import BATCH, PATIENCE, BatchTest, conversion, drape
+from module import small_torus
 
 import distributed
 import psutil
 
 
 class BatchSurvives(BatchTest):
-    JOBS = [conversion("knot", 129), conversion("tshirt", 97), conversion("double_torus", 65), conversion("sphere", 65),
-            conversion("torus", 129), drape("torus", 6, 33), conversion("torus")]
+    # Some that are at work for a while, between others that are done at once.
+    JOBS = [conversion("knot", 129), *({"command": "convert", "mesh": "small.obj", "size": size} for size in (17, 25, 33, 65)),
+            drape("torus", 6, 33), conversion("torus")]
+
+    def setUp(self):
+        super().setUp()
+        weft.write_mesh("small.obj", *small_torus())
 
     def workers_at_work(self, process):
         """Of a batch: processes whose child is the program."""

@@ -6,6 +6,7 @@
 #include "tests/view/shapes.h"
 #include "weft/drawing.h"
 #include "weft/error.h"
+#include "weft/shapes.h"
 #include "weft/view/normals.h"
 
 namespace weft {
@@ -194,6 +195,25 @@ TEST(Renderer, ASurfaceOfTheSameRevisionIsNotLookedAtAgain) {
   EXPECT_NE(moved.rgb, first.rgb);
   scene.surfaces[0].revision = 0;
   EXPECT_EQ(Renderer(width, height).draw(scene).rgb, moved.rgb);
+}
+
+TEST(Renderer, AMeshOfTheSameRevisionIsNotLookedAtAgain) {
+  TriangleMesh mesh = make_shape("sphere");
+  DrawnMesh drawn;
+  drawn.mesh = &mesh;
+  drawn.revision = 1;
+  DrawnScene scene;
+  scene.meshes.push_back(drawn);
+  scene.ground = -1.0;
+  scene.camera = frame_box({{-1, -1, -1}, {1, 1, 1}}, 0.4, 0.35, 4.0 / 3);
+  Renderer renderer(width, height);
+  const Picture before = renderer.draw(scene);
+  for (Vec3d& p : mesh.positions) p = {p.x, 0.4 * p.y, p.z};
+  EXPECT_EQ(renderer.draw(scene).rgb, before.rgb);
+  scene.meshes[0].revision = 2;
+  const Picture flat = renderer.draw(scene);
+  EXPECT_NE(flat.rgb, before.rgb);
+  EXPECT_EQ(Renderer(width, height).draw(scene).rgb, flat.rgb) << "its shadow is new, too";
 }
 
 TEST(Renderer, KeptLightIsThatOfThePictureBeforeUntilItIsAskedForAnew) {

@@ -200,6 +200,7 @@ SurfacePainter::SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& vi
   shift(surface_, -origin_);
   DrawnMesh surface;
   surface.mesh = &surface_;
+  surface.revision = 1;
   for (const Vec3f colour : drawing_.colours) surface.colours.push_back(linear_light(colour));
   if (drawing_.show_edges) surface.marked_edges = edges_of(*drawing_.mesh);
   surface.mark_colour = linear_light(edge_colour);
@@ -208,6 +209,7 @@ SurfacePainter::SurfacePainter(const SurfaceDrawing& drawing, const ViewFrom& vi
 
   const double radius = drawing_.curve_radius * box_of(surface_).diagonal();
   DrawnMesh marks;
+  marks.revision = 1;
   const auto add = [&](const TriangleMesh& part, Vec3f colour) {
     append(marks_, part);
     marks.colours.resize(marks_.positions.size(), linear_light(colour));

@@ -137,14 +137,14 @@ void ScenePainter::renew_light(const DrawnScene& scene) {
 
 void ScenePainter::load(const DrawnScene& scene) {
   const std::size_t count = scene.surfaces.size() + scene.meshes.size();
-  if (count != surfaces_.size() || !scene.meshes.empty() || scene.light != key_light_ ||
-      scene.ground != ground_height_)
+  if (count != surfaces_.size() || scene.light != key_light_ || scene.ground != ground_height_)
     is_light_old_ = true;
   surfaces_.resize(count);
   auto next = surfaces_.begin();
   for (const DrawnSurface& surface : scene.surfaces)
     if ((next++)->load(surface)) is_light_old_ = true;
-  for (const DrawnMesh& mesh : scene.meshes) (next++)->load(mesh);
+  for (const DrawnMesh& mesh : scene.meshes)
+    if ((next++)->load(mesh)) is_light_old_ = true;
 }
 
 void ScenePainter::load_floor(double ground) {

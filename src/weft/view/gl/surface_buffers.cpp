@@ -105,7 +105,7 @@ void IndexList::draw_triangles() const {
 
 bool SurfaceBuffers::load(const DrawnSurface& surface) {
   WEFT_ASSERT(surface.positions != nullptr && surface.positions->size() >= 2);
-  if (surface.revision != 0 && surface.revision == revision_) return false;
+  if (surface.revision != 0 && surface.revision == revision_ && is_grid()) return false;
   revision_ = surface.revision;
   box_ = bounds(*surface.positions);
   const std::vector<Vec3f> white{{1, 1, 1}};
@@ -135,9 +135,10 @@ void SurfaceBuffers::upload_grid(const Planes3& positions, const Planes3& normal
   split_ = std::move(split);
 }
 
-void SurfaceBuffers::load(const DrawnMesh& drawn) {
+bool SurfaceBuffers::load(const DrawnMesh& drawn) {
   WEFT_ASSERT(drawn.mesh != nullptr);
-  revision_ = 0;
+  if (drawn.revision != 0 && drawn.revision == revision_ && !is_grid()) return false;
+  revision_ = drawn.revision;
   TriangleMesh mesh = usable(*drawn.mesh);
   box_ = box_of(mesh);
   for (Vec3d& p : mesh.positions)
@@ -157,6 +158,7 @@ void SurfaceBuffers::load(const DrawnMesh& drawn) {
   triangles_[1].upload(corners);
   grid_side_ = 0;
   make_sky_target(positions_.width(), positions_.height());
+  return true;
 }
 
 void SurfaceBuffers::load_ground(Vec3d centre, double half_side) {

@@ -35,10 +35,10 @@ class SurfaceBuffers {
  public:
   /// Loads a surface, unless its revision is loaded already. @return whether anything is new
   bool load(const DrawnSurface& surface);
+  bool load(const DrawnMesh& mesh);
   /// Whether the light maps were drawn since they were created.
   [[nodiscard]] bool is_lit() const { return is_lit_; }
   void set_lit() { is_lit_ = true; }
-  void load(const DrawnMesh& mesh);
   /// Loads a flat square of ground, 65 x 65 samples.
   void load_ground(Vec3d centre, double half_side);
 
