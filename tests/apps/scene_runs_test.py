@@ -105,7 +105,7 @@ class DrapeAndRender(ProgramTest):
 
         self.run_weft("drape", "builtin:sheet", "builtin:sphere", "-o", "a", "--size", "17", "--frames", "3")
         for ending in ("mp4", "gif", "png"):
-            done = self.run_weft("render", "a", "-o", f"a.{ending}", code=3, preexec_fn=small_files)
+            done = self.run_weft("render", "a", "-o", f"a.{ending}", "--width", 160, "--height", 120, code=3, preexec_fn=small_files)
             self.assertIn(f"a.{ending}", done.stderr)
             self.assertFalse((self.folder / f"a.{ending}").exists())
 
