@@ -1,5 +1,7 @@
 #include "weft/sim/sewing/gathers.h"
 
+#include <cmath>
+
 #include "weft/cloth/border_springs.h"
 #include "weft/cloth/seam_lengths.h"
 
@@ -11,7 +13,7 @@ constexpr int stages = 16;
 /// Springs that are shorter by less than this part begin as they are sewn.
 constexpr float least_part = 0.01F;
 /// How far samples begin out of their panels, as a part of what is gathered between them.
-constexpr float ripple_part = 0.02F;
+constexpr float ripple_part = 1e-4F;
 
 /// The normal of a flat panel, from a cell at one of its samples.
 Vec3f normal_at(const BorderMates& mates, const Planes3& positions, int sample) {
@@ -52,15 +54,16 @@ void Gathers::ripple(const Cloth& cloth, Planes3& start) const {
   }
 }
 
-int Gathers::stage_of(double part) { return static_cast<int>(part * stages); }
+/// Ahead of the seam: edges that come together have the same length already.
+int Gathers::stage_of(double closed) { return static_cast<int>(std::sqrt(closed) * stages); }
 
 float Gathers::rest_length(const Spring& spring, int stage) {
   const float left = 1 - static_cast<float>(stage) / stages;
   return spring.gathered + left * (spring.flat - spring.gathered);
 }
 
-bool Gathers::gather(double part, Cloth& cloth) {
-  const int stage = stage_of(part);
+bool Gathers::gather(double closed, Cloth& cloth) {
+  const int stage = stage_of(closed);
   if (springs_.empty() || stage == stage_) return false;
   stage_ = stage;
   for (const Spring& spring : springs_)
@@ -69,16 +72,15 @@ bool Gathers::gather(double part, Cloth& cloth) {
   return true;
 }
 
-double Gathers::work(double from_part, double to_part, const Cloth& cloth,
-                     const Planes3& position) const {
+double Gathers::work(double from, double to, const Cloth& cloth, const Planes3& position) const {
   double sum = 0;
   for (const Spring& spring : springs_) {
     const SpringPlane& plane = cloth.springs[spring.direction];
     const double length =
         spring_length(position.at(spring.row, spring.col),
                       position.at(spring.row + plane.down, spring.col + plane.right));
-    const double before = length - rest_length(spring, stage_of(from_part));
-    const double after = length - rest_length(spring, stage_of(to_part));
+    const double before = length - rest_length(spring, stage_of(from));
+    const double after = length - rest_length(spring, stage_of(to));
     sum += 0.5 * plane.stiffness(spring.row, spring.col) * (after * after - before * before);
   }
   return sum;

@@ -14,15 +14,15 @@ class Gathers {
   /// Gives the springs the lengths of the flat panels. @param cloth  as it is when sewn
   explicit Gathers(Cloth& cloth);
 
-  /// Moves samples of edges that are gathered out of their panels a little, to both sides in turn,
-  /// so that flat panels fold there, as cloth does, instead of being crushed in their plane.
+  /// Moves samples of edges that are gathered out of their panels by a trace, to both sides in
+  /// turn, so that flat panels fold there, as cloth does, instead of being crushed in their plane.
   /// @param start  where panels begin [n x n] [m]
   void ripple(const Cloth& cloth, Planes3& start) const;
-  /// Sets the rest lengths. @param part  of what is gathered in the end, 0 to 1
+  /// Sets the rest lengths. @param closed  part of their distances by which seams have closed
   /// @return whether they are others than before
-  bool gather(double part, Cloth& cloth);
-  /// The energy that the springs gain by being gathered further where the cloth is. [J]
-  [[nodiscard]] double work(double from_part, double to_part, const Cloth& cloth,
+  bool gather(double closed, Cloth& cloth);
+  /// The energy that the springs gain where the cloth is as seams close. [J]
+  [[nodiscard]] double work(double from, double to, const Cloth& cloth,
                             const Planes3& position) const;
 
  private:
@@ -30,7 +30,7 @@ class Gathers {
     int direction = 0, row = 0, col = 0;
     float flat = 0, gathered = 0;  // rest lengths [m]
   };
-  static int stage_of(double part);
+  static int stage_of(double closed);
   static float rest_length(const Spring& spring, int stage);
 
   std::vector<Spring> springs_;

@@ -39,6 +39,10 @@ constexpr double closed = 5e-5;
 /// of the late speed at least. Where they are stretched more, it is they that do.
 constexpr double least_slack = 0.5;
 
+/// Where a body takes more than this part of a pull, its goal is behind the body, and the seam goes
+/// over it: straps over shoulders.
+constexpr double head_on = 0.7;
+
 Vec3d mean_of(const Planes3& planes, std::span<const int> samples) {
   Vec3d sum;
   for (const int s : samples) sum += vec_cast<double>(planes.at(s));
@@ -251,14 +255,30 @@ Vec3d Sewing::pull_of(int index, int sample, const Planes3& position, std::size_
   const Vec3d goal = away_[index] < turns_within
                          ? vec_cast<double>(position.at(samples[step % samples.size()]))
                          : middle_[index];
-  Vec3d pull = rate_[index] * (goal - vec_cast<double>(position.at(sample)));
+  const Vec3d pull = rate_[index] * (goal - vec_cast<double>(position.at(sample)));
   if (away_[index] < turns_within) return pull;
+  const Vec3d along = along_bodies(sample, pull);
+  const double lost = length(pull - along);
+  if (lost < head_on * length(pull)) return along;
+  return along_bodies(sample, along + lost * up_along_bodies(sample));
+}
+
+Vec3d Sewing::along_bodies(int sample, Vec3d pull) const {
   for (int round = 0; round < max_blocking; ++round)
     for (const Vec3f& normal : blocked_[sample]) {
       const auto out = vec_cast<double>(normal);
       pull -= std::min(0.0, dot(pull, out)) * out;
     }
   return pull;
+}
+
+Vec3d Sewing::up_along_bodies(int sample) const {
+  Vec3d up{0, 1, 0};
+  for (const Vec3f& normal : blocked_[sample]) {
+    const auto out = vec_cast<double>(normal);
+    up -= dot(up, out) * out;
+  }
+  return up;
 }
 
 void Sewing::find_panel_pulls(const Planes3& position, std::size_t step) {

@@ -76,6 +76,10 @@ class Sewing {
   /// The velocity towards its mates that sewing gives a sample of a class: not into a body.
   [[nodiscard]] Vec3d pull_of(int index, int sample, const Planes3& position,
                               std::size_t step) const;
+  /// What the bodies that a sample touches leave of a pull.
+  [[nodiscard]] Vec3d along_bodies(int sample, Vec3d pull) const;
+  /// Upwards along them: shorter than 1 the flatter they are.
+  [[nodiscard]] Vec3d up_along_bodies(int sample) const;
   /// Finds the mean of these velocities over the seams of each panel.
   void find_panel_pulls(const Planes3& position, std::size_t step);
   /// Finds the classes that are pulled once the seams should have closed.
