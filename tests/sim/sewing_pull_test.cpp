@@ -40,6 +40,21 @@ TEST(SewingPull, LeavesOutWhatGoesIntoABody) {
   EXPECT_NEAR(dot(tube.pulled({}, {against}).at(a), towards), 0, 1e-3);
 }
 
+TEST(SewingPull, GoesUpWhereTheGoalIsBehindABody) {
+  const Placed tube(test::tube_pattern(30, 20, 24, 100));
+  const auto [a, b] = tube.garment.seams.front().pairs[3];
+  const Vec3f towards = normalized(tube.state.position.at(b) - tube.state.position.at(a));
+  PastContact against;
+  against.samples = {a, -1, -1, -1};
+  against.normal = -1.0F * towards;
+  const Vec3f up = tube.pulled({}, {against}).at(a);
+  EXPECT_GT(up.y, 0.1);
+  EXPECT_NEAR(length(up), up.y, 1e-3);
+  // A body that only grazes the way leaves it.
+  against.normal = normalized(Vec3f{1, 0, 0} - 0.3F * towards);
+  EXPECT_NEAR(tube.pulled({}, {against}).at(a).y, 0, 1e-3);
+}
+
 TEST(SewingPull, KeepsPanelsWithALabelAtTheirHeight) {
   const Placed free(test::tube_pattern(30, 20, 24, 100));
   const Placed held(test::tube_pattern(30, 20, 24, 100, "lower_interface"));
