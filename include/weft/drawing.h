@@ -54,7 +54,7 @@ struct DrawnMesh {
   std::vector<Vec3f> colours;                    ///< [V] per vertex, instead of `colour`; or none
   Vec3f mark_colour{0.75F, 0.05F, 0.03F};        ///< linear RGB
   double mark_width = 2;                         ///< in pixels of a picture 480 high
-  /// As that of a surface, of the mesh and its colours.
+  /// As DrawnSurface::revision, of the mesh and its colours.
   std::uint64_t revision = 0;
 };
 
