@@ -85,8 +85,9 @@ void read_rest(const RecordedPlace& from, const JsonObject& object, RecordedClot
   const int n = cloth.image.size();
   cloth.mates = cloth.image.mates;
   const std::string rest = object.text("rest", "");
-  if (rest == object.text("image", "")) cloth.rest = world_positions(cloth.image);
-  if (rest.empty() || rest == object.text("image", "")) return;
+  const bool is_image = rest == object.text("image", "");
+  if (is_image) cloth.rest = world_positions(cloth.image);
+  if (rest.empty() || is_image) return;
   const fs::path path = from.folder / rest;
   DecodedImage decoded = decode_exr(read_file(path), path.string());
   if (decoded.planes.size() != n)

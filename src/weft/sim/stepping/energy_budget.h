@@ -68,7 +68,7 @@ class EnergyBudget {
   /// Counts the work of an accepted step, whose end energies are the start energies of the next.
   /// @param watched  whether these were measured
   void finish_step(double net_work, bool watched);
-  /// Counts work that was done between steps.
+  /// Counts work that was done between steps. @param net  [J]
   void add_work(double net);
   /// Counts work that no spring accounts for, see WorkDone.
   void add_pulled(double energy) { work_.pulled += energy; }
