@@ -103,11 +103,11 @@ class Render(ProgramTest):
 
     def test_runs_are_coloured_by_strain(self):
         self.make_runs()
-        small = ["--width", "320", "--height", "240"]
+        small = ["--width", "160", "--height", "120"]
         for name, words in {"plain": [], "strain": ["--show", "strain"], "five": ["--show", "strain", "--full-strain", 5],
                             "six": ["--show", "strain", "--full-strain", 6]}.items():
             self.run_weft("render", "long", "-o", f"{name}.png", *words, *small)
-            self.assertEqual(self.size_of(f"{name}.png"), (320, 240), name)
+            self.assertEqual(self.size_of(f"{name}.png"), (160, 120), name)
         self.assertEqual(len({(self.folder / f"{name}.png").read_bytes() for name in ("plain", "strain", "five", "six")}), 4)
         self.run_weft("render", "short", "long", "-o", "two.gif", "--show", "strain", *small)
         self.assertEqual(self.frames_of("two.gif"), 5)

@@ -150,8 +150,8 @@ class Examples(ProgramTest):
         for path in self.scenes():
             names.append(path.stem)
             with self.subTest(path.name):
-                report = self.run_json("simulate", path, "-o", path.stem, "--frames", "3")
-                self.assertEqual(report["frames"], 3)
+                report = self.run_json("simulate", path, "-o", path.stem, "--frames", "2")
+                self.assertEqual(report["frames"], 2)
                 found = report["intersections_found"]
                 self.assertEqual((found["bodies"], found["ground"]), (0, 0))
         self.assertGreaterEqual(len(names), 20)

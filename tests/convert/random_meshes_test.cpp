@@ -32,6 +32,8 @@ using test::unmeasured;
 
 constexpr int meshes_a_test = 10;
 constexpr int tests = 10;
+/// Of the images of several pieces: enough for poor ones to be divided.
+constexpr int pieces_size = 97;
 
 struct Seeds {
   std::uint64_t first = 0;
@@ -165,17 +167,17 @@ TEST_P(RandomMeshes, SeveralPiecesBecomeAsManyChartsOrMore) {
       // The mesh before poor pieces were divided: that of the conversion is parted.
       const TriangleMesh whole =
           repair_mesh(made.mesh, {.component = {ComponentChoice::Kind::all, 0}}).mesh;
-      const Conversion found = convert_mesh(made.mesh, "random", unmeasured(129));
+      const Conversion found = convert_mesh(made.mesh, "random", unmeasured(pieces_size));
       EXPECT_EQ(found.map_quality.flipped + found.map_quality.degenerate, 0);
       EXPECT_TRUE(found.quality.mates_bit_equal);
       if (found.input.joined.empty()) {
         EXPECT_EQ(found.charts.size(), components_of(whole).size());
       }
       EXPECT_EQ(components_of(rebuild_mesh(found.image).mesh), components_of(whole))
-          << command(seed, 129, made.made_of);
+          << command(seed, pieces_size, made.made_of);
     } catch (const Error& error) {
-      ADD_FAILURE() << error.what() << ": " << command(seed, 129, made.made_of);
-      keep(made.mesh, seed, 129);
+      ADD_FAILURE() << error.what() << ": " << command(seed, pieces_size, made.made_of);
+      keep(made.mesh, seed, pieces_size);
     }
   }
 }
@@ -192,14 +194,14 @@ TEST_P(RandomMeshes, WhatIsNoManifoldIsPartedAndJoinedAgain) {
     const test::BrokenMesh broken = test::random_broken_mesh(seed);
     if (!is_a_surface(broken)) continue;
     try {
-      const Conversion made = convert_mesh(broken.mesh, "broken", unmeasured(129));
+      const Conversion made = convert_mesh(broken.mesh, "broken", unmeasured(pieces_size));
       EXPECT_EQ(made.map_quality.flipped + made.map_quality.degenerate, 0);
       EXPECT_TRUE(made.quality.mates_bit_equal);
       EXPECT_EQ(made.quality.euler, made.input.counts.euler);
       EXPECT_EQ(made.quality.boundaries, made.input.counts.boundaries);
     } catch (const Error& error) {
-      ADD_FAILURE() << error.what() << ": " << command(seed, 129, broken.made_of);
-      keep(broken.mesh, seed, 129);
+      ADD_FAILURE() << error.what() << ": " << command(seed, pieces_size, broken.made_of);
+      keep(broken.mesh, seed, pieces_size);
     }
   }
 }
@@ -215,7 +217,7 @@ double nonmanifold_length(const TriangleMesh& mesh) {
 /// What is wrong with the conversion of what is no manifold; empty when nothing is.
 std::string complex_fault(const test::RandomComplex& complex) {
   try {
-    const Conversion made = convert_mesh(complex.mesh, "complex", unmeasured(129));
+    const Conversion made = convert_mesh(complex.mesh, "complex", unmeasured(pieces_size));
     const TopologyCounts wanted =
         repair_mesh(complex.whole, {.component = {ComponentChoice::Kind::all, 0}}).counts;
     const TriangleMesh again = rebuild_mesh(made.image).mesh;
@@ -245,8 +247,8 @@ TEST_P(RandomMeshes, WhatFilesHoldKeepsItsTopology) {
   for (std::uint64_t seed = first; seed < first + one_in(10, count); ++seed) {
     const test::RandomComplex complex = test::random_complex(seed);
     const std::string wrong = complex_fault(complex);
-    EXPECT_EQ(wrong, "") << command(seed, 129, complex.made_of);
-    if (!wrong.empty()) keep(complex.mesh, seed, 129);
+    EXPECT_EQ(wrong, "") << command(seed, pieces_size, complex.made_of);
+    if (!wrong.empty()) keep(complex.mesh, seed, pieces_size);
   }
 }
 

@@ -105,7 +105,7 @@ TEST(Garment, MakesChartsOfAllSharedPatterns) {
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".json") {
       const std::string name = entry.path().string();
-      const Garment garment = make_garment(read_pattern(name), name, 0.016);
+      const Garment garment = make_garment(read_pattern(name), name, 0.03);
       EXPECT_FALSE(garment.seams.empty()) << name;
       ++count;
     }

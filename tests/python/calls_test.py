@@ -12,7 +12,7 @@ import unittest
 import weft
 from module import ModuleTest, small_torus, sphere_on_floor
 
-ROUNDS = int(os.environ.get("WEFT_LEAK_ROUNDS", 30))  # by hand: 1000
+ROUNDS = int(os.environ.get("WEFT_LEAK_ROUNDS", 20))  # by hand: 1000
 PAGE = os.sysconf("SC_PAGE_SIZE")
 
 # Converts what takes long, or simulates, until the signal comes; says what it was stopped by.

@@ -173,7 +173,7 @@ TEST(ChartCloths, ACutSheetLiesAsTheUncutOneDoes) {
   const Scene cut = charts_over_balls(image_of({49, testing::pinwheel(49)}), 1);
   Simulation uncut(whole, "uncut", 1), charts(cut, "charts", 1);
   EXPECT_EQ(charts.cloths()[0].image.mates.charts().size(), 5U);
-  for (int frame = 0; frame < 40; ++frame) {
+  for (int frame = 0; frame < 25; ++frame) {
     const FrameReport here = charts.advance(), there = uncut.advance();
     EXPECT_GT(here.smallest_gap, 0) << "frame " << frame;
     // Folds about the ball are chaotic: a sample moved by a micrometre moves the centre of the

@@ -66,7 +66,7 @@ TEST(StepEnergy, APulledSheetExpandsAgainOnceThePullEnds) {
 
 TEST(StepEnergy, AThrownSheetGainsNone) {
   Simulation simulation(set_down(), "set down", 1);
-  const std::vector<FrameReport> reports = run(simulation, 60);
+  const std::vector<FrameReport> reports = run(simulation, 30);
   const double max = 0.01 * simulation.mass() * 9.81;
   EXPECT_LT(gained(simulation, reports), max);
   int stopped = 0;
@@ -302,12 +302,12 @@ int compare_refused(Scene scene, int frames) {
 }
 
 TEST(StepEnergy, RefusedStepsLeaveNoTrace) {
-  EXPECT_GT(compare_refused(set_down(), 8), 0);
-  EXPECT_GT(compare_refused(set_down_on_ball(), 8), 0);
+  EXPECT_GT(compare_refused(set_down(), 6), 0);
+  EXPECT_GT(compare_refused(set_down_on_ball(), 6), 0);
 }
 
 TEST(StepEnergy, ARunGoesOnInTheSameBitsAcrossRefusedSteps) {
-  constexpr int frames = 20;
+  constexpr int frames = 12;
   const Scene scene = set_down();
   Simulation whole(scene, "whole", 1);
   SimulationState middle, end;

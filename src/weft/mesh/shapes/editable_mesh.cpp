@@ -37,12 +37,16 @@ std::vector<int> EditableMesh::neighbours(int vertex) const {
 }
 
 std::optional<std::array<int, 2>> EditableMesh::border_neighbours(int vertex) const {
-  // Inside, every neighbour is in two triangles around the vertex; on the border two are in one
-  // only.
+  // Inside, every neighbour is in two triangles around the vertex, and so falls out here; on the
+  // border two are in one only.
+  int left = 0;
+  for (const int slot : around_[vertex])
+    for (const int v : triangles_[slot])
+      if (v != vertex) left ^= v;
+  if (left == 0) return std::nullopt;
   std::vector<int> found;
   for (const int v : neighbours(vertex))
     if (triangles_at_edge(vertex, v) == 1) found.push_back(v);
-  if (found.empty()) return std::nullopt;
   WEFT_ASSERT(found.size() == 2);
   return std::array{found[0], found[1]};
 }
