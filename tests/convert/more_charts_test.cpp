@@ -145,14 +145,14 @@ TEST(MoreCharts, SecondsAreThoseOfFailedTrialsToo) {
   EXPECT_EQ(made.seconds.map, 1) << "of the first image";
 }
 
-/// A wire of twenty turns, 1200 times longer than thick, beside a ball.
+/// A wire of twelve turns, hundreds of times longer than thick, beside a ball.
 TriangleMesh wire_and_ball() {
   TriangleMesh mesh = make_shape("sphere");
-  constexpr int around = 6, rings = 800;
+  constexpr int around = 6, rings = 480;
   const auto first = static_cast<int>(mesh.positions.size());
   for (int i = 0; i <= rings; ++i)
     for (int k = 0; k < around; ++k) {
-      const double angle = 40 * pi * i / rings, across = 2 * pi * k / around;
+      const double angle = 24 * pi * i / rings, across = 2 * pi * k / around;
       const double radius = 0.5 + 0.02 * cosine(across);
       mesh.positions.push_back(
           {3 + radius * cosine(angle), 0.002 * i + 0.02 * sine(across), radius * sine(angle)});
