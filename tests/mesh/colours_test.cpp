@@ -142,14 +142,32 @@ TEST_F(ColouredFiles, ObjMaterialsHaveColoursAndPictures) {
   EXPECT_TRUE(colours.parts[1].clamped);
 }
 
+/// Scaled and then moved, as programs that write OBJ mean it.
+TEST_F(ColouredFiles, ObjPicturesLieWhereTheirMaterialsPutThem) {
+  put("four.png", four_texels);
+  const auto pictured = [&](const std::string& options) {
+    put("a.mtl", "newmtl pictured\nmap_Kd " + options + " four.png\n");
+    return read("a.obj", two_faces);
+  };
+  const SurfaceColours as_it_is = pictured("-clamp off"), moved = pictured("-o 0.5 0 0"),
+                       mirrored = pictured("-s -1 1 1 -o 1"), narrow = pictured("-blendu on -s 3");
+  EXPECT_EQ(display_bytes(moved.at(1, first)), display_bytes(as_it_is.at(1, second)));
+  EXPECT_EQ(display_bytes(mirrored.at(1, first)), display_bytes(as_it_is.at(1, second)));
+  EXPECT_EQ(display_bytes(mirrored.at(1, second)), display_bytes(as_it_is.at(1, first)));
+  EXPECT_EQ(display_bytes(narrow.at(1, first)), display_bytes(as_it_is.at(1, second)));
+}
+
 TEST_F(ColouredFiles, WhatIsWrongWithMaterialsIsNamed) {
   EXPECT_NE(refusal("a.obj", two_faces).find("a.mtl"), std::string::npos) << "missing";
   put("a.mtl", "newmtl plain\nKd 0.2 red 1\n");
   EXPECT_EQ(refusal("a.obj", two_faces),
             "a.mtl:2: the colour 'red'; Kd red green blue, from 0 to 1, is wanted");
-  put("a.mtl", "newmtl plain\nmap_Kd -s 2 2 2 four.png\n");
+  put("a.mtl", "newmtl plain\nmap_Kd -t 1 1 1 four.png\n");
   EXPECT_EQ(refusal("a.obj", two_faces),
-            "a.mtl:2: a picture moved by -s; one that lies as it is is wanted");
+            "a.mtl:2: a picture with turbulence (-t); one that lies as it is is wanted");
+  put("a.mtl", "newmtl plain\nmap_Kd -s big four.png\n");
+  EXPECT_EQ(refusal("a.obj", two_faces),
+            "a.mtl:2: 'big' behind -s; one to three numbers up to 1e6 are wanted");
   put("a.mtl", "newmtl plain\nmap_Kd ../four.png\n");
   EXPECT_EQ(refusal("a.obj", two_faces),
             "a.obj: names the file '../four.png'; one in the mesh's folder or below is wanted");

@@ -43,13 +43,18 @@ SurfaceColours obj_colours(std::string_view bytes, std::string_view name, Neighb
 SurfaceColours gltf_colours(std::string_view bytes, std::string_view name,
                             const std::filesystem::path& folder);
 
+/// A material of an OBJ file: its picture lies where texture coordinates, scaled and then moved,
+/// say.
+struct ObjMaterial {
+  SurfaceColours::Part part;
+  Vec2f scale{1, 1}, offset{};
+};
+using ObjMaterials = std::map<std::string, ObjMaterial, std::less<>>;
 /// The materials of an OBJ file's library by their names: of each the picture of `map_Kd`, or the
 /// colour of `Kd`.
 /// @param name  what errors call it
-/// @throws InputError for numbers that are none, and for pictures that are moved or stretched
-std::map<std::string, SurfaceColours::Part, std::less<>> parse_materials(std::string_view text,
-                                                                         std::string_view name,
-                                                                         NeighbourFiles& files,
-                                                                         SurfaceColours& colours);
+/// @throws InputError for numbers that are none, and for pictures with turbulence
+ObjMaterials parse_materials(std::string_view text, std::string_view name, NeighbourFiles& files,
+                             SurfaceColours& colours);
 
 }  // namespace weft

@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "weft/error.h"
@@ -35,7 +36,7 @@ class MaterialReader {
                  SurfaceColours& colours)
       : text_(text), name_(name), files_(files), colours_(colours) {}
 
-  std::map<std::string, SurfaceColours::Part, std::less<>> read() {
+  ObjMaterials read() {
     while (!text_.empty()) {
       const std::size_t end = std::min(text_.find('\n'), text_.size());
       std::string_view line = text_.substr(0, end);
@@ -64,41 +65,62 @@ class MaterialReader {
         fail("the colour " + in_quotes(field), "Kd red green blue, from 0 to 1, is wanted");
       value = static_cast<float>(*number);
     }
-    if (material_->picture < 0) material_->base = linear_colour({values[0], values[1], values[2]});
+    if (material_->part.picture < 0)
+      material_->part.base = linear_colour({values[0], values[1], values[2]});
   }
 
-  /// Steps over the options that come before the file's name.
+  /// One to three numbers, of which the third is of solid textures. @return missing ones as they
+  /// were
+  Vec2f read_pair(std::string_view option, std::string_view& line, Vec2f pair) const {
+    for (int k = 0; k < 3; ++k) {
+      std::string_view rest = line;
+      const std::string_view field = take_word(rest);
+      const std::optional<double> number = to_number(field);
+      if (!number && k > 0) break;
+      if (!number || !(std::abs(*number) <= 1e6))
+        fail(in_quotes(field) + " behind " + std::string(option),
+             "one to three numbers up to 1e6 are wanted");
+      if (k < 2) (k == 0 ? pair.x : pair.y) = static_cast<float>(*number);
+      line = rest;
+    }
+    return pair;
+  }
+
+  /// Reads the options that come before the file's name; those that matter to no colour are stepped
+  /// over.
   void read_picture(std::string_view line) {
     std::string_view rest = line;
     for (std::string_view word = take_word(rest); word.starts_with('-'); word = take_word(rest)) {
-      if (word == "-o" || word == "-s" || word == "-t")
-        fail("a picture moved by " + std::string(word), "one that lies as it is is wanted");
-      const bool is_on = rest_of_line(rest).starts_with("on");
-      take_word(rest);
-      if (word == "-mm") take_word(rest);
-      if (word == "-clamp") material_->clamped = is_on;
+      if (word == "-t") fail("a picture with turbulence (-t)", "one that lies as it is is wanted");
+      if (word == "-s") {
+        material_->scale = read_pair(word, rest, {1, 1});
+      } else if (word == "-o") {
+        material_->offset = read_pair(word, rest, {});
+      } else {
+        if (word == "-clamp") material_->part.clamped = rest_of_line(rest).starts_with("on");
+        take_word(rest);
+        if (word == "-mm") take_word(rest);
+      }
       line = rest;
     }
     const std::string file = rest_of_line(line);
     if (file.empty()) fail("a picture without name", "map_Kd FILE is wanted");
-    material_->picture = files_.picture(file, colours_);
-    material_->base = {1, 1, 1};
+    material_->part.picture = files_.picture(file, colours_);
+    material_->part.base = {1, 1, 1};
   }
 
   std::string_view text_, name_;
   NeighbourFiles& files_;
   SurfaceColours& colours_;
   int number_ = 0;
-  SurfaceColours::Part* material_ = nullptr;
-  std::map<std::string, SurfaceColours::Part, std::less<>> materials_;
+  ObjMaterial* material_ = nullptr;
+  ObjMaterials materials_;
 };
 
 }  // namespace
 
-std::map<std::string, SurfaceColours::Part, std::less<>> parse_materials(std::string_view text,
-                                                                         std::string_view name,
-                                                                         NeighbourFiles& files,
-                                                                         SurfaceColours& colours) {
+ObjMaterials parse_materials(std::string_view text, std::string_view name, NeighbourFiles& files,
+                             SurfaceColours& colours) {
   return MaterialReader(text, name, files, colours).read();
 }
 

@@ -259,24 +259,32 @@ TriangleMesh parse(std::string_view bytes, std::string_view name, const ObjExtra
   return mesh;
 }
 
-using Materials = std::map<std::string, SurfaceColours::Part, std::less<>>;
-
-Materials materials_of(const ObjScan& scan, NeighbourFiles& files, SurfaceColours& colours) {
-  Materials all;
+ObjMaterials materials_of(const ObjScan& scan, NeighbourFiles& files, SurfaceColours& colours) {
+  ObjMaterials all;
   for (const std::string& library : scan.libraries)
     all.merge(parse_materials(files.read(library), library, files, colours));
   return all;
 }
 
-/// Adds the parts that faces use. @return [materials of the scan] the part of each; -1: none
-std::vector<int> add_parts(const ObjScan& scan, const Materials& known, SurfaceColours& colours) {
-  std::vector<int> part_of;
+/// The materials that faces use, one for each part of the colours.
+struct UsedMaterials {
+  std::vector<ObjMaterial> of_part;
+  std::vector<int> part_of;  ///< [materials of the scan] the part of each; -1: none
+};
+
+UsedMaterials used_materials(const ObjScan& scan, const ObjMaterials& known) {
+  UsedMaterials used;
   for (const std::string& material : scan.materials) {
     const auto found = known.find(material);
-    part_of.push_back(found == known.end() ? -1 : static_cast<int>(colours.parts.size()));
-    if (found != known.end()) colours.parts.push_back(found->second);
+    used.part_of.push_back(found == known.end() ? -1 : static_cast<int>(used.of_part.size()));
+    if (found != known.end()) used.of_part.push_back(found->second);
   }
-  return part_of;
+  return used;
+}
+
+/// Where a picture is at texture coordinates.
+Vec2f placed(const ObjMaterial& material, Vec2f uv) {
+  return {material.scale.x * uv.x + material.offset.x, material.scale.y * uv.y + material.offset.y};
 }
 
 std::array<Vec2f, 3> corners_in(const MeshFaces& faces, const Triangle& places) {
@@ -298,10 +306,11 @@ SurfaceColours obj_colours(std::string_view bytes, std::string_view name, Neighb
   ObjScan scan;
   parse(bytes, name, {&faces, &scan});
   SurfaceColours colours;
-  const std::vector<int> part_of = add_parts(scan, materials_of(scan, files, colours), colours);
+  const UsedMaterials used = used_materials(scan, materials_of(scan, files, colours));
+  for (const ObjMaterial& material : used.of_part) colours.parts.push_back(material.part);
   for (std::size_t f = 0; f < faces.sizes.size(); ++f)
     colours.part_of.insert(colours.part_of.end(), static_cast<std::size_t>(faces.sizes[f] - 2),
-                           part_of[static_cast<std::size_t>(scan.material_of[f])]);
+                           used.part_of[static_cast<std::size_t>(scan.material_of[f])]);
   const FanCorners fans = fans_of(faces);
   if (std::any_of(scan.displays.begin(), scan.displays.end(),
                   [](Vec3f c) { return std::isfinite(c.x); })) {
@@ -310,7 +319,11 @@ SurfaceColours obj_colours(std::string_view bytes, std::string_view name, Neighb
       colours.corners.push_back({linear[a], linear[b], linear[c]});
   }
   if (faces.has_texture())
-    for (const Triangle& places : fans.places) colours.uv.push_back(corners_in(faces, places));
+    for (std::size_t t = 0; t < fans.places.size(); ++t) {
+      colours.uv.push_back(corners_in(faces, fans.places[t]));
+      if (const int part = colours.part_of[t]; part >= 0)
+        for (Vec2f& uv : colours.uv.back()) uv = placed(used.of_part[part], uv);
+    }
   return colours;
 }
 
