@@ -42,7 +42,7 @@ def drawn_small(block):
 
 
 def of_few_frames(text, block):
-    """Runs no longer than what is drawn of them in the document: their length is no matter of these tests, but of seams that close."""
+    """Runs no longer than what is drawn of them in the document: their length matters only where seams are to close."""
     if "weft garment" in block:
         return block
     enough = max([20, *(int(frame) for frame in re.findall(r"--frame (\d+)", text))])

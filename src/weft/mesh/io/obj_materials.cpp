@@ -86,8 +86,7 @@ class MaterialReader {
     return pair;
   }
 
-  /// Reads the options that come before the file's name; those that matter to no colour are stepped
-  /// over.
+  /// Reads the options that come before the file's name; others than these are stepped over.
   void read_picture(std::string_view line) {
     std::string_view rest = line;
     for (std::string_view word = take_word(rest); word.starts_with('-'); word = take_word(rest)) {
