@@ -7,12 +7,12 @@ target_precompile_headers(common_headers PRIVATE
   <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <mutex>
   <numeric> <optional> <span> <string> <string_view> <tuple> <utility> <variant> <vector> <fmt/format.h>)
 
-# Sources of a module are compiled twelve at a time, which saves much processor time: most of what one
-# source alone takes is reading headers. So names within unnamed namespaces are unique within a module.
-# The preset dev compiles each alone.
+# Sources of a module are compiled many at a time, which saves much processor time: most of what one
+# source alone takes is reading headers. So names within unnamed namespaces are unique within a module;
+# tests that share names with others of theirs have a namespace each. The preset dev compiles each alone.
 function(weft_unity target)
   if(NOT DEFINED CMAKE_UNITY_BUILD)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 24)
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()

@@ -9,12 +9,6 @@ namespace {
 
 using namespace testing;
 
-void move(const Cloth& cloth, int sample, Vec3f by, Planes3& planes) {
-  const int first = cloth.mates.representative(sample);
-  for (int s = 0; s < cloth.size * cloth.size; ++s)
-    if (cloth.mates.representative(s) == first) planes.set(s, planes.at(s) + by);
-}
-
 TEST(Bending, ForcesAreMinusTheGradient) {
   for (const Cloth& cloth : {flat_cloth(uneven_sheet(9)), torus_cloth(9, stiff),
                              flat_cloth(uneven_sheet(9), stiff_warp), torus_cloth(9, stiff_warp)}) {

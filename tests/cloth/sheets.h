@@ -103,6 +103,13 @@ inline std::string hash_of(const ClothState& state) {
   return hash.text();
 }
 
+/// A sample and its mates, moved together.
+inline void move(const Cloth& cloth, int sample, Vec3f by, Planes3& planes) {
+  const int representative = cloth.mates.representative(sample);
+  for (int s = 0; s < cloth.size * cloth.size; ++s)
+    if (cloth.mates.representative(s) == representative) planes.set(s, planes.at(s) + by);
+}
+
 /// Steps without collisions. @return the last step's report
 inline StepReport run(Integrator& integrator, const StepInput& input, int steps,
                       ClothState& state) {

@@ -13,7 +13,7 @@
 #include "weft/core/contact_point.h"
 #include "weft/mesh/crossings.h"
 
-namespace weft {
+namespace weft::body_crossings_test {
 namespace {
 
 using test::TestCloth;
@@ -154,4 +154,4 @@ TEST(BodyCrossings, OfAnotherStateAreForgotten) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::body_crossings_test

@@ -14,7 +14,7 @@
 #include "weft/collide/broad_phase/pyramid_pairs.h"
 #include "weft/core/random.h"
 
-namespace weft {
+namespace weft::coherent_pairs_test {
 namespace {
 
 using Pairs = std::set<std::pair<int, int>>;
@@ -287,4 +287,4 @@ TEST(CoherentPairs, AskedForMoreAreLookedForAnew) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::coherent_pairs_test

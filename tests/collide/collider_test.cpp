@@ -4,7 +4,7 @@
 
 #include "tests/collide/test_bodies.h"
 
-namespace weft {
+namespace weft::collider_test {
 namespace {
 
 using test::octahedral_sphere;
@@ -129,4 +129,4 @@ TEST(Collider, TeamsOfAnySizeGiveTheSameBits) {
 TEST(Collider, HasItsNameInTheSceneFile) { EXPECT_EQ(name_of(PolarMapOptions{}), "polar_map"); }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::collider_test

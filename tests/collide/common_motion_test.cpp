@@ -4,7 +4,7 @@
 
 #include "tests/collide/test_bodies.h"
 
-namespace weft {
+namespace weft::common_motion_test {
 namespace {
 
 using test::TestCloth;
@@ -74,4 +74,4 @@ TEST(CommonMotion, IsNoneWhereSamplesDoNotMoveAlike) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::common_motion_test

@@ -7,7 +7,7 @@
 
 #include "tests/collide/test_bodies.h"
 
-namespace weft {
+namespace weft::contact_finder_test {
 namespace {
 
 using test::pyramid;
@@ -160,4 +160,4 @@ TEST(ContactFinder, TakesWhatTheFilterAsksFor) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::contact_finder_test

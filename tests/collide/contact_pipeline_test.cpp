@@ -9,7 +9,7 @@
 #include "weft/core/contact_point.h"
 #include "weft/core/random.h"
 
-namespace weft {
+namespace weft::contact_pipeline_test {
 namespace {
 
 using test::octahedral_sphere;
@@ -381,4 +381,4 @@ TEST(ContactPipeline, TeamsOfAnySizeGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::contact_pipeline_test

@@ -6,7 +6,7 @@
 #include "weft/core/contact_point.h"
 #include "weft/core/random.h"
 
-namespace weft {
+namespace weft::contact_response_test {
 namespace {
 
 using test::TestCloth;
@@ -188,4 +188,4 @@ TEST(ContactResponse, TeamsOfAnySizeGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::contact_response_test

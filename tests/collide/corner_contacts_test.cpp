@@ -10,7 +10,7 @@
 #include "weft/collide/contacts/sharp_points.h"
 #include "weft/core/contact_point.h"
 
-namespace weft {
+namespace weft::corner_contacts_test {
 namespace {
 
 using test::octahedron;
@@ -239,4 +239,4 @@ TEST(CornerContacts, TeamsOfAnySizeFindTheSame) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::corner_contacts_test

@@ -7,7 +7,7 @@
 #include "tests/collide/test_bodies.h"
 #include "weft/core/random.h"
 
-namespace weft {
+namespace weft::near_samples_test {
 namespace {
 
 constexpr int n = 17, body_size = 33;
@@ -120,4 +120,4 @@ TEST(NearSamples, KnowWhichAreAstray) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::near_samples_test

@@ -14,7 +14,7 @@
 #include "weft/collide/contacts/contact_finder.h"
 #include "weft/core/random.h"
 
-namespace weft {
+namespace weft::pair_contacts_test {
 namespace {
 
 using test::HalvedSheet;
@@ -397,4 +397,4 @@ TEST(PairContacts, ACutSheetHasThoseOfTheUncutOneWithItself) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::pair_contacts_test

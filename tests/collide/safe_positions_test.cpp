@@ -4,7 +4,7 @@
 
 #include "tests/collide/test_bodies.h"
 
-namespace weft {
+namespace weft::safe_positions_test {
 namespace {
 
 constexpr int n = 9;
@@ -35,4 +35,4 @@ TEST(SafePositions, StayWhereClothDoesNotMove) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::safe_positions_test

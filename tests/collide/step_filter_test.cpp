@@ -4,7 +4,7 @@
 
 #include "tests/collide/test_bodies.h"
 
-namespace weft {
+namespace weft::step_filter_test {
 namespace {
 
 using test::pyramid;
@@ -106,4 +106,4 @@ TEST(StepFilter, TakesStoppedPointsAlongWithClothThatMovesAsAWhole) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::step_filter_test

@@ -7,7 +7,7 @@
 
 #include "tests/collide/test_bodies.h"
 
-namespace weft {
+namespace weft::struck_contacts_test {
 namespace {
 
 using test::pyramid;
@@ -118,4 +118,4 @@ TEST(StruckContacts, TheNextStepLeavesWhatSlides) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::struck_contacts_test

@@ -6,7 +6,7 @@
 #include "tests/support/errors.h"
 #include "weft/mesh.h"
 
-namespace weft {
+namespace weft::read_encodings_test {
 namespace {
 
 using Parser = std::function<TriangleMesh(std::string_view)>;
@@ -96,4 +96,4 @@ TEST(ReadEncodings, WhatIsNoUtf16IsStillBinaryData) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::read_encodings_test

@@ -3,7 +3,7 @@
 #include "tests/support/errors.h"
 #include "weft/mesh.h"
 
-namespace weft {
+namespace weft::read_obj_test {
 namespace {
 
 using Triangles = std::vector<Triangle>;
@@ -141,4 +141,4 @@ TEST(ReadObj, WhatIsNoMeshIsRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::read_obj_test

@@ -3,7 +3,7 @@
 #include "tests/support/errors.h"
 #include "weft/mesh.h"
 
-namespace weft {
+namespace weft::read_off_test {
 namespace {
 
 using Triangles = std::vector<Triangle>;
@@ -101,4 +101,4 @@ TEST(ReadOff, EveryCutIsNoticed) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::read_off_test

@@ -5,7 +5,7 @@
 #include "tests/support/errors.h"
 #include "weft/mesh.h"
 
-namespace weft {
+namespace weft::read_ply_test {
 namespace {
 
 using Triangles = std::vector<Triangle>;
@@ -249,4 +249,4 @@ TEST(ReadPly, TextureCoordinatesOfVerticesComeUnderAllTheirNames) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::read_ply_test

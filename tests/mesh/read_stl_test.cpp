@@ -7,7 +7,7 @@
 #include "tests/support/meshes.h"
 #include "weft/mesh.h"
 
-namespace weft {
+namespace weft::read_stl_test {
 namespace {
 
 TriangleMesh parse(const std::string& bytes) { return parse_stl(bytes, "a.stl"); }
@@ -113,4 +113,4 @@ TEST(ReadStl, WhatIsNoMeshIsRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::read_stl_test

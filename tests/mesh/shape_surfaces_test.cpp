@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-int self_crossings(const TriangleMesh& mesh) {
+int crossing_count(const TriangleMesh& mesh) {
   int count = 0;
   for_self_crossings(corners_of(mesh), {}, [&](int, int) { ++count; });
   return count;
@@ -27,16 +27,16 @@ TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
 
 TEST(ShapeSurfaces, NonePassesThroughItself) {
   for (const ShapeInfo& shape : built_in_shapes())
-    EXPECT_EQ(self_crossings(make_shape(shape.name)), 0) << shape.name;
+    EXPECT_EQ(crossing_count(make_shape(shape.name)), 0) << shape.name;
   // The count does find what crosses.
   TriangleMesh moved = make_shape("sphere");
   for (Vec3d& p : moved.positions) p.x += 0.3;
-  EXPECT_GT(self_crossings(joined(make_shape("sphere"), moved)), 100);
+  EXPECT_GT(crossing_count(joined(make_shape("sphere"), moved)), 100);
 }
 
 TEST(ShapeSurfaces, GarmentsDoNotTouchTheMannequin) {
   for (const char* garment : {"tshirt", "skirt"})
-    EXPECT_EQ(self_crossings(joined(make_shape("mannequin"), make_shape(garment))), 0) << garment;
+    EXPECT_EQ(crossing_count(joined(make_shape("mannequin"), make_shape(garment))), 0) << garment;
 }
 
 TEST(Skirt, FitsWaistAndHipsWithAFewCentimetresOfEase) {

@@ -12,7 +12,7 @@
 #include "weft/param/square_map.h"
 #include "weft/param/stretch_newton.h"
 
-namespace weft {
+namespace weft::border_relaxation_test {
 namespace {
 
 struct LaidOut {
@@ -163,4 +163,4 @@ TEST(StretchNewton, SlidingLowersTheEnergyAtEveryStepAndKeepsMatesExact) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::border_relaxation_test

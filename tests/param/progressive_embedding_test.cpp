@@ -12,7 +12,7 @@
 #include "weft/param/interior_solver.h"
 #include "weft/param/weights.h"
 
-namespace weft {
+namespace weft::progressive_embedding_test {
 namespace {
 
 struct Case {
@@ -87,4 +87,4 @@ TEST(ProgressiveEmbedding, OfOneTriangleNeedsNothing) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::progressive_embedding_test

@@ -4,7 +4,7 @@
 
 #include "weft/core/random.h"
 
-namespace weft {
+namespace weft::triangle_energy_test {
 namespace {
 
 struct Case {
@@ -163,4 +163,4 @@ TEST(TriangleEnergy, OfAnIsometryGrowsByThreeTimesTheSquareOfAStrain) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::triangle_energy_test

@@ -7,7 +7,7 @@
 #include "tests/param/disks.h"
 #include "weft/cloth/cloth.h"
 
-namespace weft {
+namespace weft::vertex_star_test {
 namespace {
 
 constexpr double inverse = 0.4;
@@ -92,4 +92,4 @@ TEST(VertexStar, WayEndsWhereTheFirstTriangleCloses) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::vertex_star_test

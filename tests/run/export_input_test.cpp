@@ -12,15 +12,15 @@
 #include "weft/run_folder.h"
 #include "weft/shapes.h"
 
-namespace weft {
+namespace weft::export_input_test {
 namespace {
 
 namespace fs = std::filesystem;
 
 using test::as_floats;
+using test::exported_frames;
 using test::ExportedRun;
 using test::thrown_ring;
-using test::exported_frames;
 
 /// A scene whose cloth is a quad tube from a file, in its unit.
 Scene tube(const fs::path& path, double unit) {
@@ -178,4 +178,4 @@ TEST(Exports, BodiesAreWrittenWithTheMeshThatTheyCameFrom) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::export_input_test

@@ -16,7 +16,7 @@
 #include "weft/run.h"
 #include "weft/run/checkpoint.h"
 
-namespace weft {
+namespace weft::resume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -314,4 +314,4 @@ TEST(Resume, FolderInUseIsRefused) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::resume_test

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/cut_sheet.h"
+#include "tests/sim/refusals.h"
 #include "tests/support/convert_options.h"
-#include "tests/support/errors.h"
 #include "weft/collide/broad_phase/coherent_pairs.h"
 #include "weft/collide/broad_phase/pyramid_pairs.h"
 #include "weft/collide/intersections.h"
@@ -144,7 +144,7 @@ TEST(ChartBodies, CollidersThatCannotTakeThemSaySo) {
        {ColliderOptions{PolarMapOptions{}}, ColliderOptions{SphereTreeOptions{}}}) {
     Scene scene = sheet_over({balls(2), "balls"});
     scene.collider = collider;
-    const std::string said = test::message_of<Error>([&] { Simulation(scene, "scene.json", 1); });
+    const std::string said = test::refusal_of(scene);
     EXPECT_NE(said.find("'balls' is an image of 2 charts"), std::string::npos) << said;
   }
 }
@@ -205,29 +205,25 @@ TEST(ChartCloths, AMeshOfSeveralPiecesIsOneCloth) {
     EXPECT_GT(simulation.advance().smallest_gap, 0) << "frame " << frame;
 }
 
-std::string refusal_of(const Scene& scene) {
-  return test::message_of<Error>([&] { Simulation(scene, "scene.json", 1); });
-}
-
 TEST(ChartCloths, WhatCannotTakeThemSaysSo) {
   const Scene sound = charts_over_balls(image_of({33, testing::quarters(33)}), 1);
   Scene scene = sound;
   scene.integrator = ImplicitOptions{};
-  EXPECT_NE(refusal_of(scene).find("the integrator newton"), std::string::npos);
+  EXPECT_NE(test::refusal_of(scene).find("the integrator newton"), std::string::npos);
   scene = sound;
   scene.collider = SpatialHashOptions{};
-  EXPECT_NE(refusal_of(scene).find("the collider pyramid"), std::string::npos);
+  EXPECT_NE(test::refusal_of(scene).find("the collider pyramid"), std::string::npos);
   scene = sound;
   scene.cloths[0].pins = {ImagePin{{0.5, 0.5}}};
-  EXPECT_NE(refusal_of(scene).find("between the charts"), std::string::npos);
+  EXPECT_NE(test::refusal_of(scene).find("between the charts"), std::string::npos);
   // Three pages on one spine.
   scene = sound;
   scene.cloths[0].surface =
       Surface(TriangleMesh{{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 1}, {-1, 0, -1}},
                            {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}},
               "pages");
-  EXPECT_NE(refusal_of(scene).find("edges of more than two triangles"), std::string::npos)
-      << refusal_of(scene);
+  EXPECT_NE(test::refusal_of(scene).find("edges of more than two triangles"), std::string::npos)
+      << test::refusal_of(scene);
 }
 
 /// Cells that meet where charts do are neighbours of the cloth, as if it were uncut.

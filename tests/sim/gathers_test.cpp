@@ -14,7 +14,7 @@ namespace weft {
 namespace {
 
 /// A flounce of 34 cm on a band of 20 cm.
-class Gathered : public testing::Test {
+class Gathered : public ::testing::Test {
  protected:
   Gathered() {
     write_file(folder_ / "p.json", [](std::ostream& out) { out << test::band_and_flounce(34); });

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cloth/sheets.h"
+#include "tests/sim/refusals.h"
 #include "weft/cloth/cloth.h"
 #include "weft/convert.h"
 #include "weft/error.h"
@@ -19,15 +20,6 @@ SceneCloth sheet(Vec3d translate, double scale) {
   cloth.placement.scale = {scale, scale, scale};
   cloth.placement.translate = translate;
   return cloth;
-}
-
-std::string refusal_of(const Scene& scene) {
-  try {
-    Simulation simulation(scene, "s.json", 1);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 Scene around(const char* shape, const SceneCloth& cloth) {
@@ -182,7 +174,8 @@ TEST(Insides, ARingThatStandsInAClothIsRefused) {
     scene.cloths[0].size = 65;
     scene.bodies[0].placement.scale = {0.6, 0.6, 0.6};
     scene.bodies[0].placement.rotate = {90, 0, 0};
-    EXPECT_NE(refusal_of(scene).find("begins in the middle of body 'room'"), std::string::npos)
+    EXPECT_NE(test::refusal_of(scene).find("begins in the middle of body 'room'"),
+              std::string::npos)
         << up;
   }
 }
@@ -200,7 +193,7 @@ TEST(Insides, AClothALittleInsideIsNotRefused) {
       scene.bodies[0].surface = Surface(image, shape);
       scene.bodies[0].placement.translate = {};
       scene.cloths[0].placement.translate = {0.013, box.upper.y - deep, 0.007};
-      EXPECT_EQ(refusal_of(scene), "") << shape << deep;
+      EXPECT_EQ(test::refusal_of(scene), "") << shape << deep;
     }
   }
 }
@@ -252,16 +245,16 @@ TEST(Insides, ClothsInTheSamePlaceAreRefused) {
   scene.cloths = {sheet({0, 1, 0}, 1), sheet({0, 1, 0}, 1)};
   scene.cloths[1].name = "lining";
   const std::string expected = "cloths 'sheet' and 'lining' begin in the same place: 100 %";
-  EXPECT_NE(refusal_of(scene).find(expected), std::string::npos) << refusal_of(scene);
+  EXPECT_NE(test::refusal_of(scene).find(expected), std::string::npos) << test::refusal_of(scene);
   for (SceneCloth& cloth : scene.cloths) cloth.placement.rotate = {20, 30, 40};
-  EXPECT_NE(refusal_of(scene).find(expected), std::string::npos) << "in any direction";
+  EXPECT_NE(test::refusal_of(scene).find(expected), std::string::npos) << "in any direction";
   for (SceneCloth& cloth : scene.cloths) cloth.placement.rotate = {};
   scene.cloths[1].placement.translate.x = 0.3;
-  EXPECT_NE(refusal_of(scene).find("same place"), std::string::npos) << "in part";
+  EXPECT_NE(test::refusal_of(scene).find("same place"), std::string::npos) << "in part";
   scene.cloths[1].placement.translate.x = 0.99;
-  EXPECT_EQ(refusal_of(scene), "") << "a row of them";
+  EXPECT_EQ(test::refusal_of(scene), "") << "a row of them";
   scene.cloths[1].placement.translate = {0, 1.001, 0};
-  EXPECT_EQ(refusal_of(scene), "") << "one above the other";
+  EXPECT_EQ(test::refusal_of(scene), "") << "one above the other";
 }
 
 }  // namespace

@@ -8,11 +8,11 @@
 #include "tests/support/tube_scene.h"
 #include "weft/simulation.h"
 
-namespace weft {
+namespace weft::layers_test {
 namespace {
 
 /// Two tubes, the second wider, whose panels the patterns place in the same planes.
-class Layers : public testing::Test {
+class Layers : public ::testing::Test {
  protected:
   Layers() {
     scene_.ground.reset();
@@ -56,4 +56,4 @@ TEST_F(Layers, AreSewnOverEachOther) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::layers_test

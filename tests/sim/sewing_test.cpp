@@ -7,11 +7,11 @@
 #include "tests/support/tube_scene.h"
 #include "weft/simulation.h"
 
-namespace weft {
+namespace weft::sewing_test {
 namespace {
 
 /// A tube sewn round the built-in cylinder or ball.
-class Sewing : public testing::Test {
+class Sewing : public ::testing::Test {
  protected:
   Sewing() {
     scene_.ground.reset();
@@ -239,4 +239,4 @@ TEST_F(Sewing, ClosesAgainWhatItTookApart) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::sewing_test

@@ -4,7 +4,7 @@
 
 #include "tests/cloth/sheets.h"
 #include "tests/sim/falling_sheet.h"
-#include "tests/support/errors.h"
+#include "tests/sim/refusals.h"
 #include "weft/cloth/cloth.h"
 #include "weft/cloth/wind.h"
 #include "weft/collide/contacts/block_motion.h"
@@ -306,7 +306,7 @@ TEST(Simulation, RegionWithoutSamplesIsRefused) {
 TEST(Simulation, MethodsThatSuitNoClothOfThatSizeNameTheSceneAndTheCloth) {
   Scene scene = free_fall(TwoLevelOptions{.global_size = 7});
   scene.cloths[0].name = "flag";
-  const std::string told = test::message_of<SceneError>([&] { Simulation(scene, "s.json", 1); });
+  const std::string told = test::refusal_of(scene);
   EXPECT_TRUE(told.starts_with("s.json: 'flag': integrator.global_size: 7; ")) << told;
 }
 

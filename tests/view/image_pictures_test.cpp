@@ -3,7 +3,7 @@
 #include "weft/drawing.h"
 #include "weft/view/map_picture.h"
 
-namespace weft {
+namespace weft::image_pictures_test {
 namespace {
 
 std::array<int, 3> pixel(const Picture& picture, int x, int y) {
@@ -57,4 +57,4 @@ TEST(ImagePictures, MapShowsItsEdges) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::image_pictures_test

@@ -7,7 +7,7 @@
 #include "weft/picture.h"
 #include "weft/shapes.h"
 
-namespace weft {
+namespace weft::surface_drawing_test {
 namespace {
 
 Vec3d mean_colour(const Picture& picture, int x, int y, int side) {
@@ -86,4 +86,4 @@ TEST(SurfaceValues, ErrorIsTheDistanceToTheMesh) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::surface_drawing_test

@@ -22,13 +22,6 @@ Planes3 elastic_forces(const Cloth& cloth, const Planes3& position) {
   return force;
 }
 
-/// A sample and its mates, moved together.
-void move(const Cloth& cloth, int sample, Vec3f by, Planes3& planes) {
-  const int representative = cloth.mates.representative(sample);
-  for (int s = 0; s < cloth.size * cloth.size; ++s)
-    if (cloth.mates.representative(s) == representative) planes.set(s, planes.at(s) + by);
-}
-
 double largest(const Planes3& planes) {
   double max = 0;
   for (int s = 0; s < planes.size() * planes.size(); ++s)

@@ -6,7 +6,7 @@
 #include "tests/cloth/sheets.h"
 #include "weft/cloth/mates.h"
 
-namespace weft {
+namespace weft::multigrid_preconditioner_test {
 namespace {
 
 using namespace testing;
@@ -216,4 +216,4 @@ TEST(MultigridPreconditioner, ForgetsPinsThatAreLetGo) {
 }
 
 }  // namespace
-}  // namespace weft
+}  // namespace weft::multigrid_preconditioner_test

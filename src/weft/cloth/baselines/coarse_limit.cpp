@@ -40,11 +40,6 @@ Grid<float> restricted_masses(const Cloth& fine, const BorderMates& mates) {
   return mass;
 }
 
-void clear_row(Planes3& planes, int row) {
-  const Row3 out = row_of(planes, row);
-  for (float* values : {out.x, out.y, out.z}) std::fill(values, values + planes.size(), 0.0F);
-}
-
 /// Adds the corrections of a coarser level, interpolated to a row; none where pinned.
 void interpolate(const ClothState& coarse, const Grid<float>& moves, int row, Planes3& out) {
   const Row3 to = row_of(out, row);
@@ -117,7 +112,7 @@ void CoarseLimit::limit_level(std::size_t index, int passes, const StrainBounds&
   Planes3 &x = level.state.position, &d = level.state.velocity;
   const bool coarsest = index + 1 == levels_.size();
   for (int r = 0; r < level.cloth.size; ++r) {
-    clear_row(d, r);
+    clear(row_of(d, r), d.size());
     if (!coarsest) interpolate(levels_[index + 1]->state, level.moves, r, d);
   }
   average_over_mates(level.cloth.mates, worker, {&d.x, &d.y, &d.z});
@@ -132,7 +127,7 @@ void CoarseLimit::interpolate_corrections(Worker& worker) {
   for (int r = mine.first; r < mine.last; ++r) {
     for (int c = 0; c < cloth_.size; ++c)
       moves_(r, c) = cloth_.inverse_mass(r, c) > 0 ? 1.0F : 0.0F;
-    clear_row(correction_, r);
+    clear(row_of(correction_, r), correction_.size());
     interpolate(levels_.front()->state, moves_, r, correction_);
   }
   worker.barrier();

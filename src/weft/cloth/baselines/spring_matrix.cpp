@@ -7,11 +7,6 @@
 namespace weft {
 namespace {
 
-void clear_row(Planes3& planes, int row) {
-  const Row3 out = row_of(planes, row);
-  for (float* values : {out.x, out.y, out.z}) std::fill(values, values + planes.size(), 0.0F);
-}
-
 /// The springs between a row and one of its neighbour rows, without velocities.
 NeighbourSprings springs_of(const Cloth& cloth, const NeighbourRow& to, int row,
                             const Planes3& position) {
@@ -34,7 +29,7 @@ SpringForces::SpringForces(const Cloth& cloth, InstructionSet instructions)
     : cloth_(cloth), kernels_(implicit_kernels_for(instructions)) {}
 
 void SpringForces::gather_elastic(int row, const Planes3& position, Planes3& force) const {
-  clear_row(force, row);
+  clear(row_of(force, row), force.size());
   for (const NeighbourRow& to : NeighbourRows(cloth_.size, row, used_directions(cloth_)))
     kernels_.elastic(springs_of(cloth_, to, row, position), row_of(force, row));
 }

@@ -10,7 +10,7 @@ namespace {
 constexpr double close_enough = 1e-6;
 
 /// A distance that avoids divisions by none [m].
-constexpr double nothing = 1e-9;
+constexpr double smallest_reach = 1e-9;
 
 /// The sample with the largest measure, the first of several.
 template <class Measure>
@@ -126,7 +126,7 @@ Vec3d SafePositions::shift_at(Vec3d start, const SafePositionSurroundings& aroun
 
 void SafePositions::find_along(const Planes3& start, const SafePositionSurroundings& obstacles,
                                Vec3d translation, Planes3& safe_position, ThreadTeam& team) {
-  const double reach = std::max(nothing, length(translation) / max_part_of_distance);
+  const double reach = std::max(smallest_reach, length(translation) / max_part_of_distance);
   team.run([&](Worker& worker) {
     const Range mine = worker.share(start.size() * start.size());
     for (int s = mine.first; s < mine.last; ++s) {

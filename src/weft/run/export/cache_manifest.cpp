@@ -15,15 +15,15 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-constexpr int manifest_version = 1, deepest_nesting = 16;
+constexpr int cache_manifest_version = 1, deepest_cache_manifest = 16;
 
-Json surface_json(const SurfaceRecord& record, std::string_view kind) {
-  Json json{{"name", record.subject().name},
-            {"kind", kind},
-            {"moves", record.subject().moves},
-            {"files", Json::array()}};
+OrderedJson surface_json(const SurfaceRecord& record, std::string_view kind) {
+  OrderedJson json{{"name", record.subject().name},
+                   {"kind", kind},
+                   {"moves", record.subject().moves},
+                   {"files", OrderedJson::array()}};
   for (const WrittenFile& file : record.written())
     json["files"].push_back({{"path", file.path.filename().string()},
                              {"format", file.format},
@@ -41,7 +41,7 @@ struct ListedFile {
 std::vector<ListedFile> listed_files(const fs::path& path) {
   std::vector<ListedFile> files;
   try {
-    const nlohmann::json json = parse_json(read_file(path), deepest_nesting);
+    const nlohmann::json json = parse_json(read_file(path), deepest_cache_manifest);
     for (const auto& surface : json.at("surfaces"))
       for (const auto& file : surface.at("files"))
         files.push_back({surface.at("name"), file.at("path"), file.at("format")});
@@ -71,15 +71,15 @@ void remove_listed(const fs::path& folder, const ListedFile& file) {
 
 void write_cache_manifest(const fs::path& path, const CacheManifest& manifest,
                           std::span<const fs::path> inputs) {
-  Json json{{"version", manifest_version},
-            {"unit", manifest.files.unit.name},
-            {"metres_per_unit", manifest.files.unit.metres},
-            {"up", manifest.files.up()},
-            {"frame_rate", manifest.frame_rate},
-            {"first_frame", 0},
-            {"last_frame", manifest.frames - 1},
-            {"frames", manifest.frames},
-            {"surfaces", Json::array()}};
+  OrderedJson json{{"version", cache_manifest_version},
+                   {"unit", manifest.files.unit.name},
+                   {"metres_per_unit", manifest.files.unit.metres},
+                   {"up", manifest.files.up()},
+                   {"frame_rate", manifest.frame_rate},
+                   {"first_frame", 0},
+                   {"last_frame", manifest.frames - 1},
+                   {"frames", manifest.frames},
+                   {"surfaces", OrderedJson::array()}};
   for (const SurfaceRecord* record : manifest.cloths)
     json["surfaces"].push_back(surface_json(*record, "cloth"));
   for (const SurfaceRecord* record : manifest.bodies)

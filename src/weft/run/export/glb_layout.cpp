@@ -10,18 +10,18 @@
 namespace weft {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // Constants of the specification: component types and targets of buffer views.
 constexpr int float_type = 5126, index_type = 5125, vertex_target = 34962, index_target = 34963;
 constexpr std::uint64_t vector_bytes = 12;
 
-Json list(Vec3f v) { return {v.x, v.y, v.z}; }
+OrderedJson list(Vec3f v) { return {v.x, v.y, v.z}; }
 
 /// The node of the mesh, which transforms the unit and axes of files to metres with y up.
-Json node_json(const FinishedMotion& motion) {
+OrderedJson node_json(const FinishedMotion& motion) {
   const MeshFrame& frame = motion.surface->frame();
-  Json node{{"name", motion.name}, {"mesh", 0}};
+  OrderedJson node{{"name", motion.name}, {"mesh", 0}};
   const double s = frame.unit.metres;
   if (s != 1) node["scale"] = {s, s, s};
   constexpr double half_root = 0.70710678118654752;
@@ -99,7 +99,7 @@ Extremes extremes(const std::vector<Vec3f>& points) {
 
 /// The accessors, referred to by index.
 struct GlbParts {
-  Json accessors = Json::array();
+  OrderedJson accessors = OrderedJson::array();
   /// @return its index
   int add(int view, int type, std::size_t count, const char* shape) {
     accessors.push_back(
@@ -142,7 +142,7 @@ int GlbLayout::add_view(std::uint64_t bytes) {
 namespace {
 
 /// The animation of the weights of morph targets.
-Json animation_json(const std::string& name, int times, int weights) {
+OrderedJson animation_json(const std::string& name, int times, int weights) {
   return {{{"name", name},
            {"samplers", {{{"input", times}, {"output", weights}, {"interpolation", "LINEAR"}}}},
            {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
@@ -150,12 +150,12 @@ Json animation_json(const std::string& name, int times, int weights) {
 
 }  // namespace
 
-Json GlbLayout::primitive(const std::vector<Extremes>& positions, GlbParts& parts) const {
+OrderedJson GlbLayout::primitive(const std::vector<Extremes>& positions, GlbParts& parts) const {
   const std::size_t vertices = mesh_.source.size();
-  Json json{{"attributes",
-             {{"POSITION", parts.add_vectors(positions_, 0, vertices, positions.data())},
-              {"NORMAL", parts.add_vectors(normals_, 0, vertices, nullptr)}}},
-            {"material", 0}};
+  OrderedJson json{{"attributes",
+                    {{"POSITION", parts.add_vectors(positions_, 0, vertices, positions.data())},
+                     {"NORMAL", parts.add_vectors(normals_, 0, vertices, nullptr)}}},
+                   {"material", 0}};
   if (uv_ >= 0) json["attributes"]["TEXCOORD_0"] = parts.add(uv_, float_type, vertices, "VEC2");
   if (colours_ >= 0)
     json["attributes"]["COLOR_0"] = parts.add_vectors(colours_, 0, vertices, nullptr);
@@ -170,10 +170,10 @@ Json GlbLayout::primitive(const std::vector<Extremes>& positions, GlbParts& part
   return json;
 }
 
-Json GlbLayout::views() const {
-  Json list = Json::array();
+OrderedJson GlbLayout::views() const {
+  OrderedJson list = OrderedJson::array();
   for (std::size_t view = 0; view < starts_.size(); ++view) {
-    Json json{{"buffer", 0}, {"byteOffset", starts_[view]}, {"byteLength", sizes_[view]}};
+    OrderedJson json{{"buffer", 0}, {"byteOffset", starts_[view]}, {"byteLength", sizes_[view]}};
     const auto index = static_cast<int>(view);
     if (index == targets_) json["byteStride"] = vector_bytes;
     if (index != times_ && index != weights_)
@@ -186,18 +186,18 @@ Json GlbLayout::views() const {
 std::string GlbLayout::json(const std::vector<Extremes>& positions) const {
   GlbParts parts;
   const std::string& name = motion_.name;
-  Json root{{"asset", {{"version", "2.0"}, {"generator", "Weft"}}},
-            {"scene", 0},
-            {"scenes", {{{"nodes", {0}}}}},
-            {"nodes", {node_json(motion_)}},
-            {"materials", {{{"name", name}, {"doubleSided", true}}}},
-            {"meshes", {{{"name", name}, {"primitives", {primitive(positions, parts)}}}}}};
+  OrderedJson root{{"asset", {{"version", "2.0"}, {"generator", "Weft"}}},
+                   {"scene", 0},
+                   {"scenes", {{{"nodes", {0}}}}},
+                   {"nodes", {node_json(motion_)}},
+                   {"materials", {{{"name", name}, {"doubleSided", true}}}},
+                   {"meshes", {{{"name", name}, {"primitives", {primitive(positions, parts)}}}}}};
   if (targets_ >= 0) {
     const auto frames = static_cast<std::size_t>(motion_.frames);
     const int times = parts.add(times_, float_type, frames, "SCALAR");
-    parts.accessors.back()["min"] = Json::array({0.0F});
+    parts.accessors.back()["min"] = OrderedJson::array({0.0F});
     parts.accessors.back()["max"] =
-        Json::array({static_cast<float>((motion_.frames - 1) / motion_.frame_rate)});
+        OrderedJson::array({static_cast<float>((motion_.frames - 1) / motion_.frame_rate)});
     const int weights = parts.add(weights_, float_type, frames * (frames - 1), "SCALAR");
     root["animations"] = animation_json(name, times, weights);
   }
