@@ -68,16 +68,22 @@ class Sheets {
     world_.gather_surfaces(moving);
     return moving;
   }
+  std::vector<CollidingCloth> both() {
+    std::vector<CollidingCloth> sheets;
+    while (sheets.size() < 2)
+      sheets.push_back({.mates = none_,
+                        .size = n,
+                        .thickness = 0.002,
+                        .friction = 0.3,
+                        .rest_spacing = 0.025,
+                        .self_collision = true,
+                        .self_thickness = 0.002});
+    return sheets;
+  }
+
   std::array<TestCloth, 2> cloths_{TestCloth(n), TestCloth(n)};
   BorderMates none_;
-  std::vector<CollidingCloth> properties_ =
-      std::vector<CollidingCloth>(2, {.mates = none_,
-                                      .size = n,
-                                      .thickness = 0.002,
-                                      .friction = 0.3,
-                                      .rest_spacing = 0.025,
-                                      .self_collision = true,
-                                      .self_thickness = 0.002});
+  std::vector<CollidingCloth> properties_ = both();
   Obstacles obstacles_ = ball();
   ThreadTeam team_{2};
   CollisionWorld world_{pyramid, obstacles_, properties_};

@@ -315,9 +315,9 @@ std::map<Meeting, int> as_uncut(const HalvedSheet& halved, const std::map<Meetin
     uncut[cut.point(halved.image_sample(row, col, col > HalvedSheet::half))] = s;
   }
   const auto points = [&](const Points& of) {
-    Points points;
-    for (const int point : of) points.insert(uncut.at(point));
-    return points;
+    Points there;
+    for (const int point : of) there.insert(uncut.at(point));
+    return there;
   };
   std::map<Meeting, int> same;
   for (const auto& [meeting, times] : found)

@@ -53,8 +53,8 @@ std::vector<ListedFile> listed_files(const fs::path& path) {
     return {};
   }
   std::erase_if(files, [](const ListedFile& file) {
-    const fs::path path(file.path);
-    return path.empty() || path == "." || path == ".." || path != path.filename();
+    const fs::path name(file.path);
+    return name.empty() || name == "." || name == ".." || name != name.filename();
   });
   return files;
 }
