@@ -40,6 +40,17 @@ TEST(SewingPull, LeavesOutWhatGoesIntoABody) {
   EXPECT_NEAR(dot(tube.pulled({}, {against}).at(a), towards), 0, 1e-3);
 }
 
+TEST(SewingPull, HeedsBodiesOnly) {
+  const Placed tube(test::tube_pattern(30, 20, 24, 100));
+  const auto [a, b] = tube.garment.seams.front().pairs[3];
+  const Vec3f towards = normalized(tube.state.position.at(b) - tube.state.position.at(a));
+  // Of two panels, where their corners touch: no weight is on the rest of what touches.
+  PastContact of_panels;
+  of_panels.samples = {a, b, -1, -1};
+  of_panels.normal = -1.0F * towards;
+  EXPECT_GT(dot(tube.pulled({}, {of_panels}).at(a), towards), 0.1);
+}
+
 TEST(SewingPull, GoesUpWhereTheGoalIsBehindABody) {
   const Placed tube(test::tube_pattern(30, 20, 24, 100));
   const auto [a, b] = tube.garment.seams.front().pairs[3];
@@ -53,6 +64,27 @@ TEST(SewingPull, GoesUpWhereTheGoalIsBehindABody) {
   // A body that only grazes the way leaves it.
   against.normal = normalized(Vec3f{1, 0, 0} - 0.3F * towards);
   EXPECT_NEAR(tube.pulled({}, {against}).at(a).y, 0, 1e-3);
+}
+
+/// Two samples of a seam that lie on a body, a millimetre apart, and are pressed into it.
+TEST(SewingPull, PutsSamplesTogetherOnABodyAndNotInIt) {
+  Placed tube(test::tube_pattern(30, 20, 24, 100));
+  const auto [a, b] = tube.garment.seams.front().pairs[3];
+  const Vec3f start = tube.state.position.at(a), out = normalized(Vec3f{0.2F, 0.1F, 1}),
+              aside = normalized(cross(out, Vec3f{0, 1, 0}));
+  Sewing sewing(tube.garment, tube.state.position);
+  ClothState now = tube.state;
+  now.position.set(b, start + 1e-3F * aside);
+  PastContact on_body;
+  on_body.samples = {a, -1, -1, -1};
+  on_body.normal = out;
+  sewing.pull({1.0 / 240, 10, std::span(&on_body, 1)}, now);
+  now.position.set(a, start + 2e-3F * aside - 5e-4F * out);
+  now.position.set(b, start + 3e-3F * aside - 5e-4F * out);
+  sewing.close(now);
+  EXPECT_EQ(now.position.at(a), now.position.at(b));
+  EXPECT_NEAR(dot(now.position.at(a) - start, out), 0, 1e-6);
+  EXPECT_NEAR(dot(now.position.at(a) - start, aside), 2.5e-3, 1e-6);
 }
 
 TEST(SewingPull, KeepsPanelsWithALabelAtTheirHeight) {

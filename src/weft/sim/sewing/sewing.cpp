@@ -69,6 +69,7 @@ Sewing::Sewing(const Garment& garment, const Planes3& start)
       panels_(garment, start),
       unpicking_(garment),
       middle_(garment.sewn.class_count()),
+      began_at_(garment.sewn.class_count()),
       away_(garment.sewn.class_count()),
       rate_(garment.sewn.class_count()),
       stretches_(garment.panel_holds.size()),
@@ -118,6 +119,7 @@ void Sewing::measure(const Planes3& position) {
     const std::span<const int> samples = garment_.sewn.copies(k);
     if (samples.size() < 2) continue;
     middle_[k] = mean_of_class(k, position);
+    began_at_[k] = mean_of(position, samples);
     away_[k] = farthest_from(middle_[k], position, samples);
   }
 }
@@ -213,11 +215,18 @@ WarpWeft Sewing::bending_for(const Material& material) {
           std::max(material.bending.weft, least_bending)};
 }
 
+/// Cloth with cloth has samples of two panels, or four.
+bool Sewing::is_with_body(const PastContact& contact) const {
+  const int panel = panels_.panel_of(contact.samples[0]);
+  return contact.second < 0 && contact.samples[3] < 0 &&
+         std::all_of(contact.samples.begin(), contact.samples.end(),
+                     [&](int s) { return s < 0 || panels_.panel_of(s) == panel; });
+}
+
 void Sewing::find_blocked(std::span<const PastContact> contacts) {
   std::fill(blocked_.begin(), blocked_.end(), std::array<Vec3f, max_blocking>{});
   for (const PastContact& contact : contacts) {
-    // Four samples: cloth with cloth.
-    if (contact.second >= 0 || contact.samples[3] >= 0) continue;
+    if (!is_with_body(contact)) continue;
     for (const int s : contact.samples) {
       if (s < 0) continue;
       const auto free = std::find(blocked_[s].begin(), blocked_[s].end(), Vec3f{});
@@ -298,13 +307,20 @@ void Sewing::close(ClothState& state) const {
     const Vec3d middle = mean_of(state.position, copies);
     if (copies.size() < 2 || farthest_from(middle, state.position, copies) > joins_within_)
       continue;
-    const auto at = vec_cast<float>(middle);
+    const auto at = vec_cast<float>(meeting_place(k, middle));
     const auto velocity = vec_cast<float>(mean_of(state.velocity, copies));
     for (const int s : garment_.sewn.mates(k)) {
       state.position.set(s, at);
       state.velocity.set(s, velocity);
     }
   }
+}
+
+Vec3d Sewing::meeting_place(int index, Vec3d middle) const {
+  Vec3d way = middle - began_at_[index];
+  for (int round = 0; round < max_blocking; ++round)
+    for (const int s : garment_.sewn.copies(index)) way = along_bodies(s, way);
+  return began_at_[index] + way;
 }
 
 BorderMates Sewing::joined(const Planes3& position) const {

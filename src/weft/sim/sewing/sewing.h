@@ -54,7 +54,8 @@ class Sewing {
 
   /// Puts the samples of each class at their mean, with their mean velocity, where they are next to
   /// each other: nearer once seams should have closed by the step that `pull` began, which comes
-  /// first. Whether something is between is for the filter to find.
+  /// first. Bodies that they touch keep them out. Whether something is between is for the filter to
+  /// find.
   void close(ClothState& state) const;
   /// The charts, joined where their seams have closed.
   [[nodiscard]] BorderMates joined(const Planes3& position) const;
@@ -72,6 +73,7 @@ class Sewing {
   /// The mean over the samples of a class; its height is that of those that the others come to.
   [[nodiscard]] Vec3d mean_of_class(int index, const Planes3& planes) const;
   void measure(const Planes3& position);
+  [[nodiscard]] bool is_with_body(const PastContact& contact) const;
   /// Finds the normals of the bodies that samples touch.
   void find_blocked(std::span<const PastContact> contacts);
   /// The velocity towards its mates that sewing gives a sample of a class: not into a body.
@@ -81,6 +83,10 @@ class Sewing {
   [[nodiscard]] Vec3d along_bodies(int sample, Vec3d pull) const;
   /// Upwards along them: shorter than 1 the flatter they are.
   [[nodiscard]] Vec3d up_along_bodies(int sample) const;
+  /// Where a class is put together: no deeper in the bodies that it touches than it was when the
+  /// step began. The filter would move each sample out by itself, some micrometres apart, and they
+  /// would never be in one place.
+  [[nodiscard]] Vec3d meeting_place(int index, Vec3d middle) const;
   /// Finds the mean of these velocities over the seams of each panel.
   void find_panel_pulls(const Planes3& position, std::size_t step);
   /// Finds the classes that are pulled once the seams should have closed.
@@ -101,6 +107,7 @@ class Sewing {
   double joins_within_ = 0;                     // distance from their mean, in this step [m]
   std::vector<std::vector<int>> leaders_;       // of each class, the samples that set the height
   std::vector<Vec3d> middle_;                   // of each class
+  std::vector<Vec3d> began_at_;                 // of each class, its mean when the step began [m]
   std::vector<double> away_;                    // distance of its farthest sample from there [m]
   std::vector<double> rate_;                    // at which it shrinks [1/s]
   std::vector<std::vector<double>> stretches_;  // of each panel, at its seams
