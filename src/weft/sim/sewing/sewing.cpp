@@ -240,14 +240,13 @@ void Sewing::pull(const Step& now, ClothState& state) {
   measure(state.position);
   find_blocked(now.contacts);
   find_next();
-  const bool late = seconds >= time_to_close_;
-  joins_within_ = late ? met : closed;
-  if (late) find_slack(state.position);
+  late_ = seconds >= time_to_close_;
+  if (late_) find_slack(state.position);
   const auto step = static_cast<std::size_t>(std::llround(seconds / time_step));
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
     rate_[k] = (1 - kept_part(k, time_step, seconds)) / time_step;
   find_panel_pulls(state.position, step);
-  panels_.carry(!late, time_step, state.velocity);
+  panels_.carry(!late_, time_step, state.velocity);
   if (gravity_part(seconds) == 0) panels_.hold(state);
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> samples = garment_.sewn.copies(k);
@@ -305,9 +304,9 @@ void Sewing::close(ClothState& state) const {
   for (int k = 0; k < garment_.sewn.class_count(); ++k) {
     const std::span<const int> copies = garment_.sewn.copies(k);
     const Vec3d middle = mean_of(state.position, copies);
-    if (copies.size() < 2 || farthest_from(middle, state.position, copies) > joins_within_)
+    if (copies.size() < 2 || farthest_from(middle, state.position, copies) > (late_ ? met : closed))
       continue;
-    const auto at = vec_cast<float>(meeting_place(k, middle));
+    const auto at = vec_cast<float>(late_ ? meeting_place(k, middle) : middle);
     const auto velocity = vec_cast<float>(mean_of(state.velocity, copies));
     for (const int s : garment_.sewn.mates(k)) {
       state.position.set(s, at);

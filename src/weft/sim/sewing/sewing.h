@@ -54,8 +54,7 @@ class Sewing {
 
   /// Puts the samples of each class at their mean, with their mean velocity, where they are next to
   /// each other: nearer once seams should have closed by the step that `pull` began, which comes
-  /// first. Bodies that they touch keep them out. Whether something is between is for the filter to
-  /// find.
+  /// first. Whether something is between is for the filter to find.
   void close(ClothState& state) const;
   /// The charts, joined where their seams have closed.
   [[nodiscard]] BorderMates joined(const Planes3& position) const;
@@ -83,9 +82,9 @@ class Sewing {
   [[nodiscard]] Vec3d along_bodies(int sample, Vec3d pull) const;
   /// Upwards along them: shorter than 1 the flatter they are.
   [[nodiscard]] Vec3d up_along_bodies(int sample) const;
-  /// Where a class is put together: no deeper in the bodies that it touches than it was when the
-  /// step began. The filter would move each sample out by itself, some micrometres apart, and they
-  /// would never be in one place.
+  /// Where a class is put together late: no deeper in the bodies that it touches than it was when
+  /// the step began. The filter would move each sample out by itself, some micrometres apart, and
+  /// they would never be in one place.
   [[nodiscard]] Vec3d meeting_place(int index, Vec3d middle) const;
   /// Finds the mean of these velocities over the seams of each panel.
   void find_panel_pulls(const Planes3& position, std::size_t step);
@@ -104,7 +103,7 @@ class Sewing {
   PanelMotion panels_;
   Unpicking unpicking_;
   double time_to_close_;                        // if nothing holds the seams back [s]
-  double joins_within_ = 0;                     // distance from their mean, in this step [m]
+  bool late_ = false;                           // in this step all seams should have closed
   std::vector<std::vector<int>> leaders_;       // of each class, the samples that set the height
   std::vector<Vec3d> middle_;                   // of each class
   std::vector<Vec3d> began_at_;                 // of each class, its mean when the step began [m]
