@@ -55,7 +55,8 @@ PatchUnfolding::Flat PatchUnfolding::flat(const Triangle& corners, const PlaneAt
   const auto within = [&](Vec3d way) {
     return Vec2d{dot(way, plane.first), dot(way, plane.second)};
   };
-  Flat made{corners};
+  Flat made;
+  made.corners = corners;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& [along, across] = axes_[corners[k]];
     if (points_[corners[k]].moves)
