@@ -9,7 +9,7 @@ namespace weft::test {
 
 /// What a simulation of a scene is refused with; empty where it begins.
 inline std::string refusal_of(const Scene& scene) {
-  return message_of<Error>([&] { Simulation(scene, "s.json", 1); });
+  return message_of<SceneError>([&] { Simulation(scene, "s.json", 1); });
 }
 
 }  // namespace weft::test
