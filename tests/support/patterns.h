@@ -42,17 +42,36 @@ inline std::string godet_pattern() {
     "properties":{"units_in_meter":100}})";
 }
 
-/// Two rectangles one above the other, 10 cm apart, to be sewn together: a top with the label of
-/// its upper edge, and a skirt with that of its own.
+/// A rectangle, 20 cm wide.
+/// @param low   its lowest edge [cm]  @param label  of its upper one; may be empty
+/// @param turn  about the y axis [degrees]  @param height  [cm]
+inline std::string panel_20_wide(double low, const std::string& label, double turn = 0,
+                                 double height = 20) {
+  const std::string h = std::to_string(height);
+  return R"({"vertices":[[0,0],[20,0],[20,)" + h + "],[0," + h +
+         R"(]],"edges":[{"endpoints":[0,1]},)"
+         R"({"endpoints":[1,2]},{"endpoints":[2,3],"label":")" +
+         label + R"("},{"endpoints":[3,0]}],"translation":[0,)" + std::to_string(low) +
+         R"(,0],"rotation":[0,)" + std::to_string(turn) + ",0]}";
+}
+
+/// Two squares of 20 cm one above the other, 10 cm apart, to be sewn together: a top with the label
+/// of its upper edge, and a skirt with that of its own.
 inline std::string top_and_skirt(const std::string& top, const std::string& skirt) {
-  const auto panel = [](double low, const std::string& label) {
-    return R"({"vertices":[[0,0],[20,0],[20,20],[0,20]],"edges":[{"endpoints":[0,1]},)"
-           R"({"endpoints":[1,2]},{"endpoints":[2,3],"label":")" +
-           label + R"("},{"endpoints":[3,0]}],"translation":[0,)" + std::to_string(low) +
-           R"(,0],"rotation":[0,0,0]})";
-  };
-  return R"({"pattern":{"panels":{"top":)" + panel(130, top) + R"(,"skirt":)" + panel(100, skirt) +
+  return R"({"pattern":{"panels":{"top":)" + panel_20_wide(130, top) + R"(,"skirt":)" +
+         panel_20_wide(100, skirt) +
          R"(},"stitches":[[{"panel":"top","edge":0},{"panel":"skirt","edge":2}]]},)" +
+         R"("properties":{"units_in_meter":100}})";
+}
+
+/// A square top of 20 cm, from 1 m up, and half a hood to be sewn on its upper edge.
+/// @param turn   of the hood [degrees]; 90: it stands across the top
+/// @param low    where it begins [cm]  @param label  of its upper edge; may be empty
+/// @param height  of the hood [cm]
+inline std::string half_hood(double turn, double low, const std::string& label, double height) {
+  return R"({"pattern":{"panels":{"top":)" + panel_20_wide(100, "") + R"(,"hood":)" +
+         panel_20_wide(low, label, turn, height) +
+         R"(},"stitches":[[{"panel":"hood","edge":0},{"panel":"top","edge":2}]]},)" +
          R"("properties":{"units_in_meter":100}})";
 }
 

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-bool holds(const Box3d& box, Vec3d p) {
+bool is_in(const Box3d& box, Vec3d p) {
   return box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y &&
          box.lower.z <= p.z && p.z <= box.upper.z;
 }
@@ -58,6 +58,8 @@ void ClosedBody::follow() {
     for (const Vec3d corner : t) box_.add(corner);
 }
 
+bool ClosedBody::holds(Vec3d point) const { return is_in(box_, point) && winding_->at(point) != 0; }
+
 void ClosedBody::mark_inside(const Planes3& samples, ThreadTeam& team,
                              std::vector<char>& inside) const {
   const int count = samples.size() * samples.size();
@@ -65,8 +67,7 @@ void ClosedBody::mark_inside(const Planes3& samples, ThreadTeam& team,
   team.run([&](Worker& worker) {
     const Range mine = worker.share(count);
     for (int s = mine.first; s < mine.last; ++s) {
-      const Vec3d p = vec_cast<double>(samples.at(s));
-      inside[static_cast<std::size_t>(s)] = holds(box_, p) && winding_->at(p) != 0 ? 1 : 0;
+      inside[static_cast<std::size_t>(s)] = holds(vec_cast<double>(samples.at(s))) ? 1 : 0;
     }
   });
 }

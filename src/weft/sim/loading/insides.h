@@ -23,6 +23,8 @@ class ClosedBody {
   [[nodiscard]] bool closed() const { return winding_.has_value(); }
   /// Updates the test to the current positions.
   void follow();
+  /// Whether it winds around a point. [m] @pre closed
+  [[nodiscard]] bool holds(Vec3d point) const;
   /// Marks the samples of another surface, mates too, around which the body winds. [n * n]
   void mark_inside(const Planes3& samples, ThreadTeam& team, std::vector<char>& inside) const;
 

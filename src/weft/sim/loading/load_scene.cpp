@@ -14,6 +14,7 @@
 #include "weft/sim/loading/exits.h"
 #include "weft/sim/loading/start_notes.h"
 #include "weft/sim/placement.h"
+#include "weft/sim/sewing/free_height.h"
 #include "weft/sim/sewing/panel_starts.h"
 
 namespace weft {
@@ -138,11 +139,21 @@ Planes3 Loader::place(const SceneCloth& wanted, const LoadedSurface& loaded, int
   // Baselines take the start as it is, and pins and ties are where the pattern puts its panels.
   if (!Colliders::traits_of(scene_.collider).containers) return placed;
   if (!wanted.pins.empty() || !wanted.attach.empty()) return placed;
+  const std::vector<Chart>& panels = loaded.image.mates.charts();
+  if (const double higher = raise_to_free_height(*loaded.garment, bodies, placed); higher > 0)
+    notes.push_back(fmt::format(
+        "{}: begins {:.2g} m higher than its pattern says, where seams have less of a body between "
+        "their sides",
+        wanted.name, higher));
+  if (const MovedPanels raised = raise_above_others(*loaded.garment, placed); raised.count > 0)
+    notes.push_back(fmt::format(
+        "{}: {} of {} panels stand across others that they are sewn to and begin above them, "
+        "'{}' by {:.2g} m",
+        wanted.name, raised.count, panels.size(), panels[raised.farthest].name, raised.distance));
   const double height = scene_.ground ? *scene_.ground + above_ground : -HUGE_VAL;
   if (const int lifted = lift_above_ground(loaded.image.mates, height, placed))
     notes.push_back(fmt::format("{}: {} of {} panels reached below the ground and begin higher",
-                                wanted.name, lifted, loaded.image.mates.charts().size()));
-  const std::vector<Chart>& panels = loaded.image.mates.charts();
+                                wanted.name, lifted, panels.size()));
   if (const MovedPanels moved = move_out_of_bodies(loaded.image, bodies, team_, placed);
       moved.count > 0)
     notes.push_back(fmt::format(
@@ -150,7 +161,7 @@ Planes3 Loader::place(const SceneCloth& wanted, const LoadedSurface& loaded, int
         wanted.name, moved.count, panels.size(), panels[moved.farthest].name, moved.distance));
   if (const int parted = part_panels(loaded.garment->sewn, placed))
     notes.push_back(fmt::format("{}: {} of {} panels touched others and begin farther outside",
-                                wanted.name, parted, loaded.image.mates.charts().size()));
+                                wanted.name, parted, panels.size()));
   return placed;
 }
 

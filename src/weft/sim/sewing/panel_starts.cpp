@@ -1,6 +1,8 @@
 #include "weft/sim/sewing/panel_starts.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "weft/geometry_image.h"
@@ -13,6 +15,12 @@ namespace {
 
 /// How much farther outside the panels of a garment start than those of the one below it. [m]
 constexpr double layer_distance = 0.05;
+
+/// Panels that stand across others, and are this high at least, begin so far above them. Lower
+/// ones, as collars, hang in nobody's way. [m]
+constexpr double least_height = 0.1, clear_above = 0.2;
+/// Cosine of the angle between their sides from which on panels stand across each other.
+constexpr double across = 0.7;
 
 /// Panels leave others that they touch in steps of this length, up to this many. [m]
 constexpr double step_apart = 0.003;
@@ -44,6 +52,16 @@ int chart_of(const BorderMates& mates, int sample) {
 void move(const BorderMates& mates, const std::vector<Vec3d>& shift, Planes3& placed) {
   for (int s = 0; s < placed.size() * placed.size(); ++s)
     placed.set(s, placed.at(s) + vec_cast<float>(shift[chart_of(mates, s)]));
+}
+
+MovedPanels farthest_of(const std::vector<Vec3d>& shift) {
+  MovedPanels found;
+  for (std::size_t i = 0; i < shift.size(); ++i) {
+    const double distance = length(shift[i]);
+    if (distance > 0) ++found.count;
+    if (distance > found.distance) found = {found.count, static_cast<int>(i), distance};
+  }
+  return found;
 }
 
 std::vector<Corners> corners_of(std::span<const Triangle> triangles, const Planes3& positions) {
@@ -122,15 +140,7 @@ class StepsOut {
       if (those[i]) moved_[i] += step_[i];
     put();
   }
-  [[nodiscard]] MovedPanels moved() const {
-    MovedPanels found;
-    for (std::size_t i = 0; i < moved_.size(); ++i) {
-      const double distance = length(moved_[i]);
-      if (distance > 0) ++found.count;
-      if (distance > found.distance) found = {found.count, static_cast<int>(i), distance};
-    }
-    return found;
-  }
+  [[nodiscard]] MovedPanels moved() const { return farthest_of(moved_); }
   void take_back(const std::vector<bool>& those) {
     for (std::size_t i = 0; i < those.size(); ++i)
       if (those[i]) moved_[i] = {};
@@ -148,6 +158,43 @@ class StepsOut {
   Planes3& placed_;
   std::vector<Vec3d> step_, moved_;  // of each chart [m]
 };
+
+/// Where each panel of a garment begins.
+struct PanelPlaces {
+  PanelPlaces(const BorderMates& mates, const Planes3& placed)
+      : lowest(mates.charts().size(), HUGE_VAL),
+        highest(mates.charts().size(), -HUGE_VAL),
+        middle(mates.charts().size()) {
+    std::vector<int> size(mates.charts().size());
+    for (int s = 0; s < placed.size() * placed.size(); ++s) {
+      const int chart = chart_of(mates, s);
+      const double height = placed.at(s).y;
+      lowest[chart] = std::min(lowest[chart], height);
+      highest[chart] = std::max(highest[chart], height);
+      middle[chart] += (height - middle[chart]) / ++size[chart];
+    }
+    for (const Chart& chart : mates.charts()) outer.push_back(outer_side(chart, placed));
+  }
+  [[nodiscard]] bool stands_across(int panel, int other) const {
+    return std::abs(dot(outer[panel], outer[other])) < across && lowest[panel] > middle[other] &&
+           highest[panel] - lowest[panel] > least_height;
+  }
+
+  std::vector<double> lowest, highest, middle;  // [m]
+  std::vector<Vec3d> outer;                     // sides
+};
+
+/// The pairs of panels that are sewn together, each twice.
+std::vector<std::array<int, 2>> sewn_panels(const Garment& garment) {
+  std::vector<std::array<int, 2>> sewn;
+  for (const GarmentSeam& seam : garment.seams) {
+    const int a = chart_of(garment.image.mates, seam.pairs.front()[0]);
+    const int b = chart_of(garment.image.mates, seam.pairs.front()[1]);
+    sewn.push_back({a, b});
+    sewn.push_back({b, a});
+  }
+  return sewn;
+}
 
 bool any(const std::vector<bool>& charts) {
   return std::find(charts.begin(), charts.end(), true) != charts.end();
@@ -178,6 +225,17 @@ MovedPanels move_out_of_bodies(const GeometryImage& panels, std::span<const Plac
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = first[i] && !left[i];
   steps.go(out);
   return steps.moved();
+}
+
+MovedPanels raise_above_others(const Garment& garment, Planes3& placed) {
+  const PanelPlaces places(garment.image.mates, placed);
+  std::vector<Vec3d> raised(garment.panel_holds.size());
+  for (const auto& [panel, other] : sewn_panels(garment))
+    if (garment.panel_holds[panel] == PanelHold::other_panels && places.stands_across(panel, other))
+      raised[panel].y =
+          std::max(raised[panel].y, places.highest[other] + clear_above - places.lowest[panel]);
+  move(garment.image.mates, raised, placed);
+  return farthest_of(raised);
 }
 
 int part_panels(const BorderMates& sewn, Planes3& placed) {

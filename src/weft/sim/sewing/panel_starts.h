@@ -3,6 +3,7 @@
 #include <span>
 
 #include "weft/core/thread_team.h"
+#include "weft/garment.h"
 #include "weft/grid.h"
 #include "weft/simulation.h"
 
@@ -26,6 +27,11 @@ struct MovedPanels {
 /// @param panels  gives the triangles, by charts
 MovedPanels move_out_of_bodies(const GeometryImage& panels, std::span<const PlacedBody> bodies,
                                ThreadTeam& team, Planes3& placed);
+
+/// Raises panels that stand across one that they are sewn to, above its middle, until all of them
+/// is above it: hoods, whose points would hang in the way of straps that go over the shoulders.
+/// Panels with a label stay where they are worn.
+MovedPanels raise_above_others(const Garment& garment, Planes3& placed);
 
 /// Moves panels outwards by millimetres that touch others elsewhere than along their seams: side by
 /// side in one plane they would overlap after a step.
