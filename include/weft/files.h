@@ -49,7 +49,8 @@ enum class TemporaryName { of_this_process, of_the_file };
 std::filesystem::path temporary_path(const std::filesystem::path& path, TemporaryName name);
 
 /// A file that appears whole or not at all: written under a temporary name beside its place, then
-/// renamed. Unless `commit` was called, the destructor removes what was written.
+/// renamed. Its place is where a link of that name leads. Unless `commit` was called, the
+/// destructor removes what was written.
 class NewFile {
  public:
   /// @throws OutputError when the folder is missing or cannot be written

@@ -46,6 +46,21 @@ TEST(Files, FailedWriteLeavesTheOldFileAndNothingElse) {
   EXPECT_EQ(folder.entries(), 1);
 }
 
+TEST(Files, LinksStayAndLeadToWhatWasWritten) {
+  const test::TemporaryFolder folder;
+  make_folder(folder / "there");
+  fs::create_symlink("there/f.txt", folder / "near.txt");
+  fs::create_symlink(folder / "near.txt", folder / "far.txt");
+  for (const char* text : {"new", "newer"}) {  // to no file yet, and to one
+    write_file(folder / "far.txt", [&](std::ostream& out) { out << text; });
+    EXPECT_TRUE(fs::is_symlink(folder / "far.txt"));
+    EXPECT_EQ(read_file(folder / "there/f.txt"), text);
+  }
+  fs::create_symlink("round.txt", folder / "round.txt");
+  write_file(folder / "round.txt", [](std::ostream& out) { out << "end"; });
+  EXPECT_EQ(read_file(folder / "round.txt"), "end");
+}
+
 TEST(Files, FullDiskIsAnErrorAndLeavesNothing) {
   const test::TemporaryFolder folder;
   rlimit old{};

@@ -163,12 +163,12 @@ TEST(CutOpen, CutsThatDoNotLeaveADiskAreRefused) {
   const TriangleMesh torus = slab_surface({"###", "#.#", "###"});
   EXPECT_EQ(error_of(torus, {}),
             "cut: the mesh opens to 1 pieces with 0 border edges and Euler characteristic 0; "
-            "one disk (1 piece, Euler characteristic 1)");
+            "one disk (1 piece, Euler characteristic 1) is wanted");
   EXPECT_EQ(error_of(tetrahedron(), {{{0, 1}, {0, 2}, {1, 2}}}),
             "cut: the mesh opens to 2 pieces with 6 border edges and Euler characteristic 2; "
-            "one disk (1 piece, Euler characteristic 1)");
+            "one disk (1 piece, Euler characteristic 1) is wanted");
   EXPECT_EQ(error_of(tetrahedron(), {{{0, 9}}}),
-            "cut: vertices 0 and 9 share no edge; a cut along edges of the mesh");
+            "cut: vertices 0 and 9 share no edge; a cut along edges of the mesh is wanted");
 }
 
 TEST(SplitBorderEdge, KeepsMatesAreaAndDisk) {

@@ -79,7 +79,8 @@ TEST(BorderMates, PositionsOutOfRangeAreNamed) {
 
 TEST(BorderMates, AnEdgeHasOneMate) {
   EXPECT_EQ(refusal(5, {{0, 12, 4}, {3, 15, 2}}),
-            "mates 3 15 2 that meet other mates at 3; runs of border samples that do not overlap");
+            "mates 3 15 2 that meet other mates at 3; runs of border samples that do not overlap "
+            "are wanted");
   EXPECT_NE(refusal(5, {{0, 4, 4}}), "");
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 using test::expect_same_samples;
 
-std::string chart_refusal(int size, std::vector<Chart> charts, std::vector<MateInterval> intervals = {}) {
+std::string chart_refusal(int size, std::vector<Chart> charts,
+                          std::vector<MateInterval> intervals = {}) {
   return test::message_of<InputError>(
       [&] { BorderMates(size, std::move(charts), std::move(intervals)); });
 }
@@ -89,7 +90,8 @@ TEST(Charts, WhatIsNoRectangleInTheImageIsRefused) {
 }
 
 TEST(Charts, ARunMayBeLongerThanTheBorderOfAChartThatItIsNotOn) {
-  EXPECT_EQ(chart_refusal(13, two, {{20, 20, 24}}), "") << "the first chart's border has 20 intervals";
+  EXPECT_EQ(chart_refusal(13, two, {{20, 20, 24}}), "")
+      << "the first chart's border has 20 intervals";
   EXPECT_NE(chart_refusal(13, two, {{20, 20, 25}}).find("1 .. 24"), std::string::npos);
 }
 

@@ -69,7 +69,8 @@ TEST(DamagedImage, ExrThatTellsOfMoreThanItHoldsIsRefusedAtItsHeader) {
     return refusal_of_bytes(bytes).value_or("accepted");
   };
   EXPECT_EQ(told(6, 0), "accepted");
-  EXPECT_TRUE(told(0, 0x20).ends_with("bytes for a picture of 8193 x 8193; a whole file"));
+  EXPECT_TRUE(
+      told(0, 0x20).ends_with("bytes for a picture of 8193 x 8193; a whole file is wanted"));
   EXPECT_EQ(told(0, 0x7f),
             "file: a picture of 32513 x 32513; a square geometry image of side 5 .. 8193");
 }
@@ -82,7 +83,7 @@ TEST(DamagedImage, ExrOfLossyCompressionIsRefused) {
     bytes[static_cast<std::size_t>(value.data() - bytes.data())] = static_cast<char>(compression);
     EXPECT_EQ(refusal_of_bytes(bytes),
               "file: an EXR picture whose compression loses something; a geometry image without "
-              "loss");
+              "loss is wanted");
   }
 }
 
@@ -97,7 +98,8 @@ TEST(DamagedImage, ExrOfManyChannelsIsRefusedAtItsHeader) {
     return refusal_of_bytes(bytes);
   };
   EXPECT_EQ(with_channels(0), std::nullopt);
-  EXPECT_EQ(with_channels(6), "file: an EXR picture of more than 8 channels; a geometry image");
+  EXPECT_EQ(with_channels(6),
+            "file: an EXR picture of more than 8 channels; a geometry image is wanted");
 }
 
 /// OpenEXR goes on reading where an attribute's content ends, whatever size it tells.
@@ -111,15 +113,15 @@ TEST(DamagedImage, ExrAttributesWhoseSizeIsNotTheirTypesAreRefused) {
     return test::message_of<InputError>([&] { check_exr_header(bytes, "file"); });
   };
   const std::string wrong =
-      "file: an EXR attribute of an unknown type or a wrong size; a geometry image";
+      "file: an EXR attribute of an unknown type or a wrong size; a geometry image is wanted";
   EXPECT_EQ(with("a", "float", "1234"), "");
   EXPECT_EQ(with("a", "string", "any"), "");
   EXPECT_EQ(with("a", "float", "123"), wrong);
   EXPECT_EQ(with("a", "stringvector", "\377\377\377\177"), wrong);
   EXPECT_EQ(with("a", "chlist", std::string("\0\0", 2)),
-            "file: a damaged EXR file: a channel list of a wrong size; a geometry image");
+            "file: a damaged EXR file: a channel list of a wrong size; a geometry image is wanted");
   EXPECT_EQ(with("lineOrder", "lineOrder", std::string("\0", 1)),
-            "file: a damaged EXR file: an attribute is there twice; a geometry image");
+            "file: a damaged EXR file: an attribute is there twice; a geometry image is wanted");
 }
 
 TEST(DamagedImage, ExrOfTilesDepthOrPartsIsRefusedAtItsHeader) {
@@ -127,7 +129,8 @@ TEST(DamagedImage, ExrOfTilesDepthOrPartsIsRefusedAtItsHeader) {
     std::string bytes = exr_bytes(torus_image(7));
     bytes[5] = static_cast<char>(flag >> 8U);
     EXPECT_EQ(refusal_of_bytes(bytes),
-              "file: an EXR picture of tiles, layers of depth or several parts; a geometry image");
+              "file: an EXR picture of tiles, layers of depth or several parts; a geometry image "
+              "is wanted");
   }
 }
 
@@ -167,7 +170,7 @@ TEST(DamagedImage, PngTextThatUnpacksToFarMoreIsRefused) {
   const std::string little = packed_spaces(2000);
   EXPECT_EQ(refusal_of_bytes(with_texts("other", 20, little)), std::nullopt);
   EXPECT_EQ(refusal_of_bytes(with_texts("other", 40, little)),
-            "file: a damaged PNG file: iTXt: no space in chunk cache; a geometry image");
+            "file: a damaged PNG file: iTXt: no space in chunk cache; a geometry image is wanted");
 }
 
 TEST(DamagedImage, PicturesOfAWrongShapeAreRefused) {

@@ -128,12 +128,13 @@ TEST(ImageFile, OtherPicturesAreNoGeometryImages) {
   write_bytes(folder / "text.png", "a text\n");
   EXPECT_EQ(refusal(folder / "n.exr"),
             (folder / "n.exr").string() +
-                ": an EXR picture that is no geometry image; one that weft wrote");
+                ": an EXR picture that is no geometry image; one that weft wrote is wanted");
   EXPECT_EQ(refusal(folder / "n.png"),
             (folder / "n.png").string() +
-                ": a PNG picture that is no geometry image; one that weft wrote");
+                ": a PNG picture that is no geometry image; one that weft wrote is wanted");
   EXPECT_EQ(refusal(folder / "text.png"),
-            (folder / "text.png").string() + ": neither an EXR nor a PNG file; a geometry image");
+            (folder / "text.png").string() +
+                ": neither an EXR nor a PNG file; a geometry image is wanted");
   EXPECT_TRUE(refusal(folder / "missing.exr").has_value());
   EXPECT_TRUE(refusal(folder / "").has_value());
 }

@@ -40,14 +40,14 @@ void check_rest(const Planes3& rest, const BorderMates& mates) {
   if (n < 2 || mates.size() != n)
     throw SceneError(
         "cloth", fmt::format("an image of {} samples a side with mates for {}", n, mates.size()),
-        "at least 2, and mates of the same size");
+        "at least 2, and mates of the same size, are wanted");
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
       const Vec3f p = rest.at(r, c);
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
         throw SceneError("cloth",
                          fmt::format("a position that is not finite at row {}, col {}", r, c),
-                         "finite rest positions");
+                         "finite rest positions are wanted");
     }
 }
 

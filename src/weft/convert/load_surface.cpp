@@ -112,7 +112,7 @@ void check_texture_size(const TriangleMesh& mesh, const std::string& name) {
   throw InputError(name,
                    fmt::format("texture coordinates for {} of {} triangles", mesh.corner_uv.size(),
                                mesh.triangles.size()),
-                   "three a triangle, or none at all");
+                   "three a triangle, or none at all, are wanted");
 }
 
 }  // namespace

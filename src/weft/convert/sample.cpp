@@ -52,7 +52,7 @@ void require_cover(const Grid<int>& times) {
   if (bad > 0)
     throw TopologyError("",
                         fmt::format("a map that leaves {} samples not covered exactly once", bad),
-                        "a map without flipped triangles");
+                        "a map without flipped triangles is wanted");
 }
 
 }  // namespace

@@ -21,6 +21,15 @@ constexpr const char* reservation_size = "more room, or another place, is wanted
 
 std::string system_reason() { return std::strerror(errno); }
 
+/// Where a link leads: a file that is renamed into its place would end the link.
+fs::path followed(fs::path path) {
+  std::error_code error;
+  constexpr int most_links = 40;  // as the system follows; those in a circle are written over
+  for (int k = 0; k < most_links && fs::is_symlink(path, error); ++k)
+    path = path.parent_path() / fs::read_symlink(path, error);
+  return path;
+}
+
 }  // namespace
 
 std::string ending_of(const std::filesystem::path& path) {
@@ -92,7 +101,7 @@ fs::path temporary_path(const fs::path& path, TemporaryName name) {
 }
 
 NewFile::NewFile(fs::path path, TemporaryName name)
-    : path_(std::move(path)), temporary_(temporary_path(path_, name)) {
+    : path_(followed(std::move(path))), temporary_(temporary_path(path_, name)) {
   std::error_code ignored;
   if (fs::is_directory(path_, ignored))
     throw OutputError(path_.string(), "is a folder", "a file name is wanted");

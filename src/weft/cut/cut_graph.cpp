@@ -17,7 +17,7 @@ int find_edge(const CutSurface& surface, int a, int b) {
     });
   if (found < 0)
     throw TopologyError("cut", fmt::format("vertices {} and {} share no edge", a, b),
-                        "a cut along edges of the mesh");
+                        "a cut along edges of the mesh is wanted");
   return found;
 }
 

@@ -103,7 +103,7 @@ void check_disk(const CutGraph& graph, std::size_t disk_vertices) {
                         fmt::format("the mesh opens to {} pieces with {} border edges and Euler "
                                     "characteristic {}",
                                     pieces, open, euler),
-                        "one disk (1 piece, Euler characteristic 1)");
+                        "one disk (1 piece, Euler characteristic 1) is wanted");
 }
 
 DiskMesh opened_mesh(const CutGraph& graph, const std::vector<int>& border) {

@@ -65,7 +65,7 @@ BorderMates::BorderMates(int size, std::vector<MateInterval> intervals)
 BorderMates::BorderMates(int size, std::vector<Chart> charts, std::vector<MateInterval> intervals)
     : size_(size), charts_(std::move(charts)), intervals_(std::move(intervals)) {
   check_size(size);
-  if (charts_.empty()) throw InputError("", "an image without charts", "at least one");
+  if (charts_.empty()) throw InputError("", "an image without charts", "at least one is wanted");
   const bool is_whole = charts_.size() == 1 && charts_[0].rows == size && charts_[0].cols == size;
   if (!is_whole) chart_of_.assign(static_cast<std::size_t>(size) * size, -1);
   place_charts();
@@ -86,7 +86,8 @@ void BorderMates::place_charts() {
       for (int c = chart.col; c < chart.col + chart.cols; ++c) {
         int& owner = chart_of_[static_cast<std::size_t>(r) * size_ + c];
         if (owner >= 0)
-          throw InputError("", describe(chart) + " that overlaps another", "charts side by side");
+          throw InputError("", describe(chart) + " that overlaps another",
+                           "charts side by side are wanted");
         owner = static_cast<int>(k);
       }
     for (int t = 0; t < chart.border_length(); ++t)
@@ -124,7 +125,7 @@ void BorderMates::join(bool overlapping) {
   const auto take = [&](int edge, const MateInterval& interval) {
     if (taken[edge] && !overlapping)
       throw InputError("", fmt::format("{} that meet other mates at {}", describe(interval), edge),
-                       "runs of border samples that do not overlap");
+                       "runs of border samples that do not overlap are wanted");
     keep_manifold_ = keep_manifold_ && !taken[edge] && !interval.turned;
     taken[edge] = true;
   };
@@ -135,7 +136,7 @@ void BorderMates::join(bool overlapping) {
     joined += interval.count;
     if (joined > positions)
       throw InputError("", fmt::format("runs of mates of more than {} intervals", positions),
-                       "each border edge joined once");
+                       "each border edge joined once is wanted");
     const int back = interval.turned ? 1 : -1;
     interval.first = along_border(interval.first, 0);
     interval.mate = along_border(interval.mate, 0);

@@ -44,14 +44,15 @@ void check_image(const GeometryImage& image, std::string_view name) {
                      fmt::format("a side of {} .. {}", min_image_size, largest_image_size));
   if (!in_unit_cube(image.cube))
     throw InputError(name, "samples outside the unit cube, or not n x n",
-                     "three planes of values in [0, 1]");
+                     "three planes of values in [0, 1] are wanted");
   if (!has_size(image.world))
-    throw InputError(name, "a world that is not finite or has no size", "a scale > 0");
+    throw InputError(name, "a world that is not finite or has no size", "a scale > 0 is wanted");
   if (image.mates.size() != 0 && image.mates.size() != n)
     throw InputError(name, fmt::format("border mates of side {}", image.mates.size()),
                      fmt::format("mates of side {}", n));
   if (!mates_bit_equal(image))
-    throw InputError(name, "border mates with different positions", "mates that hold equal bits");
+    throw InputError(name, "border mates with different positions",
+                     "mates that hold equal bits are wanted");
   check_colours(image, name);
 }
 

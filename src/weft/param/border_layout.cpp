@@ -180,7 +180,7 @@ BorderLayout lay_out_border(const CutDisk& cut, const LayoutOptions& options) {
     throw TopologyError("",
                         fmt::format("{} border intervals are fixed, a chart of {} has {}",
                                     min_total(curves), text_of(options.size), total),
-                        "a border whose intervals fit");
+                        "a border whose intervals fit is wanted");
   const std::vector<int> counts =
       options.align ? aligned_counts(curves, options.size) : apportion(curves, total);
   BorderLayout layout;

@@ -52,7 +52,7 @@ MappedDisk map_to_square(CutDisk cut, const MapOptions& options) {
     throw TopologyError(options.name,
                         fmt::format("no valid map was found: {} triangles flipped, {} without area",
                                     mapped.quality.flipped, mapped.quality.degenerate),
-                        "a mesh with fewer or better shaped triangles");
+                        "a mesh with fewer or better shaped triangles is wanted");
   update(options.progress, "map", 1.0);
   return mapped;
 }

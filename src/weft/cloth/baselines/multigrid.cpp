@@ -67,9 +67,10 @@ std::unique_ptr<Integrator> make_integrator_of(const MultigridOptions& options, 
                                                const StepInput& typical, ThreadTeam& team) {
   if (options.max_iterations < 1)
     throw SceneError("integrator.max_iterations", fmt::format("{}", options.max_iterations),
-                     "at least 1");
+                     "at least 1 is wanted");
   if (!std::isfinite(options.tolerance) || options.tolerance < 0)
-    throw SceneError("integrator.tolerance", fmt::format("{}", options.tolerance), "at least 0");
+    throw SceneError("integrator.tolerance", fmt::format("{}", options.tolerance),
+                     "at least 0 is wanted");
   return std::make_unique<Multigrid>(options, cloth, typical, team);
 }
 

@@ -144,9 +144,10 @@ std::unique_ptr<Integrator> make_integrator_of(const NewtonOptions& options, con
                                                const StepInput& /*typical*/, ThreadTeam& team) {
   if (options.max_iterations < 1)
     throw SceneError("integrator.max_iterations", fmt::format("{}", options.max_iterations),
-                     "at least 1");
+                     "at least 1 is wanted");
   if (!std::isfinite(options.tolerance) || options.tolerance < 0)
-    throw SceneError("integrator.tolerance", fmt::format("{}", options.tolerance), "at least 0");
+    throw SceneError("integrator.tolerance", fmt::format("{}", options.tolerance),
+                     "at least 0 is wanted");
   if (cloth.mates.charts().size() > 1 && !LevelLayout(cloth.mates).has_gaps())
     throw SceneError("cloth", "charts that lie side by side",
                      fmt::format("{} samples between all charts", LevelLayout::gap));

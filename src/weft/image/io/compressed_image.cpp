@@ -161,7 +161,8 @@ std::string compressed_bytes(const GeometryImage& image, int steps) {
 void write_compressed_image(const std::filesystem::path& path, const GeometryImage& image,
                             int steps) {
   if (ending_of(path) != ".weft")
-    throw UsageError(path.string(), "an ending that is not that of a compressed image", ".weft");
+    throw UsageError(path.string(), "an ending that is not that of a compressed image",
+                     ".weft is wanted");
   const std::string bytes = compressed_bytes(image, steps);
   write_file(path, [&](std::ostream& out) {
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

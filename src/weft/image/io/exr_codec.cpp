@@ -78,7 +78,7 @@ void check_channels(const Imf::Header& header, std::string_view where) {
     if (channel == nullptr || channel->type != Imf::FLOAT || channel->xSampling != 1 ||
         channel->ySampling != 1)
       throw InputError(where, std::string("an EXR picture without a 32-bit float channel ") + name,
-                       "a geometry image");
+                       "a geometry image is wanted");
   }
 }
 
@@ -89,9 +89,11 @@ DecodedImage decode(std::string_view bytes, std::string_view where) {
   const Imf::Header& header = file.header();
   const auto* text = header.findTypedAttribute<Imf::StringAttribute>(metadata_key);
   if (text == nullptr)
-    throw InputError(where, "an EXR picture that is no geometry image", "one that weft wrote");
+    throw InputError(where, "an EXR picture that is no geometry image",
+                     "one that weft wrote is wanted");
   check_channels(header, where);
-  if (!file.isComplete()) throw InputError(where, "an EXR file that was cut short", "a whole file");
+  if (!file.isComplete())
+    throw InputError(where, "an EXR file that was cut short", "a whole file is wanted");
   DecodedImage decoded{Planes3(header.dataWindow().max.x + 1), text->value(), {}};
   if (has_colours(header)) decoded.colours = Planes3(decoded.planes.size());
   Imf::FrameBuffer buffer;
@@ -138,7 +140,8 @@ DecodedImage decode_exr(std::string_view bytes, std::string_view where) {
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
-    throw InputError(where, std::string("a damaged EXR file: ") + error.what(), "a geometry image");
+    throw InputError(where, std::string("a damaged EXR file: ") + error.what(),
+                     "a geometry image is wanted");
   }
 }
 

@@ -26,7 +26,7 @@ class HeaderReader {
   HeaderReader(std::string_view bytes, std::string_view where) : rest_(bytes), where_(where) {}
 
   [[noreturn]] void fail(std::string_view found) const {
-    throw InputError(where_, found, "a geometry image");
+    throw InputError(where_, found, "a geometry image is wanted");
   }
   std::string_view take(std::size_t count) {
     if (count > rest_.size()) fail("a damaged EXR file: the header ends too early");
@@ -71,7 +71,7 @@ void check_compression(std::string_view value, std::string_view where) {
   constexpr char last_lossless = 4;
   if (value.size() != 1 || value[0] < 0 || value[0] > last_lossless)
     throw InputError(where, "an EXR picture whose compression loses something",
-                     "a geometry image without loss");
+                     "a geometry image without loss is wanted");
 }
 
 // OpenEXR allocates lines for all channels, used or not.
@@ -116,7 +116,7 @@ void check_attribute(std::string_view type, std::string_view value, std::string_
   for (const auto& [known, size] : sizes_of_types)
     if (known == type && size == value.size()) return;
   throw InputError(where, "an EXR attribute of an unknown type or a wrong size",
-                   "a geometry image");
+                   "a geometry image is wanted");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
 
 [[noreturn]] void refuse_ending(const std::filesystem::path& path) {
   throw UsageError(path.string(), "an ending that is no picture format here",
-                   ".exr, .png or, of images, .weft");
+                   ".exr, .png or, of images, .weft is wanted");
 }
 
 template <class Change>
@@ -119,7 +119,7 @@ GeometryImage parse_image(std::string_view bytes, std::string_view where) {
     return assemble_image(planes_of(picture), picture.text, where);
   }
   if (bytes.starts_with(compressed_mark)) return parse_compressed_image(bytes, where);
-  throw InputError(where, "neither an EXR nor a PNG file", "a geometry image");
+  throw InputError(where, "neither an EXR nor a PNG file", "a geometry image is wanted");
 }
 
 void write_colours(const std::filesystem::path& path, const Planes3& colours) {

@@ -257,7 +257,7 @@ void require_enough_bytes(int side, std::size_t bytes_per_sample, std::size_t fi
   const std::size_t samples = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
   if (samples * bytes_per_sample / max_compression <= file_size) return;
   throw InputError(where, fmt::format("{} bytes for a picture of {} x {}", file_size, side, side),
-                   "a whole file");
+                   "a whole file is wanted");
 }
 
 }  // namespace weft

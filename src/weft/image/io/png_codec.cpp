@@ -125,12 +125,13 @@ class Reader {
     PngPicture picture;
     picture.text = metadata();
     if (picture.text.empty())
-      throw InputError(where_, "a PNG picture that is no geometry image", "one that weft wrote");
+      throw InputError(where_, "a PNG picture that is no geometry image",
+                       "one that weft wrote is wanted");
     if (png_get_bit_depth(png_, info_) != 16 ||
         png_get_color_type(png_, info_) != PNG_COLOR_TYPE_RGB ||
         png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE)
       throw InputError(where_, "a PNG picture of another kind",
-                       "a geometry image of 16 bits a channel, RGB");
+                       "a geometry image of 16 bits a channel, RGB, is wanted");
     require_image_size(png_get_image_width(png_, info_), png_get_image_height(png_, info_), where_);
     picture.width = static_cast<int>(png_get_image_width(png_, info_));
     picture.height = static_cast<int>(png_get_image_height(png_, info_));
@@ -151,7 +152,7 @@ class Reader {
   void require(bool done) const {
     if (!done)
       throw InputError(where_, std::string("a damaged PNG file: ") + failure_.message,
-                       "a geometry image");
+                       "a geometry image is wanted");
   }
 
   [[nodiscard]] std::string metadata() const {

@@ -49,8 +49,9 @@ struct Pinner {
   void operator()(const ImagePin& at) const {
     const int sample = sample_at(cloth.size, at.uv);
     if (cloth.mates.is_hole(sample))
-      throw SceneError("pins", "a place between the charts of the image",
-                       "a place in one of them, or the point of the surface that is nearest");
+      throw SceneError(
+          "pins", "a place between the charts of the image",
+          "a place in one of them, or the point of the surface that is nearest, is wanted");
     hold(sample);
   }
 
