@@ -107,6 +107,14 @@ TEST_F(Sewing, BeginsWhereSeamsCloseOverABody) {
   EXPECT_NEAR(up_with_beam(1.15), 0, 1e-5) << "in the way 10 cm higher, too";
 }
 
+TEST_F(Sewing, StaysInARoomThatHoldsIt) {
+  scene_.cloths = {test::tube_cloth(folder_ / "tube.json", 30, 10, 0.02)};
+  scene_.bodies[0].surface = "builtin:box";  // 1.2 x 0.48 x 1 m, its ceiling 2 cm above
+  scene_.bodies[0].placement.scale = {2, 1.2, 2};
+  scene_.bodies[0].placement.translate = {0, 0.88, 0};
+  EXPECT_NEAR(Simulation(scene_, "scene", 1).centre_of_mass().y, 1.05, 1e-5);
+}
+
 TEST_F(Sewing, SewsATriangleIntoASlit) {
   scene_.bodies.clear();
   write_file(scene_.cloths[0].surface.name,

@@ -46,11 +46,18 @@ class WaysToMeet {
   std::vector<std::vector<Vec3d>> of_class_;
 };
 
-std::vector<ClosedBody> closed_ones(std::span<const PlacedBody> bodies) {
+bool holds_all(const ClosedBody& body, const Planes3& placed) {
+  for (int s = 0; s < placed.size() * placed.size(); ++s)
+    if (!body.holds(vec_cast<double>(placed.at(s)))) return false;
+  return true;
+}
+
+/// The bodies that a garment closes round: rooms that hold all of it are none.
+std::vector<ClosedBody> worn_by(std::span<const PlacedBody> bodies, const Planes3& placed) {
   std::vector<ClosedBody> closed;
   for (const PlacedBody& body : bodies) {
     closed.emplace_back(body.image, body.positions);
-    if (!closed.back().closed()) closed.pop_back();
+    if (!closed.back().closed() || holds_all(closed.back(), placed)) closed.pop_back();
   }
   return closed;
 }
@@ -73,7 +80,7 @@ double free_height(const WaysToMeet& ways, std::span<const ClosedBody> bodies) {
 
 double raise_to_free_height(const Garment& garment, std::span<const PlacedBody> bodies,
                             Planes3& placed) {
-  const double height = free_height(WaysToMeet(garment, placed), closed_ones(bodies));
+  const double height = free_height(WaysToMeet(garment, placed), worn_by(bodies, placed));
   for (int s = 0; height > 0 && s < placed.size() * placed.size(); ++s)
     placed.set(s, placed.at(s) + Vec3f{0, static_cast<float>(height), 0});
   return height;
