@@ -99,7 +99,9 @@ TEST(CutGraph, PathsRunFromNodeToNodeAndHoldEveryInteriorEdgeOnce) {
       for (std::size_t k = 0; k < path.size(); ++k) {
         EXPECT_TRUE(graph.contains(path[k])) << name;
         EXPECT_TRUE(met.insert(surface.edge_name(path[k])).second) << name;
-        if (k > 0) EXPECT_EQ(surface.to(path[k - 1]), surface.from(path[k])) << name;
+        if (k > 0) {
+          EXPECT_EQ(surface.to(path[k - 1]), surface.from(path[k])) << name;
+        }
         length += surface.length(path[k]);
       }
       EXPECT_EQ(graph.path_through(path[path.size() / 2]).size(), path.size()) << name;
