@@ -47,7 +47,10 @@ class Controls {
   void release();
   void move(Vec2d at, OrbitCamera& camera);
   void key(const KeyPressed& event);
-  void ask(Command command) { wishes_.commands.push_back(std::move(command)); }
+  template <class Asked>
+  void ask(Asked command) {
+    wishes_.commands.emplace_back(std::move(command));
+  }
 
   Wishes wishes_;
   bool running_;

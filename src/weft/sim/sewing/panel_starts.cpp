@@ -20,7 +20,7 @@ constexpr double layer_distance = 0.05;
 /// ones, as collars, hang in nobody's way. [m]
 constexpr double least_height = 0.1, clear_above = 0.2;
 /// Cosine of the angle between their sides from which on panels stand across each other.
-constexpr double across = 0.7;
+constexpr double cosine_across = 0.7;
 
 /// Panels leave others that they touch in steps of this length, up to this many. [m]
 constexpr double step_apart = 0.003;
@@ -176,8 +176,8 @@ struct PanelPlaces {
     for (const Chart& chart : mates.charts()) outer.push_back(outer_side(chart, placed));
   }
   [[nodiscard]] bool stands_across(int panel, int other) const {
-    return std::abs(dot(outer[panel], outer[other])) < across && lowest[panel] > middle[other] &&
-           highest[panel] - lowest[panel] > least_height;
+    return std::abs(dot(outer[panel], outer[other])) < cosine_across &&
+           lowest[panel] > middle[other] && highest[panel] - lowest[panel] > least_height;
   }
 
   std::vector<double> lowest, highest, middle;  // [m]
