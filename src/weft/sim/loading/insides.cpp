@@ -60,6 +60,12 @@ void ClosedBody::follow() {
 
 bool ClosedBody::holds(Vec3d point) const { return is_in(box_, point) && winding_->at(point) != 0; }
 
+bool ClosedBody::holds_all(const Planes3& samples) const {
+  for (int s = 0; s < samples.size() * samples.size(); ++s)
+    if (!holds(vec_cast<double>(samples.at(s)))) return false;
+  return true;
+}
+
 void ClosedBody::mark_inside(const Planes3& samples, ThreadTeam& team,
                              std::vector<char>& inside) const {
   const int count = samples.size() * samples.size();

@@ -25,6 +25,8 @@ class ClosedBody {
   void follow();
   /// Whether it winds around a point. [m] @pre closed
   [[nodiscard]] bool holds(Vec3d point) const;
+  /// Whether it winds around all samples of another surface, as a room does. [m] @pre closed
+  [[nodiscard]] bool holds_all(const Planes3& samples) const;
   /// Marks the samples of another surface, mates too, around which the body winds. [n * n]
   void mark_inside(const Planes3& samples, ThreadTeam& team, std::vector<char>& inside) const;
 

@@ -46,18 +46,12 @@ class WaysToMeet {
   std::vector<std::vector<Vec3d>> of_class_;
 };
 
-bool holds_all(const ClosedBody& body, const Planes3& placed) {
-  for (int s = 0; s < placed.size() * placed.size(); ++s)
-    if (!body.holds(vec_cast<double>(placed.at(s)))) return false;
-  return true;
-}
-
 /// The bodies that a garment closes round: rooms that hold all of it are none.
 std::vector<ClosedBody> worn_by(std::span<const PlacedBody> bodies, const Planes3& placed) {
   std::vector<ClosedBody> closed;
   for (const PlacedBody& body : bodies) {
     closed.emplace_back(body.image, body.positions);
-    if (!closed.back().closed() || holds_all(closed.back(), placed)) closed.pop_back();
+    if (!closed.back().closed() || closed.back().holds_all(placed)) closed.pop_back();
   }
   return closed;
 }

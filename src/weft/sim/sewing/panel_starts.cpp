@@ -88,7 +88,7 @@ class InsideCharts {
       : mates_(panels.mates), triangles_(triangles_by_chart(panels)), team_(team) {
     for (const PlacedBody& body : bodies) {
       ClosedBody closed(body.image, body.positions);
-      if (!closed.closed() || holds_all(closed, placed)) continue;
+      if (!closed.closed() || closed.holds_all(placed)) continue;
       bodies_.push_back(std::move(closed));
       skins_.emplace_back(corners_of(joined_triangles(body.image), body.positions));
     }
@@ -113,10 +113,6 @@ class InsideCharts {
     return std::any_of(skins_.begin(), skins_.end(), [&](const CrossingSurface& skin) {
       return panel.count_crossings(skin) > 0;
     });
-  }
-  bool holds_all(const ClosedBody& body, const Planes3& placed) {
-    body.mark_inside(placed, team_, inside_);
-    return std::find(inside_.begin(), inside_.end(), 0) == inside_.end();
   }
 
   const BorderMates& mates_;
