@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "apps/weft/commands.h"
 #include "apps/weft/run_args.h"
@@ -37,6 +38,7 @@ void sew_garment(const GarmentArgs& args, const Context& context) {
   body.surface = args.body;
   scene.bodies.push_back(body);
   RunArgs run = args.run;
+  run.until_rest = args.run.frames == 0;
   run.scene_file = std::filesystem::path(args.run.folder) / "scene.json";
   run_and_report(scene, run.scene_file.string(), run, context);
 }
@@ -56,6 +58,9 @@ void add_garment(CLI::App& program, const Context& context) {
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
   add_run_options(*command, args->run);
+  command->get_option("--frames")
+      ->description(
+          fmt::format("Frames to run; by default until it rests, {} at most", default_frames));
   command->footer("Example: weft garment tshirt.json --body figure.obj -o dressed");
   command->callback([args, &context] { sew_garment(*args, context); });
 }

@@ -151,6 +151,7 @@ RunOptions options_of(const RunArgs& args, const Context& context, TerminalProgr
   };
   options.checkpoint_frames = args.checkpoint;
   options.resume = args.resume;
+  options.until_rest = args.until_rest;
   options.scene_file = args.scene_file;
   return options;
 }

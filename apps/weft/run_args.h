@@ -22,6 +22,7 @@ struct RunArgs {
   std::string on = "auto";
   std::string unit, up;  ///< empty: as the scene says
   bool unwelded = false, verify = false, resume = false;
+  bool until_rest = false;  // no option: the command tells
   std::optional<int> checkpoint;
   std::filesystem::path scene_file;  ///< where the scene is written, if anywhere
 };

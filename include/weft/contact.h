@@ -25,7 +25,7 @@ struct Contact {
   /// Stiffness of a soft contact: the solve leaves a depth of force over stiffness, which is not
   /// corrected afterwards. 0: hard [N/m].
   float stiffness = 0;
-  /// Factor on the stiffness that a solve gives a hard contact.
+  /// Factor on the stiffness that a solve gives a hard contact, or a struck one of layers.
   float firmness = 1;
 };
 
@@ -47,6 +47,15 @@ struct SharedContact {
   [[nodiscard]] int cloth_of(std::size_t k) const {
     return contact.weights[k] < 0 ? second : first;
   }
+};
+
+/// A contact for points that a filter held back, kept for the next steps.
+struct StruckContact {
+  SharedContact shared;   ///< of one cloth with itself or with a body: twice that cloth
+  int body = -1;          ///< number of the body; -1: none
+  Vec3f body_velocity;    ///< of its closest point [m/s]; the contact is where that begins a step
+  double compliance = 0;  ///< inverse effective mass of its points [1/kg]
+  Vec3f way;              ///< of its sides relative to each other since its normal was found [m]
 };
 
 }  // namespace weft

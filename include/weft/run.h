@@ -83,7 +83,8 @@ struct RunOptions {
   std::function<void(const std::string& line)> tell{};
   /// Frames between two checkpoints; 0: none; nothing: every five seconds.
   std::optional<int> checkpoint_frames{};
-  bool resume = false;  ///< continue from the folder's checkpoint, if it has one
+  bool resume = false;      ///< continue from the folder's checkpoint, if it has one
+  bool until_rest = false;  ///< end where Simulation::is_at_rest, before the scene's last frame
   /// Where the scene is written once it is known to run; empty: nowhere.
   std::filesystem::path scene_file{};
 };

@@ -121,8 +121,8 @@ struct StepLevels {
 };
 
 /// The complete state between two frames, besides the scene. Integrators carry over only the forces
-/// of contacts; colliders only which samples are inside of bodies and which cloths may be tangled;
-/// the stepping only the levels of subdivision and the work done.
+/// of contacts; colliders only which samples are inside of bodies, which cloths may be tangled and
+/// what a filter held back; the stepping only the levels of subdivision and the work done.
 struct SimulationState {
   int frame = 0;                   ///< frames done
   std::vector<ClothState> cloths;  ///< in the scene's order
@@ -131,6 +131,8 @@ struct SimulationState {
   std::vector<std::vector<int>> marks{};
   /// Of each cloth, the forces of its contacts in the last step.
   std::vector<std::vector<PastContact>> contacts{};
+  /// Contacts for what the filter held back.
+  std::vector<StruckContact> struck{};
   /// Of each cloth, where its pins hold it, which a hand may have changed; empty in checkpoints.
   /// [m]
   std::vector<std::vector<Vec3d>> pin_targets{};
@@ -209,6 +211,13 @@ class Simulation {
   void pull(Vec3d target);
   void let_go();
   [[nodiscard]] bool holds() const;
+
+  /// Cloth is at rest where no more than this part of its samples is faster than this [m/s].
+  static constexpr double restless_part = 0.01;
+  static constexpr float resting_speed = 0.01F;
+  /// Whether the last frame left cloth at rest, with all seams sewn, pins where they are to be, and
+  /// without wind, a hand, or bodies that move in the scene.
+  [[nodiscard]] bool is_at_rest() const;
 
   [[nodiscard]] int frame() const;
   [[nodiscard]] const std::vector<SimulatedCloth>& cloths() const;

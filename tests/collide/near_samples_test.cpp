@@ -119,5 +119,56 @@ TEST(NearSamples, KnowWhichAreAstray) {
   EXPECT_GE(astray, 5);
 }
 
+/// A small sheet in the hole of a ring, which leaves it 1 cm of room.
+struct SheetInHole {
+  explicit SheetInHole(double from_the_axis)
+      : given(test::torus(129, 0.105, 0.1)),
+        body_grid(129, given.mates, {}),
+        grid(5, none, {}),
+        query(body_grid),
+        cloth(5) {
+    ThreadTeam alone(1);
+    query.place(given.positions, alone);
+    body.number = 1;
+    body.query = &query;
+    body.start = body.end = &given.positions;
+    body.placement = body.motion = 1;
+    cloth.place([&](int r, int c) {
+      return Vec3d{from_the_axis + 1e-4 * (c - 2), 1e-4 * (r - 2), 0};
+    });
+  }
+  std::vector<Contact> contacts() {
+    NearSamples near(grid, kept, false);
+    ThreadTeam team(1);
+    near.find(cloth.moving(), body, {}, team);
+    std::vector<Contact> found;
+    near.add_contact(cloth.moving(), body, 2, 2, found);
+    return found;
+  }
+
+  BorderMates none;
+  Body given;
+  SurfaceGrid body_grid, grid;
+  BodyQuery query;
+  test::TestCloth cloth;
+  ContactBody body;
+};
+
+TEST(NearSamples, HaveBothSidesOfWhatLeavesNoRoom) {
+  const std::vector<Contact> found = SheetInHole(0.001).contacts();
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_LT(dot(found[0].normal, found[1].normal), -0.9F);
+  // Each as far from its side as it was found: 6 and 4 mm from the axis.
+  EXPECT_NEAR(found[0].offset + found[1].offset, 0, 2e-4);
+}
+
+TEST(NearSamples, HaveOneSideOfABodyThatGoesFar) {
+  SheetInHole scene(0.001);
+  const Planes3 end = scene.given.positions;
+  scene.body.end = &end;
+  scene.body.at_end = &scene.query;
+  EXPECT_EQ(scene.contacts().size(), 1U);
+}
+
 }  // namespace
 }  // namespace weft::near_samples_test

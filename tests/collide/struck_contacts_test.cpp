@@ -68,6 +68,12 @@ class HeldApart {
     return contacts_.found();
   }
 
+  /// What is known after a run that had kept these.
+  std::span<const StruckContact> restored(std::vector<StruckContact> kept) {
+    contacts_.restore(kept);
+    return contacts_.found();
+  }
+
  private:
   TestCloth cloth_{n};
   BorderMates none_;
@@ -115,6 +121,35 @@ TEST(StruckContacts, TheNextStepLeavesWhatSlides) {
   HeldApart samples;
   EXPECT_EQ(samples.kept({2e-4F, 0, 0}, {}).size(), 1U);
   EXPECT_TRUE(samples.kept({8e-4F, 0, 0}, {}).empty());
+}
+
+TEST(StruckContacts, WhatSparesTheFilterTheWorkGoesOn) {
+  HeldApart samples;
+  samples.kept({}, {});
+  const std::span<const StruckContact> again = samples.kept({}, {}, {});
+  ASSERT_EQ(again.size(), 1U);
+  EXPECT_FLOAT_EQ(again[0].shared.contact.offset, 0.002F);
+  EXPECT_TRUE(samples.kept({0, 3e-4F, 0}, {}, {}).empty()) << "its sides came apart";
+}
+
+TEST(StruckContacts, WhatCreepsIsLeftInTheEnd) {
+  HeldApart samples;
+  EXPECT_EQ(samples.kept({1.5e-4F, 0, 0}, {}).size(), 1U);
+  EXPECT_EQ(samples.kept({1.5e-4F, 0, 0}, {}, {}).size(), 1U);
+  EXPECT_TRUE(samples.kept({1.5e-4F, 0, 0}, {}, {}).empty());
+}
+
+TEST(StruckContacts, ARunThatGoesOnLeavesWhatIsNotThere) {
+  HeldApart samples;
+  const std::span<const StruckContact> kept = samples.kept({}, {});
+  const StruckContact good = kept[0];
+  StruckContact of_no_body = good, of_no_sample = good, of_no_cloth = good, of_one_point = good;
+  of_no_body.body = 1;
+  of_no_sample.shared.contact.samples[1] = n * n;
+  of_no_cloth.shared.second = 1;
+  of_one_point.shared.contact.samples[1] = of_one_point.shared.contact.samples[0];
+  EXPECT_EQ(samples.restored({of_no_body, of_no_sample, good, of_no_cloth, of_one_point}).size(),
+            1U);
 }
 
 }  // namespace

@@ -46,6 +46,13 @@ Checkpoint sample() {
   checkpoint.state = {3, {numbered(5, 1), numbered(6, 100)}};
   checkpoint.state.frames_unexplained = 1;
   checkpoint.state.contacts = {{}, {{{1, 2, -1, -1}, 1, {0, 1, 0}, {3, -4, 5}, 6, 7}}};
+  for (const float offset : {0.25F, 0.5F}) {
+    StruckContact struck;
+    struck.shared.contact.offset = offset;
+    struck.body = 2;
+    struck.way = {1, 2, offset};
+    checkpoint.state.struck.push_back(struck);
+  }
   return checkpoint;
 }
 
@@ -86,6 +93,10 @@ TEST(Checkpoint, ReadsBackBitByBit) {
   ASSERT_EQ(read->state.contacts[1].size(), 1);
   EXPECT_EQ(read->state.contacts[1][0].friction, (Vec3f{3, -4, 5}));
   EXPECT_EQ(read->state.contacts[1][0].acceleration, 7);
+  ASSERT_EQ(read->state.struck.size(), 2);
+  EXPECT_EQ(read->state.struck[1].shared.contact.offset, 0.5F);
+  EXPECT_EQ(read->state.struck[1].body, 2);
+  EXPECT_EQ(read->state.struck[1].way, (Vec3f{1, 2, 0.5F}));
   // Every bit of every field.
   EXPECT_EQ(encode_checkpoint(*read), encode_checkpoint(written));
 }
@@ -117,8 +128,8 @@ TEST(Checkpoint, RefusalsSayWhatIsWrong) {
   const std::string whole = encode_checkpoint(sample());
   EXPECT_NE(refusal("").find("is no checkpoint"), std::string::npos);
   std::string other_format = whole;
-  other_format[8] = 11;
-  EXPECT_NE(refusal(other_format).find("format 11 instead of 10"), std::string::npos);
+  other_format[8] = 12;
+  EXPECT_NE(refusal(other_format).find("format 12 instead of 11"), std::string::npos);
   std::string other_version = whole;
   other_version[header_bytes + 8] = '7';
   EXPECT_NE(refusal(hashed_again(other_version)).find("written by weft 7"), std::string::npos);

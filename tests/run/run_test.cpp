@@ -251,6 +251,26 @@ TEST(Run, BodiesThatAreTooFastAreToldAndStopTheRunAtTheCloth) {
   }
 }
 
+TEST(Run, EndsAtRestWhereThatIsWanted) {
+  Scene scene = ring(90);
+  scene.bodies.clear();
+  scene.cloths[0].surface = "builtin:sheet";
+  scene.cloths[0].placement.translate = {0, 0.01, 0};
+  const test::TemporaryFolder place;
+  RunOptions options{.folder = place / "run"};
+  options.until_rest = true;
+  const RunReport report = run_scene(scene, "sheet.json", options);
+  ASSERT_LT(report.frames, 90);
+  EXPECT_EQ(report.notes.back(), "at rest in frame " + std::to_string(report.frames));
+  EXPECT_EQ(value_at<std::int32_t>(read_file(place / "run" / "ring.pc2"), 28), report.frames + 1);
+  options.resume = true;
+  const RunReport again = run_scene(scene, "sheet.json", options);
+  EXPECT_EQ(again.frames, report.frames);
+  EXPECT_EQ(again.state_hash, report.state_hash);
+  options.resume = options.until_rest = false;
+  EXPECT_EQ(run_scene(scene, "sheet.json", options).frames, 90);
+}
+
 TEST(Run, InterruptedRunKeepsItsFrames) {
   const test::TemporaryFolder place;
   const fs::path folder = place / "run";

@@ -160,14 +160,17 @@ class Collider {
   virtual void commit() noexcept {}
   /// Discards the step: bodies and the marks of samples return to the last commit.
   virtual void rollback() noexcept {}
-  /// Drops what earlier steps cached to shorten searches: what follows depends on states and marks
-  /// alone.
+  /// Drops what earlier steps cached to shorten searches: what follows depends on states, marks and
+  /// struck contacts alone.
   virtual void forget() noexcept {}
   /// State of a cloth's samples beyond their positions, for resuming a run: inside marks [n * n],
   /// then for the cloth itself and each later cloth whether the pair may be tangled. Empty where
   /// there is no such state.
   virtual void save_marks(std::size_t cloth, std::vector<int>& marks) const = 0;
   virtual void restore_marks(std::size_t cloth, std::span<const int> marks) = 0;
+  /// Contacts that the filter asked for and the next step begins with, for resuming a run.
+  [[nodiscard]] virtual std::span<const StruckContact> struck() const noexcept { return {}; }
+  virtual void restore_struck(std::span<const StruckContact> /*kept*/) {}
   /// Number of contacts of cloth with itself or other cloth that the last detect found.
   [[nodiscard]] virtual int self_contacts() const noexcept = 0;
   /// Number of crossings of cloth edges with cloth triangles at the start of the last detected

@@ -91,7 +91,7 @@ void ContactPipeline::rollback() noexcept {
 
 void ContactPipeline::forget() noexcept {
   filter_.forget();
-  struck_.clear();
+  struck_.begin_frame();
   world_.pairs().forget();
 }
 

@@ -58,6 +58,10 @@ class ContactPipeline final : public Collider {
   void forget() noexcept override;
   void save_marks(std::size_t cloth, std::vector<int>& marks) const override;
   void restore_marks(std::size_t cloth, std::span<const int> marks) override;
+  [[nodiscard]] std::span<const StruckContact> struck() const noexcept override {
+    return struck_.found();
+  }
+  void restore_struck(std::span<const StruckContact> kept) override { struck_.restore(kept); }
   [[nodiscard]] int self_contacts() const noexcept override { return finder_.self_contacts(); }
   [[nodiscard]] int crossings() const noexcept override { return untangler_.crossings(); }
   double smallest_gap(std::size_t cloth, const Planes3& positions,

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "WEFTCKPT";
-constexpr std::uint32_t format_version = 10;
+constexpr std::uint32_t format_version = 11;
 constexpr std::size_t size_at = magic.size() + sizeof(format_version);
 constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
 constexpr std::size_t payload_at = hash_at + sizeof(std::uint64_t);
@@ -133,6 +133,41 @@ std::optional<std::vector<PastContact>> next_contacts(int own, int most, ByteRea
   return contacts;
 }
 
+/// Visits every field of a struck contact in the order of the file.
+template <class Struck, class Visit>
+void each_field_of_struck(Struck& struck, const Visit& visit) {
+  auto& contact = struck.shared.contact;
+  for (auto& sample : contact.samples) visit(sample);
+  for (auto& weight : contact.weights) visit(weight);
+  for (auto* v :
+       {&contact.normal, &contact.surface_displacement, &struck.body_velocity, &struck.way})
+    visit(v->x), visit(v->y), visit(v->z);
+  visit(contact.offset), visit(contact.friction), visit(contact.lift), visit(contact.stiffness),
+      visit(contact.firmness);
+  visit(struck.shared.first), visit(struck.shared.second), visit(struck.body),
+      visit(struck.compliance);
+}
+constexpr std::size_t struck_bytes = 28 * 4 + sizeof(double);
+static_assert(sizeof(StruckContact) == struck_bytes + 8,  // of padding
+              "a new field goes into each_field_of_struck, and this count up");
+
+void add_struck(const std::vector<StruckContact>& contacts, ByteWriter& out) {
+  out.add(static_cast<std::uint64_t>(contacts.size()));
+  for (const StruckContact& struck : contacts)
+    each_field_of_struck(struck, [&](auto value) { out.add(value); });
+}
+
+/// Reads struck contacts; nothing for a count that the bytes do not hold. Whether there are such
+/// samples and bodies is seen where a run goes on with them.
+std::optional<std::vector<StruckContact>> next_struck(ByteReader& in) {
+  const auto count = in.next<std::uint64_t>();
+  if (count > in.left() / struck_bytes) return std::nullopt;
+  std::vector<StruckContact> contacts(static_cast<std::size_t>(count));
+  for (StruckContact& struck : contacts)
+    each_field_of_struck(struck, [&](auto& value) { in.read(value); });
+  return contacts;
+}
+
 void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
   out.add_text(weft_version);
   out.add_text(checkpoint.identity);
@@ -157,6 +192,7 @@ void add_payload(const Checkpoint& checkpoint, ByteWriter& out) {
               out);
   for (std::size_t i = 0; i < checkpoint.state.cloths.size(); ++i)
     add_contacts(i < state.contacts.size() ? state.contacts[i] : std::vector<PastContact>(), out);
+  add_struck(state.struck, out);
 }
 
 /// Reads a checkpoint; nothing when its fields are inconsistent, as in no file that Weft wrote.
@@ -206,7 +242,9 @@ std::optional<Checkpoint> parse_payload(ByteReader in) {
     if (!contacts) return std::nullopt;
     checkpoint.state.contacts.push_back(std::move(*contacts));
   }
-  if (!in.whole() || in.left() != 0) return std::nullopt;
+  std::optional<std::vector<StruckContact>> struck = next_struck(in);
+  if (!struck || !in.whole() || in.left() != 0) return std::nullopt;
+  checkpoint.state.struck = std::move(*struck);
   return checkpoint;
 }
 

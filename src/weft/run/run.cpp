@@ -119,7 +119,7 @@ class Run {
     Recorder& recorder = make_recorder();
     tell_start();
     simulation_.restore(from.state);
-    recorder.resume(from.state.frame == scene_.frames);
+    recorder.resume(is_done());
     reserve();
     point_.state = from.state;
     for (const FrameReport& frame : from.history) add_to_report(report_, frame);
@@ -130,16 +130,17 @@ class Run {
       report_.verification = from.verification;
     }
     last_written_ = from.state.frame;
-    report_.notes.push_back(
-        from.state.frame == scene_.frames
-            ? fmt::format("{}: finished already, nothing is left to do", options_.folder.string())
-            : fmt::format("{}: resumed after frame {}", options_.folder.string(),
-                          from.state.frame));
+    report_.notes.push_back(is_done() ? fmt::format("{}: finished already, nothing is left to do",
+                                                    options_.folder.string())
+                                      : fmt::format("{}: resumed after frame {}",
+                                                    options_.folder.string(), from.state.frame));
   }
 
   RunReport go() {
     try {
-      while (simulation_.frame() < scene_.frames) advance();
+      while (!is_done()) advance();
+      if (simulation_.frame() < scene_.frames)
+        report_.notes.push_back(fmt::format("at rest in frame {}", simulation_.frame()));
       update(options_.progress, "simulate", 1);
       if (!options_.verify) {
         report_.intersections = {};
@@ -159,6 +160,11 @@ class Run {
   }
 
  private:
+  [[nodiscard]] bool is_done() const {
+    return simulation_.frame() == scene_.frames ||
+           (options_.until_rest && simulation_.is_at_rest());
+  }
+
   void report_seams(std::size_t cloth) {
     if (!report_.seams) report_.seams.emplace();
     SeamsReport& seams = *report_.seams;

@@ -19,6 +19,15 @@
 namespace weft {
 namespace {
 
+/// Number of samples that are faster than resting_speed.
+int count_moving(const Planes3& velocity) {
+  int count = 0;
+  for (int s = 0; s < velocity.size() * velocity.size(); ++s)
+    if (squared_length(velocity.at(s)) > Simulation::resting_speed * Simulation::resting_speed)
+      ++count;
+  return count;
+}
+
 /// Mass of a cloth, mates counted once. [kg]
 double mass_of(const Cloth& cloth) {
   double mass = 0;
@@ -126,6 +135,8 @@ void Simulation::save(SimulationState& state) const {
   state.marks.resize(parts_->cloths.size());
   state.contacts.resize(parts_->cloths.size());
   state.pin_targets.resize(parts_->cloths.size());
+  const std::span<const StruckContact> struck = parts_->collider->struck();
+  state.struck.assign(struck.begin(), struck.end());
   for (std::size_t i = 0; i < state.cloths.size(); ++i) {
     state.cloths[i] = parts_->cloths[i].state;
     parts_->collider->save_marks(i, state.marks[i]);
@@ -159,6 +170,7 @@ void Simulation::restore(const SimulationState& state) {
   }
   for (std::size_t i = 0; i < state.marks.size(); ++i)
     parts_->collider->restore_marks(i, state.marks[i]);
+  parts_->collider->restore_struck(state.struck);
   for (std::size_t i = 0; i < state.cloths.size(); ++i)
     parts_->movers[i].integrator->restore_past(
         i < state.contacts.size() ? state.contacts[i] : std::vector<PastContact>());
@@ -178,6 +190,20 @@ void Simulation::let_go() {
 }
 
 bool Simulation::holds() const { return parts_->grab.holds(); }
+
+bool Simulation::is_at_rest() const {
+  const bool driven = parts_->driven.any_moves() || holds() || parts_->garments.any_open();
+  if (driven || frame() == 0) return false;
+  for (const Mover& mover : parts_->movers)
+    if (mover.wind) return false;
+  for (const SimulatedCloth& cloth : parts_->cloths)
+    for (const Pin& pin : cloth.model->pins)
+      if (vec_cast<float>(pin.target) != cloth.state.position.at(pin.sample)) return false;
+  return std::all_of(parts_->cloths.begin(), parts_->cloths.end(), [](const auto& cloth) {
+    const int samples = cloth.model->size * cloth.model->size;
+    return count_moving(cloth.state.velocity) <= restless_part * samples;
+  });
+}
 
 int Simulation::frame() const { return parts_->frame; }
 const std::vector<SimulatedCloth>& Simulation::cloths() const { return parts_->cloths; }

@@ -178,7 +178,7 @@ void ContactFinder::add_struck(std::span<const StruckContact> struck, double tim
                             contact);
       continue;
     }
-    contact.stiffness = layer_stiffness(one.compliance, time_step);
+    contact.stiffness = contact.firmness * layer_stiffness(one.compliance, time_step);
     if (one.shared.first == one.shared.second)
       first.contacts.push_back(contact);
     else if (shares_)

@@ -11,14 +11,6 @@
 
 namespace weft {
 
-/// A contact that the filter asks for: of one cloth with a body, with itself or with another.
-struct StruckContact {
-  SharedContact shared;
-  int body = -1;          ///< -1: none
-  Vec3f body_velocity;    ///< of its closest point [m/s]; the contact is where that begins the step
-  double compliance = 0;  ///< inverse effective mass of its points [1/kg]
-};
-
 /// The stage that finds the contacts of a step's proposals: of samples with bodies and the ground,
 /// of triangles with sharp points of bodies, and between parts of cloth.
 class ContactFinder {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "weft/collide/contacts/opposite_sides.h"
 
 namespace weft {
 namespace {
@@ -39,10 +42,12 @@ struct NearSamples::Search {
 /// The samples of a tile in a search, with their body points. Made once for many tiles.
 class NearSamples::Tile {
  public:
-  Tile(NearSamples& all, const Search& search) : all_(all), search_(search) {}
+  Tile(NearSamples& all, const Search& search)
+      : all_(all), search_(search), opposites_(all.kept_.gap) {}
   void clear() { count_ = 0; }
   void add(int row, int col);
   void find_starts();
+  void find_opposites();
   void find_ends();
 
  private:
@@ -62,11 +67,13 @@ class NearSamples::Tile {
   int count_ = 0;
   std::array<NearSample*, NearestTile::capacity> samples_{};
   std::array<int, NearestTile::capacity> numbers_{};  // row * n + col
+  std::array<char, NearestTile::capacity> moved_{};   // whether it is not where it was last
   std::array<BodyPoint, NearestTile::capacity> at_;
   // What is asked of the body, the samples it is asked for, and the answers.
   NearestTile asked_;
   std::array<int, NearestTile::capacity> of_{};
   NearestPoints found_;
+  OppositeSides opposites_;
 };
 
 NearSamples::NearSamples(const SurfaceGrid& grid, const KeptGap& kept, bool keeps_in)
@@ -110,6 +117,7 @@ void NearSamples::find(const MovingCloth& cloth, const ContactBody& body, const 
       tile.clear();
       for_samples(n, first_row, first_col, [&](int r, int c) { tile.add(r, c); });
       tile.find_starts();
+      tile.find_opposites();
       tile.find_ends();
     });
   });
@@ -142,6 +150,7 @@ void NearSamples::make_room() {
     fresh_[r + 1] = next;
   }
   samples_.resize(static_cast<std::size_t>(fresh_[n]));
+  opposite_.resize(samples_.size(), -1);
 }
 
 /// Adds a sample that is near, with what the last search found of it where that still holds.
@@ -160,6 +169,7 @@ void NearSamples::Tile::add(int row, int col) {
     one.astray = false;
   }
   at_[count_].triangle = -1;
+  moved_[count_] = known ? 0 : 1;
   samples_[count_++] = &one;
 }
 
@@ -234,6 +244,21 @@ ClothPoint NearSamples::Tile::point_of(int k) const {
   return point;
 }
 
+/// Seams that close need cloth that gives way.
+void NearSamples::Tile::find_opposites() {
+  opposites_.clear();
+  if (all_.grid_.is_sewn()) return;
+  for (int k = 0; k < count_; ++k) {
+    if (moved_[k] == 0) continue;
+    const NearSample& one = *samples_[k];
+    int& opposite = all_.opposite_[all_.place_[numbers_[k]]];
+    const int hint = std::exchange(opposite, -1);
+    if (one.triangle >= 0 && !one.astray)
+      opposites_.ask({one.start, one.normal, one.gap, hint}, &opposite);
+  }
+  opposites_.find(search_.body);
+}
+
 /// Finds how the surface moves before the samples that may come near it.
 void NearSamples::Tile::find_ends() {
   const ContactBody& body = search_.body;
@@ -280,6 +305,7 @@ void NearSamples::add_contact(const MovingCloth& cloth, const ContactBody& body,
   if (near == nullptr || near->triangle < 0 || near->motion != body.motion) return;
   const Vec3d displacement =
       vec_cast<double>(cloth.position.at(row, col)) - vec_cast<double>(near->start);
+  add_opposite(*near, displacement, body, row * grid_.size() + col, out);
   if (!comes_near({vec_cast<double>(near->normal), near->gap}, displacement, near->along, kept_))
     return;
   Contact contact;
@@ -291,6 +317,19 @@ void NearSamples::add_contact(const MovingCloth& cloth, const ContactBody& body,
       near->astray ? 0 : static_cast<float>(pair_friction(kept_.friction, body.friction));
   contact.surface_displacement = near->displacement;
   out.push_back(contact);
+}
+
+void NearSamples::add_opposite(const NearSample& near, Vec3d displacement, const ContactBody& body,
+                               int sample, std::vector<Contact>& out) const {
+  const int triangle = opposite_[place_[sample]];
+  if (triangle < 0) return;
+  ClothPoint point;
+  point.samples[0] = sample;
+  point.start = vec_cast<double>(near.start);
+  point.displacement = displacement;
+  point.kept_in = keeps_in_;
+  const BodyPoint at = body.query->point_of(point.start, triangle);
+  if (const auto contact = contact_before(body, at, point, kept_)) out.push_back(*contact);
 }
 
 void NearSamples::make_scratch(const ThreadTeam& team) {

@@ -21,7 +21,9 @@ struct alignas(64) NearSample {
   bool astray = false;         ///< it starts on the wrong side of the body
 };
 
-/// Finds the samples of one cloth that may touch one body in a step. A step asks twice, before and
+/// Finds the samples of one cloth that may touch one body in a step. Where a body leaves so little
+/// room that a sample is near two of its sides, as in an armpit, both are found: with the closest
+/// one alone, a sample would go to and fro between them. A step asks twice, before and
 /// after its solve: what the first search found at the start is known to the second one.
 class NearSamples {
  public:
@@ -52,6 +54,9 @@ class NearSamples {
  private:
   struct Search;
   class Tile;
+  /// Adds the contact of a sample with the side opposite to the closest, if it comes near that.
+  void add_opposite(const NearSample& near, Vec3d displacement, const ContactBody& body, int sample,
+                    std::vector<Contact>& out) const;
   template <class Visit>
   void for_tiles(const Worker& worker, const Visit& visit) const;
   void choose_row(const Search& search, int row);
@@ -66,9 +71,10 @@ class NearSamples {
   KnownDistances known_;
   Grid<float> reach_;  // of the last search, 0: the sample is far, or no representative [m]
   std::vector<NearSample> samples_;  // that were near in some search
-  std::vector<int> place_;           // [n * n] of a sample among them; -1: it never was near
-  std::vector<int> fresh_;  // [n + 1] places of rows' samples that are near for the first time
-  int placement_ = 0;       // of the body in the last search
+  std::vector<int> opposite_;  // of each a triangle of the side opposite to the closest; -1: none
+  std::vector<int> place_;     // [n * n] of a sample among them; -1: it never was near
+  std::vector<int> fresh_;     // [n + 1] places of rows' samples that are near for the first time
+  int placement_ = 0;          // of the body in the last search
   std::vector<KnownDistances::Scratch> scratch_;  // of each worker
   std::vector<double> tile_gaps_;
 };

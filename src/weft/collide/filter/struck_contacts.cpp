@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -11,15 +12,18 @@
 namespace weft {
 namespace {
 
-/// Firmness of contacts with bodies. A body that hits stiff cloth draws points out of it: their
-/// springs pull harder than a contact of the usual stiffness can press within its small depth, so
-/// every solve would let them through the body, and the filter would stretch the springs again.
-constexpr float body_firmness = 64;
-/// Way of one side relative to the other in a step, in thicknesses, beyond which a contact is not
-/// kept: its normal is that of features which have parted since, and would hold back what slides.
+/// Firmness of these contacts. A body that hits stiff cloth draws points out of it, and folds are
+/// squeezed where there is no room: their springs pull harder than a contact of the usual stiffness
+/// can press within its small depth, so every solve would let them through, and the filter would
+/// stretch the springs again. Layers have to give way while seams are being sewn.
+constexpr float firmness = 64;
+/// Way of one side relative to the other, in thicknesses, beyond which a contact is not kept: its
+/// normal is that of features which have parted since, and would hold back what slides.
 /// Also between cloths that keep a smaller gap: with that, or with all of them kept, a garment's
 /// seams pulled layers into each other's creases, where they stayed open by centimetres.
 constexpr double max_way = 0.1;
+/// Distance beyond what a contact holds apart, in thicknesses, up to which its sides still touch.
+constexpr double still_touching = 0.05;
 
 auto key_of(const StruckContact& one) {
   std::array<char, 4> sides{};
@@ -70,6 +74,20 @@ struct PlanePoints {
   }
 };
 
+/// Sum over a contact's samples of their weights times a value of them.
+template <class Value>
+Vec3d sum_of(const SharedContact& shared, std::span<const MovingCloth> moving,
+             const Value& value_of) {
+  Vec3d sum;
+  for (std::size_t k = 0; k < shared.contact.samples.size(); ++k) {
+    const float weight = shared.contact.weights[k];
+    if (weight == 0) continue;
+    const MovingCloth& cloth = moving[static_cast<std::size_t>(shared.cloth_of(k))];
+    sum += double{weight} * vec_cast<double>(value_of(cloth, shared.contact.samples[k]));
+  }
+  return sum;
+}
+
 }  // namespace
 
 StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
@@ -116,7 +134,7 @@ void StruckContacts::hold_apart(const SeparatingPlane& plane, Vec3d normal, doub
   const double gap = before_body ? a.thickness : world_.gap_between(first, second);
   contact.normal = vec_cast<float>(normal);
   contact.offset = static_cast<float>(std::min(gap, distance) + dot(normal, plane.body_point));
-  if (before_body) contact.firmness = body_firmness;
+  if (before_body || !is_sewn(out)) contact.firmness = firmness;
   contact.friction = static_cast<float>(pair_friction(
       a.friction,
       before_body ? world_.bodies[static_cast<std::size_t>(plane.body)].friction : b.friction));
@@ -144,32 +162,92 @@ void StruckContacts::keep(std::span<const SeparatingPlane> planes,
                           std::span<const MovingCloth> moving, double time_step) {
   kept_.clear();
   add(planes, moving, time_step, kept_);
-  std::erase_if(kept_, [&](const StruckContact& one) { return has_slid(one, moving, time_step); });
+  std::erase_if(kept_, [&](StruckContact& one) { return slides(one, moving, time_step); });
   for (StruckContact& one : kept_) {
     Contact& contact = one.shared.contact;
     contact.offset += static_cast<float>(time_step) * dot(contact.normal, one.body_velocity);
   }
+  keep_touching(moving, time_step);
 }
 
-bool StruckContacts::has_slid(const StruckContact& one, std::span<const MovingCloth> moving,
-                              double time_step) const {
-  const SharedContact& shared = one.shared;
-  Vec3d way = -time_step * vec_cast<double>(one.body_velocity);
-  for (std::size_t k = 0; k < shared.contact.samples.size(); ++k) {
-    const float weight = shared.contact.weights[k];
-    const MovingCloth& cloth =
-        moving[static_cast<std::size_t>(weight > 0 ? shared.first : shared.second)];
-    const int sample = shared.contact.samples[k];
-    way += double{weight} * vec_cast<double>(cloth.position.at(sample) - cloth.start.at(sample));
-  }
-  const double thickness =
-      world_.cloths[static_cast<std::size_t>(shared.first)].properties.thickness;
-  return length(way) > max_way * thickness;
+void StruckContacts::keep_touching(std::span<const MovingCloth> moving, double time_step) {
+  const auto struck = static_cast<std::ptrdiff_t>(kept_.size());
+  const auto key_before = [](const StruckContact& a, const StruckContact& b) {
+    return key_of(a) < key_of(b);
+  };
+  for (StruckContact one : found_)
+    if (!std::binary_search(kept_.begin(), kept_.begin() + struck, one, key_before) &&
+        goes_on(one, moving, time_step))
+      kept_.push_back(one);
+  std::sort(kept_.begin(), kept_.end(), before);
+}
+
+/// Where a body that moves will be is not known once its plane is gone.
+bool StruckContacts::goes_on(StruckContact& one, std::span<const MovingCloth> moving,
+                             double time_step) const {
+  if (is_sewn(one)) return false;
+  if (one.body >= 0 && world_.bodies[static_cast<std::size_t>(one.body)].moves()) return false;
+  if (slides(one, moving, time_step)) return false;
+  const Vec3d at = sum_of(one.shared, moving, [](const MovingCloth& cloth, int sample) {
+    return cloth.position.at(sample);
+  });
+  const Contact& contact = one.shared.contact;
+  return dot(vec_cast<double>(contact.normal), at) <
+         double{contact.offset} + still_touching * thickness_of(one);
+}
+
+bool StruckContacts::slides(StruckContact& one, std::span<const MovingCloth> moving,
+                            double time_step) const {
+  const Vec3d way = sum_of(one.shared, moving, [](const MovingCloth& cloth, int sample) {
+    return cloth.position.at(sample) - cloth.start.at(sample);
+  });
+  one.way += vec_cast<float>(way - time_step * vec_cast<double>(one.body_velocity));
+  return length(vec_cast<double>(one.way)) > max_way * thickness_of(one);
+}
+
+bool StruckContacts::is_sewn(const StruckContact& one) const {
+  const auto of = [&](int cloth) {
+    return world_.cloths[static_cast<std::size_t>(cloth)].grid.is_sewn();
+  };
+  return of(one.shared.first) || of(one.shared.second);
+}
+
+double StruckContacts::thickness_of(const StruckContact& one) const {
+  return world_.cloths[static_cast<std::size_t>(one.shared.first)].properties.thickness;
 }
 
 void StruckContacts::commit() {
   found_.swap(kept_);
   kept_.clear();
+}
+
+void StruckContacts::begin_frame() {
+  std::erase_if(found_, [&](const StruckContact& one) { return is_sewn(one); });
+}
+
+void StruckContacts::restore(std::span<const StruckContact> kept) {
+  clear();
+  std::copy_if(kept.begin(), kept.end(), std::back_inserter(found_),
+               [&](const StruckContact& one) { return is_valid(one); });
+}
+
+/// Samples that a seam has joined since are no two sides.
+bool StruckContacts::is_valid(const StruckContact& one) const {
+  const int cloths = static_cast<int>(world_.cloths.size()),
+            bodies = static_cast<int>(world_.bodies.size());
+  const auto& [contact, first, second] = one.shared;
+  if (std::min(first, second) < 0 || std::max(first, second) >= cloths || one.body >= bodies)
+    return false;
+  std::array<int, 4> points{-1, -2, -3, -4};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (contact.weights[k] == 0) continue;
+    const WorldCloth& cloth = world_.cloths[static_cast<std::size_t>(one.shared.cloth_of(k))];
+    const int n = cloth.properties.size;
+    if (contact.samples[k] < 0 || contact.samples[k] >= n * n) return false;
+    points[k] = cloth.first_point + cloth.grid.joint(contact.samples[k]);
+  }
+  std::sort(points.begin(), points.end());
+  return std::adjacent_find(points.begin(), points.end()) == points.end();
 }
 
 void StruckContacts::clear() {

@@ -28,20 +28,33 @@ class StruckContacts {
   bool learn(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
              double time_step);
   /// Keeps contacts for the planes that moved points in a step, where their sides hardly moved
-  /// relative to each other, and forgets those of other steps.
+  /// relative to each other; of those that the step began with, which spared the filter the work,
+  /// also the ones whose sides still touch.
   void keep(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
             double time_step);
   /// Goes on to the next step, with what was kept.
   void commit();
   void clear();
   [[nodiscard]] std::span<const StruckContact> found() const { return found_; }
+  /// Drops contacts of cloth that is being sewn, whose layers have to give way: there they are of
+  /// one step alone, and of its frame.
+  void begin_frame();
+  /// Begins with contacts of an earlier run, but those that are none in this world.
+  void restore(std::span<const StruckContact> kept);
 
  private:
   void add(std::span<const SeparatingPlane> planes, std::span<const MovingCloth> moving,
            double time_step, std::vector<StruckContact>& out) const;
-  /// Whether its sides moved relative to each other in the step.
-  [[nodiscard]] bool has_slid(const StruckContact& one, std::span<const MovingCloth> moving,
-                              double time_step) const;
+  /// Adds the way of its sides beside each other in the step.
+  /// @return whether they went far since its normal was found
+  bool slides(StruckContact& one, std::span<const MovingCloth> moving, double time_step) const;
+  /// Keeps the contacts of the step whose sides still touch at its end.
+  void keep_touching(std::span<const MovingCloth> moving, double time_step);
+  bool goes_on(StruckContact& one, std::span<const MovingCloth> moving, double time_step) const;
+  /// Whether seams of its cloths are being sewn.
+  [[nodiscard]] bool is_sewn(const StruckContact& one) const;
+  [[nodiscard]] double thickness_of(const StruckContact& one) const;
+  [[nodiscard]] bool is_valid(const StruckContact& one) const;
   [[nodiscard]] StruckContact contact_of(const SeparatingPlane& plane,
                                          std::span<const MovingCloth> moving,
                                          double time_step) const;

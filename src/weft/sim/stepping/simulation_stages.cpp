@@ -114,8 +114,11 @@ double Simulation::Parts::follow_sewing() {
   if (!changes.contact) return changes.work;
   std::vector<std::vector<int>> marks(cloths.size());
   for (std::size_t i = 0; i < cloths.size(); ++i) collider->save_marks(i, marks[i]);
+  const std::span<const StruckContact> struck = collider->struck();
+  const std::vector<StruckContact> kept(struck.begin(), struck.end());
   make_collider_of_scene();
   for (std::size_t i = 0; i < cloths.size(); ++i) collider->restore_marks(i, marks[i]);
+  collider->restore_struck(kept);
   return changes.work;
 }
 
