@@ -21,10 +21,10 @@ struct alignas(64) NearSample {
   bool astray = false;         ///< it starts on the wrong side of the body
 };
 
-/// Finds the samples of one cloth that may touch one body in a step. Where a body leaves so little
-/// room that a sample is near two of its sides, as in an armpit, both are found: with the closest
-/// one alone, a sample would go to and fro between them. A step asks twice, before and
-/// after its solve: what the first search found at the start is known to the second one.
+/// Finds the samples of one cloth that may touch one body in a step. Where a body that stands still
+/// leaves so little room that a sample is near two of its sides, as in an armpit, both are found:
+/// with the closest one alone, a sample would go to and fro between them. A step asks twice, before
+/// and after its solve: what the first search found at the start is known to the second one.
 class NearSamples {
  public:
   /// @param grid  of the cloth, kept by reference

@@ -21,7 +21,7 @@ void OppositeSides::ask(const Near& near, int* triangle) {
 }
 
 void OppositeSides::find(const ContactBody& body) {
-  if (body.at_end != nullptr) return;
+  if (body.start != body.end) return;
   body.query->closest(asked_, found_);
   for (int i = 0; i < asked_.count; ++i) {
     const int triangle = found_[i].point.triangle;
