@@ -36,6 +36,7 @@ struct NearSamples::Search {
   std::span<const char> deep;
   double farthest_exit;  // see ClothPoint::farthest [m]
   bool same_placement;   // as in the last search
+  bool same_opposites;   // whether opposite sides are looked for, as in the last search
   [[nodiscard]] bool is_deep(int sample) const { return !deep.empty() && deep[sample] != 0; }
 };
 
@@ -67,7 +68,7 @@ class NearSamples::Tile {
   int count_ = 0;
   std::array<NearSample*, NearestTile::capacity> samples_{};
   std::array<int, NearestTile::capacity> numbers_{};  // row * n + col
-  std::array<char, NearestTile::capacity> moved_{};   // whether it is not where it was last
+  std::array<char, NearestTile::capacity> new_{};     // whether its opposite side is not known
   std::array<BodyPoint, NearestTile::capacity> at_;
   // What is asked of the body, the samples it is asked for, and the answers.
   NearestTile asked_;
@@ -95,7 +96,11 @@ void NearSamples::for_tiles(const Worker& worker, const Visit& visit) const {
 
 void NearSamples::find(const MovingCloth& cloth, const ContactBody& body, const Doubts& doubts,
                        ThreadTeam& team) {
-  const Search search{cloth, body, doubts.deep, doubts.farthest_exit, placement_ == body.placement};
+  const bool looks = body.start == body.end && !grid_.is_sewn();
+  const bool looked = std::exchange(knows_opposites_, looks);
+  const Search search{
+      cloth,          body, doubts.deep, doubts.farthest_exit, placement_ == body.placement,
+      looks == looked};
   placement_ = body.placement;
   known_.begin(cloth, body, team);
   make_scratch(team);
@@ -169,7 +174,7 @@ void NearSamples::Tile::add(int row, int col) {
     one.astray = false;
   }
   at_[count_].triangle = -1;
-  moved_[count_] = known ? 0 : 1;
+  new_[count_] = known && search_.same_opposites ? 0 : 1;
   samples_[count_++] = &one;
 }
 
@@ -244,19 +249,17 @@ ClothPoint NearSamples::Tile::point_of(int k) const {
   return point;
 }
 
-/// Seams that close need cloth that gives way.
 void NearSamples::Tile::find_opposites() {
   opposites_.clear();
-  if (all_.grid_.is_sewn()) return;
   for (int k = 0; k < count_; ++k) {
-    if (moved_[k] == 0) continue;
+    if (new_[k] == 0) continue;
     const NearSample& one = *samples_[k];
     int& opposite = all_.opposite_[all_.place_[numbers_[k]]];
     const int hint = std::exchange(opposite, -1);
-    if (one.triangle >= 0 && !one.astray)
+    if (all_.knows_opposites_ && one.triangle >= 0 && !one.astray)
       opposites_.ask({one.start, one.normal, one.gap, hint}, &opposite);
   }
-  opposites_.find(search_.body);
+  opposites_.find(*search_.body.query);
 }
 
 /// Finds how the surface moves before the samples that may come near it.

@@ -75,6 +75,9 @@ class NearSamples {
   std::vector<int> place_;     // [n * n] of a sample among them; -1: it never was near
   std::vector<int> fresh_;     // [n + 1] places of rows' samples that are near for the first time
   int placement_ = 0;          // of the body in the last search
+  /// Whether the last search looked for opposite sides: not of a body that moves, on which cloth
+  /// does not come to rest anyway, and not while seams are sewn, which need cloth that gives way.
+  bool knows_opposites_ = false;
   std::vector<KnownDistances::Scratch> scratch_;  // of each worker
   std::vector<double> tile_gaps_;
 };

@@ -20,14 +20,13 @@ void OppositeSides::ask(const Near& near, int* triangle) {
              closer_than_near_side * (ahead + near.gap), near.hint);
 }
 
-void OppositeSides::find(const ContactBody& body) {
-  if (body.start != body.end) return;
-  body.query->closest(asked_, found_);
+void OppositeSides::find(const BodyQuery& body) {
+  body.closest(asked_, found_);
   for (int i = 0; i < asked_.count; ++i) {
     const int triangle = found_[i].point.triangle;
     if (triangle < 0) continue;
     const Vec3d start = vec_cast<double>(near_[i].start),
-                way = start - body.query->point_of(start, triangle).position;
+                way = start - body.point_of(start, triangle).position;
     if (dot(way, vec_cast<double>(near_[i].normal)) <= largest_cosine * length(way))
       *answers_[i] = triangle;
   }

@@ -23,9 +23,8 @@ class OppositeSides {
   /// Asks for a sample if it touches its closest side.
   /// @param triangle  will be one of the opposite side, where there is any
   void ask(const Near& near, int* triangle);
-  /// Answers for all samples. Cloth on a body that moves does not come to rest anyway: of that
-  /// there are no answers, which cost a tenth of a step.
-  void find(const ContactBody& body);
+  /// Answers for all samples.
+  void find(const BodyQuery& body);
 
  private:
   double gap_;

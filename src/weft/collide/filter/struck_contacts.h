@@ -15,7 +15,7 @@ namespace weft {
 /// the search for contacts leaves to the filter: triangles that a cloth without shear stiffness
 /// folds onto their neighbours, and the other sides of creases, in a body and in the cloth. Valid
 /// for the step whose planes they are made from, with the same start and length; kept ones for the
-/// next step, too, in which a body that moves is taken to go on as it did.
+/// next steps, too, in the first of which a body that moves is taken to go on as it did.
 class StruckContacts {
  public:
   /// @param world  kept by reference
