@@ -52,7 +52,7 @@ struct SharedContact {
 /// A contact for points that a filter held back, kept for the next steps.
 struct StruckContact {
   SharedContact shared;   ///< of one cloth with itself or with a body: twice that cloth
-  int body = -1;          ///< number of the body; -1: none
+  int body = -1;          ///< number of the body, from 0; -1: none
   Vec3f body_velocity;    ///< of its closest point [m/s]; the contact is where that begins a step
   double compliance = 0;  ///< inverse effective mass of its points [1/kg]
   Vec3f way;              ///< of its sides relative to each other since its normal was found [m]

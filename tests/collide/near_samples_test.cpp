@@ -13,20 +13,33 @@ namespace {
 constexpr int n = 17, body_size = 33;
 constexpr KeptGap kept{0.01, 0.4};
 
-/// A sheet that moves about a ball, each sample on a way of its own.
-struct SheetAtBall {
-  SheetAtBall()
-      : given(test::octahedral_sphere(body_size, 0.3, {})),
-        body_grid(body_size, given.mates, {}),
-        grid(n, none, {}),
+/// A sheet next to a body that stands still.
+struct SheetAtBody {
+  SheetAtBody(const Body& of, int samples)
+      : given(of),
+        body_grid(given.positions.size(), given.mates, {}),
+        grid(samples, none, {}),
         query(body_grid),
-        cloth(n) {
+        cloth(samples) {
     ThreadTeam alone(1);
     query.place(given.positions, alone);
     body.number = 1;
     body.query = &query;
     body.start = body.end = &given.positions;
     body.placement = body.motion = 1;
+  }
+
+  BorderMates none;
+  Body given;
+  SurfaceGrid body_grid, grid;
+  BodyQuery query;
+  test::TestCloth cloth;
+  ContactBody body;
+};
+
+/// A sheet that moves about a ball, each sample on a way of its own.
+struct SheetAtBall : SheetAtBody {
+  SheetAtBall() : SheetAtBody(test::octahedral_sphere(body_size, 0.3, {}), n) {
     cloth.place([](int r, int c) { return Vec3d{0.03 * (c - 8), 0.312, 0.03 * (r - 8)}; });
   }
   /// Moves every sample in the sheet's plane from where it is, by up to `most` along each axis, and
@@ -51,13 +64,6 @@ struct SheetAtBall {
     point.astray = query.behind(point.start, at);
     return contact_before(body, at, point, kept);
   }
-
-  BorderMates none;
-  Body given;
-  SurfaceGrid body_grid, grid;
-  BodyQuery query;
-  test::TestCloth cloth;
-  ContactBody body;
 };
 
 /// What is known of earlier steps spares searches and changes nothing.
@@ -120,19 +126,8 @@ TEST(NearSamples, KnowWhichAreAstray) {
 }
 
 /// A small sheet in the hole of a ring, which leaves it 1 cm of room.
-struct SheetInHole {
-  explicit SheetInHole(double from_the_axis)
-      : given(test::torus(129, 0.105, 0.1)),
-        body_grid(129, given.mates, {}),
-        grid(5, none, {}),
-        query(body_grid),
-        cloth(5) {
-    ThreadTeam alone(1);
-    query.place(given.positions, alone);
-    body.number = 1;
-    body.query = &query;
-    body.start = body.end = &given.positions;
-    body.placement = body.motion = 1;
+struct SheetInHole : SheetAtBody {
+  explicit SheetInHole(double from_the_axis) : SheetAtBody(test::torus(129, 0.105, 0.1), 5) {
     cloth.place([&](int r, int c) {
       return Vec3d{from_the_axis + 1e-4 * (c - 2), 1e-4 * (r - 2), 0};
     });
@@ -145,13 +140,6 @@ struct SheetInHole {
     near.add_contact(cloth.moving(), body, 2, 2, found);
     return found;
   }
-
-  BorderMates none;
-  Body given;
-  SurfaceGrid body_grid, grid;
-  BodyQuery query;
-  test::TestCloth cloth;
-  ContactBody body;
 };
 
 TEST(NearSamples, HaveBothSidesOfWhatLeavesNoRoom) {

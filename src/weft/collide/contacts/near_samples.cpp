@@ -98,9 +98,12 @@ void NearSamples::find(const MovingCloth& cloth, const ContactBody& body, const 
                        ThreadTeam& team) {
   const bool looks = body.start == body.end && !grid_.is_sewn();
   const bool looked = std::exchange(knows_opposites_, looks);
-  const Search search{
-      cloth,          body, doubts.deep, doubts.farthest_exit, placement_ == body.placement,
-      looks == looked};
+  const Search search{.cloth = cloth,
+                      .body = body,
+                      .deep = doubts.deep,
+                      .farthest_exit = doubts.farthest_exit,
+                      .same_placement = placement_ == body.placement,
+                      .same_opposites = looks == looked};
   placement_ = body.placement;
   known_.begin(cloth, body, team);
   make_scratch(team);
