@@ -57,7 +57,8 @@ double pieces_of(const Planes3& start, const Planes3& end, const ClothReach& clo
   surface.measure(start, end, team);
   BlockMotion motion;
   motion.measure(grid, start, end, &surface, team);
-  return wanted_subdivisions(motion, cloth, max_way);
+  // Slow: a second long.
+  return wanted_subdivisions(motion, cloth, {max_way / ApproachRule::most_gaps, 1});
 }
 
 TEST(AdaptiveSubsteps, ArePowersOfTwo) {
@@ -65,6 +66,16 @@ TEST(AdaptiveSubsteps, ArePowersOfTwo) {
   EXPECT_EQ(whole_subdivisions(1.01), 2);
   EXPECT_EQ(whole_subdivisions(4.1), 8);
   EXPECT_EQ(whole_subdivisions(1e9), max_pieces);
+}
+
+TEST(AdaptiveSubsteps, TheFasterABodyTheShorterItsWayInAStep) {
+  constexpr double gap = 0.001, seconds = 0.01;
+  const ApproachRule rule{gap, seconds};
+  const auto way_at = [&](double speed) { return speed * seconds / rule.parts(speed * seconds); };
+  EXPECT_EQ(rule.parts(0), 0);
+  for (const double slow : {0.1, 1.0, 6.0}) EXPECT_NEAR(way_at(slow), 3 * gap, 1e-12);
+  EXPECT_NEAR(way_at(12), 1.5 * gap, 1e-12);
+  for (const double fast : {24.0, 100.0}) EXPECT_NEAR(way_at(fast), 0.75 * gap, 1e-12);
 }
 
 TEST(AdaptiveSubsteps, ABallThatFliesAtClothAsksForItsWhole) {

@@ -95,7 +95,7 @@ TEST(StepLevels, TheRestOfASubstepIsDividedFurtherWhereABodyIsFaster) {
 TEST(StepLevels, WherePointsFallBackBodiesAreGivenShorterStepsAllTheSame) {
   StepWalk walk(3, {1, 2});
   EXPECT_FALSE(walk.may_halve());
-  for (const int subdivisions : {8, 16, 32}) {
+  for (const int subdivisions : {8, 16, 32, 64, 128}) {
     EXPECT_EQ(walk.subdivisions(), subdivisions);
     EXPECT_TRUE(walk.may_halve_fallen());
     walk.halve();
@@ -104,7 +104,7 @@ TEST(StepLevels, WherePointsFallBackBodiesAreGivenShorterStepsAllTheSame) {
   walk.accept(StepVerdict::fallen);
   // It was no help: the rest of the substep is not tried again.
   while (!walk.done()) {
-    EXPECT_FALSE(walk.may_halve_fallen() && walk.subdivisions() == 64);
+    EXPECT_FALSE(walk.may_halve_fallen() && walk.subdivisions() == 256);
     walk.accept(StepVerdict::calm);
   }
 }

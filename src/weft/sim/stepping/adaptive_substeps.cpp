@@ -12,7 +12,7 @@ namespace {
 /// Samples a side of a block.
 constexpr int block_size = 16;
 /// Levels beyond those that bodies require, to which steps may be halved where points fall back.
-constexpr int levels_for_fallen = 3;
+constexpr int levels_for_fallen = 5;
 
 Box3d padded(const Box3d& box, double by) {
   const Vec3d aside{by, by, by};
@@ -20,6 +20,12 @@ Box3d padded(const Box3d& box, double by) {
 }
 
 }  // namespace
+
+double ApproachRule::parts(double approach) const {
+  const double speed = approach / seconds;
+  const double gaps = std::clamp(most_gaps * calm_speed / speed, least_gaps, most_gaps);
+  return approach / (gaps * gap);
+}
 
 ClothReach::ClothReach(int size) {
   const std::size_t blocks = static_cast<std::size_t>(size - 2) / block_size + 1;
@@ -84,10 +90,10 @@ namespace {
 /// The steps that a part of a body asks for.
 struct StepNeed {
   const BlockMotion& motion;
-  double max_approach_in_step;
+  const ApproachRule& rule;
 
   [[nodiscard]] double of(double approach, double turn) const {
-    return std::max(approach / max_approach_in_step, turn / max_turn);
+    return std::max(rule.parts(approach), turn / max_turn);
   }
   [[nodiscard]] double of_sample(int row, int col) const {
     if (const SurfaceMotion* surface = motion.surface())
@@ -126,10 +132,10 @@ double wanted_by(const BlockMotion::Block& block, const StepNeed& need, const Cl
 }  // namespace
 
 double wanted_subdivisions(const BlockMotion& motion, const ClothReach& cloth,
-                           double max_approach_in_step) noexcept {
+                           const ApproachRule& rule) noexcept {
   double wanted = 1;
-  if (motion.max_moved() <= max_approach_in_step) return wanted;
-  const StepNeed need{motion, max_approach_in_step};
+  if (rule.parts(motion.max_moved()) <= 1) return wanted;
+  const StepNeed need{motion, rule};
   for (const BlockMotion::Block& block : motion.blocks()) {
     // What single samples ask for may round to a little more.
     constexpr double rounding = 1e-5;

@@ -12,9 +12,22 @@
 
 namespace weft {
 
-/// Largest approach of a body to nearby cloth in a step, as a part of the smallest gap, so that
-/// cloth is pushed before it is passed; faster bodies take more steps.
-inline constexpr double max_approach_in_gaps = 0.75;
+/// How far a body may approach nearby cloth in a step; faster bodies take more steps. Contacts go
+/// with bodies, and a step in which cloth would be passed is refused and halved, so that bodies
+/// that carry cloth, as limbs do, take steps of some gaps. A fast one strikes it, and the longer
+/// the steps, the more the blow stretches it.
+struct ApproachRule {
+  /// Gaps that bodies approach in a step at most: at up to calm_speed, and at any speed; in inverse
+  /// proportion to the speed between.
+  static constexpr double most_gaps = 3, least_gaps = 0.75;
+  static constexpr double calm_speed = 6;  ///< [m/s]
+
+  double gap = 0;      ///< the smallest [m]
+  double seconds = 0;  ///< of the motion whose approach is told [s]
+
+  /// Number of steps that an approach [m] asks for; not rounded.
+  [[nodiscard]] double parts(double approach) const;
+};
 /// Largest rotation of a body's normals in a step, for which the normals at both ends tell the
 /// approach. [rad]
 inline constexpr double max_turn = 0.35;
@@ -45,11 +58,11 @@ class ClothReach {
 };
 
 /// Number of steps of equal length that a moving body requires of a substep: wherever its path is
-/// near cloth, it approaches or recedes by at most `max_approach_in_step` along its normals in a
+/// near cloth, it approaches or recedes along its normals by no more than the rule allows in a
 /// step, and its normals rotate by at most max_turn. Sliding past cloth requires no more.
 /// @param motion  of the body in the substep
 double wanted_subdivisions(const BlockMotion& motion, const ClothReach& cloth,
-                           double max_approach_in_step) noexcept;
+                           const ApproachRule& rule) noexcept;
 
 /// Rounds up to a power of 2, at most max_pieces.
 int whole_subdivisions(double wanted) noexcept;

@@ -20,21 +20,22 @@ constexpr double max_excess_approach = 1.5;
 
 void ApproachLimit::set_up() {
   int largest = min_image_size;
-  max_in_step_ = HUGE_VAL;
+  gap_ = HUGE_VAL;
   for (const SimulatedCloth& cloth : loaded_.cloths) {
     largest = std::max(largest, cloth.model->size);
-    max_in_step_ = std::min(max_in_step_, max_approach_in_gaps * gap_of(*cloth.model));
+    gap_ = std::min(gap_, gap_of(*cloth.model));
   }
   reach_ = ClothReach(largest);
 }
 
 double ApproachLimit::wanted_parts(const Step& step) {
   double wanted = 1;
+  const ApproachRule rule{gap_, step.length};
   for (const SimulatedCloth& cloth : loaded_.cloths) {
     reach_.place(cloth.state, step.length, gap_of(*cloth.model));
     for (std::size_t i = 0; i < loaded_.bodies.size(); ++i)
       if (const BlockMotion* motion = step.collider.motion_of(i))
-        wanted = std::max(wanted, wanted_subdivisions(*motion, reach_, max_in_step_));
+        wanted = std::max(wanted, wanted_subdivisions(*motion, reach_, rule));
   }
   return wanted;
 }
@@ -63,12 +64,13 @@ int ApproachLimit::required_level(const Step& step, int subdivisions) {
 }
 
 std::string ApproachLimit::caution(double substep_time) const {
-  const double fastest = loaded_.driven.fastest(), limit = max_pieces * max_in_step_;
-  if (fastest * substep_time <= limit) return {};
+  const double fastest = loaded_.driven.fastest();
+  const double parts = ApproachRule{gap_, substep_time}.parts(fastest * substep_time);
+  if (parts <= max_pieces) return {};
   return fmt::format(
       "bodies go up to {:.4g} m/s, faster than cloth can be kept from them; {} substeps "
       "or more are wanted",
-      fastest, std::ceil(fastest / (scene_.frame_rate * limit)));
+      fastest, std::ceil(scene_.substeps * parts / max_pieces));
 }
 
 }  // namespace weft

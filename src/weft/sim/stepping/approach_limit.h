@@ -44,8 +44,8 @@ class ApproachLimit {
   const Scene& scene_;
   const std::string& name_;
   const LoadedScene& loaded_;
-  double max_in_step_ = 0;  // approach of a body to cloth [m]
-  ClothReach reach_;        // of one cloth in a substep
+  double gap_ = 0;    // the smallest of all cloths [m]
+  ClothReach reach_;  // of one cloth in a substep
 };
 
 }  // namespace weft
