@@ -217,10 +217,11 @@ WarpWeft Sewing::bending_for(const Material& material) {
 
 /// Cloth with cloth has samples of two panels, or four.
 bool Sewing::is_with_body(const PastContact& contact) const {
-  const int panel = panels_.panel_of(contact.samples[0]);
-  return contact.second < 0 && contact.samples[3] < 0 &&
-         std::all_of(contact.samples.begin(), contact.samples.end(),
-                     [&](int s) { return s < 0 || panels_.panel_of(s) == panel; });
+  if (contact.second >= 0 || contact.samples[3] >= 0) return false;
+  // A corner or an edge of a triangle has no weights for its other samples.
+  const int one = *std::max_element(contact.samples.begin(), contact.samples.end());
+  return std::all_of(contact.samples.begin(), contact.samples.end(),
+                     [&](int s) { return s < 0 || panels_.panel_of(s) == panels_.panel_of(one); });
 }
 
 void Sewing::find_blocked(std::span<const PastContact> contacts) {
