@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/patterns.h"
@@ -38,6 +40,19 @@ TEST(SewingPull, LeavesOutWhatGoesIntoABody) {
   against.samples = {a, -1, -1, -1};
   against.normal = -1.0F * towards;
   EXPECT_NEAR(dot(tube.pulled({}, {against}).at(a), towards), 0, 1e-3);
+}
+
+/// A corner that is not the first of its triangle, of either panel.
+TEST(SewingPull, HeedsCornersOfTriangles) {
+  const Placed tube(test::tube_pattern(30, 20, 24, 100));
+  const auto [a, b] = tube.garment.seams.front().pairs[3];
+  for (const auto& [one, other] : {std::pair{a, b}, std::pair{b, a}}) {
+    const Vec3f towards = normalized(tube.state.position.at(other) - tube.state.position.at(one));
+    PastContact against;
+    against.samples = {-1, one, -1, -1};
+    against.normal = -1.0F * towards;
+    EXPECT_NEAR(dot(tube.pulled({}, {against}).at(one), towards), 0, 1e-3);
+  }
 }
 
 TEST(SewingPull, HeedsBodiesOnly) {
