@@ -28,6 +28,7 @@ struct ApproachRule {
   /// Number of steps that an approach [m] asks for; not rounded.
   [[nodiscard]] double parts(double approach) const;
 };
+
 /// Largest rotation of a body's normals in a step, for which the normals at both ends tell the
 /// approach. [rad]
 inline constexpr double max_turn = 0.35;
