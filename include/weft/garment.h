@@ -88,6 +88,12 @@ inline constexpr float flat_distance = 0.5F;
 /// the waist (skirts, trousers) or higher (all other labels).
 enum class PanelHold : char { other_panels, waist, shoulders };
 
+/// Where a garment is worn, as a collar or a waist.
+struct GarmentLabel {
+  std::string name;
+  std::vector<int> samples;  ///< of all edges with this label
+};
+
 /// A pattern as an image of charts, one rectangle for each panel in the pattern's order.
 struct Garment {
   std::string name;
@@ -97,7 +103,7 @@ struct Garment {
   Planes3 texture;      ///< [n x n] x and y in the pattern's panel [m]
   std::vector<GarmentSeam> seams;
   std::vector<PanelHold> panel_holds;  ///< of each panel, by the labels of its edges
-  std::vector<int> labelled;  ///< samples of edges that have a label, which say where it is worn
+  std::vector<GarmentLabel> labels;    ///< in the order of their first edges
 };
 
 /// Makes charts of a pattern's panels. Edges that are sewn together get as many samples as the

@@ -106,6 +106,23 @@ TEST(PatternFile, CurvesHaveTheirLengths) {
       arc, 1e-5);
 }
 
+TEST(PatternFile, ControlPointsMayBeInThePanelsAxes) {
+  const auto control = [](const std::string& coordinates, const std::string& at) {
+    std::string file =
+        replaced(tube(), "{\"endpoints\":[0,1]}", "{\"endpoints\":[0,1],\"curvature\":" + at + "}");
+    file = replaced(file, "\"units_in_meter\":100",
+                    "\"units_in_meter\":100,\"curvature_coords\":\"" + coordinates + "\"");
+    return parse_pattern(file, "p.json").panels[0].edges[0].curve.controls.front();
+  };
+  // The edge goes up from 0 to 30 cm.
+  const Vec2d relative = control("relative", "[0.5,0.1]"),
+              absolute = control("absolute", "[-3,15]");
+  EXPECT_NEAR(relative.x, -0.03, 1e-12);
+  EXPECT_NEAR(relative.y, 0.15, 1e-12);
+  EXPECT_NEAR(absolute.x, -0.03, 1e-12);
+  EXPECT_NEAR(absolute.y, 0.15, 1e-12);
+}
+
 TEST(PatternFile, ArcsGoTheWayTheySay) {
   const auto middle = [](int large, int counterclockwise) {
     PatternPanel panel;
@@ -172,6 +189,11 @@ INSTANTIATE_TEST_SUITE_P(
             "{\"endpoints\":[0,1]}",
             "{\"endpoints\":[0,1],\"curvature\":{\"type\":\"quadratic\",\"params\":[[0.5,5e3]]}}",
             "panel 'back': edge 0: curvature: a control point"},
+        Broken{"\"units_in_meter\":100", "\"units_in_meter\":100,\"curvature_coords\":\"polar\"",
+               "curvature_coords: 'polar'"},
+        Broken{"[[0,0],[40.000000,0],[40.000000,30.000000],[0,30.000000]]",
+               "[[0,0],[40.000000,0],[40.000000,130.000000],[0,30.000000]]",
+               "panel 'front', edge 1: 130 cm sewn to 30 cm"},
         Broken{"\"translation\":[", "\"translation\":[1e9,0,0],\"was\":[", "translation: a panel"},
         Broken{"{\"endpoints\":[0,1]}",
                "{\"endpoints\":[0,1],\"curvature\":{\"type\":\"spiral\",\"params\":[]}}",

@@ -42,6 +42,17 @@ TEST_F(Layers, StartOutsideOfEachOtherInTheOrderOfTheScene) {
   EXPECT_NEAR(largest_depth(by_number, 1), 0.12, 1e-5);
 }
 
+TEST_F(Layers, StartOutsideOfWhatOtherPatternsPlaceFartherOut) {
+  const auto outer_begins_at = [&](double low) {
+    write_file(scene_.cloths[1].surface.name, [&](std::ostream& out) {
+      out << test::tube_pattern(34, 16, 14, low);  // panels 7 cm from the middle, below them 12
+    });
+    return largest_depth(Simulation(scene_, "scene", 1), 1);
+  };
+  EXPECT_NEAR(outer_begins_at(100), 0.12 + 0.05, 1e-5);
+  EXPECT_NEAR(outer_begins_at(140), 0.07 + 0.05, 1e-5) << "above the other";
+}
+
 TEST_F(Layers, AreSewnOverEachOther) {
   Simulation simulation(scene_, "scene", 1);
   FrameReport report;

@@ -97,14 +97,15 @@ TEST_F(Sewing, PanelsBeginOutsideOfBodies) {
 TEST_F(Sewing, BeginsWhereSeamsCloseOverABody) {
   // A beam of 72 by 11 by 10 cm: where its middle is at 1 m, it is in both seams up to 1.055 m.
   scene_.bodies[0].surface = "builtin:box";
-  const auto up_with_beam = [&](double middle) {
-    scene_.bodies[0].placement.scale = {1.2, 0.275, 0.2};
+  const auto up_with_beam = [&](double middle, double height = 0.11) {
+    scene_.bodies[0].placement.scale = {1.2, 2.5 * height, 0.2};
     scene_.bodies[0].placement.translate = {0, middle, 0};
     return Simulation(scene_, "scene", 1).centre_of_mass().y - 1.1;
   };
-  EXPECT_NEAR(up_with_beam(1.0), 0.06, 1e-5);
+  EXPECT_NEAR(up_with_beam(1.0), 0.03, 1e-5) << "half as much of the seams";
   EXPECT_NEAR(up_with_beam(0.9), 0, 1e-5) << "below all seams";
-  EXPECT_NEAR(up_with_beam(1.15), 0, 1e-5) << "in the way 10 cm higher, too";
+  EXPECT_NEAR(up_with_beam(1.225), -0.02, 1e-5) << "in their upper ends";
+  EXPECT_NEAR(up_with_beam(1.1, 0.6), 0, 1e-5) << "in the way 10 cm higher or lower, too";
 }
 
 TEST_F(Sewing, StaysInARoomThatHoldsIt) {

@@ -14,6 +14,9 @@ namespace {
 
 /// Points of a curved edge that the test for crossings looks at.
 constexpr int coarse_parts = 16;
+/// Length of an edge over that of the one it is sewn to, at most. Much less cloth is gathered by
+/// tailors; beyond it, an edge of samples as dense as the panel's is crushed.
+constexpr double most_gathered = 4;
 
 [[noreturn]] void fail(const std::string& place, const std::string& found,
                        const std::string& wanted) {
@@ -128,6 +131,21 @@ void check_stitches(const Pattern& pattern, const std::string& name) {
   }
 }
 
+/// Refuses edges of which one is far longer than the other.
+void check_lengths(const Pattern& pattern, const Stitch& stitch, const std::string& name) {
+  const auto length = [&](PanelEdge side) {
+    const PatternPanel& panel = pattern.panels[side.panel];
+    return length_of(edge_polyline(panel, panel.edges[side.edge]));
+  };
+  double longer = length(stitch.a), shorter = length(stitch.b);
+  const PanelEdge place = longer >= shorter ? stitch.a : stitch.b;
+  if (longer < shorter) std::swap(longer, shorter);
+  if (longer > most_gathered * shorter)
+    fail(place_of(pattern, place, name),
+         fmt::format("{:.3g} cm sewn to {:.3g} cm", 100 * longer, 100 * shorter),
+         fmt::format("an edge at most {:g} times as long as the other is wanted", most_gathered));
+}
+
 /// Notes panels that nothing holds: a file may have lost its stitches.
 void note_unsewn(Pattern& pattern) {
   std::vector<bool> is_held(pattern.panels.size(), false);
@@ -162,6 +180,7 @@ void check_pattern(Pattern& pattern, const std::string& name) {
     check_left(pattern.panels[k], name);
     check_crossings(pattern, k, name);
   }
+  for (const Stitch& stitch : pattern.stitches) check_lengths(pattern, stitch, name);
   note_unsewn(pattern);
 }
 

@@ -117,7 +117,7 @@ class Maker {
     world_.resize(static_cast<std::size_t>(size_) * size_);
     for (std::size_t p = 0; p < charts.size(); ++p) lay(p, charts[p], garment);
     sew(charts, garment);
-    find_labelled(garment);
+    find_labels(garment);
     for (const PatternPanel& panel : pattern_.panels) garment.panel_holds.push_back(hold_of(panel));
     fill_holes(garment);
     set_positions(garment.image);
@@ -170,16 +170,24 @@ class Maker {
     garment.sewn = BorderMates(size_, charts, std::move(runs));
   }
 
-  void find_labelled(Garment& garment) const {
+  void find_labels(Garment& garment) const {
     const BorderMates& apart = garment.image.mates;
     for (std::size_t p = 0; p < outlines_.size(); ++p)
       for (std::size_t k = 0; k < pattern_.panels[p].edges.size(); ++k) {
-        if (pattern_.panels[p].edges[k].label.empty()) continue;
+        const std::string& label = pattern_.panels[p].edges[k].label;
+        if (label.empty()) continue;
         const int first = apart.first_position(static_cast<int>(p)) +
                           position_of(outlines_[p], outlines_[p].first[k]);
+        std::vector<int>& samples = samples_with(label, garment.labels);
         for (int i = 0; i <= outlines_[p].intervals[k]; ++i)
-          garment.labelled.push_back(apart.sample_at(apart.along_border(first, i)));
+          samples.push_back(apart.sample_at(apart.along_border(first, i)));
       }
+  }
+  static std::vector<int>& samples_with(const std::string& label,
+                                        std::vector<GarmentLabel>& labels) {
+    for (GarmentLabel& known : labels)
+      if (known.name == label) return known.samples;
+    return labels.emplace_back(GarmentLabel{label, {}}).samples;
   }
 
   /// Holes lie where the sample is that shelters them.

@@ -82,17 +82,24 @@ void check_reach(const Node& node, const std::string& what, Vec2d p) {
                           largest_panel));
 }
 
-/// A control point, given along the chord and to the left of it, in chord lengths.
-Vec2d beside_chord(Vec2d from, Vec2d to, Vec2d relative) {
+/// What the numbers of a file mean.
+struct Coordinates {
+  double unit = 0.01;                     // [m]
+  bool controls_are_beside_edges = true;  // or in the panel's own axes
+};
+
+/// A control point, given along the chord and to the left of it, in chord lengths, or in its panel.
+Vec2d control_point(Vec2d from, Vec2d to, Vec2d given, const Coordinates& coordinates) {
+  if (!coordinates.controls_are_beside_edges) return coordinates.unit * given;
   const Vec2d chord = to - from;
-  return from + relative.x * chord + relative.y * Vec2d{-chord.y, chord.x};
+  return from + given.x * chord + given.y * Vec2d{-chord.y, chord.x};
 }
 
-PatternCurve read_curve(const Node& node, Vec2d from, Vec2d to, double unit) {
+PatternCurve read_curve(const Node& node, Vec2d from, Vec2d to, const Coordinates& coordinates) {
   PatternCurve curve;
   if (node.value.is_array()) {  // of older files
     curve.kind = PatternCurve::Kind::bezier;
-    curve.controls = {beside_chord(from, to, node.pair())};
+    curve.controls = {control_point(from, to, node.pair(), coordinates)};
     return curve;
   }
   const std::string type = node.value.is_object() ? node.text_or_none("type") : "";
@@ -100,7 +107,7 @@ PatternCurve read_curve(const Node& node, Vec2d from, Vec2d to, double unit) {
   if (type == "circle") {
     static_cast<void>(params.list(3));
     curve.kind = PatternCurve::Kind::arc;
-    curve.radius = unit * params.named("value", 0).number();
+    curve.radius = coordinates.unit * params.named("value", 0).number();
     curve.large = params.named("value", 1).number() != 0;
     curve.counterclockwise = params.named("value", 2).number() != 0;
     if (!(curve.radius > 0) || curve.radius > largest_radius)
@@ -114,11 +121,12 @@ PatternCurve read_curve(const Node& node, Vec2d from, Vec2d to, double unit) {
   const std::size_t count = type == "cubic" ? 2 : 1;
   curve.kind = PatternCurve::Kind::bezier;
   for (std::size_t k = 0; k < params.list(count).value.size(); ++k)
-    curve.controls.push_back(beside_chord(from, to, params.named("value", k).pair()));
+    curve.controls.push_back(control_point(from, to, params.named("value", k).pair(), coordinates));
   return curve;
 }
 
-PatternPanel read_panel(const Node& node, const std::string& name, double unit) {
+PatternPanel read_panel(const Node& node, const std::string& name, const Coordinates& coordinates) {
+  const double unit = coordinates.unit;
   PatternPanel panel{name, node.text_or_none("label"), {}, {}, {}, {}};
   const Node vertices = node.at("vertices");
   for (std::size_t k = 0; k < vertices.list(0).value.size(); ++k) {
@@ -135,8 +143,8 @@ PatternPanel read_panel(const Node& node, const std::string& name, double unit) 
     edge.to = ends.named("end", 1).index(panel.vertices.size(), "vertices");
     edge.label = one.text_or_none("label");
     if (one.value.contains("curvature") && !one.value["curvature"].is_null())
-      edge.curve =
-          read_curve(one.at("curvature"), panel.vertices[edge.from], panel.vertices[edge.to], unit);
+      edge.curve = read_curve(one.at("curvature"), panel.vertices[edge.from],
+                              panel.vertices[edge.to], coordinates);
     for (const Vec2d& p : edge.curve.controls)
       check_reach(one.at("curvature"), "a control point", p);
     panel.edges.push_back(std::move(edge));
@@ -152,13 +160,22 @@ PatternPanel read_panel(const Node& node, const std::string& name, double unit) 
   return panel;
 }
 
-double unit_of(const Node& file) {
-  if (!file.value.contains("properties") || !file.value["properties"].contains("units_in_meter"))
-    return 0.01;
-  const Node units = file.at("properties").at("units_in_meter");
-  const double count = units.number();
-  if (!(count > 0)) units.fail(fmt::format("{}", count), "a number above 0 is wanted");
-  return 1 / count;
+Coordinates coordinates_of(const Node& file) {
+  Coordinates coordinates;
+  if (!file.value.contains("properties")) return coordinates;
+  const Node properties = file.at("properties");
+  if (properties.value.contains("units_in_meter")) {
+    const Node units = properties.at("units_in_meter");
+    const double count = units.number();
+    if (!(count > 0)) units.fail(fmt::format("{}", count), "a number above 0 is wanted");
+    coordinates.unit = 1 / count;
+  }
+  const std::string curves = properties.text_or_none("curvature_coords");
+  coordinates.controls_are_beside_edges = curves != "absolute";
+  if (!curves.empty() && curves != "absolute" && curves != "relative")
+    properties.at("curvature_coords")
+        .fail(fmt::format("'{}'", curves), "relative or absolute is wanted");
+  return coordinates;
 }
 
 PanelEdge read_side(const Node& node, const Pattern& pattern,
@@ -211,7 +228,7 @@ Pattern parse_pattern(std::string_view text, const std::string& name) {
   }
   const Node whole{file, name};
   const Node body = whole.at("pattern");
-  const double unit = unit_of(whole);
+  const Coordinates coordinates = coordinates_of(whole);
   Pattern pattern;
   std::map<std::string, int> panel_by_name;
   const Node panels = body.at("panels");
@@ -220,7 +237,7 @@ Pattern parse_pattern(std::string_view text, const std::string& name) {
   for (const auto& [key, value] : panels.value.items()) {
     panel_by_name[key] = static_cast<int>(pattern.panels.size());
     pattern.panels.push_back(
-        read_panel({value, fmt::format("{}: panel '{}'", name, key)}, key, unit));
+        read_panel({value, fmt::format("{}: panel '{}'", name, key)}, key, coordinates));
   }
   if (body.value.contains("stitches"))
     for (std::size_t k = 0; k < body.at("stitches").list(0).value.size(); ++k)

@@ -261,13 +261,7 @@ std::vector<double> Simulation::seam_gaps(std::size_t cloth) const {
 }
 
 double Simulation::sunk(std::size_t cloth) const {
-  const SimulatedCloth& worn = parts_->cloths[cloth];
-  if (!worn.garment || worn.garment->labelled.empty()) return 0;
-  const Planes3& placed = worn.model->start_positions();
-  double sum = 0;
-  for (const int s : worn.garment->labelled)
-    sum += double{placed.at(s).y} - double{worn.state.position.at(s).y};
-  return sum / static_cast<double>(worn.garment->labelled.size());
+  return parts_->worn_places[cloth].sunk(parts_->cloths[cloth].state.position, parts_->bodies);
 }
 
 IntersectionCounts Simulation::intersections() const { return parts_->crossings.count(); }

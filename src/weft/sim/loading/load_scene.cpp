@@ -15,6 +15,7 @@
 #include "weft/sim/loading/start_notes.h"
 #include "weft/sim/placement.h"
 #include "weft/sim/sewing/free_height.h"
+#include "weft/sim/sewing/garment_layers.h"
 #include "weft/sim/sewing/panel_starts.h"
 
 namespace weft {
@@ -69,6 +70,7 @@ class Loader : public LoadedScene {
   BendingPlanes stiffen(SceneCloth wanted, const Planes3& placed, const LoadedSurface& loaded,
                         Cloth& cloth);
   /// Where the samples of a cloth begin. @param garment  how many garments come before it
+  std::vector<GarmentBelow> garments_below(int layer) const;
   Planes3 place(const SceneCloth& wanted, const LoadedSurface& loaded, int garment);
 
   const Scene& scene_;
@@ -132,19 +134,32 @@ void Loader::check_charts(const BorderMates& mates, const std::string& what) con
   if (!mates.chart_of().empty()) check_collider("cloth", mates, what);
 }
 
+/// The garments that are loaded already and worn below a layer.
+std::vector<GarmentBelow> Loader::garments_below(int layer) const {
+  std::vector<GarmentBelow> below;
+  int garment = 0;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    if (!cloths[i].garment) continue;
+    if (const int own = scene_.cloths[i].layer.value_or(garment++); own < layer)
+      below.push_back({cloths[i].garment->image.mates, cloths[i].model->start_positions()});
+  }
+  return below;
+}
+
 Planes3 Loader::place(const SceneCloth& wanted, const LoadedSurface& loaded, int garment) {
   Planes3 placed = placed_positions(loaded.image, placement_map(wanted.placement));
   if (!loaded.garment) return placed;
-  put_round_layers(loaded.image.mates, wanted.layer.value_or(garment), placed);
+  const int layer = wanted.layer.value_or(garment);
+  put_round_layers(loaded.image.mates, layer, garments_below(layer), placed);
   // Baselines take the start as it is, and pins and ties are where the pattern puts its panels.
   if (!Colliders::traits_of(scene_.collider).containers) return placed;
   if (!wanted.pins.empty() || !wanted.attach.empty()) return placed;
   const std::vector<Chart>& panels = loaded.image.mates.charts();
-  if (const double higher = raise_to_free_height(*loaded.garment, bodies, placed); higher > 0)
+  if (const double up = move_to_free_height(*loaded.garment, bodies, placed); up != 0)
     notes.push_back(fmt::format(
-        "{}: begins {:.2g} m higher than its pattern says, where seams have less of a body between "
+        "{}: begins {:.2g} m {} than its pattern says, where seams have less of a body between "
         "their sides",
-        wanted.name, higher));
+        wanted.name, std::abs(up), up > 0 ? "higher" : "lower"));
   if (const MovedPanels raised = raise_above_others(*loaded.garment, placed); raised.count > 0)
     notes.push_back(fmt::format(
         "{}: {} of {} panels stand across others that they are sewn to and begin above them, "
@@ -262,6 +277,10 @@ void Loader::tie_cloths() {
   for (std::size_t i = 0; i < cloths.size(); ++i)
     tied_pins.push_back(
         tie_places(*cloths[i].model, scene_.cloths[i].attach, surfaces, pin_motions[i]));
+  for (const SimulatedCloth& cloth : cloths)
+    worn_places.push_back(cloth.garment
+                              ? WornPlaces(*cloth.garment, cloth.model->start_positions(), surfaces)
+                              : WornPlaces());
 }
 
 void Loader::find_insides() {

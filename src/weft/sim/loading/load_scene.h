@@ -13,6 +13,7 @@
 #include "weft/sim/motion/pins.h"
 #include "weft/sim/sewing/gathers.h"
 #include "weft/sim/sewing/sewing.h"
+#include "weft/sim/sewing/worn_places.h"
 #include "weft/simulation.h"
 
 namespace weft {
@@ -29,6 +30,7 @@ struct LoadedScene {
   std::vector<std::vector<PinMotion>> pin_motions;  // of each cloth
   std::vector<std::vector<TiedPin>> tied_pins;      // of each cloth
   std::vector<std::optional<Sewing>> sewing;        // of each cloth; none: it is no garment
+  std::vector<WornPlaces> worn_places;              // of each cloth; none but of garments
   /// Of each cloth, the bending that is not in use: of a garment that slides that of its fabric,
   /// later that of stiff panels; of other cloths none.
   std::vector<BendingPlanes> other_bending;

@@ -56,9 +56,9 @@ class Ties {
     query_.emplace(mesh);
   }
 
-  [[nodiscard]] TiedPin tie(Vec3d place) const {
+  [[nodiscard]] TiedPlace tie(Vec3d place) const {
     const ClosestPoint closest = query_->closest(place);
-    TiedPin tied;
+    TiedPlace tied;
     tied.triangle = triangles_[static_cast<std::size_t>(closest.triangle)];
     const Corners corners = corners_of(positions_, tied.triangle);
     tied.weights = weights_at(closest.position, corners);
@@ -83,6 +83,28 @@ int index_of(std::span<const TiedSurface> bodies, const std::string& name) {
 
 }  // namespace
 
+std::vector<TiedPlace> tie_to_nearest(std::span<const Vec3d> places,
+                                      std::span<const TiedSurface> bodies) {
+  WEFT_ASSERT(!bodies.empty());
+  std::vector<TiedPlace> nearest(places.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Ties ties(bodies[b]);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      TiedPlace tied = ties.tie(places[i]);
+      tied.body = static_cast<int>(b);
+      if (b == 0 || length(tied.offset) < length(nearest[i].offset)) nearest[i] = tied;
+    }
+  }
+  return nearest;
+}
+
+Vec3d tied_place(const TiedPlace& tied, const Planes3& body) {
+  const Corners corners = corners_of(body, tied.triangle);
+  const std::array<Vec3d, 3> axes = axes_of(corners);
+  return blend(tied.weights, corners) + tied.offset.x * axes[0] + tied.offset.y * axes[1] +
+         tied.offset.z * axes[2];
+}
+
 std::vector<TiedPin> tie_places(Cloth& cloth, std::span<const SceneAttachment> places,
                                 std::span<const TiedSurface> bodies,
                                 std::vector<PinMotion>& motions) {
@@ -96,10 +118,9 @@ std::vector<TiedPin> tie_places(Cloth& cloth, std::span<const SceneAttachment> p
     const int body = index_of(bodies, place.body);
     const Ties ties(bodies[static_cast<std::size_t>(body)]);
     for (const int pin : held) {
-      TiedPin tied = ties.tie(cloth.pins[static_cast<std::size_t>(pin)].target);
-      tied.pin = pin;
+      TiedPlace tied = ties.tie(cloth.pins[static_cast<std::size_t>(pin)].target);
       tied.body = body;
-      all.push_back(tied);
+      all.push_back({tied, pin});
     }
   }
   return all;
@@ -110,11 +131,7 @@ void move_tied(std::span<const TiedPin> tied, std::span<const Planes3* const> bo
   for (const TiedPin& tie : tied) {
     const Planes3* body = bodies[static_cast<std::size_t>(tie.body)];
     if (body == nullptr) continue;
-    const Corners corners = corners_of(*body, tie.triangle);
-    const std::array<Vec3d, 3> axes = axes_of(corners);
-    cloth.pins[static_cast<std::size_t>(tie.pin)].target =
-        blend(tie.weights, corners) + tie.offset.x * axes[0] + tie.offset.y * axes[1] +
-        tie.offset.z * axes[2];
+    cloth.pins[static_cast<std::size_t>(tie.pin)].target = tied_place(tie, *body);
   }
 }
 

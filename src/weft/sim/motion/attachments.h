@@ -19,15 +19,25 @@ struct TiedSurface {
   std::vector<Triangle> triangles;     ///< corners as samples
 };
 
-/// A pin fixed relative to the triangle of a body that is nearest at the start: at an offset from
+/// A place fixed relative to the triangle of a body that is nearest at the start: at an offset from
 /// the closest point, in axes that rotate with the triangle.
-struct TiedPin {
-  int pin = 0;          ///< of the cloth
+struct TiedPlace {
   int body = 0;         ///< of the scene
   Triangle triangle{};  ///< samples of the body
   std::array<double, 3> weights{};
   Vec3d offset;  ///< from the closest point, in the triangle's axes [m]
 };
+
+/// A pin in such a place.
+struct TiedPin : TiedPlace {
+  int pin = 0;  ///< of the cloth
+};
+
+/// Ties places to the nearest of several bodies each. @param bodies  the scene's, one at least
+std::vector<TiedPlace> tie_to_nearest(std::span<const Vec3d> places,
+                                      std::span<const TiedSurface> bodies);
+/// Where a tied place is. @param body  positions of its body [n x n] world [m]
+Vec3d tied_place(const TiedPlace& tied, const Planes3& body);
 
 /// Pins the places of a cloth's `attach` list, and removes them from `motions`. A sample named
 /// twice is tied by the last.

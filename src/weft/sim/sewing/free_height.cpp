@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-/// Heights that are tried, up to this many. [m]
+/// Heights that are tried, above and below, up to this many. [m]
 constexpr double height_step = 0.01;
 constexpr int most_steps = 10;
 
@@ -25,7 +25,7 @@ class WaysToMeet {
       for (const int s : samples) add(vec_cast<double>(placed.at(s)), middle, points);
     }
   }
-  /// How many classes have a body in their way. @param up  how much higher all begin [m]
+  /// How many classes have a body in their way. @param up  by how much all begin higher [m]
   [[nodiscard]] int count_blocked(std::span<const ClosedBody> bodies, double up) const {
     const auto is_inside = [&](Vec3d p) {
       return std::any_of(bodies.begin(), bodies.end(), [&](const ClosedBody& body) {
@@ -56,26 +56,22 @@ std::vector<ClosedBody> worn_by(std::span<const PlacedBody> bodies, const Planes
   return closed;
 }
 
+/// The nearest height at which half as many seams are blocked, or less.
 double free_height(const WaysToMeet& ways, std::span<const ClosedBody> bodies) {
   const int first = ways.count_blocked(bodies, 0);
   if (first == 0) return 0;
-  int least = first / 2 + 1;
-  double height = 0;
-  for (int i = 1; i <= most_steps; ++i) {
-    const int blocked = ways.count_blocked(bodies, height_step * i);
-    if (blocked >= least) continue;
-    least = blocked;
-    height = height_step * i;
-  }
-  return height;
+  for (int i = 1; i <= most_steps; ++i)
+    for (const double up : {height_step * i, -height_step * i})
+      if (2 * ways.count_blocked(bodies, up) <= first) return up;
+  return 0;
 }
 
 }  // namespace
 
-double raise_to_free_height(const Garment& garment, std::span<const PlacedBody> bodies,
-                            Planes3& placed) {
+double move_to_free_height(const Garment& garment, std::span<const PlacedBody> bodies,
+                           Planes3& placed) {
   const double height = free_height(WaysToMeet(garment, placed), worn_by(bodies, placed));
-  for (int s = 0; height > 0 && s < placed.size() * placed.size(); ++s)
+  for (int s = 0; height != 0 && s < placed.size() * placed.size(); ++s)
     placed.set(s, placed.at(s) + Vec3f{0, static_cast<float>(height), 0});
   return height;
 }

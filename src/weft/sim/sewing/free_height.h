@@ -7,13 +7,13 @@
 
 namespace weft {
 
-/// Raises a garment whose seams would have to close through a body: a pattern is made for a body of
-/// its own, and the shoulders of another may lie higher. Goes to the least height at which bodies
-/// are in the way of the fewest pairs of its seams, if these are half as many as where the pattern
-/// places it, or less; otherwise it stays there.
+/// Moves a garment up or down whose seams would have to close through a body: a pattern is made for
+/// a body of its own, and the shoulders of another may lie higher, or its crotch lower. Goes to the
+/// nearest height at which bodies are in the way of the fewest pairs of its seams, if these are
+/// half as many as where the pattern places it, or less; otherwise it stays there.
 /// @param placed  samples of the panels [n x n] [m]
-/// @return by how much [m]
-double raise_to_free_height(const Garment& garment, std::span<const PlacedBody> bodies,
-                            Planes3& placed);
+/// @return by how much it is higher [m]
+double move_to_free_height(const Garment& garment, std::span<const PlacedBody> bodies,
+                           Planes3& placed);
 
 }  // namespace weft

@@ -8,13 +8,11 @@
 #include "weft/geometry_image.h"
 #include "weft/mesh/crossings.h"
 #include "weft/sim/loading/insides.h"
+#include "weft/sim/sewing/panel_moves.h"
 #include "weft/sim/sewing/panel_touching.h"
 
 namespace weft {
 namespace {
-
-/// How much farther outside the panels of a garment start than those of the one below it. [m]
-constexpr double layer_distance = 0.05;
 
 /// Panels that stand across others, and are this high at least, begin so far above them. Lower
 /// ones, as collars, hang in nobody's way. [m]
@@ -29,30 +27,6 @@ constexpr int max_steps_apart = 20;
 /// Panels leave bodies in steps of this length, up to this many. [m]
 constexpr double step_out = 0.02;
 constexpr int max_steps_out = 25;
-
-/// The outer side of a chart, on the mean.
-Vec3d outer_side(const Chart& chart, const Planes3& placed) {
-  Vec3d sum;
-  for (int r = chart.row; r + 1 < chart.row + chart.rows; ++r)
-    for (int c = chart.col; c + 1 < chart.col + chart.cols; ++c) {
-      const Vec3d along = vec_cast<double>(placed.at(r + 1, c + 1) - placed.at(r, c));
-      const Vec3d across = vec_cast<double>(placed.at(r + 1, c) - placed.at(r, c + 1));
-      sum += cross(along, across);
-    }
-  return normalized(sum);
-}
-
-/// The chart of a sample; of a hole, that of the sample that it follows.
-int chart_of(const BorderMates& mates, int sample) {
-  const std::vector<int>& charts = mates.chart_of();
-  return charts.empty() ? 0 : charts[mates.is_hole(sample) ? mates.representative(sample) : sample];
-}
-
-/// @param shift  of each chart [m]
-void move(const BorderMates& mates, const std::vector<Vec3d>& shift, Planes3& placed) {
-  for (int s = 0; s < placed.size() * placed.size(); ++s)
-    placed.set(s, placed.at(s) + vec_cast<float>(shift[chart_of(mates, s)]));
-}
 
 MovedPanels farthest_of(const std::vector<Vec3d>& shift) {
   MovedPanels found;
@@ -76,7 +50,7 @@ std::vector<Corners> corners_of(std::span<const Triangle> triangles, const Plane
 std::vector<std::vector<Triangle>> triangles_by_chart(const GeometryImage& panels) {
   std::vector<std::vector<Triangle>> charts(panels.mates.charts().size());
   for (const Triangle& t : joined_triangles(panels))
-    charts[chart_of(panels.mates, t[0])].push_back(t);
+    charts[panel_of(panels.mates, t[0])].push_back(t);
   return charts;
 }
 
@@ -99,7 +73,7 @@ class InsideCharts {
     for (const ClosedBody& body : bodies_) {
       body.mark_inside(placed, team_, inside_);
       for (std::size_t s = 0; s < inside_.size(); ++s)
-        if (inside_[s] != 0) found[chart_of(mates_, static_cast<int>(s))] = true;
+        if (inside_[s] != 0) found[panel_of(mates_, static_cast<int>(s))] = true;
     }
     for (std::size_t i = 0; i < found.size(); ++i)
       if (!found[i] && !skins_.empty()) found[i] = passes_through(triangles_[i], placed);
@@ -146,7 +120,7 @@ class StepsOut {
  private:
   void put() {
     placed_ = start_;
-    move(mates_, moved_, placed_);
+    move_panels(mates_, moved_, placed_);
   }
 
   const BorderMates& mates_;
@@ -163,7 +137,7 @@ struct PanelPlaces {
         middle(mates.charts().size()) {
     std::vector<int> size(mates.charts().size());
     for (int s = 0; s < placed.size() * placed.size(); ++s) {
-      const int chart = chart_of(mates, s);
+      const int chart = panel_of(mates, s);
       const double height = placed.at(s).y;
       lowest[chart] = std::min(lowest[chart], height);
       highest[chart] = std::max(highest[chart], height);
@@ -184,8 +158,8 @@ struct PanelPlaces {
 std::vector<std::array<int, 2>> sewn_panels(const Garment& garment) {
   std::vector<std::array<int, 2>> sewn;
   for (const GarmentSeam& seam : garment.seams) {
-    const int a = chart_of(garment.image.mates, seam.pairs.front()[0]);
-    const int b = chart_of(garment.image.mates, seam.pairs.front()[1]);
+    const int a = panel_of(garment.image.mates, seam.pairs.front()[0]);
+    const int b = panel_of(garment.image.mates, seam.pairs.front()[1]);
     sewn.push_back({a, b});
     sewn.push_back({b, a});
   }
@@ -197,13 +171,6 @@ bool any(const std::vector<bool>& charts) {
 }
 
 }  // namespace
-
-void put_round_layers(const BorderMates& mates, int layer, Planes3& placed) {
-  std::vector<Vec3d> shift;
-  for (const Chart& chart : mates.charts())
-    shift.push_back(layer * layer_distance * outer_side(chart, placed));
-  move(mates, shift, placed);
-}
 
 MovedPanels move_out_of_bodies(const GeometryImage& panels, std::span<const PlacedBody> bodies,
                                ThreadTeam& team, Planes3& placed) {
@@ -230,7 +197,7 @@ MovedPanels raise_above_others(const Garment& garment, Planes3& placed) {
     if (garment.panel_holds[panel] == PanelHold::other_panels && places.stands_across(panel, other))
       raised[panel].y =
           std::max(raised[panel].y, places.highest[other] + clear_above - places.lowest[panel]);
-  move(garment.image.mates, raised, placed);
+  move_panels(garment.image.mates, raised, placed);
   return farthest_of(raised);
 }
 
@@ -256,10 +223,10 @@ int part_panels(const BorderMates& sewn, Planes3& placed) {
 int lift_above_ground(const BorderMates& mates, double ground, Planes3& placed) {
   std::vector<Vec3d> lift(mates.charts().size());
   for (int s = 0; s < placed.size() * placed.size(); ++s) {
-    double& height = lift[chart_of(mates, s)].y;
+    double& height = lift[panel_of(mates, s)].y;
     height = std::max(height, ground - placed.at(s).y);
   }
-  move(mates, lift, placed);
+  move_panels(mates, lift, placed);
   return static_cast<int>(
       std::count_if(lift.begin(), lift.end(), [](Vec3d by) { return by.y > 0; }));
 }

@@ -9,11 +9,6 @@
 
 namespace weft {
 
-/// Moves the panels of a garment outwards, each along its outer side, so that it closes round those
-/// that are worn below it.
-/// @param layer   from 0, the innermost  @param placed  samples of the panels [n x n] [m]
-void put_round_layers(const BorderMates& mates, int layer, Planes3& placed);
-
 /// Panels that begin elsewhere than a pattern places them.
 struct MovedPanels {
   int count = 0;

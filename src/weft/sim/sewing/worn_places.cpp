@@ -1,0 +1,49 @@
+#include "weft/sim/sewing/worn_places.h"
+
+#include <algorithm>
+
+namespace weft {
+namespace {
+
+Vec3d middle_of(std::span<const int> samples, const Planes3& positions) {
+  Vec3d sum;
+  for (const int s : samples) sum += vec_cast<double>(positions.at(s));
+  return (1 / static_cast<double>(samples.size())) * sum;
+}
+
+std::vector<int> all_samples(const Garment& garment) {
+  std::vector<int> samples;
+  for (int k = 0; k < garment.sewn.class_count(); ++k)
+    for (const int s : garment.sewn.copies(k)) samples.push_back(s);
+  return samples;
+}
+
+}  // namespace
+
+WornPlaces::WornPlaces(const Garment& garment, const Planes3& placed,
+                       std::span<const TiedSurface> bodies) {
+  for (const GarmentLabel& label : garment.labels)
+    places_.push_back({label.samples, middle_of(label.samples, placed)});
+  if (places_.empty()) {
+    std::vector<int> samples = all_samples(garment);
+    const Vec3d middle = middle_of(samples, placed);
+    places_.push_back({std::move(samples), middle});
+  }
+  if (bodies.empty()) return;
+  std::vector<Vec3d> middles;
+  for (const Place& place : places_) middles.push_back(place.middle);
+  const std::vector<TiedPlace> tied = tie_to_nearest(middles, bodies);
+  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].tied = tied[i];
+}
+
+double WornPlaces::sunk(const Planes3& now, std::span<const PlacedBody> bodies) const {
+  double most = 0;
+  for (const Place& place : places_) {
+    const Vec3d wanted =
+        place.tied ? tied_place(*place.tied, bodies[place.tied->body].positions) : place.middle;
+    most = std::max(most, wanted.y - middle_of(place.samples, now).y);
+  }
+  return most;
+}
+
+}  // namespace weft
