@@ -66,19 +66,29 @@ TEST(SewingPull, HeedsBodiesOnly) {
   EXPECT_GT(dot(tube.pulled({}, {of_panels}).at(a), towards), 0.1);
 }
 
+/// How a sample of a garment's first seam is pulled that a body with such a normal holds back.
+Vec3f pulled_on_body(const Placed& placed, Vec3f beside, float against) {
+  const auto [a, b] = placed.garment.seams.front().pairs[3];
+  const Vec3f towards = normalized(placed.state.position.at(b) - placed.state.position.at(a));
+  PastContact contact;
+  contact.samples = {a, -1, -1, -1};
+  contact.normal = normalized(beside - against * towards);
+  return placed.pulled({}, {contact}).at(a);
+}
+
 TEST(SewingPull, GoesUpWhereTheGoalIsBehindABody) {
-  const Placed tube(test::tube_pattern(30, 20, 24, 100));
-  const auto [a, b] = tube.garment.seams.front().pairs[3];
-  const Vec3f towards = normalized(tube.state.position.at(b) - tube.state.position.at(a));
-  PastContact against;
-  against.samples = {a, -1, -1, -1};
-  against.normal = -1.0F * towards;
-  const Vec3f up = tube.pulled({}, {against}).at(a);
+  const Placed cape(test::cape_pattern(30, 20, 24, 100));
+  const Vec3f up = pulled_on_body(cape, {}, 1);
   EXPECT_GT(up.y, 0.1);
   EXPECT_NEAR(length(up), up.y, 1e-3);
   // A body that only grazes the way leaves it.
-  against.normal = normalized(Vec3f{1, 0, 0} - 0.3F * towards);
-  EXPECT_NEAR(tube.pulled({}, {against}).at(a).y, 0, 1e-3);
+  EXPECT_NEAR(pulled_on_body(cape, {1, 0, 0}, 0.3F).y, 0, 1e-3);
+}
+
+/// They would draw their panels up with them.
+TEST(SewingPull, SidesDoNotGoUpOnBodies) {
+  const Placed tube(test::tube_pattern(30, 20, 24, 100));
+  EXPECT_NEAR(length(pulled_on_body(tube, {}, 1)), 0, 1e-3);
 }
 
 /// Two samples of a seam that lie on a body, a millimetre apart, and are pressed into it.

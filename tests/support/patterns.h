@@ -5,10 +5,11 @@
 namespace weft::test {
 
 /// Two rectangles, `width` by `height` centimetres, that face each other `apart` centimetres apart
-/// about the y axis, from `low` up, sewn to a tube along both sides.
-/// @param label  of both upper edges; may be empty
-inline std::string tube_pattern(double width, double height, double apart, double low,
-                                const std::string& label = "") {
+/// about the y axis, from `low` up.
+/// @param stitches  of the edges of `front` and `back`  @param label  of both upper edges; may be
+/// empty
+inline std::string two_panels(double width, double height, double apart, double low,
+                              const std::string& stitches, const std::string& label = "") {
   const std::string upper = label.empty() ? "" : R"(,"label":")" + label + '"';
   const auto panel = [&](double z, bool back) {
     const std::string w = std::to_string(width), h = std::to_string(height);
@@ -20,10 +21,23 @@ inline std::string tube_pattern(double width, double height, double apart, doubl
            std::to_string(low) + "," + std::to_string(z) + R"(],"rotation":[0,0,0]})";
   };
   return R"({"pattern":{"panels":{"back":)" + panel(-apart / 2, true) + R"(,"front":)" +
-         panel(apart / 2, false) +
-         R"(},"stitches":[[{"panel":"front","edge":1},{"panel":"back","edge":2}],)" +
-         R"([{"panel":"front","edge":3},{"panel":"back","edge":0}]]},)" +
-         R"("properties":{"units_in_meter":100}})";
+         panel(apart / 2, false) + R"(},"stitches":[)" + stitches +
+         R"(]},"properties":{"units_in_meter":100}})";
+}
+
+/// The same, sewn to a tube along both sides.
+inline std::string tube_pattern(double width, double height, double apart, double low,
+                                const std::string& label = "") {
+  return two_panels(width, height, apart, low,
+                    R"([{"panel":"front","edge":1},{"panel":"back","edge":2}],)"
+                    R"([{"panel":"front","edge":3},{"panel":"back","edge":0}])",
+                    label);
+}
+
+/// The same, sewn along their upper edges, from which both hang.
+inline std::string cape_pattern(double width, double height, double apart, double low) {
+  return two_panels(width, height, apart, low,
+                    R"([{"panel":"front","edge":2},{"panel":"back","edge":1}])");
 }
 
 /// A skirt panel with a slit of 25 cm from its lower side, and a triangle to be sewn into it, whose

@@ -39,9 +39,10 @@ constexpr double closed = 5e-5;
 /// of the late speed at least. Where they are stretched more, it is they that do.
 constexpr double least_slack = 0.5;
 
-/// Where a body takes more than this part of a pull, its goal is behind the body, and the seam goes
-/// over it: straps over shoulders.
-constexpr double head_on = 0.7;
+/// Where a body takes more than this part of a pull, its goal is behind the body, and a seam from
+/// which its panel hangs goes over it: straps over shoulders. `hanging` is how far upwards the way
+/// into such a panel leads, at most.
+constexpr double head_on = 0.7, hanging = -0.5;
 
 Vec3d mean_of(const Planes3& planes, std::span<const int> samples) {
   Vec3d sum;
@@ -79,6 +80,7 @@ Sewing::Sewing(const Garment& garment, const Planes3& start)
       blocked_(start.size() * start.size()) {
   find_classes_along_seams();
   find_leaders();
+  find_upper_edges(start);
   find_slack(start);  // takes the memory that steps need
   measure(start);
   const double farthest = away_.empty() ? 0 : *std::max_element(away_.begin(), away_.end());
@@ -106,6 +108,13 @@ void Sewing::find_leaders() {
     for (const int s : garment_.sewn.copies(k))
       if (panels_.hold_of(s) == hold) leaders.push_back(s);
   }
+}
+
+void Sewing::find_upper_edges(const Planes3& start) {
+  on_upper_edge_.assign(class_of_.size(), 0);
+  for (std::size_t s = 0; s < class_of_.size(); ++s)
+    if (class_of_[s] >= 0)
+      on_upper_edge_[s] = unpicking_.inwards(static_cast<int>(s), start).y < hanging ? 1 : 0;
 }
 
 Vec3d Sewing::mean_of_class(int index, const Planes3& planes) const {
@@ -268,7 +277,7 @@ Vec3d Sewing::pull_of(int index, int sample, const Planes3& position, std::size_
   if (away_[index] < turns_within) return pull;
   const Vec3d along = along_bodies(sample, pull);
   const double lost = length(pull - along);
-  if (lost < head_on * length(pull)) return along;
+  if (on_upper_edge_[sample] == 0 || lost < head_on * length(pull)) return along;
   return along_bodies(sample, along + lost * up_along_bodies(sample));
 }
 

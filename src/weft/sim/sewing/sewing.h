@@ -82,6 +82,8 @@ class Sewing {
   [[nodiscard]] Vec3d along_bodies(int sample, Vec3d pull) const;
   /// Upwards along them: shorter than 1 the flatter they are.
   [[nodiscard]] Vec3d up_along_bodies(int sample) const;
+  /// Finds the samples whose panels hang from them.
+  void find_upper_edges(const Planes3& start);
   /// Where a class is put together late: no deeper in the bodies that it touches than it was when
   /// the step began. The filter would move each sample out by itself, some micrometres apart, and
   /// they would never be in one place.
@@ -112,6 +114,7 @@ class Sewing {
   std::vector<std::vector<double>> stretches_;  // of each panel, at its seams
   std::vector<double> slack_;            // of each panel, from 0 to 1: the part of the late speed
   std::vector<int> class_of_;            // of each sample; -1: none
+  std::vector<char> on_upper_edge_;      // of each sample: whether its panel hangs from it
   std::vector<std::vector<int>> along_;  // the classes along each seam
   std::vector<char> next_;               // of each class: whether it is pulled late
   std::vector<char> stuck_;              // of each class: whether cloth seems to hold it apart

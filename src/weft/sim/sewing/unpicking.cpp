@@ -40,23 +40,34 @@ void Unpicking::choose(std::span<const std::vector<int>> along, std::span<const 
   }
 }
 
-Vec3d Unpicking::retreat_of(int sample, const Planes3& position) const {
-  const int n = position.size();
-  Vec3d inwards;
-  double row = 0;
+template <class Visit>
+void Unpicking::for_ways_inwards(int sample, const Visit& visit) const {
+  const int n = garment_.flat.size();
   for (const int step : {-n, -1, 1, n}) {
     const int next = sample + step, second = next + step;
     // Two steps along a row stay in it.
     const bool in_row = std::abs(step) == n || second / n == sample / n;
-    if (second < 0 || second >= n * n || !in_row ||
-        !garment_.image.mates.same_chart(sample, second))
-      continue;
-    inwards += vec_cast<double>(position.at(second) - position.at(sample));
-    row = std::max(row, double{length(garment_.flat.at(next) - garment_.flat.at(sample))});
+    if (second >= 0 && second < n * n && in_row && garment_.image.mates.same_chart(sample, second))
+      visit(next, second);
   }
+}
+
+Vec3d Unpicking::inwards(int sample, const Planes3& position) const {
+  Vec3d sum;
+  for_ways_inwards(sample, [&](int, int second) {
+    sum += vec_cast<double>(position.at(second) - position.at(sample));
+  });
+  return normalized(sum);
+}
+
+Vec3d Unpicking::retreat_of(int sample, const Planes3& position) const {
+  double row = 0;
+  for_ways_inwards(sample, [&](int next, int) {
+    row = std::max(row, double{length(garment_.flat.at(next) - garment_.flat.at(sample))});
+  });
   // By one row of samples, or by two, in turn.
   const double way = (1 + attempt_ % 2) * row;
-  return (way / frame_length_) * normalized(inwards);
+  return (way / frame_length_) * inwards(sample, position);
 }
 
 }  // namespace weft

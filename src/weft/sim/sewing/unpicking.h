@@ -31,10 +31,16 @@ class Unpicking {
   [[nodiscard]] bool takes_apart(int index) const { return chosen_[index] != 0; }
   /// Whether seams close from where they are closed already in this attempt, not all at once.
   [[nodiscard]] bool closes_as_a_zip() const { return attempt_ >= 0 && attempt_ / 2 % 2 == 1; }
+  /// The way from a sample of an edge into its panel. @return unit
+  [[nodiscard]] Vec3d inwards(int sample, const Planes3& position) const;
   /// The velocity at which an edge goes back into its panel. @return [m/s]
   [[nodiscard]] Vec3d retreat_of(int sample, const Planes3& position) const;
 
  private:
+  /// Calls visit(next, second) for the samples one and two steps from one within its panel.
+  template <class Visit>
+  void for_ways_inwards(int sample, const Visit& visit) const;
+
   const Garment& garment_;
   std::vector<char> chosen_;  // of each class
   int attempt_ = -1;          // none yet
