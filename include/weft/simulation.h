@@ -245,9 +245,9 @@ class Simulation {
   /// The largest distance between the two samples of a pair, for each seam of a garment; empty for
   /// other cloths. [m]
   [[nodiscard]] std::vector<double> seam_gaps(std::size_t cloth) const;
-  /// How far a garment has sunk from where it is worn: the edges of that label, its collar or waist,
-  /// that are farthest below where the pattern places them, on the mean of each label, or all of a
-  /// garment without labels. Places go with the bodies. 0 for other cloths. [m]
+  /// How far a garment has sunk from where it is worn: the edges of that label, its collar or
+  /// waist, that are farthest below where the pattern places them, on the mean of each label, or
+  /// all of a garment without labels. Places go with the bodies. 0 for other cloths. [m]
   [[nodiscard]] double sunk(std::size_t cloth) const;
   /// Counts the pairs of triangles that cross now: of cloths with themselves, with each other and
   /// with bodies, and triangles below the ground. Exact, and none of a collider's code. Costs about

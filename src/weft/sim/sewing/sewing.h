@@ -17,10 +17,10 @@ namespace weft {
 /// the cloth between needs to stretch nowhere. What is held back, by a body or other cloth, is then
 /// closed from where its seam is closed already, as a zip is; it is let go and pulled again in
 /// turn, so that cloth that was pulled into a crease, or to the wrong side of a limb, comes out of
-/// it. Nothing is pulled into a body that it touches: seams slide over it, upwards where it is
-/// right in their way. At a seam between a bodice and a skirt the skirt comes to the height of the
-/// bodice. Where cloth holds a few samples apart, the seam is taken apart next to them and closed
-/// anew.
+/// it. Nothing is pulled into a body that it touches: seams slide over it, and where it is right in
+/// their way those from which their panels hang go upwards. At a seam between a bodice and a skirt
+/// the skirt comes to the height of the bodice. Where cloth holds a few samples apart, the seam is
+/// taken apart next to them and closed anew.
 class Sewing {
  public:
   /// The step that seams are pulled together in.
