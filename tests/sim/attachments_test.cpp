@@ -68,6 +68,15 @@ TEST(Attachments, TheLastPlaceHoldsASample) {
   EXPECT_GT(length(scene.cloth.pins[1].target), 9);
 }
 
+TEST(Attachments, BodiesWithoutAreaHoldNothing) {
+  Tied scene;
+  scene.places = Planes3(scene.places.size());
+  EXPECT_THROW(scene.tie({{"ring", ImagePin{{0, 0}}}}), SceneError);
+  const Vec3d place{1, 2, 3};
+  EXPECT_FALSE(tie_to_nearest(std::span(&place, 1), scene.surfaces).front());
+  EXPECT_FALSE(tie_to_nearest(std::span(&place, 1), {}).front());
+}
+
 TEST(Attachments, UnknownBodiesAndEmptyRegionsAreRefused) {
   Tied scene;
   EXPECT_THROW(scene.tie({{"rong", ImagePin{{0, 0}}}}), SceneError);

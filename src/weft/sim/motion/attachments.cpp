@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "weft/core/assert.h"
 #include "weft/error.h"
 #include "weft/mesh/distance.h"
 
@@ -51,11 +50,13 @@ class Ties {
       const Corners c = corners_of(positions_, t);
       if (squared_length(cross(c[1] - c[0], c[2] - c[0])) > 0) mesh.triangles.push_back(t);
     }
-    WEFT_ASSERT(!mesh.triangles.empty());
     triangles_ = mesh.triangles;
-    query_.emplace(mesh);
+    if (!triangles_.empty()) query_.emplace(mesh);
   }
 
+  /// Whether there is anything to tie to.
+  [[nodiscard]] bool any() const { return query_.has_value(); }
+  /// @pre any()
   [[nodiscard]] TiedPlace tie(Vec3d place) const {
     const ClosestPoint closest = query_->closest(place);
     TiedPlace tied;
@@ -83,16 +84,15 @@ int index_of(std::span<const TiedSurface> bodies, const std::string& name) {
 
 }  // namespace
 
-std::vector<TiedPlace> tie_to_nearest(std::span<const Vec3d> places,
-                                      std::span<const TiedSurface> bodies) {
-  WEFT_ASSERT(!bodies.empty());
-  std::vector<TiedPlace> nearest(places.size());
+std::vector<std::optional<TiedPlace>> tie_to_nearest(std::span<const Vec3d> places,
+                                                     std::span<const TiedSurface> bodies) {
+  std::vector<std::optional<TiedPlace>> nearest(places.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Ties ties(bodies[b]);
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; ties.any() && i < places.size(); ++i) {
       TiedPlace tied = ties.tie(places[i]);
       tied.body = static_cast<int>(b);
-      if (b == 0 || length(tied.offset) < length(nearest[i].offset)) nearest[i] = tied;
+      if (!nearest[i] || length(tied.offset) < length(nearest[i]->offset)) nearest[i] = tied;
     }
   }
   return nearest;
@@ -117,6 +117,9 @@ std::vector<TiedPin> tie_places(Cloth& cloth, std::span<const SceneAttachment> p
     });
     const int body = index_of(bodies, place.body);
     const Ties ties(bodies[static_cast<std::size_t>(body)]);
+    if (!ties.any())
+      throw SceneError("attach", fmt::format("body '{}' has no area", place.body),
+                       "a body with some is wanted");
     for (const int pin : held) {
       TiedPlace tied = ties.tie(cloth.pins[static_cast<std::size_t>(pin)].target);
       tied.body = body;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,16 +34,17 @@ struct TiedPin : TiedPlace {
   int pin = 0;  ///< of the cloth
 };
 
-/// Ties places to the nearest of several bodies each. @param bodies  the scene's, one at least
-std::vector<TiedPlace> tie_to_nearest(std::span<const Vec3d> places,
-                                      std::span<const TiedSurface> bodies);
+/// Ties places to the nearest of several bodies each; none where no body has any area.
+/// @param bodies  the scene's, in its order
+std::vector<std::optional<TiedPlace>> tie_to_nearest(std::span<const Vec3d> places,
+                                                     std::span<const TiedSurface> bodies);
 /// Where a tied place is. @param body  positions of its body [n x n] world [m]
 Vec3d tied_place(const TiedPlace& tied, const Planes3& body);
 
 /// Pins the places of a cloth's `attach` list, and removes them from `motions`. A sample named
 /// twice is tied by the last.
 /// @param bodies   the scene's, in its order
-/// @throws SceneError when a region holds no sample, or no body has the name
+/// @throws SceneError when a region holds no sample, no body has the name, or it has no area
 std::vector<TiedPin> tie_places(Cloth& cloth, std::span<const SceneAttachment> places,
                                 std::span<const TiedSurface> bodies,
                                 std::vector<PinMotion>& motions);

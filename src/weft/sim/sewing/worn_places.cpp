@@ -29,10 +29,9 @@ WornPlaces::WornPlaces(const Garment& garment, const Planes3& placed,
     const Vec3d middle = middle_of(samples, placed);
     places_.push_back({std::move(samples), middle});
   }
-  if (bodies.empty()) return;
   std::vector<Vec3d> middles;
   for (const Place& place : places_) middles.push_back(place.middle);
-  const std::vector<TiedPlace> tied = tie_to_nearest(middles, bodies);
+  const std::vector<std::optional<TiedPlace>> tied = tie_to_nearest(middles, bodies);
   for (std::size_t i = 0; i < places_.size(); ++i) places_[i].tied = tied[i];
 }
 
