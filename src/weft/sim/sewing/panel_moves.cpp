@@ -23,4 +23,10 @@ void move_panels(const BorderMates& mates, const std::vector<Vec3d>& shift, Plan
     placed.set(s, placed.at(s) + vec_cast<float>(shift[panel_of(mates, s)]));
 }
 
+Vec3d mean_of(const Planes3& planes, std::span<const int> samples) {
+  Vec3d sum;
+  for (const int s : samples) sum += vec_cast<double>(planes.at(s));
+  return (1 / static_cast<double>(samples.size())) * sum;
+}
+
 }  // namespace weft

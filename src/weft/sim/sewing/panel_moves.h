@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "weft/geometry_image.h"
@@ -13,5 +14,8 @@ Vec3d outer_side(const Chart& panel, const Planes3& placed);
 int panel_of(const BorderMates& mates, int sample);
 /// Moves panels as they are. @param shift  of each panel [m]
 void move_panels(const BorderMates& mates, const std::vector<Vec3d>& shift, Planes3& placed);
+
+/// The mean of some samples, one at least. @param planes  [n x n], as positions [m]
+Vec3d mean_of(const Planes3& planes, std::span<const int> samples);
 
 }  // namespace weft

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "weft/sim/sewing/panel_moves.h"
+
 namespace weft {
 namespace {
 
@@ -43,12 +45,6 @@ constexpr double least_slack = 0.5;
 /// which its panel hangs goes over it: straps over shoulders. `hanging` is how far upwards the way
 /// into such a panel leads, at most.
 constexpr double head_on = 0.7, hanging = -0.5;
-
-Vec3d mean_of(const Planes3& planes, std::span<const int> samples) {
-  Vec3d sum;
-  for (const int s : samples) sum += vec_cast<double>(planes.at(s));
-  return (1 / static_cast<double>(samples.size())) * sum;
-}
 
 double farthest_from(Vec3d middle, const Planes3& planes, std::span<const int> samples) {
   double most = 0;

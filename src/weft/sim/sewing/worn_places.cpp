@@ -2,14 +2,10 @@
 
 #include <algorithm>
 
+#include "weft/sim/sewing/panel_moves.h"
+
 namespace weft {
 namespace {
-
-Vec3d middle_of(std::span<const int> samples, const Planes3& positions) {
-  Vec3d sum;
-  for (const int s : samples) sum += vec_cast<double>(positions.at(s));
-  return (1 / static_cast<double>(samples.size())) * sum;
-}
 
 std::vector<int> all_samples(const Garment& garment) {
   std::vector<int> samples;
@@ -23,10 +19,10 @@ std::vector<int> all_samples(const Garment& garment) {
 WornPlaces::WornPlaces(const Garment& garment, const Planes3& placed,
                        std::span<const TiedSurface> bodies) {
   for (const GarmentLabel& label : garment.labels)
-    places_.push_back({label.samples, middle_of(label.samples, placed)});
+    places_.push_back({label.samples, mean_of(placed, label.samples)});
   if (places_.empty()) {
     std::vector<int> samples = all_samples(garment);
-    const Vec3d middle = middle_of(samples, placed);
+    const Vec3d middle = mean_of(placed, samples);
     places_.push_back({std::move(samples), middle});
   }
   std::vector<Vec3d> middles;
@@ -40,7 +36,7 @@ double WornPlaces::sunk(const Planes3& now, std::span<const PlacedBody> bodies) 
   for (const Place& place : places_) {
     const Vec3d wanted =
         place.tied ? tied_place(*place.tied, bodies[place.tied->body].positions) : place.middle;
-    most = std::max(most, wanted.y - middle_of(place.samples, now).y);
+    most = std::max(most, wanted.y - mean_of(now, place.samples).y);
   }
   return most;
 }

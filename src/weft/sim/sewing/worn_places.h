@@ -28,7 +28,7 @@ class WornPlaces {
   struct Place {
     std::vector<int> samples;
     Vec3d middle;                     // of these, where the run begins [m]
-    std::optional<TiedPlace> tied{};  // none where there is no body
+    std::optional<TiedPlace> tied{};  // none where no body has area
   };
   std::vector<Place> places_;
 };
