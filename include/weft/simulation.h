@@ -53,6 +53,7 @@ struct FrameReport {
   int stopped = 0;          ///< points that the collision filter stopped, largest of its steps
   int fell_back = 0;        ///< of these, points reset to the step's start, largest of its steps
   int whole_fell_back = 0;  ///< cloths whose points were all reset, largest of its steps
+  int buried = 0;           ///< samples of bodies that lie in their body, see PlacedBody
   /// Time by which cloth lags behind, since steps that gained energy were gone in part only. [s]
   double lost_time = 0;
   double work = 0;  ///< of pins, moving bodies and wind [J]
@@ -87,6 +88,10 @@ struct PlacedBody {
   Planes3 positions;                       ///< world, now [m]
   bool moves = false;                      ///< by motion or animation
   std::optional<SourceMesh> source;        ///< unplaced, where the surface came from a mesh
+  /// Which samples lie in the body itself in this frame, as where an arm enters the side (2), or
+  /// leave no room for cloth before them (1); empty: none. Cloth may pass through triangles at
+  /// them. [n * n]
+  std::vector<char> buried{};
 };
 
 /// A closed body that holds a cloth at the start, wholly or in part, by winding numbers.

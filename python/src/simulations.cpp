@@ -226,6 +226,7 @@ class Simulated {
     told["self_contacts"] = report.self_contacts;
     told["stopped"] = report.stopped;
     told["fell_back"] = report.fell_back;
+    told["buried"] = report.buried;
     told["lost_time"] = report.lost_time;
     told["smallest_gap"] = report.smallest_gap;
     const Vec3d& c = report.centre_of_mass;

@@ -64,7 +64,7 @@ class Frame:
 
     Fields: ``number`` (from 1), ``time`` [s], ``strain`` (a `Strain`), ``milliseconds``, ``iterations``, ``residual``,
     ``kinetic_energy``, ``potential_energy``, ``work`` (of pins, bodies and wind) [J], ``contacts``, ``self_contacts``,
-    ``stopped``, ``fell_back``, ``lost_time`` [s], ``smallest_gap`` [m], ``centre_of_mass`` [m].
+    ``stopped``, ``fell_back``, ``buried``, ``lost_time`` [s], ``smallest_gap`` [m], ``centre_of_mass`` [m].
     """
 
     def __init__(self, simulation, number, told, samples):

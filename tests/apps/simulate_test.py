@@ -195,7 +195,7 @@ class Simulate(SceneTest):
                                          "residual", "strain_mean", "strain_p99", "strain_max", "kinetic_energy",
                                          "potential_energy", "contacts", "stopped", "fell_back", "blocked_share", "lost_time", "work",
                                          "smallest_gap", "seam_gap",
-                                         "com_x", "com_y", "com_z"])
+                                         "com_x", "com_y", "com_z", "buried"])
         for frame, row in enumerate(rows, 1):
             stages = sum(float(row[stage]) for stage in ("forces_ms", "solve_ms", "collide_ms", "limit_ms"))
             self.assertLessEqual(stages, float(row["ms"]) + 0.01)

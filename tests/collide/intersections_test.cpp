@@ -150,5 +150,26 @@ TEST(Intersections, ClosedSurfacesHaveNoneAcrossTheirSeams) {
   }
 }
 
+TEST(IntersectionCheck, LeavesOutTrianglesOfABodyThatLieInIt) {
+  const Sheet cloth(size, level), body(size, [](int r, int c) {
+    return Vec3d{0.1 * c, 0.1 * (r - 10) + 0.03, 0.98};
+  });
+  std::vector<char> buried(static_cast<std::size_t>(size) * size, 0);
+  const GridTriangles own = cloth.grid();
+  GridTriangles other = body.grid();
+  const auto count = [&] {
+    return IntersectionCheck(std::span(&own, 1), std::span(&other, 1), {}).count().bodies;
+  };
+  const std::int64_t all = count();
+  EXPECT_GT(all, 20);
+  other.buried = &buried;
+  EXPECT_EQ(count(), all);
+  for (int s = 0; s < size * size; ++s) buried[s] = s % size < size / 2 ? 1 : 0;
+  EXPECT_LT(count(), all);
+  EXPECT_GT(count(), 0);
+  std::fill(buried.begin(), buried.end(), 2);
+  EXPECT_EQ(count(), 0);
+}
+
 }  // namespace
 }  // namespace weft

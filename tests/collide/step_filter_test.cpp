@@ -105,5 +105,38 @@ TEST(StepFilter, TakesStoppedPointsAlongWithClothThatMovesAsAWhole) {
   for (int s = 0; s < side * side; ++s) EXPECT_NEAR(folded.end(s).y, 5.01 - 0.4, 0.05);
 }
 
+/// Two balls that close on the middle of a sheet, and into each other.
+TEST(StepFilter, LeavesTheRestWhereBodiesCloseOnCloth) {
+  Obstacles closing;
+  for (const double way : {1.0, -1.0})
+    closing.bodies.push_back(test::octahedral_sphere(17, 0.1, {0.4, 0.104 * way, 0.4}));
+  std::vector<Planes3> ends;
+  for (const Body& ball : closing.bodies) ends.push_back(ball.positions);
+  for (int s = 0; s < 17 * 17; ++s)
+    for (const int k : {0, 1}) ends[k].set(s, ends[k].at(s) - Vec3f{0, k == 0 ? 0.01F : -0.01F, 0});
+  const std::array<const Planes3*, 2> to{&ends[0], &ends[1]};
+  const BorderMates none;
+  const CollidingCloth properties{
+      .mates = none, .size = side, .thickness = 0.004, .rest_spacing = 0.1};
+  ThreadTeam team(1);
+  CollisionWorld world(pyramid, closing, std::span(&properties, 1));
+  Untangler untangler;
+  const SurfaceGrid* grid = &world.cloths[0].grid;
+  untangler.set_up(std::span(&grid, 1), std::span(&properties, 1));
+  TestCloth cloth(side);
+  cloth.place([](int r, int c) { return Vec3d{0.1 * c, 0, 0.1 * r}; });
+  for (int s = 0; s < side * side; ++s)
+    cloth.position.set(s, cloth.start.at(s) + Vec3f{0.001F, 0, 0});
+  const MovingCloth moving = cloth.moving();
+  world.move_bodies(to, team);
+  world.place_bodies(team);
+  StepFilter filter(world, untangler);
+  const FilterCounts counts =
+      filter.run(std::span(&moving, 1), time_step, StepFilter::Pass::end, team);
+  EXPECT_GT(counts.stopped, 0) << "nothing was caught";
+  EXPECT_EQ(counts.fell_back, 0);
+  EXPECT_EQ(cloth.position.at(0), (Vec3f{0.001F, 0, 0}));
+}
+
 }  // namespace
 }  // namespace weft::step_filter_test

@@ -38,6 +38,7 @@ Checkpoint sample() {
     frame.milliseconds = 0.1 * i;
     frame.iterations = 10 * i;
     frame.whole_fell_back = i;
+    frame.buried = 7 * i;
     frame.lost_time = 1e-3 * i;
     frame.strain = {0.01, 0.02, 0.03 * i};
     frame.centre_of_mass = {0, -0.1 * i, 1e-300};
@@ -84,6 +85,7 @@ TEST(Checkpoint, ReadsBackBitByBit) {
   EXPECT_EQ(read->history[1].strain.max, written.history[1].strain.max);
   EXPECT_EQ(read->history[2].smallest_gap, HUGE_VAL);
   EXPECT_EQ(read->history[2].whole_fell_back, 3);
+  EXPECT_EQ(read->history[2].buried, 7 * 3);
   EXPECT_EQ(read->history[2].lost_time, 1e-3 * 3);
   EXPECT_EQ(read->state.frames_unexplained, 1);
   EXPECT_EQ(read->verification.swallowed.frame, 2);
@@ -128,8 +130,8 @@ TEST(Checkpoint, RefusalsSayWhatIsWrong) {
   const std::string whole = encode_checkpoint(sample());
   EXPECT_NE(refusal("").find("is no checkpoint"), std::string::npos);
   std::string other_format = whole;
-  other_format[8] = 12;
-  EXPECT_NE(refusal(other_format).find("format 12 instead of 11"), std::string::npos);
+  other_format[8] = 13;
+  EXPECT_NE(refusal(other_format).find("format 13 instead of 12"), std::string::npos);
   std::string other_version = whole;
   other_version[header_bytes + 8] = '7';
   EXPECT_NE(refusal(hashed_again(other_version)).find("written by weft 7"), std::string::npos);

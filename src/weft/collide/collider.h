@@ -102,6 +102,10 @@ class Collider {
   [[nodiscard]] virtual const BlockMotion* motion_of(std::size_t /*body*/) const noexcept {
     return nullptr;
   }
+  /// Tells which samples of a body lie in the body itself, from now on: cloth passes through
+  /// triangles at them, for methods that heed this.
+  /// @param buried  [n * n], see PlacedBody; empty: none does
+  virtual void bury(std::size_t /*body*/, std::span<const char> /*buried*/) noexcept {}
   /// Finds the contacts of a step from the proposals.
   virtual void detect(std::span<const MovingCloth> cloths, double time_step,
                       ThreadTeam& team) noexcept = 0;

@@ -39,6 +39,7 @@ CollisionWorld::CollisionWorld(MakeBroadPhase make_broad_phase, const Obstacles&
   for (WorldBody& body : bodies) {
     body.query = std::make_unique<BodyQuery>(body.grid);
     body.end = &body.start;
+    body.buried.reserve(2 * static_cast<std::size_t>(body.grid.cells()) * body.grid.cells());
   }
   if (obstacles.ground) ground_ = {*obstacles.ground, obstacles.ground_friction};
   std::vector<const SurfaceGrid*> grids;
@@ -118,6 +119,19 @@ void CollisionWorld::rollback() {
   }
 }
 
+void CollisionWorld::bury(std::size_t index, std::span<const char> samples) {
+  WorldBody& body = bodies[index];
+  const int cells = body.grid.cells();
+  body.buried.assign(samples.empty() ? 0 : 2 * static_cast<std::size_t>(cells) * cells, 0);
+  for (std::size_t t = 0; t < body.buried.size(); ++t) {
+    const std::array<int, 3> corners =
+        body.grid.triangle(static_cast<int>(t) / 2, static_cast<int>(t) % 2);
+    const auto [least, most] =
+        std::minmax({samples[corners[0]], samples[corners[1]], samples[corners[2]]});
+    body.buried[t] = least > 1 ? 2 : most > 0 ? 1 : 0;
+  }
+}
+
 void CollisionWorld::gather_surfaces(std::span<const MovingCloth> moving) {
   surfaces.clear();
   for (std::size_t i = 0; i < moving.size(); ++i)
@@ -141,11 +155,11 @@ void CollisionWorld::place_bodies(ThreadTeam& team) {
       body.query_at_end->place(*body.end, team);
       body.end_placed = body.motion;
     }
-    contact_bodies.push_back({static_cast<int>(contact_bodies.size()) + 1, body.query.get(),
-                              &body.start, body.end, body.friction,
-                              body.goes_far ? body.query_at_end.get() : nullptr,
-                              body.moves() ? body.blocks.max_approach() : 0,
-                              body.moves() ? &body.blocks : nullptr, body.motion, body.placement});
+    contact_bodies.push_back(
+        {static_cast<int>(contact_bodies.size()) + 1, body.query.get(), &body.start, body.end,
+         body.friction, body.goes_far ? body.query_at_end.get() : nullptr,
+         body.moves() ? body.blocks.max_approach() : 0, body.moves() ? &body.blocks : nullptr,
+         body.motion, body.placement, body.buried});
   }
 }
 
@@ -177,8 +191,8 @@ void CollisionWorld::find_crossings(std::span<const MovingCloth> moving, ThreadT
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       BodyCrossings& crossings = cloths[i].crossings[b];
       const ContactBody& body = contact_bodies[b];
-      if (!body.query->closed() ||
-          (!crossings.is_open() && !cloths[i].body_contacts->any_inside(body.number)))
+      if (!body.query->closed() || (!crossings.is_open() && body.buried.empty() &&
+                                    !cloths[i].body_contacts->any_inside(body.number)))
         continue;
       const std::span<const CandidateTile> cells =
           pairs_->find(static_cast<int>(i), static_cast<int>(cloths.size() + b), 0, team);

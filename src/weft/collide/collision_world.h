@@ -35,6 +35,7 @@ struct WorldBody {
   BlockMotion blocks{};                      ///< of this step, where it moves
   bool goes_far = false;                     ///< in this step
   bool moved = true;                         ///< since its query was placed
+  std::vector<char> buried{};                ///< see ContactBody
   int motion = 1;                            ///< see MovingSurface::name
   int placement = 1;                         ///< see ContactBody
   int end_placed = 0;                        ///< motion at whose end query_at_end is placed
@@ -56,6 +57,8 @@ class CollisionWorld {
   void move_bodies(std::span<const Planes3* const> ends, ThreadTeam& team);
   void commit();
   void rollback();
+  /// See Collider.
+  void bury(std::size_t body, std::span<const char> samples);
 
   /// Sets the surfaces of a step: cloths by their proposals, bodies by move_bodies.
   void gather_surfaces(std::span<const MovingCloth> moving);

@@ -28,6 +28,9 @@ class ContactPipeline final : public Collider {
   [[nodiscard]] const BlockMotion* motion_of(std::size_t body) const noexcept override {
     return world_.motion_of(body);
   }
+  void bury(std::size_t body, std::span<const char> buried) noexcept override {
+    world_.bury(body, buried);
+  }
   void detect(std::span<const MovingCloth> cloths, double time_step,
               ThreadTeam& team) noexcept override;
   void detect_again(std::span<const MovingCloth> cloths, double time_step,

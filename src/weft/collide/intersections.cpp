@@ -61,6 +61,13 @@ std::int64_t IntersectionCheck::Surface::count_self() const {
   return crossing_.count_self_crossings([&](int s, int t) { return meet_at_open_seam(s, t); });
 }
 
+bool IntersectionCheck::Surface::is_buried(int triangle) const {
+  if (grid_.buried == nullptr || grid_.buried->empty()) return false;
+  const Triangle& corners = (*grid_.triangles)[triangle];
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](int corner) { return (*grid_.buried)[corner] != 0; });
+}
+
 std::int64_t IntersectionCheck::Surface::count_below(double height) {
   const std::span<const Corners> corners = crossing_.triangles();
   return std::count_if(corners.begin(), corners.end(), [height](const Corners& t) {
@@ -84,7 +91,9 @@ IntersectionCounts IntersectionCheck::count() {
     counts.self += cloths_[i].count_self();
     for (std::size_t other = 0; other < i; ++other)
       counts.cloths += cloth.count_crossings(cloths_[other].crossing());
-    for (const Surface& body : bodies_) counts.bodies += cloth.count_crossings(body.crossing());
+    for (const Surface& body : bodies_)
+      counts.bodies +=
+          cloth.count_crossings(body.crossing(), [&](int t) { return body.is_buried(t); });
     if (ground_) counts.ground += cloths_[i].count_below(*ground_);
   }
   return counts;

@@ -21,6 +21,9 @@ struct GridTriangles {
   /// The classes that samples are being sewn into; null: none. Triangles that are to share a corner
   /// do not count as long as it is not in one place.
   const BorderMates* sewn = nullptr;
+  /// Samples of a body that lie in the body itself [n * n]; triangles at them do not count. Null or
+  /// empty: none does.
+  const std::vector<char>* buried = nullptr;
 };
 
 /// Counts the pairs of triangles that cross each other (weft/mesh/crossings.h): exact for the
@@ -52,6 +55,8 @@ class IntersectionCheck {
     [[nodiscard]] std::size_t triangle_count() const { return grid_.triangles->size(); }
     /// @return number of triangles with a corner below `height`
     [[nodiscard]] std::int64_t count_below(double height);
+    /// Whether a triangle of a body lies in the body itself.
+    [[nodiscard]] bool is_buried(int triangle) const;
 
    private:
     /// Whether two triangles are neighbours across a seam that is still open between them.

@@ -293,10 +293,15 @@ std::int64_t CrossingSurface::count_self_crossings(
 }
 
 std::int64_t CrossingSurface::count_crossings(const CrossingSurface& other) const {
+  return count_crossings(other, [](int) { return false; });
+}
+
+std::int64_t CrossingSurface::count_crossings(const CrossingSurface& other,
+                                              const std::function<bool(int t)>& left_out) const {
   if (triangles_.empty() || other.triangles_.empty()) return 0;
   std::int64_t count = 0;
-  PairSearch({triangles_, neighbours_}, {other.triangles_, other.neighbours_}, [&](int, int) {
-    ++count;
+  PairSearch({triangles_, neighbours_}, {other.triangles_, other.neighbours_}, [&](int, int t) {
+    count += left_out(t) ? 0 : 1;
   }).between(tree_, 0, other.tree_, 0);
   return count;
 }

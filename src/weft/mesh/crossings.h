@@ -60,6 +60,9 @@ class CrossingSurface {
       const std::function<bool(int s, int t)>& left_out) const;
   /// How many pairs of triangles, one of each surface, cross.
   [[nodiscard]] std::int64_t count_crossings(const CrossingSurface& other) const;
+  /// The same without triangles t of the other that are `left_out`(t).
+  [[nodiscard]] std::int64_t count_crossings(const CrossingSurface& other,
+                                             const std::function<bool(int t)>& left_out) const;
   /// How many of its triangles lie exactly on triangles of the other: in one plane, overlapping.
   [[nodiscard]] int count_lying_on(const CrossingSurface& other) const;
 

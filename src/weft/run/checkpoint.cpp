@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "WEFTCKPT";
-constexpr std::uint32_t format_version = 11;
+constexpr std::uint32_t format_version = 12;
 constexpr std::size_t size_at = magic.size() + sizeof(format_version);
 constexpr std::size_t hash_at = size_at + sizeof(std::uint64_t);
 constexpr std::size_t payload_at = hash_at + sizeof(std::uint64_t);
@@ -35,12 +35,12 @@ void each_field(Report& f, const Visit& visit) {
   visit(f.strain.mean), visit(f.strain.p99), visit(f.strain.max);
   visit(f.kinetic_energy), visit(f.potential_energy);
   visit(f.contacts), visit(f.self_contacts), visit(f.stopped), visit(f.fell_back);
-  visit(f.whole_fell_back), visit(f.lost_time), visit(f.work), visit(f.smallest_gap),
-      visit(f.seam_gap);
+  visit(f.whole_fell_back), visit(f.buried), visit(f.lost_time), visit(f.work),
+      visit(f.smallest_gap), visit(f.seam_gap);
   visit(f.centre_of_mass.x), visit(f.centre_of_mass.y), visit(f.centre_of_mass.z);
 }
 static_assert(sizeof(FrameReport) == 22 * 8, "a new field goes into each_field, and this count up");
-constexpr std::size_t frame_bytes = 17 * sizeof(double) + 6 * sizeof(int);
+constexpr std::size_t frame_bytes = 17 * sizeof(double) + 7 * sizeof(int);
 
 std::uint64_t hash_of(std::string_view bytes) {
   Hash hash;

@@ -88,6 +88,8 @@ constexpr double colliding_cloth_bytes_per_sample = 420, colliding_body_bytes_pe
 constexpr double counted_cloth_bytes_per_sample = 440;
 /// Of a moving body: rest, both ends of a step, and the blend of each sample.
 constexpr double moving_bytes_per_sample = 64;
+/// Of one that changes its shape, beside that: where it lies in itself.
+constexpr double deforming_bytes_per_sample = 170;
 constexpr double margin = 1.25, short_share = 0.8;
 
 double animation_bytes(const Animation& animation, const MotionSampling& sampling) {
@@ -146,7 +148,8 @@ std::uint64_t estimate_memory(const Scene& scene, const LoadedSizes& sizes) {
     bytes += per_body_sample * samples;
     if (!body.motion.empty() || !body.animation.empty()) bytes += moving_bytes_per_sample * samples;
     if (!body.animation.empty())
-      bytes += animation_bytes(body.animation,
+      bytes += deforming_bytes_per_sample * samples +
+               animation_bytes(body.animation,
                                {body.animation.clip, scene.frame_rate, body.wait + body.lead_in});
   }
   return static_cast<std::uint64_t>(bytes);

@@ -168,7 +168,7 @@ void PassingSurface::find(int node, const PassingSurface& other, int other_node,
   for (int i = a.first; i < a.last; ++i)
     for (int k = pairs.same && node == other_node ? i + 1 : b.first; k < b.last; ++k) {
       const int s = tree_.triangle_at[i], t = other.tree_.triangle_at[k];
-      if (overlap(swept_boxes_[s], other.swept_boxes_[t]))
+      if (overlap(swept_boxes_[s], other.swept_boxes_[t]) && !other.is_buried(other.triangles_[t]))
         pairs.count += count_between(s, other, t, pairs.same);
     }
 }
@@ -201,7 +201,10 @@ PassingCheck::PassingCheck(std::span<const Surface> cloths, std::span<const Surf
                            std::optional<double> ground)
     : ground_(ground) {
   for (const Surface& of : cloths) cloths_.emplace_back(*of.image, *of.positions, of.sewn);
-  for (const Surface& of : bodies) bodies_.emplace_back(*of.image, *of.positions, of.sewn);
+  for (const Surface& of : bodies) {
+    bodies_.emplace_back(*of.image, *of.positions, of.sewn);
+    if (of.buried != nullptr) bodies_.back().leave_out(*of.buried);
+  }
 }
 
 std::int64_t PassingCheck::count(const StepMotion& step) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -21,6 +22,9 @@ class PassingSurface {
   /// Sets the motion of the current step. @param step  kept by pointer until the next; where its
   /// end is its start, the surface stands still from then on until it is told of another path
   void follow(const StepMotion::Path& step);
+  /// Leaves out triangles at samples of a body that lie in the body itself. @param buried  [n * n]
+  /// or empty, kept by reference, read at every count
+  void leave_out(const std::vector<char>& buried) { buried_ = &buried; }
 
   /// Number of vertex-face and edge-edge pairs of two surfaces that meet during the step.
   [[nodiscard]] std::int64_t count(const PassingSurface& other) const;
@@ -47,6 +51,10 @@ class PassingSurface {
 
   /// Whether two vertices are one, or are being sewn to each other.
   [[nodiscard]] bool meet(int v, int w) const { return joint_[v] == joint_[w]; }
+  [[nodiscard]] bool is_buried(const Triangle& t) const {
+    return buried_ != nullptr && !buried_->empty() &&
+           std::any_of(t.begin(), t.end(), [&](int v) { return (*buried_)[v] != 0; });
+  }
   [[nodiscard]] bool touches(const Triangle& t, int v) const {
     return meet(t[0], v) || meet(t[1], v) || meet(t[2], v);
   }
@@ -59,6 +67,7 @@ class PassingSurface {
   std::vector<Box3d> swept_boxes_;   // [F] the same, of triangles
   std::vector<Box3d> sample_boxes_;  // [n * n] the same, of samples
   StepMotion::Path step_{};
+  const std::vector<char>* buried_ = nullptr;
 };
 
 /// Counts, in every step of a run, what passes through what, by continuous detection. It shares no
@@ -69,6 +78,8 @@ class PassingCheck {
     const GeometryImage* image = nullptr;
     const Planes3* positions = nullptr;
     const BorderMates* sewn = nullptr;  ///< of a garment: the mates with its seams closed
+    /// Of a body: see PlacedBody; kept by reference. Null: none is buried.
+    const std::vector<char>* buried = nullptr;
   };
   /// @param cloths, bodies  at the start of the run
   PassingCheck(std::span<const Surface> cloths, std::span<const Surface> bodies,

@@ -173,6 +173,7 @@ std::string to_json(const RunReport& report) {
       {"fell_back", worst_count(report, &FrameReport::fell_back)},
       {"blocked_share", worst_blocked_share(report)},
       {"lost_time", lost_time(report)},
+      {"buried", worst_count(report, &FrameReport::buried)},
       {"energy_gained", energy_gained(report)},
       {"energy_gained_mgl", relative_energy_gained(report)},
       {"thickness_used", thickness_json(report)},
@@ -200,9 +201,7 @@ std::string frames_csv_header() {
   return "frame,ms,forces_ms,solve_ms,collide_ms,limit_ms,iterations,residual,strain_mean,strain_"
          "p99,strain_max,"
          "kinetic_energy,potential_energy,contacts,stopped,fell_back,blocked_share,lost_time,work,"
-         "smallest_"
-         "gap,seam_gap,com_x,com_y,"
-         "com_z\n";
+         "smallest_gap,seam_gap,com_x,com_y,com_z,buried\n";
 }
 
 std::string frames_csv_line(int frame, const FrameReport& f, int particles) {
@@ -216,8 +215,8 @@ std::string frames_csv_line(int frame, const FrameReport& f, int particles) {
              f.residual, f.strain.mean, f.strain.p99, f.strain.max, f.kinetic_energy,
              f.potential_energy, f.contacts, f.stopped, f.fell_back, blocked_share(f, particles),
              f.lost_time, f.work, gap) +
-         fmt::format("{:.6g},{:.9g},{:.9g},{:.9g}\n", f.seam_gap, f.centre_of_mass.x,
-                     f.centre_of_mass.y, f.centre_of_mass.z);
+         fmt::format("{:.6g},{:.9g},{:.9g},{:.9g},{}\n", f.seam_gap, f.centre_of_mass.x,
+                     f.centre_of_mass.y, f.centre_of_mass.z, f.buried);
 }
 
 }  // namespace weft

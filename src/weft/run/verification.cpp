@@ -14,6 +14,7 @@ std::vector<PassingCheck::Surface> surfaces_of(const Things& things, const Posit
     surfaces.push_back({&thing.image, &positions(thing)});
     if constexpr (requires { thing.garment; })
       if (thing.garment) surfaces.back().sewn = &thing.garment->sewn;
+    if constexpr (requires { thing.buried; }) surfaces.back().buried = &thing.buried;
   }
   return surfaces;
 }
@@ -47,7 +48,8 @@ std::int64_t Verifier::count_swallowed() {
     sides.body.mark_inside(cloth.state.position, alone_, inside_);
     const int n = cloth.model->size;
     for (int s = 0; s < n * n; ++s) {
-      const bool right = (inside_[s] != 0) == sides.kept_in;
+      // Where a body lies in itself, cloth between its sides is inside of both.
+      const bool right = (inside_[s] != 0) == sides.kept_in || inside_[s] > 1;
       count += !right && sides.right[s] != 0 && cloth.model->owner(s / n, s % n) > 0 ? 1 : 0;
       if (right) sides.right[s] = 1;
     }

@@ -96,6 +96,9 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
   // Baselines take the start as it is.
   if (Colliders::traits_of(scene.collider).filters)
     parts_->crossings.refuse_cloths_in_one_place(name);
+  parts_->find_buried();
+  for (const PlacedBody& body : parts_->bodies)
+    if (std::string text = buried_text(body); !text.empty()) parts_->notes.push_back(text);
   parts_->make_collider_of_scene();
   if (const std::string caution = parts_->approach.caution(parts_->substep_time); !caution.empty())
     parts_->notes.push_back(caution);
@@ -112,6 +115,7 @@ FrameReport Simulation::advance() {
   parts_->energy.add_work(report.work);
   for (const auto& mover : parts_->movers) mover.integrator->forget();
   parts_->collider->forget();
+  parts_->follow_buried();
   for (int substep = 0; substep < substeps; ++substep) {
     update(parts_->progress, "simulate",
            (parts_->frame + static_cast<double>(substep) / substeps) /
@@ -120,6 +124,7 @@ FrameReport Simulation::advance() {
   }
   report.milliseconds += clock.lap_ms();
   parts_->measure(report);
+  report.buried = parts_->buried.count();
   ++parts_->frame;
   return report;
 }
@@ -165,6 +170,7 @@ void Simulation::restore(const SimulationState& state) {
   if (parts_->driven.any_moves()) {
     parts_->driven.move_to(parts_->frame_start(), parts_->team);
     parts_->bodies_arrive();
+    parts_->find_buried();
     // A new collider, so that the jump of the bodies does not count as motion.
     parts_->make_collider_of_scene();
   }

@@ -94,12 +94,15 @@ void BodyContacts::find_row(const MovingCloth& cloth, std::span<const ContactBod
   }
 }
 
-/// Doubts a sample that touches a closed body, so that the next step asks on which side it is.
+/// Doubts a sample that touches a closed body, or is next to a part of it that lies in it, so that
+/// the next step asks on which side it is.
 void BodyContacts::doubt_touching(std::span<const ContactBody> bodies, int row, int col) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const NearSample* near = near_[b].find(row, col);
     if (near == nullptr || near->triangle < 0 || !bodies[b].query->closed()) continue;
-    if (!(std::abs(near->gap) < touching_part * static_cast<float>(kept_.gap))) continue;
+    if (!bodies[b].is_buried(near->triangle) &&
+        !(std::abs(near->gap) < touching_part * static_cast<float>(kept_.gap)))
+      continue;
     marks_.doubted[row * grid_.size() + col] = 1;
     touching_[row] = 1;
   }

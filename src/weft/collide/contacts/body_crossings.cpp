@@ -33,7 +33,9 @@ void BodyCrossings::try_pair(const Standing& standing, int triangle, int body_tr
                              std::vector<Meeting>& out) {
   const std::array<int, 3> a = standing.grid.triangle(triangle / 2, triangle % 2),
                            b = standing.body_grid.triangle(body_triangle / 2, body_triangle % 2);
-  if (standing.grid.folded(a) || standing.body_grid.folded(b)) return;
+  if (standing.grid.folded(a) || standing.body_grid.folded(b) ||
+      standing.body.is_buried(body_triangle))
+    return;
   const Corners own = corners_at(standing.cloth, a), other = corners_at(*standing.body.start, b);
   if (!triangles_cross(own, other)) return;
   Meeting meeting{triangle, body_triangle, {}, 0};
@@ -109,7 +111,8 @@ void BodyCrossings::add_contacts(const SurfaceGrid& grid, const MovingCloth& clo
     point.astray = true;
     point.farthest = exit.farthest;
     const auto at = body.query->closest(point.start, HUGE_VAL, meeting.body_triangle);
-    if (!at || body.query->behind(point.start, *at) == exit.kept_in) continue;
+    if (!at || body.is_buried(at->triangle) || body.query->behind(point.start, *at) == exit.kept_in)
+      continue;
     if (const auto contact = contact_before(body, *at, point, exit.kept)) out.push_back(*contact);
   }
 }

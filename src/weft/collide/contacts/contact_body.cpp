@@ -109,6 +109,7 @@ std::optional<Contact> contact_before(const ContactBody& body, const BodyPoint& 
     at_end = body.at_end->closest(
         point.start, reach_at_end(before.gap, body.max_approach) + contact_margin * kept.gap,
         at.triangle);
+  if (at_end && body.is_buried(at_end->triangle)) at_end.reset();
   const Vec3d moved =
       surface_displacement(body, at, at_end ? &*at_end : nullptr, before, point.start);
   if (!comes_near(before, point.displacement, dot(before.normal, moved), kept)) return std::nullopt;

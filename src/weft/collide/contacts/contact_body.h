@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "weft/collide/broad_phase/candidate_pairs.h"
 #include "weft/collide/collider.h"
@@ -24,6 +25,21 @@ struct ContactBody {
   const BlockMotion* blocks = nullptr;  ///< its motion by blocks; null where it stands still
   int motion = 0;                       ///< identifier of this motion of the body
   int placement = 0;                    ///< identifier of where it is at the start
+  /// Per triangle, 2 * cell + half: 2 where it lies in the body itself, as where an arm enters the
+  /// side, 1 where it does so in part or leaves no room for cloth before it, 0 elsewhere; empty:
+  /// all are 0. Nothing passes through any but those of 0.
+  std::span<const char> buried{};
+
+  /// @param triangle  or -1: none
+  [[nodiscard]] bool is_buried(int triangle) const { return mark_of(triangle) > 0; }
+  /// Whether a triangle lies wholly in the body: what is between it and the side that it passed is
+  /// behind it, and belongs there.
+  [[nodiscard]] bool is_crossed(int triangle) const { return mark_of(triangle) > 1; }
+
+ private:
+  [[nodiscard]] char mark_of(int triangle) const {
+    return buried.empty() || triangle < 0 ? 0 : buried[static_cast<std::size_t>(triangle)];
+  }
 };
 
 /// Displacement of a point of a body's surface during the step. [m]

@@ -232,7 +232,8 @@ void CornerContacts::make_contact(const Search& search, const Touch& touch,
   };
   if (!look()) return;
   w = closest_weights(at->position, start);
-  if (!look() || std::max({w[0], w[1], w[2]}) > nearly_all) return;
+  if (!look() || search.body.is_buried(at->triangle) || std::max({w[0], w[1], w[2]}) > nearly_all)
+    return;
   ClothPoint point = point_of_triangle(search.step.cloth, samples, w);
   point.kept_in = keeps_in(search.body.number - 1);
   if (search.body.query->closed() && search.body.query->behind(point.start, *at) != point.kept_in)

@@ -229,7 +229,9 @@ void NearSamples::Tile::look_deep(int k) {
       search_.body.query->closest(start, HUGE_VAL, all_.known_.triangle(numbers_[k]));
   if (!found) return;
   all_.known_.set(numbers_[k], one.start, {std::sqrt(found->squared_distance), found->triangle});
-  one.astray = search_.body.query->behind(start, *found) != all_.keeps_in_;
+  const bool crossed = search_.body.is_crossed(found->triangle);
+  one.astray = (crossed || !search_.body.is_buried(found->triangle)) &&
+               search_.body.query->behind(start, *found) != (all_.keeps_in_ != crossed);
   set_start(k, *found);
 }
 
@@ -246,7 +248,7 @@ ClothPoint NearSamples::Tile::point_of(int k) const {
   ClothPoint point;
   point.samples[0] = numbers_[k];
   point.start = vec_cast<double>(samples_[k]->start);
-  point.kept_in = all_.keeps_in_;
+  point.kept_in = all_.keeps_in_ != search_.body.is_crossed(samples_[k]->triangle);
   point.astray = samples_[k]->astray;
   point.farthest = search_.farthest_exit;
   return point;
@@ -287,8 +289,11 @@ void NearSamples::Tile::find_ends() {
   }
   if (asked_.count == 0) return;
   body.at_end->closest(asked_, found_);
-  for (int i = 0; i < asked_.count; ++i)
-    set_end(of_[i], found_[i].point.triangle >= 0 ? &found_[i].point : nullptr);
+  for (int i = 0; i < asked_.count; ++i) {
+    const BodyPoint& at_end = found_[i].point;
+    const bool known = at_end.triangle >= 0 && !body.is_buried(at_end.triangle);
+    set_end(of_[i], known ? &at_end : nullptr);
+  }
 }
 
 void NearSamples::Tile::set_end(int k, const BodyPoint* at_end) {
@@ -309,6 +314,8 @@ void NearSamples::add_contact(const MovingCloth& cloth, const ContactBody& body,
                               std::vector<Contact>& out) const {
   const NearSample* near = find(row, col);
   if (near == nullptr || near->triangle < 0 || near->motion != body.motion) return;
+  const bool crossed = body.is_crossed(near->triangle);
+  if (!crossed && body.is_buried(near->triangle)) return;
   const Vec3d displacement =
       vec_cast<double>(cloth.position.at(row, col)) - vec_cast<double>(near->start);
   add_opposite(*near, displacement, body, row * grid_.size() + col, out);
@@ -319,6 +326,9 @@ void NearSamples::add_contact(const MovingCloth& cloth, const ContactBody& body,
   contact.normal = near->normal;
   contact.offset = near->offset;
   contact.lift = near->lift;
+  // Between sides that cross there is no room for a gap.
+  if (crossed && !near->astray)
+    put_offset(near->offset - std::min<double>(kept_.gap, near->gap), near->gap, 0, contact);
   contact.friction =
       near->astray ? 0 : static_cast<float>(pair_friction(kept_.friction, body.friction));
   contact.surface_displacement = near->displacement;
@@ -328,7 +338,7 @@ void NearSamples::add_contact(const MovingCloth& cloth, const ContactBody& body,
 void NearSamples::add_opposite(const NearSample& near, Vec3d displacement, const ContactBody& body,
                                int sample, std::vector<Contact>& out) const {
   const int triangle = opposite_[place_[sample]];
-  if (triangle < 0) return;
+  if (triangle < 0 || body.is_buried(triangle)) return;
   ClothPoint point;
   point.samples[0] = sample;
   point.start = vec_cast<double>(near.start);
@@ -376,7 +386,7 @@ double NearSamples::smallest_of(const NearestTile& asked, const NearestPoints& f
   double least = HUGE_VAL;
   for (int k = 0; k < asked.count; ++k) {
     const BodyPoint& point = found[k].point;
-    if (point.triangle < 0) continue;
+    if (point.triangle < 0 || body.is_buried(point.triangle)) continue;
     const double distance = std::sqrt(point.squared_distance);
     const Vec3d at = vec_cast<double>(asked.at[k]);
     const bool astray = body.query->closed() && body.query->behind(at, point) != keeps_in_;

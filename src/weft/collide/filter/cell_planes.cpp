@@ -114,7 +114,8 @@ class CellSearch {
     }
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2 && !crosses_body(cells.a, i); ++j)
-        triangles(placed, a.triangle_corners(cells.a, i), b.triangle_corners(cells.b, j));
+        if (!is_buried(cells.b, j))
+          triangles(placed, a.triangle_corners(cells.a, i), b.triangle_corners(cells.b, j));
   }
 
   static Samples pick(const std::array<int, 4>& samples, const TriangleCorners& corners) {
@@ -247,6 +248,11 @@ class CellSearch {
 
   [[nodiscard]] bool crosses_body(int cell, int half) const {
     return search_.crossings != nullptr && search_.crossings->crosses(cell, half);
+  }
+
+  [[nodiscard]] bool is_buried(int cell, int half) const {
+    return !search_.buried.empty() &&
+           search_.buried[2 * static_cast<std::size_t>(cell) + half] != 0;
   }
 
   void add(const MovingFeature& a, const MovingFeature& b) {

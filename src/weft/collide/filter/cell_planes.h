@@ -31,6 +31,7 @@ struct PlaneSearch {
   const InsideMarks* inside = nullptr;  ///< inside marks of a, where b is a body
   int body_number = 0;                  ///< triangles of a with a sample marked by it get no plane
   const BodyCrossings* crossings = nullptr;  ///< of a, where b is a body: those get no plane either
+  std::span<const char> buried{};            ///< see ContactBody; those of b get no plane
   const TangleMarks* tangle = nullptr;       ///< marks of cloths that cross; else null
   /// Per point of all cloths, whether its end has changed: only pairs of triangles with such a
   /// corner are searched; null: all are.

@@ -101,6 +101,7 @@ void StepFilter::add_planes(bool all, double farthest, ThreadTeam& team) {
         search.inside = &world_.cloths[i].body_contacts->inside();
         search.body_number = static_cast<int>(j - cloths_.size()) + 1;
         search.crossings = &world_.cloths[i].crossings[j - cloths_.size()];
+        search.buried = world_.bodies[j - cloths_.size()].buried;
       }
       cell_planes_.find(search, cells, team, planes_);
     }
@@ -347,9 +348,12 @@ bool StepFilter::do_round(std::span<const MovingCloth> moving, double time_step,
       for (BodyCrossings& crossings : cloth.crossings) crossings.look_again();
     }
   }
-  all_anew_ = held.lost > 0 && bodies_move;
+  // Where safe positions that follow bodies as far as ever do not help, sides of a body close on
+  // the cloth: what is lost there stays so, and takes nothing else back with it.
+  const bool caught = spread_ >= max_spread;
+  all_anew_ = held.lost > 0 && bodies_move && !caught;
   if (all_anew_) carry_safe_positions(moving, spread_ = std::min(2 * spread_, max_spread), team);
-  const bool settled = held.stopped + held.far == 0 && (held.lost == 0 || !bodies_move);
+  const bool settled = held.stopped + held.far == 0 && (held.lost == 0 || !bodies_move || caught);
   if (!settled && round >= rounds_on_the_way)
     fall_back_to_safe_positions(moving, 1 << (round - rounds_on_the_way), round + 1 == max_rounds);
   world_.copy_to_mates(moving);

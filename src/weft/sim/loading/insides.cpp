@@ -1,6 +1,7 @@
 #include "weft/sim/loading/insides.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -58,7 +59,9 @@ void ClosedBody::follow() {
     for (const Vec3d corner : t) box_.add(corner);
 }
 
-bool ClosedBody::holds(Vec3d point) const { return is_in(box_, point) && winding_->at(point) != 0; }
+int ClosedBody::depth(Vec3d point) const {
+  return is_in(box_, point) ? std::abs(winding_->at(point)) : 0;
+}
 
 bool ClosedBody::holds_all(const Planes3& samples) const {
   for (int s = 0; s < samples.size() * samples.size(); ++s)
@@ -73,7 +76,8 @@ void ClosedBody::mark_inside(const Planes3& samples, ThreadTeam& team,
   team.run([&](Worker& worker) {
     const Range mine = worker.share(count);
     for (int s = mine.first; s < mine.last; ++s) {
-      inside[static_cast<std::size_t>(s)] = holds(vec_cast<double>(samples.at(s))) ? 1 : 0;
+      inside[static_cast<std::size_t>(s)] =
+          static_cast<char>(std::min(2, depth(vec_cast<double>(samples.at(s)))));
     }
   });
 }

@@ -39,6 +39,8 @@ class BodyMotion {
   BodyMotion(const SceneBody& body, const LoadedSurface& surface, const Files& files);
 
   [[nodiscard]] bool moves() const { return !path_.empty() || animation_.has_value(); }
+  /// Whether it changes the body's shape.
+  [[nodiscard]] bool deforms() const { return animation_.has_value(); }
   /// Samples a side, n, of a body that moves.
   [[nodiscard]] int size() const { return rest_.size(); }
   /// Sets the positions of all samples at a time; mates are equal.

@@ -26,7 +26,8 @@ IntersectionCheck& SceneCrossings::check() {
   for (const SimulatedCloth& cloth : loaded_.cloths)
     cloths.push_back(
         {&cloth.state.position, &*triangles++, cloth.garment ? &cloth.garment->sewn : nullptr});
-  for (const PlacedBody& body : loaded_.bodies) bodies.push_back({&body.positions, &*triangles++});
+  for (const PlacedBody& body : loaded_.bodies)
+    bodies.push_back({&body.positions, &*triangles++, nullptr, &body.buried});
   return check_.emplace(cloths, bodies, scene_.ground);
 }
 

@@ -12,6 +12,7 @@
 #include "weft/sim/sewing/garments.h"
 #include "weft/sim/stepping/adaptive_substeps.h"
 #include "weft/sim/stepping/approach_limit.h"
+#include "weft/sim/stepping/buried_bodies.h"
 #include "weft/sim/stepping/energy_budget.h"
 #include "weft/sim/stepping/mover.h"
 #include "weft/sim/stepping/scene_crossings.h"
@@ -55,10 +56,15 @@ struct Simulation::Parts : LoadedScene {
   double follow_sewing();
   /// Makes movers anew, for cloths with other springs or bending.
   void renew_movers();
+  /// Finds what of the bodies lies in themselves where they are.
+  void find_buried();
+  /// The same for the frame that begins.
+  void follow_buried();
   /// Ends the step: bodies take their end positions.
   void bodies_arrive();
   /// The time at which the frame begins. [s]
   [[nodiscard]] double frame_start() const { return substep_time * (frame * scene.substeps); }
+  [[nodiscard]] double frame_end() const { return substep_time * ((frame + 1) * scene.substeps); }
   /// The step that bodies have been moved for.
   [[nodiscard]] ApproachLimit::Step approached() const { return {*collider, time_step, frame}; }
   /// Number of steps, a power of 2, that moving bodies and pins require of a substep.
@@ -182,6 +188,7 @@ struct Simulation::Parts : LoadedScene {
   Garments garments{cloths, sewing, other_bending, gathers};
   ApproachLimit approach{scene, name, *this};
   SceneCrossings crossings{scene, *this};
+  BuriedBodies buried{*this};
   EnergyBudget energy{cloths, movers};
   StabilityCheck stability{name, cloths, movers};
 };

@@ -48,6 +48,7 @@ void Simulation::Parts::make_collider_of_scene() {
   }
   collider = make_collider(scene.collider, obstacles, colliding);
   collider->share_contacts(joint != nullptr);
+  buried.tell(*collider);
 }
 
 Mover Simulation::Parts::make_mover(std::size_t index) {

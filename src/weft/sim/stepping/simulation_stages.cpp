@@ -74,6 +74,19 @@ void Simulation::Parts::move_bodies(double seconds) {
   moved_to = seconds;
 }
 
+void Simulation::Parts::find_buried() {
+  driven.move_to(frame_start(), team);
+  moved_to.reset();
+  buried.set_up(team);
+}
+
+void Simulation::Parts::follow_buried() {
+  if (!driven.any_moves()) return;
+  driven.move_to(frame_end(), team);
+  moved_to.reset();
+  buried.begin_frame(*collider, team);
+}
+
 void Simulation::Parts::move_driven(double seconds) {
   move_bodies(seconds);
   const DrivenPins::Step step{step_start, seconds, body_starts, driven.ends()};

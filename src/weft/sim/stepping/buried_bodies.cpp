@@ -1,0 +1,88 @@
+#include "weft/sim/stepping/buried_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "weft/sim/stepping/cloth_gaps.h"
+
+namespace weft {
+namespace {
+
+/// Leaves marks empty where there are none.
+void put_marks(const std::vector<char>& marks, PlacedBody& body) {
+  body.buried = marks;
+  const bool none = std::all_of(marks.begin(), marks.end(), [](char mark) { return mark == 0; });
+  if (none) body.buried.clear();
+}
+
+bool is_representative(const GeometryImage& image, int sample) {
+  return image.mates.size() == 0 || image.mates.representative(sample) == sample;
+}
+
+int count_in_itself(const PlacedBody& body) {
+  int count = 0;
+  for (int s = 0; s < static_cast<int>(body.buried.size()); ++s)
+    count += body.buried[s] == 2 && is_representative(body.image, s) ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+void BuriedBodies::set_up(ThreadTeam& team) {
+  double gap = HUGE_VAL;
+  for (const SimulatedCloth& cloth : loaded_.cloths) gap = std::min(gap, gap_of(*cloth.model));
+  changing_.clear();
+  for (std::size_t b = 0; b < loaded_.bodies.size(); ++b) {
+    const bool keeps_in =
+        std::any_of(loaded_.start_sides.begin(), loaded_.start_sides.end(),
+                    [b](const StartSides& sides) { return sides.kept_in[b] != 0; });
+    if (!keeps_in) look_at(b, gap, team);
+  }
+}
+
+void BuriedBodies::look_at(std::size_t index, double gap, ThreadTeam& team) {
+  PlacedBody& body = loaded_.bodies[index];
+  const bool deforms = loaded_.driven.motion(index).deforms();
+  auto samples = std::make_unique<BuriedSamples>(
+      body.image, deforms ? *loaded_.driven.ends()[index] : body.positions, gap);
+  if (!samples->closed()) return;
+  std::vector<char> marks;
+  samples->find(team, marks);
+  put_marks(marks, body);
+  if (deforms) changing_.push_back({index, std::move(samples), marks, marks});
+}
+
+void BuriedBodies::begin_frame(Collider& collider, ThreadTeam& team) {
+  for (Changing& one : changing_) {
+    PlacedBody& body = loaded_.bodies[one.body];
+    one.at_start = one.at_end;
+    if (largest_displacement(body.positions, *loaded_.driven.ends()[one.body]) > 0)
+      one.samples->find(team, one.at_end);
+    for (std::size_t s = 0; s < one.at_end.size(); ++s)
+      one.at_start[s] = std::max(one.at_start[s], one.at_end[s]);
+    put_marks(one.at_start, body);
+    collider.bury(one.body, body.buried);
+  }
+}
+
+void BuriedBodies::tell(Collider& collider) const {
+  for (std::size_t b = 0; b < loaded_.bodies.size(); ++b)
+    collider.bury(b, loaded_.bodies[b].buried);
+}
+
+int BuriedBodies::count() const {
+  int count = 0;
+  for (const PlacedBody& body : loaded_.bodies) count += count_in_itself(body);
+  return count;
+}
+
+std::string buried_text(const PlacedBody& body) {
+  const int count = count_in_itself(body);
+  if (count == 0) return {};
+  return fmt::format("body '{}' crosses itself: {} of its samples lie in it, and keep no cloth off",
+                     body.name, count);
+}
+
+}  // namespace weft
