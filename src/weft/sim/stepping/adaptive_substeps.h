@@ -20,7 +20,7 @@ struct ApproachRule {
   /// Gaps that bodies approach in a step at most: at up to calm_speed, and at any speed; in inverse
   /// proportion to the speed between.
   static constexpr double most_gaps = 3, least_gaps = 0.75;
-  static constexpr double calm_speed = 6;  ///< [m/s]
+  static constexpr double calm_speed = 3;  ///< [m/s]
 
   double gap = 0;      ///< the smallest [m]
   double seconds = 0;  ///< of the motion whose approach is told [s]
