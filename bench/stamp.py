@@ -26,7 +26,7 @@ SOURCES = {
     "ccd": ("src/weft/collide/ccd.cpp", "src/weft/collide/ccd.h"), "polar_map": ("src/weft/collide",),
     "broad_phases": ("src/weft/collide/broad_phase",),
     "validate": (*SIMULATION, "tests/cloth", "tests/sim"), "self_cost": SIMULATION, "scenes": SIMULATION, "tight_scenes": SIMULATION, "soak": SIMULATION,
-    "patterns": (*SIMULATION, "src/weft/garment"),
+    "patterns": (*SIMULATION, "src/weft/garment"), "at_rest": (*SIMULATION, "src/weft/garment"),
     "drape": (*CLOTH, "src/weft/sim/drape_coefficient.cpp", "src/weft/sim/materials.cpp"),
 }
 # Options whose next word is a file or a folder that a bench keeps its work in.

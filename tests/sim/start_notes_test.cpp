@@ -49,10 +49,13 @@ TEST(StartNotes, GarmentsThatNobodyCanWearAreTold) {
   EXPECT_EQ(unfit_text(cube(3), bodies), "");
   EXPECT_EQ(unfit_text(cube(0.1), bodies), "");
   EXPECT_EQ(unfit_text(cube(100), {}), "");
-  EXPECT_EQ(
-      unfit_text(cube(4.5), bodies),
-      "is 4.5 m across, and no body more than 1.8 m: is units_in_meter of its pattern right?");
-  EXPECT_NE(unfit_text(cube(0.01), bodies), "");
+  EXPECT_EQ(unfit_text(cube(4.5), bodies),
+            "is 4.5 m across, and the largest body 1.8 m: is units_in_meter of its pattern right?");
+  EXPECT_NE(unfit_text(cube(0.05), bodies), "");
+  EXPECT_EQ(unwearable_text(cube(4.5), bodies) + unwearable_text(cube(0.05), bodies), "");
+  EXPECT_EQ(unwearable_text(cube(10), bodies), "is 10 m across, and the largest body 1.8 m");
+  EXPECT_NE(unwearable_text(cube(0.01), bodies), "");
+  EXPECT_EQ(unwearable_text(cube(100), {}), "");
 }
 
 }  // namespace

@@ -266,8 +266,13 @@ void Loader::compare_sizes() {
       tell(bodies[i].name, unlike_text(box_of(bodies[i].positions), boxes));
   std::vector<Box3d> worn_by;
   for (const PlacedBody& body : bodies) worn_by.push_back(box_of(body.positions));
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (cloths[i].garment) tell(cloths[i].name, unfit_text(boxes[i], worn_by));
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    if (!cloths[i].garment) continue;
+    if (const std::string sizes = unwearable_text(boxes[i], worn_by); !sizes.empty())
+      throw SceneError(name_, fmt::format("garment '{}' {}", cloths[i].name, sizes),
+                       "a pattern with the units_in_meter that it has is wanted");
+    tell(cloths[i].name, unfit_text(boxes[i], worn_by));
+  }
 }
 
 void Loader::tie_cloths() {

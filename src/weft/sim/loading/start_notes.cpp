@@ -17,6 +17,8 @@ constexpr double unlike = 50;
 /// Sizes of garments over those of bodies, or the other way round, that are taken for a mistake:
 /// inches taken for centimetres are 2.5. Collars and cuffs are small.
 constexpr double too_large = 2.3, too_small = 20;
+/// The same beyond any doubt: nobody wears that.
+constexpr double far_too_large = 4, far_too_small = 60;
 
 double size_of(const Box3d& box) {
   const Vec3d sides = box.upper - box.lower;
@@ -60,14 +62,28 @@ std::string unlike_text(const Box3d& body, std::span<const Box3d> cloths) {
                      other);
 }
 
-std::string unfit_text(const Box3d& garment, std::span<const Box3d> bodies) {
+namespace {
+
+/// The size of a garment beside that of the largest body, where it is so many times as large as
+/// that, or as small.
+std::string misfit_text(const Box3d& garment, std::span<const Box3d> bodies, double large,
+                        double small) {
   double largest = 0;
   for (const Box3d& body : bodies) largest = std::max(largest, size_of(body));
   const double size = size_of(garment);
-  if (largest == 0 || (size <= too_large * largest && size * too_small >= largest)) return {};
-  return fmt::format(
-      "is {:.3g} m across, and no body more than {:.3g} m: is units_in_meter of its pattern right?",
-      size, largest);
+  if (largest == 0 || (size <= large * largest && size * small >= largest)) return {};
+  return fmt::format("is {:.3g} m across, and the largest body {:.3g} m", size, largest);
+}
+
+}  // namespace
+
+std::string unfit_text(const Box3d& garment, std::span<const Box3d> bodies) {
+  const std::string sizes = misfit_text(garment, bodies, too_large, too_small);
+  return sizes.empty() ? sizes : sizes + ": is units_in_meter of its pattern right?";
+}
+
+std::string unwearable_text(const Box3d& garment, std::span<const Box3d> bodies) {
+  return misfit_text(garment, bodies, far_too_large, far_too_small);
 }
 
 }  // namespace weft

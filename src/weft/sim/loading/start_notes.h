@@ -21,5 +21,7 @@ std::string unlike_text(const Box3d& body, std::span<const Box3d> cloths);
 /// Where a garment is too large for every body that may wear it, or too small.
 /// @param bodies  their boxes [m]
 std::string unfit_text(const Box3d& garment, std::span<const Box3d> bodies);
+/// The same where it is beyond doubt, so that the scene is refused.
+std::string unwearable_text(const Box3d& garment, std::span<const Box3d> bodies);
 
 }  // namespace weft
