@@ -163,6 +163,16 @@ TEST(BuriedBodies, AreToldOfAtTheStart) {
       << simulation.notes()[0];
 }
 
+TEST(BuriedBodies, KeepClothOffWhereSidesAreNextToEachOtherFromTheBegin) {
+  Scene scene = pressed_between();
+  scene.bodies[0].surface = {two_balls(2 * radius + 0.25 * gap), "balls"};
+  scene.bodies[0].animation = {};
+  scene.cloths[0].placement.translate = {0, 1, 0};
+  const Simulation simulation(scene, "scene", 1);
+  EXPECT_TRUE(simulation.bodies()[0].buried.empty());
+  EXPECT_TRUE(simulation.notes().empty());
+}
+
 TEST(BuriedBodies, AreNoneOfABodyThatKeepsClothIn) {
   Scene scene = pressed_between();
   scene.bodies[0].surface = {two_balls(0.28), "balls"};

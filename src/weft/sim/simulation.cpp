@@ -96,7 +96,7 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
   // Baselines take the start as it is.
   if (Colliders::traits_of(scene.collider).filters)
     parts_->crossings.refuse_cloths_in_one_place(name);
-  parts_->find_buried();
+  parts_->buried.set_up(parts_->team);
   for (const PlacedBody& body : parts_->bodies)
     if (std::string text = buried_text(body); !text.empty()) parts_->notes.push_back(text);
   parts_->make_collider_of_scene();
@@ -170,7 +170,7 @@ void Simulation::restore(const SimulationState& state) {
   if (parts_->driven.any_moves()) {
     parts_->driven.move_to(parts_->frame_start(), parts_->team);
     parts_->bodies_arrive();
-    parts_->find_buried();
+    parts_->buried.look_again(parts_->team);
     // A new collider, so that the jump of the bodies does not count as motion.
     parts_->make_collider_of_scene();
   }

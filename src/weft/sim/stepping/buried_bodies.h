@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,8 +18,10 @@ class BuriedBodies {
  public:
   /// @param loaded  kept by reference; its bodies get their marks
   explicit BuriedBodies(LoadedScene& loaded) : loaded_(loaded) {}
-  /// Looks at the bodies where they are. @pre `driven` has them there
+  /// Looks at the bodies where they begin. @pre `driven` has them there
   void set_up(ThreadTeam& team);
+  /// Looks at those that change their shape where they are, as a run is resumed. @pre as set_up
+  void look_again(ThreadTeam& team);
   /// Begins a frame, at whose end `driven` has the bodies.
   void begin_frame(Collider& collider, ThreadTeam& team);
   /// Tells a new collider of the marks.
@@ -31,11 +34,15 @@ class BuriedBodies {
   struct Changing {
     std::size_t body = 0;
     std::unique_ptr<BuriedSamples> samples;
-    std::vector<char> at_start, at_end;  // of the frame [n * n]
+    Planes3 begin;                         // positions at the begin of the run [m]
+    std::vector<char> at_start, at_end{};  // of the frame [n * n]
   };
-  void look_at(std::size_t body, double gap, ThreadTeam& team);
+  void look_at(std::size_t body, ThreadTeam& team);
+  /// Whether a body is where it began, up to a gap.
+  [[nodiscard]] bool at_begin(const Changing& one, const Planes3& positions) const;
 
   LoadedScene& loaded_;
+  double gap_ = HUGE_VAL;  // the smallest that a cloth keeps to bodies [m]
   std::vector<Changing> changing_;
 };
 

@@ -56,9 +56,7 @@ struct Simulation::Parts : LoadedScene {
   double follow_sewing();
   /// Makes movers anew, for cloths with other springs or bending.
   void renew_movers();
-  /// Finds what of the bodies lies in themselves where they are.
-  void find_buried();
-  /// The same for the frame that begins.
+  /// Finds what of the bodies lies in themselves in the frame that begins.
   void follow_buried();
   /// Ends the step: bodies take their end positions.
   void bodies_arrive();

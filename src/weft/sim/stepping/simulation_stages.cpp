@@ -74,12 +74,6 @@ void Simulation::Parts::move_bodies(double seconds) {
   moved_to = seconds;
 }
 
-void Simulation::Parts::find_buried() {
-  driven.move_to(frame_start(), team);
-  moved_to.reset();
-  buried.set_up(team);
-}
-
 void Simulation::Parts::follow_buried() {
   if (!driven.any_moves()) return;
   driven.move_to(frame_end(), team);
