@@ -4,10 +4,8 @@
 Usage: bench/at_rest.py [--pattern FILE] [--body FILE] [--threads N] [--write] [SPACING ...]
 """
 import argparse
-import json
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 import time
@@ -19,27 +17,17 @@ COLUMNS = ("spacing mm", "particles", "seams closed", "closed in frame", "frames
            "ms per frame, median", "peak memory MB", "strain p99 %", "intersections in any frame")
 
 
-def run(spacing, options, folder):
-    """(report, errors, seconds, peak memory in MB)."""
-    out = pathlib.Path(folder, f"{spacing:g}")
-    words = [program.PROGRAM, "garment", options.pattern, "--body", options.body, "-o", out, "--spacing", spacing,
-             "--threads", options.threads, "--json"]
-    begin = time.monotonic()
-    with open(f"{out}.json", "w+", encoding="utf-8") as report, open(f"{out}.txt", "w+", encoding="utf-8") as errors:
-        child = subprocess.Popen(list(map(str, words)), stdout=report, stderr=errors)
-        _, status, used = os.wait4(child.pid, 0)
-        child.returncode = os.waitstatus_to_exitcode(status)
-        report.seek(0)
-        errors.seek(0)
-        return json.loads(report.read()), errors.read(), time.monotonic() - begin, used.ru_maxrss / 1000
-
-
 def row_of(spacing, options, folder):
-    report, errors, seconds, megabytes = run(spacing, options, folder)
+    words = ["garment", options.pattern, "--body", options.body, "--spacing", spacing, "--threads", options.threads]
+    begin = time.monotonic()
+    report, errors, used = program.run_measured(words, pathlib.Path(folder, f"{spacing:g}"))
+    seconds = time.monotonic() - begin
+    if report is None:
+        return [f"{spacing:g}", errors.splitlines()[-1]] + [""] * (len(COLUMNS) - 2)
     seams, rests = report["seams"], "at rest in frame" in errors
     return [f"{spacing:g}", report["particles"], f"{seams['closed']} of {seams['count']}", seams["frames"],
             report["frames"] if rests else f"moves after {report['frames']}", f"{seconds:.0f}",
-            f"{report['ms_per_frame']['median']:.0f}", f"{megabytes:.0f}", f"{100 * report['strain']['p99']:.2f}",
+            f"{report['ms_per_frame']['median']:.0f}", f"{used.ru_maxrss / 1000:.0f}", f"{100 * report['strain']['p99']:.2f}",
             sum(report["intersections_found"][kind] for kind in ("self", "cloths", "bodies", "ground"))]
 
 

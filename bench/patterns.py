@@ -21,18 +21,10 @@ COLUMNS = ("pattern", "panels", "particles", "seams closed", "largest gap mm", "
 
 
 def run(pattern, options, folder):
-    """(report or None, errors, processor seconds); a report tells of failed checks, too."""
-    out = pathlib.Path(folder, pattern.stem)
-    words = [program.PROGRAM, "garment", pattern, "--body", options.body, "-o", out, "--frames", options.frames, "--threads", 1,
-             "--verify", "--json", "--quiet"]
-    with open(f"{out}.json", "w+", encoding="utf-8") as report, open(f"{out}.txt", "w+", encoding="utf-8") as errors:
-        child = subprocess.Popen(list(map(str, words)), stdout=report, stderr=errors)
-        _, status, used = os.wait4(child.pid, 0)
-        child.returncode = os.waitstatus_to_exitcode(status)
-        report.seek(0)
-        errors.seek(0)
-        text = report.read()
-        return json.loads(text) if text else None, errors.read().strip(), used.ru_utime + used.ru_stime
+    """(report or None, errors, processor seconds)."""
+    words = ["garment", pattern, "--body", options.body, "--frames", options.frames, "--threads", 1, "--verify", "--quiet"]
+    report, errors, used = program.run_measured(words, pathlib.Path(folder, pattern.stem))
+    return report, errors, used.ru_utime + used.ru_stime
 
 
 def draw(run_folder, options):

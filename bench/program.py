@@ -2,6 +2,7 @@
 import argparse
 import csv
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -18,6 +19,20 @@ def run(*words):
     if done.returncode != 0:
         return None, f"exit {done.returncode}: {done.stderr.strip().removeprefix('weft: error: ')}"
     return json.loads(done.stdout), None
+
+
+def run_measured(words, out):
+    """(report or None, errors, what the process used) of a run; a report tells of failed checks, too.
+
+    What it prints goes to files beside the folder `out`."""
+    with open(f"{out}.json", "w+", encoding="utf-8") as report, open(f"{out}.txt", "w+", encoding="utf-8") as errors:
+        child = subprocess.Popen([PROGRAM, *map(str, words), "-o", out, "--json"], stdout=report, stderr=errors)
+        _, status, used = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        report.seek(0)
+        errors.seek(0)
+        text = report.read()
+        return json.loads(text) if text else None, errors.read().strip(), used
 
 
 def column_of(folder, name):

@@ -88,8 +88,8 @@ constexpr double colliding_cloth_bytes_per_sample = 420, colliding_body_bytes_pe
 constexpr double counted_cloth_bytes_per_sample = 440;
 /// Of a moving body: rest, both ends of a step, and the blend of each sample.
 constexpr double moving_bytes_per_sample = 64;
-/// Of one that changes its shape, beside that: where it lies in itself.
-constexpr double deforming_bytes_per_sample = 170;
+/// Of one that changes its shape, beside that: where it lies in itself, and where it began.
+constexpr double deforming_bytes_per_sample = 182;
 constexpr double margin = 1.25, short_share = 0.8;
 
 double animation_bytes(const Animation& animation, const MotionSampling& sampling) {
