@@ -16,6 +16,8 @@ namespace {
 
 constexpr double millimetre = 0.001;
 constexpr int default_frames = 240;
+/// As while it is sewn: hems would swing for ten seconds. [1/s]
+constexpr double damping_until_rest = 6;
 
 struct GarmentArgs {
   std::string pattern, body;
@@ -39,6 +41,7 @@ void sew_garment(const GarmentArgs& args, const Context& context) {
   scene.bodies.push_back(body);
   RunArgs run = args.run;
   run.until_rest = args.run.frames == 0;
+  if (run.until_rest) scene.air_damping = damping_until_rest;
   run.scene_file = std::filesystem::path(args.run.folder) / "scene.json";
   run_and_report(scene, run.scene_file.string(), run, context);
 }

@@ -139,7 +139,7 @@ RunReport run_scene(const Scene& scene, const std::string& name, const RunOption
 std::string to_json(const RunReport& report);
 
 /// The largest rise of kinetic plus potential energy above an earlier minimum, less the work of
-/// pins, moving bodies and wind in between. [J]
+/// pins, moving bodies, wind and air in between. [J]
 double energy_gained(const RunReport& report);
 /// The same as a part of what the cloths' weight does over 1 m; 0: they weigh nothing.
 double relative_energy_gained(const RunReport& report);

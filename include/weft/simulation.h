@@ -56,7 +56,7 @@ struct FrameReport {
   int buried = 0;           ///< samples of bodies that lie in their body, see PlacedBody
   /// Time by which cloth lags behind, since steps that gained energy were gone in part only. [s]
   double lost_time = 0;
-  double work = 0;  ///< of pins, moving bodies and wind [J]
+  double work = 0;  ///< of pins, moving bodies, wind and air [J]
   /// The minimum signed distance of a particle to an obstacle, negative on its wrong side. Bodies
   /// count within twice the thickness; infinite when nothing counts. [m]
   double smallest_gap = HUGE_VAL;
@@ -104,7 +104,7 @@ struct StartInside {
   bool kept_in = false;
 };
 
-/// The work of pins, moving bodies and wind.
+/// The work of pins, moving bodies, wind and air.
 struct WorkDone {
   double net = 0;    ///< [J]
   double gross = 0;  ///< sum of its absolute values over all steps [J]

@@ -63,7 +63,7 @@ class Frame:
     """What is known of a frame; it stays as it was when the simulation goes on, but for the intersections.
 
     Fields: ``number`` (from 1), ``time`` [s], ``strain`` (a `Strain`), ``milliseconds``, ``iterations``, ``residual``,
-    ``kinetic_energy``, ``potential_energy``, ``work`` (of pins, bodies and wind) [J], ``contacts``, ``self_contacts``,
+    ``kinetic_energy``, ``potential_energy``, ``work`` (of pins, bodies, wind and air) [J], ``contacts``, ``self_contacts``,
     ``stopped``, ``fell_back``, ``buried``, ``lost_time`` [s], ``smallest_gap`` [m], ``centre_of_mass`` [m].
     """
 
@@ -110,11 +110,11 @@ class Simulation:
     """A scene and its simulation: the same bits as `weft simulate` makes of it, for any number of threads.
 
     frame_rate [1/s]; substeps a frame; gravity [m/s^2]; ground: its height [m] or None; wind: its velocity [m/s] or
-    {"velocity", "drag", "lift"}; integrator, collider: a name, or a dictionary with ``type`` and its options, as in scene files.
+    {"velocity", "drag", "lift"}; air_damping: rate at which cloth loses its velocity [1/s]; integrator, collider: a name, or a dictionary with ``type`` and its options, as in scene files.
     Bodies and cloths are added before the first frame.
     """
 
-    def __init__(self, *, frame_rate=60, substeps=4, gravity=(0, -9.81, 0), ground=0.0, wind=None, integrator="newton",
+    def __init__(self, *, frame_rate=60, substeps=4, gravity=(0, -9.81, 0), ground=0.0, wind=None, air_damping=0.0, integrator="newton",
                  collider="pyramid", threads=None, name="scene"):
         self._threads = _arguments.threads(threads)
         self._name, self._folder = str(name), ""
@@ -123,6 +123,7 @@ class Simulation:
                        "substeps": _arguments.integer(substeps, "substeps", 1, 10**4),
                        "gravity": _arguments.vector(gravity, "gravity"),
                        "ground": None if ground is None else _arguments.number(ground, "ground"),
+                       "air_damping": _arguments.number(air_damping, "air_damping", least=0),
                        "integrator": _method(integrator), "collider": _method(collider), "cloths": [], "bodies": []}
         if wind is not None:
             self._scene["wind"] = dict(wind) if isinstance(wind, dict) else {"velocity": _arguments.vector(wind, "wind")}

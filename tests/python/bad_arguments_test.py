@@ -213,6 +213,7 @@ CASES = [
     (Shape, "substeps", lambda: scene(substeps=0)),
     (Shape, "gravity", lambda: scene(gravity=9.81)),
     (Shape, "wind", lambda: scene(wind=(1, 2, 3, 4))),
+    (Shape, "air_damping", lambda: scene(air_damping=-1)),
     (Shape, "frames", lambda: once(frames=-1)),
     (Type, "frames", lambda: once(frames=1.5)),
     (Shape, "motion", lambda: body(V, F, motion=np.zeros((4, len(V) - 1, 3)))),

@@ -78,6 +78,15 @@ class Garments(ModuleTest):
             pass
         self.assertEqual(simulation.state_hash, told["state_hash"])
 
+    def test_garments_are_slowed_only_where_their_rest_is_wanted(self):
+        damping = []
+        for words, frames in ((["--frames", 5], range(5, 6)), ([], range(20, 239))):
+            told = self.run_json("garment", "tube.json", "--body", "builtin:sphere", "--spacing", 30, *words, "-o", f"run{len(damping)}")
+            self.assertIn(told["frames"], frames)
+            damping.append(json.loads((self.folder / f"run{len(damping)}/scene.json").read_text())["air_damping"])
+        self.assertEqual(damping[0], 0)
+        self.assertGreater(damping[1], 1)
+
     def test_texture_is_a_rest_shape(self):
         (self.folder / "square.obj").write_text(
             "v 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\nvt 0 0\nvt 2 0\nvt 2 2\nvt 0 2\nf 1/1 3/3 2/2\nf 1/1 4/4 3/3\n")

@@ -52,6 +52,8 @@ TEST(SceneFile, WrongTypesAndRangesNameTheKey) {
             "s.json:cloths[0].pins[0].path[1].time: 1 after 1; ascending times are wanted");
   EXPECT_EQ(error_of(R"({"cloths":[{}],"wind":{"drag":-1}})"),
             "s.json:wind.drag: -1; a number >= 0 is wanted");
+  EXPECT_EQ(error_of(R"({"cloths":[{}],"air_damping":-1})"),
+            "s.json:air_damping: -1; a number >= 0 is wanted");
   EXPECT_EQ(error_of(R"({"cloths":[]})"), "s.json:cloths: no cloth; at least one is wanted");
   EXPECT_EQ(error_of(R"([1])"), "s.json: [1] is no object; an object {...} is wanted");
 }

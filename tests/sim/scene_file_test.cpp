@@ -35,7 +35,7 @@ TEST(SceneFile, EmptyClothIsTheDefaults) {
 TEST(SceneFile, EveryKeyIsRead) {
   const Scene scene = parse_scene(R"({
     "version": 1, "gravity": [0, -1.6, 0], "frame_rate": 25, "substeps": 3, "frames": 7, "ground": null,
-    "wind": {"velocity": [1, 0, 2], "drag": 0.5, "lift": 0},
+    "wind": {"velocity": [1, 0, 2], "drag": 0.5, "lift": 0}, "air_damping": 1.5,
     "integrator": {"type": "two_level", "local_size": 7, "global_size": 9, "as_printed": true,
                    "filter_stiffness": 12, "limiter_passes": 3},
     "collider": {"type": "pyramid"},
@@ -56,6 +56,7 @@ TEST(SceneFile, EveryKeyIsRead) {
   EXPECT_EQ(scene.wind->velocity, (Vec3d{1, 0, 2}));
   EXPECT_EQ(scene.wind->drag, 0.5);
   EXPECT_EQ(scene.wind->lift, 0);
+  EXPECT_EQ(scene.air_damping, 1.5);
   const auto& two_level = std::get<TwoLevelOptions>(scene.integrator);
   EXPECT_EQ(two_level.local_size, 7);
   EXPECT_EQ(two_level.global_size, 9);

@@ -243,6 +243,41 @@ TEST(Simulation, WindCarriesCloth) {
   }
 }
 
+TEST(Simulation, AirDampingSlowsFallingClothAndIsNoGain) {
+  Scene scene = free_fall(NewtonOptions{});
+  scene.cloths[0].velocity = {};
+  scene.air_damping = 3;
+  Simulation simulation(scene, "air", 1);
+  const double h = 1.0 / (60 * 4), kept = 1 / (1 + 3 * h);
+  double speed = 0, fallen = 0, work = 0;
+  FrameReport report;
+  for (int frame = 0; frame < 60; ++frame) {
+    report = simulation.advance();
+    work += report.work;
+    for (int step = 0; step < 4; ++step) {
+      speed = kept * speed + 9.81 * h;
+      fallen += h * speed;
+    }
+    ASSERT_NEAR(report.centre_of_mass.y, 2 - fallen, 2e-4) << frame;
+  }
+  // Weight lets the centre fall; what did not become motion the air took.
+  const double mass = report.kinetic_energy / (speed * speed / 2);
+  EXPECT_NEAR(work, report.kinetic_energy - mass * 9.81 * fallen, 0.02 * mass * 9.81 * fallen);
+}
+
+TEST(Simulation, AirDampingLeavesPinsThatMoveTheirWay) {
+  Scene scene;
+  scene.cloths = {sheet(17, {0, 1, 0})};
+  scene.cloths[0].pins = {ScenePin{ImagePin{{0, 0}}, {{0, {}, {}}, {1, {}, {0.5, 0, 0}}}}};
+  scene.air_damping = 20;
+  Simulation simulation(scene, "air", 1);
+  const Vec3f start = simulation.cloths()[0].state.position.at(0, 0);
+  for (int frame = 0; frame < 30; ++frame) simulation.advance();
+  const Vec3f end = simulation.cloths()[0].state.position.at(0, 0);
+  EXPECT_NEAR(end.x - start.x, 0.25, 1e-5);
+  EXPECT_EQ(end.y, start.y);
+}
+
 TEST(Simulation, AttachedClothGoesWithItsBody) {
   Scene scene;
   scene.ground.reset();

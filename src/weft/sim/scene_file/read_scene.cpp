@@ -138,6 +138,7 @@ Scene parse_scene(std::string_view text, const std::string& name,
   scene.frames = root.integer("frames", scene.frames, 0, max_frames);
   read_ground(root, scene);
   scene.wind = read_wind(root);
+  scene.air_damping = root.number("air_damping", scene.air_damping, not_negative);
   if (const auto* value = root.find("integrator"))
     scene.integrator =
         read_integrator(*value, root.place().key("integrator"), scene.limiter_passes);

@@ -34,9 +34,9 @@ SceneBody read_body(const nlohmann::json& value, const JsonPlace& place,
 
 namespace weft::scene_keys {
 
-inline constexpr std::array<std::string_view, 13> scene{
-    "version",    "gravity",  "frame_rate", "substeps", "frames", "ground", "wind",
-    "integrator", "collider", "unit",       "up",       "cloths", "bodies"};
+inline constexpr std::array<std::string_view, 14> scene{
+    "version",     "gravity",    "frame_rate", "substeps", "frames", "ground", "wind",
+    "air_damping", "integrator", "collider",   "unit",     "up",     "cloths", "bodies"};
 inline constexpr std::array<std::string_view, 3> wind{"velocity", "drag", "lift"};
 inline constexpr std::string_view limiter_passes = "limiter_passes";
 /// Keys of an integrator or a collider, see weft/methods.h.

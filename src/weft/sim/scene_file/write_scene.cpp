@@ -145,6 +145,7 @@ Json scene_json(const Scene& scene, const fs::path& folder) {
     json["wind"]["drag"] = scene.wind->drag;
     json["wind"]["lift"] = scene.wind->lift;
   }
+  json["air_damping"] = scene.air_damping;
   json["integrator"] = method_json(scene.integrator);
   if (scene.limiter_passes && Integrators::traits_of(scene.integrator).has_limiter)
     json["integrator"]["limiter_passes"] = *scene.limiter_passes;

@@ -100,7 +100,7 @@ void EnergyBudget::lend(bool sewing) {
     if (!known_) mover.start = mover.meter.measure(cloths_[i].state);
     start += mover.start.total();
     mass += mover.meter.mass();
-    explained += mover.wind_work;
+    explained += mover.air_work;
   }
   known_ = true;
   work_.least = std::min(work_.least, start - explained);

@@ -26,7 +26,7 @@ class EnergyBudget {
   void forget() { known_ = false; }
 
   /// Finds how much energy cloths may have at the end of the step, and tells integrators what they
-  /// may add in it. @pre the wind has been applied
+  /// may add in it. @pre air has acted
   void lend(bool sewing);
 
   /// Whether the linearisation errors of the solves exceed the energy limit: the step is too long.
@@ -38,7 +38,7 @@ class EnergyBudget {
     double solve = 0;   ///< by the forces before the filter
     double filter = 0;  ///< what the forces that the filter leaves would make more of it
   };
-  /// What moves cloth in a step beside gravity and wind.
+  /// What moves cloth in a step beside gravity and air.
   enum class Drive {
     none,    ///< all that cloth gains, in the solve too, is too much
     bodies,  ///< bodies or pins, whose work is known less well: only what follows the solve counts

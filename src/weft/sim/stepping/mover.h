@@ -22,13 +22,13 @@ struct Mover {
   std::optional<CoarseLimit> coarse_limit;  ///< of soft springs
   EnergyMeter meter;
   DrivenWork driven_work;
-  /// Energies of this step: at its start, after the wind; after solve and strain limit; at its end.
+  /// Energies of this step: at its start, after the air; after solve and strain limit; at its end.
   Energy start, solved, end;
-  Planes3 calm_velocity;     // velocities before the wind and the seams [m/s]
+  Planes3 calm_velocity;     // velocities before air and seams [m/s]
   Planes3 guess;             // filtered positions before the solve [m]
   double unsewn_energy = 0;  // before a step in which seams are pulled together [J]
-  // Of this step: work of the wind, energy added by the strain limit while something pulled. [J]
-  double wind_work = 0, pulled_work = 0;
+  // Of this step: work of the air, energy added by the strain limit while something pulled. [J]
+  double air_work = 0, pulled_work = 0;
   bool limited = false;  // a strain limiter works on the proposals of this step
 };
 

@@ -49,6 +49,9 @@ struct Simulation::Parts : LoadedScene {
   void move_driven(double seconds);
   /// Pulls the seams of a garment together that is not sewn yet.
   void sew(std::size_t index);
+  /// Whether air moves or slows cloth.
+  [[nodiscard]] bool has_air() const { return scene.wind || scene.air_damping > 0; }
+  void meet_air(std::size_t index);
   double work_of_sewing();
   /// Makes the collider anew where other samples than before are joined, or friction begins, and
   /// movers where edges are gathered or garments get the bending of their fabric.

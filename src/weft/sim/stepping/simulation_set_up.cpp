@@ -65,7 +65,7 @@ Mover Simulation::Parts::make_mover(std::size_t index) {
           Energy{},
           Energy{},
           Energy{},
-          Planes3(scene.wind || cloth.garment ? model.size : 0),
+          Planes3(has_air() || cloth.garment ? model.size : 0),
           Planes3(model.size)};
 }
 

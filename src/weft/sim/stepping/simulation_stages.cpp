@@ -59,6 +59,14 @@ constexpr double max_excess_lead = 1.5;
 /// A guess that moves less than next_to_start passes through nothing that is not closer.
 constexpr double same_place = 0.25, next_to_start = 0.05;
 
+/// Leaves this part of the velocity of all that is not pinned.
+void slow_down(const Cloth& cloth, double kept, Planes3& velocity) {
+  for (int r = 0; r < cloth.size; ++r)
+    for (int c = 0; c < cloth.size; ++c)
+      if (cloth.inverse_mass(r, c) > 0)
+        velocity.set(r, c, static_cast<float>(kept) * velocity.at(r, c));
+}
+
 }  // namespace
 
 void Simulation::Parts::bodies_arrive() {
@@ -91,19 +99,27 @@ void Simulation::Parts::move_driven(double seconds) {
 void Simulation::Parts::propose(std::size_t index) {
   SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
-  mover.wind_work = mover.pulled_work = 0;
-  if (mover.wind || garments.is_open(index)) mover.calm_velocity = cloth.state.velocity;
+  mover.air_work = mover.pulled_work = 0;
+  if (has_air() || garments.is_open(index)) mover.calm_velocity = cloth.state.velocity;
   if (garments.any_open()) mover.unsewn_energy = mover.meter.measure(cloth.state).total();
   if (garments.is_open(index)) sew(index);
   const double gravity_part = garments.gravity_part(index, step_start);
-  if (mover.wind && gravity_part == 1) {
-    energy.forget();
-    const double before = mover.meter.kinetic(cloth.state.velocity);
-    mover.wind->blow(time_step, cloth.state, solvers());
-    mover.wind_work = mover.meter.kinetic(cloth.state.velocity) - before;
-  }
+  if (has_air() && gravity_part == 1) meet_air(index);
   mover.integrator->begin({time_step, vec_cast<float>(gravity_part * scene.gravity)}, cloth.state);
   if (!mover.integrator->starts_at_proposal()) mover.integrator->iterate({});
+}
+
+void Simulation::Parts::meet_air(std::size_t index) {
+  const Cloth& model = *cloths[index].model;
+  ClothState& state = cloths[index].state;
+  Mover& mover = movers[index];
+  energy.forget();
+  const double before = mover.meter.kinetic(state.velocity);
+  if (mover.wind) mover.wind->blow(time_step, state, solvers());
+  // Where seams are open sewing damps.
+  if (scene.air_damping > 0 && !garments.is_open(index))
+    slow_down(model, 1 / (1 + scene.air_damping * time_step), state.velocity);
+  mover.air_work = mover.meter.kinetic(state.velocity) - before;
 }
 
 void Simulation::Parts::sew(std::size_t index) {

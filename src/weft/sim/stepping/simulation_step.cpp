@@ -2,7 +2,7 @@
 //
 // Each step:
 // 0. Pins, hands and bodies go to where they are at its end.
-// 1. Seams that are being sewn are pulled together, wind blows, and integrators guess positions
+// 1. Seams that are being sewn are pulled together, air acts, and integrators guess positions
 //    without the cloth's own forces.
 // 2. Contacts are detected, and the collider filters the guesses, so that the solve starts without
 //    crossings. Springs know no orientation: solved from beyond a crossing, cloth comes to rest
@@ -176,8 +176,8 @@ void Simulation::Parts::refuse_step() {
   collider->rollback();
   moved_to.reset();
   for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (movers[i].wind || garments.is_open(i)) cloths[i].state.velocity = movers[i].calm_velocity;
-  if (movers.front().wind) energy.forget();
+    if (has_air() || garments.is_open(i)) cloths[i].state.velocity = movers[i].calm_velocity;
+  if (has_air()) energy.forget();
 }
 
 void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
@@ -187,7 +187,7 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
   energy.add_pulled(tried.pushed);
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     finish(i, report);
-    done += movers[i].wind_work;
+    done += movers[i].air_work;
     energy.add_pulled(movers[i].pulled_work);
   }
   if (garments.any_open()) done = work_of_sewing();
