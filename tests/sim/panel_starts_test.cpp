@@ -1,6 +1,7 @@
 #include "weft/sim/sewing/panel_starts.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ struct HalfHood {
       : garment(make_garment(parse_pattern(test::half_hood(turn, low, label, height), "pattern"),
                              "pattern", 0.01)),
         placed(placed_positions(garment.image, placement_map({}))),
-        raised(raise_above_others(garment, placed)) {}
+        raised(raise_above_others(garment, std::vector<char>(2), placed)) {}
   [[nodiscard]] double lowest(int panel) const {
     const Chart& chart = garment.image.mates.charts()[panel];
     float least = 1e9F;

@@ -34,7 +34,20 @@ inline std::string tube_pattern(double width, double height, double apart, doubl
                     label);
 }
 
-/// The same, sewn along their upper edges, from which both hang.
+/// A rectangle, `width` by `height` centimetres, sewn to itself along both sides; from `low` up,
+/// `before` the y axis.
+inline std::string band_pattern(double width, double height, double low, double before) {
+  const std::string w = std::to_string(width), h = std::to_string(height);
+  return R"({"pattern":{"panels":{"band":{"vertices":[[0,0],[)" + w + ",0],[" + w + "," + h +
+         "],[0," + h +
+         R"(]],"edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},{"endpoints":[3,0]}],)"
+         R"("translation":[)" +
+         std::to_string(-width / 2) + "," + std::to_string(low) + "," + std::to_string(before) +
+         R"(],"rotation":[0,0,0]}},"stitches":[[{"panel":"band","edge":1},{"panel":"band","edge":3}]]},)"
+         R"("properties":{"units_in_meter":100}})";
+}
+
+/// Two panels as those of the tube, sewn along their upper edges, from which both hang.
 inline std::string cape_pattern(double width, double height, double apart, double low) {
   return two_panels(width, height, apart, low,
                     R"([{"panel":"front","edge":2},{"panel":"back","edge":1}])");

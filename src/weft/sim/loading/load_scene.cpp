@@ -17,6 +17,7 @@
 #include "weft/sim/sewing/free_height.h"
 #include "weft/sim/sewing/garment_layers.h"
 #include "weft/sim/sewing/panel_starts.h"
+#include "weft/sim/sewing/rolled_panels.h"
 
 namespace weft {
 namespace {
@@ -160,7 +161,12 @@ Planes3 Loader::place(const SceneCloth& wanted, const LoadedSurface& loaded, int
         "{}: begins {:.2g} m {} than its pattern says, where seams have less of a body between "
         "their sides",
         wanted.name, std::abs(up), up > 0 ? "higher" : "lower"));
-  if (const MovedPanels raised = raise_above_others(*loaded.garment, placed); raised.count > 0)
+  const std::vector<char> rolled = roll_up_panels(*loaded.garment, bodies, placed);
+  if (const auto count = std::count(rolled.begin(), rolled.end(), 1); count > 0)
+    notes.push_back(fmt::format("{}: {} of {} panels are sewn to themselves and begin rolled up",
+                                wanted.name, count, panels.size()));
+  if (const MovedPanels raised = raise_above_others(*loaded.garment, rolled, placed);
+      raised.count > 0)
     notes.push_back(fmt::format(
         "{}: {} of {} panels stand across others that they are sewn to and begin above them, "
         "'{}' by {:.2g} m",

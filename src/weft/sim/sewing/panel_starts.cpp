@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "weft/geometry_image.h"
-#include "weft/mesh/crossings.h"
-#include "weft/sim/loading/insides.h"
 #include "weft/sim/sewing/panel_moves.h"
 #include "weft/sim/sewing/panel_touching.h"
+#include "weft/sim/sewing/panels_in_bodies.h"
 
 namespace weft {
 namespace {
@@ -37,65 +36,6 @@ MovedPanels farthest_of(const std::vector<Vec3d>& shift) {
   }
   return found;
 }
-
-std::vector<Corners> corners_of(std::span<const Triangle> triangles, const Planes3& positions) {
-  std::vector<Corners> corners;
-  for (const Triangle& t : triangles)
-    corners.push_back({vec_cast<double>(positions.at(t[0])), vec_cast<double>(positions.at(t[1])),
-                       vec_cast<double>(positions.at(t[2]))});
-  return corners;
-}
-
-/// The triangles of each chart.
-std::vector<std::vector<Triangle>> triangles_by_chart(const GeometryImage& panels) {
-  std::vector<std::vector<Triangle>> charts(panels.mates.charts().size());
-  for (const Triangle& t : joined_triangles(panels))
-    charts[panel_of(panels.mates, t[0])].push_back(t);
-  return charts;
-}
-
-/// Marks the charts of which a part is inside a body, or passes through its surface.
-class InsideCharts {
- public:
-  InsideCharts(const GeometryImage& panels, std::span<const PlacedBody> bodies, ThreadTeam& team,
-               const Planes3& placed)
-      : mates_(panels.mates), triangles_(triangles_by_chart(panels)), team_(team) {
-    for (const PlacedBody& body : bodies) {
-      ClosedBody closed(body.image, body.positions);
-      if (!closed.closed() || closed.holds_all(placed)) continue;
-      bodies_.push_back(std::move(closed));
-      skins_.emplace_back(corners_of(joined_triangles(body.image), body.positions));
-    }
-  }
-
-  [[nodiscard]] std::vector<bool> find(const Planes3& placed) {
-    std::vector<bool> found(mates_.charts().size());
-    for (const ClosedBody& body : bodies_) {
-      body.mark_inside(placed, team_, inside_);
-      for (std::size_t s = 0; s < inside_.size(); ++s)
-        if (inside_[s] != 0) found[panel_of(mates_, static_cast<int>(s))] = true;
-    }
-    for (std::size_t i = 0; i < found.size(); ++i)
-      if (!found[i] && !skins_.empty()) found[i] = passes_through(triangles_[i], placed);
-    return found;
-  }
-
- private:
-  [[nodiscard]] bool passes_through(std::span<const Triangle> triangles,
-                                    const Planes3& placed) const {
-    const CrossingSurface panel(corners_of(triangles, placed));
-    return std::any_of(skins_.begin(), skins_.end(), [&](const CrossingSurface& skin) {
-      return panel.count_crossings(skin) > 0;
-    });
-  }
-
-  const BorderMates& mates_;
-  std::vector<std::vector<Triangle>> triangles_;  // of each chart
-  ThreadTeam& team_;
-  std::vector<ClosedBody> bodies_;      // that panels are to leave
-  std::vector<CrossingSurface> skins_;  // of each of them
-  std::vector<char> inside_;            // [n * n]
-};
 
 /// Moves panels outwards, step by step.
 class StepsOut {
@@ -174,14 +114,14 @@ bool any(const std::vector<bool>& charts) {
 
 MovedPanels move_out_of_bodies(const GeometryImage& panels, std::span<const PlacedBody> bodies,
                                ThreadTeam& team, Planes3& placed) {
-  InsideCharts inside(panels, bodies, team, placed);
-  const std::vector<bool> first = inside.find(placed);
+  PanelsInBodies inside(panels, bodies, placed);
+  const std::vector<bool> first = inside.find(placed, team);
   if (!any(first)) return {};
   StepsOut steps(panels.mates, step_out, placed);
   std::vector<bool> left = first;
   for (int i = 0; i < max_steps_out && any(left); ++i) {
     steps.go(left);
-    left = inside.find(placed);
+    left = inside.find(placed, team);
   }
   steps.take_back(left);
   std::vector<bool> out = first;
@@ -190,11 +130,13 @@ MovedPanels move_out_of_bodies(const GeometryImage& panels, std::span<const Plac
   return steps.moved();
 }
 
-MovedPanels raise_above_others(const Garment& garment, Planes3& placed) {
+MovedPanels raise_above_others(const Garment& garment, const std::vector<char>& stay,
+                               Planes3& placed) {
   const PanelPlaces places(garment.image.mates, placed);
   std::vector<Vec3d> raised(garment.panel_holds.size());
   for (const auto& [panel, other] : sewn_panels(garment))
-    if (garment.panel_holds[panel] == PanelHold::other_panels && places.stands_across(panel, other))
+    if (stay[panel] == 0 && garment.panel_holds[panel] == PanelHold::other_panels &&
+        places.stands_across(panel, other))
       raised[panel].y =
           std::max(raised[panel].y, places.highest[other] + clear_above - places.lowest[panel]);
   move_panels(garment.image.mates, raised, placed);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "weft/core/thread_team.h"
 #include "weft/garment.h"
@@ -25,8 +26,10 @@ MovedPanels move_out_of_bodies(const GeometryImage& panels, std::span<const Plac
 
 /// Raises panels that stand across one that they are sewn to, above its middle, until all of them
 /// is above it: hoods, whose points would hang in the way of straps that go over the shoulders.
-/// Panels with a label stay where they are worn.
-MovedPanels raise_above_others(const Garment& garment, Planes3& placed);
+/// Panels with a label stay where they are worn, and those that `stay`.
+/// @param stay  of each panel
+MovedPanels raise_above_others(const Garment& garment, const std::vector<char>& stay,
+                               Planes3& placed);
 
 /// Moves panels outwards by millimetres that touch others elsewhere than along their seams: side by
 /// side in one plane they would overlap after a step.
