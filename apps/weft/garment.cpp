@@ -29,6 +29,8 @@ void sew_garment(const GarmentArgs& args, const Context& context) {
   if (!is_pattern_name(args.pattern))
     throw InputError(args.pattern, "is no sewing pattern",
                      "a GarmentCode pattern (.json) is wanted");
+  // Refuses what cannot be sewn before the body is converted, which takes seconds.
+  static_cast<void>(read_pattern(args.pattern));
   Scene scene;
   scene.frames = default_frames;
   SceneCloth garment;

@@ -8,6 +8,7 @@ import subprocess
 import time
 import unittest
 
+from patterns import pattern_of_a_tube
 from program import PROGRAM, ProgramTest
 
 FILES = ("sheet.pc2", "ring.pc2", "sheet.obj", "ring.obj", "post.obj")
@@ -28,8 +29,8 @@ class ResumeTest(ProgramTest):
         (self.folder / name).write_text(json.dumps(scene))
         return name
 
-    def start(self, *words):
-        command = [PROGRAM, "simulate", "scene.json", "-o", "run", *map(str, words)]
+    def start(self, *words, command=("simulate", "scene.json")):
+        command = [PROGRAM, *command, "-o", "run", *map(str, words)]
         return subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def stamp(self):
@@ -53,11 +54,11 @@ class ResumeTest(ProgramTest):
         lines = (self.folder / folder / "frames.csv").read_text().splitlines()
         return [line.split(",")[:1] + line.split(",")[6:] for line in lines]
 
-    def assert_same(self, report, wanted, folder="run", whole="whole"):
+    def assert_same(self, report, wanted, folder="run", whole="whole", files=FILES):
         for key in set(wanted) - {"ms_per_frame", "peak_memory_mb", "outputs"}:
             self.assertEqual(report[key], wanted[key], key)
         self.assertEqual(self.table(folder), self.table(whole))
-        for name in FILES:
+        for name in files:
             self.assertEqual((self.folder / folder / name).read_bytes(), (self.folder / whole / name).read_bytes(), name)
         self.assertEqual(sorted(os.listdir(self.folder / folder)), sorted(os.listdir(self.folder / whole)))
 
@@ -189,6 +190,21 @@ class Damage(ResumeTest):
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertIn("run/sheet.pc2: cannot be written whole", done.stderr)
         self.assert_same(self.run_json("simulate", "scene.json", "-o", "run", "--resume"), wanted)
+
+
+class ResumeOfGarments(ResumeTest):
+    def test_garment_killed_while_it_is_sewn_ends_in_the_same_bytes(self):
+        (self.folder / "tube.json").write_text(json.dumps(pattern_of_a_tube()))
+        garment = ("garment", "tube.json", "--body", "builtin:sphere", "--spacing", "15")
+        wanted = self.run_json(*garment, "--frames", 30, "-o", "whole")
+        for threads in (1, 2, 1):
+            process = self.start("--frames", 30, "--resume", "--checkpoint", 2, "--threads", threads, command=garment)
+            code, errors = self.stop_after_checkpoint(process, signal.SIGKILL)
+            self.assertEqual(code, -signal.SIGKILL, errors)
+        done = self.run_weft(*garment, "--frames", 30, "-o", "run", "--resume", "--json")
+        resumed = int(done.stderr.split("resumed after frame ")[1].split()[0])
+        self.assertLess(resumed, wanted["seams"]["frames"])
+        self.assert_same(json.loads(done.stdout), wanted, files=("garment.pc2", "garment.image.pc2", "garment.draped.obj", "garment.panels.npz"))
 
 
 if __name__ == "__main__":
