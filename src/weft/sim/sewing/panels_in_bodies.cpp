@@ -8,6 +8,9 @@
 namespace weft {
 namespace {
 
+/// Of a panel, before its surface is looked at.
+constexpr std::size_t points_asked = 50;
+
 std::vector<Corners> corners_of(std::span<const Triangle> triangles, const Planes3& positions) {
   std::vector<Corners> corners;
   for (const Triangle& t : triangles)
@@ -60,9 +63,12 @@ std::vector<bool> PanelsInBodies::find(const Planes3& placed, ThreadTeam& team) 
 
 bool PanelsInBodies::is_free(int panel, const Planes3& placed) const {
   const std::vector<Triangle>& own = triangles_[panel];
-  // What passes through no surface is inside as a whole or not at all.
-  return !own.empty() && !hold(vec_cast<double>(placed.at(own.front()[0]))) &&
-         !passes_through(own, placed, closed_skins_) && !passes_through(own, placed, open_skins_);
+  // What passes through no surface is inside as a whole or not at all: one point would do. More
+  // find most panels that are not free sooner than crossings do.
+  const std::size_t step = std::max<std::size_t>(1, own.size() / points_asked);
+  for (std::size_t i = 0; i < own.size(); i += step)
+    if (hold(vec_cast<double>(placed.at(own[i][0])))) return false;
+  return !passes_through(own, placed, closed_skins_) && !passes_through(own, placed, open_skins_);
 }
 
 bool PanelsInBodies::hold(Vec3d point) const {
