@@ -123,6 +123,21 @@ TEST(RolledPanels, DartsAndOrdinarySeamsRollNothing) {
   EXPECT_EQ(roll_up_panels(tube.garment, {}, tube.placed), (std::vector<char>{0, 0}));
 }
 
+TEST(RolledPanels, EdgesInSeveralPartsMayBeNamedInAnyOrder) {
+  // Each side of the band has two edges; the lower ones are named left first, the upper ones right.
+  Laid band(
+      R"({"pattern":{"panels":{"band":{"vertices":[[0,0],[60,0],[60,10],[60,20],[0,20],[0,10]],
+    "edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},{"endpoints":[3,4]},
+             {"endpoints":[4,5]},{"endpoints":[5,0]}],
+    "translation":[-30,100,20],"rotation":[0,0,0]}},
+    "stitches":[[{"panel":"band","edge":5},{"panel":"band","edge":1}],
+                [{"panel":"band","edge":2},{"panel":"band","edge":4}]]},
+    "properties":{"units_in_meter":100}})");
+  EXPECT_EQ(roll_up_panels(band.garment, {}, band.placed), std::vector<char>{1});
+  const double radius = 0.6 / (2 * M_PI * 0.9);
+  EXPECT_NEAR(band.gap(), 2 * radius * std::sin(0.1 * M_PI), 1e-4);
+}
+
 TEST(RolledPanels, TubesTurnToWhatTheyAreSewnTo) {
   // A band before a panel that its upper edge is sewn to, which is at its left.
   Laid two(R"({"pattern":{"panels":{

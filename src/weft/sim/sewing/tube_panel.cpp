@@ -31,14 +31,20 @@ TubePanel::TubePanel(const Garment& garment, int panel, const Planes3& placed) :
   for (const GarmentSeam& seam : garment.seams) {
     const bool first = panel_of(mates, seam.pairs.front()[0]) == panel;
     const bool second = panel_of(mates, seam.pairs.front()[1]) == panel;
-    if (first && second && is_across_panel(seam.pairs))
-      seam_.insert(seam_.end(), seam.pairs.begin(), seam.pairs.end());
+    if (first && second && is_across_panel(seam.pairs)) add_to_seam(seam.pairs);
     for (const auto& [a, b] : seam.pairs)
       if (first != second) sewn_to_.push_back(first ? Pair{a, b} : Pair{b, a});
   }
   if (!is_tube()) return;
   set_axes(seam_);
   fit();
+}
+
+/// Each pair from the same side to the other, whichever edge a stitch names first.
+void TubePanel::add_to_seam(std::span<const Pair> pairs) {
+  const auto across = [&](const Pair& pair) { return at(pair[1]) - at(pair[0]); };
+  const bool same = seam_.empty() || dot(across(seam_.front()), across_) > 0;
+  for (const auto& [a, b] : pairs) seam_.push_back(same ? Pair{a, b} : Pair{b, a});
 }
 
 Vec3d TubePanel::at(int sample) const { return vec_cast<double>(placed_.at(sample)); }

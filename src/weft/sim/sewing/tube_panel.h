@@ -40,6 +40,7 @@ class TubePanel {
   [[nodiscard]] Vec3d at(int sample) const;
   void set_axes(std::span<const Pair> seam);
   [[nodiscard]] bool is_across_panel(std::span<const Pair> seam);
+  void add_to_seam(std::span<const Pair> pairs);
   void fit();
   [[nodiscard]] double radius_at(double along, const Tube& tube) const;
   [[nodiscard]] double centre_at(double along) const;
