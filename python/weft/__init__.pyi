@@ -177,8 +177,9 @@ class Frame:
 
 class Simulation:
     def __init__(self, *, frame_rate: float = 60, substeps: int = 4, gravity: _Vector = (0, -9.81, 0),
-                 ground: float | None = 0.0, wind: _Vector | _Json | None = None, integrator: str | _Json = "newton",
-                 collider: str | _Json = "pyramid", threads: int | None = None, name: str = "scene") -> None: ...
+                 ground: float | None = 0.0, wind: _Vector | _Json | None = None, air_damping: float = 0.0,
+                 integrator: str | _Json = "newton", collider: str | _Json = "pyramid", threads: int | None = None,
+                 name: str = "scene") -> None: ...
     @classmethod
     def from_scene(cls, path: _Path, *, threads: int | None = None) -> Simulation: ...
     def add_body(self, body: Body | _Mesh | GeometryImage | _Path, *, friction: float = 0.4, name: str | None = None,
