@@ -128,7 +128,7 @@ struct Scene {
   std::optional<double> ground = 0.0;
   std::optional<WindOptions> wind;  ///< none: no air
   /// Rate at which cloth that is not being sewn loses its velocity, so that it comes to rest
-  /// sooner, where it would anyway. [1/s], >= 0
+  /// sooner, in folds as good as others. No model of air. [1/s], >= 0
   double air_damping = 0;
   IntegratorOptions integrator;
   /// Passes of the strain limiter a step; none: the integrator's default. Only for integrators with

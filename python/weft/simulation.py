@@ -110,12 +110,13 @@ class Simulation:
     """A scene and its simulation: the same bits as `weft simulate` makes of it, for any number of threads.
 
     frame_rate [1/s]; substeps a frame; gravity [m/s^2]; ground: its height [m] or None; wind: its velocity [m/s] or
-    {"velocity", "drag", "lift"}; air_damping: rate at which cloth loses its velocity [1/s]; integrator, collider: a name, or a dictionary with ``type`` and its options, as in scene files.
+    {"velocity", "drag", "lift"}; air_damping: rate at which cloth loses its velocity [1/s]; integrator, collider: a name, or
+    a dictionary with ``type`` and its options, as in scene files.
     Bodies and cloths are added before the first frame.
     """
 
-    def __init__(self, *, frame_rate=60, substeps=4, gravity=(0, -9.81, 0), ground=0.0, wind=None, air_damping=0.0, integrator="newton",
-                 collider="pyramid", threads=None, name="scene"):
+    def __init__(self, *, frame_rate=60, substeps=4, gravity=(0, -9.81, 0), ground=0.0, wind=None, air_damping=0.0,
+                 integrator="newton", collider="pyramid", threads=None, name="scene"):
         self._threads = _arguments.threads(threads)
         self._name, self._folder = str(name), ""
         self._frame_rate = _arguments.number(frame_rate, "frame_rate", above=0)

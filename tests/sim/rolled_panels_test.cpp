@@ -92,7 +92,7 @@ TEST(RolledPanels, StayFlatWhereNoTubeIsFree) {
   EXPECT_EQ(band.placed.at(0), flat.at(0));
 }
 
-TEST(RolledPanels, PanelsThatTaperBecomeConesAndKeepTheirLengths) {
+TEST(RolledPanels, PanelsThatTaperBecomeConesOfAboutTheirLengths) {
   Laid cone(R"({"pattern":{"panels":{"skirt":{"vertices":[[-60,0],[60,0],[42,55],[-42,55]],
     "edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},{"endpoints":[3,0]}],
     "translation":[0,50,22],"rotation":[0,0,0]}},
