@@ -41,12 +41,10 @@ def drawn_small(block):
     return re.sub(r"^weft render .*$", small, block, flags=re.M)
 
 
-def of_few_frames(text, block):
-    """Runs no longer than what is drawn of them in the document: their length matters only where seams are to close."""
-    if "weft garment" in block:
-        return block
-    enough = max([20, *(int(frame) for frame in re.findall(r"--frame (\d+)", text))])
-    return re.sub(r'(--frames |"frames": )(\d+)', lambda match: f"{match[1]}{min(int(match[2]), enough)}", block)
+def of_few_frames(block):
+    """Runs of few frames, and pictures of these: their length matters only where seams are to close."""
+    enough = 48 if "weft garment" in block or '"sew"' in block else 20
+    return re.sub(r'(--frames? |"frames": )(\d+)', lambda match: f"{match[1]}{min(int(match[2]), enough)}", block)
 
 
 PYTHON = pathlib.Path(PROGRAM).parents[1] / "python"
@@ -69,7 +67,7 @@ class Documents(ProgramTest):
             if lacks := lacking(block):
                 print(f"{path.name}: not run without {lacks}:\n{block}")
                 continue
-            command = with_window(drawn_small(of_few_frames(path.read_text(), block)))
+            command = with_window(drawn_small(of_few_frames(block)))
             done = subprocess.run(["bash", "-e", "-c", command], cwd=folder, env=environment, capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, f"{path.name}:\n{block}\n{done.stderr}")
 
