@@ -39,7 +39,7 @@ void colour_surface(const Colouring& colouring, const BorderMates& mates, const 
 RunSource::RunSource(const std::string& folder, const SourceMaker& maker)
     : run_(open_run_folder(folder)) {
   bodies_.resize(run_.bodies.size());
-  go_to(0);
+  show_frame(0);
   Subject subject;
   subject.number = maker.number;
   subject.name = folder;
@@ -65,7 +65,7 @@ RunSource::RunSource(const std::string& folder, const SourceMaker& maker)
   subject_ = std::make_shared<Subject>(std::move(subject));
 }
 
-void RunSource::go_to(int frame) {
+void RunSource::show_frame(int frame) {
   cloths_.clear();
   for (const RecordedCloth& cloth : run_.cloths) cloths_.push_back(cloth.recorded.positions(frame));
   for (std::size_t i = 0; i < run_.bodies.size(); ++i)
@@ -74,7 +74,7 @@ void RunSource::go_to(int frame) {
 }
 
 bool RunSource::advance() {
-  go_to((frame_ + 1) % run_.frames);
+  show_frame((frame_ + 1) % run_.frames);
   return run_.frames > 1;
 }
 

@@ -75,7 +75,7 @@ void SceneSource::grab(std::size_t cloth, int sample) {
   if (cloth < simulation_.cloths().size()) simulation_.grab(cloth, sample);
 }
 
-void SceneSource::go_on_from(const SceneSource& other) {
+void SceneSource::continue_from(const SceneSource& other) {
   SimulationState state;
   other.simulation_.save(state);
   // Marks of one collider mean nothing to another one.
@@ -129,7 +129,7 @@ std::unique_ptr<Source> simulate_scene(const Scene& scene, const SourceMaker& ma
   const std::string name = running != nullptr ? running->subject()->name : "scene";
   auto made = std::make_unique<SceneSource>(scene, name, maker);
   kept = running != nullptr && shapes_of(scene) == shapes_of(*running->subject()->scene);
-  if (kept) made->go_on_from(*running);
+  if (kept) made->continue_from(*running);
   return made;
 }
 

@@ -14,7 +14,7 @@ class SceneSource final : public Source {
   /// @throws as Simulation
   SceneSource(const Scene& scene, const std::string& name, const SourceMaker& maker);
   /// Continues from the state of another source, whose scene has the same shapes.
-  void go_on_from(const SceneSource& other);
+  void continue_from(const SceneSource& other);
 
   [[nodiscard]] double frame_rate() const override;
   [[nodiscard]] int frame() const override { return simulation_.frame(); }
@@ -41,11 +41,11 @@ class RunSource final : public Source {
   [[nodiscard]] double frame_rate() const override { return run_.frame_rate; }
   [[nodiscard]] int frame() const override { return frame_; }
   bool advance() override;
-  void reset() override { go_to(0); }
+  void reset() override { show_frame(0); }
   void show(const Colouring& colouring, Snapshot& snapshot) const override;
 
  private:
-  void go_to(int frame);
+  void show_frame(int frame);
   void colour(const Colouring& colouring, std::size_t cloth, Planes3& colours) const;
 
   RunFolder run_;

@@ -84,7 +84,7 @@ RunSubject::RunSubject(RunFolder run, const ViewFrom& size, bool by_strain)
   for (const RecordedBody& body : run_.bodies) body_quads_.push_back(rising_quads(body.image));
 }
 
-double RunSubject::most_strain(int frame) const {
+double RunSubject::max_strain(int frame) const {
   std::vector<Planes3> cloths;
   for (const RecordedCloth& cloth : run_.cloths) cloths.push_back(cloth.recorded.positions(frame));
   return strain_->most_of(cloths);

@@ -21,7 +21,7 @@ class RunSubject : public Subject {
   /// @throws Error as Renderer; as StrainColours
   RunSubject(RunFolder run, const ViewFrom& size, bool by_strain = false);
   /// Strain that 99 of 100 samples have at most at a frame. @pre coloured by strain
-  [[nodiscard]] double most_strain(int frame) const;
+  [[nodiscard]] double max_strain(int frame) const;
   /// @param strain  in full colour, > 0 @pre coloured by strain
   void set_full_strain(double strain) { strain_->set_full(strain); }
   [[nodiscard]] int frames() const override { return run_.frames; }

@@ -101,7 +101,7 @@ void scale_strain(const RenderArgs& args, const std::vector<RunSubject*>& runs) 
   for (const RunSubject* run : runs) {
     std::vector<int> frames{frame_of(*run, args.frame)};
     if (args.frame < 0 && is_movie(args)) frames = frames_to_look_at(*run);
-    for (const int frame : frames) most = std::max(most, run->most_strain(frame));
+    for (const int frame : frames) most = std::max(most, run->max_strain(frame));
   }
   for (RunSubject* run : runs)
     run->set_full_strain(args.full_strain > 0 ? args.full_strain / 100 : rounded_scale(most));

@@ -42,9 +42,9 @@ struct ConvertOptions {
   int max_charts = 1;  ///< for ChartChoice::regions, from 1 to largest_chart_count
   int size = 257;      ///< or automatic_size; the image tells which it was
   Parameterizer parameterizer = StretchOptions{};
-  ComponentChoice component;  ///< `only`: of several components all, unless `charts` is `one`
-  int seed_triangle = -1;     ///< of the input, before repair; -1: choose
-  std::optional<Seam> seam;   ///< cut here, and elsewhere only as far as it must be for a disk
+  ComponentChoice component{};  ///< `only`: of several components all, unless `charts` is `one`
+  int seed_triangle = -1;       ///< of the input, before repair; -1: choose
+  std::optional<Seam> seam{};   ///< cut here, and elsewhere only as far as it must be for a disk
   bool augment = true;
   int normal_map_size = 0;  ///< 0: none
   bool keep_uv = false;     ///< sample the mesh's own texture coordinates too
@@ -52,7 +52,7 @@ struct ConvertOptions {
   bool keep_places = false;  ///< record where on the mesh each sample lies (load_surface)
   bool keep_warp = false;  ///< where it has texture coordinates, the direction of u (load_surface)
   bool keep_source = false;  ///< keep the mesh and where its vertices lie (load_surface)
-  MeshFrame files;           ///< unit and up axis of mesh files (load_surface)
+  MeshFrame files{};         ///< unit and up axis of mesh files (load_surface)
   /// Move samples off the surface, so that the triangles between them fit it best.
   bool fit_samples = false;
   bool measure = true;               ///< the distance between image and mesh

@@ -117,7 +117,7 @@ Garment make_garment(const Pattern& pattern, const std::string& name, double spa
 /// Samples a side that the image of a garment has at least, by the area of its panels; what lies
 /// between their rectangles makes it larger.
 /// @param spacing  distance of samples [m]
-int least_garment_size(const Pattern& pattern, double spacing);
+int min_garment_size(const Pattern& pattern, double spacing);
 
 /// The default distance of samples of a garment. [m]
 inline constexpr double default_spacing = 0.008;

@@ -12,7 +12,7 @@ namespace weft {
 struct IntegratorTraits {
   /// Solves with contact constraints. Other integrators ignore them, and penetrations are pushed
   /// out at the end of the step.
-  bool heeds_contacts = false;
+  bool solves_contacts = false;
   /// Its springs are too soft to limit stretch: the strain limiter does, alternating with the
   /// collider.
   bool soft_springs = false;
@@ -44,7 +44,7 @@ struct ImplicitOptions {
   double tolerance = 1e-4;
 
   static constexpr std::string_view name = "implicit";
-  static constexpr IntegratorTraits traits{.heeds_contacts = true, .bytes_per_sample = 785};
+  static constexpr IntegratorTraits traits{.solves_contacts = true, .bytes_per_sample = 785};
   template <class Visit>
   static void visit_options(const Visit& visit) {
     visit("max_iterations", &ImplicitOptions::max_iterations, OptionRange{1, 1'000'000});
@@ -99,7 +99,7 @@ struct MultigridOptions {
   double tolerance = 1e-3;
 
   static constexpr std::string_view name = "multigrid";
-  static constexpr IntegratorTraits traits{.heeds_contacts = true,
+  static constexpr IntegratorTraits traits{.solves_contacts = true,
                                            .has_limiter = true,
                                            .min_passes = 60,
                                            .max_passes = 128,
@@ -121,7 +121,7 @@ struct NewtonOptions {
 
   static constexpr std::string_view name = "newton";
   static constexpr IntegratorTraits traits{
-      .heeds_contacts = true, .several_charts = true, .bytes_per_sample = 1150};
+      .solves_contacts = true, .several_charts = true, .bytes_per_sample = 1150};
   template <class Visit>
   static void visit_options(const Visit& visit) {
     visit("max_iterations", &NewtonOptions::max_iterations, OptionRange{1, 1'000'000});

@@ -122,7 +122,7 @@ TEST(BodyCrossings, AreNotLookedForOnceThereAreNone) {
   EXPECT_FALSE(scene.crossings.is_open());
   EXPECT_TRUE(scene.crossed().empty());
   EXPECT_TRUE(scene.contacts().empty());
-  scene.crossings.look_again();
+  scene.crossings.recheck();
   EXPECT_TRUE(scene.crossings.is_open());
 }
 

@@ -22,7 +22,7 @@ using test::TestCloth;
 
 constexpr double gap = 0.05;
 /// The gap that edges of parallel cells keep, which is the least of all.
-constexpr double least_gap = 0.5 * gap;
+constexpr double min_gap = 0.5 * gap;
 
 /// A cloth with diagonals at random where its charts have cells.
 struct Layer {
@@ -228,7 +228,7 @@ int check_every_pair(Layer& a, Layer& b) {
   int missed = 0, strange = 0;
   for (const auto& [meeting, distance] : pairs) {
     const bool of_edges = meeting.first.size() == 2 && meeting.second.size() == 2;
-    const double reach = contact_margin * (of_edges ? least_gap : gap);
+    const double reach = contact_margin * (of_edges ? min_gap : gap);
     if (distance < reach && !found.contains(meeting)) ++missed;
   }
   for (const auto& [meeting, times] : found) {

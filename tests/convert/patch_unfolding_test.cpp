@@ -34,7 +34,7 @@ struct Patch {
     for (std::size_t k = 0; k < points.size(); ++k) points[k].position += displacements[k];
   }
   /// Of the triangles, along the normal, in squares of the spacing.
-  [[nodiscard]] double least_area() const {
+  [[nodiscard]] double min_area() const {
     double least = HUGE_VAL;
     for (const auto& [a, b, c] : triangles)
       least = std::min(least, cross(points[b].position - points[a].position,
@@ -54,9 +54,9 @@ TEST(PatchUnfolding, TurnsTrianglesRound) {
   const std::vector<PatchUnfolding::Point> before = patch.points;
   patch.points[3 * side + 3].position = {0.56, 0, -0.14};
   patch.points[2 * side + 4].position = {0.15, 0, -0.5};
-  ASSERT_LT(patch.least_area(), -0.5);
+  ASSERT_LT(patch.min_area(), -0.5);
   patch.unfold();
-  EXPECT_GT(patch.least_area(), 0.5);
+  EXPECT_GT(patch.min_area(), 0.5);
   for (std::size_t k = 0; k < before.size(); ++k) {
     EXPECT_EQ(patch.points[k].position.y, 0);
     if (!before[k].moves) {
@@ -89,9 +89,9 @@ TEST(PatchUnfolding, DoesWhatItCanBetweenPointsThatStay) {
   Patch patch;
   for (PatchUnfolding::Point& point : patch.points) point.moves = false;
   patch.points[3 * side + 3].position = {0.56, 0, -0.14};
-  const double area = patch.least_area();
+  const double area = patch.min_area();
   patch.unfold();
-  EXPECT_EQ(patch.least_area(), area);
+  EXPECT_EQ(patch.min_area(), area);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(MemoryEstimate, TakesTheSizeOfAGarmentFromThePanelsOfItsPattern) {
   Scene scene = sheet(5);
   scene.cloths[0].surface = folder / "tube.json";
   scene.cloths[0].spacing = 0.002;
-  const int least = least_garment_size(read_pattern(folder / "tube.json"), 0.002);
+  const int least = min_garment_size(read_pattern(folder / "tube.json"), 0.002);
   EXPECT_NEAR(least, std::sqrt(0.8 * 2) / 0.002, 1);
   EXPECT_EQ(estimate_memory(scene), estimate_memory(sheet(least)));
   scene.cloths[0].surface = folder / "none.json";

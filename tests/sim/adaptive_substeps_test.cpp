@@ -58,14 +58,14 @@ double pieces_of(const Planes3& start, const Planes3& end, const ClothReach& clo
   BlockMotion motion;
   motion.measure(grid, start, end, &surface, team);
   // Slow: a second long.
-  return wanted_subdivisions(motion, cloth, {max_way / ApproachRule::most_gaps, 1});
+  return wanted_subdivisions(motion, cloth, {max_way / ApproachRule::max_gaps, 1});
 }
 
 TEST(AdaptiveSubsteps, ArePowersOfTwo) {
   EXPECT_EQ(whole_subdivisions(1), 1);
   EXPECT_EQ(whole_subdivisions(1.01), 2);
   EXPECT_EQ(whole_subdivisions(4.1), 8);
-  EXPECT_EQ(whole_subdivisions(1e9), max_pieces);
+  EXPECT_EQ(whole_subdivisions(1e9), max_subdivisions);
 }
 
 TEST(AdaptiveSubsteps, TheFasterABodyTheShorterItsWayInAStep) {

@@ -60,8 +60,11 @@ TEST(BuriedSamples, AreThoseInTheOtherOfTwoBalls) {
   const Marked balls(two_balls(apart));
   for (int s = 0; s < static_cast<int>(balls.marks.size()); ++s) {
     const double outside = outside_other(vec_cast<double>(balls.positions.at(s)), apart);
-    if (outside < -coarse) EXPECT_EQ(balls.marks[s], 2) << s;
-    if (outside > coarse + gap) EXPECT_EQ(balls.marks[s], 0) << s;
+    if (outside < -coarse) {
+      EXPECT_EQ(balls.marks[s], 2) << s;
+    } else if (outside > coarse + gap) {
+      EXPECT_EQ(balls.marks[s], 0) << s;
+    }
   }
   EXPECT_GT(balls.count(2), 100);
 }
@@ -122,7 +125,9 @@ TEST(BuriedBodies, LetClothLieBetweenSidesThatCross) {
   for (int frame = 1; frame <= 60; ++frame) {
     report = simulation.advance();
     verifier.count_frame(frame, found);
-    if (frame <= parts) EXPECT_EQ(found.passed.count, 0) << "frame " << frame;
+    if (frame <= parts) {
+      EXPECT_EQ(found.passed.count, 0) << "frame " << frame;
+    }
     buried = std::max(buried, report.buried);
     fell_back = std::max(fell_back, report.fell_back);
     EXPECT_EQ(simulation.intersections().total(), 0) << "frame " << frame;

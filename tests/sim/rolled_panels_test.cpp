@@ -42,7 +42,9 @@ TEST(RolledPanels, BandsBeginAsTubesWithAGap) {
     const Vec3f p = band.placed.at(s);
     EXPECT_NEAR(std::hypot(p.x, p.z - 0.2 + radius), radius, 1e-5) << s;
     EXPECT_EQ(p.y, flat.at(s).y) << s;
-    if (flat.at(s).x == 0) EXPECT_NEAR(p.z, 0.2, 1e-5) << "the middle stays, the inner side is in";
+    if (flat.at(s).x == 0) {
+      EXPECT_NEAR(p.z, 0.2, 1e-5) << "the middle stays, the inner side is in";
+    }
   }
 }
 

@@ -332,7 +332,7 @@ TEST(Simulation, ABodyThatStartsWithinASubstepGoesNoFartherInAStepThanOthers) {
   simulation.advance();
   const double gap = 3 * simulation.cloths()[0].model->material.thickness;
   const double gaps =
-      std::max(ApproachRule::least_gaps, ApproachRule::most_gaps * ApproachRule::calm_speed / 20);
+      std::max(ApproachRule::min_gaps, ApproachRule::max_gaps * ApproachRule::calm_speed / 20);
   const double most = 1.5 * gaps * gap;
   EXPECT_GT(watcher.farthest, most / 4);
   EXPECT_LT(watcher.farthest, most);

@@ -76,7 +76,7 @@ TEST(StabilityCheck, WantsOtherStartsOfClothThatIsTakenApart) {
 
 TEST(StabilityCheck, LetsHeavyClothGainWhatContactsMayLend) {
   MadeUpStep step(1000);
-  const double lent = step.budget.most_lent();
+  const double lent = step.budget.max_lent();
   const double explained = 0.05 * step.budget.at_start().own();
   ASSERT_GT(1.9 * lent, 1.1 * explained);
   EXPECT_FALSE(stops_in_two(step, 1.9 * lent));

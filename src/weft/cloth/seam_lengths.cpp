@@ -7,7 +7,7 @@ namespace weft {
 namespace {
 
 /// Edges that are more times as long as what they are sewn to are gathered as if they were so many.
-constexpr float most_gathered = 4;
+constexpr float max_gathered = 4;
 
 bool before(const SeamLength& a, const SeamLength& b) {
   return std::tie(a.from, a.to) < std::tie(b.from, b.to);
@@ -49,7 +49,7 @@ float SeamLengths::shortest(int from, int to, float length) const {
   const SeamLength wanted = between(from, to);
   const auto found = std::lower_bound(lengths_.begin(), lengths_.end(), wanted, before);
   if (found == lengths_.end() || before(wanted, *found)) return length;
-  return std::clamp(found->length, length / most_gathered, length);
+  return std::clamp(found->length, length / max_gathered, length);
 }
 
 }  // namespace weft

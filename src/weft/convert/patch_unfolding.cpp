@@ -11,7 +11,7 @@ constexpr double still = 1e-6;
 /// Minimisations, each with a regularisation by what the last one left: at most, and at least.
 constexpr int max_rounds = 12, min_rounds = 4;
 /// The softness of the first round, and the least of all.
-constexpr double first_softness = 0.1, least_softness = 1e-6;
+constexpr double first_softness = 0.1, min_softness = 1e-6;
 /// Part of a negative area that softness adds to its least.
 constexpr double softness_of_area = 0.2;
 constexpr int smoothing_sweeps = 100;
@@ -21,9 +21,9 @@ constexpr double weight_of_shape = 0.5;
 /// what is concave; with more, they hardly move.
 constexpr double weight_of_distance = 256;
 
-double softness_for(double least_area) {
-  const double of_area = softness_of_area * std::min(0.0, least_area);
-  return std::sqrt(least_softness * least_softness + of_area * of_area);
+double softness_for(double min_area) {
+  const double of_area = softness_of_area * std::min(0.0, min_area);
+  return std::sqrt(min_softness * min_softness + of_area * of_area);
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ PatchUnfolding::Jacobian PatchUnfolding::jacobian(const Flat& triangle, const Ve
           triangle.rest.to_third + (moved(2) - first)};
 }
 
-double PatchUnfolding::least_area(const Vectors& at) const {
+double PatchUnfolding::min_area(const Vectors& at) const {
   double least = HUGE_VAL;
   for (const Flat& triangle : triangles_) least = std::min(least, jacobian(triangle, at).area());
   return least;
@@ -151,11 +151,11 @@ void PatchUnfolding::smooth(Vectors& at) const {
 std::vector<Vec3d> PatchUnfolding::find(const Attempt& attempt) const {
   Vectors at(points_.size());
   if (attempt.from_smooth) smooth(at);
-  double softness = std::max(first_softness, softness_for(least_area(at)));
-  for (int round = 0; round < max_rounds && (round < min_rounds || least_area(at) <= 0); ++round) {
+  double softness = std::max(first_softness, softness_for(min_area(at)));
+  for (int round = 0; round < max_rounds && (round < min_rounds || min_area(at) <= 0); ++round) {
     descend([&](const Vectors& to, Vectors& slopes) { return energy(to, softness, slopes); }, at,
             {.max_steps = attempt.max_steps, .still = still});
-    softness = softness_for(least_area(at));
+    softness = softness_for(min_area(at));
   }
   std::vector<Vec3d> displacements;
   displacements.reserve(points_.size());

@@ -74,7 +74,7 @@ class PatchUnfolding {
   [[nodiscard]] Vec3d displacement(const Vectors& at, int point) const;
   [[nodiscard]] Vec3d place(const Vectors& at, int point) const;
   static Jacobian jacobian(const Flat& triangle, const Vectors& at);
-  [[nodiscard]] double least_area(const Vectors& at) const;
+  [[nodiscard]] double min_area(const Vectors& at) const;
   /// Puts points amid those that they share triangles with, by sweeps.
   void smooth(Vectors& at) const;
   /// @param at  displacements in the tangent planes, in units of spacing_

@@ -24,8 +24,8 @@ std::string system_reason() { return std::strerror(errno); }
 /// Where a link leads: a file that is renamed into its place would end the link.
 fs::path followed(fs::path path) {
   std::error_code error;
-  constexpr int most_links = 40;  // as the system follows; those in a circle are written over
-  for (int k = 0; k < most_links && fs::is_symlink(path, error); ++k)
+  constexpr int max_links = 40;  // as the system follows; those in a circle are written over
+  for (int k = 0; k < max_links && fs::is_symlink(path, error); ++k)
     path = path.parent_path() / fs::read_symlink(path, error);
   return path;
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr int coarse_parts = 16;
 /// Length of an edge over that of the one it is sewn to, at most. Much less cloth is gathered by
 /// tailors; beyond it, an edge of samples as dense as the panel's is crushed.
-constexpr double most_gathered = 4;
+constexpr double max_gathered = 4;
 
 [[noreturn]] void fail(const std::string& place, const std::string& found,
                        const std::string& wanted) {
@@ -140,10 +140,10 @@ void check_lengths(const Pattern& pattern, const Stitch& stitch, const std::stri
   double longer = length(stitch.a), shorter = length(stitch.b);
   const PanelEdge place = longer >= shorter ? stitch.a : stitch.b;
   if (longer < shorter) std::swap(longer, shorter);
-  if (longer > most_gathered * shorter)
+  if (longer > max_gathered * shorter)
     fail(place_of(pattern, place, name),
          fmt::format("{:.3g} cm sewn to {:.3g} cm", 100 * longer, 100 * shorter),
-         fmt::format("an edge at most {:g} times as long as the other is wanted", most_gathered));
+         fmt::format("an edge at most {:g} times as long as the other is wanted", max_gathered));
 }
 
 /// Notes panels that nothing holds: a file may have lost its stitches.

@@ -87,7 +87,7 @@ double GridEnergy::measure(const PlaneGrid& grid, std::vector<Vec2d>& gradient) 
   return energy;
 }
 
-double GridEnergy::least_area(const PlaneGrid& grid) const {
+double GridEnergy::min_area(const PlaneGrid& grid) const {
   double least = HUGE_VAL;
   for_pairs(grid, [&](std::size_t, std::size_t, Vec2d a, Vec2d b) {
     least = std::min(least, cross(a, b));

@@ -18,7 +18,7 @@ class GridEnergy {
   /// @param gradient  [rows * cols] by points; 0 on the border
   double measure(const PlaneGrid& grid, std::vector<Vec2d>& gradient) const;
   /// The least area of a pair of sides, in units of the wanted cell.
-  [[nodiscard]] double least_area(const PlaneGrid& grid) const;
+  [[nodiscard]] double min_area(const PlaneGrid& grid) const;
 
  private:
   /// Calls use(side along u, its first point, its second, side along v, ...) for all pairs of

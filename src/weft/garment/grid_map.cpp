@@ -32,7 +32,7 @@ void unfold(PlaneGrid& grid, int rounds, Progress* progress) {
   GridEnergy measure(grid, GridEnergy::Cell::as_border);
   double before = HUGE_VAL;
   for (int round = 0; round < rounds; ++round) {
-    const double folded = std::min(0.0, measure.least_area(grid));
+    const double folded = std::min(0.0, measure.min_area(grid));
     measure.set_epsilon(1e-12 + 0.04 * folded * folded);
     const double energy = descend(measure, grid, progress);
     if (folded == 0 && before - energy < settled * energy) return;
@@ -154,7 +154,7 @@ double spread_cost(const std::vector<Vec2d>& border, int rows, int cols, Progres
   fill_inside(grid);
   unfold(grid, few_rounds, progress);
   const GridEnergy measure(grid, GridEnergy::Cell::square);
-  if (!(measure.least_area(grid) > 0)) return HUGE_VAL;
+  if (!(measure.min_area(grid) > 0)) return HUGE_VAL;
   Vectors gradient(grid.points.size());
   return measure.measure(grid, gradient) / (4.0 * (grid.rows - 1) * (grid.cols - 1));
 }

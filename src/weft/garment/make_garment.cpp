@@ -87,7 +87,7 @@ double area_of(const Pattern& pattern) {
 
 /// Refuses samples so close that no image holds them, before any are laid.
 const Pattern& checked(const Pattern& pattern, const std::string& name, double spacing) {
-  if (least_garment_size(pattern, spacing) > largest_image_size)
+  if (min_garment_size(pattern, spacing) > largest_image_size)
     throw InputError(
         name,
         fmt::format("{:.3g} m^2 with samples {:.3g} mm apart", area_of(pattern), 1000 * spacing),
@@ -224,7 +224,7 @@ class Maker {
 
 }  // namespace
 
-int least_garment_size(const Pattern& pattern, double spacing) {
+int min_garment_size(const Pattern& pattern, double spacing) {
   constexpr double curved_part = 0.2;  // of the area, which edges may leave out
   const double side = std::sqrt((1 - curved_part) * area_of(pattern)) / spacing;
   return static_cast<int>(std::min(side, 2.0 * largest_image_size));

@@ -48,7 +48,7 @@ std::vector<bool> find_turned(const Pattern& pattern, const std::string& name) {
 std::vector<std::vector<int>> share_samples(const Pattern& pattern, const std::string& name,
                                             double spacing) {
   // An edge longer than the four sides of the largest image fits round none.
-  constexpr int most_samples = 4 * (largest_image_size - 1);
+  constexpr int max_samples = 4 * (largest_image_size - 1);
   std::vector<std::vector<double>> wanted;
   for (const PatternPanel& panel : pattern.panels) {
     wanted.emplace_back();
@@ -63,7 +63,7 @@ std::vector<std::vector<int>> share_samples(const Pattern& pattern, const std::s
   for (std::size_t p = 0; p < wanted.size(); ++p) {
     intervals.emplace_back();
     for (std::size_t k = 0; k < wanted[p].size(); ++k) {
-      if (wanted[p][k] > most_samples)
+      if (wanted[p][k] > max_samples)
         throw InputError(place_of(pattern, {static_cast<int>(p), static_cast<int>(k)}, name),
                          fmt::format("{:.3g} samples", wanted[p][k]), "a wider spacing is wanted");
       intervals.back().push_back(unit *

@@ -111,7 +111,7 @@ int size_of(const SceneCloth& cloth) {
   if (cloth.surface.in_memory() || !is_pattern_name(cloth.surface.name))
     return size_of(cloth.surface, cloth.size);
   try {
-    return least_garment_size(read_pattern(cloth.surface.name), cloth.spacing);
+    return min_garment_size(read_pattern(cloth.surface.name), cloth.spacing);
   } catch (const InputError&) {
     return cloth.size;  // reported when it is made
   }

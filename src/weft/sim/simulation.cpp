@@ -170,7 +170,7 @@ void Simulation::restore(const SimulationState& state) {
   if (parts_->driven.any_moves()) {
     parts_->driven.move_to(parts_->frame_start(), parts_->team);
     parts_->bodies_arrive();
-    parts_->buried.look_again(parts_->team);
+    parts_->buried.recheck(parts_->team);
     // A new collider, so that the jump of the bodies does not count as motion.
     parts_->make_collider_of_scene();
   }

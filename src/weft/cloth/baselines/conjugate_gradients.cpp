@@ -88,7 +88,7 @@ void ConjugateGradients::step_row(double alpha, Planes3& r, Planes3& v, int row)
 }
 
 /// p = z + beta p on a row.
-void ConjugateGradients::turn_row(double beta, int row) {
+void ConjugateGradients::update_direction_row(double beta, int row) {
   kernels_.update_direction(cloth_.size, static_cast<float>(beta),
                             const_row_of(preconditioned_, row), row_of(direction_, row));
 }
@@ -117,7 +117,7 @@ SolveReport ConjugateGradients::iterate(const System& system, const Stop& stop, 
                                         Planes3& v, Worker& worker) {
   const Range mine = worker.share(cloth_.size);
   double rz = precondition(r, worker);
-  for (int row = mine.first; row < mine.last; ++row) turn_row(0, row);
+  for (int row = mine.first; row < mine.last; ++row) update_direction_row(0, row);
   worker.barrier();
   SolveReport report;
   while (report.iterations < stop.max_iterations && rz > 0) {
@@ -138,7 +138,7 @@ SolveReport ConjugateGradients::iterate(const System& system, const Stop& stop, 
     report.correction = alpha * largest_step();
     if (report.correction < stop.correction) break;
     const double next = precondition(r, worker);
-    for (int row = mine.first; row < mine.last; ++row) turn_row(next / rz, row);
+    for (int row = mine.first; row < mine.last; ++row) update_direction_row(next / rz, row);
     rz = next;
     worker.barrier();
   }

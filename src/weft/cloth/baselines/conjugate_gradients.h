@@ -48,7 +48,7 @@ class ConjugateGradients {
   double precondition(const Planes3& r, Worker& worker);
   void precondition_row(const Planes3& r, int row);
   void step_row(double alpha, Planes3& r, Planes3& v, int row);
-  void turn_row(double beta, int row);
+  void update_direction_row(double beta, int row);
   [[nodiscard]] double largest_step() const;
   void start(const System& system, Planes3& r, const Planes3& v, Worker& worker);
   SolveReport iterate(const System& system, const Stop& stop, Planes3& r, Planes3& v,

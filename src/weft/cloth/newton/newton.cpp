@@ -79,10 +79,10 @@ class Newton final : public Integrator {
 
   [[nodiscard]] std::string caution() const override {
     // Positions of single precision do not show a weight that strains cloth by less.
-    constexpr double least_strain = 0x1p-23;
+    constexpr double min_strain = 0x1p-23;
     const Material& material = cloth_.material;
     const double stretch = std::max(material.stretch.warp, material.stretch.weft);
-    const double most = part_.side_length() * material.density * standard_gravity / least_strain;
+    const double most = part_.side_length() * material.density * standard_gravity / min_strain;
     if (stretch <= most) return {};
     return fmt::format(
         "a stretch of {:.3g} N/m is so stiff for its weight that rounding holds it back: at most "

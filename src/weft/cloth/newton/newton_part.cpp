@@ -79,10 +79,10 @@ void NewtonPart::begin(const StepInput& input, const ClothState& state, ThreadTe
       same_gravity && std::find(known_rows_.begin(), known_rows_.end(), 0) == known_rows_.end();
   start_potential_ = known ? potential_ : HUGE_VAL;
   set_pins(cloth_, state, input.time_step, next_);
-  look_at_pins(state.position);
+  measure_pin_steps(state.position);
 }
 
-void NewtonPart::look_at_pins(const Planes3& start) {
+void NewtonPart::measure_pin_steps(const Planes3& start) {
   pulled_ = cloth_.apart.has_value();
   pin_step_.reset();
   bool alike = !pulled_;

@@ -152,7 +152,7 @@ class NewtonPart {
   [[nodiscard]] const float* shares_of(int row) const {
     return multigrid_.seams().empty() ? nullptr : share_.row(row);
   }
-  void look_at_pins(const Planes3& start);
+  void measure_pin_steps(const Planes3& start);
   template <class Velocity>
   double kinetic_of(const Velocity& row_of_velocity, Worker& worker);
   template <class Velocity>

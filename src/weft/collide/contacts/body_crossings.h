@@ -20,7 +20,7 @@ class BodyCrossings {
  public:
   /// Whether the next step has to look for any, as until it finds none.
   [[nodiscard]] bool is_open() const { return open_; }
-  void look_again() { open_ = true; }
+  void recheck() { open_ = true; }
   /// Forgets what was found, for another state of a run.
   void forget();
 

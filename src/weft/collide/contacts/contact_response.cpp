@@ -28,7 +28,7 @@ int ContactResponse::respond(const MovingCloth& cloth, const PressedContacts& pr
   team.run([&](Worker& worker) {
     relax({&Particle::position, 0, settled}, worker);
     const Range mine = worker.share(static_cast<int>(points_.size()));
-    for (int i = mine.first; i < mine.last; ++i) turn_to_velocities(time_step, points_[i]);
+    for (int i = mine.first; i < mine.last; ++i) convert_to_velocities(time_step, points_[i]);
     worker.barrier();
     relax({&Particle::velocity, max_passes, settled / time_step}, worker);
     const Range particles = worker.share(static_cast<int>(particles_.size()));
@@ -187,7 +187,7 @@ void ContactResponse::move(Field field, int particle) {
 
 /// Prepares a point for the velocity passes. Contacts that neither pressed nor were pushed leave
 /// velocities alone.
-void ContactResponse::turn_to_velocities(double time_step, Point& point) {
+void ContactResponse::convert_to_velocities(double time_step, Point& point) {
   const bool touches = point.pushed || point.force_direction > 0;
   point.reference = (1 / time_step) * point.surface_displacement;
   point.target = touches ? dot(point.normal, point.reference) : -HUGE_VAL;

@@ -79,7 +79,7 @@ class ContactResponse {
   void count(int particle);
   [[nodiscard]] double push_out(Point& point) const;
   void move(Field field, int particle);
-  static void turn_to_velocities(double time_step, Point& point);
+  static void convert_to_velocities(double time_step, Point& point);
   void write_back(const MovingCloth& cloth, int particle, double time_step) const;
   void copy_to_mates(Planes3& planes, Worker& worker) const;
   [[nodiscard]] int count_touching() const;

@@ -53,7 +53,7 @@ class NearSamples::Tile {
 
  private:
   [[nodiscard]] bool knows_closest(int k);
-  void look_deep(int k);
+  void find_deep(int k);
   void ask(int k, double reach, int hint);
   void set_start(int k, const BodyPoint& at);
   void set_end(int k, const BodyPoint* at_end);
@@ -193,7 +193,7 @@ void NearSamples::Tile::find_starts() {
   for (int k = 0; k < count_; ++k) {
     if (samples_[k]->triangle >= 0) continue;
     if (search_.is_deep(numbers_[k]))
-      look_deep(k);
+      find_deep(k);
     else if (!knows_closest(k))
       ask(k, all_.known_.search_reach(reach_of(k)), all_.known_.triangle(numbers_[k]));
   }
@@ -222,7 +222,7 @@ bool NearSamples::Tile::knows_closest(int k) {
 
 /// A sample that was outside and kept out cannot be inside now, whatever the normals say of an
 /// image that folds or crosses itself somewhere; others are asked.
-void NearSamples::Tile::look_deep(int k) {
+void NearSamples::Tile::find_deep(int k) {
   NearSample& one = *samples_[k];
   const Vec3d start = vec_cast<double>(one.start);
   const auto found =

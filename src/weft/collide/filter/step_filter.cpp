@@ -345,7 +345,7 @@ bool StepFilter::do_round(std::span<const MovingCloth> moving, double time_step,
     for (const int point : plane_filter_.lost()) {
       WorldCloth& cloth = world_.cloths[world_.cloth_of(point)];
       cloth.body_contacts->doubt(point - cloth.first_point);
-      for (BodyCrossings& crossings : cloth.crossings) crossings.look_again();
+      for (BodyCrossings& crossings : cloth.crossings) crossings.recheck();
     }
   }
   // Where safe positions that follow bodies as far as ever do not help, sides of a body close on

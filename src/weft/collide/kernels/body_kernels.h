@@ -24,14 +24,14 @@ struct BodyLeaf {
 
 /// A body's image as a tree: leaves of 2 x 2 cells, and above them nodes of 4 x 4 children each.
 struct BodyTree {
-  static constexpr int most_levels = 8;
+  static constexpr int max_levels = 8;
   const float *x = nullptr, *y = nullptr, *z = nullptr;  ///< samples
   long stride = 0;                                       ///< of their rows
   int size = 0;                                          ///< n: samples a side, >= 3
   int leaf_side = 0, levels = 0;
-  const BodyLeaf* leaves = nullptr;      ///< [leaf_side x leaf_side]
-  const BodyNode* nodes[most_levels]{};  ///< of each level, the one of the root last
-  int sides[most_levels]{};              ///< of each level
+  const BodyLeaf* leaves = nullptr;     ///< [leaf_side x leaf_side]
+  const BodyNode* nodes[max_levels]{};  ///< of each level, the one of the root last
+  int sides[max_levels]{};              ///< of each level
   /// The first row or column of a leaf's cells. The last leaf shares one with the leaf before it
   /// where there is an odd number of cells.
   int first_cell(int leaf) const { return 2 * leaf + 2 < size ? 2 * leaf : size - 3; }

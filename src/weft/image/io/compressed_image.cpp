@@ -26,7 +26,7 @@ constexpr std::uint32_t with_colours = 1;
 constexpr int colour_steps = 255;
 constexpr std::size_t number_size = 4;
 /// Text that zlib makes of one byte at most.
-constexpr std::size_t most_deflated = 1032;
+constexpr std::size_t max_deflated = 1032;
 
 int whole(float value, int steps) {
   return static_cast<int>(std::lround(static_cast<double>(value) * steps));
@@ -92,7 +92,7 @@ class Parts {
   std::uint32_t number() { return load_integer<std::uint32_t>(take(number_size), false); }
   std::string_view part() { return take(number()); }
   std::string inflated(std::size_t size, std::string_view packed) {
-    if (size > most_deflated * packed.size()) fail("metadata of a wrong length");
+    if (size > max_deflated * packed.size()) fail("metadata of a wrong length");
     std::string text(size, '\0');
     uLongf length = size;
     if (uncompress(reinterpret_cast<Bytef*>(text.data()), &length,
@@ -178,7 +178,7 @@ GeometryImage parse_compressed_image(std::string_view bytes, std::string_view wh
   const std::uint32_t length = parts.number();
   const std::string text = parts.inflated(length, parts.part());
   const int n = static_cast<int>(size), most = static_cast<int>(steps);
-  if (bytes.size() < least_bytes(samples_of(size))) parts.fail("fewer bytes than its samples take");
+  if (bytes.size() < min_bytes(samples_of(size))) parts.fail("fewer bytes than its samples take");
   const BorderMates mates = mates_in(text, n, where);
   const WholePlanes planes = decode_planes(parts.part(), mates, most, where);
   GeometryImage image = assemble_image(positions_of(planes, n, most), text, where);

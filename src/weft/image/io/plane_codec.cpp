@@ -256,7 +256,7 @@ std::string encode_planes(const WholePlanes& planes, const BorderMates& mates) {
   PlaneWalk(mates, copy, coder).run();
   std::string bytes = coder.finish();
   // Zeros follow where holes, flat charts and mates leave less than readers ask for.
-  bytes.resize(std::max(bytes.size(), least_bytes(planes[0].size())), '\0');
+  bytes.resize(std::max(bytes.size(), min_bytes(planes[0].size())), '\0');
   return bytes;
 }
 
@@ -275,6 +275,6 @@ WholePlanes decode_planes(std::string_view bytes, const BorderMates& mates, int 
   return planes;
 }
 
-std::size_t least_bytes(std::size_t samples) { return samples * axes / (44 * 8); }
+std::size_t min_bytes(std::size_t samples) { return samples * axes / (44 * 8); }
 
 }  // namespace weft

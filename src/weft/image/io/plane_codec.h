@@ -25,6 +25,6 @@ WholePlanes decode_planes(std::string_view bytes, const BorderMates& mates, int 
 
 /// Bytes that an image of so many samples takes at least, so that readers know from a file's length
 /// how much memory it may ask for.
-std::size_t least_bytes(std::size_t samples);
+std::size_t min_bytes(std::size_t samples);
 
 }  // namespace weft

@@ -41,7 +41,7 @@ struct Elements {
   }
 };
 
-constexpr std::size_t most_zeros = 12'000'000;  ///< numbers of an accessor that are in no buffer
+constexpr std::size_t max_zeros = 12'000'000;  ///< numbers of an accessor that are in no buffer
 
 const char* type_of(std::size_t width) {
   switch (width) {
@@ -169,9 +169,9 @@ std::vector<double> read_all(const GltfObject& root, GltfBuffers& buffers,
   const std::size_t count = count_of(accessor);
   std::vector<double> numbers;
   if (!accessor.has("bufferView") && accessor.has("sparse")) {
-    if (count > most_zeros / layout.width)
+    if (count > max_zeros / layout.width)
       accessor.fail(fmt::format("has {} elements in no buffer", count),
-                    fmt::format("at most {} are wanted", most_zeros / layout.width));
+                    fmt::format("at most {} are wanted", max_zeros / layout.width));
     numbers.resize(count * layout.width);
   } else {
     Elements elements =

@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 constexpr int clamp_to_edge = 33071;  ///< of a sampler's wrapS and wrapT
-constexpr std::int64_t most_texture_sets = 8;
+constexpr std::int64_t max_texture_sets = 8;
 
 bool is_clamped(const GltfObject& root, const GltfObject& texture) {
   const std::optional<int> sampler = texture.index("sampler", root.count("samplers"));
@@ -75,7 +75,7 @@ GltfColours::Material GltfColours::read_material(int index) {
 /// Which texture coordinates a picture lies at, and how it is moved.
 void GltfColours::read_place(const GltfObject& use, Material& material) {
   const auto set_of = [](const GltfObject& object) {
-    return object.integer("texCoord", 0, most_texture_sets - 1);
+    return object.integer("texCoord", 0, max_texture_sets - 1);
   };
   material.texture_set = static_cast<int>(set_of(use).value_or(0));
   const std::optional<GltfObject> extensions = use.object("extensions");

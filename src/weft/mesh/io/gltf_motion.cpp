@@ -13,13 +13,13 @@
 namespace weft {
 namespace {
 
-constexpr double most_positions = 500'000'000;  ///< of a sampled motion: 6 GB
+constexpr double max_positions = 500'000'000;  ///< of a sampled motion: 6 GB
 
 /// Times from 0 to the end of a rig's animation, of which all but the first and the last are those
 /// of whole frames after the lead-in.
 std::vector<double> sample_times(const GltfRig& rig, const MotionSampling& sampling) {
   const double rate = sampling.frame_rate;
-  if (!(rig.duration * rate * rig.points() < most_positions))
+  if (!(rig.duration * rate * rig.points() < max_positions))
     throw InputError(
         rig.name,
         fmt::format("an animation of {:.6g} s, at {:g} frames a second and {} vertices",
@@ -28,7 +28,7 @@ std::vector<double> sample_times(const GltfRig& rig, const MotionSampling& sampl
   // Of a frame. Keys are in single precision: one that is meant to be a frame lies a little beside.
   const double rounding = 1e-6 + 2.5e-7 * rig.duration * rate;
   const double lead = sampling.lead_in * rate;
-  if (!(lead < most_positions))
+  if (!(lead < max_positions))
     throw InputError(rig.name, fmt::format("a lead-in of {:g} frames", lead),
                      "a shorter one is wanted");
   std::vector<double> times{0};

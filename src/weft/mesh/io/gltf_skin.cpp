@@ -123,7 +123,7 @@ SkinWeights read_skin_weights(GltfDocument& document, const GltfObject& primitiv
   const std::optional<GltfObject> attributes = primitive.object("attributes");
   if (!attributes) primitive.fail("has no attributes", "joints and weights are wanted");
   std::vector<InfluenceSet> sets{read_set(document, *attributes, 0, vertices)};
-  while (sets.size() < most_joint_sets && attributes->has(fmt::format("JOINTS_{}", sets.size())))
+  while (sets.size() < max_joint_sets && attributes->has(fmt::format("JOINTS_{}", sets.size())))
     sets.push_back(read_set(document, *attributes, sets.size(), vertices));
   SkinWeights weights;
   weights.first.reserve(vertices + 1);

@@ -28,7 +28,7 @@ GltfSkin read_gltf_skin(GltfDocument& document, int index);
 std::array<Placing, 3> bound_placings(GltfDocument& document, int skin);
 
 /// Sets of four joints and weights that vertices may have; programs write one or two.
-inline constexpr std::size_t most_joint_sets = 8;
+inline constexpr std::size_t max_joint_sets = 8;
 
 /// How much each joint of a skin moves each vertex.
 struct SkinWeights {

@@ -79,7 +79,7 @@ VertexSource vertex_source(const GltfObject& root, const GltfObject& primitive,
                            const GltfObject& attributes) {
   VertexSource source;
   append_accessor(source, root, attributes, "POSITION");
-  for (std::size_t set = 0; set < most_joint_sets; ++set)
+  for (std::size_t set = 0; set < max_joint_sets; ++set)
     for (const char* name : {"JOINTS", "WEIGHTS"})
       append_accessor(source, root, attributes, fmt::format("{}_{}", name, set));
   for (std::size_t k = 0; k < primitive.count("targets"); ++k)

@@ -20,7 +20,7 @@ using Shape = GltfRig::Shape;
 using Target = GltfRig::Target;
 
 /// Joints and morph targets of all places of all meshes together.
-constexpr std::size_t most_numbers = 10'000'000;
+constexpr std::size_t max_numbers = 10'000'000;
 
 std::string clip_name(const GltfObject& root, std::size_t index) {
   return root.element("animations", index)
@@ -118,7 +118,7 @@ class RigReader {
     weights.resize(targets);
     numbers_ += targets;
     if (block.skin >= 0) numbers_ += rig.skins[static_cast<std::size_t>(block.skin)].joints.size();
-    if (numbers_ > most_numbers)
+    if (numbers_ > max_numbers)
       root_.fail("has more than 10 million joints and morph targets at all places of its meshes",
                  "fewer are wanted");
     block.weights = std::move(weights);

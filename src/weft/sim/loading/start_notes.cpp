@@ -11,7 +11,7 @@ namespace weft {
 namespace {
 
 /// Numbers of single precision that a thickness is to have, thicknesses that a cloth is to be wide.
-constexpr double least_steps = 8, least_thicknesses = 12;
+constexpr double min_steps = 8, min_thicknesses = 12;
 /// Sizes of bodies over those of cloths that are taken for a mistake; 100 and more come of units.
 constexpr double unlike = 50;
 /// Sizes of garments over those of bodies, or the other way round, that are taken for a mistake:
@@ -33,7 +33,7 @@ std::string far_off_text(const Planes3& placed, double thickness) {
   const double nearest = std::max({away(box.lower.x, box.upper.x), away(box.lower.y, box.upper.y),
                                    away(box.lower.z, box.upper.z)});
   const double step = 0x1p-23 * nearest;
-  if (least_steps * step <= thickness) return {};
+  if (min_steps * step <= thickness) return {};
   return fmt::format(
       "begins {:.2g} m from the origin, where positions are {:.2g} m apart and its thickness of "
       "{:.2g} m is lost: move all nearer to the origin",
@@ -42,7 +42,7 @@ std::string far_off_text(const Planes3& placed, double thickness) {
 
 std::string thick_text(const Planes3& placed, double thickness) {
   const double size = size_of(box_of(placed));
-  if (size >= least_thicknesses * thickness) return {};
+  if (size >= min_thicknesses * thickness) return {};
   return fmt::format(
       "is {:.2g} m across, with a thickness of {:.2g} m: is the unit of its file right?", size,
       thickness);

@@ -185,7 +185,7 @@ void BodyMotion::set_key(int sample, Key& key, ThreadTeam& team) const noexcept 
 namespace {
 
 /// Goes a part of the way from one row to another.
-void go_between(const float* from, const float* to, float part, int count, float* out) {
+void interpolate(const float* from, const float* to, float part, int count, float* out) {
 #pragma omp simd
   for (int c = 0; c < count; ++c) out[c] = from[c] + part * (to[c] - from[c]);
 }
@@ -209,8 +209,8 @@ void BodyMotion::place_animated(double seconds, Planes3& positions, ThreadTeam& 
                  rest = rows_of(rest_, r);
       const std::array<float*, 3> out = rows_of(positions, r);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        go_between(from[axis], to[axis], part, n, out[axis]);
-        if (share < 1) go_between(rest[axis], out[axis], share, n, out[axis]);
+        interpolate(from[axis], to[axis], part, n, out[axis]);
+        if (share < 1) interpolate(rest[axis], out[axis], share, n, out[axis]);
       }
     }
   });

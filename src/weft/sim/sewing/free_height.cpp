@@ -10,7 +10,7 @@ namespace {
 
 /// Heights that are tried, above and below, up to this many. [m]
 constexpr double height_step = 0.01;
-constexpr int most_steps = 10;
+constexpr int max_steps = 10;
 
 /// The ways of the samples of seams to where they meet.
 class WaysToMeet {
@@ -60,7 +60,7 @@ std::vector<ClosedBody> worn_by(std::span<const PlacedBody> bodies, const Planes
 double free_height(const WaysToMeet& ways, std::span<const ClosedBody> bodies) {
   const int first = ways.count_blocked(bodies, 0);
   if (first == 0) return 0;
-  for (int i = 1; i <= most_steps; ++i)
+  for (int i = 1; i <= max_steps; ++i)
     for (const double up : {height_step * i, -height_step * i})
       if (2 * ways.count_blocked(bodies, up) <= first) return up;
   return 0;

@@ -11,7 +11,7 @@ namespace {
 /// Lengths change this many times, as each change takes new solvers.
 constexpr int stages = 16;
 /// Springs that are shorter by less than this part begin as they are sewn.
-constexpr float least_gathered_part = 0.01F;
+constexpr float min_gathered_part = 0.01F;
 /// How far samples begin out of their panels, as a part of what is gathered between them.
 constexpr float ripple_part = 1e-4F;
 
@@ -35,7 +35,7 @@ Gathers::Gathers(Cloth& cloth) {
     for_each_spring(cloth.mates, plane, [&](int r, int c, int r2, int c2) {
       const float flat = spring_length(cloth.rest.at(r, c), cloth.rest.at(r2, c2));
       float& length = plane.rest_length(r, c);
-      if (!(length < (1 - least_gathered_part) * flat)) return;
+      if (!(length < (1 - min_gathered_part) * flat)) return;
       springs_.push_back({direction, r, c, flat, length});
       length = flat;
     });

@@ -15,7 +15,7 @@ namespace {
 
 /// Panels that stand across others, and are this high at least, begin so far above them. Lower
 /// ones, as collars, hang in nobody's way. [m]
-constexpr double least_height = 0.1, clear_above = 0.2;
+constexpr double min_height = 0.1, clear_above = 0.2;
 /// Cosine of the angle between their sides from which on panels stand across each other.
 constexpr double cosine_across = 0.7;
 
@@ -87,7 +87,7 @@ struct PanelPlaces {
   }
   [[nodiscard]] bool stands_across(int panel, int other) const {
     return std::abs(dot(outer[panel], outer[other])) < cosine_across &&
-           lowest[panel] > middle[other] && highest[panel] - lowest[panel] > least_height;
+           lowest[panel] > middle[other] && highest[panel] - lowest[panel] > min_height;
   }
 
   std::vector<double> lowest, highest, middle;  // [m]

@@ -14,13 +14,13 @@ namespace {
 constexpr std::array parts_of_circle{0.9, 0.8, 0.7, 0.6, 0.5};
 /// Tubes are moved in steps of this length, up to so many, to get round a body. [m]
 constexpr double step_aside = 0.02;
-constexpr int most_steps_out = 15, most_steps_across = 5;
+constexpr int max_moves_out = 15, max_moves_across = 5;
 
 /// The ways that tubes are moved, the shortest first.
 std::vector<Tube> moves(double part) {
   std::vector<Tube> moves;
-  for (int i = -most_steps_out; i <= most_steps_out; ++i)
-    for (int k = -most_steps_across; k <= most_steps_across; ++k)
+  for (int i = -max_moves_out; i <= max_moves_out; ++i)
+    for (int k = -max_moves_across; k <= max_moves_across; ++k)
       moves.push_back({part, step_aside * i, step_aside * k});
   std::stable_sort(moves.begin(), moves.end(), [](const Tube& a, const Tube& b) {
     return a.out * a.out + a.across * a.across < b.out * b.out + b.across * b.across;

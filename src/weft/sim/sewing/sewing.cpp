@@ -10,13 +10,13 @@ namespace weft {
 namespace {
 
 /// Seams close within a time in which no sample goes faster, which is at least this. [m/s], [s]
-constexpr double fastest = 1, least_time = 0.2;
+constexpr double fastest = 1, min_time = 0.2;
 /// Speed of samples that were held back. [m/s]
 constexpr double late_speed = 0.25;
 /// Panels that are stretched by this along their seams, by the median, are not pulled on, and less
 /// and less from half of it on: the garment is too narrow. Parts of a seam may be stretched as they
 /// are caught in a crease, and are to be pulled out.
-constexpr double most_stretch = 0.5;
+constexpr double max_stretch = 0.5;
 /// What was held back is let go in the last part of each such time. [s]
 constexpr double let_go_for = 0.08, let_go_every = 0.2;
 /// Distance up to which the samples of a class take turns in being where the others go to: where
@@ -30,7 +30,7 @@ constexpr int zip_reach = 3;
 constexpr double near_in_zip = 0.006;
 /// Bending stiffness of panels while they are sewn, that of paper; limp, they would crumple at
 /// their edges and come to lie between others. [N m]
-constexpr double least_bending = 1e-3;
+constexpr double min_bending = 1e-3;
 /// Where a seam stays open gravity fades in after this time, and in this one. [s]
 constexpr double gravity_after = 1.5, gravity_fades = 0.5;
 /// Distance from their mean at which samples become one while all seams close, so that they go to
@@ -39,7 +39,7 @@ constexpr double gravity_after = 1.5, gravity_fades = 0.5;
 constexpr double closed = 5e-5;
 /// Cloth between samples is taken to hold them apart while their panels are pulled on at this part
 /// of the late speed at least. Where they are stretched more, it is they that do.
-constexpr double least_slack = 0.5;
+constexpr double min_slack = 0.5;
 
 /// Where a body takes more than this part of a pull, its goal is behind the body, and a seam from
 /// which its panel hangs goes over it: straps over shoulders. `hanging` is how far upwards the way
@@ -81,7 +81,7 @@ Sewing::Sewing(const Garment& garment, const Planes3& start)
   measure(start);
   const double farthest = away_.empty() ? 0 : *std::max_element(away_.begin(), away_.end());
   // part_left is steepest in the middle, by 1.5.
-  time_to_close_ = std::max(least_time, 1.5 * farthest / fastest);
+  time_to_close_ = std::max(min_time, 1.5 * farthest / fastest);
 }
 
 void Sewing::find_classes_along_seams() {
@@ -136,7 +136,7 @@ void Sewing::begin_frame(const Planes3& position, double seconds, double length)
   measure(position);
   find_slack(position);
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
-    stuck_[k] = away_[k] > met && away_[k] < far && slack_of(k) >= least_slack ? 1 : 0;
+    stuck_[k] = away_[k] > met && away_[k] < far && slack_of(k) >= min_slack ? 1 : 0;
   unpicking_.choose(along_, stuck_);
 }
 
@@ -197,7 +197,7 @@ void Sewing::find_slack(const Planes3& position) {
     const auto middle = stretches.begin() + static_cast<std::ptrdiff_t>(stretches.size() / 2);
     if (middle == stretches.end()) continue;
     std::nth_element(stretches.begin(), middle, stretches.end());
-    slack_[p] = std::clamp(2 - 2 * *middle / most_stretch, 0.0, 1.0);
+    slack_[p] = std::clamp(2 - 2 * *middle / max_stretch, 0.0, 1.0);
   }
 }
 
@@ -216,8 +216,8 @@ double Sewing::gravity_part(double seconds) const {
 }
 
 WarpWeft Sewing::bending_for(const Material& material) {
-  return {std::max(material.bending.warp, least_bending),
-          std::max(material.bending.weft, least_bending)};
+  return {std::max(material.bending.warp, min_bending),
+          std::max(material.bending.weft, min_bending)};
 }
 
 /// Cloth with cloth has samples of two panels, or four.

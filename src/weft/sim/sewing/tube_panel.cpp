@@ -11,11 +11,11 @@ namespace {
 
 /// Edges of a tube are this far apart, as a part of the panel's width. Those of a dart, and both
 /// ends of a ring that is cut, are nearer.
-constexpr double least_apart = 0.5;
+constexpr double min_apart = 0.5;
 /// Where a panel tapers to less than this part of its mean width it is rolled up as if it did not.
-constexpr double least_width = 0.25;
+constexpr double min_width = 0.25;
 /// The part of a half turn that no sample goes beyond.
-constexpr double most_turned = 0.95;
+constexpr double max_turned = 0.95;
 /// Turns that are tried.
 constexpr int turns = 24;
 /// Points on an axis.
@@ -69,7 +69,7 @@ bool TubePanel::is_across_panel(std::span<const Pair> seam) {
     low = std::min(low, across);
     high = std::max(high, across);
   }
-  return width_ > least_apart * (high - low);
+  return width_ > min_apart * (high - low);
 }
 
 /// Fits lines to the width between the edges and to its middle, over the place along the seam.
@@ -95,7 +95,7 @@ void TubePanel::fit() {
 
 double TubePanel::radius_at(double along, const Tube& tube) const {
   const double width = width_ + widening_ * std::clamp(along, from_, to_);
-  return std::max(least_width * width_, width) / (2 * pi * tube.part);
+  return std::max(min_width * width_, width) / (2 * pi * tube.part);
 }
 
 double TubePanel::centre_at(double along) const { return leaning_ * std::clamp(along, from_, to_); }
@@ -122,7 +122,7 @@ Planes3 TubePanel::rolled(const Tube& tube) const {
 
 bool TubePanel::has_gap(const Tube& tube) const {
   return std::all_of(samples_.begin(), samples_.end(),
-                     [&](int s) { return std::abs(angle_of(s, tube)) < most_turned * pi; });
+                     [&](int s) { return std::abs(angle_of(s, tube)) < max_turned * pi; });
 }
 
 double TubePanel::best_turn(Tube tube) const {

@@ -12,7 +12,7 @@ constexpr double first = 0.6, every = 0.4;
 /// So many samples along a seam to both sides of what is stuck are taken apart, too.
 constexpr int reach = 3;
 /// After so many attempts a garment is left as it is, so that it comes to rest.
-constexpr int most_attempts = 12;
+constexpr int max_attempts = 12;
 
 int frames_of(double seconds, double length) {
   return std::max(2, static_cast<int>(std::lround(seconds / length)));
@@ -28,7 +28,7 @@ bool Unpicking::begin_frame(int since, double length) {
   frame_length_ = length;
   const int begun = since - frames_of(first, length), period = frames_of(every, length);
   attempt_ = begun < 0 ? -1 : begun / period;
-  return begun >= 0 && begun % period == 0 && attempt_ < most_attempts;
+  return begun >= 0 && begun % period == 0 && attempt_ < max_attempts;
 }
 
 void Unpicking::choose(std::span<const std::vector<int>> along, std::span<const char> stuck) {

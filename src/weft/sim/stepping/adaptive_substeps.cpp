@@ -23,7 +23,7 @@ Box3d padded(const Box3d& box, double by) {
 
 double ApproachRule::parts(double approach) const {
   const double speed = approach / seconds;
-  const double gaps = std::clamp(most_gaps * calm_speed / speed, least_gaps, most_gaps);
+  const double gaps = std::clamp(max_gaps * calm_speed / speed, min_gaps, max_gaps);
   return approach / (gaps * gap);
 }
 
@@ -148,7 +148,7 @@ double wanted_subdivisions(const BlockMotion& motion, const ClothReach& cloth,
 
 int whole_subdivisions(double wanted) noexcept {
   int subdivisions = 1;
-  while (subdivisions < max_pieces && subdivisions < wanted) subdivisions *= 2;
+  while (subdivisions < max_subdivisions && subdivisions < wanted) subdivisions *= 2;
   return subdivisions;
 }
 
@@ -157,14 +157,14 @@ StepWalk::StepWalk(int least, const StepLevels& levels)
       first_(std::max(least, levels.first)),
       level_(first_),
       most_(std::max(first_, levels.most)),
-      most_fallen_(std::max(most_, least_ + levels_for_fallen)) {}
+      max_fallen_(std::max(most_, least_ + levels_for_fallen)) {}
 
 void StepWalk::require(int level) {
   least_ = std::max(least_, level);
   first_ = std::max(first_, least_);
   level_ = std::max(level_, first_);
   most_ = std::max(most_, first_);
-  most_fallen_ = std::max(most_, least_ + levels_for_fallen);
+  max_fallen_ = std::max(most_, least_ + levels_for_fallen);
 }
 
 void StepWalk::halve() {
@@ -176,7 +176,7 @@ void StepWalk::halve() {
 void StepWalk::accept(StepVerdict verdict) {
   done_ += whole >> level_;
   calm_ = calm_ && verdict == StepVerdict::calm;
-  if (verdict == StepVerdict::fallen) most_fallen_ = level_;
+  if (verdict == StepVerdict::fallen) max_fallen_ = level_;
   if (verdict == StepVerdict::forced || verdict == StepVerdict::fallen) {
     // Halving has not helped: the rest of the substep is halved no further.
     forced_ = true;

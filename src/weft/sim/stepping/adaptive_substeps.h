@@ -19,7 +19,7 @@ namespace weft {
 struct ApproachRule {
   /// Gaps that bodies approach in a step at most: at up to calm_speed, and at any speed; in inverse
   /// proportion to the speed between.
-  static constexpr double most_gaps = 3, least_gaps = 0.75;
+  static constexpr double max_gaps = 3, min_gaps = 0.75;
   static constexpr double calm_speed = 3;  ///< [m/s]
 
   double gap = 0;      ///< the smallest [m]
@@ -34,7 +34,7 @@ struct ApproachRule {
 inline constexpr double max_turn = 0.35;
 /// Largest number of steps in a substep, for bodies of up to some hundred metres a second, and its
 /// level. Collisions halve steps less often: StepLevels::deepest.
-inline constexpr int finest_level = 10, max_pieces = 1 << finest_level;
+inline constexpr int finest_level = 10, max_subdivisions = 1 << finest_level;
 
 /// Bounding boxes of the region that a cloth may reach during a substep.
 class ClothReach {
@@ -65,7 +65,7 @@ class ClothReach {
 double wanted_subdivisions(const BlockMotion& motion, const ClothReach& cloth,
                            const ApproachRule& rule) noexcept;
 
-/// Rounds up to a power of 2, at most max_pieces.
+/// Rounds up to a power of 2, at most max_subdivisions.
 int whole_subdivisions(double wanted) noexcept;
 
 /// Exponent of a power of 2.
@@ -104,7 +104,7 @@ class StepWalk {
   /// The same for a step in which points fall back while bodies move: the shorter, the less these
   /// push them, even where halving has not helped against other faults.
   [[nodiscard]] bool may_halve_fallen() const {
-    return level_ < std::min(most_fallen_, finest_level);
+    return level_ < std::min(max_fallen_, finest_level);
   }
   /// The same for a step whose solve ran away, or that is wild: halving it is all that there is to
   /// be done.
@@ -121,8 +121,8 @@ class StepWalk {
   [[nodiscard]] StepLevels next(const StepLevels& levels) const;
 
  private:
-  static constexpr int whole = max_pieces;
-  int least_, first_, level_, most_, most_fallen_;
+  static constexpr int whole = max_subdivisions;
+  int least_, first_, level_, most_, max_fallen_;
   int done_ = 0;  // in units of the shortest step
   bool calm_ = true, forced_ = false, halved_ = false;
 };

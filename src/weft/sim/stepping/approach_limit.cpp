@@ -41,13 +41,13 @@ double ApproachLimit::wanted_parts(const Step& step) {
 }
 
 void ApproachLimit::check_speed(double subdivisions, int frame) const {
-  if (subdivisions > max_pieces)
+  if (subdivisions > max_subdivisions)
     throw SceneError(name_,
                      fmt::format("bodies pass cloth at up to {:.4g} m/s in frame {}, faster than "
                                  "it can be kept from them",
                                  loaded_.driven.fastest(), frame + 1),
                      fmt::format("{} substeps or more are wanted",
-                                 std::ceil(scene_.substeps * subdivisions / max_pieces)));
+                                 std::ceil(scene_.substeps * subdivisions / max_subdivisions)));
 }
 
 int ApproachLimit::subdivisions(const Step& substep) {
@@ -66,11 +66,11 @@ int ApproachLimit::required_level(const Step& step, int subdivisions) {
 std::string ApproachLimit::caution(double substep_time) const {
   const double fastest = loaded_.driven.fastest();
   const double parts = ApproachRule{gap_, substep_time}.parts(fastest * substep_time);
-  if (parts <= max_pieces) return {};
+  if (parts <= max_subdivisions) return {};
   return fmt::format(
       "bodies go up to {:.4g} m/s, faster than cloth can be kept from them; {} substeps "
       "or more are wanted",
-      fastest, std::ceil(scene_.substeps * parts / max_pieces));
+      fastest, std::ceil(scene_.substeps * parts / max_subdivisions));
 }
 
 }  // namespace weft

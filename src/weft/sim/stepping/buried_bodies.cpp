@@ -56,7 +56,7 @@ void BuriedBodies::look_at(std::size_t index, ThreadTeam& team) {
   if (deforms) changing_.push_back({index, std::move(samples), body.positions, marks, marks});
 }
 
-void BuriedBodies::look_again(ThreadTeam& team) {
+void BuriedBodies::recheck(ThreadTeam& team) {
   for (Changing& one : changing_) {
     PlacedBody& body = loaded_.bodies[one.body];
     one.samples->find(team, one.at_end);

@@ -21,7 +21,7 @@ class BuriedBodies {
   /// Looks at the bodies where they begin. @pre `driven` has them there
   void set_up(ThreadTeam& team);
   /// Looks at those that change their shape where they are, as a run is resumed. @pre as set_up
-  void look_again(ThreadTeam& team);
+  void recheck(ThreadTeam& team);
   /// Begins a frame, at whose end `driven` has the bodies.
   void begin_frame(Collider& collider, ThreadTeam& team);
   /// Tells a new collider of the marks.

@@ -15,7 +15,7 @@ namespace {
 constexpr double max_added_part = 0.3, max_added = 0.01;
 /// Linearisation errors split a substep into at most this many steps: in crushed cloth, whose
 /// contacts want to separate at once, shorter steps are more violent.
-constexpr double max_pieces_for_solves = 8;
+constexpr double max_subdivisions_for_solves = 8;
 /// A step that is too much is wild if what follows its solve stretches springs by this part of m g
 /// times the cloth's side length. Such springs draw points many cells far at once, of which the
 /// filter allows hardly a gap; only in the shortest steps do they draw them less.
@@ -34,7 +34,7 @@ constexpr double max_unpaid_part = 0.25;
 
 /// A step that gains energy is shortened to no less than this part of its way before it is not gone
 /// at all.
-constexpr double least_part = 1.0 / 8;
+constexpr double min_part = 1.0 / 8;
 
 /// @param mass  [kg] @param density  [kg/m^2] @return [J]
 double lent_energy(double mass, double density) {
@@ -69,7 +69,7 @@ void shorten_way(const Planes3& start, float part, ClothState& proposal) {
 
 }  // namespace
 
-double EnergyBudget::most_lent() const {
+double EnergyBudget::max_lent() const {
   double most = 0;
   for (std::size_t i = 0; i < cloths_.size(); ++i)
     most += lent_energy(movers_[i].meter.mass(), cloths_[i].model->material.density);
@@ -84,7 +84,7 @@ void EnergyBudget::begin_run() {
 bool EnergyBudget::solve_is_lost(double part) const {
   double missed = 0, mass = 0;
   for (const Mover& mover : movers_) missed += mover.integrator->missed();
-  if (!(missed > 0) || part < 1.5 / max_pieces_for_solves) return false;
+  if (!(missed > 0) || part < 1.5 / max_subdivisions_for_solves) return false;
   Energy start;
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
     start += movers_[i].meter.measure(cloths_[i].state);
@@ -104,7 +104,7 @@ void EnergyBudget::lend(bool sewing) {
   }
   known_ = true;
   work_.least = std::min(work_.least, start - explained);
-  lent_ = most_lent();
+  lent_ = max_lent();
   max_energy_ = work_.least + explained + lent_;
   // Where seams move the cloth its energy tells nothing, and many linearisations would gain
   // nothing.
@@ -144,7 +144,7 @@ EnergyBudget::Added EnergyBudget::shorten(const StepWork& work) {
   Added added;
   double part = 1;
   do {
-    const double next = part > least_part ? part / 2 : 0;
+    const double next = part > min_part ? part / 2 : 0;
     for (std::size_t i = 0; i < cloths_.size(); ++i)
       shorten_way(cloths_[i].state.position, static_cast<float>(next / part),
                   movers_[i].integrator->proposal());

@@ -75,7 +75,7 @@ class EnergyBudget {
 
   [[nodiscard]] const WorkDone& work() const { return work_; }
   /// Energy that contacts and the filter may lend all cloths [J].
-  [[nodiscard]] double most_lent() const;
+  [[nodiscard]] double max_lent() const;
   void restore(const WorkDone& work) {
     work_ = work;
     forget();

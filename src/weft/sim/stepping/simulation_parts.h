@@ -148,8 +148,8 @@ struct Simulation::Parts : LoadedScene {
   [[nodiscard]] Vec3d centre() const;
   /// Whether the integrator takes contacts into account; if not, cloth is only pushed out at the
   /// end of the step.
-  [[nodiscard]] bool heeds_contacts() const {
-    return Integrators::traits_of(scene.integrator).heeds_contacts;
+  [[nodiscard]] bool solves_contacts() const {
+    return Integrators::traits_of(scene.integrator).solves_contacts;
   }
   /// Whether springs stiffen beyond the strain limit, which then holds energy.
   [[nodiscard]] bool stiffens() const {

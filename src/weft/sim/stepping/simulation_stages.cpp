@@ -239,7 +239,7 @@ int Simulation::Parts::required_level(int subdivisions) {
   const int of_bodies =
       driven.any_moves() ? approach.required_level(approached(), subdivisions) : -1;
   const double wanted = wanted_by_pins();
-  if (wanted <= max_excess_lead || subdivisions == max_pieces) return of_bodies;
+  if (wanted <= max_excess_lead || subdivisions == max_subdivisions) return of_bodies;
   return std::max(of_bodies, level_of(whole_subdivisions(wanted * subdivisions)));
 }
 
@@ -253,7 +253,7 @@ void Simulation::Parts::iterate_all() {
   if (joint && !collider->shared_contacts().empty()) return iterate_together();
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     const std::span<const Contact> found = collider->contacts(i);
-    if (movers[i].integrator->starts_at_proposal() || (heeds_contacts() && !found.empty()))
+    if (movers[i].integrator->starts_at_proposal() || (solves_contacts() && !found.empty()))
       movers[i].integrator->iterate(found);
   }
 }
@@ -276,9 +276,9 @@ bool Simulation::Parts::solves_go_far() const {
 
 bool Simulation::Parts::free_guesses() {
   const bool filters = Colliders::traits_of(scene.collider).filters;
-  if (!heeds_contacts() && !filters) return false;
+  if (!solves_contacts() && !filters) return false;
   collider->detect(moving, time_step, team);
-  if (!filters || !heeds_contacts() || !collider->anything_near()) return false;
+  if (!filters || !solves_contacts() || !collider->anything_near()) return false;
   // Contacts are kept: they were detected from the step's start, along the longer unfiltered path.
   if (movers.front().integrator->starts_at_proposal() && guesses_go_far())
     collider->filter_guess(moving, time_step, team);

@@ -102,7 +102,7 @@ void StabilityCheck::check_energy(const Now& now, const FrameReport& report, dou
   const double most = max_unexplained_part * come_by + max_unexplained_work * work.gross;
   if (!held) check_strained(now, report.strain.p99, gained + work.pulled, work);
   const bool beyond =
-      !held && gained > std::max({max_unexplained, max_times_lent * budget.most_lent(), most});
+      !held && gained > std::max({max_unexplained, max_times_lent * budget.max_lent(), most});
   frames_beyond_ = beyond ? frames_beyond_ + 1 : 0;
   if (frames_beyond_ < frames_that_tell) return;
   stop(now, wildest_cloth(),

@@ -125,10 +125,10 @@ struct Block {
 
 /// By L D L^T.
 [[gnu::always_inline]] inline Block inverse_of(const Block& a) {
-  const Pack least_yy = min_series_pivot * a.yy, least_zz = min_series_pivot * a.zz;
+  const Pack min_yy = min_series_pivot * a.yy, min_zz = min_series_pivot * a.zz;
   const Pack i0 = 1 / a.xx, l1 = a.xy * i0, l2 = a.xz * i0;
-  const Pack i1 = 1 / larger(a.yy - l1 * a.xy, least_yy), e4 = a.yz - l1 * a.xz, m = e4 * i1;
-  const Pack i2 = 1 / larger(a.zz - l2 * a.xz - m * e4, least_zz), n = m * l1 - l2;
+  const Pack i1 = 1 / larger(a.yy - l1 * a.xy, min_yy), e4 = a.yz - l1 * a.xz, m = e4 * i1;
+  const Pack i2 = 1 / larger(a.zz - l2 * a.xz - m * e4, min_zz), n = m * l1 - l2;
   return {i0 + l1 * l1 * i1 + n * n * i2,
           Pack{} - (l1 * i1 + m * n * i2),
           n * i2,

@@ -171,8 +171,8 @@ inline void bound(const PreparedLeaf& leaf, const float* at, LeafBounds& out) {
     const float aa = dot(ax, ay, az, ax, ay, az);
     const float farthest = leaf.farthest[k], slack = leaf.slack[k], unclear = edges - leaf.inner[k];
     const float lower = aa < farthest ? low : unclear, upper = aa < farthest ? high : edges;
-    const float least_square = (1 - part_of_distance) * lower - slack;
-    out.lower[k] = slack < far_away ? least_square : slack;
+    const float min_square = (1 - part_of_distance) * lower - slack;
+    out.lower[k] = slack < far_away ? min_square : slack;
     if (Both) out.upper[k] = (1 + part_of_distance) * upper + slack;
   }
 }

@@ -79,8 +79,8 @@ class PointSearch {
  private:
   void set_limit(float squared);
   const PreparedLeaf& prepared(int leaf);
-  void look_for_nearer(int leaf);
-  void look_at_all();
+  void test_leaf(int leaf);
+  void test_all_leaves();
   void add(int leaf, const float* lower, TileTriangles& out);
 
   const BodyTree& tree_;
@@ -118,7 +118,7 @@ const PreparedLeaf& PointSearch::prepared(int leaf) {
   return leaves_.prepared[leaf];
 }
 
-void PointSearch::look_for_nearer(int leaf) {
+void PointSearch::test_leaf(int leaf) {
   LeafBounds bounds;
   bound<true>(prepared(leaf), at_, bounds);
   const float least = least_of(bounds.upper) + rounding_;
@@ -127,17 +127,17 @@ void PointSearch::look_for_nearer(int leaf) {
 
 /// Lowers the limit, the nearest leaf first, since it is likely to put most of the others out of
 /// the question.
-void PointSearch::look_at_all() {
+void PointSearch::test_all_leaves() {
   float least = far_away * far_away;
   for (int l = 0; l < leaves_.count; ++l) least = min(least, squared_[l]);
   for (int begin = 0; begin < leaves_.count; begin += 16)
     if (const unsigned nearest = within_node(squared_ + begin, min(least, box_limit_));
         nearest != 0)
-      look_for_nearer(begin + __builtin_ctz(nearest));
+      test_leaf(begin + __builtin_ctz(nearest));
   for (int begin = 0; begin < leaves_.count; begin += 16)
     for (unsigned near = within_node(squared_ + begin, limit_); near != 0; near &= near - 1)
       if (const int l = begin + __builtin_ctz(near); squared_[l] > least && squared_[l] <= limit_)
-        look_for_nearer(l);
+        test_leaf(l);
 }
 
 void PointSearch::add(int leaf, const float* lower, TileTriangles& out) {
@@ -153,7 +153,7 @@ void PointSearch::add(int leaf, const float* lower, TileTriangles& out) {
 void PointSearch::run(TileTriangles& out) {
   for (int first = 0; first < leaves_.count; first += 16)
     distances(leaves_, first, at_, squared_ + first);
-  if (!tile_.exact[point_]) look_at_all();
+  if (!tile_.exact[point_]) test_all_leaves();
   for (int begin = 0; begin < leaves_.count; begin += 16)
     for (unsigned near = within_node(squared_ + begin, box_limit_); near != 0; near &= near - 1) {
       const int l = begin + __builtin_ctz(near);

@@ -15,8 +15,8 @@ class Descent {
  private:
   void set_limit(float squared);
   void push(const Waiting& one, int first);
-  void look_below(unsigned place);
-  void look_at_leaf(unsigned place);
+  void visit_children(unsigned place);
+  void visit_leaf(unsigned place);
   void add(int triangle, float squared);
   void drop_far();
 
@@ -27,7 +27,7 @@ class Descent {
   float limit_ = 0;                         // triangles beyond are not the closest, squared [m^2]
   float box_limit_ = 0;                     // boxes beyond are not looked into, squared [m^2]
   float squared_[NearTriangles::capacity];  // lower bounds of what was found [m^2]
-  Waiting waiting_[16 * BodyTree::most_levels + 1];  // of children, the nearest on top
+  Waiting waiting_[16 * BodyTree::max_levels + 1];  // of children, the nearest on top
   int count_ = 0;
 };
 
@@ -76,7 +76,7 @@ void Descent::add(int triangle, float squared) {
   squared_[at] = squared;
 }
 
-void Descent::look_at_leaf(unsigned place) {
+void Descent::visit_leaf(unsigned place) {
   const int row = row_of(place), col = col_of(place);
   PreparedLeaf leaf;
   prepare(tree_, row, col, leaf);
@@ -91,7 +91,7 @@ void Descent::look_at_leaf(unsigned place) {
   }
 }
 
-void Descent::look_below(unsigned place) {
+void Descent::visit_children(unsigned place) {
   const int level = level_of(place), row = row_of(place), col = col_of(place);
   float squared[16];
   const float* at = search_.at;
@@ -111,9 +111,9 @@ void Descent::run() {
     const Waiting next = waiting_[--count_];
     if (!(next.squared <= box_limit_)) continue;
     if (level_of(next.place) < 0)
-      look_at_leaf(next.place);
+      visit_leaf(next.place);
     else
-      look_below(next.place);
+      visit_children(next.place);
   }
   if (out_.count <= NearTriangles::capacity) drop_far();
 }
