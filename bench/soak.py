@@ -36,7 +36,7 @@ CLOTHS = {"sheet": 0.71, "disk": 0.5, "torus": 0.5, "cylinder": 0.54}
 MATERIALS = ("cotton", "silk", "wool", "denim", "leather", "linen", "jersey", "chiffon", "canvas")
 # What a run may come to: parts of springs (more in soft cloth: most_strain), of points put back, of m g 1 m gained, and metres off free
 # fall.
-MOST_STRAIN, MOST_FELL_BACK, MOST_GAINED, MOST_OFF = 0.2, 0.01, 0.01, 1e-3
+MAX_STRAIN, MAX_FELL_BACK, MAX_GAINED, MAX_OFF = 0.2, 0.01, 0.01, 1e-3
 FIGURES = ("seed", "failure", "strain_p99", "fell_back_share", "blocked_share", "lost_share", "energy_gained_mgl", "off_free_fall",
            "contacts_max", "self_contacts_max", "intersections", "passed", "swallowed", "ms_median", "seconds", "program")
 GAP = 0.03  # between the spheres around all things at the start [m]
@@ -204,7 +204,7 @@ def may_be_carried(scene):
 def most_strain(scene):
     """Cloth so soft that a blow may strain it beyond the bound has none where it may be carried."""
     blow = impact_strain(scene)
-    return math.inf if blow > MOST_STRAIN and may_be_carried(scene) else max(MOST_STRAIN, blow)
+    return math.inf if blow > MAX_STRAIN and may_be_carried(scene) else max(MAX_STRAIN, blow)
 
 
 def figures_of(seed, scene, report, frames):
@@ -217,8 +217,8 @@ def figures_of(seed, scene, report, frames):
                "self_contacts_max": report["self_contacts_max"], "intersections": report["intersections"],
                "passed": verified["passed"]["count"], "swallowed": verified["swallowed"]["count"],
                "ms_median": report["ms_per_frame"]["median"]}
-    bounds = {"strain_p99": most_strain(scene), "fell_back_share": MOST_FELL_BACK,
-              "energy_gained_mgl": MOST_GAINED, "off_free_fall": MOST_OFF}
+    bounds = {"strain_p99": most_strain(scene), "fell_back_share": MAX_FELL_BACK,
+              "energy_gained_mgl": MAX_GAINED, "off_free_fall": MAX_OFF}
     beyond = [f"{name} {figures[name]:.3g} above {most:.3g}" for name, most in bounds.items() if not figures[name] <= most]
     figures["failure"] = "; ".join(beyond)
     return figures

@@ -15,7 +15,7 @@ NO_HISTORY = 77  # as tests that are skipped end
 def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--root", type=pathlib.Path, default=stamp.ROOT)
-    words.add_argument("--most", type=int, default=stamp.MOST_COMMITS,
+    words.add_argument("--most", type=int, default=stamp.MAX_COMMITS,
                        help="commits that may change a block's sources before it is stale")
     options = words.parse_args()
     if stamp.git("rev-parse", "--is-shallow-repository", root=options.root) != "false":

@@ -12,7 +12,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # So many commits may change a block's sources before it has to be measured anew.
-MOST_COMMITS = 60
+MAX_COMMITS = 60
 
 # The defaults that a measurement runs on stand in public headers.
 CLOTH = ("src/weft/cloth", "include/weft/integrators.h", "include/weft/material.h")
@@ -96,7 +96,7 @@ def reason_for(text, root, most_commits):
     return None
 
 
-def findings(root=ROOT, most_commits=MOST_COMMITS):
+def findings(root=ROOT, most_commits=MAX_COMMITS):
     """One for each block of the documents, in their order."""
     for document in sorted((root / "docs").rglob("*.md")):
         for block in BLOCK.finditer(document.read_text()):
