@@ -27,10 +27,11 @@ SOURCES = {
     "broad_phases": ("src/weft/collide/broad_phase",),
     "validate": (*SIMULATION, "tests/cloth", "tests/sim"), "self_cost": SIMULATION, "scenes": SIMULATION, "tight_scenes": SIMULATION, "soak": SIMULATION,
     "patterns": (*SIMULATION, "src/weft/garment"), "at_rest": (*SIMULATION, "src/weft/garment"),
+    "random_garments": (*SIMULATION, "src/weft/garment"),
     "drape": (*CLOTH, "src/weft/sim/drape_coefficient.cpp", "src/weft/sim/materials.cpp"),
 }
 # Options whose next word is a file or a folder that a bench keeps its work in.
-LOCAL_FILES = ("--done", "--figures", "--keep")
+LOCAL_FILES = ("--done", "--figures", "--keep", "--pictures", "--shared")
 LINE = re.compile(r"`(?P<command>[^`]+)` at commit `(?P<commit>[0-9a-f]+)(?P<dirty>\+?)`, (?P<date>\d{4}-\d\d-\d\d), on "
                   r"(?P<machine>[^;\n]+); of (?P<sources>`[^\n]+`)\.\n")
 BLOCK = re.compile(r"<!-- (?P<name>\w+) -->\n(?P<text>.*?)<!-- /(?P=name) -->", re.S)

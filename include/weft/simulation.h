@@ -88,9 +88,9 @@ struct PlacedBody {
   Planes3 positions;                       ///< world, now [m]
   bool moves = false;                      ///< by motion or animation
   std::optional<SourceMesh> source;        ///< unplaced, where the surface came from a mesh
-  /// Which samples lie in the body itself in this frame, as where an arm enters the side (2), or
-  /// have come to leave no room for cloth before them (1); empty: none. Cloth may pass through
-  /// triangles at them. [n * n]
+  /// Of a body that has changed its shape: which samples lie in the body itself in this frame, as
+  /// where an arm enters the side (2), or leave no room for cloth before them (1). Cloth may pass
+  /// through triangles at them. Empty: none. [n * n]
   std::vector<char> buried{};
 };
 

@@ -166,6 +166,7 @@ TEST(BuriedBodies, AreToldOfAtTheStart) {
   ASSERT_EQ(simulation.notes().size(), 1U);
   EXPECT_NE(simulation.notes()[0].find("body 'balls' crosses itself"), std::string::npos)
       << simulation.notes()[0];
+  EXPECT_TRUE(simulation.bodies()[0].buried.empty()) << "it keeps cloth off all of itself";
 }
 
 TEST(BuriedBodies, KeepClothOffWhereSidesAreNextToEachOtherFromTheBegin) {

@@ -1,6 +1,7 @@
 #include "weft/mesh/winding.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "weft/core/orientation.h"
@@ -8,12 +9,27 @@
 namespace weft {
 namespace {
 
-bool straight_above(const Box3d& box, Vec3d p) {
-  return box.lower.x <= p.x && p.x <= box.upper.x && box.lower.z <= p.z && p.z <= box.upper.z &&
-         p.y <= box.upper.y;
+double component(Vec3d p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+/// The axis along which a box is thinnest: few triangles lie there on the way out.
+int thinnest(const Box3d& box) {
+  const Vec3d extent = box.upper - box.lower;
+  if (extent.y <= extent.x && extent.y <= extent.z) return 1;
+  return extent.z <= extent.x ? 2 : 0;
 }
 
-Vec2d flat(Vec3d p) { return {p.x, p.z}; }
+/// A point seen along an axis: of y its x and z, and of others in turn.
+Vec2d flat(Vec3d p, int axis) {
+  return {component(p, (axis + 2) % 3), component(p, (axis + 1) % 3)};
+}
+
+bool meets(const Box3d& box, Vec3d from, RayAxis ray) {
+  const int axis = ray.axis;
+  const Vec2d lower = flat(box.lower, axis), upper = flat(box.upper, axis), at = flat(from, axis);
+  if (!(lower.x <= at.x && at.x <= upper.x && lower.y <= at.y && at.y <= upper.y)) return false;
+  return ray.down ? component(from, axis) >= component(box.lower, axis)
+                  : component(from, axis) <= component(box.upper, axis);
+}
 
 int sign(double x) { return (x > 0 ? 1 : 0) - (x < 0 ? 1 : 0); }
 
@@ -25,14 +41,18 @@ int side_of(Vec2d a, Vec2d b, Vec2d p) {
   return a.y != b.y ? sign(a.y - b.y) : sign(b.x - a.x);
 }
 
-/// A triangle's contribution to the winding number of a point: +1 where it lies straight above and
-/// faces up, -1 where it faces down, else 0.
-int part_of(const Corners& t, Vec3d p) {
-  const int first = side_of(flat(t[0]), flat(t[1]), flat(p));
+/// A triangle's contribution to the winding number of a point: +1 where the ray from there meets it
+/// from behind, -1 where it does so from before, else 0.
+int part_of(const Corners& t, Vec3d p, RayAxis ray) {
+  const int axis = ray.axis;
+  const std::array<Vec2d, 3> corners{flat(t[0], axis), flat(t[1], axis), flat(t[2], axis)};
+  const Vec2d at = flat(p, axis);
+  const int first = side_of(corners[0], corners[1], at);
   for (std::size_t k = 1; k < 3; ++k)
-    if (side_of(flat(t[k]), flat(t[(k + 1) % 3]), flat(p)) != first) return 0;
-  // The normal of a triangle that is counter-clockwise in (x, z) points down.
+    if (side_of(corners[k], corners[(k + 1) % 3], at) != first) return 0;
+  // The normal of a triangle that is counter-clockwise when flat points down.
   const bool above = orientation(t[0], t[1], t[2], p) == first;
+  if (ray.down) return above ? 0 : first;
   return above ? -first : 0;
 }
 
@@ -52,18 +72,29 @@ bool is_closed(std::span<const Triangle> triangles) {
 }
 
 WindingNumbers::WindingNumbers(std::vector<Corners> triangles)
-    : triangles_(std::move(triangles)), tree_(triangles_) {}
+    : triangles_(std::move(triangles)), tree_(triangles_) {
+  if (!triangles_.empty()) up_ = thinnest(tree_.nodes.front().box);
+}
 
-int WindingNumbers::at(Vec3d point) const { return triangles_.empty() ? 0 : count_below(0, point); }
+void WindingNumbers::moved() noexcept {
+  tree_.fit_boxes(triangles_);
+  if (!triangles_.empty()) up_ = thinnest(tree_.nodes.front().box);
+}
 
-int WindingNumbers::count_below(int index, Vec3d point) const {
+int WindingNumbers::at(Vec3d point, Vec3d towards) const {
+  if (triangles_.empty()) return 0;
+  return count_along({up_, component(towards, up_) < 0}, 0, point);
+}
+
+int WindingNumbers::count_along(RayAxis ray, int index, Vec3d point) const {
   const BoxTree::Node& node = tree_.nodes[static_cast<std::size_t>(index)];
-  if (!straight_above(node.box, point)) return 0;
-  if (node.right >= 0) return count_below(index + 1, point) + count_below(node.right, point);
+  if (!meets(node.box, point, ray)) return 0;
+  if (node.right >= 0)
+    return count_along(ray, index + 1, point) + count_along(ray, node.right, point);
   int count = 0;
   for (int place = node.first; place < node.last; ++place) {
     const int triangle = tree_.triangle_at[static_cast<std::size_t>(place)];
-    count += part_of(triangles_[static_cast<std::size_t>(triangle)], point);
+    count += part_of(triangles_[static_cast<std::size_t>(triangle)], point, ray);
   }
   return count;
 }

@@ -97,8 +97,7 @@ Simulation::Simulation(const Scene& scene, const std::string& name, const TeamOp
   if (Colliders::traits_of(scene.collider).filters)
     parts_->crossings.refuse_cloths_in_one_place(name);
   parts_->buried.set_up(parts_->team);
-  for (const PlacedBody& body : parts_->bodies)
-    if (std::string text = buried_text(body); !text.empty()) parts_->notes.push_back(text);
+  for (std::string& note : parts_->buried.notes()) parts_->notes.push_back(std::move(note));
   parts_->make_collider_of_scene();
   if (const std::string caution = parts_->approach.caution(parts_->substep_time); !caution.empty())
     parts_->notes.push_back(caution);
@@ -168,9 +167,7 @@ void Simulation::restore(const SimulationState& state) {
   }
   parts_->follow_sewing();
   if (parts_->driven.any_moves()) {
-    parts_->driven.move_to(parts_->frame_start(), parts_->team);
-    parts_->bodies_arrive();
-    parts_->buried.recheck(parts_->team);
+    parts_->resume_bodies();
     // A new collider, so that the jump of the bodies does not count as motion.
     parts_->make_collider_of_scene();
   }

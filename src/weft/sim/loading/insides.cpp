@@ -59,8 +59,8 @@ void ClosedBody::follow() {
     for (const Vec3d corner : t) box_.add(corner);
 }
 
-int ClosedBody::depth(Vec3d point) const {
-  return is_in(box_, point) ? std::abs(winding_->at(point)) : 0;
+int ClosedBody::depth(Vec3d point, Vec3d towards) const {
+  return is_in(box_, point) ? std::abs(winding_->at(point, towards)) : 0;
 }
 
 bool ClosedBody::holds_all(const Planes3& samples) const {

@@ -24,10 +24,13 @@ class ClosedBody {
   /// Updates the test to the current positions.
   void follow();
   /// Whether it winds around a point. [m] @pre closed
-  [[nodiscard]] bool holds(Vec3d point) const { return depth(point) > 0; }
+  /// @param towards  see WindingNumbers::at
+  [[nodiscard]] bool holds(Vec3d point, Vec3d towards = {1, 1, 1}) const {
+    return depth(point, towards) > 0;
+  }
   /// How often it winds around a point, in either direction: 2 where it lies in itself. [m]
   /// @pre closed
-  [[nodiscard]] int depth(Vec3d point) const;
+  [[nodiscard]] int depth(Vec3d point, Vec3d towards = {1, 1, 1}) const;
   /// Whether it winds around all samples of another surface, as a room does. [m] @pre closed
   [[nodiscard]] bool holds_all(const Planes3& samples) const;
   /// Marks the samples of another surface, mates too, around which the body winds: 1, or 2 where it

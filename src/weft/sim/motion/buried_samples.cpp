@@ -39,8 +39,8 @@ void BuriedSamples::add_normals() {
 char BuriedSamples::mark_of(int sample) const {
   const Vec3d along = normals_[mates_.size() > 0 ? mates_.representative(sample) : sample],
               at = position(positions_, sample), out = gap_ * normalized(along);
-  if (body_.holds(at + just_outside * out)) return 2;
-  return body_.holds(at + out) ? 1 : 0;
+  if (body_.holds(at + just_outside * out, out)) return 2;
+  return body_.holds(at + out, out) ? 1 : 0;
 }
 
 void BuriedSamples::find(ThreadTeam& team, std::vector<char>& marks) {

@@ -59,6 +59,8 @@ struct Simulation::Parts : LoadedScene {
   double follow_sewing();
   /// Makes movers anew, for cloths with other springs or bending.
   void renew_movers();
+  /// Puts bodies where they are at the begin of the frame from which a run is resumed.
+  void resume_bodies();
   /// Finds what of the bodies lies in themselves in the frame that begins.
   void follow_buried();
   /// Ends the step: bodies take their end positions.

@@ -82,6 +82,16 @@ void Simulation::Parts::move_bodies(double seconds) {
   moved_to = seconds;
 }
 
+void Simulation::Parts::resume_bodies() {
+  std::vector<double> frame_ends;
+  for (int past = 1; past <= frame; ++past)
+    frame_ends.push_back(substep_time * (past * scene.substeps));
+  buried.note_moved_before(frame_ends, team);
+  driven.move_to(frame_start(), team);
+  bodies_arrive();
+  buried.recheck(team);
+}
+
 void Simulation::Parts::follow_buried() {
   if (!driven.any_moves()) return;
   driven.move_to(frame_end(), team);
