@@ -56,6 +56,29 @@ TEST(Winding, AgreesWithSolidAnglesAroundAnyShape) {
   }
 }
 
+TEST(Winding, IsTheSameByRaysAlongAnyAxisToEitherSide) {
+  Random random(11);
+  for (double Vec3d::*thin : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+    TriangleMesh mesh = make_shape("knot");
+    for (Vec3d& p : mesh.positions) p.*thin *= 0.1;
+    const WindingNumbers winding(corners_of(mesh));
+    int inside = 0;
+    for (int i = 0; i < 200; ++i) {
+      // Near the surface, where both are many.
+      const std::size_t near =
+          static_cast<std::size_t>(random.uniform() * 0.999 * mesh.positions.size());
+      Vec3d p = 0.95 * mesh.positions[near];
+      p.*thin += 0.02 * (random.uniform() - 0.5);
+      const int found = winding.at(p, {1, 1, 1});
+      EXPECT_EQ(found, winding.at(p, {-1, -1, -1}));
+      EXPECT_NEAR(found, winding_by_angles(mesh, p), 1e-6);
+      inside += found;
+    }
+    EXPECT_GT(inside, 5);
+    EXPECT_LT(inside, 195);
+  }
+}
+
 TEST(Winding, RaysThroughEdgesAndCornersCountOnce) {
   const WindingNumbers winding(corners_of(cube()));
   // Straight below the middle of a diagonal, of an edge and of a corner, and beside them.

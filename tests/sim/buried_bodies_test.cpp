@@ -169,6 +169,35 @@ TEST(BuriedBodies, AreToldOfAtTheStart) {
   EXPECT_TRUE(simulation.bodies()[0].buried.empty()) << "it keeps cloth off all of itself";
 }
 
+TEST(BuriedBodies, StayMarkedOnceTheyHaveMovedAlsoAfterAResume) {
+  constexpr int last = 8;
+  Scene scene = pressed_between();
+  const TriangleMesh mesh = two_balls(0.28);
+  PointCache cache;
+  cache.points = static_cast<int>(mesh.positions.size());
+  // The upper ball goes up in frames 3 and 4, and comes back to where it began.
+  for (int k = 0; k <= last; ++k) {
+    cache.times.push_back(k / 60.0);
+    for (int v = 0; v < cache.points; ++v)
+      cache.positions.push_back(vec_cast<float>(
+          mesh.positions[v] + Vec3d{0, v >= cache.points / 2 && k == 3 ? 0.02 : 0, 0}));
+  }
+  scene.bodies[0].surface = {mesh, "balls"};
+  scene.bodies[0].animation = {cache, "nod"};
+  scene.cloths[0].placement.translate = {0, 1, 0};
+  Simulation whole(scene, "scene", 1), resumed(scene, "scene", 1);
+  SimulationState state;
+  for (int frame = 0; frame < last; ++frame) {
+    if (frame == last - 1) whole.save(state);
+    whole.advance();
+    EXPECT_EQ(whole.bodies()[0].buried.empty(), frame < 2) << frame;
+  }
+  resumed.restore(state);
+  EXPECT_FALSE(resumed.bodies()[0].buried.empty());
+  resumed.advance();
+  EXPECT_EQ(resumed.bodies()[0].buried, whole.bodies()[0].buried);
+}
+
 TEST(BuriedBodies, KeepClothOffWhereSidesAreNextToEachOtherFromTheBegin) {
   Scene scene = pressed_between();
   scene.bodies[0].surface = {two_balls(2 * radius + 0.25 * gap), "balls"};

@@ -13,7 +13,7 @@ double component(Vec3d p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y :
 
 /// The axis along which a box is thinnest: few triangles lie there on the way out.
 int thinnest(const Box3d& box) {
-  const Vec3d extent = box.upper - box.lower;
+  const Vec3d extent = box.extent();
   if (extent.y <= extent.x && extent.y <= extent.z) return 1;
   return extent.z <= extent.x ? 2 : 0;
 }

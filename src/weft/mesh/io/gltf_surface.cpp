@@ -94,7 +94,7 @@ class Gatherer {
         colours_(colours),
         root_(document.root()),
         buffers_(document.buffers()),
-        most_(std::max(max_shown_freely, document.size())) {}
+        max_(std::max(max_shown_freely, document.size())) {}
 
   void add(const PlacedMesh& placed) {
     bases_.clear();
@@ -189,16 +189,16 @@ class Gatherer {
   }
 
   void require_room(const GltfObject& primitive, std::size_t count) const {
-    if (count > most_)
+    if (count > max_)
       primitive.fail(fmt::format("is shown so often that there are {} elements", count),
-                     fmt::format("at most {} are wanted", most_));
+                     fmt::format("at most {} are wanted", max_));
   }
 
   GltfDocument& document_;
   GltfColours* colours_;
   const GltfObject& root_;
   GltfBuffers& buffers_;
-  std::size_t most_;
+  std::size_t max_;
   TriangleMesh mesh_;
   std::vector<GltfBlock> blocks_;
   GltfBlock block_;                                    ///< of the primitive that is being added

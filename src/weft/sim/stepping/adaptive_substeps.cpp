@@ -153,18 +153,18 @@ int whole_subdivisions(double wanted) noexcept {
 }
 
 StepWalk::StepWalk(int least, const StepLevels& levels)
-    : least_(least),
+    : min_level_(least),
       first_(std::max(least, levels.first)),
       level_(first_),
-      most_(std::max(first_, levels.most)),
-      max_fallen_(std::max(most_, least_ + levels_for_fallen)) {}
+      max_level_(std::max(first_, levels.most)),
+      max_fallen_level_(std::max(max_level_, min_level_ + levels_for_fallen)) {}
 
 void StepWalk::require(int level) {
-  least_ = std::max(least_, level);
-  first_ = std::max(first_, least_);
+  min_level_ = std::max(min_level_, level);
+  first_ = std::max(first_, min_level_);
   level_ = std::max(level_, first_);
-  most_ = std::max(most_, first_);
-  max_fallen_ = std::max(most_, least_ + levels_for_fallen);
+  max_level_ = std::max(max_level_, first_);
+  max_fallen_level_ = std::max(max_level_, min_level_ + levels_for_fallen);
 }
 
 void StepWalk::halve() {
@@ -176,11 +176,11 @@ void StepWalk::halve() {
 void StepWalk::accept(StepVerdict verdict) {
   done_ += whole >> level_;
   calm_ = calm_ && verdict == StepVerdict::calm;
-  if (verdict == StepVerdict::fallen) max_fallen_ = level_;
+  if (verdict == StepVerdict::fallen) max_fallen_level_ = level_;
   if (verdict == StepVerdict::forced || verdict == StepVerdict::fallen) {
     // Halving has not helped: the rest of the substep is halved no further.
     forced_ = true;
-    most_ = level_;
+    max_level_ = level_;
   }
   const bool aligned = level_ > 0 && done_ % (whole >> (level_ - 1)) == 0;
   if (level_ > first_ && aligned && verdict == StepVerdict::calm) --level_;

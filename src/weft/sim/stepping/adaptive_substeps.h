@@ -100,17 +100,17 @@ class StepWalk {
   [[nodiscard]] int subdivisions() const { return 1 << level_; }
   /// Number of steps of the current length before this one.
   [[nodiscard]] int index() const { return done_ >> (finest_level - level_); }
-  [[nodiscard]] bool may_halve() const { return level_ < most_; }
+  [[nodiscard]] bool may_halve() const { return level_ < max_level_; }
   /// The same for a step in which points fall back while bodies move: the shorter, the less these
   /// push them, even where halving has not helped against other faults.
   [[nodiscard]] bool may_halve_fallen() const {
-    return level_ < std::min(max_fallen_, finest_level);
+    return level_ < std::min(max_fallen_level_, finest_level);
   }
   /// The same for a step whose solve ran away, or that is wild: halving it is all that there is to
   /// be done.
   [[nodiscard]] bool may_halve_wild() const { return level_ < finest_level; }
   /// Whether the step is shorter than moving bodies require.
-  [[nodiscard]] bool is_shortened() const { return level_ > least_; }
+  [[nodiscard]] bool is_shortened() const { return level_ > min_level_; }
   /// Goes on at this level or a deeper one: a body is faster in a part of the substep than over the
   /// whole of it.
   void require(int level);
@@ -122,7 +122,7 @@ class StepWalk {
 
  private:
   static constexpr int whole = max_subdivisions;
-  int least_, first_, level_, most_, max_fallen_;
+  int min_level_, first_, level_, max_level_, max_fallen_level_;
   int done_ = 0;  // in units of the shortest step
   bool calm_ = true, forced_ = false, halved_ = false;
 };
