@@ -59,19 +59,6 @@ class SheetOnFloor {
     run([&](Worker& worker) { found = system.obstacle_force(this->step(), worker); });
     return found;
   }
-  [[nodiscard]] Vec3d force_on_free(Vec3f step) {
-    set_step(step);
-    Vec3d found;
-    run([&](Worker& worker) { found = system.obstacle_force_on_free(this->step(), worker); });
-    return found;
-  }
-  /// A contact of a point between a sample, which is pinned from now on, and the next.
-  void add_beside_pin(int pinned, float free_weight, float height) {
-    cloth_.inverse_mass(pinned / n, pinned % n) = 0;
-    add(pinned, height);
-    contacts_.back().samples[1] = pinned + 1;
-    contacts_.back().weights = {1 - free_weight, free_weight, 0, 0};
-  }
   [[nodiscard]] double work(Vec3f step) {
     set_step(step);
     double found = 0;
@@ -165,15 +152,6 @@ TEST(ContactSystem, PartOfAStepCostsWhatAStepOfThatLengthDoes) {
   sheet.choose_at({0, -1e-4F, 0});
   EXPECT_NEAR(sheet.energy({4e-5F, -4e-5F, 0}, 0.5F), sheet.energy({2e-5F, -2e-5F, 0}), 1e-9);
   EXPECT_GT(sheet.energy({0, -4e-5F, 0}), sheet.energy({}));
-}
-
-TEST(ContactSystem, PinsBearTheirPartOfAnObstaclesForce) {
-  SheetOnFloor sheet;
-  sheet.add_beside_pin(3, 0.25F, 1e-3F);
-  sheet.choose_at({});
-  const double force = sheet.force({}).y;
-  EXPECT_GT(force, 0);
-  EXPECT_NEAR(sheet.force_on_free({}).y, 0.25 * force, 1e-6 * force);
 }
 
 TEST(ContactSystem, MovingObstaclesWorkByTheirForce) {

@@ -261,6 +261,27 @@ TEST(StepEnergy, WorkOfABodyReachesTheLayerAbove) {
   EXPECT_LT(gained(simulation, reports), 0.05 * work);
 }
 
+/// A shirt on a figure that is moved to and fro.
+Scene carried_shirt() {
+  Scene scene;
+  SceneCloth shirt = sheet(33, {});
+  shirt.surface = "builtin:tshirt";
+  scene.cloths = {shirt};
+  SceneBody figure;
+  figure.surface = "builtin:mannequin";
+  figure.size = 33;
+  figure.motion = {{0, {}, {}}, {0.2, {}, {0.2, 0.1, 0}}, {0.4, {}, {}}, {0.5, {}, {0, -0.1, 0.2}}};
+  scene.bodies = {figure};
+  return scene;
+}
+
+/// What a solve leaves on particles goes along with the figure as they do.
+TEST(StepEnergy, AShirtThatIsCarriedToAndFroGainsNone) {
+  Simulation simulation(carried_shirt(), "carried", 1);
+  const std::vector<FrameReport> reports = run(simulation, 40);
+  EXPECT_LT(gained(simulation, reports), 2e-4 * simulation.mass() * 9.81);
+}
+
 /// A sheet that is set down onto a ball that rises.
 Scene set_down_on_ball() {
   Scene scene = set_down();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -93,10 +92,6 @@ class Integrator {
   /// Normal forces of the contacts of the last iterate, in their order; empty where the method
   /// does not solve for contacts. [N]
   [[nodiscard]] virtual std::span<const float> contact_forces() const noexcept { return {}; }
-  /// The force of all pins in the last iterate, less what obstacles press on them, where pins move
-  /// alike and the method knows it: what changed momentum besides gravity and obstacles. Where
-  /// cloths were solved together, the first that has pins has the force of all. [N]
-  [[nodiscard]] virtual std::optional<Vec3d> pin_force() const noexcept { return {}; }
   /// The contact history that the next step starts from: forces and friction at the end of the last
   /// step. A contact between two cloths belongs to the first of both. Empty for methods without
   /// history.

@@ -290,37 +290,16 @@ double ContactSystem::work(Fields step, Worker& worker) {
   return sum_of_energies(worker);
 }
 
-/// The part of a contact's point that samples which are not pinned carry.
-double ContactSystem::free_share(int index) const {
-  double free = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double w = contacts_[index].weights[k];
-    if (w == 0) continue;
-    const Place& at = places_[index][k];
-    if (cloths_[at.cloth]->inverse_mass(at.row, at.col) > 0) free += w;
-  }
-  return free;
-}
-
-template <class Share>
-Vec3d ContactSystem::sum_of_obstacle_forces(Fields step, Worker& worker, const Share& share_of) {
+Vec3d ContactSystem::obstacle_force(Fields step, Worker& worker) {
   const Range mine = share(worker);
   for (int i = mine.first; i < mine.last; ++i)
-    if (stiffness_[i] > 0) gained_[i] = vec_cast<float>(share_of(i) * force_after(i, sum(i, step)));
+    if (stiffness_[i] > 0) gained_[i] = vec_cast<float>(force_after(i, sum(i, step)));
   worker.barrier();
   Vec3d total;
   for (std::size_t i = 0; i < gained_.size(); ++i)
     if (stiffness_[i] > 0 && is_with_obstacle(i)) total += vec_cast<double>(gained_[i]);
   worker.barrier();
   return total;
-}
-
-Vec3d ContactSystem::obstacle_force(Fields step, Worker& worker) {
-  return sum_of_obstacle_forces(step, worker, [](int) { return 1.0; });
-}
-
-Vec3d ContactSystem::obstacle_force_on_free(Fields step, Worker& worker) {
-  return sum_of_obstacle_forces(step, worker, [&](int index) { return free_share(index); });
 }
 
 double ContactSystem::energy(Fields step, float part, Worker& worker) {

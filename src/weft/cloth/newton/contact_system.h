@@ -66,8 +66,6 @@ class ContactSystem {
   double work(Fields step, Worker& worker);
   /// The sum of the forces of obstacles on all cloths after a step; all workers get it [N].
   Vec3d obstacle_force(Fields step, Worker& worker);
-  /// The same of those on samples that are not pinned.
-  Vec3d obstacle_force_on_free(Fields step, Worker& worker);
   /// Computes the contact forces after the last step.
   /// @param position  of the cloths then [m]
   void measure(Fields position, Worker& worker);
@@ -98,9 +96,6 @@ class ContactSystem {
   [[nodiscard]] double compliance(int index, std::span<const Grid<float>* const> softness) const;
   [[nodiscard]] double attainable_offset(int index, double start_height) const;
   [[nodiscard]] double lone_compliance(int index) const;
-  [[nodiscard]] double free_share(int index) const;
-  template <class Share>
-  Vec3d sum_of_obstacle_forces(Fields step, Worker& worker, const Share& share_of);
   void recall(int index);
   /// A contact's point at the start of the step, and its displacement since [m].
   struct Motion {

@@ -53,8 +53,6 @@ class Newton final : public Integrator {
     return part_.contact_forces;
   }
 
-  [[nodiscard]] std::optional<Vec3d> pin_force() const noexcept override { return part_.pin_force; }
-
   bool last_corrections(Grid<float>& sizes) const override {
     part_.last_corrections(sizes);
     return true;

@@ -88,33 +88,6 @@ double NewtonSolver::gained_beside_pins(double known, Worker& worker) {
   return now - known - work + dot(contacts_.obstacle_force(steps_, worker), *carried_);
 }
 
-/// What changed the cloths' momentum besides gravity and what obstacles do to free samples: where
-/// they press on pins, these press back.
-Vec3d NewtonSolver::force_of_pins(Worker& worker) {
-  const StepInput& input = parts_.front()->input();
-  each(worker, [&](std::size_t i, Worker& own) {
-    const Vec3d gained = parts_[i]->gained_momentum(own);
-    if (own.rank() == 0)
-      forces_[i] = (1 / input.time_step) * gained -
-                   parts_[i]->total_mass() * vec_cast<double>(input.gravity);
-    own.barrier();
-  });
-  Vec3d sum;
-  for (const Vec3d& force : forces_) sum += force;
-  return contacts_.active() > 0 ? sum - contacts_.obstacle_force_on_free(steps_, worker) : sum;
-}
-
-void NewtonSolver::tell_pin_force() {
-  bool first = true;
-  for (NewtonPart* part : parts_) {
-    part->pin_force.reset();
-    if (!carried_) continue;
-    const bool pinned = !part->cloth().pins.empty();
-    part->pin_force = first && pinned ? pin_force_ : Vec3d{};
-    first = first && !pinned;
-  }
-}
-
 /// The energy that the cloths gained, less the work of moving obstacles. The work of pins that move
 /// differently is not known: with those, the shortfall of the energy decrease below that of the
 /// linearisation.

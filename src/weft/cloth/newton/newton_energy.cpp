@@ -101,20 +101,6 @@ double NewtonPart::kinetic_beside(Vec3d velocity, Worker& worker) {
   return kinetic_of([&](int r) { return std::as_const(state_.velocity).row(r); }, velocity, worker);
 }
 
-Vec3d NewtonPart::gained_momentum(Worker& worker) {
-  const auto gained = [&](const PaddedPlane& now, const Grid<float>& before) {
-    return sums_.sum(worker, [&](int r) {
-      const float *mass = own_mass_.row(r), *v = now.row(r), *v0 = before.row(r);
-      return lane_sum(cloth_.size,
-                      [&](int c) { return double{mass[c]} * (double{v[c]} - double{v0[c]}); });
-    });
-  };
-  const Planes3& before = start_velocity_;
-  const double x = gained(state_.velocity.x, before.x), y = gained(state_.velocity.y, before.y),
-               z = gained(state_.velocity.z, before.z);
-  return {x, y, z};
-}
-
 double NewtonPart::inner_kinetic(Worker& worker) {
   const PaddedVectors& v = state_.velocity;
   const PaddedPlane* const planes[3] = {&v.x, &v.y, &v.z};

@@ -54,8 +54,6 @@ class NewtonPart {
   double lent = 0;
   /// See Integrator::missed; of all cloths that were solved with this one [J].
   double missed = 0;
-  /// See Integrator::pin_force.
-  std::optional<Vec3d> pin_force;
   /// History of its contacts, and of shared ones whose first cloth it is.
   ContactHistory history;
   /// Normal forces of its own contacts [N].
@@ -127,8 +125,6 @@ class NewtonPart {
   /// start.
   double kinetic_beside(Vec3d velocity, Worker& worker);
   double start_kinetic_beside(Vec3d velocity, Worker& worker);
-  /// Momentum gained since the step's start [kg m/s].
-  Vec3d gained_momentum(Worker& worker);
   /// Invalidates the last value of potential(), which is not that of the current next().
   void forget_potential(Worker& worker);
   /// Kinetic energy of the velocities relative to their mean.

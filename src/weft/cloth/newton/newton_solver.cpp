@@ -208,8 +208,6 @@ void NewtonSolver::run(std::span<const std::span<const Contact>> own,
     Progress progress;
     progress.first = first;
     descend(options, progress, worker);
-    const Vec3d pinned = carried_ ? force_of_pins(worker) : Vec3d{};
-    if (worker.rank() == 0) pin_force_ = pinned;
     if (!contacts_.empty()) contacts_.measure(positions_, worker);
     each(worker, [&](std::size_t i, Worker& one) {
       parts_[i]->write_state(one);
@@ -219,7 +217,6 @@ void NewtonSolver::run(std::span<const std::span<const Contact>> own,
   // One system tells for all: what parts told of when they were last solved alone is past.
   for (const auto& part : parts_) part->missed = 0;
   parts_.front()->missed = missed_;
-  tell_pin_force();
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const std::span<const float> forces = contacts_.forces(i);
     parts_[i]->contact_forces.assign(forces.begin(), forces.end());

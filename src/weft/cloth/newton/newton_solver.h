@@ -78,10 +78,6 @@ class NewtonSolver {
   /// The displacement of all pins; none where none moves, or they move differently [m].
   [[nodiscard]] std::optional<Vec3d> common_pin_step() const;
   [[nodiscard]] Vec3d pin_velocity() const;
-  /// The force of all pins on the cloths [N].
-  Vec3d force_of_pins(Worker& worker);
-  /// Writes the force of the pins into the parts, see Integrator::pin_force.
-  void tell_pin_force();
   /// Whether pins move so that the energy gained is not known.
   [[nodiscard]] bool is_pulled_unlike() const { return pulled_ && !carried_; }
   /// E at the state without that of contacts [J].
@@ -107,7 +103,6 @@ class NewtonSolver {
   bool apart_ = false;                   // whether each part is one worker's
   bool pulled_ = false, sewn_ = false;   // whether pins move; whether seams are being sewn
   std::optional<Vec3d> carried_;         // displacement of all pins, where they move alike [m]
-  Vec3d pin_force_;                      // see Integrator [N]
 };
 
 template <class Act>

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "weft/cloth/bending.h"
 #include "weft/cloth/spring_rows.h"
 #include "weft/contact.h"
+#include "weft/sim/stepping/nearest_ways.h"
 
 namespace weft {
 
@@ -22,72 +22,61 @@ struct PressingObstacles {
   std::span<const float> forces;  ///< [N]
 };
 
-/// Work that pins and moving bodies do on a cloth in a step: reaction force times displacement. The
-/// reaction is the part of a particle's change of momentum that gravity and the cloth's own forces,
-/// as they are at the end given, do not explain:
-///   W = sum over pinned and touched particles of (m (v1 - v0) / h - f(x1) - m g) . displacement
-/// Other layers may press on a touched particle, too. The normal force of a body is therefore the
-/// solved one, or the normal part of the reaction where that is larger, and never a pull; the
-/// tangential force is limited by friction. Springs that the filter stretched pull at the end of a
-/// step only: before the filter this measures what the solve did, after it what the filter did too,
-/// but much too large. Where bodies press from several sides, each does the work of its solved
-/// force by its own way; what else moves the particle is friction.
+/// Work that pins and moving bodies do on a cloth in a step: the force that acts on a particle from
+/// outside times how far what holds it goes. That force is the part of its change of momentum that
+/// gravity and the cloth's own forces, as they are at the end given, do not explain:
+///   W = sum over particles of (m (v1 - v0) / h - f(x1) - m g) . way
+/// Solves end with small forces unbalanced on all particles, and stiff cloth hands on within a step
+/// what holds it: all together they are of the size of what acts on the particles that are held. In
+/// momentum only pins and obstacles act on cloth. So every particle counts, by the way of the pin
+/// or obstacle that is nearest to it along the cloth and across its layers (NearestWays): forces
+/// between particles cancel where these are held by the same, and layers above push through those
+/// below. Where bodies press from several sides, each does the work of its solved force by its own
+/// way, and the mean of their ways counts for the rest.
 ///
-/// Solves end with small forces unbalanced on free particles, too. Next to the pins' own reaction
-/// they are small, but stiff cloth hands on within a step what a pin does: all together they are of
-/// its size. They belong to the pins: in momentum, only pins and obstacles act on a cloth. While a
-/// cloth touches nothing, the force left on a free particle counts as the nearest pin's. Where pins
-/// move alike, a solve that knows its contact forces has all that from the cloth's momentum.
+/// Springs that the filter stretched pull at the end of a step only: before the filter this
+/// measures what the solve did, after it what the filter did too, but much too large.
 class DrivenWork {
  public:
   /// @param cloth     kept by reference, as is the team
   /// @param stiffens  whether springs stiffen beyond the material's strain limit
   DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team, bool stiffens = false);
 
-  /// To be called before measure, where more than springs and gravity acts on free particles in the
-  /// step: contacts, or a strain limiter, whose pull counts by itself.
-  void ignore_free() { ignores_free_ = true; }
-  /// @param pin_force  of all pins, where the solve knows it [N]
+  /// Takes in what holds the cloth in a step. @return whether anything of it moves
+  bool begin(const DoneStep& step, const PressingObstacles& obstacles) noexcept;
+  /// Of what holds the cloth; to be spread before the work is measured.
+  [[nodiscard]] NearestWays& ways() { return ways_; }
+  /// @param all  false: without particles that nothing touches, as where a limiter pulls at them,
+  ///             whose work counts by itself
   /// @return work of all pins and bodies [J]
-  double measure(const DoneStep& step, const PressingObstacles& obstacles,
-                 std::optional<Vec3d> pin_force = {}) noexcept;
+  [[nodiscard]] double measure(const DoneStep& step, bool all = true) noexcept;
 
  private:
-  /// A particle moved by a pin or bodies.
-  struct Driven {
-    Vec3d displacement, normal;  // weighted sums over contacts [m]
-    double pressing = 0;         // normal force, weighted sum [N]
-    Vec3d pressed;               // the same with directions [N]
-    double pressing_work = 0;    // of each by its own displacement [J]
-    double friction = 0;
+  /// What touches a particle.
+  struct Touch {
+    Vec3d way;                 // weighted sum over contacts [m]
+    Vec3d pressed;             // normal forces, weighted sum [N]
+    double pressing_work = 0;  // of each by its own way [J]
     double weight = 0;
-    bool pinned = false;
   };
   void add_pins(const DoneStep& step);
-  void add_contacts(const PressingObstacles& obstacles);
-  double work_of_pins(const DoneStep& step, const std::optional<Vec3d>& force);
-  [[nodiscard]] Vec3d mean_pin_displacement() const;
-  [[nodiscard]] static double work_of(const Driven& driven, Vec3d reaction);
-  Driven& driven(int sample);
+  void add_contact(const Contact& contact, double force);
   void find_forces(const DoneStep& step);
-  void find_nearest_pins();
+  [[nodiscard]] double work_on(int sample, const DoneStep& step) const;
   [[nodiscard]] Vec3d reaction_on(int sample, const DoneStep& step) const;
-  double work_on_free(const DoneStep& step);
 
   const Cloth& cloth_;
   Vec3d gravity_;
   ThreadTeam& team_;
   SpringRows springs_;
   BendingPass bending_;
-  Planes3 force_;               // [n x n] the cloth's own, summed over mates [N]
-  std::vector<Driven> driven_;  // [n * n] valid for samples_
-  std::vector<int> samples_;    // representatives moved by pins or bodies
+  Planes3 force_;             // [n x n] the cloth's own, summed over mates [N]
+  std::vector<Touch> touch_;  // [n * n] valid for touched_
+  std::vector<int> touched_;  // representatives that obstacles touch and no pin holds
+  std::vector<int> pinned_;   // representatives
+  NearestWays ways_;
+  bool moves_ = false;  // what holds the cloth
   bool stiffens_;
-  bool ignores_free_ = false;
-  std::vector<int> pins_;     // for which nearest_ was found, representatives
-  std::vector<int> nearest_;  // [n * n] of representatives: the pin that is nearest along the cloth
-  std::vector<int> class_of_;  // [n * n] the class of mates of each sample, -1: it has none
-  std::vector<int> front_;     // scratch
 };
 
 }  // namespace weft

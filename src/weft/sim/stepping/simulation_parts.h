@@ -110,6 +110,8 @@ struct Simulation::Parts : LoadedScene {
   void solve_all(FrameReport& report);
   /// The work of pins and bodies on all cloths, by the forces at their proposals. [J]
   double measure_driven_work();
+  void spread_ways();
+  void hand_ways_over();
   /// Detects contacts at the guesses, and filters the guesses. @return whether anything is near
   /// that the filter must act on
   bool free_guesses();

@@ -97,21 +97,6 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
   return tried;
 }
 
-double Simulation::Parts::measure_driven_work() {
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (!collider->contacts(i).empty() || movers[i].limited) movers[i].driven_work.ignore_free();
-  for (const SharedContact& shared : collider->shared_contacts())
-    for (const int cloth : {shared.first, shared.second})
-      movers[static_cast<std::size_t>(cloth)].driven_work.ignore_free();
-  double work = 0;
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    work += movers[i].driven_work.measure(
-        {cloths[i].state, movers[i].integrator->proposal(), time_step},
-        {collider->obstacle_contacts(i), movers[i].integrator->contact_forces()},
-        movers[i].integrator->pin_force());
-  return work;
-}
-
 void Simulation::Parts::solve_all(FrameReport& report) {
   for (std::size_t i = 0; i < cloths.size(); ++i) propose(i);
   gather_moving();
@@ -200,14 +185,6 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
   report.whole_fell_back = std::max(report.whole_fell_back, tried.filtered.whole);
   report.lost_time += tried.lost_time;
   bodies_arrive();
-}
-
-/// All that cloths gained in a step of sewing is the work of the seams.
-double Simulation::Parts::work_of_sewing() {
-  double gained = 0;
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    gained += movers[i].meter.measure(cloths[i].state).total() - movers[i].unsewn_energy;
-  return gained;
 }
 
 }  // namespace weft
