@@ -135,9 +135,21 @@ void Sewing::begin_frame(const Planes3& position, double seconds, double length)
   if (!unpicking_.begin_frame(since, length)) return;
   measure(position);
   find_slack(position);
+  // What has nearly met was put together in every step. Where nothing else is apart it is held
+  // apart, too; where more is, tight panels may keep it from closing.
+  const double apart = is_nearly_closed() ? 0 : met;
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
-    stuck_[k] = away_[k] > met && away_[k] < far && slack_of(k) >= min_slack ? 1 : 0;
+    stuck_[k] = away_[k] > apart && away_[k] < far && slack_of(k) >= min_slack ? 1 : 0;
   unpicking_.choose(along_, stuck_);
+}
+
+/// Whether few pairs of samples are apart, and these have nearly met.
+bool Sewing::is_nearly_closed() const {
+  constexpr int few = 3;
+  const auto is_apart = [](double away) { return away > 0; };
+  const auto is_far = [](double away) { return away > met; };
+  return std::none_of(away_.begin(), away_.end(), is_far) &&
+         std::count_if(away_.begin(), away_.end(), is_apart) <= few;
 }
 
 bool Sewing::is_unpicked(int sample) const {

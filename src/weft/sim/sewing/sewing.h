@@ -97,6 +97,7 @@ class Sewing {
   [[nodiscard]] double stretch_of(int index, const Planes3& position) const;
   /// Finds by how much panels can be pulled without stretching them too far.
   void find_slack(const Planes3& position);
+  [[nodiscard]] bool is_nearly_closed() const;
   [[nodiscard]] double slack_of(int index) const;
   /// The part of its distance that a class keeps in a step.
   [[nodiscard]] double kept_part(int index, double time_step, double seconds) const;
