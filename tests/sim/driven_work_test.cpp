@@ -34,14 +34,15 @@ class Touched {
   }
   void pin(int sample, Vec3f way) {
     cloth_.pins.push_back({.sample = sample, .target = {}});
+    cloth_.inverse_mass(sample / n, sample % n) = 0;
     end_.position.set(sample, end_.position.at(sample) + way);
   }
-  double work(bool all = true) {
+  double work(DrivenWork::Free free = {}) {
     DrivenWork work(cloth_, {}, team_);
     const DoneStep done{start_, end_, step};
     if (!work.begin(done, {contacts_, forces_})) return 0;
     while (work.ways().spread()) continue;
-    return work.measure(done, all);
+    return work.measure(done, free);
   }
   [[nodiscard]] double mass() const { return double{cloth_.mass(2, 2)}; }
 
@@ -70,7 +71,7 @@ TEST(DrivenWork, CountsWhatIsLeftOnFreeParticlesByTheNearestBody) {
   touched.push(11, {5, 1, 0});   // below sample 6
   touched.push(13, {-2, 7, 0});  // below sample 8
   EXPECT_NEAR(touched.work(), (1 - 2) * newton_way, close);
-  EXPECT_NEAR(touched.work(false), 0, close);
+  EXPECT_NEAR(touched.work({.any = false}), 0, close);
 }
 
 TEST(DrivenWork, IsNoneOfForcesBetweenParticlesThatOneBodyHolds) {
@@ -105,6 +106,18 @@ TEST(DrivenWork, OfPinsIsTheirForceTimesTheirWayAlsoWhereABodyTouchesThem) {
   touched.push(11, {3, 5, 0});
   // The pin draws at springs, too: what those do to its neighbours they undo to it.
   EXPECT_NEAR(touched.work(), 3 * 0.002, close);
+}
+
+/// Layers press on each other far from their pins, which go different ways.
+TEST(DrivenWork, OfPinsThatMoveDifferentlyIsTheirOwnForceWhereLayersTouch) {
+  for (const Vec3f other : {Vec3f{0, -0.002F, 0}, Vec3f{0.002F, 0, 0}}) {
+    Touched touched;
+    touched.pin(0, {0.002F, 0, 0});
+    touched.pin(24, other);
+    const double before = touched.work({.layered = true});
+    touched.push(6, {3, 0, 0});
+    EXPECT_NEAR(touched.work({.layered = true}) - before, other.x > 0 ? 3 * 0.002 : 0, close);
+  }
 }
 
 }  // namespace

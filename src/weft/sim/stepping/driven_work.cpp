@@ -7,6 +7,12 @@
 #include "weft/cloth/strain_stiffening.h"
 
 namespace weft {
+namespace {
+
+/// Pins whose ways differ by no more move alike, as for the solver. [m]
+constexpr double alike = 2e-6;
+
+}  // namespace
 
 DrivenWork::DrivenWork(const Cloth& cloth, Vec3d gravity, ThreadTeam& team, bool stiffens)
     : cloth_(cloth),
@@ -42,7 +48,7 @@ void DrivenWork::add_pins(const DoneStep& step) {
                       vec_cast<double>(step.start.position.at(pin.sample));
     moves_ = moves_ || way != Vec3d{};
     if (ways_.at(pin.sample) != nullptr) continue;  // a mate is pinned, too
-    ways_.put(pin.sample, way);
+    ways_.put(pin.sample, way, NearestWays::Holder::pin);
     pinned_.push_back(cloth_.mates.representative(pin.sample));
   }
 }
@@ -101,16 +107,26 @@ double DrivenWork::work_on(int sample, const DoneStep& step) const {
   return touch.pressing_work + dot(reaction_on(sample, step) - touch.pressed, *way);
 }
 
-double DrivenWork::measure(const DoneStep& step, bool all) noexcept {
+bool DrivenWork::pins_move_alike() const {
+  return std::all_of(pinned_.begin(), pinned_.end(), [&](int s) {
+    return length(*ways_.at(s) - *ways_.at(pinned_.front())) <= alike;
+  });
+}
+
+double DrivenWork::measure(const DoneStep& step, Free free) noexcept {
   find_forces(step);
   double work = 0;
-  if (all) {
-    for (int s = 0; s < cloth_.size * cloth_.size; ++s)
-      if (cloth_.owner(s / cloth_.size, s % cloth_.size) > 0) work += work_on(s, step);
-    return work;
-  }
   for (const int s : pinned_) work += work_on(s, step);
   for (const int s : touched_) work += work_on(s, step);
+  if (!free.any) return work;
+  const bool of_pins = !free.layered || pins_move_alike();
+  for (int s = 0; s < cloth_.size * cloth_.size; ++s) {
+    const bool is_free = cloth_.owner(s / cloth_.size, s % cloth_.size) > 0 &&
+                         cloth_.inverse_mass(s / cloth_.size, s % cloth_.size) > 0 &&
+                         touch_[s].weight == 0;
+    if (is_free && (of_pins || ways_.holder_of(s) != NearestWays::Holder::pin))
+      work += work_on(s, step);
+  }
   return work;
 }
 

@@ -31,8 +31,9 @@ struct PressingObstacles {
 /// momentum only pins and obstacles act on cloth. So every particle counts, by the way of the pin
 /// or obstacle that is nearest to it along the cloth and across its layers (NearestWays): forces
 /// between particles cancel where these are held by the same, and layers above push through those
-/// below. Where bodies press from several sides, each does the work of its solved force by its own
-/// way, and the mean of their ways counts for the rest.
+/// below. Where pins move differently and layers touch, that is not so for what pins hold: there
+/// only the pins' own force counts. Where bodies press from several sides, each does the work of
+/// its solved force by its own way, and the mean of their ways counts for the rest.
 ///
 /// Springs that the filter stretched pull at the end of a step only: before the filter this
 /// measures what the solve did, after it what the filter did too, but much too large.
@@ -46,10 +47,13 @@ class DrivenWork {
   bool begin(const DoneStep& step, const PressingObstacles& obstacles) noexcept;
   /// Of what holds the cloth; to be spread before the work is measured.
   [[nodiscard]] NearestWays& ways() { return ways_; }
-  /// @param all  false: without particles that nothing touches, as where a limiter pulls at them,
-  ///             whose work counts by itself
+  /// What is counted of particles that are free.
+  struct Free {
+    bool any = true;       ///< false: as where a limiter pulls at them, whose work counts by itself
+    bool layered = false;  ///< layers of the cloth touch each other, or another cloth's
+  };
   /// @return work of all pins and bodies [J]
-  [[nodiscard]] double measure(const DoneStep& step, bool all = true) noexcept;
+  [[nodiscard]] double measure(const DoneStep& step, Free free) noexcept;
 
  private:
   /// What touches a particle.
@@ -62,6 +66,7 @@ class DrivenWork {
   void add_pins(const DoneStep& step);
   void add_contact(const Contact& contact, double force);
   void find_forces(const DoneStep& step);
+  [[nodiscard]] bool pins_move_alike() const;
   [[nodiscard]] double work_on(int sample, const DoneStep& step) const;
   [[nodiscard]] Vec3d reaction_on(int sample, const DoneStep& step) const;
 

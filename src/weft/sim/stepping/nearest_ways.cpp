@@ -31,7 +31,7 @@ void put_on_side(const Contact& contact, float side, Vec3d way, NearestWays& way
 NearestWays::NearestWays(const Cloth& cloth)
     : cloth_(cloth),
       way_(static_cast<std::size_t>(cloth.size) * cloth.size),
-      reached_(way_.size()),
+      holder_(way_.size(), Holder::none),
       class_of_(way_.size(), -1) {
   for (int k = 0; k < cloth.mates.class_count(); ++k)
     for (const int s : cloth.mates.copies(k)) class_of_[s] = k;
@@ -40,27 +40,31 @@ NearestWays::NearestWays(const Cloth& cloth)
 }
 
 void NearestWays::clear() noexcept {
-  std::fill(reached_.begin(), reached_.end(), char{0});
+  std::fill(holder_.begin(), holder_.end(), Holder::none);
   ring_.clear();
 }
 
-void NearestWays::put(int sample, Vec3d way) noexcept {
+void NearestWays::put(int sample, Vec3d way, Holder holder) noexcept {
   const int s = cloth_.mates.representative(sample);
-  if (reached_[s] != 0) return;
-  reached_[s] = 1;
+  if (holder_[s] != Holder::none) return;
+  holder_[s] = holder;
   way_[s] = way;
   ring_.push_back(s);
 }
 
 const Vec3d* NearestWays::at(int sample) const {
   const int s = cloth_.mates.representative(sample);
-  return reached_[s] != 0 ? &way_[s] : nullptr;
+  return holder_[s] != Holder::none ? &way_[s] : nullptr;
 }
 
-void NearestWays::spread_from(int sample, Vec3d way) noexcept {
+NearestWays::Holder NearestWays::holder_of(int sample) const {
+  return holder_[cloth_.mates.representative(sample)];
+}
+
+void NearestWays::spread_from(int sample, int representative) noexcept {
   const int n = cloth_.size;
   const auto go = [&](int to) {
-    if (cloth_.mates.same_chart(sample, to)) put(to, way);
+    if (cloth_.mates.same_chart(sample, to)) put(to, way_[representative], holder_[representative]);
   };
   if (sample >= n) go(sample - n);
   if (sample + n < n * n) go(sample + n);
@@ -74,9 +78,9 @@ bool NearestWays::spread() noexcept {
   for (const int s : last_ring_) {
     // All copies of a sample have neighbours, each within its chart.
     if (class_of_[s] < 0) {
-      spread_from(s, way_[s]);
+      spread_from(s, s);
     } else {
-      for (const int copy : cloth_.mates.copies(class_of_[s])) spread_from(copy, way_[s]);
+      for (const int copy : cloth_.mates.copies(class_of_[s])) spread_from(copy, s);
     }
   }
   return !ring_.empty();

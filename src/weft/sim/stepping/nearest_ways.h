@@ -14,20 +14,23 @@ class NearestWays {
   /// @param cloth  kept by reference
   explicit NearestWays(const Cloth& cloth);
   void clear() noexcept;
+  /// What a way comes from.
+  enum class Holder : char { none, obstacle, pin };
   /// Puts the way of what holds a sample [m], unless there is one. @param sample  any mate
-  void put(int sample, Vec3d way) noexcept;
+  void put(int sample, Vec3d way, Holder holder = Holder::obstacle) noexcept;
   /// Hands ways on to the neighbours of the samples that got theirs last.
   /// @return whether any had none
   bool spread() noexcept;
   /// @param sample  any mate @return null where nothing holds the cloth, or ways did not get to
   [[nodiscard]] const Vec3d* at(int sample) const;
+  [[nodiscard]] Holder holder_of(int sample) const;
 
  private:
-  void spread_from(int sample, Vec3d way) noexcept;
+  void spread_from(int sample, int representative) noexcept;
 
   const Cloth& cloth_;
   std::vector<Vec3d> way_;      // [n * n] of representatives that are reached
-  std::vector<char> reached_;   // [n * n]
+  std::vector<Holder> holder_;  // [n * n] of representatives
   std::vector<int> class_of_;   // [n * n] the class of mates of each sample, -1: it has none
   std::vector<int> ring_;       // representatives that got their way last
   std::vector<int> last_ring_;  // scratch

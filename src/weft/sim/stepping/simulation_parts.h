@@ -111,6 +111,7 @@ struct Simulation::Parts : LoadedScene {
   /// The work of pins and bodies on all cloths, by the forces at their proposals. [J]
   double measure_driven_work();
   void spread_ways();
+  [[nodiscard]] bool is_layered(std::size_t index) const;
   void hand_ways_over();
   /// Detects contacts at the guesses, and filters the guesses. @return whether anything is near
   /// that the filter must act on

@@ -1,4 +1,6 @@
 // The work of what holds cloth, see DrivenWork.
+#include <algorithm>
+
 #include "weft/sim/stepping/simulation_parts.h"
 
 namespace weft {
@@ -22,8 +24,18 @@ double Simulation::Parts::measure_driven_work() {
   double work = 0;
   for (std::size_t i = 0; i < cloths.size(); ++i)
     work += movers[i].driven_work.measure(
-        {cloths[i].state, movers[i].integrator->proposal(), time_step}, !movers[i].limited);
+        {cloths[i].state, movers[i].integrator->proposal(), time_step},
+        {!movers[i].limited, is_layered(i)});
   return work;
+}
+
+bool Simulation::Parts::is_layered(std::size_t index) const {
+  const auto is_its = [index](const SharedContact& shared) {
+    return shared.first == static_cast<int>(index) || shared.second == static_cast<int>(index);
+  };
+  const std::span<const SharedContact> shared = collider->shared_contacts();
+  return collider->contacts(index).size() > collider->obstacle_contacts(index).size() ||
+         std::any_of(shared.begin(), shared.end(), is_its);
 }
 
 void Simulation::Parts::spread_ways() {
