@@ -52,6 +52,7 @@ class DrivenWork {
     bool any = true;       ///< false: as where a limiter pulls at them, whose work counts by itself
     bool layered = false;  ///< layers of the cloth touch each other, or another cloth's
   };
+  /// @pre begin with the same step, and ways are spread
   /// @return work of all pins and bodies [J]
   [[nodiscard]] double measure(const DoneStep& step, Free free) noexcept;
 

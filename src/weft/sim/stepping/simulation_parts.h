@@ -110,9 +110,12 @@ struct Simulation::Parts : LoadedScene {
   void solve_all(FrameReport& report);
   /// The work of pins and bodies on all cloths, by the forces at their proposals. [J]
   double measure_driven_work();
+  /// Tells every particle the way of the pin or obstacle nearest to it, see NearestWays.
   void spread_ways();
-  [[nodiscard]] bool is_layered(std::size_t index) const;
+  /// Hands ways over once through all contacts of layers and between cloths.
   void hand_ways_over();
+  /// Whether layers of a cloth touch each other or another cloth.
+  [[nodiscard]] bool is_layered(std::size_t index) const;
   /// Detects contacts at the guesses, and filters the guesses. @return whether anything is near
   /// that the filter must act on
   bool free_guesses();
