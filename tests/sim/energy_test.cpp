@@ -282,6 +282,30 @@ TEST(StepEnergy, AShirtThatIsCarriedToAndFroGainsNone) {
   EXPECT_LT(gained(simulation, reports), 2e-4 * simulation.mass() * 9.81);
 }
 
+/// A towel of which both ends are turned, against each other, until it lies on itself.
+Scene twisted_towel() {
+  Scene scene;
+  scene.ground.reset();
+  scene.gravity = {};
+  scene.substeps = 8;
+  scene.cloths = {sheet(33, {})};
+  scene.cloths[0].material = find_material("cotton").value();
+  scene.cloths[0].placement.scale = {1, 1, 0.3};
+  for (const double end : {0.0, 1.0})
+    scene.cloths[0].pins.push_back(ScenePin{
+        RegionPin{{end, 0}, {end, 1}},
+        {{0, {}, {}}, {3.5, {end > 0 ? 900.0 : -900.0, 0, 0}, {end > 0 ? -0.25 : 0.25, 0, 0}}}});
+  return scene;
+}
+
+/// Parts that press on each other are nearest to pins that go different ways.
+TEST(StepEnergy, ATowelTwistedOntoItselfGainsLittle) {
+  Simulation simulation(twisted_towel(), "twisted", 1);
+  const std::vector<FrameReport> reports = run(simulation, 40);
+  EXPECT_GT(reports.back().self_contacts, 100);
+  EXPECT_LT(gained(simulation, reports), 8e-3 * simulation.mass() * 9.81);
+}
+
 /// A sheet that is set down onto a ball that rises.
 Scene set_down_on_ball() {
   Scene scene = set_down();
