@@ -138,8 +138,7 @@ struct SimulationState {
   std::vector<std::vector<PastContact>> contacts{};
   /// Contacts for what the filter held back.
   std::vector<StruckContact> struck{};
-  /// Of each cloth, where its pins hold it, which a hand may have changed; empty in checkpoints.
-  /// [m]
+  /// Of each cloth, where its pins hold it, which a hand may have changed. [m]
   std::vector<std::vector<Vec3d>> pin_targets{};
   StepLevels levels{};         ///< of the next substep
   WorkDone work{};             ///< up to this frame

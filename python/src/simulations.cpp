@@ -21,6 +21,7 @@
 #include "weft/run.h"
 #include "weft/scene_file.h"
 #include "weft/simulation.h"
+#include "weft/state_bytes.h"
 
 namespace weft::python {
 namespace {
@@ -331,6 +332,12 @@ std::unique_ptr<Simulated> simulate(const py::dict& given, int threads,
   return std::make_unique<Simulated>(*made, scene.cloths);
 }
 
+/// A state as it travels between processes.
+std::shared_ptr<State> state_from_bytes(const py::bytes& bytes, const std::string& identity) {
+  return std::make_shared<State>(
+      State{decode_state(std::string_view(bytes), "a saved state"), identity});
+}
+
 void write_cache(const std::string& path, const Floats& positions) {
   if (positions.ndim() != 3 || positions.shape(2) != 3)
     throw py::value_error("an array (T, n, 3) of positions is wanted");
@@ -362,7 +369,14 @@ void add_simulations(py::module_& module) {
   module.def("write_pc2", &write_cache);
   module.def("read_point_cache", &read_cache);
   py::class_<State, std::shared_ptr<State>>(module, "State")
-      .def_property_readonly("frame", [](const State& kept) { return kept.state.frame; });
+      .def_property_readonly("frame", [](const State& kept) { return kept.state.frame; })
+      .def(py::pickle(
+          [](const State& kept) {
+            return py::make_tuple(py::bytes(encode_state(kept.state)), kept.identity);
+          },
+          [](const py::tuple& parts) {
+            return state_from_bytes(parts[0].cast<py::bytes>(), parts[1].cast<std::string>());
+          }));
   py::class_<Simulated>(module, "Simulated")
       .def("advance", &Simulated::advance)
       .def("intersections", &Simulated::intersections)

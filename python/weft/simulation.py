@@ -340,7 +340,10 @@ class Simulation:
         return self.start()._core.state_hash()
 
     def save(self):
-        """The state, for `restore`; it may be restored any number of times."""
+        """The state, for `restore`; it may be restored any number of times, and pickled for files and other processes.
+
+        A pickled state is for this version of Weft.
+        """
         return self.start()._core.save()
 
     def restore(self, state):

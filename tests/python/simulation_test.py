@@ -1,4 +1,5 @@
 """Simulations built in memory: what they are told of, copies, states, and threads that outlive the interpreter."""
+import pickle
 import subprocess
 import sys
 import unittest
@@ -89,6 +90,21 @@ class Simulations(ModuleTest):
         for other in (sheet(translate=(0, 1, 0)), sheet(fabric="denim"), sheet(pins=[{"image": [0, 0]}])):
             with self.assertRaisesRegex(ValueError, "state"):
                 other[0].restore(state)
+
+    def test_pickled_states_go_on_with_the_same_bits(self):
+        first, _ = sphere_on_floor()
+        list(first.run(12))
+        kept = pickle.dumps(first.save())
+        list(first.run(4))
+        wanted = first.state_hash
+        alike, _ = sphere_on_floor()
+        alike.restore(pickle.loads(kept))
+        self.assertEqual(alike.frame, 12)
+        list(alike.run(4))
+        self.assertEqual(alike.state_hash, wanted)
+        for damaged in (kept[:-200], kept.replace(b"WEFTSTAT", b"WEFTSTAB"), kept[:400] + b"?" + kept[401:]):
+            with self.assertRaises((weft.InputError, pickle.UnpicklingError, EOFError)):
+                pickle.loads(damaged)
 
     def test_velocities_are_those_of_the_fall(self):
         simulation, cloth = sheet()

@@ -130,8 +130,8 @@ TEST(Checkpoint, RefusalsSayWhatIsWrong) {
   const std::string whole = encode_checkpoint(sample());
   EXPECT_NE(refusal("").find("is no checkpoint"), std::string::npos);
   std::string other_format = whole;
-  other_format[8] = 13;
-  EXPECT_NE(refusal(other_format).find("format 13 instead of 12"), std::string::npos);
+  other_format[8] = 14;
+  EXPECT_NE(refusal(other_format).find("format 14 instead of 13"), std::string::npos);
   std::string other_version = whole;
   other_version[header_bytes + 8] = '7';
   EXPECT_NE(refusal(hashed_again(other_version)).find("written by weft 7"), std::string::npos);

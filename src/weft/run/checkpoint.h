@@ -32,8 +32,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 /// @throws InputError for a file that is damaged, cut short, of another version or no checkpoint
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path);
 
-/// Encodes the file in memory: "WEFTCKPT", format version, bytes and hash of what follows, version
-/// of Weft, then the fields in order; little-endian.
+/// Encodes the file in memory: "WEFTCKPT", sealed, then the fields in order.
 std::string encode_checkpoint(const Checkpoint& checkpoint);
 /// @param where  for errors
 Checkpoint decode_checkpoint(std::string_view bytes, const std::string& where);
