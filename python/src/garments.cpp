@@ -10,6 +10,7 @@
 #include "python/src/arrays.h"
 #include "python/src/calls.h"
 #include "python/src/images.h"
+#include "weft/files.h"
 #include "weft/garment.h"
 
 namespace weft::python {
@@ -49,12 +50,21 @@ py::dict panel_of(const PatternPanel& panel) {
   return told;
 }
 
-/// Panels, stitches as (panel, edge, panel, edge, turned), and notes.
-py::tuple read_panels(const std::string& path) {
+py::bytes file_bytes(const std::string& path) {
+  std::string bytes;
+  {
+    const Released released;
+    bytes = read_file(path);
+  }
+  return bytes;
+}
+
+/// Panels, stitches as (panel, edge, panel, edge, turned), and notes of a pattern file's text.
+py::tuple parse_panels(const std::string& text, const std::string& path) {
   Pattern pattern;
   {
     const Released released;
-    pattern = read_pattern(path);
+    pattern = parse_pattern(text, path);
   }
   py::list panels, stitches;
   for (const PatternPanel& panel : pattern.panels) panels.append(panel_of(panel));
@@ -71,10 +81,11 @@ std::vector<std::int32_t> sewn_classes(const BorderMates& mates) {
 }
 
 /// Image, places in the pattern [n, n, 2], sewn classes [n, n] and seams as (name, [k, 2]).
-py::tuple sew_panels(const std::string& path, double spacing, const py::object& progress) {
+py::tuple sew_panels(const std::string& text, const std::string& path, double spacing,
+                     const py::object& progress) {
   const auto made = std::make_shared<Garment>();
-  run_released(progress, [path, spacing, made](Progress& told) {
-    *made = make_garment(read_pattern(path), path, spacing, &told);
+  run_released(progress, [text, path, spacing, made](Progress& told) {
+    *made = make_garment(parse_pattern(text, path), path, spacing, &told);
   });
   const py::ssize_t n = made->image.size();
   std::vector<Vec2f> places;
@@ -94,7 +105,8 @@ py::tuple sew_panels(const std::string& path, double spacing, const py::object& 
 
 void add_garments(py::module_& module) {
   module.attr("default_spacing") = default_spacing;
-  module.def("read_pattern", &read_panels);
+  module.def("read_file", &file_bytes);
+  module.def("parse_pattern", &parse_panels);
   module.def("sew_pattern", &sew_panels);
 }
 

@@ -16,6 +16,7 @@
 
 #include "python/src/arrays.h"
 #include "python/src/calls.h"
+#include "python/src/identity.h"
 #include "python/src/images.h"
 #include "weft/error.h"
 #include "weft/run.h"
@@ -302,18 +303,6 @@ Scene scene_of(const py::dict& given) {
   return scene;
 }
 
-/// Of what a simulation is made of: only states of its like fit to it.
-std::string identity_of(const std::string& json, const Simulation& simulation) {
-  std::string identity = json + '\n' + simulation.state_hash();
-  for (const PlacedBody& body : simulation.bodies()) {
-    const std::vector<Vec3f> samples = samples_of(body.positions);
-    const std::string_view bytes(reinterpret_cast<const char*>(samples.data()),
-                                 samples.size() * sizeof(Vec3f));
-    identity += '\n' + std::to_string(std::hash<std::string_view>{}(bytes));
-  }
-  return identity;
-}
-
 std::unique_ptr<Simulated> simulate(const py::dict& given, int threads,
                                     const py::object& progress) {
   const Scene scene = scene_of(given);
@@ -326,7 +315,7 @@ std::unique_ptr<Simulated> simulate(const py::dict& given, int threads,
     stepper->notes = simulation.notes();
     for (std::string& note : begin_notes(simulation, scene, simulation.intersections()))
       stepper->notes.push_back(std::move(note));
-    stepper->identity = identity_of(json, simulation);
+    stepper->identity = identity_of(json, scene, simulation);
     *made = std::move(stepper);
   });
   return std::make_unique<Simulated>(*made, scene.cloths);

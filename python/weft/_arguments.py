@@ -1,14 +1,15 @@
 """What callers give, as the library takes it: arrays of any type and order, paths, threads, progress."""
-import copy
 import errno
 import operator
 import os
+from collections.abc import Mapping
 
 import numpy as np
 
 from . import _weft
 
 _INT32 = np.iinfo(np.int32)
+_DEEPEST = 64  # lists within each other
 
 
 def _numbers(given, what, kinds="fiu"):
@@ -150,13 +151,39 @@ def flag(given, what):
 
 
 def entries(given, what):
-    """A copy of a list of dictionaries; None is an empty one."""
-    if given is None:
-        return []
+    """A copy of a list of dictionaries, as `plain`; None is an empty one."""
     try:
-        return copy.deepcopy(list(given))
+        listed = [] if given is None else list(given)
     except TypeError:
         raise TypeError(f"{what}: a list of dictionaries is wanted, not {given!r:.60}") from None
+    return plain(listed, what)
+
+
+def plain(given, what, depth=0):
+    """A copy of what scene files hold: numbers, texts, lists and dictionaries. Errors name the place in it.
+
+    depth: of the lists and dictionaries that hold it, as one that holds itself would have no end.
+    """
+    if isinstance(given, (np.ndarray, np.generic)):
+        given = given.tolist()
+    if isinstance(given, (Mapping, list, tuple)):
+        if depth == _DEEPEST:
+            raise ValueError(f"{what:.80}: {_DEEPEST} lists and dictionaries within each other at most are wanted, not more")
+        if isinstance(given, Mapping):
+            return {word(key, f"{what}: a key"): plain(value, f"{what}.{key}", depth + 1) for key, value in given.items()}
+        return [plain(value, f"{what}[{index}]", depth + 1) for index, value in enumerate(given)]
+    if isinstance(given, str):
+        return text(given, what)
+    if not (given is None or isinstance(given, (int, float))):
+        raise TypeError(f"{what}: a number, a text, a list or a dictionary is wanted, not {given!r:.60}")
+    if isinstance(given, float) and not np.isfinite(given):
+        raise ValueError(f"{what}: a finite number is wanted, not {given}")
+    return given
+
+
+def name(given):
+    """A name in UTF-8; empty where none is given."""
+    return "" if given is None else text(word(given, "name"), "name")
 
 
 def word(given, what):

@@ -10,9 +10,10 @@ class Surface:
     """What a cloth or body is made of: a name for the scene, or what is in memory."""
 
     def __init__(self, given, faces, what):
-        self.name, self.memory, self.vertices = "builtin:sheet", None, None
+        self.name, self.memory, self.vertices, self.pattern = "builtin:sheet", None, None, None
         if isinstance(given, Pattern):
-            given = given.path
+            given._check_unchanged()
+            self.pattern, given = given, given.path
         if isinstance(given, GeometryImage):
             self.memory = given._core
             if faces is not None:

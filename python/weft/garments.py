@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _arguments, _weft
+from .errors import InputError
 from .images import GeometryImage
 
 
@@ -57,14 +58,19 @@ class Stitch(NamedTuple):
 
 
 class Pattern:
-    """A sewing pattern that `read_pattern` has read; never changed.
+    """A sewing pattern that `read_pattern` has read; never changed, as it keeps what was in the file.
 
     Fields: ``path``, ``panels`` (list of `Panel`), ``stitches`` (list of `Stitch`), ``notes`` (what was left out of the file).
+    A simulation reads the file again, and raises InputError where it has changed since or is gone.
     """
 
     def __init__(self, path):
-        self.path = path
-        panels, stitches, self.notes = _weft.read_pattern(path)
+        path = os.path.abspath(path)
+        self._take(path, _weft.read_file(path))
+
+    def _take(self, path, told):
+        self.path, self._told = path, told
+        panels, stitches, self.notes = _weft.parse_pattern(told, path)
         self.panels = [Panel(**{**panel, "vertices": _kept(panel["vertices"]), "edges": [_edge(edge) for edge in panel["edges"]]})
                        for panel in panels]
         self.stitches = [Stitch(*stitch) for stitch in stitches]
@@ -75,10 +81,28 @@ class Pattern:
         spacing: of the samples along edges [m]. progress: see `geometry_image`.
         Raises InputError for panels that cannot be joined, or are too large.
         """
-        return Garment(*_weft.sew_pattern(self.path, _arguments.number(spacing, "spacing", above=0), _arguments.progress(progress)))
+        spacing = _arguments.number(spacing, "spacing", above=0)
+        image, *arrays = _weft.sew_pattern(self._told, self.path, spacing, _arguments.progress(progress))
+        return Garment(GeometryImage(image), *arrays)
+
+    def _check_unchanged(self):
+        """Raises InputError where its file, which simulations read again, is not what it was."""
+        if _weft.read_file(self.path) != self._told:
+            found, wanted = "has changed since this pattern was read", "read_pattern again is wanted"
+            raise InputError(f"{self.path}: {found}; {wanted}", where=self.path, found=found, wanted=wanted)
+
+    def __reduce__(self):
+        return _pattern_again, (self.path, self._told)
 
     def __repr__(self):
         return f"<weft.Pattern {os.path.basename(self.path)!r}, {len(self.panels)} panels, {len(self.stitches)} stitches>"
+
+
+def _pattern_again(path, told):
+    """A pattern from what was read: as it travels between processes."""
+    pattern = Pattern.__new__(Pattern)
+    pattern._take(path, told)
+    return pattern
 
 
 def _edge(told):
@@ -94,7 +118,7 @@ class Garment:
     """
 
     def __init__(self, image, places, classes, seams):
-        self.image = GeometryImage(image)
+        self.image = image
         self.places, self.classes = _kept(places), _kept(classes)
         self.seams = {name: _kept(pairs) for name, pairs in seams}
         self._mesh = None
@@ -138,7 +162,10 @@ class Garment:
     @property
     def corner_places(self):
         """(m, 3, 2) float32 [m]: where the corners of faces lie in their panels. Times 100 the texture of the program's files."""
-        return self.places.reshape(-1, 2)[self._sewn()[2]]
+        return _kept(self.places.reshape(-1, 2)[self._sewn()[2]])
+
+    def __reduce__(self):
+        return Garment, (self.image, self.places, self.classes, list(self.seams.items()))
 
     def __repr__(self):
         return f"<weft.Garment of {len(self.image.charts)} panels, {len(self.seams)} seams>"
@@ -149,4 +176,4 @@ def read_pattern(path):
 
     Raises FileNotFoundError; InputError, which names panel and edge, for what cannot be sewn.
     """
-    return Pattern(os.path.abspath(_arguments.existing(path)))
+    return Pattern(_arguments.existing(path))

@@ -1,6 +1,7 @@
 """Cloth over bodies, frame by frame."""
 import json
 import os
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -118,17 +119,19 @@ class Simulation:
     def __init__(self, *, frame_rate=60, substeps=4, gravity=(0, -9.81, 0), ground=0.0, wind=None, air_damping=0.0,
                  integrator="newton", collider="pyramid", threads=None, name="scene"):
         self._threads = _arguments.threads(threads)
-        self._name, self._folder = str(name), ""
+        self._name, self._folder = _arguments.text(str(name), "name"), ""
         self._frame_rate = _arguments.number(frame_rate, "frame_rate", above=0)
         self._scene = {"version": 1, "frame_rate": self.frame_rate,
                        "substeps": _arguments.integer(substeps, "substeps", 1, 10**4),
                        "gravity": _arguments.vector(gravity, "gravity"),
                        "ground": None if ground is None else _arguments.number(ground, "ground"),
                        "air_damping": _arguments.number(air_damping, "air_damping", least=0),
-                       "integrator": _method(integrator), "collider": _method(collider), "cloths": [], "bodies": []}
+                       "integrator": _method(integrator, "integrator"), "collider": _method(collider, "collider"),
+                       "cloths": [], "bodies": []}
         if wind is not None:
-            self._scene["wind"] = dict(wind) if isinstance(wind, dict) else {"velocity": _arguments.vector(wind, "wind")}
-        self._cloth_memory, self._body_memory, self._motions = [], [], []
+            held = isinstance(wind, Mapping)
+            self._scene["wind"] = _arguments.plain(wind, "wind") if held else {"velocity": _arguments.vector(wind, "wind")}
+        self._cloth_memory, self._body_memory, self._motions, self._patterns = [], [], [], []
         self._names, self._images = [], {}  # of cloths, which know their simulation: it does not know them
         self._core, self._record = None, {}
 
@@ -141,11 +144,10 @@ class Simulation:
             with open(name, encoding="utf-8-sig") as file:
                 simulation._scene = file.read()
         except UnicodeDecodeError as error:
-            raise SceneError(f"{name}: is not JSON here: {error}", where=name, found="is not JSON here") from error
+            raise _no_json(name, error) from error
         simulation._folder = os.path.dirname(os.path.abspath(name))
         simulation.start()
-        told = json.loads(simulation._scene)
-        simulation._frame_rate = float(told.get("frame_rate", 60))
+        simulation._frame_rate = _frame_rate(simulation._scene, name)
         return simulation
 
     @property
@@ -166,12 +168,13 @@ class Simulation:
         if body._motion is None and body._keys is None and any(pauses.values()):
             raise ValueError("wait and lead_in are of bodies that move: this one has no motion")
         index = len(self._scene["bodies"])
-        told = {"name": name or f"body{index}" if index else name or "body", "surface": body._surface.name, "size": body._size,
-                "friction": _arguments.number(friction, "friction"), **_placement(scale, rotate, translate)}
+        told = {"name": _arguments.name(name) or (f"body{index}" if index else "body"), "surface": body._surface.name,
+                "size": body._size, "friction": _arguments.number(friction, "friction"), **_placement(scale, rotate, translate)}
         if body._keys is not None:
             told["motion"] = body._keys
         self._scene["bodies"].append(told)
         self._body_memory.append(body._surface.memory)
+        self._patterns.append(body._surface.pattern)
         self._motions.append(None if body._motion is None else (*body._motion, *pauses.values()))
         if body._keys is not None:
             told.update(pauses)
@@ -194,11 +197,12 @@ class Simulation:
         self._check_open()
         made_of = Surface(surface, None, "cloth")
         index = len(self._scene["cloths"])
-        told = {"name": name or (f"cloth{index}" if index else "cloth"), "surface": made_of.name, "size": _arguments.size(size),
-                "material": fabric, "friction": _arguments.number(friction, "friction"),
-                "velocity": _arguments.vector(velocity, "velocity"), "pins": _arguments.entries(pins, "pins"),
-                "attach": _arguments.entries(attach, "attach"),
-                **_placement(scale, rotate, translate)}
+        name = _arguments.name(name) or (f"cloth{index}" if index else "cloth")
+        told = {"name": name, "surface": made_of.name, "size": _arguments.size(size),
+                "material": _arguments.plain(fabric, f"cloth {name!r}: fabric"),
+                "friction": _arguments.number(friction, "friction"), "velocity": _arguments.vector(velocity, "velocity"),
+                "pins": _arguments.entries(pins, f"cloth {name!r}: pins"),
+                "attach": _arguments.entries(attach, f"cloth {name!r}: attach"), **_placement(scale, rotate, translate)}
         if spacing is not None:
             told["sew"] = {"spacing": _arguments.number(spacing, "spacing", above=0)}
         if _arguments.choice(rest, "rest", ("mesh", "uv")) == "uv":
@@ -211,8 +215,9 @@ class Simulation:
             told["layer"] = _arguments.integer(layer, "layer", 0, 20)
         self._scene["cloths"].append(told)
         self._cloth_memory.append(made_of.memory)
-        self._names.append(told["name"])
-        return Cloth(self, index, told["name"])
+        self._patterns.append(made_of.pattern)
+        self._names.append(name)
+        return Cloth(self, index, name)
 
     @property
     def cloths(self):
@@ -237,7 +242,9 @@ class Simulation:
         """Loads everything, which the first frame does otherwise. Raises SceneError, InputError, TopologyError."""
         if self._core is not None:
             return self
-        text = self._scene if isinstance(self._scene, str) else _json(self._scene)
+        for pattern in filter(None, self._patterns):
+            pattern._check_unchanged()
+        text = self._scene if isinstance(self._scene, str) else json.dumps(self._scene)
         given = {"json": text, "name": self._name, "folder": self._folder, "cloths": self._cloth_memory,
                  "bodies": self._body_memory, "motions": self._motions}
         core = _weft.simulate(given, self._threads, _arguments.progress(progress))
@@ -361,18 +368,17 @@ class Simulation:
         return f"<weft.Simulation of {len(self._names)} cloths at frame {self.frame}>"
 
 
-def _method(given):
-    return given if isinstance(given, dict) else {"type": given}
+def _method(given, what):
+    return _arguments.plain(given if isinstance(given, Mapping) else {"type": given}, what)
 
 
-def _json(scene):
-    def plain(value):
-        if isinstance(value, np.ndarray):
-            return value.tolist()
-        if isinstance(value, np.generic):
-            return value.item()
-        raise TypeError(f"scene: numbers, texts, lists and dictionaries are wanted, not {value!r:.60}")
+def _frame_rate(text, name):
+    """Of a scene that the library has read: it takes what ends in null bytes, say."""
     try:
-        return json.dumps(scene, default=plain, allow_nan=False)
+        return float(json.loads(text).get("frame_rate", 60))
     except ValueError as error:
-        raise ValueError(f"scene: {error}") from error
+        raise _no_json(name, error) from error
+
+
+def _no_json(name, error):
+    return SceneError(f"{name}: is not JSON here: {error}", where=name, found="is not JSON here")

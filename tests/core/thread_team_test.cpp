@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "weft/core/ordered_sum.h"
 #include "weft/core/random.h"
@@ -45,6 +47,51 @@ TEST(ThreadTeam, IsSmallerWhereTheSystemHasNoMoreThreads) {
     std::exit(team.size() < 1000 && workers == team.size() ? 7 : 2);
   };
   EXPECT_EXIT(work_in_small_memory(), testing::ExitedWithCode(7), "");
+}
+#endif
+
+#if !defined(__SANITIZE_THREAD__)  // which lets no child of a fork start threads
+/// Whether a region came that the workers shared, as not every one does on a crowded machine.
+bool work_together(ThreadTeam& team) {
+  for (int region = 0; region < 10'000; ++region) {
+    std::atomic<int> workers = 0;
+    int wanted = 0;
+    team.run([&](Worker& worker) {
+      ++workers;
+      if (worker.rank() == 0) wanted = worker.size();
+      worker.barrier();
+    });
+    if (workers != wanted) return false;
+    if (wanted == team.size()) return true;
+  }
+  return false;
+}
+
+/// Ends a child of a fork, with 7 where all went well and nobody was waited for.
+[[noreturn]] void end_child(ThreadTeam& team, bool works) {
+  alarm(60);
+  const bool well = !works || (work_together(team) && work_together(team));
+  team.~ThreadTeam();
+  _exit(well ? 7 : 1);
+}
+
+int exit_code(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(ThreadTeam, ChildrenOfForksHaveWorkersOfTheirOwn) {
+  ThreadTeam team(3);
+  for (const int sleep : {0, 20}) {  // workers spin, or are asleep
+    for (const bool works : {true, false}) {
+      work_together(team);
+      std::this_thread::sleep_for(std::chrono::milliseconds(sleep));
+      const pid_t child = fork();
+      if (child == 0) end_child(team, works);
+      EXPECT_EQ(exit_code(child), 7) << sleep << works;
+    }
+  }
 }
 #endif
 

@@ -99,6 +99,8 @@ def image():
     return weft.builtin("sheet", size=9)
 
 
+ENDLESS = []
+ENDLESS.append(ENDLESS)
 Bad, Shape, Type, Missing = weft.InputError, ValueError, TypeError, FileNotFoundError
 CASES = [
     # meshes as arrays
@@ -198,7 +200,22 @@ CASES = [
     (weft.SceneError, "densty", lambda: once(fabric={"densty": 1})),
     (weft.SceneError, "density", lambda: once(fabric={"density": -1})),
     (weft.SceneError, "pins", lambda: once(pins=[{"image": [2, 0]}])),
-    (Type, "scene: ", lambda: once(pins=[object()])),
+    (Type, "cloth 'cloth': pins[0]: ", lambda: once(pins=[object()])),
+    (Shape, "cloth 'flag': fabric.density: a finite number is wanted, not nan",
+     lambda: once(name="flag", fabric={"density": np.nan})),
+    (Shape, "cloth 'cloth': pins[1].nearest[2]: a finite",
+     lambda: once(pins=[{"image": [0, 0]}, {"nearest": np.array([0, 0, np.inf])}])),
+    (Shape, "cloth 'cloth': attach[0][0]", lambda: once(attach=[ENDLESS])),
+    (Type, "cloth 'cloth': fabric.density: ", lambda: once(fabric={"density": 1j})),
+    (Type, "cloth 'cloth': fabric: a key", lambda: once(fabric={3: 1})),
+    (Shape, "UTF-8", lambda: once(fabric="\ud800")),
+    (Shape, "name: ", lambda: once(name="\ud800")),
+    (Type, "name: ", lambda: once(name=0)),
+    (Type, "name: ", lambda: once(name=[])),
+    (Type, "name: ", lambda: weft.Simulation().add_body("builtin:sphere", name=0)),
+    (Shape, "name: ", lambda: scene(name="\ud800")),
+    (Shape, "wind.drag: ", lambda: scene(wind={"velocity": [0, 0, 0], "drag": np.nan})),
+    (Type, "collider.type: ", lambda: scene(collider={1, 2})),
     (weft.SceneError, "", lambda: once(attach=[{"body": "none", "image": [0, 0]}])),
     (Shape, "velocity", lambda: once(velocity=(1, 2))),
     (Shape, "translate", lambda: once(translate=(0, np.nan, 0))),
@@ -256,6 +273,7 @@ CASES = [
     (Shape, "(S, S, 4)", lambda: weft.omages.to_mesh(np.zeros((4, 4, 3), np.uint16))),
     (Shape, "from 0 to 1", lambda: weft.omages.arrays(image(), colour=(255, 0, 0))),
     (Missing, "none.json", lambda: weft.Simulation.from_scene("none.json")),
+    (weft.SceneError, "null.json: is not JSON here", lambda: weft.Simulation.from_scene("null.json", threads=1)),
     (weft.SceneError, "scene.json:frmes", lambda: weft.Simulation.from_scene("scene.json")),
 ]
 
@@ -273,6 +291,7 @@ class BadArguments(ModuleTest):
         np.save("array.npy", np.zeros(3))
         self.folder.joinpath("latin.json").write_bytes('{"name": "\xe4"}'.encode("latin-1"))
         self.folder.joinpath("scene.json").write_text('{"frmes": 3, "cloths": [{"surface": "builtin:sheet"}]}')
+        self.folder.joinpath("null.json").write_text('{"version": 1, "cloths": [{"surface": "builtin:sheet", "size": 9}]}\0')
         self.kept = sorted(os.listdir("."))
 
     def test_each_raises_what_tells(self):

@@ -105,6 +105,17 @@ class Batch(BatchTest):
                 file.write("\n")
             self.assertNotEqual(identity(job), before, name)
 
+    def test_every_input_is_part_of_a_job_s_name_in_its_place(self):
+        weft.write_mesh("ring.obj", *small_torus())
+        (self.folder / "p.json").write_text("{}")
+        drapes = [{"command": "drape", "cloth": cloth, "body": body} for cloth, body in (
+            ("ring.obj", "builtin:sphere"), ("builtin:sphere", "ring.obj"),
+            ("builtin:sphere", "builtin:torus"), ("builtin:torus", "builtin:sphere"))]
+        sewn = [{"command": "garment", "pattern": "p.json", "body": body}
+                for body in ("builtin:sphere", "builtin:mannequin", "ring.obj")]
+        read = weft.batch.jobs.Reader(PROGRAM).read(self.write_jobs(*drapes, *sewn))
+        self.assertEqual(len({job.id for job in read}), 7)
+
     def test_tables_and_lines_say_the_same(self):
         (self.folder / "jobs.csv").write_text("mesh,size,fit,parameterizer,timeout\nbuiltin:torus,17,true,,\nbuiltin:knot,33,,floater,9.5\n")
         lines = self.write_jobs({"mesh": "builtin:torus", "size": 17, "fit": True},
@@ -120,7 +131,9 @@ class Batch(BatchTest):
         wrong = {'{"mesh": "builtin:torus", "sise": 17}': "sise", '{"command": "fold", "mesh": "a.obj"}': "fold", "{": "no JSON", "[1]": "object",
                  '{"command": "drape", "cloth": "builtin:sheet"}': "no 'body'", '{"mesh": "none*.obj"}': "none*.obj",
                  '{"mesh": "builtin:torus", "timeout": -1}': "timeout", '{"mesh": "builtin:torus", "output": "x.exr"}': "output",
-                 '{"mesh": "builtin:torus", "size": null}': "size"}
+                 '{"mesh": "builtin:torus", "size": null}': "size",
+                 '{"mesh": "builtin:torus", "component": "all"}':
+                     "the option 'component' with 'all'; one piece a job, its number or largest, is wanted"}
         for line, word in wrong.items():
             (self.folder / "jobs.jsonl").write_text('{"mesh": "builtin:torus"}\n' + line + "\n")
             said = self.batch("jobs.jsonl", "-o", "out", code=3).stderr

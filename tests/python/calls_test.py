@@ -102,6 +102,30 @@ class Calls(ModuleTest):
         self.assertTrue(all("at work" in text for text in refused), refused)
         self.assertGreaterEqual(simulation.frame, 30)
 
+    def test_children_of_forks_step_on_with_the_same_bits(self):
+        simulations = []
+        for _ in range(2):
+            simulations.append(weft.Simulation(threads=2))
+            simulations[-1].add_cloth("builtin:sheet", size=17, translate=(0, 0.6, 0), rotate=(20, 0, 0))
+            next(simulations[-1].run(1))
+        told, tell = os.pipe()
+        child = os.fork()
+        if child == 0:
+            try:
+                signal.alarm(60)
+                simulations.pop()  # ends without a wait, though it was never stepped here
+                list(simulations[0].run(3))
+                os.write(tell, simulations.pop().state_hash.encode())
+                os._exit(7)
+            finally:
+                os._exit(1)
+        os.close(tell)
+        with open(told, encoding="utf-8") as file:
+            stepped = file.read()
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 7)
+        list(simulations[0].run(3))
+        self.assertEqual(stepped, simulations[0].state_hash)
+
     def interrupted(self, *words):
         """What is said after Ctrl-C, and processor seconds from there to the end."""
         before = processor_seconds_of_children()

@@ -1,5 +1,6 @@
 """Sewing patterns as arrays, and garments that are the program's."""
 import json
+import pickle
 import unittest
 
 import numpy as np
@@ -77,6 +78,34 @@ class Garments(ModuleTest):
         for _ in simulation.run(5):
             pass
         self.assertEqual(simulation.state_hash, told["state_hash"])
+
+    def test_patterns_keep_what_was_read(self):
+        pattern = weft.read_pattern("tube.json")
+        panels = [panel.vertices for panel in pattern.panels]
+        early = weft.Simulation(threads=1)
+        early.add_cloth(pattern, spacing=0.03)
+        wanted = pattern.garment(spacing=0.03)
+        other = tube()
+        for panel in other["pattern"]["panels"].values():
+            panel["vertices"] = [[0, 0], [9, 0], [9, 9], [0, 9]]
+        for change in (lambda: (self.folder / "tube.json").write_text(json.dumps(other)), (self.folder / "tube.json").unlink):
+            change()
+            for kept in (pattern, pickle.loads(pickle.dumps(pattern))):
+                np.testing.assert_array_equal(kept.garment(spacing=0.03).places, wanted.places)
+                np.testing.assert_array_equal([panel.vertices for panel in kept.panels], panels)
+                with self.assertRaisesRegex(weft.InputError, "tube.json: (has changed since|cannot be opened)"):
+                    weft.Simulation().add_cloth(kept)
+            with self.assertRaisesRegex(weft.InputError, "tube.json: (has changed since|cannot be opened)"):
+                early.start()
+
+    def test_arrays_of_garments_are_read_only_after_pickling_too(self):
+        garment = weft.read_pattern("tube.json").garment(spacing=0.03)
+        garment.faces  # what it makes when asked
+        for kept in (garment, pickle.loads(pickle.dumps(garment))):
+            arrays = (kept.places, kept.classes, kept.sample_of, kept.faces, kept.panel_of, kept.corner_places,
+                      *kept.seams.values())
+            self.assertEqual([array.flags.writeable for array in arrays], [False] * 8)
+            np.testing.assert_array_equal(kept.corner_places, garment.corner_places)
 
     def test_garments_are_slowed_only_where_their_rest_is_wanted(self):
         damping = []

@@ -1,4 +1,5 @@
 """Simulations built in memory: what they are told of, copies, states, and threads that outlive the interpreter."""
+import os
 import pickle
 import subprocess
 import sys
@@ -37,6 +38,16 @@ def textured_square(turned):
     return V, F, uv[F]
 
 
+def moved(surface=None, path=(0, 0, 1), fps=30, **pauses):
+    """A textured square beside a ball that goes along a path."""
+    V, F = weft.read_mesh("builtin:sphere")
+    motion = np.linspace(V, V + path, 3)
+    simulation = weft.Simulation(threads=1, ground=None)
+    simulation.add_body(weft.Body(V, F, motion=motion, fps=fps, size=9), translate=(5, 0, 0), **pauses)
+    simulation.add_cloth(surface or textured_square(False), size=9)
+    return simulation
+
+
 class Simulations(ModuleTest):
     def test_daemon_threads_amid_a_call_do_not_keep_the_process_from_ending(self):
         for simulates in (False, True):
@@ -68,6 +79,16 @@ class Simulations(ModuleTest):
         self.assertTrue(np.isfinite(simulation.cache(cloth)).all())
         self.assertTrue(np.isfinite(simulation.body_positions(0)).all())
 
+    def test_dictionaries_are_copied(self):
+        speed, fabric, integrator, collider = [0, 0, 0], {"stretch": [900, 900]}, {"type": "newton"}, {"type": "pyramid"}
+        simulation = weft.Simulation(threads=1, ground=None, gravity=(0, 0, 0), wind={"velocity": speed}, integrator=integrator,
+                                     collider=collider)
+        cloth = simulation.add_cloth("builtin:sheet", size=9, fabric=fabric)
+        speed[1], fabric["stretch"][0] = 5, -1
+        integrator["type"] = collider["type"] = "none"
+        list(simulation.run(2))
+        self.assertLess(np.abs(simulation.velocity_at_samples(cloth)).max(), 1e-3)
+
     def test_texture_of_arrays_is_the_grain(self):
         places = []
         for turned in (False, True):
@@ -90,6 +111,22 @@ class Simulations(ModuleTest):
         for other in (sheet(translate=(0, 1, 0)), sheet(fabric="denim"), sheet(pins=[{"image": [0, 0]}])):
             with self.assertRaisesRegex(ValueError, "state"):
                 other[0].restore(state)
+
+    def test_states_fit_the_same_motions_and_textures_alone(self):
+        V, F, uv = textured_square(False)
+        state = moved().save()
+        moved().restore(state)
+        for other in (moved(path=(0, 0, -1)), moved(fps=20), moved(wait=0.5), moved(lead_in=0.5), moved((V, F, 2 * uv)),
+                      moved((V, F))):
+            with self.assertRaisesRegex(ValueError, "state"):
+                other.restore(state)
+
+    def test_states_fit_in_other_processes(self):
+        (self.folder / "state.pickle").write_bytes(pickle.dumps(moved().save()))
+        code = "import pickle, simulation_test; simulation_test.moved().restore(pickle.load(open('state.pickle', 'rb')))"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60,
+                              env={**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_pickled_states_go_on_with_the_same_bits(self):
         first, _ = sphere_on_floor()

@@ -16,6 +16,8 @@ FILES = ("body", "cut")  # options that name files
 OWN = ("command", "timeout", "memory")  # keys of this command, not of the program's
 REFUSED = ("output", "json", "quiet", "help", "resume", "version")
 NOT_OF_THE_RESULT = ("threads",)
+# Values that make several images of one mesh, where a job makes one.
+SEVERAL = {("component", "all"): "one piece a job, its number or largest,"}
 MESHES = (".obj", ".off", ".ply", ".stl", ".glb", ".gltf")
 
 
@@ -27,10 +29,9 @@ class Job:
         self.timeout, self.memory = timeout, memory
         self.id = None
 
-    def files(self):
-        """The files that its result depends on."""
-        named = [*self.words, *(self.options[key] for key in FILES if key in self.options)]
-        return [name for name in map(str, named) if not name.startswith("builtin:")]
+    def named(self):
+        """The files and built-in shapes that its result depends on, each in its place."""
+        return [*self.words, *(self.options[key] for key in FILES if key in self.options)]
 
     def arguments(self, output):
         """The program's arguments, with what it writes in a folder."""
@@ -50,7 +51,11 @@ def _flags(key, value):
         return [f"--{key}"]
     if value is False:
         return []
-    return [f"--{key}", ",".join(map(str, value)) if isinstance(value, list) else str(value)]
+    return [f"--{key}", _text(value)]
+
+
+def _text(value):
+    return ",".join(map(str, value)) if isinstance(value, list) else str(value)
 
 
 def known_options(program, command):
@@ -112,6 +117,8 @@ class Reader:
                 raise _wrong(where, f"the option '{key}'", f"one that weft {command} --help lists")
             if isinstance(value, dict) or value is None:
                 raise _wrong(where, f"the option '{key}'", "a number, a text, a list, true or false")
+            if (key, _text(value)) in SEVERAL:
+                raise _wrong(where, f"the option '{key}' with {_text(value)!r}", SEVERAL[key, _text(value)])
             if key in FILES:
                 options[key] = _resolved(str(value), folder)
         missing = [word for word in WORDS[command] if word not in entry]
@@ -138,11 +145,13 @@ class Reader:
         return ways
 
     def identity(self, job):
-        """16 hexadecimal digits over the version, the command, its options and the bytes of its inputs."""
+        """16 hexadecimal digits over the version, the command, its options and its inputs: names of shapes, bytes of files."""
         options = {key: value for key, value in job.options.items() if key not in (*NOT_OF_THE_RESULT, *FILES)}
-        builtins = [word for word in job.words if word.startswith("builtin:")]
-        parts = [__version__, job.command, json.dumps(options, sort_keys=True), *builtins, *map(self._hash_of, job.files())]
+        parts = [__version__, job.command, json.dumps(options, sort_keys=True), *map(self._input_of, job.named())]
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
+
+    def _input_of(self, name):
+        return name if name.startswith("builtin:") else self._hash_of(name)
 
     def _hash_of(self, path):
         if path not in self._hashes:

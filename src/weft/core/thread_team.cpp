@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <system_error>
+
+#include <pthread.h>
 
 #include "weft/core/assert.h"
 
@@ -25,6 +28,13 @@ inline void pause() {
 #endif
 }
 
+/// Forks from the process that first asked to this one.
+int fork_count() {
+  static std::atomic<int> count{0};
+  static const int told = pthread_atfork(nullptr, nullptr, [] { ++count; });
+  return told == 0 ? count.load(std::memory_order_relaxed) : 0;
+}
+
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
@@ -38,6 +48,11 @@ ThreadTeam::ThreadTeam(const TeamOptions& options)
   WEFT_ASSERT(size_ >= 1);
   WEFT_ASSERT(has_instruction_set(set_));
   threads_.reserve(static_cast<std::size_t>(size_ - 1));
+  start_workers();
+}
+
+void ThreadTeam::start_workers() {
+  forks_ = fork_count();
   try {
     for (int rank = 1; rank < size_; ++rank) threads_.emplace_back([this, rank] { serve(rank); });
   } catch (const std::system_error&) {  // the system has no more of them
@@ -45,7 +60,20 @@ ThreadTeam::ThreadTeam(const TeamOptions& options)
   }
 }
 
+void ThreadTeam::forget_workers() {
+  // Made anew in their places: a mutex may be locked for ever, and to destroy a condition or a
+  // thread would be to wait for threads that are not in this process.
+  std::construct_at(&mutex_);
+  std::construct_at(&wake_);
+  for (std::thread& thread : threads_) std::construct_at(&thread);
+  threads_.clear();
+  region_ = 0;
+  asleep_ = 0;
+  arrived_ = 0;
+}
+
 ThreadTeam::~ThreadTeam() {
+  if (forks_ != fork_count()) forget_workers();
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -59,6 +87,10 @@ void ThreadTeam::run_task(Task task) {
     alone_ = std::max(0, alone_ - 1);
     Worker self(*this, 0, 1);
     return task.call(task.context, self);
+  }
+  if (forks_ != fork_count()) {
+    forget_workers();
+    start_workers();
   }
   const Clock::time_point start = Clock::now();
   lost_seconds_ = 0;

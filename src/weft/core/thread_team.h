@@ -55,6 +55,9 @@ class Worker {
 /// On a crowded machine a barrier may wait for a worker that is not running. After a region that
 /// lost most of its time this way the caller runs some regions alone. Results do not depend on the
 /// team, so only the time differs.
+///
+/// In the child of a fork, which has none of its threads, a team starts them anew in its next
+/// region. One that was in a region meanwhile, by another thread, can only be destroyed there.
 class ThreadTeam {
  public:
   /// As many workers as are asked for, or as the system has threads for.
@@ -89,6 +92,9 @@ class ThreadTeam {
     void* context = nullptr;
   };
   void run_task(Task task);
+  void start_workers();
+  /// Makes all as if no worker had been started, without a word to those of before a fork.
+  void forget_workers();
   void serve(int rank);
   /// Waits for the region after the one that a worker saw last. @return false: there is none left
   bool wait_for_region(std::uint64_t& seen);
@@ -97,6 +103,7 @@ class ThreadTeam {
 
   int size_;
   InstructionSet set_;
+  int forks_ = 0;  // before the workers were started, as fork_count tells
   Task task_;
   // Workers spin briefly, then sleep, between regions, and spin briefly, then yield, at barriers
   // inside one: waking a sleeper takes as long as many a region.
