@@ -248,5 +248,40 @@ TEST(ChartCloths, FindNothingNearWhereChartsMeet) {
   }
 }
 
+/// Flat squares of a metre side by side.
+TriangleMesh squares(int count) {
+  TriangleMesh mesh;
+  for (int k = 0; k < count; ++k) {
+    const double x = 2.0 * k;
+    for (const Vec3d p : {Vec3d{x, 0, 0}, Vec3d{x, 0, 1}, Vec3d{x + 1, 0, 1}, Vec3d{x + 1, 0, 0}})
+      mesh.positions.push_back(p);
+    mesh.triangles.push_back({4 * k, 4 * k + 1, 4 * k + 2});
+    mesh.triangles.push_back({4 * k, 4 * k + 2, 4 * k + 3});
+  }
+  return mesh;
+}
+
+// Between the charts of such an image lie samples of none, which have no weight.
+TEST(ChartCloths, PiecesFallAsImplicitEulerDoes) {
+  for (const int count : {2, 3, 5}) {
+    Scene scene;
+    scene.ground.reset();
+    SceneCloth cloth;
+    cloth.surface = {squares(count), "squares"};
+    cloth.size = 33;
+    scene.cloths = {cloth};
+    Simulation simulation(scene, "squares", 1);
+    const double start = simulation.cloths()[0].state.position.at(0).y;
+    const double h = 1.0 / (60 * scene.substeps);
+    for (int frame = 1; frame <= 3; ++frame) {
+      const double steps = scene.substeps * frame;
+      const FrameReport report = simulation.advance();
+      EXPECT_NEAR(report.centre_of_mass.y - start, -0.5 * 9.81 * h * h * steps * (steps + 1), 1e-7)
+          << count << " pieces, frame " << frame;
+      EXPECT_LT(report.strain.max, 1e-5);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace weft

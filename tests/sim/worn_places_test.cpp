@@ -12,11 +12,10 @@ namespace {
 /// A top and a skirt with labels of their own, and a torus that wears them.
 class WornBy : public ::testing::Test {
  protected:
-  WornBy() { wear("collar", "lower_interface"); }
+  WornBy() { wear(test::top_and_skirt("collar", "lower_interface")); }
 
-  void wear(const std::string& top, const std::string& skirt) {
-    garment =
-        make_garment(parse_pattern(test::top_and_skirt(top, skirt), "pattern"), "pattern", 0.02);
+  void wear(const std::string& pattern) {
+    garment = make_garment(parse_pattern(pattern, "pattern"), "pattern", 0.02);
     placed = placed_positions(garment.image, placement_map({}));
     bodies.resize(1);
     bodies[0].image = make_image_shape("torus", 33);
@@ -62,10 +61,25 @@ TEST_F(WornBy, GoesWithItsBody) {
 }
 
 TEST_F(WornBy, GarmentsWithoutLabelsSinkAsAWhole) {
-  wear("", "");
+  wear(test::top_and_skirt("", ""));
   EXPECT_TRUE(garment.labels.empty());
   lower_all(0.5F);
   EXPECT_NEAR(sunk(), 0.5, 1e-5);
+}
+
+TEST_F(WornBy, PanelsWithoutLabelsAndSeamsSinkAsAWhole) {
+  wear(test::loose_square());
+  ASSERT_EQ(garment.sewn.class_count(), 0) << "one chart that fills the image";
+  EXPECT_NEAR(sunk(), 0, 1e-5);
+  lower_all(0.5F);
+  EXPECT_NEAR(sunk(), 0.5, 1e-5);
+}
+
+TEST_F(WornBy, HolesBetweenPanelsCountForNothing) {
+  wear(test::top_and_skirt("", ""));
+  for (int s = 0; s < placed.size() * placed.size(); ++s)
+    if (garment.sewn.is_hole(s)) lower(0.5F, std::span(&s, 1));
+  EXPECT_NEAR(sunk(), 0, 1e-5);
 }
 
 TEST_F(WornBy, NobodyKeepsThePlacesOfThePattern) {

@@ -12,6 +12,7 @@
 #include "weft/param/augment.h"
 #include "weft/param/border_curves.h"
 #include "weft/param/border_layout.h"
+#include "weft/param/four_corners.h"
 #include "weft/param/rotation.h"
 #include "weft/param/square_map.h"
 
@@ -38,6 +39,11 @@ int seed_in_piece(const Piece& piece, const RepairedMesh& input, int triangle) {
 bool is_suspicious(const MappedDisk& mapped) {
   constexpr double most = 1.5;
   return mapped.parameterizer == "stretch" && mapped.quality.stretch_l2 > most;
+}
+
+// What stretches such a chart is its taper, which no cut takes away.
+bool is_flat_with_four_corners(const CutDisk& cut) {
+  return is_flat(cut.disk) && four_corners(cut);
 }
 
 }  // namespace
@@ -87,7 +93,7 @@ MappedDisk ChartConversion::mapped_along(const Cut& cut, ChartSize size, int uni
 }
 
 void ChartConversion::lengthen_cut(int side) {
-  if (!options_.augment || options_.seam) return;
+  if (!options_.augment || options_.seam || is_flat_with_four_corners(opened(cut_))) return;
   AugmentedCut augmented = augment_cut(
       *surface_, cut_, {.size = side, .threads = options_.threads, .progress = options_.progress});
   square_ = {std::move(augmented.cut), augmented.rounds, {}};

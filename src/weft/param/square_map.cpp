@@ -9,6 +9,7 @@
 #include "weft/mesh/stretch.h"
 #include "weft/param/border_layout.h"
 #include "weft/param/chords.h"
+#include "weft/param/four_corners.h"
 #include "weft/param/interior_map.h"
 #include "weft/param/rotation.h"
 
@@ -23,6 +24,20 @@ std::vector<Vec2d> place_border(const CutDisk& cut, ChartSize size, std::span<co
   return uv;
 }
 
+/// Corners of the border lie at those of the chart, where it has four: a cloth's rows and columns
+/// then run along its sides. The others are laid out by trial maps.
+void lay_out(MappedDisk& mapped, const MapOptions& options) {
+  LayoutOptions layout{options.size};
+  if (const std::optional<std::array<int, 4>> corners = four_corners(mapped.cut))
+    mapped.cut = parted_at(*corners, std::move(mapped.cut), options.size);
+  else
+    layout.rotation = choose_rotation(mapped.cut, {.size = options.size,
+                                                   .count = options.rotations,
+                                                   .unit = options.rotation_unit,
+                                                   .threads = options.threads});
+  mapped.layout = lay_out_border(mapped.cut, layout);
+}
+
 }  // namespace
 
 MappedDisk map_to_square(CutDisk cut, const MapOptions& options) {
@@ -31,12 +46,7 @@ MappedDisk map_to_square(CutDisk cut, const MapOptions& options) {
   if (std::holds_alternative<FloaterOptions>(options.parameterizer))
     mapped.parameterizer = "floater";
   update(options.progress, "map", 0.0);
-  const LayoutOptions layout{options.size,
-                             choose_rotation(mapped.cut, {.size = options.size,
-                                                          .count = options.rotations,
-                                                          .unit = options.rotation_unit,
-                                                          .threads = options.threads})};
-  mapped.layout = lay_out_border(mapped.cut, layout);
+  lay_out(mapped, options);
   split_at_corners(mapped.cut, mapped.layout);
   split_chords(mapped.cut.disk);
 

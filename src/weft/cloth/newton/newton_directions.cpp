@@ -30,7 +30,7 @@ void NewtonPart::drift(Vec3d displacement, Worker& worker) {
     for (int k = 0; k < 3; ++k)
       for (int c = 0; c < cloth_.size; ++c) {
         (*step[k])(r, c) += parts[k];
-        (*left[k])(r, c) -= per_square * cloth_.mass(r, c) * parts[k];
+        (*left[k])(r, c) -= share_(r, c) > 0 ? per_square * cloth_.mass(r, c) * parts[k] : 0;
       }
   worker.barrier();
 }
