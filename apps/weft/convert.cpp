@@ -1,6 +1,6 @@
 #include "weft/convert.h"
 
-#include <charconv>
+#include <algorithm>
 #include <chrono>
 #include <climits>
 #include <cmath>
@@ -10,7 +10,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +18,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/mesh_args.h"
+#include "apps/weft/number_args.h"
 #include "apps/weft/reports.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/error.h"
@@ -126,6 +126,20 @@ int steps_of(const ConvertArgs& args, const GeometryImage& image) {
                      fmt::format("for a side of {:.3g} m at least {:.2g} mm is wanted",
                                  image.world.scale, error_of(image, largest_step_count)));
   return *steps;
+}
+
+/// Refuses an error that no steps are fine enough for, before the mesh is converted: its image is
+/// as large as what its triangles fill, with what is fitted a little off. A component alone may be
+/// much smaller.
+void check_error(const ConvertArgs& args, const TriangleMesh& mesh) {
+  if (args.error == 0 || !args.component.empty()) return;
+  Box3d box;
+  for (const Triangle& triangle : mesh.triangles)
+    for (const int vertex : triangle) box.add(mesh.positions[vertex]);
+  GeometryImage image;
+  image.world.scale = std::max({box.extent().x, box.extent().y, box.extent().z});
+  // Of others the conversion tells what is wrong.
+  if (image.world.scale > 0 && std::isfinite(image.world.scale)) steps_of(args, image);
 }
 
 /// Rounds the image to what a compressed file will hold, and measures that. @return the steps
@@ -267,15 +281,6 @@ void require_all(const ConvertArgs& args, const Context& context, const Json& re
       written > 0 ? "the others were written" : "none was written");
 }
 
-/// For CLI11, whose own check prints the largest number in 309 digits.
-std::string check_positive(const std::string& text) {
-  const char* end = text.data() + text.size();
-  double value = 0;
-  const auto [read_to, error] = std::from_chars(text.data(), end, value);
-  const bool good = error == std::errc{} && read_to == end && value > 0 && std::isfinite(value);
-  return good ? "" : "'" + text + "'; a number above 0 is wanted";
-}
-
 void check_args(const ConvertArgs& args) {
   check_output(args.output, {".exr", ".png", ".weft"});
   for (const auto& [option, given] :
@@ -304,6 +309,7 @@ void convert(const ConvertArgs& args, const Context& context) {
   }();
   const std::chrono::duration<double> load = std::chrono::steady_clock::now() - start;
   for (const std::string& warning : named.warnings) warn(context, warning);
+  check_error(args, named.mesh);
   if (args.component == "all") {
     const Json report = convert_all(args, context, named, options);
     print_report(context, report);
@@ -357,7 +363,7 @@ void add_convert(CLI::App& program, const Context& context) {
   command
       ->add_option("--error", args->error,
                    "Instead of bits: how far samples of a compressed image may move [mm]")
-      ->check(check_positive)
+      ->check(number_above_zero())
       ->excludes(precision);
   command->add_option("--cut", args->seam,
                       "Cut along the vertex paths in this text file, one a line, counted from 0");

@@ -1,8 +1,6 @@
 #include "weft/fabric.h"
 
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -11,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/number_args.h"
 #include "apps/weft/terminal_progress.h"
 #include "weft/error.h"
 #include "weft/scene_file.h"
@@ -36,10 +35,8 @@ struct Fabric {
 };
 
 std::optional<double> positive_number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool good = error == std::errc() && end == text.data() + text.size();
-  return good && std::isfinite(value) && value > 0 ? std::optional(value) : std::nullopt;
+  const std::optional<double> number = finite_number(text);
+  return number && *number > 0 ? number : std::nullopt;
 }
 
 /// One number, or two with a comma between.
@@ -56,8 +53,6 @@ WarpWeft read_pair(const std::string& option, std::string_view text) {
 void check_args(const FabricArgs& args) {
   if (args.mass_given->count() == 0)
     throw UsageError("fabric", "no --mass", "the mass of a square metre in grams is wanted");
-  if (!(args.mass > 0) || !std::isfinite(args.mass))
-    throw UsageError("fabric", fmt::format("--mass {:g}", args.mass), "a mass > 0 is wanted");
   if (args.test.size % 2 == 0)
     throw UsageError("fabric", fmt::format("--size {}", args.test.size), "an odd size is wanted");
   std::string given;
@@ -67,7 +62,7 @@ void check_args(const FabricArgs& args) {
   if (!one)
     throw UsageError("fabric", given.empty() ? "nothing measured of how it bends" : given,
                      "one of --bending, --length, --drape is wanted");
-  if (args.drape_given->count() > 0 && !(args.drape > 0 && args.drape < 100))
+  if (args.drape_given->count() > 0 && args.drape >= 100)
     throw UsageError("fabric", fmt::format("--drape {:g}", args.drape),
                      "a percentage between 0 and 100 is wanted");
 }
@@ -152,14 +147,17 @@ void fabric(const FabricArgs& args, const Context& context) {
 }
 
 void add_measured(CLI::App& command, FabricArgs& args) {
-  args.mass_given = command.add_option("--mass", args.mass, "Of a square metre [g]");
+  args.mass_given =
+      command.add_option("--mass", args.mass, "Of a square metre [g]")->check(number_above_zero());
   args.bending_given =
       command.add_option("--bending", args.bending, "Bending rigidity [uN m]: B or WARP,WEFT");
   args.length_given = command.add_option("--length", args.length,
                                          "Bending length of ASTM D1388 [mm]: C or WARP,WEFT");
-  args.drape_given = command.add_option(
-      "--drape", args.drape,
-      "Cusick's drape coefficient [%], of a 30 cm disc on an 18 cm support: B is found by draping");
+  args.drape_given = command
+                         .add_option("--drape", args.drape,
+                                     "Cusick's drape coefficient [%], of a 30 cm disc on an 18 cm "
+                                     "support: B is found by draping")
+                         ->check(number_above_zero());
 }
 
 void add_test(CLI::App& command, FabricArgs& args) {

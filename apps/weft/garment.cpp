@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/number_args.h"
 #include "apps/weft/run_args.h"
 #include "weft/error.h"
 #include "weft/scene.h"
@@ -60,7 +61,7 @@ void add_garment(CLI::App& program, const Context& context) {
                    "Mesh, geometry image or builtin:NAME, where the pattern expects it")
       ->required();
   command->add_option("--spacing", args->spacing, "Distance of samples along edges [mm]")
-      ->check(CLI::Range(0.1, 1000.0))
+      ->check(number_between(0.1, 1000))
       ->capture_default_str();
   add_run_options(*command, args->run);
   command->get_option("--frames")

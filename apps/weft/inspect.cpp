@@ -42,7 +42,11 @@ void add_inspect(CLI::App& program, const Context& context) {
       ->check([](const std::string& mesh) { return mesh.empty() ? "a mesh is wanted" : ""; });
   add_mesh_options(*command, args->frame);
   command->footer("Example: weft inspect bunny.exr --against bunny.obj");
-  command->callback([args, &context] { inspect(*args, context); });
+  command->callback([args, &context, command] {
+    for (const char* option : {"--unit", "--up"})
+      if (command->count(option) > 0) args->frame_given.emplace_back(option);
+    inspect(*args, context);
+  });
 }
 namespace {
 
@@ -98,6 +102,9 @@ void say_image(const Context& context, const GeometryImage& image,
 }  // namespace
 
 void inspect_image(const InspectArgs& args, const Context& context) {
+  if (args.against.empty() && !args.frame_given.empty())
+    throw UsageError(args.frame_given.front(), "nothing is measured against a mesh",
+                     "--against MESH is wanted, or leave it out");
   const GeometryImage image = read_image(args.subject);
   const ImageStatistics statistics = examine_image(image);
   Json found = image_json(image);

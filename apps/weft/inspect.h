@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "apps/weft/context.h"
 #include "apps/weft/mesh_args.h"
@@ -9,6 +10,7 @@ namespace weft::app {
 
 struct InspectArgs {
   MeshArgs frame;
+  std::vector<std::string> frame_given;  ///< the options of `frame` that were given
   std::string subject, against;
 };
 

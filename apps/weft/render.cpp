@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <climits>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +13,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/drawing.h"
+#include "apps/weft/number_args.h"
 #include "apps/weft/reports.h"
 #include "apps/weft/shots.h"
 #include "apps/weft/shown.h"
@@ -51,11 +52,19 @@ bool is_run(const std::string& subject) {
 
 bool shows_strain(const RenderArgs& args) { return args.shown.show == "strain"; }
 
+/// The colours of an .mp4 are those of two pixels each way: of others it could not hold the last.
+bool wants_even_size(const RenderArgs& args) { return ending_of(args.output) == ".mp4"; }
+
+void check_size(const RenderArgs& args) {
+  for (const auto& [option, pixels] :
+       {std::pair{"--width", args.shown.view.width}, {"--height", args.shown.view.height}})
+    if (wants_even_size(args) && pixels % 2 != 0)
+      throw UsageError(option, fmt::format("{} pixels of an .mp4", pixels),
+                       "an even number, or a .gif, is wanted");
+}
+
 void check(const RenderArgs& args) {
-  for (const auto& [option, angle] :
-       {std::pair{"--azimuth", args.azimuth}, {"--elevation", args.elevation}})
-    if (!std::isfinite(angle))
-      throw UsageError(option, fmt::format("{}", angle), "a finite angle is wanted");
+  check_size(args);
   const auto runs = std::count_if(args.subjects.begin(), args.subjects.end(), is_run);
   const bool any_run = runs > 0, only_runs = runs == std::ssize(args.subjects);
   if (only_runs && !args.shown.show.empty() && args.shown.show != "run" && !shows_strain(args))
@@ -129,6 +138,15 @@ Shots open_subjects(const RenderArgs& args, const Context& context) {
   return {std::move(subjects), std::move(labels), args.shown.view};
 }
 
+/// A picture with white to the right and below where a side is odd, as rows of several may have it.
+Picture with_even_size(Picture picture) {
+  if (picture.width % 2 == 0 && picture.height % 2 == 0) return picture;
+  Picture even = blank_picture(picture.width + picture.width % 2,
+                               picture.height + picture.height % 2, {1, 1, 1});
+  paste(even, picture, 0, 0);
+  return even;
+}
+
 void film(const RenderArgs& args, Shots& shots, const Context& context) {
   if (args.turntable && shots.any_flat())
     throw UsageError("--turntable", "a flat picture does not turn",
@@ -142,7 +160,8 @@ void film(const RenderArgs& args, Shots& shots, const Context& context) {
   std::optional<MovieWriter> movie;
   for (int i = 0; i < take.count; ++i) {
     update(&progress, "drawing", static_cast<double>(i) / take.count);
-    const Picture picture = shots.draw(take, i);
+    Picture picture = shots.draw(take, i);
+    if (wants_even_size(args)) picture = with_even_size(std::move(picture));
     if (!movie) movie.emplace(args.output, picture.width, picture.height, take.rate);
     movie->add(picture);
   }
@@ -173,17 +192,18 @@ void render(RenderArgs& args, const Context& context) {
 void add_view_options(CLI::App& command, RenderArgs& args) {
   command
       .add_option("--width", args.shown.view.width,
-                  "Pixels; colours, map and mates have whole pixels a sample, and at least the "
-                  "shorter side")
+                  "Pixels, even of an .mp4; colours, map and mates have whole pixels a sample, "
+                  "and at least the shorter side")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();
-  command.add_option("--height", args.shown.view.height, "Pixels")
+  command.add_option("--height", args.shown.view.height, "Pixels, even of an .mp4")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();
   command.add_option("--azimuth", args.azimuth, "Of the eye, degrees; 0 looks from +z")
+      ->check(any_number())
       ->capture_default_str();
   command.add_option("--elevation", args.elevation, "Of the eye, degrees")
-      ->check(CLI::Range(-89.0, 89.0))
+      ->check(number_between(-89, 89))
       ->capture_default_str();
 }
 
@@ -199,7 +219,7 @@ void add_show_options(CLI::App& command, RenderArgs& args) {
       .add_option("--full-strain", args.full_strain,
                   "Percent that strain in full colour stands for; what 99 of 100 samples have at "
                   "most, rounded up, when not given")
-      ->check(CLI::Range(0.001, 1e6));
+      ->check(number_between(0.001, 1e6));
   command.add_option("--against", args.shown.against, "Mesh to measure an image's error to");
   command
       .add_option("--size", args.shown.size,

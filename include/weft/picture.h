@@ -40,12 +40,13 @@ Picture in_a_row(const std::vector<Panel>& panels, int text_scale = 2);
 Picture in_a_column(const std::vector<Picture>& pictures);
 
 /// Writes a movie file that appears only when complete: raw frames go through a pipe to ffmpeg,
-/// which writes under a temporary name. Odd sizes lose their last row or column in .mp4, whose
-/// colour format needs even ones.
+/// which writes under a temporary name.
 class MovieWriter {
  public:
-  /// @param path  .mp4 or .gif  @param frame_rate  [1/s]
-  /// @throws OutputError when ffmpeg is missing or the place cannot be written
+  /// @param path  .mp4 or .gif  @param width, height  both even of an .mp4, whose colours are those
+  /// of two pixels each way  @param frame_rate  [1/s]
+  /// @throws OutputError when ffmpeg is missing or the place cannot be written; for odd sizes of an
+  ///         .mp4
   MovieWriter(const std::filesystem::path& path, int width, int height, double frame_rate);
   MovieWriter(const MovieWriter&) = delete;
   MovieWriter& operator=(const MovieWriter&) = delete;

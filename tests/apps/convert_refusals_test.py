@@ -81,6 +81,20 @@ class BadInput(ProgramTest):
         line = self.error_of("convert", "builtin:sphere", "-o", "m.exr", "--seed-triangle", "-1", code=2)
         self.assertLess(len(line), 120)
 
+    def test_no_option_takes_what_is_no_finite_number(self):
+        for words in (["convert", "builtin:sphere", "-o", "m.weft", "--error"], ["render", "none", "-o", "m.png", "--azimuth"],
+                      ["render", "none", "-o", "m.png", "--elevation"], ["render", "none", "-o", "m.png", "--show", "strain", "--full-strain"],
+                      ["garment", "none.json", "--body", "builtin:sphere", "-o", "run", "--spacing"],
+                      ["fabric", "--bending", "3", "--mass"], ["fabric", "--mass", "9", "--drape"],
+                      ["fabric", "--mass", "9", "--bending"], ["fabric", "--mass", "9", "--length"]):
+            for number in ("nan", "NaN", "inf", "-inf", "1e400", "-1e400", "3x"):
+                with self.subTest(words=words, number=number):
+                    line = self.error_of(*words[:-1], f"{words[-1]}={number}", code=2)
+                    self.assertIn(words[-1], line)
+                    self.assertIn("wanted", line)
+                    self.assertLess(len(line), 140)
+        self.assert_nothing_left()
+
     def test_surfaces_without_area(self):
         self.refuse("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "area")
         self.refuse("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "area")

@@ -177,6 +177,11 @@ class Convert(ProgramTest):
             self.assertGreater(image["largest_error_mm"], 0.98 * error)
         line = self.error_of("convert", "builtin:sphere", "-o", "s.weft", "--size", "17", "--error", "1e-6", code=2)
         self.assertIn("--error", line)
+        # Before it converts, which two pieces in one chart would not.
+        (self.folder / "two.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 3 0 0\nv 2 1 0\nf 1 2 3\nf 4 5 6\n")
+        two = ["convert", "two.obj", "-o", "s.weft", "--size", "17", "--charts", "1", "--error"]
+        self.assertIn("for a side of 3 m at least 0.04 mm", self.error_of(*two, "1e-6", code=2))
+        self.error_of(*two, "1", code=3)
         for option in ("--error", "--precision"):
             self.assertIn(option, self.error_of("convert", "builtin:sphere", "-o", "m.exr", option, "8", code=2))
         for output in ("m.exr", "m.weft"):

@@ -51,7 +51,7 @@ class Fabric(ProgramTest):
             self.assertEqual(self.error_of("fabric", *words, code=2), "weft: error: " + wanted)
 
     def test_numbers_out_of_range_are_usage_errors(self):
-        for words, wanted in ((("--mass", "0", "--bending", "3"), "fabric: --mass 0; a mass > 0 is wanted"),
+        for words, wanted in ((("--mass", "0", "--bending", "3"), "--mass: '0'; a number above 0 is wanted; see weft fabric --help"),
                               (("--mass", "9", "--bending", "-3"),
                                "fabric: --bending -3; a number > 0 is wanted, or two: WARP,WEFT"),
                               (("--mass", "9", "--length", "3,4,5"),

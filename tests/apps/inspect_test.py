@@ -46,6 +46,25 @@ class Inspect(ProgramTest):
         self.assertIn("--against", self.error_of("inspect", "tube.json", "--against", "builtin:sphere", code=2))
         self.assertIn("GarmentCode pattern is wanted", self.error_of("inspect", self.write("odd.json", "{}"), code=3))
 
+    def test_a_pattern_with_one_side_only_is_refused_as_garment_refuses_it(self):
+        twisted = pattern_of_a_tube()
+        twisted["pattern"]["stitches"][0].append("right_wrong")
+        name = self.write("twisted.json", json.dumps(twisted))
+        error = self.error_of("inspect", name, code=3)
+        self.assertIn("leaves one side only", error)
+        self.assertEqual(error, self.error_of("garment", name, "--body", "builtin:sphere", "-o", "run", code=3))
+
+    def test_unit_and_axis_of_no_mesh_are_refused(self):
+        self.run_weft("convert", "builtin:sphere", "-o", "s.exr", "--size", "17")
+        self.write("tube.json", json.dumps(pattern_of_a_tube()))
+        self.write("square.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n")
+        for words in (["--unit", "cm"], ["--up", "y"]):
+            for subject in ("s.exr", "tube.json"):
+                error = self.error_of("inspect", subject, *words, code=2)
+                self.assertRegex(error, f"^weft: error: {words[0]}: .*leave it out$")
+            self.run_weft("inspect", "s.exr", "--against", "square.obj", *words)
+            self.run_weft("inspect", "square.obj", *words)
+
     def test_two_cubes_pushed_into_each_other_cross(self):
         found = self.run_json("inspect", self.write("two.obj", cube(0, 0) + cube(0.5, 8)))
         self.assertEqual(found["input"]["components"], 2)

@@ -83,6 +83,37 @@ class Render(ProgramTest):
                               capture_output=True, text=True, check=True)
         return int(done.stdout)
 
+    def movie_size(self, name):
+        done = subprocess.run(["ffprobe", "-loglevel", "error", "-show_entries", "stream=width,height", "-of", "csv=p=0",
+                               self.folder / name], capture_output=True, text=True, check=True)
+        return tuple(int(side) for side in done.stdout.strip().split(","))
+
+    def make_tiny_run(self):
+        (self.folder / "tiny.json").write_text('{"frames": 2, "cloths": [{"surface": "builtin:sheet", "size": 9}]}')
+        self.run_weft("simulate", "tiny.json", "-o", "tiny")
+
+    def test_odd_sizes_are_refused_of_an_mp4_alone(self):
+        self.make_tiny_run()
+        for width, height, option in ((101, 98, "--width"), (100, 99, "--height")):
+            size = ["--width", width, "--height", height]
+            error = self.error_of("render", "tiny", "-o", "m.mp4", *size, code=2)
+            self.assertEqual(error, f"weft: error: {option}: {width if width % 2 else height} pixels of an .mp4; "
+                                    "an even number, or a .gif, is wanted")
+            self.assertFalse((self.folder / "m.mp4").exists())
+        self.run_weft("render", "tiny", "-o", "m.gif", *size)
+        self.assertEqual(self.movie_size("m.gif"), (100, 99))
+        self.run_weft("render", "tiny", "-o", "m.png", *size)
+        self.assertEqual(self.size_of("m.png"), (100, 99))
+
+    def test_a_row_that_comes_out_odd_is_a_movie_of_an_even_size(self):
+        self.make_tiny_run()
+        size = ["--width", 321, "--height", 120]
+        self.run_weft("render", "tiny", "tiny", "tiny", "-o", "odd.png", *size)
+        self.assertEqual(self.size_of("odd.png"), (319, 120))  # 3 * 97 and two gaps of 14
+        size[1] = 320
+        self.run_weft("render", "tiny", "tiny", "tiny", "-o", "even.mp4", *size)
+        self.assertEqual(self.movie_size("even.mp4"), (320, 120))
+
     def make_runs(self):
         for name, frames in (("short", 2), ("long", 5)):
             self.run_weft("drape", "builtin:sheet", "builtin:sphere", "-o", name, "--size", "17", "--frames", frames)

@@ -1,4 +1,5 @@
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -153,6 +154,23 @@ TEST_P(BrokenPatterns, AreRefusedInOneLineThatNamesThePlace) {
     EXPECT_NE(std::string(error.what()).find(broken.said), std::string::npos) << error.what();
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
   }
+}
+
+TEST(PatternFile, WithOneSideOnlyIsRefused) {
+  // The sides of one panel sewn with a twist, and one turned stitch of the two between a pair.
+  const std::string band =
+      replaced(test::band_pattern(60, 20, 100, 30), R"("edge":3}])", R"("edge":3},"right_wrong"])");
+  const std::string pair = replaced(tube(), R"({"panel":"back","edge":2}])",
+                                    R"({"panel":"back","edge":2},"right_wrong"])");
+  for (const auto& [text, place] :
+       {std::pair(band, "panel 'band', edge 1"), std::pair(pair, "panel 'back', edge 0")})
+    try {
+      parse_pattern(text, "p.json");
+      ADD_FAILURE() << "not refused";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("leaves one side only"), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find(place), std::string::npos) << error.what();
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -91,6 +91,12 @@ inline std::string top_and_skirt(const std::string& top, const std::string& skir
          R"("properties":{"units_in_meter":100}})";
 }
 
+/// A square of 20 cm from 1 m up that is sewn to nothing and held by no label.
+inline std::string loose_square() {
+  return R"({"pattern":{"panels":{"square":)" + panel_20_wide(100, "") +
+         R"(},"stitches":[]},"properties":{"units_in_meter":100}})";
+}
+
 /// A square top of 20 cm, from 1 m up, and half a hood to be sewn on its upper edge.
 /// @param turn   of the hood [degrees]; 90: it stands across the top
 /// @param low    where it begins [cm]  @param label  of its upper edge; may be empty

@@ -49,20 +49,30 @@ class Movie : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(Movie, Mp4HoldsEveryFrameAtAnEvenSize) {
-  MovieWriter writer(folder_ / "a.mp4", 65, 49, 30);
-  for (int i = 0; i < 12; ++i) writer.add(frame(65, 49, i));
+TEST_F(Movie, Mp4HoldsEveryFrame) {
+  MovieWriter writer(folder_ / "a.mp4", 66, 50, 30);
+  for (int i = 0; i < 12; ++i) writer.add(frame(66, 50, i));
   EXPECT_FALSE(fs::exists(folder_ / "a.mp4"));
   writer.finish();
-  EXPECT_EQ(probed(folder_ / "a.mp4"), "h264,64,48,12");
+  EXPECT_EQ(probed(folder_ / "a.mp4"), "h264,66,50,12");
   EXPECT_EQ(folder_.entries(), 1);
 }
 
 TEST_F(Movie, GifHoldsEveryFrame) {
-  MovieWriter writer(folder_ / "a.gif", 64, 48, 25);
+  MovieWriter writer(folder_ / "a.GIF", 64, 48, 25);
   for (int i = 0; i < 7; ++i) writer.add(frame(64, 48, i));
   writer.finish();
-  EXPECT_EQ(probed(folder_ / "a.gif"), "gif,64,48,7");
+  EXPECT_EQ(probed(folder_ / "a.GIF"), "gif,64,48,7");
+}
+
+TEST_F(Movie, OddSizesAreWholeInAGifAndRefusedInAnMp4) {
+  MovieWriter writer(folder_ / "a.gif", 65, 49, 25);
+  writer.add(frame(65, 49, 0));
+  writer.finish();
+  EXPECT_EQ(probed(folder_ / "a.gif"), "gif,65,49,1");
+  EXPECT_THROW(MovieWriter(folder_ / "a.mp4", 65, 48, 30), OutputError);
+  EXPECT_THROW(MovieWriter(folder_ / "a.mp4", 64, 49, 30), OutputError);
+  EXPECT_EQ(folder_.entries(), 1);
 }
 
 TEST_F(Movie, GivenUpLeavesNothingBehind) {

@@ -8,6 +8,7 @@
 
 #include "weft/error.h"
 #include "weft/garment/edge_curve.h"
+#include "weft/garment/panel_sides.h"
 
 namespace weft {
 namespace {
@@ -181,6 +182,8 @@ void check_pattern(Pattern& pattern, const std::string& name) {
     check_crossings(pattern, k, name);
   }
   for (const Stitch& stitch : pattern.stitches) check_lengths(pattern, stitch, name);
+  // Refuses what has one side only.
+  static_cast<void>(panels_turned(pattern, name));
   note_unsewn(pattern);
 }
 

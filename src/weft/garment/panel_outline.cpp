@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "weft/error.h"
 #include "weft/garment/check_pattern.h"
 #include "weft/garment/edge_curve.h"
+#include "weft/garment/panel_sides.h"
 #include "weft/garment/rectangle_corners.h"
 #include "weft/geometry_image.h"
 
@@ -18,32 +18,6 @@ namespace {
 
 /// Corners of the pattern lie at multiples of this, so that coarser grids have them, too.
 constexpr int unit = 4;
-
-/// Which panels are turned over: the two of a plain stitch alike, those of a turned one not.
-std::vector<bool> find_turned(const Pattern& pattern, const std::string& name) {
-  const std::size_t count = pattern.panels.size();
-  std::vector<int> side(count, -1);
-  for (std::size_t seed = 0; seed < count; ++seed) {
-    if (side[seed] >= 0) continue;
-    side[seed] = 0;
-    for (bool grown = true; grown;) {
-      grown = false;
-      for (const Stitch& s : pattern.stitches)
-        for (const auto& [from, to] : {std::pair(s.a, s.b), std::pair(s.b, s.a)})
-          if (side[from.panel] >= 0 && side[to.panel] < 0) {
-            side[to.panel] = s.turned ? 1 - side[from.panel] : side[from.panel];
-            grown = true;
-          }
-    }
-  }
-  for (const Stitch& s : pattern.stitches)
-    if ((side[s.a.panel] != side[s.b.panel]) != s.turned)
-      throw InputError(place_of(pattern, s.a, name),
-                       fmt::format("a stitch with panel '{}', edge {} that leaves one side only",
-                                   pattern.panels[s.b.panel].name, s.b.edge),
-                       "a garment with an inside and an outside is wanted");
-  return {side.begin(), side.end()};
-}
 
 std::vector<std::vector<int>> share_samples(const Pattern& pattern, const std::string& name,
                                             double spacing) {
@@ -108,7 +82,7 @@ std::vector<Vec2d> PanelOutline::border_from(int point) const {
 
 std::vector<PanelOutline> lay_outlines(const Pattern& pattern, const std::string& name,
                                        double spacing, Progress* progress) {
-  const std::vector<bool> turned = find_turned(pattern, name);
+  const std::vector<bool> turned = panels_turned(pattern, name);
   const std::vector<std::vector<int>> intervals = share_samples(pattern, name, spacing);
   std::vector<PanelOutline> outlines;
   // Grids come next and take as long.

@@ -65,15 +65,11 @@ class Transcript {
 /// ffmpeg options of a movie format, by file extension. The number of threads is left to ffmpeg: it
 /// has no visible effect.
 std::vector<std::string> format_options(const std::filesystem::path& path) {
-  if (path.extension() == ".mp4")
-    return {"-vf",       "crop=trunc(iw/2)*2:trunc(ih/2)*2",
-            "-c:v",      "libx264",
-            "-crf",      "18",
-            "-preset",   "medium",
-            "-pix_fmt",  "yuv420p",
-            "-movflags", "+faststart",
-            "-f",        "mp4"};
-  if (path.extension() == ".gif")
+  const std::string ending = ending_of(path);
+  if (ending == ".mp4")
+    return {"-c:v",     "libx264", "-crf",      "18",         "-preset", "medium",
+            "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f",      "mp4"};
+  if (ending == ".gif")
     return {"-filter_complex",
             "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer", "-f",
             "gif"};
@@ -181,6 +177,9 @@ struct MovieWriter::Pipe {
 MovieWriter::MovieWriter(const std::filesystem::path& path, int width, int height,
                          double frame_rate) {
   format_options(path);
+  if (ending_of(path) == ".mp4" && (width % 2 != 0 || height % 2 != 0))
+    throw OutputError(path.string(), fmt::format("{} x {} pixels", width, height),
+                      "even numbers, or a .gif, are wanted");
   if (width < 2 || height < 2 || !(frame_rate > 0))
     throw OutputError(path.string(),
                       fmt::format("{} x {} pixels at {}/s", width, height, frame_rate),

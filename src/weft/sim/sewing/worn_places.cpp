@@ -7,10 +7,12 @@
 namespace weft {
 namespace {
 
+/// Those of all panels: holes follow some of them and count for nothing.
 std::vector<int> all_samples(const Garment& garment) {
+  const int n = garment.sewn.size();
   std::vector<int> samples;
-  for (int k = 0; k < garment.sewn.class_count(); ++k)
-    for (const int s : garment.sewn.copies(k)) samples.push_back(s);
+  for (int s = 0; s < n * n; ++s)
+    if (!garment.sewn.is_hole(s)) samples.push_back(s);
   return samples;
 }
 
