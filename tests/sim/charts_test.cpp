@@ -177,9 +177,10 @@ TEST(ChartCloths, ACutSheetLiesAsTheUncutOneDoes) {
     const FrameReport here = charts.advance(), there = uncut.advance();
     EXPECT_GT(here.smallest_gap, 0) << "frame " << frame;
     // Folds about the ball are chaotic: a sample moved by a micrometre moves the centre of the
-    // uncut sheet by up to 8 mm, and that of the charts by up to 12.
-    EXPECT_NEAR(length(here.centre_of_mass - there.centre_of_mass), 0, frame < 10 ? 5e-4 : 0.015)
-        << "frame " << frame;
+    // uncut sheet by up to 8 mm, and that of the charts by up to 12; distances grow five times a
+    // frame once it lies there.
+    const double most = frame < 8 ? 5e-5 : frame < 10 ? 1e-3 : 0.015;
+    EXPECT_LT(length(here.centre_of_mass - there.centre_of_mass), most) << "frame " << frame;
   }
 }
 

@@ -51,6 +51,31 @@ TEST_F(Sewing, StretchesNothingOnTheWay) {
   EXPECT_LT(strain, 0.05);
 }
 
+TEST_F(Sewing, ComesToTheSampleOfASeamThatAPinHolds) {
+  scene_.bodies.clear();
+  int held = 0;
+  {
+    const Simulation start(scene_, "scene", 1);
+    held = start.cloths()[0].garment->seams.front().pairs.front()[1];
+  }
+  const int n = Simulation(scene_, "scene", 1).cloths()[0].model->size;
+  scene_.cloths[0].pins = {
+      ImagePin{{static_cast<double>(held % n) / (n - 1), static_cast<double>(held / n) / (n - 1)}}};
+  Simulation simulation(scene_, "scene", 1);
+  const SimulatedCloth& cloth = simulation.cloths()[0];
+  const Vec3f there = cloth.state.position.at(held);
+  FrameReport report;
+  int frame = 0;
+  for (report.seam_gap = 1; report.seam_gap > 0 && frame < 150; ++frame) {
+    report = simulation.advance();
+    ASSERT_LT(report.strain.max, 0.3) << frame;
+    EXPECT_LT(length(cloth.state.position.at(held) - there), 2e-4F) << frame;
+  }
+  EXPECT_EQ(report.seam_gap, 0);
+  const auto& [a, b] = cloth.garment->seams.front().pairs.front();
+  EXPECT_EQ(cloth.state.position.at(a), cloth.state.position.at(b));
+}
+
 TEST_F(Sewing, PanelsComeTogetherFlat) {
   // Pulled at their edges alone, panels would bend and their edges go inwards, past what they are
   // to close round.

@@ -132,11 +132,11 @@ int pin(Cloth& cloth, int sample, Vec3d target) {
                      fmt::format("one of 0 to {}", n * n - 1));
   const int representative = cloth.mates.representative(sample);
   for (std::size_t i = 0; i < cloth.pins.size(); ++i)
-    if (cloth.pins[i].sample == representative) {
+    if (cloth.mates.representative(cloth.pins[i].sample) == representative) {
       cloth.pins[i].target = target;
       return static_cast<int>(i);
     }
-  Pin added{representative, target, {representative}};
+  Pin added{sample, target, {representative}};
   for (int index = 0; index < cloth.mates.class_count(); ++index) {
     const std::span<const int> samples = cloth.mates.mates(index);
     if (samples.front() == representative) added.copies.assign(samples.begin(), samples.end());

@@ -59,7 +59,7 @@ struct BendingPlanes {
 
 /// A pinned surface point: all samples of one class.
 struct Pin {
-  int sample = 0;             ///< representative
+  int sample = 0;             ///< that is held, of its class
   Vec3d target;               ///< where it is held [m]
   std::vector<int> copies{};  ///< all samples of the class, ascending
 };
@@ -98,6 +98,10 @@ struct Cloth {
 
   /// The mates of which all samples are at one place.
   [[nodiscard]] const BorderMates& together() const { return apart ? *apart : mates; }
+  /// Whether a copy of a pin is where the pin is held: others are still to be sewn to it.
+  [[nodiscard]] bool is_held_at(const Pin& pin, int copy) const {
+    return !apart || apart->representative(copy) == apart->representative(pin.sample);
+  }
   [[nodiscard]] const Planes3& start_positions() const { return start ? *start : rest; }
 };
 

@@ -32,11 +32,27 @@ void copy_rows(const ClothState& from, ClothState& to, Worker& worker) {
   }
 }
 
+namespace {
+
+/// Where a pin takes a copy of its class in a step. Of one that is still to be sewn to the held
+/// sample: along with it, and towards it as its velocity says.
+Vec3d pinned_place(const Cloth& cloth, const Pin& held, int copy, const ClothState& start,
+                   double time_step) {
+  if (cloth.is_held_at(held, copy)) return held.target;
+  const auto place = [&](int s) { return vec_cast<double>(start.position.at(s)); };
+  const Vec3d sewn =
+      vec_cast<double>(start.velocity.at(copy)) - vec_cast<double>(start.velocity.at(held.sample));
+  return place(copy) + (held.target - place(held.sample)) + time_step * sewn;
+}
+
+}  // namespace
+
 void set_pins(const Cloth& cloth, const ClothState& start, double time_step, ClothState& next) {
   for (const Pin& held : cloth.pins)
     for (const int sample : held.copies) {
-      const Vec3d displacement = held.target - vec_cast<double>(start.position.at(sample));
-      next.position.set(sample, vec_cast<float>(held.target));
+      const Vec3d place = pinned_place(cloth, held, sample, start, time_step);
+      const Vec3d displacement = place - vec_cast<double>(start.position.at(sample));
+      next.position.set(sample, vec_cast<float>(place));
       next.velocity.set(sample, vec_cast<float>((1 / time_step) * displacement));
     }
 }

@@ -62,21 +62,29 @@ void BlockMultigrid::restrict_residual(BlockLevel& fine, BlockLevel& coarse,
       kernels_->restrict_row(to.cols, rows, shifted(coarse.rhs.row(q), to.col));
     }
   workers.barrier();
+  if (!coarse.short_ends.empty()) {
+    coarse.short_ends.fold(workers, coarse.rhs);
+    workers.barrier();
+  }
   if (coarse.seams.empty()) return;
   coarse.seams.sum(workers, {&coarse.rhs.x, &coarse.rhs.y, &coarse.rhs.z});
   workers.barrier();
 }
 
-void BlockMultigrid::prolong(const BlockLevel& coarse, std::size_t fine_index,
-                             const Workers& workers) {
+void BlockMultigrid::prolong(BlockLevel& coarse, std::size_t fine_index, const Workers& workers) {
   BlockLevel& fine = levels_[fine_index];
+  if (!coarse.short_ends.empty()) {
+    coarse.short_ends.extrapolate(workers, coarse.value);
+    workers.barrier();
+  }
+  const PaddedVectors& values = coarse.value;
   const Range mine = workers.share(fine.size);
   for (int r = mine.first; r < mine.last; ++r) {
     for (const ChartRow& part : fine.layout.rows.row(r)) {
       const Chart &from = coarse.layout.charts[part.chart], &to = fine.layout.charts[part.chart];
       const int row = r - to.row;
-      kernels_->prolong_row(to.cols, shifted(coarse.value.row(from.row + row / 2), from.col),
-                            shifted(coarse.value.row(from.row + (row + 1) / 2), from.col),
+      kernels_->prolong_row(to.cols, shifted(values.row(from.row + row / 2), from.col),
+                            shifted(values.row(from.row + (row + 1) / 2), from.col),
                             shifted(fine.value.row(r), to.col));
     }
     clear_pins_of_row(fine, r, fine.value);

@@ -29,6 +29,8 @@ BlockLevel::BlockLevel(Shape shape, Seams seam_classes, BendingStencil stiffness
     for (int c = 0; c < n; ++c) extra(r, c) *= bending_share;
   for (int i = 0; i < seams.class_count(); ++i)
     for (const int s : seams.samples(i).subspan(1)) extra(s / n, s % n) = holding_stiffness;
+  for (const HangingNode& one : seams.hanging())
+    extra(one.node / n, one.node % n) = holding_stiffness;
   const std::vector<int> chart_of = layout.chart_of();
   for (int s = 0; s < n * n; ++s)
     if (chart_of[static_cast<std::size_t>(s)] < 0) extra(s / n, s % n) = holding_stiffness;

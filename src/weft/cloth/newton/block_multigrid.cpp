@@ -30,18 +30,19 @@ PaddedPlane coarsened(const PaddedPlane& mass, const LevelLayout& fine, const Le
 
 std::vector<BlockLevel> make_levels(const Cloth& cloth, int workers) {
   std::vector<BlockLevel> levels;
-  LevelLayout layout(cloth.mates);
-  levels.emplace_back(BlockLevel::Shape{layout, true, workers}, Seams(cloth.mates, layout),
+  const LevelLayout finest(cloth.mates);
+  levels.emplace_back(BlockLevel::Shape{finest, true, workers}, Seams(cloth.mates, finest),
                       BendingStencil(cloth.bending));
+  const bool sewn = !levels.front().seams.empty();
   // Many charts are coarsened further, to fewer unknowns of the direct solver.
-  const int least = layout.charts.size() > 1 ? 2 : CoarsestSolver::max_size;
-  while (layout.largest_side() > least) {
+  const int least = finest.charts.size() > 1 ? 2 : CoarsestSolver::max_size;
+  for (int depth = 1; levels.back().layout.largest_side() > least; ++depth) {
     const BlockLevel& fine = levels.back();
-    LevelLayout coarse = layout.coarsened();
-    levels.emplace_back(BlockLevel::Shape{coarse, false, workers},
-                        fine.seams.coarsened(layout, coarse),
-                        fine.bending.coarsened(layout, coarse));
-    layout = std::move(coarse);
+    const LevelLayout coarse = fine.layout.coarsened();
+    const Seams seams(find_coarse_seams(cloth.mates, finest, coarse, depth), coarse);
+    BlockLevel level({coarse, false, workers}, seams, fine.bending.coarsened(fine.layout, coarse));
+    if (sewn) level.short_ends = ShortEnds(fine.layout, coarse);
+    levels.push_back(std::move(level));
   }
   return levels;
 }

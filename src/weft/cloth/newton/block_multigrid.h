@@ -117,7 +117,8 @@ class BlockMultigrid {
   void solve_lines(const LineFactor& lines, const PaddedVectors& rhs, LineFactor::Solve how,
                    PaddedVectors& out, const Workers& workers);
   void restrict_residual(BlockLevel& fine, BlockLevel& coarse, const Workers& workers);
-  void prolong(const BlockLevel& coarse, std::size_t fine_index, const Workers& workers);
+  /// The coarse values are of no use afterwards.
+  void prolong(BlockLevel& coarse, std::size_t fine_index, const Workers& workers);
   void cycle(std::size_t index, const Workers& workers);
   void correct(std::size_t index, const Loads& contacts, const Workers& workers);
   void cycle_coarsest(std::size_t index, const Workers& workers);

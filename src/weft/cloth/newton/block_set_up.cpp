@@ -173,6 +173,9 @@ void BlockMultigrid::set_up(SpringHessian& springs, Worker& worker) {
     else
       galerkin_.coarsen(levels_[i], levels_[i + 1], all, *kernels_);
     worker.barrier();
+    if (levels_[i + 1].short_ends.empty()) continue;
+    levels_[i + 1].short_ends.fold(all, levels_[i + 1].stencil);
+    worker.barrier();
   }
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     join_seams(i, all);

@@ -18,27 +18,53 @@ constexpr double min_pivot = 3 * 0x1p-24;
 }  // namespace
 
 CoarsestSolver::CoarsestSolver(const BlockLevel& level) {
-  const int n = level.size, samples = n * n;
-  node_.resize(samples, -1);
-  for (int i = 0; i < level.seams.class_count(); ++i)
-    for (const int s : level.seams.samples(i)) node_[s] = level.seams.samples(i).front();
-  const std::vector<int> chart_of = level.layout.chart_of();
-  int nodes = 0;
-  for (int s = 0; s < samples; ++s)
-    if (chart_of[s] >= 0) node_[s] = node_[s] < 0 || node_[s] == s ? nodes++ : node_[node_[s]];
+  number_nodes(level);
+  const int nodes = 1 + *std::max_element(node_.begin(), node_.end());
   if (nodes > max_nodes) return;
   unknowns_ = 3 * nodes;
   matrix_.resize(static_cast<std::size_t>(unknowns_) * unknowns_);
   value_.resize(unknowns_);
   first_.resize(unknowns_);
+  find_bending(level);
+}
+
+void CoarsestSolver::number_nodes(const BlockLevel& level) {
+  const int n = level.size, samples = n * n;
+  std::vector<int> first_copy(samples);
+  for (int s = 0; s < samples; ++s) first_copy[s] = s;
+  for (int i = 0; i < level.seams.class_count(); ++i)
+    for (const int s : level.seams.samples(i)) first_copy[s] = level.seams.samples(i).front();
+  for (const HangingNode& hanging : level.seams.hanging()) first_copy[hanging.node] = -1;
+  const std::vector<int> chart_of = level.layout.chart_of();
+  node_.assign(samples, -1);
+  parts_.resize(samples);
+  int nodes = 0;
+  for (int s = 0; s < samples; ++s) {
+    if (chart_of[s] < 0 || first_copy[s] < 0) continue;
+    node_[s] = first_copy[s] == s ? nodes++ : node_[first_copy[s]];
+    parts_[s] = {{node_[s], 1}};
+  }
+  for (const HangingNode& hanging : level.seams.hanging())
+    for (const HangingNode::Part& part : hanging.parts)
+      parts_[hanging.node].push_back({node_[part.node], part.weight});
+}
+
+/// M^T M of flat bending, M summed over copies.
+void CoarsestSolver::find_bending(const BlockLevel& level) {
+  const int n = level.size, nodes = unknowns_ / 3;
   std::vector<double> curve(static_cast<std::size_t>(nodes) * nodes);  // M
-  for (int s = 0; s < samples; ++s)
-    for (int k = 0; k < level.bending.neighbours() && node_[s] >= 0; ++k) {
+  const auto add = [&](int from, int to, double weight) {
+    for (const Part& a : parts_[from])
+      for (const Part& b : parts_[to])
+        curve[a.node * nodes + b.node] += a.weight * weight * b.weight;
+  };
+  for (int s = 0; s < n * n; ++s)
+    for (int k = 0; k < level.bending.neighbours() && !parts_[s].empty(); ++k) {
       const int r = s / n + bending_offsets[k].down, c = s % n + bending_offsets[k].right;
-      if (r < 0 || r >= n || c < 0 || c >= n || node_[r * n + c] < 0) continue;
+      if (r < 0 || r >= n || c < 0 || c >= n || parts_[r * n + c].empty()) continue;
       const double w = level.bending.weight(k, s / n, s % n);
-      curve[node_[s] * nodes + node_[r * n + c]] += w;
-      curve[node_[s] * nodes + node_[s]] -= w;
+      add(s, r * n + c, w);
+      add(s, s, -w);
     }
   bending_.resize(curve.size());
   for (int i = 0; i < nodes; ++i)
@@ -49,10 +75,13 @@ CoarsestSolver::CoarsestSolver(const BlockLevel& level) {
 
 void CoarsestSolver::add_block(int from, int to, const PlaneSet& stencil, int block, int sample) {
   const int n = stencil.rows();
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      at(3 * from + i, 3 * to + j) +=
-          double{stencil(sample / n, sample % n, block * block_entries + entry_of[i][j])};
+  for (const Part& a : parts_[from])
+    for (const Part& b : parts_[to])
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          at(3 * a.node + i, 3 * b.node + j) +=
+              a.weight * b.weight *
+              double{stencil(sample / n, sample % n, block * block_entries + entry_of[i][j])};
 }
 
 void CoarsestSolver::factor(const BlockLevel& level) noexcept {
@@ -63,15 +92,15 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
       for (int k = 0; k < 3; ++k) at(3 * i + k, 3 * j + k) = bending_[i * nodes + j];
   for (int s = 0; s < n * n; ++s) {
     const int r = s / n, c = s % n;
-    if (node_[s] < 0) continue;
-    add_block(node_[s], node_[s], level.stencil, 0, s);
+    if (parts_[s].empty()) continue;
+    add_block(s, s, level.stencil, 0, s);
     for (int d = 0; d < near_directions; ++d) {
       const auto [down, right] = spring_offsets[d];
       if (r + down >= n || c + right >= n || c + right < 0) continue;
-      const int other = node_[(r + down) * n + c + right];
-      if (other < 0) continue;
-      add_block(node_[s], other, level.stencil, 1 + d, s);
-      add_block(other, node_[s], level.stencil, 1 + d, s);
+      const int other = (r + down) * n + c + right;
+      if (parts_[other].empty()) continue;
+      add_block(s, other, level.stencil, 1 + d, s);
+      add_block(other, s, level.stencil, 1 + d, s);
     }
   }
   hold_pins(level);
@@ -103,7 +132,7 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
 void CoarsestSolver::hold_pins(const BlockLevel& level) {
   if (!level.holds_pins) return;
   for (const BlockLevel::Pin& pin : level.pins)
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3 && node_[pin.sample] >= 0; ++k)
       for (int other = 0; other < unknowns_; ++other)
         at(3 * node_[pin.sample] + k, other) = at(other, 3 * node_[pin.sample] + k) = 0;
 }
@@ -121,8 +150,11 @@ void CoarsestSolver::solve(BlockLevel& level) noexcept {
   }
   const std::array<PaddedPlane*, 3> value{&level.value.x, &level.value.y, &level.value.z};
   for (int s = 0; s < n * n; ++s)
-    for (int k = 0; k < 3 && node_[s] >= 0; ++k)
-      (*value[k])(s / n, s % n) = static_cast<float>(value_[3 * node_[s] + k]);
+    for (int k = 0; k < 3 && !parts_[s].empty(); ++k) {
+      double mean = 0;
+      for (const Part& part : parts_[s]) mean += part.weight * value_[3 * part.node + k];
+      (*value[k])(s / n, s % n) = static_cast<float>(mean);
+    }
 }
 
 }  // namespace weft

@@ -23,7 +23,15 @@ class CoarsestSolver {
   void solve(BlockLevel& level) noexcept;
 
  private:
-  /// @param block  of the stencil
+  /// A node that a sample's value is a part of: its own, or of a hanging one those that it hangs
+  /// from.
+  struct Part {
+    int node = 0;
+    double weight = 1;
+  };
+  void number_nodes(const BlockLevel& level);
+  void find_bending(const BlockLevel& level);
+  /// Adds a block of the stencil of `sample` between two samples.
   void add_block(int from, int to, const PlaneSet& stencil, int block, int sample);
   /// Takes the held pins of a level out of the matrix.
   void hold_pins(const BlockLevel& level);
@@ -32,10 +40,11 @@ class CoarsestSolver {
   }
 
   int unknowns_ = 0;
-  std::vector<int> node_;        // [n x n] node of each sample, -1 in no chart
-  std::vector<int> first_;       // [unknowns] first column of each row that is not 0
-  std::vector<double> bending_;  // [nodes x nodes] M^T M
-  std::vector<double> matrix_;   // L below the diagonal, D on it
+  std::vector<int> node_;                 // [n x n] node of each sample, -1 in no chart, or hanging
+  std::vector<std::vector<Part>> parts_;  // [n x n] empty in no chart
+  std::vector<int> first_;                // [unknowns] first column of each row that is not 0
+  std::vector<double> bending_;           // [nodes x nodes] M^T M
+  std::vector<double> matrix_;            // L below the diagonal, D on it
   std::vector<double> value_;
 };
 

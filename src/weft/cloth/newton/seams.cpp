@@ -5,8 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "weft/core/disjoint_sets.h"
-
 namespace weft {
 namespace {
 
@@ -38,13 +36,42 @@ Seams::Seams(const BorderMates& mates, const LevelLayout& layout) : size_(mates.
     if (const std::span<const int> copies = mates.copies(i); copies.size() > 1)
       classes.emplace_back(copies.begin(), copies.end());
   set_classes(classes, layout);
+  hang({});
+}
+
+Seams::Seams(const CoarseSeams& coarse, const LevelLayout& layout) : size_(layout.size) {
+  std::vector<std::vector<int>> classes = coarse.classes;
+  std::vector<bool> has_class(static_cast<std::size_t>(size_) * size_, false);
+  for (const std::vector<int>& one : classes)
+    for (const int node : one) has_class[node] = true;
+  for (const HangingNode& hanging : coarse.hanging)
+    for (const HangingNode::Part& part : hanging.parts) {
+      if (!has_class[part.node]) classes.push_back({part.node});
+      has_class[part.node] = true;
+    }
+  std::sort(classes.begin(), classes.end());
+  set_classes(classes, layout);
+  hang(coarse.hanging);
+}
+
+void Seams::hang(const std::vector<HangingNode>& nodes) {
+  hanging_ = nodes;
+  std::map<int, std::vector<Hung>> from;
+  for (const HangingNode& hanging : nodes)
+    for (const HangingNode::Part& part : hanging.parts)
+      from[part.node].push_back({hanging.node, place_of(hanging.node), part.weight});
+  for (int i = 0; i < class_count(); ++i) {
+    for (const int s : samples(i))
+      if (const auto found = from.find(s); found != from.end())
+        hung_.insert(hung_.end(), found->second.begin(), found->second.end());
+    hung_starts_.push_back(static_cast<int>(hung_.size()));
+  }
 }
 
 void Seams::set_classes(const std::vector<std::vector<int>>& classes, const LevelLayout& layout) {
   for (const std::vector<int>& members : classes) {
     samples_.insert(samples_.end(), members.begin(), members.end());
-    for (const int s : members)
-      places_.push_back(s / size_ * PaddedPlane::stride_for(size_) + s % size_);
+    for (const int s : members) places_.push_back(place_of(s));
     starts_.push_back(static_cast<int>(samples_.size()));
     inverse_count_.push_back(1 / static_cast<float>(members.size()));
   }
@@ -91,41 +118,6 @@ void Seams::find_edges(const LevelLayout& layout) {
     if (group.size() > 1 && !follows(group, group)) edges_.push_back(std::move(group));
 }
 
-Seams Seams::coarsened(const LevelLayout& fine, const LevelLayout& coarse) const {
-  const int n = fine.size, m = coarse.size;
-  const std::vector<int> chart_of = fine.chart_of();
-  // The coarse node of a sample, and whether it lies there.
-  const auto node_of = [&](int s) {
-    const auto k = static_cast<std::size_t>(chart_of[static_cast<std::size_t>(s)]);
-    const Chart &from = fine.charts[k], &to = coarse.charts[k];
-    const auto node = [](int x, int count, int nodes) {
-      return x == count - 1 ? nodes - 1 : x / 2;
-    };
-    const int r = s / n - from.row, c = s % n - from.col;
-    const int row = node(r, from.rows, to.rows), col = node(c, from.cols, to.cols);
-    const bool there =
-        std::min(2 * row, from.rows - 1) == r && std::min(2 * col, from.cols - 1) == c;
-    return std::pair((to.row + row) * m + to.col + col, there);
-  };
-  DisjointSets sets(m * m);
-  for (int i = 0; i < class_count(); ++i)
-    for (const int a : samples(i)) {
-      const auto [node, there] = node_of(a);
-      if (!there) continue;
-      // A copy between two nodes is joined from one side only, or seams would become one node.
-      for (const int b : samples(i))
-        if (const auto [other, is_node] = node_of(b); is_node || a < b) sets.join(node, other);
-    }
-  std::vector<std::vector<int>> members(static_cast<std::size_t>(m) * m), classes;
-  for (int s = 0; s < m * m; ++s) members[sets.root(s)].push_back(s);
-  for (std::vector<int>& one : members)
-    if (one.size() > 1) classes.push_back(std::move(one));
-  Seams result;
-  result.size_ = m;
-  result.set_classes(classes, coarse);
-  return result;
-}
-
 /// Sets every copy of a class to value(plane, places of the copies, class).
 template <class Value>
 void Seams::set_copies(const Workers& workers, std::initializer_list<PaddedPlane*> planes,
@@ -151,25 +143,49 @@ float sum_of(const float* plane, std::span<const std::ptrdiff_t> places) {
 
 }  // namespace
 
+float Seams::hung(const float* plane, int index, const float* alike) const {
+  float total = 0;
+  for (const Hung& one : hung_from(index))
+    total += one.weight * (plane[one.place] - (alike != nullptr ? alike[one.place] : 0));
+  return total;
+}
+
+void Seams::interpolate(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
+  if (hanging_.empty()) return;
+  workers.barrier();
+  const Range mine = workers.share(static_cast<int>(hanging_.size()));
+  for (int i = mine.first; i < mine.last; ++i)
+    for (PaddedPlane* plane : planes) {
+      float* const first = plane->row(0);
+      float mean = 0;
+      for (const HangingNode::Part& part : hanging_[i].parts)
+        mean += part.weight * first[place_of(part.node)];
+      first[place_of(hanging_[i].node)] = mean;
+    }
+}
+
 void Seams::sum(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
-  set_copies(workers, planes, [](const float* plane, std::span<const std::ptrdiff_t> places, int) {
-    return sum_of(plane, places);
-  });
+  set_copies(workers, planes,
+             [this](const float* plane, std::span<const std::ptrdiff_t> places, int i) {
+               return sum_of(plane, places) + hung(plane, i);
+             });
+  interpolate(workers, planes);
 }
 
 void Seams::sum_beside(const Workers& workers, const PaddedVectors& alike,
                        PaddedVectors& field) const {
   const auto sum = [&](const PaddedPlane& given, PaddedPlane& plane) {
     const float* const known = given.row(0);
-    set_copies(workers, {&plane},
-               [known](const float* first, std::span<const std::ptrdiff_t> places, int) {
-                 const auto others = static_cast<float>(places.size() - 1);
-                 return sum_of(first, places) - others * known[places.front()];
-               });
+    set_copies(
+        workers, {&plane}, [&](const float* first, std::span<const std::ptrdiff_t> places, int i) {
+          const auto others = static_cast<float>(places.size() - 1);
+          return sum_of(first, places) - others * known[places.front()] + hung(first, i, known);
+        });
   };
   sum(alike.x, field.x);
   sum(alike.y, field.y);
   sum(alike.z, field.z);
+  interpolate(workers, {&field.x, &field.y, &field.z});
 }
 
 void Seams::sum(const Workers& workers, int count, PlaneSet& planes, float* kept) const {
@@ -179,6 +195,8 @@ void Seams::sum(const Workers& workers, int count, PlaneSet& planes, float* kept
     for (int k = 0; k < count; ++k) {
       float total = 0;
       for (const int s : samples(i)) total += * own++ = planes(s / size_, s % size_, k);
+      for (const Hung& one : hung_from(i))
+        total += one.weight * one.weight * planes(one.sample / size_, one.sample % size_, k);
       for (const int s : samples(i)) planes(s / size_, s % size_, k) = total;
     }
 }
@@ -196,12 +214,14 @@ void Seams::average(const Workers& workers, std::initializer_list<PaddedPlane*> 
              [this](const float* plane, std::span<const std::ptrdiff_t> places, int i) {
                return inverse_count_[i] * sum_of(plane, places);
              });
+  interpolate(workers, planes);
 }
 
 void Seams::copy(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
   set_copies(workers, planes, [](const float* plane, std::span<const std::ptrdiff_t> places, int) {
     return plane[places.front()];
   });
+  interpolate(workers, planes);
 }
 
 void Seams::share(const Workers& workers, std::initializer_list<PaddedPlane*> planes) const {
@@ -209,6 +229,9 @@ void Seams::share(const Workers& workers, std::initializer_list<PaddedPlane*> pl
   for (int i = mine.first; i < mine.last; ++i)
     for (PaddedPlane* plane : planes)
       for (const std::ptrdiff_t place : places_of(i)) plane->row(0)[place] *= inverse_count_[i];
+  const Range without = workers.share(static_cast<int>(hanging_.size()));
+  for (int i = without.first; i < without.last; ++i)
+    for (PaddedPlane* plane : planes) plane->row(0)[place_of(hanging_[i].node)] = 0;
 }
 
 }  // namespace weft

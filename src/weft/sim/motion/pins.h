@@ -48,6 +48,7 @@ void for_each_beside(const Cloth& cloth, const Pin& pin, const Visit& visit) {
     if (cloth.mates.same_chart(copy, r * n + c)) visit(copy, r, c);
   };
   for (const int copy : pin.copies) {
+    if (!cloth.is_held_at(pin, copy)) continue;
     try_at(copy, -1, 0);
     try_at(copy, 1, 0);
     try_at(copy, 0, -1);
