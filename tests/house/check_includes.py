@@ -37,7 +37,7 @@ PUBLIC = {
     "cloth": {"material", "cloth_state", "integrators", "table5"},
     "collide": {"colliders"},
     "sim": {"scene", "scene_file", "simulation", "fabric"},
-    "run": {"run", "run_folder", "drape_scene"},
+    "run": {"run", "run_folder", "drape_scene", "state_bytes"},
     "view": {"picture", "camera", "drawing", "window_canvas"},
 }
 OWNER = {header: module for module, headers in PUBLIC.items() for header in headers}

@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "weft/error.h"
 #include "weft/geometry_image.h"
-#include "weft/run/sealed_bytes.h"
 #include "weft/sim/stepping/adaptive_substeps.h"
-#include "weft/state_bytes.h"
 
 namespace weft {
 namespace {
-
-constexpr Seal seal_of_states{"WEFTSTAT", 1, "state of a simulation",
-                              "one that was saved by this version is wanted"};
 
 int samples_of(const ClothState& cloth) { return cloth.position.size() * cloth.position.size(); }
 
@@ -217,20 +209,6 @@ std::optional<SimulationState> next_state(ByteReader& in) {
   if (!struck || !in.whole()) return std::nullopt;
   state.struck = std::move(*struck);
   return state;
-}
-
-std::string encode_state(const SimulationState& state) {
-  ByteWriter out;
-  add_state(state, out);
-  return seal(seal_of_states, out.take());
-}
-
-SimulationState decode_state(std::string_view bytes, const std::string& where) {
-  ByteReader in(unseal(seal_of_states, bytes, where));
-  std::optional<SimulationState> state = next_state(in);
-  if (!state || in.left() != 0)
-    refuse(seal_of_states, where, "is damaged: its parts do not fit together");
-  return std::move(*state);
 }
 
 }  // namespace weft
