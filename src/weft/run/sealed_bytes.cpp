@@ -25,18 +25,20 @@ void refuse(const Seal& kind, const std::string& where, std::string_view found) 
   throw InputError(where, found, kind.wanted);
 }
 
-std::string seal(const Seal& kind, std::string_view fields) {
-  ByteWriter body;
-  body.add_text(weft_version);
-  body.add_bytes(fields);
-  const std::string payload = body.take();
-  ByteWriter out;
-  out.add_bytes(kind.magic);
-  out.add(kind.version);
-  out.add(static_cast<std::uint64_t>(payload.size()));
-  out.add(hash_of(payload));
-  out.add_bytes(payload);
-  return out.take();
+std::string seal(const Seal& kind, std::string fields) {
+  ByteWriter writer;
+  writer.add_text(weft_version);
+  const std::string version = writer.take();
+  Hash hash;
+  hash.add(std::span<const char>(version));
+  hash.add(std::span<const char>(fields));
+  writer.add_bytes(kind.magic);
+  writer.add(kind.version);
+  writer.add(static_cast<std::uint64_t>(version.size() + fields.size()));
+  writer.add(hash.value());
+  writer.add_bytes(version);
+  fields.insert(0, writer.take());  // they may be long: no copy beside them
+  return fields;
 }
 
 std::string_view unseal(const Seal& kind, std::string_view bytes, const std::string& where) {

@@ -16,7 +16,7 @@ struct Seal {
 
 /// Fields behind what tells whether they are whole: the magic, the format version, bytes and hash
 /// of what follows, the version of Weft; little-endian.
-std::string seal(const Seal& kind, std::string_view fields);
+std::string seal(const Seal& kind, std::string fields);
 
 /// The fields of sealed bytes. @param where  for errors
 /// @throws InputError for bytes that are damaged, cut short, of another version or another kind
