@@ -33,15 +33,19 @@ std::vector<BlockLevel> make_levels(const Cloth& cloth, int workers) {
   const LevelLayout finest(cloth.mates);
   levels.emplace_back(BlockLevel::Shape{finest, true, workers}, Seams(cloth.mates, finest),
                       BendingStencil(cloth.bending));
-  const bool sewn = !levels.front().seams.empty();
+  // Nodes that hang from others make the panels of a garment close worse.
+  const bool is_sewn = cloth.apart.has_value();
+  const bool has_seams = !levels.front().seams.empty();
   // Many charts are coarsened further, to fewer unknowns of the direct solver.
   const int least = finest.charts.size() > 1 ? 2 : CoarsestSolver::max_size;
   for (int depth = 1; levels.back().layout.largest_side() > least; ++depth) {
     const BlockLevel& fine = levels.back();
     const LevelLayout coarse = fine.layout.coarsened();
-    const Seams seams(find_coarse_seams(cloth.mates, finest, coarse, depth), coarse);
+    const Seams seams = is_sewn
+                            ? fine.seams.coarsened(fine.layout, coarse)
+                            : Seams(find_coarse_seams(cloth.mates, finest, coarse, depth), coarse);
     BlockLevel level({coarse, false, workers}, seams, fine.bending.coarsened(fine.layout, coarse));
-    if (sewn) level.short_ends = ShortEnds(fine.layout, coarse);
+    if (has_seams && !is_sewn) level.short_ends = ShortEnds(fine.layout, coarse);
     levels.push_back(std::move(level));
   }
   return levels;
