@@ -123,7 +123,8 @@ TEST(Cloth, PinHoldsTheWholeClass) {
   Cloth cloth = torus_cloth(n);
   pin(cloth, n * n - 1, {1, 2, 3});
   ASSERT_EQ(cloth.pins.size(), 1U);
-  EXPECT_EQ(cloth.pins[0].sample, 0);
+  // The sample that was asked for: while a garment is sewn, its mates are elsewhere.
+  EXPECT_EQ(cloth.pins[0].sample, n * n - 1);
   EXPECT_EQ(cloth.pins[0].copies, (std::vector<int>{0, n - 1, n * (n - 1), n * n - 1}));
   for (const int s : cloth.pins[0].copies) EXPECT_EQ(cloth.inverse_mass(s / n, s % n), 0);
   pin(cloth, 0, {4, 5, 6});
