@@ -97,8 +97,8 @@ class CoarseSeamFinder {
     return nodes;
   }
 
-  /// Of a sample between two nodes, which may hang themselves where a seam ends beside them; where
-  /// that leads round in a circle, such a node stands for itself.
+  /// Of a sample between two nodes, which may hang themselves where a seam ends beside them; one
+  /// that leads round in a circle is left out.
   [[nodiscard]] std::vector<Part> parts_between(int sample, int depth) const {
     constexpr int deepest = 4;
     std::map<int, float> sum;

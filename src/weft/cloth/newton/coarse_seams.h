@@ -15,7 +15,7 @@ struct HangingNode {
     float weight = 0;
   };
   int node = 0;
-  std::vector<Part> parts;  ///< of nodes that do not hang; the weights' sum is 1
+  std::vector<Part> parts;  ///< of nodes that do not hang; the weights' sum is 1. None: it stays 0
 };
 
 /// The seams of a coarse level: what is interpolated from it is the same for all copies of a
@@ -26,7 +26,8 @@ struct CoarseSeams {
   std::vector<HangingNode> hanging;  ///< by node
 };
 
-/// @param finest, level  layouts  @param depth  how many times the level is coarser
+/// The seams of the level that `depth` coarsenings of the finest one give.
+/// @param mates  of the finest level  @param finest, level  layouts of both
 CoarseSeams find_coarse_seams(const BorderMates& mates, const LevelLayout& finest,
                               const LevelLayout& level, int depth);
 
