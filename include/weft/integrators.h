@@ -114,7 +114,8 @@ struct MultigridOptions {
 /// heavy fabrics take about three iterations a step, light and stiff ones five; more change the
 /// motion by less than the linearisation leaves.
 struct NewtonOptions {
-  int max_iterations = 8;  ///< of conjugate gradients for each linearisation
+  /// Of conjugate gradients for each linearisation; twice as many while seams are being sewn.
+  int max_iterations = 8;
   /// Stop when an iteration's correction, as a force on every particle (in the norm of the system's
   /// inverse), is below this times its weight.
   double tolerance = 0.1;

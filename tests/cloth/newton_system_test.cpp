@@ -131,26 +131,6 @@ TEST(Newton, SeamsCostFewIterations) {
   EXPECT_LE(System(glued).iterations_to_a_hundredth(), 12);
 }
 
-TEST(Newton, CoarseSeamsJoinEverySampleOnce) {
-  // An odd seam: its copies fall between coarse nodes.
-  const BorderMates odd(17, {{1, 64 - 4, 9}});
-  LevelLayout layout(odd);
-  Seams seams(odd, layout);
-  for (int level = 0; level < 3; ++level) {
-    std::vector<int> seen(static_cast<std::size_t>(seams.size()) * seams.size());
-    std::size_t largest = 0;
-    for (int i = 0; i < seams.class_count(); ++i) {
-      largest = std::max(largest, seams.samples(i).size());
-      for (const int s : seams.samples(i)) EXPECT_EQ(++seen[s], 1);
-    }
-    EXPECT_LE(largest, 4U) << "level " << level;
-    EXPECT_GT(seams.class_count(), 0);
-    LevelLayout coarse = layout.coarsened();
-    seams = seams.coarsened(layout, coarse);
-    layout = std::move(coarse);
-  }
-}
-
 /// A field of blocks t 1 + s s^T by chance, along rows or down columns, none after the last sample.
 struct RandomSprings {
   PaddedPlane t, x, y, z;

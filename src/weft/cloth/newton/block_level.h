@@ -6,6 +6,7 @@
 #include "weft/cloth/newton/bending_stencil.h"
 #include "weft/cloth/newton/line_factor.h"
 #include "weft/cloth/newton/padded_planes.h"
+#include "weft/cloth/newton/seam_mismatch.h"
 #include "weft/cloth/newton/seams.h"
 #include "weft/cloth/newton/short_ends.h"
 #include "weft/cloth/newton/spring_hessian.h"
@@ -26,7 +27,8 @@ struct BlockLevel {
   LevelLayout layout;
   int size = 0;
   Seams seams;
-  ShortEnds short_ends;  ///< beside the next finer level; none where the cloth has no seams
+  ShortEnds short_ends;   ///< beside the next finer level; none where the cloth has no seams
+  SeamMismatch mismatch;  ///< of coarse levels
   BendingStencil bending;
   PaddedPlane extra;  ///< added to diagonals for the smoother [N/m]
   /// Nine-point stencils of 3 x 3 blocks: own parts, each sample's centre and the blocks to the

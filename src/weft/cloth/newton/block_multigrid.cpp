@@ -33,19 +33,20 @@ std::vector<BlockLevel> make_levels(const Cloth& cloth, int workers) {
   const LevelLayout finest(cloth.mates);
   levels.emplace_back(BlockLevel::Shape{finest, true, workers}, Seams(cloth.mates, finest),
                       BendingStencil(cloth.bending));
-  // Nodes that hang from others make the panels of a garment close worse.
-  const bool is_sewn = cloth.apart.has_value();
   const bool has_seams = !levels.front().seams.empty();
   // Many charts are coarsened further, to fewer unknowns of the direct solver.
   const int least = finest.charts.size() > 1 ? 2 : CoarsestSolver::max_size;
   for (int depth = 1; levels.back().layout.largest_side() > least; ++depth) {
     const BlockLevel& fine = levels.back();
     const LevelLayout coarse = fine.layout.coarsened();
-    const Seams seams = is_sewn
-                            ? fine.seams.coarsened(fine.layout, coarse)
-                            : Seams(find_coarse_seams(cloth.mates, finest, coarse, depth), coarse);
-    BlockLevel level({coarse, false, workers}, seams, fine.bending.coarsened(fine.layout, coarse));
-    if (has_seams && !is_sewn) level.short_ends = ShortEnds(fine.layout, coarse);
+    BlockLevel level({coarse, false, workers},
+                     Seams(find_coarse_seams(cloth.mates, finest, coarse, depth), coarse),
+                     fine.bending.coarsened(fine.layout, coarse));
+    if (has_seams) {
+      level.short_ends = ShortEnds(fine.layout, coarse);
+      level.mismatch =
+          SeamMismatch(fine.mismatch, {fine.layout, fine.seams}, {coarse, level.seams});
+    }
     levels.push_back(std::move(level));
   }
   return levels;
@@ -345,6 +346,10 @@ void BlockMultigrid::residual(std::size_t index, const Loads& contacts, const Wo
     }
   workers.barrier();
   if (level.seams.empty()) return;
+  if (!level.mismatch.empty()) {
+    level.mismatch.subtract(workers, level.value, level.residual);
+    workers.barrier();
+  }
   level.seams.sum_beside(workers, level.rhs, level.residual);
   workers.barrier();
   if (index > 0 || level.pins.empty()) return;

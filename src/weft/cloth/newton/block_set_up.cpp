@@ -38,8 +38,12 @@ void BlockMultigrid::join_seams(std::size_t index, const Workers& workers) {
     workers.barrier();
   } else {
     level.seams.sum(workers, block_entries, level.stencil, parted_centres_.data());
+    workers.barrier();
   }
-  if (workers.rank() == 0) join_edges(index);
+  if (workers.rank() == 0) {
+    level.mismatch.join(level.stencil);
+    join_edges(index);
+  }
   workers.barrier();
 }
 
@@ -47,8 +51,13 @@ void BlockMultigrid::part_seams(std::size_t index, const Workers& workers) {
   BlockLevel& level = levels_[index];
   if (level.seams.empty()) return;
   workers.barrier();
-  if (index > 0) level.seams.restore(workers, block_entries, parted_centres_.data(), level.stencil);
-  if (workers.rank() == 0) part_edges(index);
+  if (workers.rank() == 0) {
+    level.mismatch.part(level.stencil);
+    part_edges(index);
+  }
+  if (index == 0) return;
+  workers.barrier();
+  level.seams.restore(workers, block_entries, parted_centres_.data(), level.stencil);
 }
 
 /// Lines along a seam couple by the sum of all copies of their edges, as their diagonals do. With
@@ -173,6 +182,7 @@ void BlockMultigrid::set_up(SpringHessian& springs, Worker& worker) {
     else
       galerkin_.coarsen(levels_[i], levels_[i + 1], all, *kernels_);
     worker.barrier();
+    if (worker.rank() == 0) levels_[i + 1].mismatch.gather(levels_[i].mismatch, levels_[i].stencil);
     if (levels_[i + 1].short_ends.empty()) continue;
     levels_[i + 1].short_ends.fold(all, levels_[i + 1].stencil);
     worker.barrier();

@@ -103,6 +103,7 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
       add_block(other, s, level.stencil, 1 + d, s);
     }
   }
+  add_mismatch(level.mismatch);
   hold_pins(level);
   for (int i = 0; i < unknowns_; ++i) {
     first_[i] = 0;
@@ -126,6 +127,15 @@ void CoarsestSolver::factor(const BlockLevel& level) noexcept {
       at(i, j) = moves ? sum / pivot : 0;
     }
     at(j, j) = moves ? pivot : 0;
+  }
+}
+
+void CoarsestSolver::add_mismatch(const SeamMismatch& mismatch) {
+  for (int k = 0; k < mismatch.block_count(); ++k) {
+    const auto [row, col, entries] = mismatch.block(k);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        at(3 * node_[row] + i, 3 * node_[col] + j) += double{entries[entry_of[i][j]]};
   }
 }
 

@@ -33,6 +33,7 @@ class CoarsestSolver {
   void find_bending(const BlockLevel& level);
   /// Adds a block of the stencil of `sample` between two samples.
   void add_block(int from, int to, const PlaneSet& stencil, int block, int sample);
+  void add_mismatch(const SeamMismatch& mismatch);
   /// Takes the held pins of a level out of the matrix.
   void hold_pins(const BlockLevel& level);
   [[nodiscard]] double& at(int row, int col) {

@@ -18,6 +18,9 @@ constexpr float share_in_flight = 0.1F, share_in_contact = 1;
 /// give way.
 constexpr int min_contact_rounds = 2, max_contact_rounds = 4;
 constexpr double passing_speed = 0.01;
+/// While seams are being sewn panels move fast and meet folded: what few iterations leave would
+/// fold them over each other, where closing seams then tear at them.
+constexpr int iterations_of_sewing = 2;  // times those of the options
 
 std::vector<const Cloth*> cloths_of(std::span<NewtonPart* const> parts) {
   std::vector<const Cloth*> cloths;
@@ -155,7 +158,8 @@ void NewtonSolver::solve(const NewtonOptions& options, Progress& progress, Worke
   });
   if (progress.first) descend_direction(progress, worker);
   progress.first = false;
-  for (int i = 0; i < options.max_iterations; ++i) {
+  const int most = (sewn_ ? iterations_of_sewing : 1) * options.max_iterations;
+  for (int i = 0; i < most; ++i) {
     iterate(progress, worker);
     if (progress.force < options.tolerance) break;
   }

@@ -5,8 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "weft/core/disjoint_sets.h"
-
 namespace weft {
 namespace {
 
@@ -118,42 +116,6 @@ void Seams::find_edges(const LevelLayout& layout) {
     }
   for (auto& [ends, group] : groups)
     if (group.size() > 1 && !follows(group, group)) edges_.push_back(std::move(group));
-}
-
-Seams Seams::coarsened(const LevelLayout& fine, const LevelLayout& coarse) const {
-  const int n = fine.size, m = coarse.size;
-  const std::vector<int> chart_of = fine.chart_of();
-  // The coarse node of a sample, and whether it lies there.
-  const auto node_of = [&](int s) {
-    const auto k = static_cast<std::size_t>(chart_of[static_cast<std::size_t>(s)]);
-    const Chart &from = fine.charts[k], &to = coarse.charts[k];
-    const auto node = [](int x, int count, int nodes) {
-      return x == count - 1 ? nodes - 1 : x / 2;
-    };
-    const int r = s / n - from.row, c = s % n - from.col;
-    const int row = node(r, from.rows, to.rows), col = node(c, from.cols, to.cols);
-    const bool there =
-        std::min(2 * row, from.rows - 1) == r && std::min(2 * col, from.cols - 1) == c;
-    return std::pair((to.row + row) * m + to.col + col, there);
-  };
-  DisjointSets sets(m * m);
-  for (int i = 0; i < class_count(); ++i)
-    for (const int a : samples(i)) {
-      const auto [node, there] = node_of(a);
-      if (!there) continue;
-      // A copy between two nodes is joined from one side only, or seams would become one node.
-      for (const int b : samples(i))
-        if (const auto [other, is_node] = node_of(b); is_node || a < b) sets.join(node, other);
-    }
-  std::vector<std::vector<int>> members(static_cast<std::size_t>(m) * m), classes;
-  for (int s = 0; s < m * m; ++s) members[sets.root(s)].push_back(s);
-  for (std::vector<int>& one : members)
-    if (one.size() > 1) classes.push_back(std::move(one));
-  Seams result;
-  result.size_ = m;
-  result.set_classes(classes, coarse);
-  result.hang({});
-  return result;
 }
 
 /// Sets every copy of a class to value(plane, places of the copies, class).

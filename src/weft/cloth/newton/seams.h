@@ -28,10 +28,6 @@ class Seams {
   Seams(const BorderMates& mates, const LevelLayout& layout);
   /// Of a coarse level.
   Seams(const CoarseSeams& coarse, const LevelLayout& layout);
-  /// Of the next coarser level of a garment that is being sewn: copies between coarse nodes are
-  /// joined to one of these.
-  /// @param fine, coarse  layouts of this level and the next
-  [[nodiscard]] Seams coarsened(const LevelLayout& fine, const LevelLayout& coarse) const;
 
   [[nodiscard]] bool empty() const { return starts_.size() <= 1; }
   [[nodiscard]] int size() const { return size_; }
