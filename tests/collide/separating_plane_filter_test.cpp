@@ -89,5 +89,29 @@ TEST(SeparatingPlaneFilter, LeavesAllOnTheirSidesOfManyPlanes) {
   EXPECT_TRUE(held.satisfied());
 }
 
+/// A plane that turns with ends is straight for points that another plane holds back.
+TEST(SeparatingPlaneFilter, StraightensPlanesOfPointsThatDoNotStayAtTheirEnds) {
+  const auto held_by = [](double level) {
+    Held held;
+    held.add_point({0, 0.1F, 0}, {0.05F, 0.1F, 0});
+    held.add_plane(0, {0, 1, 0}, 0.05);
+    SeparatingPlane& turning = held.planes.back();
+    turning.turned = normalized(Vec3d{-0.2, 1, 0});
+    turning.turns = turning.follows_ends = true;
+    turning.at_end.a = 0.08;
+    turning.halfway.a = 0.1;
+    turning.straight.a = 0.099;
+    turning.still.a = 0.05;
+    held.add_plane(0, {-1, 0, 0}, level);
+    held.hold(0.001, 0.05);
+    return held.planes.front();
+  };
+  EXPECT_TRUE(held_by(-0.06).follows_ends);
+  const SeparatingPlane straight = held_by(-0.02);
+  EXPECT_FALSE(straight.follows_ends);
+  EXPECT_EQ(straight.turned, straight.normal);
+  EXPECT_EQ(straight.at_end, straight.straight);
+}
+
 }  // namespace
 }  // namespace weft

@@ -90,5 +90,85 @@ TEST(SeparatingPlanes, WhatHeedsATurningPlaneKeepsApartAtEveryTime) {
   }
 }
 
+/// Two slivers of one flat layer, beside each other, that swings in its plane.
+MovingFeature in_a_layer(double from, double angle) {
+  MovingFeature feature;
+  feature.start = {Vec3d{from, 0, 0}, Vec3d{from + 0.001, 0, 0}, Vec3d{from, 0.01, 0}};
+  feature.safe_position = feature.start;
+  for (std::size_t k = 0; k < 3; ++k) feature.end[k] = swung(feature.start[k], angle);
+  return feature;
+}
+
+/// The least distance along the plane of side a from side b over a step. [m]
+double least_distance(const SeparatingPlane& plane, const MovingFeature& a,
+                      const MovingFeature& b) {
+  double least = HUGE_VAL;
+  for (double time = 0; time <= 1; time += 0.0625) {
+    const Vec3d normal = (1 - time) * plane.normal + time * plane.turned;
+    double min_a = HUGE_VAL, max_b = -HUGE_VAL;
+    for (std::size_t k = 0; k < 3; ++k) {
+      min_a = std::min(min_a, along(normal, (1 - time) * a.start[k] + time * a.end[k]));
+      max_b = std::max(max_b, along(normal, (1 - time) * b.start[k] + time * b.end[k]));
+    }
+    least = std::min(least, min_a - max_b);
+  }
+  return least;
+}
+
+bool heeds(const SeparatingPlane& plane, const MovingFeature& of, bool side_a) {
+  const double sign = side_a ? 1 : -1, at_end = side_a ? plane.at_end.a : plane.at_end.b,
+               halfway = side_a ? plane.halfway.a : plane.halfway.b;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (sign * (along(plane.turned, of.end[k]) - at_end) < 0) return false;
+    if (plane.turns &&
+        sign * (along(plane.normal, of.end[k]) + along(plane.turned, of.start[k]) - halfway) < 0)
+      return false;
+  }
+  return true;
+}
+
+TEST(SeparatingPlanes, TurnWithPartsOfALayerThatSwingsWithoutMeetingItself) {
+  const MovingFeature a = in_a_layer(0.00102, 0.3), b = in_a_layer(0, 0.3);
+  SeparatingPlane plane;
+  ASSERT_EQ(separate(a, b, {1e-4, false}, plane), Separation::plane);
+  ASSERT_TRUE(plane.follows_ends);
+  EXPECT_TRUE(heeds(plane, a, true) && heeds(plane, b, false));
+  EXPECT_GT(least_distance(plane, a, b), 1e-5);
+  straighten(plane);
+  EXPECT_FALSE(heeds(plane, a, true) && heeds(plane, b, false));
+  EXPECT_GT(along(plane.turned, a.start[0]), plane.still.a);
+  EXPECT_LT(along(plane.turned, b.start[1]), plane.still.b);
+}
+
+TEST(SeparatingPlanes, DoNotTurnWithWhatMeets) {
+  MovingFeature a = in_a_layer(0.00102, 0.3);
+  const MovingFeature b = in_a_layer(0, 0.3);
+  for (Vec3d& end : a.end) end -= Vec3d{0.0005, 0, 0};  // into it
+  SeparatingPlane plane;
+  ASSERT_EQ(separate(a, b, {1e-4, false}, plane), Separation::plane);
+  EXPECT_FALSE(plane.turns);
+}
+
+/// Wherever a turning plane lets both be, they keep apart at every time.
+TEST(SeparatingPlanes, FollowNoEndsThatMeetOnTheWay) {
+  Random random(11);
+  int turned = 0;
+  for (int round = 0; round < 2000; ++round) {
+    MovingFeature a = in_a_layer(0.0015, 0), b = in_a_layer(0, 0);
+    const double angle = random.uniform(0, 0.5);
+    for (MovingFeature* of : {&a, &b})
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto by = [&] { return random.uniform(-0.0005, 0.0005); };
+        of->end[k] = swung(of->start[k], angle) + Vec3d{by(), by(), by()};
+      }
+    SeparatingPlane plane;
+    if (separate(a, b, {1e-4, false}, plane) != Separation::plane || !plane.turns) continue;
+    ++turned;
+    EXPECT_TRUE(heeds(plane, a, true) && heeds(plane, b, false)) << round;
+    EXPECT_GT(least_distance(plane, a, b), 0) << round;
+  }
+  EXPECT_GT(turned, 100);
+}
+
 }  // namespace
 }  // namespace weft

@@ -104,13 +104,15 @@ TEST(StepEnergy, APinThatABodyTakesAlongGoesBackAndGainsNone) {
   const Vec3f place = pinned();
   std::vector<FrameReport> reports;
   float farthest = 0;
+  double put_in = 0;
   for (int frame = 0; frame < 30; ++frame) {
     reports.push_back(simulation.advance());
+    put_in += reports.back().work;
     farthest = std::max(farthest, length(pinned() - place));
   }
   EXPECT_GT(farthest, 0.02F);
   EXPECT_EQ(pinned(), place);
-  EXPECT_LT(gained(simulation, reports), 0.003 * simulation.mass() * standard_gravity);
+  EXPECT_LT(gained(simulation, reports), 0.02 * put_in);
 }
 
 /// Closer than their thickness, which the contacts want back at once: in steps however short.
@@ -381,9 +383,11 @@ TEST(StepEnergy, TeamsOfAnySizeRefuseTheSameSteps) {
     Scene scene = set_down();
     scene.cloths[0].size = 97;  // shared by the team
     Simulation simulation(scene, "set down", threads);
-    run(simulation, 3);
     SimulationState state;
-    simulation.save(state);
+    for (int frame = 0; frame < 8 && state.levels.first == 0; ++frame) {
+      simulation.advance();
+      simulation.save(state);
+    }
     EXPECT_GT(state.levels.first, 0);  // the last step was refused as a whole
     return simulation.state_hash();
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace weft {
 namespace {
@@ -133,27 +134,48 @@ bool SeparatingPlaneFilter::make_still(std::span<SeparatingPlane> planes, int in
     if (plane.at_end == plane.still) continue;
     plane.at_end = plane.still;
     changed = true;
-    const int members = plane.count_a + plane.count_b;
-    for (int k = 0; k < members; ++k) anew_[index_[plane.points[k]]] = 1;
+    mark_anew(plane);
   }
   return changed;
 }
 
-void SeparatingPlaneFilter::update_planes(std::span<SeparatingPlane> planes, const Aside& aside) {
-  const int points = static_cast<int>(involved_.size());
+void SeparatingPlaneFilter::mark_anew(const SeparatingPlane& plane) {
+  for (int k = 0; k < plane.count_a + plane.count_b; ++k) anew_[index_[plane.points[k]]] = 1;
+}
+
+void SeparatingPlaneFilter::place_anew(std::span<const SeparatingPlane> planes,
+                                       const Aside& aside) {
+  for (int i = 0; i < static_cast<int>(involved_.size()); ++i)
+    if (std::exchange(anew_[i], 0) != 0) fates_[i] = place(i, planes, aside, points_[i], ends_[i]);
+}
+
+void SeparatingPlaneFilter::straighten_planes(std::span<SeparatingPlane> planes,
+                                              const Aside& aside) {
   for (bool changed = true; changed;) {
     changed = false;
-    for (int i = 0; i < points; ++i) {
+    for (int i = 0; i < static_cast<int>(involved_.size()); ++i) {
+      if (fates_[i] == Fate::free) continue;
+      for (const Side& side : sides(i)) {
+        SeparatingPlane& plane = planes[side.plane];
+        if (!plane.follows_ends) continue;
+        straighten(plane);
+        mark_anew(plane);
+        changed = true;
+      }
+    }
+    if (changed) place_anew(planes, aside);
+  }
+}
+
+void SeparatingPlaneFilter::update_planes(std::span<SeparatingPlane> planes, const Aside& aside) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int i = 0; i < static_cast<int>(involved_.size()); ++i) {
       if (held_[i] != 0 || (fates_[i] != Fate::stopped && fates_[i] != Fate::lost)) continue;
       held_[i] = 1;
       changed = make_still(planes, i) || changed;
     }
-    // Points of planes that have changed are placed anew.
-    for (int i = 0; i < points; ++i) {
-      if (anew_[i] == 0) continue;
-      anew_[i] = 0;
-      fates_[i] = place(i, planes, aside, points_[i], ends_[i]);
-    }
+    place_anew(planes, aside);
   }
 }
 

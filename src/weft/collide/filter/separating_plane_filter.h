@@ -87,6 +87,11 @@ class SeparatingPlaneFilter {
              const FilteredPoint& point, Vec3f& end) const;
   void update_planes(std::span<SeparatingPlane> planes, const Aside& aside);
   bool make_still(std::span<SeparatingPlane> planes, int involved);
+  /// Planes that follow proposed ends are straight for points that may not stay there.
+  void straighten_planes(std::span<SeparatingPlane> planes, const Aside& aside);
+  /// Has the points of a plane placed anew.
+  void mark_anew(const SeparatingPlane& plane);
+  void place_anew(std::span<const SeparatingPlane> planes, const Aside& aside);
   Result count_fates();
   void find_struck(std::span<const SeparatingPlane> planes);
 
@@ -145,6 +150,7 @@ SeparatingPlaneFilter::Result SeparatingPlaneFilter::find_ends(std::span<Separat
       fates_[i] = place(i, planes, aside, points_[i], ends_[i]);
     }
   });
+  straighten_planes(planes, aside);
   update_planes(planes, aside);
   find_struck(planes);
   return count_fates();

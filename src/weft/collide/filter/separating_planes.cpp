@@ -121,11 +121,11 @@ void put_levels(const MovingFeature& a, const MovingFeature& b, SeparatingPlane&
 }
 
 /// Extents of twice the middle Bernstein coefficients along a plane that turns, of two features
-/// that move to their safe positions.
+/// that move to these places.
 Reaches halfway_reaches(const SeparatingPlane& plane, const MovingFeature& a,
-                        const MovingFeature& b) {
+                        const MovingFeature& b, FeaturePlaces places) {
   const auto along = [&](const MovingFeature& of, int k) {
-    return dot(plane.normal, of.safe_position[k]) + dot(plane.turned, of.start[k]);
+    return dot(plane.normal, (of.*places)[k]) + dot(plane.turned, of.start[k]);
   };
   Reaches found{HUGE_VAL, -HUGE_VAL};
   for (int k = 0; k < a.count; ++k) found.a = std::min(found.a, along(a, k));
@@ -133,23 +133,58 @@ Reaches halfway_reaches(const SeparatingPlane& plane, const MovingFeature& a,
   return found;
 }
 
+/// The direction between the closest points of two features at these places; where it turns too far
+/// from the plane's normal, that.
+Vec3d turned_normal(const SeparatingPlane& plane, const MovingFeature& a, const MovingFeature& b,
+                    FeaturePlaces places) {
+  const ClosestPair closest = closest_points({a.*places, a.count}, {b.*places, b.count});
+  const Vec3d turned = normalized(closest.a - closest.b);
+  return dot(turned, plane.normal) > min_cosine ? turned : plane.normal;
+}
+
 /// Turns a plane as the direction between the closest points turns from the start to the safe
 /// positions, and places it between these. It is not fitted to the proposed ends: where planes turn
-/// there is no room to be shared anew.
-void turn(const MovingFeature& a, const MovingFeature& b, SeparatingPlane& plane) {
-  const ClosestPair closest =
-      closest_points({a.safe_position, a.count}, {b.safe_position, b.count});
-  const Vec3d turned = normalized(closest.a - closest.b);
-  if (turned == plane.normal || !(dot(turned, plane.normal) > min_cosine)) return;
-  plane.turned = turned;
+/// to safe positions there is no room to be shared anew.
+void turn_to_safe_positions(const MovingFeature& a, const MovingFeature& b,
+                            SeparatingPlane& plane) {
+  plane.turned = turned_normal(plane, a, b, &MovingFeature::safe_position);
+  if (plane.turned == plane.normal) return;
   plane.turns = true;
   put_levels(a, b, plane);
   plane.at_end = plane.still;
-  const Reaches halfway = halfway_reaches(plane, a, b);
+  const Reaches halfway = halfway_reaches(plane, a, b, &MovingFeature::safe_position);
   plane.halfway = levels_between(b, halfway, margin_for(b, halfway));
 }
 
+/// Whether two features that end at these extents are on their sides of these levels.
+bool heed(Reaches reached, PlaneLevels levels) {
+  return reached.a >= levels.a && reached.b <= levels.b;
+}
+
+/// Lets a plane that the proposed ends do not heed turn with them, if they do so without meeting:
+/// as parts of a layer do that swings by more than lies between them.
+void turn_to_ends(const MovingFeature& a, const MovingFeature& b, SeparatingPlane& plane) {
+  if (heed(reaches(plane.normal, a, b, &MovingFeature::end), plane.at_end)) return;
+  SeparatingPlane turning = plane;
+  turning.turned = turned_normal(plane, a, b, &MovingFeature::end);
+  const double margin = margin_for(b, reaches(plane.normal, a, b, &MovingFeature::start));
+  const Reaches ends = reaches(turning.turned, a, b, &MovingFeature::end),
+                halfway = halfway_reaches(turning, a, b, &MovingFeature::end);
+  turning.at_end = levels_between(b, ends, margin);
+  turning.halfway = levels_between(b, halfway, 2 * margin);
+  turning.straight = plane.at_end;
+  turning.turns = turning.follows_ends = true;
+  if (heed(ends, turning.at_end) && heed(halfway, turning.halfway)) plane = turning;
+}
+
 }  // namespace
+
+void straighten(SeparatingPlane& plane) {
+  plane.turned = plane.normal;
+  plane.at_end = plane.straight;
+  plane.halfway = {-HUGE_VAL, HUGE_VAL};
+  plane.follows_ends = false;
+}
 
 Separation separate(const MovingFeature& a, const MovingFeature& b, const PlaneOptions& options,
                     SeparatingPlane& out) {
@@ -166,7 +201,10 @@ Separation separate(const MovingFeature& a, const MovingFeature& b, const PlaneO
   put_closest(b, closest, out);
   out.turned = out.normal;
   put_levels(a, b, out);
-  if (options.turn) turn(a, b, out);
+  if (options.turn)
+    turn_to_safe_positions(a, b, out);
+  else
+    turn_to_ends(a, b, out);
   if (b.body)
     out.body_displacement =
         max_along(out.turned, b.end, b.count) - max_along(out.turned, b.start, b.count);

@@ -28,6 +28,10 @@ struct SeparatingPlane {
   /// point along such a plane is a quadratic function of time; start, end and this coefficient keep
   /// it on its side.
   PlaneLevels halfway;
+  /// Whether it turns with the proposed ends, for points that stay at those; for others it is
+  /// straight, with these levels.
+  bool follows_ends = false;
+  PlaneLevels straight{};
   double body_displacement = 0;  ///< how far a body on side b moves along it during the step [m]
   std::array<int, 6> points{};   ///< of all cloths: side a's, then side b's; bodies have none here
   int count_a = 0, count_b = 0;
@@ -46,6 +50,9 @@ struct MovingFeature {
   int count = 3;
   bool body = false;
 };
+
+/// Makes a plane straight that follows the proposed ends.
+void straighten(SeparatingPlane& plane);
 
 struct PlaneOptions {
   double slack = 0;   ///< how far points may still be projected [m]
