@@ -77,6 +77,21 @@ TEST(EnergyBudget, TellsStepsThatStretchSpringsWildly) {
   EXPECT_FALSE(faster.budget.measure_added({0}, Drive::bodies).wild);
 }
 
+/// Seams may gain what they like, but cloth that they pull through other cloth is torn by the
+/// filter.
+TEST(EnergyBudget, WhileSeamsAreSewnWildStretchingAloneIsTooMuch) {
+  const auto stretched = [](float factor) {
+    MadeUpStep step;
+    step.stretch(factor);
+    return step.budget.measure_added({0}, Drive::seams);
+  };
+  EXPECT_TRUE(stretched(1).calm);
+  EXPECT_FALSE(stretched(1.01F).too_much);
+  EXPECT_TRUE(stretched(1.5F).too_much);
+  EXPECT_FALSE(stretched(1.5F).calm);
+  EXPECT_EQ(stretched(1.5F).excess, 0);
+}
+
 TEST(EnergyBudget, WhatASolveGainsCountsWhereNothingMovesTheCloth) {
   MadeUpStep step;
   step.stretch(1.05F, true);

@@ -120,5 +120,13 @@ TEST(StepLevels, ASolveThatRanAwayIsHalvedEvenWhereHalvingDidNotHelpBefore) {
   EXPECT_FALSE(walk.may_halve_wild());
 }
 
+TEST(StepLevels, AreFewWhileSeamsAreSewn) {
+  StepWalk walk(1, {});
+  int halved = 0;
+  for (; walk.may_halve_sewn(); ++halved) walk.halve();
+  EXPECT_EQ(halved, 2) << "beyond those that bodies require";
+  EXPECT_TRUE(walk.may_halve());
+}
+
 }  // namespace
 }  // namespace weft

@@ -101,6 +101,11 @@ class StepWalk {
   /// Number of steps of the current length before this one.
   [[nodiscard]] int index() const { return done_ >> (finest_level - level_); }
   [[nodiscard]] bool may_halve() const { return level_ < max_level_; }
+  /// The same while seams are sewn: where cloth is caught between others at a seam that cannot
+  /// close, every step is bad.
+  [[nodiscard]] bool may_halve_sewn() const {
+    return may_halve() && level_ < min_level_ + max_levels_sewn;
+  }
   /// The same for a step in which points fall back while bodies move: the shorter, the less these
   /// push them, even where halving has not helped against other faults.
   [[nodiscard]] bool may_halve_fallen() const {
@@ -122,6 +127,7 @@ class StepWalk {
 
  private:
   static constexpr int whole = max_subdivisions;
+  static constexpr int max_levels_sewn = 2;  // beyond those that bodies require
   int min_level_, first_, level_, max_level_, max_fallen_level_;
   int done_ = 0;  // in units of the shortest step
   bool calm_ = true, forced_ = false, halved_ = false;

@@ -18,7 +18,8 @@ constexpr double max_added_part = 0.3, max_added = 0.01;
 constexpr double max_subdivisions_for_solves = 8;
 /// A step that is too much is wild if what follows its solve stretches springs by this part of m g
 /// times the cloth's side length. Such springs draw points many cells far at once, of which the
-/// filter allows hardly a gap; only in the shortest steps do they draw them less.
+/// filter allows hardly a gap; only in the shortest steps do they draw them less. While seams are
+/// sewn this alone is too much.
 constexpr double wild_part = 0.1;
 /// A step that adds less than this part of the limit is calm.
 constexpr double calm_part = 0.2;
@@ -125,17 +126,21 @@ EnergyBudget::Added EnergyBudget::measure_added(const StepWork& work, Drive driv
   }
   Added added{end.total() - solved.total()};
   added.work = work_of(work, added.energy);
+  const double stretched = end.elastic - solved.elastic, wild = wild_part / lent_part * lent_;
+  // What cloth gains while it is sewn is the work of its seams, which end it where they close; what
+  // the filter stretches is not.
+  if (drive == Drive::seams) {
+    added.too_much = !(stretched <= wild);
+    added.calm = stretched < calm_part * wild;
+    return added;
+  }
   double gained = end.total() - start.total() - added.work;
   if (drive != Drive::none) gained = std::min(gained, added.energy);
-  const bool sewing = drive == Drive::seams;
-  const double limit = limit_for(solved, mass);
-  // What cloth gains while it is sewn is the work of its seams, which end it where they close.
-  if (!sewing)
-    added.excess = std::max(0.0, std::min(gained, end.total() - added.work - max_energy_));
+  const double limit = limit_for(solved, mass), fault = std::max(stretched, gained);
+  added.excess = std::max(0.0, std::min(gained, end.total() - added.work - max_energy_));
   added.unpaid = added.excess - removable(added.excess) > max_unpaid_part * lent_;
-  const double fault = std::max(end.elastic - solved.elastic, gained);
-  added.too_much = !sewing && (!(fault <= limit) || added.unpaid);
-  added.wild = added.too_much && end.elastic - solved.elastic > wild_part / lent_part * lent_;
+  added.too_much = !(fault <= limit) || added.unpaid;
+  added.wild = added.too_much && stretched > wild;
   added.calm = fault < calm_part * limit;
   return added;
 }

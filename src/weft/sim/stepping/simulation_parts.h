@@ -93,7 +93,7 @@ struct Simulation::Parts : LoadedScene {
     double pushed = 0;     // energy that response and filter added beside it while bodies moved [J]
     double lost_time = 0;  // by which a shortened step lags behind [s]
   };
-  /// What may become of a trial step that is bad; halving comes first.
+  /// What may become of a trial step that is bad; halving comes first, but while seams are sewn.
   struct StepChoices {
     bool halve = false;         // it may be halved
     bool halve_wild = false;    // it may be halved if it ran away or is wild
@@ -105,6 +105,8 @@ struct Simulation::Parts : LoadedScene {
   /// Computes a trial step of all cloths, to be finished or refused by the caller.
   /// @param seconds  at the end of the step
   Tried try_step(double seconds, StepChoices choices, FrameReport& report);
+  /// Puts samples of seams together that have met, which is the seams' work, not the filter's.
+  void close_seams();
   /// Computes the proposals of all cloths, with contact detection at the guesses and, where solves
   /// go far, again.
   void solve_all(FrameReport& report);

@@ -46,8 +46,8 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
     }
     const Tried tried = try_step(
         seconds,
-        {walk.may_halve(), walk.may_halve_wild(), driven.any_moves() && walk.may_halve_fallen(),
-         may_solve_again() && repeats < max_repeats},
+        {garments.any_open() ? walk.may_halve_sewn() : walk.may_halve(), walk.may_halve_wild(),
+         driven.any_moves() && walk.may_halve_fallen(), may_solve_again() && repeats < max_repeats},
         report);
     if (tried.refused) refuse_step();
     if (tried.repeat) {
@@ -75,8 +75,7 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
       !stability.check_proposals({frame, time_step, seconds, collider->crossings()},
                                  choices.halve_wild && (watched || may_solve_again()), solvers());
   if (tried.refused) return tried;
-  for (std::size_t i = 0; i < cloths.size(); ++i)
-    garments.close(i, movers[i].integrator->proposal());
+  close_seams();
   if (watched) tried.forces_work.solve = measure_driven_work();
   Stopwatch clock;
   tried.filtered = collider->filter(
@@ -95,6 +94,15 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
     tried.verdict = StepVerdict::forced;
   }
   return tried;
+}
+
+void Simulation::Parts::close_seams() {
+  if (!garments.any_open()) return;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    ClothState& next = movers[i].integrator->proposal();
+    garments.close(i, next);
+    if (watched) movers[i].solved = movers[i].meter.measure(next);
+  }
 }
 
 void Simulation::Parts::solve_all(FrameReport& report) {
@@ -124,8 +132,9 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
       fallen || added.too_much || (!sewing_now && energy.solve_is_lost(time_step / substep_time));
   const bool halve =
       (added.wild && choices.halve_wild) || (fallen ? choices.refuses_fallen() : choices.halve);
+  // Seams pull whatever the step's length: contacts first, then shorter steps.
   tried.repeat =
-      bad && !sewing_now && !halve && choices.repeat && collider->learn_struck(moving, time_step);
+      bad && (sewing_now || !halve) && choices.repeat && collider->learn_struck(moving, time_step);
   tried.refused = tried.repeat || (bad && halve);
   tried.verdict = fallen       ? StepVerdict::fallen
                   : bad        ? StepVerdict::forced
