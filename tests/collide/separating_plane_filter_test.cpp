@@ -113,5 +113,34 @@ TEST(SeparatingPlaneFilter, StraightensPlanesOfPointsThatDoNotStayAtTheirEnds) {
   EXPECT_EQ(straight.at_end, straight.straight);
 }
 
+/// Point 1 may stay at its end until point 0 below it is stopped. The plane that turned with that
+/// end is straight then, too.
+TEST(SeparatingPlaneFilter, StraightensPlanesOfPointsThatAreStoppedLater) {
+  Held held;
+  held.add_point({0, 0.05F, 0}, {0, -0.3F, 0});
+  held.add_point({0, 0.1F, 0}, {0, -0.2F, 0});
+  held.add_plane(0, {0, 1, 0}, 0.03);  // a floor, too far for point 0 to be put onto it
+  SeparatingPlane between;
+  between.normal = between.turned = {0, 1, 0};
+  between.points = {1, 0};
+  between.count_a = between.count_b = 1;
+  between.at_end = {-0.25, -0.25};
+  between.still = {0.075, 0.075};
+  held.planes.push_back(between);
+  SeparatingPlane turning;
+  turning.normal = {-1, 0, 0};
+  turning.turned = normalized(Vec3d{-1, 0.5, 0});
+  turning.points[0] = 1;
+  turning.count_a = 1;
+  turning.turns = turning.follows_ends = true;
+  turning.at_end.a = turning.halfway.a = -0.3;
+  turning.straight.a = turning.still.a = -0.01;
+  held.planes.push_back(turning);
+  EXPECT_EQ(held.hold(0.001, 0.05).stopped, 2);
+  EXPECT_GE(held.points[1].end.y, 0.075F);
+  EXPECT_FALSE(held.planes[2].follows_ends);
+  EXPECT_EQ(held.planes[2].turned, turning.normal);
+}
+
 }  // namespace
 }  // namespace weft

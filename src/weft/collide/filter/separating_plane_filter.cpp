@@ -131,7 +131,9 @@ bool SeparatingPlaneFilter::make_still(std::span<SeparatingPlane> planes, int in
     if (still_[side.plane] != 0) continue;
     still_[side.plane] = 1;
     SeparatingPlane& plane = planes[side.plane];
-    if (plane.at_end == plane.still) continue;
+    const bool turned = plane.follows_ends;
+    if (turned) straighten(plane);
+    if (!turned && plane.at_end == plane.still) continue;
     plane.at_end = plane.still;
     changed = true;
     mark_anew(plane);
