@@ -28,10 +28,10 @@ struct SeparatingPlane {
   /// point along such a plane is a quadratic function of time; start, end and this coefficient keep
   /// it on its side.
   PlaneLevels halfway;
-  /// Whether it turns with the proposed ends, for points that stay at those; for others it is
-  /// straight, with these levels.
+  /// Whether it turns with the proposed ends. It does for points that stay at those; for others it
+  /// is straight, see straighten.
   bool follows_ends = false;
-  PlaneLevels straight{};
+  PlaneLevels straight{};        ///< levels along `normal` of one that does
   double body_displacement = 0;  ///< how far a body on side b moves along it during the step [m]
   std::array<int, 6> points{};   ///< of all cloths: side a's, then side b's; bodies have none here
   int count_a = 0, count_b = 0;
@@ -42,6 +42,9 @@ struct SeparatingPlane {
   int body = -1;                              ///< number of the body on side b, -1: none
 };
 
+/// Gives a plane that follows the proposed ends its levels along the normal at the start.
+void straighten(SeparatingPlane& plane);
+
 /// A convex feature of a moving surface: an edge or a triangle.
 struct MovingFeature {
   std::array<Vec3d, 3> start, end;
@@ -50,9 +53,6 @@ struct MovingFeature {
   int count = 3;
   bool body = false;
 };
-
-/// Makes a plane straight that follows the proposed ends.
-void straighten(SeparatingPlane& plane);
 
 struct PlaneOptions {
   double slack = 0;   ///< how far points may still be projected [m]
