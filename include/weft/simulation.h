@@ -140,6 +140,8 @@ struct SimulationState {
   std::vector<StruckContact> struck{};
   /// Of each cloth, where its pins hold it, which a hand may have changed. [m]
   std::vector<std::vector<Vec3d>> pin_targets{};
+  /// Of each cloth whether seams that it is sewn by are closed, and have not been tight since.
+  std::vector<char> fitted{};
   StepLevels levels{};         ///< of the next substep
   WorkDone work{};             ///< up to this frame
   int frames_unexplained = 0;  ///< consecutive ones up to this, with energy that nothing put in

@@ -56,6 +56,8 @@ class HeldApart {
  public:
   HeldApart() {
     cloth_.place([](int r, int c) { return Vec3d{0.1 * c, r == 2 ? 0.002 : 0, 0.1 * r}; });
+    ThreadTeam team(1);
+    world_.place_bodies(team);
   }
   /// What the next step knows of a step in which planes held back points and both went somewhere.
   std::span<const StruckContact> kept(Vec3f upper_way, Vec3f lower_way,
@@ -110,6 +112,24 @@ TEST(StruckContacts, ABodyThatMovesIsTakenToMoveOn) {
   EXPECT_FLOAT_EQ(kept[0].shared.contact.offset, 0.002F + 0.03F) << "where the body begins";
   EXPECT_FLOAT_EQ(kept[0].body_velocity.y, 0.03F * 240);
   EXPECT_TRUE(samples.kept({}, {}, {before_body()}).empty()) << "the body went its way";
+}
+
+/// An edge of a fold and one of a facet below it have a plane that lies across the body. Held apart
+/// along that, cloth could not slide.
+TEST(StruckContacts, BodiesPressAlongTheirNormals) {
+  HeldApart samples;
+  SeparatingPlane across = before_body();
+  across.body_point_displacement = {};
+  for (const Vec3d normal : {Vec3d{0.8, 0.6, 0}, Vec3d{1, 0, 0}, normalized(Vec3d{1, -0.2, 0})}) {
+    across.normal = across.turned = normal;
+    const std::span<const StruckContact> kept = samples.kept({}, {}, {across});
+    ASSERT_EQ(kept.size(), 1U);
+    EXPECT_NEAR(kept[0].shared.contact.normal.y, 1, 1e-3) << normal.x;
+    EXPECT_NEAR(kept[0].shared.contact.offset, 0.002, 1e-5) << normal.x;
+  }
+  across.normal = across.turned = normalized(Vec3d{0.3, 1, 0});
+  EXPECT_FLOAT_EQ(samples.kept({}, {}, {across})[0].shared.contact.normal.x,
+                  static_cast<float>(across.normal.x));
 }
 
 TEST(StruckContacts, TheNextStepHoldsApartWhatMovesTogether) {

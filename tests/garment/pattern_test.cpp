@@ -84,6 +84,20 @@ TEST(PatternFile, NotesCirclesThatDoNotReachFromEndToEnd) {
       << notes[0];
 }
 
+TEST(PatternFile, NotesKeysThatNothingReads) {
+  const std::string curved =
+      replaced(tube(), R"({"endpoints":[0,1]})",
+               R"({"endpoints":[0,1],"curvatur":{"type":"circle","params":[30,0,0]}})");
+  const std::vector<std::string> notes =
+      parse_pattern(replaced(curved, R"("translation")", R"("translate":[0,0,0],"translation")"),
+                    "p")
+          .notes;
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_NE(notes[0].find(R"(': key "translate" is not known)"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[1].find(R"(', edge 0: key "curvatur" is not known)"), std::string::npos)
+      << notes[1];
+}
+
 TEST(PatternFile, TurnsPanelsAboutXThenYThenZ) {
   PatternPanel panel;
   panel.rotate = {90, 90, 0};

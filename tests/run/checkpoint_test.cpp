@@ -46,6 +46,7 @@ Checkpoint sample() {
   }
   checkpoint.state = {3, {numbered(5, 1), numbered(6, 100)}};
   checkpoint.state.frames_unexplained = 1;
+  checkpoint.state.fitted = {0, 1};
   checkpoint.state.contacts = {{}, {{{1, 2, -1, -1}, 1, {0, 1, 0}, {3, -4, 5}, 6, 7}}};
   for (const float offset : {0.25F, 0.5F}) {
     StruckContact struck;
@@ -88,6 +89,7 @@ TEST(Checkpoint, ReadsBackBitByBit) {
   EXPECT_EQ(read->history[2].buried, 7 * 3);
   EXPECT_EQ(read->history[2].lost_time, 1e-3 * 3);
   EXPECT_EQ(read->state.frames_unexplained, 1);
+  EXPECT_EQ(read->state.fitted, (std::vector<char>{0, 1}));
   EXPECT_EQ(read->verification.swallowed.frame, 2);
   EXPECT_EQ(read->verification.swallowed.count, 1LL << 40);
   ASSERT_EQ(read->state.cloths.size(), 2);
@@ -130,8 +132,8 @@ TEST(Checkpoint, RefusalsSayWhatIsWrong) {
   const std::string whole = encode_checkpoint(sample());
   EXPECT_NE(refusal("").find("is no checkpoint"), std::string::npos);
   std::string other_format = whole;
-  other_format[8] = 14;
-  EXPECT_NE(refusal(other_format).find("format 14 instead of 13"), std::string::npos);
+  other_format[8] = 15;
+  EXPECT_NE(refusal(other_format).find("format 15 instead of 14"), std::string::npos);
   std::string other_version = whole;
   other_version[header_bytes + 8] = '7';
   EXPECT_NE(refusal(hashed_again(other_version)).find("written by weft 7"), std::string::npos);

@@ -194,6 +194,38 @@ TEST_F(Sewing, TearsNothingWhereItIsTooNarrow) {
   EXPECT_EQ(simulation.intersections().total(), 0);
 }
 
+/// A cone, 72 cm round where a tube closes about it, on which what has friction does not slide.
+SceneBody steep_cone() {
+  SceneBody cone;
+  cone.surface = "builtin:cone";
+  cone.size = 65;
+  cone.placement.scale = {0.8, 20, 0.8};
+  cone.placement.translate = {0, 1.9, 0};
+  cone.friction = 1;
+  return cone;
+}
+
+TEST_F(Sewing, SlidesToWhereItFits) {
+  scene_.bodies = {steep_cone()};
+  scene_.cloths[0].spacing = 0.04;
+  Simulation simulation(scene_, "scene", 1), resumed(scene_, "scene", 1);
+  SimulationState state;
+  double when_closed = 0;
+  FrameReport report;
+  for (int frame = 0; frame < 25; ++frame) {
+    const bool was_open = frame == 0 || report.seam_gap > 0;
+    report = simulation.advance();
+    if (frame > 15) resumed.advance();
+    if (was_open && report.seam_gap == 0) when_closed = report.strain.p99;
+    if (frame != 15) continue;
+    simulation.save(state);
+    resumed.restore(state);
+  }
+  EXPECT_GT(when_closed, 0.1);
+  EXPECT_LT(report.strain.p99, 0.03);
+  EXPECT_EQ(simulation.state_hash(), resumed.state_hash());
+}
+
 TEST_F(Sewing, PanelsBeginClearOfThinBodies) {
   // A needle of 4 mm through both panels, between their samples.
   scene_.bodies[0].surface = "builtin:box";

@@ -164,6 +164,8 @@ class Collider {
   virtual void commit() noexcept {}
   /// Discards the step: bodies and the marks of samples return to the last commit.
   virtual void rollback() noexcept {}
+  /// Ends a frame: drops what is known for its steps alone.
+  virtual void end_frame() noexcept {}
   /// Drops what earlier steps cached to shorten searches: what follows depends on states, marks and
   /// struck contacts alone.
   virtual void forget() noexcept {}

@@ -91,9 +91,10 @@ void ContactPipeline::rollback() noexcept {
 
 void ContactPipeline::forget() noexcept {
   filter_.forget();
-  struck_.begin_frame();
   world_.pairs().forget();
 }
+
+void ContactPipeline::end_frame() noexcept { struck_.end_frame(); }
 
 void ContactPipeline::save_marks(std::size_t cloth, std::vector<int>& marks) const {
   world_.cloths[cloth].body_contacts->save(marks);

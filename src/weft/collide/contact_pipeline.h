@@ -58,6 +58,7 @@ class ContactPipeline final : public Collider {
   }
   void commit() noexcept override;
   void rollback() noexcept override;
+  void end_frame() noexcept override;
   void forget() noexcept override;
   void save_marks(std::size_t cloth, std::vector<int>& marks) const override;
   void restore_marks(std::size_t cloth, std::span<const int> marks) override;

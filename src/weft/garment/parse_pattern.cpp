@@ -1,5 +1,8 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -203,6 +206,30 @@ Stitch read_stitch(const Node& node, const Pattern& pattern,
   return stitch;
 }
 
+/// Keys of panels and of their edges.
+constexpr std::array panel_keys{"translation", "rotation", "vertices", "edges", "label"};
+constexpr std::array edge_keys{"endpoints", "curvature", "label"};
+constexpr std::size_t most_notes = 8;
+
+/// Notes the keys of an object that nothing reads, each once: one may be meant for another.
+void note_unknown(const json& object, std::span<const char* const> known, const std::string& place,
+                  std::vector<std::string>& notes) {
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    const std::string note = fmt::format("key {} is not known", json_text(json(key)));
+    const auto same = [&](const std::string& told) { return told.ends_with(note); };
+    if (notes.size() < most_notes && std::none_of(notes.begin(), notes.end(), same))
+      notes.push_back(fmt::format("{}: {}", place, note));
+  }
+}
+
+void note_unknown_keys(const std::string& name, const json& panel, Pattern& pattern) {
+  note_unknown(panel, panel_keys, fmt::format("panel '{}'", name), pattern.notes);
+  for (std::size_t k = 0; k < panel["edges"].size(); ++k)
+    note_unknown(panel["edges"][k], edge_keys, fmt::format("panel '{}', edge {}", name, k),
+                 pattern.notes);
+}
+
 }  // namespace
 
 Vec3d PatternPanel::placed(Vec2d point) const {
@@ -238,6 +265,7 @@ Pattern parse_pattern(std::string_view text, const std::string& name) {
     panel_by_name[key] = static_cast<int>(pattern.panels.size());
     pattern.panels.push_back(
         read_panel({value, fmt::format("{}: panel '{}'", name, key)}, key, coordinates));
+    note_unknown_keys(key, value, pattern);
   }
   if (body.value.contains("stitches"))
     for (std::size_t k = 0; k < body.at("stitches").list(0).value.size(); ++k)

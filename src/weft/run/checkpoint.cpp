@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Seal seal_of_checkpoints{"WEFTCKPT", 13, "checkpoint",
+constexpr Seal seal_of_checkpoints{"WEFTCKPT", 14, "checkpoint",
                                    "a run without --resume starts afresh"};
 
 /// Visits every field of a frame report in the order of the file; a field missing here would be

@@ -183,6 +183,7 @@ bool read_parts_of_cloths(ByteReader& in, SimulationState& state) {
     return next_contacts(samples_of(state.cloths[i]), most, in);
   };
   const auto targets = [&](std::size_t) { return next_targets(in); };
+  for (std::size_t i = 0; i < cloths; ++i) state.fitted.push_back(in.next<std::uint8_t>() != 0);
   return read_each(cloths, state.marks, marks) && read_each(cloths, state.contacts, contacts) &&
          read_each(cloths, state.pin_targets, targets);
 }
@@ -194,6 +195,8 @@ void add_state(const SimulationState& state, ByteWriter& out) {
   const std::size_t cloths = state.cloths.size();
   out.add(static_cast<std::uint32_t>(cloths));
   for (const ClothState& cloth : state.cloths) add_cloth(cloth, out);
+  for (std::size_t i = 0; i < cloths; ++i)
+    out.add(static_cast<std::uint8_t>(i < state.fitted.size() ? state.fitted[i] : 0));
   for (std::size_t i = 0; i < cloths; ++i) add_marks(part_of(state.marks, i), out);
   for (std::size_t i = 0; i < cloths; ++i) add_contacts(part_of(state.contacts, i), out);
   for (std::size_t i = 0; i < cloths; ++i) add_targets(part_of(state.pin_targets, i), out);

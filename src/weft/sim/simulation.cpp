@@ -121,6 +121,7 @@ FrameReport Simulation::advance() {
                std::max(parts_->frame + 1, parts_->scene.frames));
     parts_->substep(parts_->frame * substeps + substep, report);
   }
+  parts_->collider->end_frame();
   report.milliseconds += clock.lap_ms();
   parts_->measure(report);
   report.buried = parts_->buried.count();
@@ -132,6 +133,7 @@ void Simulation::watch(StepWatcher* watcher) { parts_->watcher = watcher; }
 
 void Simulation::save(SimulationState& state) const {
   state.frame = parts_->frame;
+  state.fitted = parts_->garments.fitted();
   state.levels = parts_->levels;
   state.work = parts_->energy.work();
   state.frames_unexplained = parts_->stability.frames_beyond();
@@ -165,6 +167,7 @@ void Simulation::restore(const SimulationState& state) {
     const std::size_t both = std::min(pins.size(), state.pin_targets[i].size());
     for (std::size_t k = 0; k < both; ++k) pins[k].target = state.pin_targets[i][k];
   }
+  parts_->garments.restore_fitted(state.fitted);
   parts_->follow_sewing();
   if (parts_->driven.any_moves()) {
     parts_->resume_bodies();
@@ -195,7 +198,7 @@ void Simulation::let_go() {
 bool Simulation::holds() const { return parts_->grab.holds(); }
 
 bool Simulation::is_at_rest() const {
-  const bool driven = parts_->driven.any_moves() || holds() || parts_->garments.any_open();
+  const bool driven = parts_->driven.any_moves() || holds() || parts_->garments.any_sewn();
   if (driven || frame() == 0) return false;
   for (const Mover& mover : parts_->movers)
     if (mover.wind) return false;

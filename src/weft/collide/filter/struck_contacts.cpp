@@ -22,6 +22,11 @@ constexpr float firmness = 64;
 /// Also between cloths that keep a smaller gap: with that, or with all of them kept, a garment's
 /// seams pulled layers into each other's creases, where they stayed open by centimetres.
 constexpr double max_way = 0.1;
+/// Cosine of the angle between a plane's normal and that of the body beyond which a contact takes
+/// the latter. Where cloth is pressed onto facets, planes between their edges and folds lie across
+/// the surface: kept while the sides touch, they would hold what is to slide, as a waist up a hip,
+/// without any friction.
+constexpr double along_normal = 0.9;
 /// Distance beyond what a contact holds apart, in thicknesses, up to which its sides still touch.
 constexpr double still_touching = 0.05;
 
@@ -103,7 +108,7 @@ StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
   StruckContact out;
   Contact& contact = out.shared.contact;
   if (of.count == 0 || of.count > contact.samples.size()) return {};
-  const Vec3d normal = of.put_in_order() ? -1.0 * plane.normal : plane.normal;
+  Vec3d normal = of.put_in_order() ? -1.0 * plane.normal : plane.normal;
   contact.weights = {};
   Vec3d apart;
   PointCompliance compliance;
@@ -118,9 +123,25 @@ StruckContact StruckContacts::contact_of(const SeparatingPlane& plane,
   }
   out.compliance = compliance.value();
   out.body = plane.body;
+  if (out.body >= 0) normal = away_from_body(out, normal, plane.body_point);
   hold_apart(plane, normal, dot(normal, apart - plane.body_point), out);
   out.body_velocity = vec_cast<float>((1 / time_step) * plane.body_point_displacement);
   return out;
+}
+
+Vec3d StruckContacts::away_from_body(const StruckContact& one, Vec3d normal, Vec3d at) const {
+  const auto body = static_cast<std::size_t>(one.body);
+  const BodyQuery& query = *world_.bodies[body].query;
+  const CollidingCloth& cloth =
+      world_.cloths[static_cast<std::size_t>(one.shared.first)].properties;
+  const auto point = query.closest(at, cloth.thickness);
+  if (is_sewn(one) || !point) return normal;
+  const Vec3d outwards = query.normal_at(*point);
+  const double along = dot(outwards, normal);
+  if (std::abs(along) >= along_normal) return normal;
+  const bool is_in =
+      query.closed() ? !cloth.kept_in.empty() && cloth.kept_in[body] != 0 : along < 0;
+  return is_in ? -1.0 * outwards : outwards;
 }
 
 void StruckContacts::hold_apart(const SeparatingPlane& plane, Vec3d normal, double distance,
@@ -221,7 +242,7 @@ void StruckContacts::commit() {
   kept_.clear();
 }
 
-void StruckContacts::begin_frame() {
+void StruckContacts::end_frame() {
   std::erase_if(found_, [&](const StruckContact& one) { return is_sewn(one); });
 }
 

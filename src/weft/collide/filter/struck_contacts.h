@@ -38,7 +38,7 @@ class StruckContacts {
   [[nodiscard]] std::span<const StruckContact> found() const { return found_; }
   /// Drops contacts of cloth that is being sewn, whose layers have to give way: there they are of
   /// one step alone, and of its frame.
-  void begin_frame();
+  void end_frame();
   /// Begins with contacts of an earlier run, but those that are none in this world.
   void restore(std::span<const StruckContact> kept);
 
@@ -58,6 +58,9 @@ class StruckContacts {
   [[nodiscard]] StruckContact contact_of(const SeparatingPlane& plane,
                                          std::span<const MovingCloth> moving,
                                          double time_step) const;
+  /// The direction along which a contact with a body holds cloth off.
+  /// @param normal  of the plane, from the body  @param at  the body's point [m]
+  [[nodiscard]] Vec3d away_from_body(const StruckContact& one, Vec3d normal, Vec3d at) const;
   /// Gives a contact the normal, offset and friction of its pair.
   /// @param normal    of the plane, towards the contact's first side
   /// @param distance  of the closest points at the start of the step [m]

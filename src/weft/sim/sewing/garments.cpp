@@ -5,20 +5,23 @@
 
 namespace weft {
 
-bool Garments::any_open() const {
-  return std::any_of(cloths_.begin(), cloths_.end(),
-                     [](const SimulatedCloth& cloth) { return cloth.model->apart.has_value(); });
+bool Garments::any_sewn() const {
+  for (std::size_t i = 0; i < cloths_.size(); ++i)
+    if (is_sewn(i)) return true;
+  return false;
 }
 
 double Garments::gravity_part(std::size_t cloth, double seconds) const {
-  return is_open(cloth) ? sewing_[cloth]->gravity_part(seconds) : 1;
+  return is_sewn(cloth) ? sewing_[cloth]->gravity_part(seconds) : 1;
 }
 
 bool Garments::slides(std::size_t cloth, double seconds) const {
-  return is_open(cloth) && sewing_[cloth]->gravity_part(seconds) == 0;
+  if (!sewing_[cloth] || sewing_[cloth]->gravity_part(seconds) > 0) return false;
+  return is_open(cloth) || fitted_[cloth] == 0;
 }
 
 void Garments::note_sliding(double seconds) {
+  fitted_.resize(cloths_.size());
   sliding_.resize(cloths_.size());
   for (std::size_t i = 0; i < cloths_.size(); ++i) sliding_[i] = slides(i, seconds) ? 1 : 0;
 }
@@ -40,6 +43,7 @@ Garments::Changes Garments::begin_frame(double seconds, double length) {
     if (!sewing_[i]) continue;
     sewing_[i]->begin_frame(cloths_[i].state.position, seconds, length);
     const bool joined = join_closed(i);
+    if (!is_open(i) && !sewing_[i]->is_tight(cloths_[i].state.position)) fitted_[i] = 1;
     const bool other_stage = slides(i, seconds) != is_sliding(i);
     if (other_stage) std::swap(cloths_[i].model->bending, other_bending_[i]);
     const double before = sewing_[i]->part_closed(seconds - length),

@@ -10,7 +10,8 @@
 
 namespace weft {
 
-/// The cloths of a scene that are sewn from panels, until their seams are closed.
+/// The cloths of a scene that are sewn from panels, until their seams are closed and what these
+/// strained has slid to where it fits.
 class Garments {
  public:
   /// All are kept by reference.
@@ -20,13 +21,19 @@ class Garments {
            std::vector<BendingPlanes>& other_bending, std::vector<Gathers>& gathers)
       : cloths_(cloths), sewing_(sewing), other_bending_(other_bending), gathers_(gathers) {}
 
-  /// Whether any seam is open yet.
-  [[nodiscard]] bool any_open() const;
+  /// Whether any is being sewn.
+  [[nodiscard]] bool any_sewn() const;
+  /// Whether a cloth is being sewn: a seam is open yet, or it slides.
+  [[nodiscard]] bool is_sewn(std::size_t cloth) const {
+    return is_open(cloth) || is_sliding(cloth);
+  }
   [[nodiscard]] bool is_open(std::size_t cloth) const {
     return cloths_[cloth].model->apart.has_value();
   }
   /// Whether a cloth has no friction and is stiff: seams that close slide over what is between
-  /// them, and panels do not crumple, until gravity acts on what stays open.
+  /// them, and panels do not crumple, until gravity acts on what stays open. Closed round a wider
+  /// part of a body than they fit, seams slide on until they are tight no more: friction would hold
+  /// them there, a waist on the hips.
   /// @param seconds  since the run's start
   [[nodiscard]] bool slides(std::size_t cloth, double seconds) const;
   /// The part of gravity that acts on a cloth.
@@ -54,6 +61,12 @@ class Garments {
   void pull(std::size_t cloth, const Sewing::Step& step) {
     sewing_[cloth]->pull(step, cloths_[cloth].state);
   }
+  /// Of each cloth whether it may slide no more, for resuming a run.
+  [[nodiscard]] const std::vector<char>& fitted() const { return fitted_; }
+  void restore_fitted(const std::vector<char>& fitted) {
+    fitted_ = fitted;
+    fitted_.resize(cloths_.size());
+  }
   /// Of each seam the largest distance in a pair. [m]
   [[nodiscard]] std::vector<double> gaps(std::size_t cloth) const;
 
@@ -65,6 +78,7 @@ class Garments {
   std::vector<std::optional<Sewing>>& sewing_;
   std::vector<BendingPlanes>& other_bending_;
   std::vector<Gathers>& gathers_;
+  std::vector<char> fitted_;   // of each cloth: whether its seams are closed, and were not tight
   std::vector<char> sliding_;  // of each cloth: whether the collider's friction is none
 };
 

@@ -40,6 +40,8 @@ constexpr double closed = 5e-5;
 /// Cloth between samples is taken to hold them apart while their panels are pulled on at this part
 /// of the late speed at least. Where they are stretched more, it is they that do.
 constexpr double min_slack = 0.5;
+/// Mean stretch of the cloth along a seam from which on it is tight.
+constexpr double tight = 0.05;
 
 /// Where a body takes more than this part of a pull, its goal is behind the body, and a seam from
 /// which its panel hangs goes over it: straps over shoulders. `hanging` is how far upwards the way
@@ -368,6 +370,14 @@ bool Sewing::is_closed(const Planes3& position) const {
   };
   return std::all_of(garment_.seams.begin(), garment_.seams.end(), [&](const GarmentSeam& seam) {
     return std::all_of(seam.pairs.begin(), seam.pairs.end(), meets);
+  });
+}
+
+bool Sewing::is_tight(const Planes3& position) const {
+  return std::any_of(along_.begin(), along_.end(), [&](const std::vector<int>& classes) {
+    double sum = 0;
+    for (const int k : classes) sum += stretch_of(k, position);
+    return sum > tight * static_cast<double>(classes.size());
   });
 }
 

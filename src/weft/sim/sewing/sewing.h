@@ -61,6 +61,9 @@ class Sewing {
   /// Whether the samples of every pair lie in one place.
   [[nodiscard]] bool is_closed(const Planes3& position) const;
 
+  /// Whether cloth is stretched along any seam, as where that has closed round something wide.
+  [[nodiscard]] bool is_tight(const Planes3& position) const;
+
   /// Of each seam the largest distance in a pair. [m]
   [[nodiscard]] std::vector<double> gaps(const Planes3& position) const;
 

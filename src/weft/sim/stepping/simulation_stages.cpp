@@ -110,9 +110,9 @@ void Simulation::Parts::propose(std::size_t index) {
   SimulatedCloth& cloth = cloths[index];
   Mover& mover = movers[index];
   mover.air_work = mover.pulled_work = 0;
-  if (has_air() || garments.is_open(index)) mover.calm_velocity = cloth.state.velocity;
-  if (garments.any_open()) mover.unsewn_energy = mover.meter.measure(cloth.state).total();
-  if (garments.is_open(index)) sew(index);
+  if (has_air() || garments.is_sewn(index)) mover.calm_velocity = cloth.state.velocity;
+  if (garments.any_sewn()) mover.unsewn_energy = mover.meter.measure(cloth.state).total();
+  if (garments.is_sewn(index)) sew(index);
   const double gravity_part = garments.gravity_part(index, step_start);
   if (has_air() && gravity_part == 1) meet_air(index);
   mover.integrator->begin({time_step, vec_cast<float>(gravity_part * scene.gravity)}, cloth.state);
@@ -127,7 +127,7 @@ void Simulation::Parts::meet_air(std::size_t index) {
   const double before = mover.meter.kinetic(state.velocity);
   if (mover.wind) mover.wind->blow(time_step, state, solvers());
   // Where seams are open sewing damps.
-  if (scene.air_damping > 0 && !garments.is_open(index))
+  if (scene.air_damping > 0 && !garments.is_sewn(index))
     slow_down(model, 1 / (1 + scene.air_damping * time_step), state.velocity);
   mover.air_work = mover.meter.kinetic(state.velocity) - before;
 }

@@ -46,7 +46,7 @@ void Simulation::Parts::substep(int number, FrameReport& report) {
     }
     const Tried tried = try_step(
         seconds,
-        {garments.any_open() ? walk.may_halve_sewn() : walk.may_halve(), walk.may_halve_wild(),
+        {garments.any_sewn() ? walk.may_halve_sewn() : walk.may_halve(), walk.may_halve_wild(),
          driven.any_moves() && walk.may_halve_fallen(), may_solve_again() && repeats < max_repeats},
         report);
     if (tried.refused) refuse_step();
@@ -97,7 +97,7 @@ Simulation::Parts::Tried Simulation::Parts::try_step(double seconds, StepChoices
 }
 
 void Simulation::Parts::close_seams() {
-  if (!garments.any_open()) return;
+  if (!garments.any_sewn()) return;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
     ClothState& next = movers[i].integrator->proposal();
     garments.close(i, next);
@@ -111,7 +111,7 @@ void Simulation::Parts::solve_all(FrameReport& report) {
   Stopwatch clock;
   watched = free_guesses();
   report.collide_ms += clock.lap_ms();
-  if (watched) energy.lend(garments.any_open());
+  if (watched) energy.lend(garments.any_sewn());
   iterate_all();
   gather_moving();
   if (!watched || !solves_go_far()) return;
@@ -155,7 +155,7 @@ void Simulation::Parts::assess_step(StepChoices choices, Tried& tried) {
 }
 
 EnergyBudget::Drive Simulation::Parts::drive_now() const {
-  if (garments.any_open()) return EnergyBudget::Drive::seams;
+  if (garments.any_sewn()) return EnergyBudget::Drive::seams;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].moves && largest_displacement(bodies[i].positions, *driven.ends()[i]) > 0)
       return EnergyBudget::Drive::bodies;
@@ -170,7 +170,7 @@ void Simulation::Parts::refuse_step() {
   collider->rollback();
   moved_to.reset();
   for (std::size_t i = 0; i < cloths.size(); ++i)
-    if (has_air() || garments.is_open(i)) cloths[i].state.velocity = movers[i].calm_velocity;
+    if (has_air() || garments.is_sewn(i)) cloths[i].state.velocity = movers[i].calm_velocity;
   if (has_air()) energy.forget();
 }
 
@@ -184,7 +184,7 @@ void Simulation::Parts::finish_step(const Tried& tried, FrameReport& report) {
     done += movers[i].air_work;
     energy.add_pulled(movers[i].pulled_work);
   }
-  if (garments.any_open()) done = work_of_sewing();
+  if (garments.any_sewn()) done = work_of_sewing();
   energy.finish_step(done, watched);
   report.work += done;
   report.contacts = std::max(report.contacts, tried.contacts);
