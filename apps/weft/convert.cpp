@@ -9,6 +9,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -298,6 +299,7 @@ void check_args(const ConvertArgs& args) {
 
 void convert(const ConvertArgs& args, const Context& context) {
   check_args(args);
+  check_frame(args.frame, std::span(&args.mesh, 1));
   TerminalProgress progress(context.quiet || context.json);
   ConvertOptions options = options_of(args, context, progress);
   const auto start = std::chrono::steady_clock::now();

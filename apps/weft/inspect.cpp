@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -24,6 +26,8 @@ void compare_meshes(const InspectArgs& args, const Context& context);
 void inspect(const InspectArgs& args, const Context& context) {
   if (is_image_name(args.subject)) return inspect_image(args, context);
   if (is_pattern_name(args.subject)) return inspect_pattern(args, context);
+  check_frame(args.frame, args.against.empty() ? std::vector{args.subject}
+                                               : std::vector{args.subject, args.against});
   if (!args.against.empty()) return compare_meshes(args, context);
   inspect_mesh(args, context);
 }
@@ -42,11 +46,7 @@ void add_inspect(CLI::App& program, const Context& context) {
       ->check([](const std::string& mesh) { return mesh.empty() ? "a mesh is wanted" : ""; });
   add_mesh_options(*command, args->frame);
   command->footer("Example: weft inspect bunny.exr --against bunny.obj");
-  command->callback([args, &context, command] {
-    for (const char* option : {"--unit", "--up"})
-      if (command->count(option) > 0) args->frame_given.emplace_back(option);
-    inspect(*args, context);
-  });
+  command->callback([args, &context] { inspect(*args, context); });
 }
 namespace {
 
@@ -102,9 +102,10 @@ void say_image(const Context& context, const GeometryImage& image,
 }  // namespace
 
 void inspect_image(const InspectArgs& args, const Context& context) {
-  if (args.against.empty() && !args.frame_given.empty())
-    throw UsageError(args.frame_given.front(), "nothing is measured against a mesh",
+  if (args.against.empty() && !args.frame.given.empty())
+    throw UsageError(args.frame.given.front(), "nothing is measured against a mesh",
                      "--against MESH is wanted, or leave it out");
+  if (!args.against.empty()) check_frame(args.frame, std::vector{args.against});
   const GeometryImage image = read_image(args.subject);
   const ImageStatistics statistics = examine_image(image);
   Json found = image_json(image);

@@ -10,7 +10,6 @@ namespace weft::app {
 
 struct InspectArgs {
   MeshArgs frame;
-  std::vector<std::string> frame_given;  ///< the options of `frame` that were given
   std::string subject, against;
 };
 

@@ -55,8 +55,8 @@ void inspect_pattern(const InspectArgs& args, const Context& context) {
   if (!args.against.empty())
     throw UsageError("--against", "the subject is a sewing pattern",
                      "a mesh or an image is wanted");
-  if (!args.frame_given.empty())
-    throw UsageError(args.frame_given.front(), "the subject is a sewing pattern",
+  if (!args.frame.given.empty())
+    throw UsageError(args.frame.given.front(), "the subject is a sewing pattern",
                      "its file says its unit; leave it out");
   const Pattern pattern = read_pattern(args.subject);
   const Partners partners = partners_of(pattern);

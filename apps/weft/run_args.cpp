@@ -51,8 +51,22 @@ std::string open_seams(const SeamsReport& seams) {
                      seams.count, 1000 * seams.largest_gap, names);
 }
 
+/// How many seams are stretched, and the names of the tightest.
+std::string tight_seams(const std::vector<TightSeam>& tight) {
+  constexpr std::size_t most = 3;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(most, tight.size()); ++k)
+    names +=
+        fmt::format("{}{} {:.0f} %", k == 0 ? "" : ", ", tight[k].name, 100 * tight[k].stretch);
+  if (tight.size() > most) names += ", ...";
+  return fmt::format("{} seam{} too narrow for what {} round ({})", tight.size(),
+                     tight.size() == 1 ? " is" : "s are", tight.size() == 1 ? "it goes" : "they go",
+                     names);
+}
+
 /// Warns of seams that are open at the end, and of garments that nobody wears any more.
 void tell_garments(const Context& context, const RunReport& report) {
+  if (report.seams && !report.seams->tight.empty()) warn(context, tight_seams(report.seams->tight));
   // With verify it is an error that says the same.
   if (report.seams && !report.seams->open.empty() && !report.verification)
     warn(context, open_seams(*report.seams) +

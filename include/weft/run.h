@@ -61,12 +61,20 @@ struct OpenSeam {
   double gap = 0;           ///< [m]
 };
 
+/// A seam whose cloth is stretched, as it is too narrow for what it goes round.
+struct TightSeam {
+  std::string cloth, name;  ///< as of open ones
+  double stretch = 0;       ///< of the cloth beside it, as a part: see Simulation::seam_stretches
+};
+
 /// The seams of all garments of a run.
 struct SeamsReport {
   int count = 0, closed = 0;
   std::vector<OpenSeam> open{};  ///< in the last frame, the widest first
-  double largest_gap = 0;        ///< in the last frame [m]
-  std::optional<int> frames{};   ///< the first frame in which all were closed; nothing: none was
+  std::vector<TightSeam>
+      tight{};                  ///< those by more than 10 % in the last frame, the tightest first
+  double largest_gap = 0;       ///< in the last frame [m]
+  std::optional<int> frames{};  ///< the first frame in which all were closed; nothing: none was
 };
 
 struct RunOptions {

@@ -251,6 +251,9 @@ class Simulation {
   /// The largest distance between the two samples of a pair, for each seam of a garment; empty for
   /// other cloths. [m]
   [[nodiscard]] std::vector<double> seam_gaps(std::size_t cloth) const;
+  /// How much longer the cloth beside each seam of a garment is than at rest, as a part: the
+  /// largest stretch at each of its samples, on their mean; empty for other cloths.
+  [[nodiscard]] std::vector<double> seam_stretches(std::size_t cloth) const;
   /// How far a garment has sunk from where it is worn: the edges of that label, its collar or
   /// waist, that are farthest below where the pattern places them, on the mean of each label, or
   /// all of a garment without labels. Places go with the bodies. 0 for other cloths. [m]

@@ -252,6 +252,20 @@ class ExportsOfGarments(ProgramTest):
         self.assertIn("is no sewing pattern",
                       self.error_of("garment", "builtin:tshirt", "--body", "builtin:sphere", "-o", "mesh", code=3))
 
+    def test_seams_that_are_too_narrow_are_warned_of(self):
+        corners = [(x, y, z) for z in (-0.1, 0.1) for y in (0, 3) for x in (-0.09, 0.09)]
+        faces = ((1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6))
+        column = ["v {} {} {}".format(*corner) for corner in corners] + ["f {} {} {} {}".format(*face) for face in faces]
+        (self.folder / "column.obj").write_text("\n".join(column) + "\n")
+        done = self.run_weft("garment", "tube.json", "--body", "column.obj", "--spacing", "30", "--frames", "40",
+                             "-o", "run", "--json")
+        tight = json.loads(done.stdout)["seams"]["tight"]
+        stretches = [seam["stretch_percent"] for seam in tight]
+        self.assertEqual(stretches, sorted(stretches, reverse=True))
+        self.assertGreater(stretches[-1], 10)
+        self.assertEqual(tight[0]["cloth"], "garment")
+        self.assertRegex(done.stderr, f"too narrow for what .* round .{tight[0]['seam']} {stretches[0]:.0f} %")
+
     def test_panels_of_few_samples_are_warned_of(self):
         words = ["160" if word == "30" else word for word in self.words]
         said = self.run_weft(*words, "-o", "run").stderr

@@ -64,6 +64,12 @@ class Inspect(ProgramTest):
                 self.assertRegex(error, f"^weft: error: {words[0]}: .*leave it out$")
             self.run_weft("inspect", "s.exr", "--against", "square.obj", *words)
             self.run_weft("inspect", "square.obj", *words)
+            for command in (["inspect", "builtin:torus"], ["inspect", "builtin:torus", "--against", "builtin:cone"],
+                            ["inspect", "s.exr", "--against", "builtin:sphere"],
+                            ["convert", "builtin:torus", "-o", "t.exr"]):
+                error = self.error_of(*command, *words, code=2)
+                self.assertRegex(error, f"^weft: error: {words[0]}: .*metres with y up; leave it out$")
+            self.run_weft("inspect", "builtin:sphere", "--against", "square.obj", *words)
 
     def test_two_cubes_pushed_into_each_other_cross(self):
         found = self.run_json("inspect", self.write("two.obj", cube(0, 0) + cube(0.5, 8)))

@@ -191,6 +191,7 @@ TEST_F(Sewing, TearsNothingWhereItIsTooNarrow) {
   for (int frame = 0; frame < 60; ++frame) report = simulation.advance();
   EXPECT_GT(report.seam_gap, 0);
   EXPECT_LT(report.strain.p99, 0.8);
+  EXPECT_GT(std::ranges::max(simulation.seam_stretches(0)), 0.1);
   EXPECT_EQ(simulation.intersections().total(), 0);
 }
 
@@ -223,6 +224,7 @@ TEST_F(Sewing, SlidesToWhereItFits) {
   }
   EXPECT_GT(when_closed, 0.1);
   EXPECT_LT(report.strain.p99, 0.03);
+  EXPECT_LT(std::ranges::max(simulation.seam_stretches(0)), 0.05);
   EXPECT_EQ(simulation.state_hash(), resumed.state_hash());
 }
 

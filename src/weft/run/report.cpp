@@ -127,11 +127,16 @@ OrderedJson seams_json(const SeamsReport& seams) {
   OrderedJson open = OrderedJson::array();
   for (const OpenSeam& seam : seams.open)
     open.push_back({{"cloth", seam.cloth}, {"seam", seam.name}, {"gap_mm", 1000 * seam.gap}});
+  OrderedJson tight = OrderedJson::array();
+  for (const TightSeam& seam : seams.tight)
+    tight.push_back(
+        {{"cloth", seam.cloth}, {"seam", seam.name}, {"stretch_percent", 100 * seam.stretch}});
   return {{"count", seams.count},
           {"closed", seams.closed},
           {"largest_gap_mm", 1000 * seams.largest_gap},
           {"frames", seams.frames ? OrderedJson(*seams.frames) : OrderedJson()},
-          {"open", open}};
+          {"open", open},
+          {"tight", tight}};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "weft/run.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,8 @@ namespace fs = std::filesystem;
 /// Upper bounds on the sizes of frames.csv and the manifests [bytes].
 constexpr std::size_t min_room = 16384, room_of_surface = 1024, room_of_frame = 256;
 
+/// Stretch along a seam beyond which a garment is too narrow there.
+constexpr double worth_telling = 0.1;
 /// How far the collar or waist of a garment may sink before it counts as fallen off. [m]
 constexpr double max_sunk = 0.2;
 
@@ -168,7 +171,8 @@ class Run {
   void report_seams(std::size_t cloth) {
     if (!report_.seams) report_.seams.emplace();
     SeamsReport& seams = *report_.seams;
-    const std::vector<double> gaps = simulation_.seam_gaps(cloth);
+    const std::vector<double> gaps = simulation_.seam_gaps(cloth),
+                              stretches = simulation_.seam_stretches(cloth);
     const SimulatedCloth& sewn = simulation_.cloths()[cloth];
     for (std::size_t k = 0; k < gaps.size(); ++k) {
       ++seams.count;
@@ -177,9 +181,11 @@ class Run {
         ++seams.closed;
       else
         seams.open.push_back({sewn.name, sewn.garment->seams[k].name, gaps[k]});
+      if (stretches[k] > worth_telling)
+        seams.tight.push_back({sewn.name, sewn.garment->seams[k].name, stretches[k]});
     }
-    std::stable_sort(seams.open.begin(), seams.open.end(),
-                     [](const OpenSeam& a, const OpenSeam& b) { return a.gap > b.gap; });
+    std::ranges::stable_sort(seams.open, std::ranges::greater(), &OpenSeam::gap);
+    std::ranges::stable_sort(seams.tight, std::ranges::greater(), &TightSeam::stretch);
   }
 
   void report_garments() {

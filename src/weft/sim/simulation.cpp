@@ -266,6 +266,10 @@ std::vector<double> Simulation::seam_gaps(std::size_t cloth) const {
   return parts_->garments.gaps(cloth);
 }
 
+std::vector<double> Simulation::seam_stretches(std::size_t cloth) const {
+  return parts_->garments.stretches(cloth);
+}
+
 double Simulation::sunk(std::size_t cloth) const {
   return parts_->worn_places[cloth].sunk(parts_->cloths[cloth].state.position, parts_->bodies);
 }

@@ -61,4 +61,9 @@ std::vector<double> Garments::gaps(std::size_t cloth) const {
                         : std::vector<double>();
 }
 
+std::vector<double> Garments::stretches(std::size_t cloth) const {
+  return sewing_[cloth] ? sewing_[cloth]->stretches(cloths_[cloth].state.position)
+                        : std::vector<double>();
+}
+
 }  // namespace weft

@@ -69,6 +69,8 @@ class Garments {
   }
   /// Of each seam the largest distance in a pair. [m]
   [[nodiscard]] std::vector<double> gaps(std::size_t cloth) const;
+  /// Of each seam the stretch of the cloth beside it, see Sewing.
+  [[nodiscard]] std::vector<double> stretches(std::size_t cloth) const;
 
  private:
   /// @return whether other samples are joined than before

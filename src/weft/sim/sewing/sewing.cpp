@@ -373,12 +373,19 @@ bool Sewing::is_closed(const Planes3& position) const {
   });
 }
 
-bool Sewing::is_tight(const Planes3& position) const {
-  return std::any_of(along_.begin(), along_.end(), [&](const std::vector<int>& classes) {
+std::vector<double> Sewing::stretches(const Planes3& position) const {
+  std::vector<double> stretches;
+  for (const std::vector<int>& classes : along_) {
     double sum = 0;
     for (const int k : classes) sum += stretch_of(k, position);
-    return sum > tight * static_cast<double>(classes.size());
-  });
+    stretches.push_back(sum / std::max<double>(1, static_cast<double>(classes.size())));
+  }
+  return stretches;
+}
+
+bool Sewing::is_tight(const Planes3& position) const {
+  const std::vector<double> all = stretches(position);
+  return std::any_of(all.begin(), all.end(), [](double stretch) { return stretch > tight; });
 }
 
 std::vector<double> Sewing::gaps(const Planes3& position) const {

@@ -61,6 +61,9 @@ class Sewing {
   /// Whether the samples of every pair lie in one place.
   [[nodiscard]] bool is_closed(const Planes3& position) const;
 
+  /// Of each seam how much longer the cloth beside it is than at rest, as a part: the largest
+  /// stretch at each of its samples, on their mean.
+  [[nodiscard]] std::vector<double> stretches(const Planes3& position) const;
   /// Whether cloth is stretched along any seam, as where that has closed round something wide.
   [[nodiscard]] bool is_tight(const Planes3& position) const;
 
