@@ -39,34 +39,37 @@ void tell_gain(const Context& context, const RunReport& report) {
                             gain, height, by_default ? "" : " or the default integrator"));
 }
 
+/// The first of some seams, each as `text` gives it.
+template <class Seam, class Text>
+std::string first_of(const std::vector<Seam>& seams, const Text& text) {
+  constexpr std::size_t most = 3;
+  std::string listed;
+  for (std::size_t k = 0; k < std::min(most, seams.size()); ++k)
+    listed += (k == 0 ? "" : ", ") + text(seams[k]);
+  return seams.size() > most ? listed + ", ..." : listed;
+}
+
 /// How many seams are open, and the names of the widest.
 std::string open_seams(const SeamsReport& seams) {
-  constexpr std::size_t most = 3;
-  std::string names;
-  for (std::size_t k = 0; k < std::min(most, seams.open.size()); ++k)
-    names += fmt::format("{}{} {:.2f}", k == 0 ? "" : ", ", seams.open[k].name,
-                         1000 * seams.open[k].gap);
-  if (seams.open.size() > most) names += ", ...";
   return fmt::format("{} of {} seams are open, by up to {:.2f} mm ({})", seams.open.size(),
-                     seams.count, 1000 * seams.largest_gap, names);
+                     seams.count, 1000 * seams.largest_gap,
+                     first_of(seams.open, [](const OpenSeam& seam) {
+                       return fmt::format("{} {:.2f}", seam.name, 1000 * seam.gap);
+                     }));
 }
 
 /// How many seams are stretched, and the names of the tightest.
-std::string tight_seams(const std::vector<TightSeam>& tight) {
-  constexpr std::size_t most = 3;
-  std::string names;
-  for (std::size_t k = 0; k < std::min(most, tight.size()); ++k)
-    names +=
-        fmt::format("{}{} {:.0f} %", k == 0 ? "" : ", ", tight[k].name, 100 * tight[k].stretch);
-  if (tight.size() > most) names += ", ...";
-  return fmt::format("{} seam{} too narrow for what {} round ({})", tight.size(),
-                     tight.size() == 1 ? " is" : "s are", tight.size() == 1 ? "it goes" : "they go",
-                     names);
+std::string tight_seams(const SeamsReport& seams) {
+  return fmt::format("{} of {} seams are too narrow for what they go round ({})",
+                     seams.tight.size(), seams.count,
+                     first_of(seams.tight, [](const TightSeam& seam) {
+                       return fmt::format("{} {:.0f} %", seam.name, 100 * seam.stretch);
+                     }));
 }
 
 /// Warns of seams that are open at the end, and of garments that nobody wears any more.
 void tell_garments(const Context& context, const RunReport& report) {
-  if (report.seams && !report.seams->tight.empty()) warn(context, tight_seams(report.seams->tight));
+  if (report.seams && !report.seams->tight.empty()) warn(context, tight_seams(*report.seams));
   // With verify it is an error that says the same.
   if (report.seams && !report.seams->open.empty() && !report.verification)
     warn(context, open_seams(*report.seams) +

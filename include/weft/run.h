@@ -70,11 +70,10 @@ struct TightSeam {
 /// The seams of all garments of a run.
 struct SeamsReport {
   int count = 0, closed = 0;
-  std::vector<OpenSeam> open{};  ///< in the last frame, the widest first
-  std::vector<TightSeam>
-      tight{};                  ///< those by more than 10 % in the last frame, the tightest first
-  double largest_gap = 0;       ///< in the last frame [m]
-  std::optional<int> frames{};  ///< the first frame in which all were closed; nothing: none was
+  std::vector<OpenSeam> open{};    ///< in the last frame, the widest first
+  std::vector<TightSeam> tight{};  ///< by more than 10 % in the last frame, the tightest first
+  double largest_gap = 0;          ///< in the last frame [m]
+  std::optional<int> frames{};     ///< the first frame in which all were closed; nothing: none was
 };
 
 struct RunOptions {

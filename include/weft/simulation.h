@@ -140,7 +140,7 @@ struct SimulationState {
   std::vector<StruckContact> struck{};
   /// Of each cloth, where its pins hold it, which a hand may have changed. [m]
   std::vector<std::vector<Vec3d>> pin_targets{};
-  /// Of each cloth whether seams that it is sewn by are closed, and have not been tight since.
+  /// Of each cloth whether it is a garment whose seams have closed, and slid to where they fit.
   std::vector<char> fitted{};
   StepLevels levels{};         ///< of the next substep
   WorkDone work{};             ///< up to this frame

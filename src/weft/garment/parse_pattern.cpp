@@ -209,7 +209,7 @@ Stitch read_stitch(const Node& node, const Pattern& pattern,
 /// Keys of panels and of their edges.
 constexpr std::array panel_keys{"translation", "rotation", "vertices", "edges", "label"};
 constexpr std::array edge_keys{"endpoints", "curvature", "label"};
-constexpr std::size_t most_notes = 8;
+constexpr std::size_t most_notes = 8;  // of keys: a file may have any number
 
 /// Notes the keys of an object that nothing reads, each once: one may be meant for another.
 void note_unknown(const json& object, std::span<const char* const> known, const std::string& place,

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t min_room = 16384, room_of_surface = 1024, room_of_frame = 256;
 
 /// Stretch along a seam beyond which a garment is too narrow there.
-constexpr double worth_telling = 0.1;
+constexpr double max_stretch = 0.1;
 /// How far the collar or waist of a garment may sink before it counts as fallen off. [m]
 constexpr double max_sunk = 0.2;
 
@@ -181,7 +181,7 @@ class Run {
         ++seams.closed;
       else
         seams.open.push_back({sewn.name, sewn.garment->seams[k].name, gaps[k]});
-      if (stretches[k] > worth_telling)
+      if (stretches[k] > max_stretch)
         seams.tight.push_back({sewn.name, sewn.garment->seams[k].name, stretches[k]});
     }
     std::ranges::stable_sort(seams.open, std::ranges::greater(), &OpenSeam::gap);

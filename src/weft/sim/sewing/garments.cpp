@@ -43,7 +43,8 @@ Garments::Changes Garments::begin_frame(double seconds, double length) {
     if (!sewing_[i]) continue;
     sewing_[i]->begin_frame(cloths_[i].state.position, seconds, length);
     const bool joined = join_closed(i);
-    if (!is_open(i) && !sewing_[i]->is_tight(cloths_[i].state.position)) fitted_[i] = 1;
+    if (fitted_[i] == 0 && !is_open(i) && !sewing_[i]->is_tight(cloths_[i].state.position))
+      fitted_[i] = 1;
     const bool other_stage = slides(i, seconds) != is_sliding(i);
     if (other_stage) std::swap(cloths_[i].model->bending, other_bending_[i]);
     const double before = sewing_[i]->part_closed(seconds - length),

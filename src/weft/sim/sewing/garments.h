@@ -61,7 +61,7 @@ class Garments {
   void pull(std::size_t cloth, const Sewing::Step& step) {
     sewing_[cloth]->pull(step, cloths_[cloth].state);
   }
-  /// Of each cloth whether it may slide no more, for resuming a run.
+  /// Of each cloth whether it slides no more, since its seams have closed and fit.
   [[nodiscard]] const std::vector<char>& fitted() const { return fitted_; }
   void restore_fitted(const std::vector<char>& fitted) {
     fitted_ = fitted;
@@ -80,7 +80,7 @@ class Garments {
   std::vector<std::optional<Sewing>>& sewing_;
   std::vector<BendingPlanes>& other_bending_;
   std::vector<Gathers>& gathers_;
-  std::vector<char> fitted_;   // of each cloth: whether its seams are closed, and were not tight
+  std::vector<char> fitted_;   // of each cloth: whether its seams have closed and slid to a fit
   std::vector<char> sliding_;  // of each cloth: whether the collider's friction is none
 };
 

@@ -16,11 +16,15 @@ constexpr double hold_rate = 10;
 
 }  // namespace
 
+int panel_of_sample(const Garment& garment, int sample) {
+  const std::vector<int>& charts = garment.image.mates.chart_of();
+  return charts.empty() ? 0 : charts[garment.image.mates.representative(sample)];
+}
+
 PanelMotion::PanelMotion(const Garment& garment, const Planes3& start)
     : garment_(garment), panels_(garment.panel_holds.size()) {
-  const std::vector<int>& charts = garment_.image.mates.chart_of();
   for (int s = 0; s < start.size() * start.size(); ++s) {
-    panel_of_.push_back(charts.empty() ? 0 : charts[garment_.image.mates.representative(s)]);
+    panel_of_.push_back(panel_of_sample(garment_, s));
     Panel& panel = panels_[panel_of_.back()];
     panel.start_height += start.at(s).y;
     ++panel.size;

@@ -13,10 +13,6 @@ namespace {
 constexpr double fastest = 1, min_time = 0.2;
 /// Speed of samples that were held back. [m/s]
 constexpr double late_speed = 0.25;
-/// Panels that are stretched by this along their seams, by the median, are not pulled on, and less
-/// and less from half of it on: the garment is too narrow. Parts of a seam may be stretched as they
-/// are caught in a crease, and are to be pulled out.
-constexpr double max_stretch = 0.5;
 /// What was held back is let go in the last part of each such time. [s]
 constexpr double let_go_for = 0.08, let_go_every = 0.2;
 /// Distance up to which the samples of a class take turns in being where the others go to: where
@@ -71,15 +67,13 @@ Sewing::Sewing(const Garment& garment, const Planes3& start)
       began_at_(garment.sewn.class_count()),
       away_(garment.sewn.class_count()),
       rate_(garment.sewn.class_count()),
-      stretches_(garment.panel_holds.size()),
-      slack_(garment.panel_holds.size(), 1.0),
+      stretch_(garment, start),
       next_(garment.sewn.class_count()),
       stuck_(garment.sewn.class_count()),
       blocked_(start.size() * start.size()) {
   find_classes_along_seams();
   find_leaders();
   find_upper_edges(start);
-  find_slack(start);  // takes the memory that steps need
   measure(start);
   const double farthest = away_.empty() ? 0 : *std::max_element(away_.begin(), away_.end());
   // part_left is steepest in the middle, by 1.5.
@@ -136,12 +130,12 @@ void Sewing::begin_frame(const Planes3& position, double seconds, double length)
                      static_cast<int>(std::ceil(time_to_close_ / length));
   if (!unpicking_.begin_frame(since, length)) return;
   measure(position);
-  find_slack(position);
+  stretch_.find_slack(position);
   // What has nearly met was put together in every step. Where nothing else is apart it is held
   // apart, too; where more is, tight panels may keep it from closing.
   const double apart = is_nearly_closed() ? 0 : met;
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
-    stuck_[k] = away_[k] > apart && away_[k] < far && slack_of(k) >= min_slack ? 1 : 0;
+    stuck_[k] = away_[k] > apart && away_[k] < far && stretch_.slack_of(k) >= min_slack ? 1 : 0;
   unpicking_.choose(along_, stuck_);
 }
 
@@ -183,43 +177,7 @@ double Sewing::kept_part(int index, double time_step, double seconds) const {
                     1 - fastest * time_step / away);
   if (next_[index] == 0) return 1;
   if (std::fmod(seconds - time_to_close_, let_go_every) >= let_go_every - let_go_for) return 1;
-  return std::max(0.0, 1 - slack_of(index) * late_speed * time_step / away);
-}
-
-double Sewing::stretch_of(int index, const Planes3& position) const {
-  const int n = position.size();
-  double most = 0;
-  for (const int s : garment_.sewn.copies(index))
-    for (const int other : {s - n, s - 1, s + 1, s + n}) {
-      if (other < 0 || other >= n * n || !garment_.image.mates.same_chart(s, other)) continue;
-      const double rest = length(vec_cast<double>(garment_.flat.at(other) - garment_.flat.at(s)));
-      const double now = length(vec_cast<double>(position.at(other) - position.at(s)));
-      most = std::max(most, now / rest - 1);
-    }
-  return most;
-}
-
-void Sewing::find_slack(const Planes3& position) {
-  for (std::vector<double>& stretches : stretches_) stretches.clear();
-  for (int k = 0; k < garment_.sewn.class_count(); ++k) {
-    if (garment_.sewn.copies(k).size() < 2) continue;
-    const double stretch = stretch_of(k, position);
-    for (const int s : garment_.sewn.copies(k)) stretches_[panels_.panel_of(s)].push_back(stretch);
-  }
-  for (std::size_t p = 0; p < slack_.size(); ++p) {
-    std::vector<double>& stretches = stretches_[p];
-    const auto middle = stretches.begin() + static_cast<std::ptrdiff_t>(stretches.size() / 2);
-    if (middle == stretches.end()) continue;
-    std::nth_element(stretches.begin(), middle, stretches.end());
-    slack_[p] = std::clamp(2 - 2 * *middle / max_stretch, 0.0, 1.0);
-  }
-}
-
-double Sewing::slack_of(int index) const {
-  double least = 1;
-  for (const int s : garment_.sewn.copies(index))
-    least = std::min(least, slack_[panels_.panel_of(s)]);
-  return least;
+  return std::max(0.0, 1 - stretch_.slack_of(index) * late_speed * time_step / away);
 }
 
 double Sewing::part_closed(double seconds) const { return 1 - part_left(seconds, time_to_close_); }
@@ -261,7 +219,7 @@ void Sewing::pull(const Step& now, ClothState& state) {
   find_blocked(now.contacts);
   find_next();
   late_ = seconds >= time_to_close_;
-  if (late_) find_slack(state.position);
+  if (late_) stretch_.find_slack(state.position);
   const auto step = static_cast<std::size_t>(std::llround(seconds / time_step));
   for (int k = 0; k < garment_.sewn.class_count(); ++k)
     rate_[k] = (1 - kept_part(k, time_step, seconds)) / time_step;
@@ -371,16 +329,6 @@ bool Sewing::is_closed(const Planes3& position) const {
   return std::all_of(garment_.seams.begin(), garment_.seams.end(), [&](const GarmentSeam& seam) {
     return std::all_of(seam.pairs.begin(), seam.pairs.end(), meets);
   });
-}
-
-std::vector<double> Sewing::stretches(const Planes3& position) const {
-  std::vector<double> stretches;
-  for (const std::vector<int>& classes : along_) {
-    double sum = 0;
-    for (const int k : classes) sum += stretch_of(k, position);
-    stretches.push_back(sum / std::max<double>(1, static_cast<double>(classes.size())));
-  }
-  return stretches;
 }
 
 bool Sewing::is_tight(const Planes3& position) const {

@@ -8,6 +8,7 @@
 #include "weft/contact.h"
 #include "weft/garment.h"
 #include "weft/sim/sewing/panel_motion.h"
+#include "weft/sim/sewing/seam_stretch.h"
 #include "weft/sim/sewing/unpicking.h"
 
 namespace weft {
@@ -63,7 +64,9 @@ class Sewing {
 
   /// Of each seam how much longer the cloth beside it is than at rest, as a part: the largest
   /// stretch at each of its samples, on their mean.
-  [[nodiscard]] std::vector<double> stretches(const Planes3& position) const;
+  [[nodiscard]] std::vector<double> stretches(const Planes3& position) const {
+    return stretch_.along(along_, position);
+  }
   /// Whether cloth is stretched along any seam, as where that has closed round something wide.
   [[nodiscard]] bool is_tight(const Planes3& position) const;
 
@@ -98,28 +101,21 @@ class Sewing {
   void find_panel_pulls(const Planes3& position, std::size_t step);
   /// Finds the classes that are pulled once the seams should have closed.
   void find_next();
-  /// How much longer the cloth is than at rest, at most, from the samples of a class to their
-  /// neighbours, as a part.
-  [[nodiscard]] double stretch_of(int index, const Planes3& position) const;
-  /// Finds by how much panels can be pulled without stretching them too far.
-  void find_slack(const Planes3& position);
   [[nodiscard]] bool is_nearly_closed() const;
-  [[nodiscard]] double slack_of(int index) const;
   /// The part of its distance that a class keeps in a step.
   [[nodiscard]] double kept_part(int index, double time_step, double seconds) const;
 
   const Garment& garment_;
   PanelMotion panels_;
   Unpicking unpicking_;
-  double time_to_close_;                        // if nothing holds the seams back [s]
-  bool late_ = false;                           // in this step all seams should have closed
-  std::vector<std::vector<int>> leaders_;       // of each class, the samples that set the height
-  std::vector<Vec3d> middle_;                   // of each class
-  std::vector<Vec3d> began_at_;                 // of each class, its mean when the step began [m]
-  std::vector<double> away_;                    // distance of its farthest sample from there [m]
-  std::vector<double> rate_;                    // at which it shrinks [1/s]
-  std::vector<std::vector<double>> stretches_;  // of each panel, at its seams
-  std::vector<double> slack_;            // of each panel, from 0 to 1: the part of the late speed
+  double time_to_close_;                   // if nothing holds the seams back [s]
+  bool late_ = false;                      // in this step all seams should have closed
+  std::vector<std::vector<int>> leaders_;  // of each class, the samples that set the height
+  std::vector<Vec3d> middle_;              // of each class
+  std::vector<Vec3d> began_at_;            // of each class, its mean when the step began [m]
+  std::vector<double> away_;               // distance of its farthest sample from there [m]
+  std::vector<double> rate_;               // at which it shrinks [1/s]
+  SeamStretch stretch_;
   std::vector<int> class_of_;            // of each sample; -1: none
   std::vector<char> on_upper_edge_;      // of each sample: whether its panel hangs from it
   std::vector<std::vector<int>> along_;  // the classes along each seam
