@@ -124,6 +124,32 @@ inline std::string band_and_flounce(double width) {
          R"("properties":{"units_in_meter":100}})";
 }
 
+/// Trousers of four rectangles, 20 by 60 cm, 2 cm beside each other and 40 cm before each other;
+/// the lower 40 cm of the inner sides are sewn to legs. Seams: inner and outer of the left leg,
+/// inner and outer of the right one, front, back.
+inline std::string trousers_pattern() {
+  const auto panel = [](const char* name, const char* corners, int low, int before) {
+    return '"' + std::string(name) + R"(":{"vertices":)" + corners +
+           R"(,"edges":[{"endpoints":[0,1]},{"endpoints":[1,2]},{"endpoints":[2,3]},)"
+           R"({"endpoints":[3,4]},{"endpoints":[4,0]}],"translation":[)" +
+           std::to_string(low) + ",30," + std::to_string(before) + R"(],"rotation":[0,0,0]})";
+  };
+  const auto stitch = [](const char* one, int edge, const char* other, int other_edge) {
+    return R"([{"panel":")" + std::string(one) + R"(","edge":)" + std::to_string(edge) +
+           R"(},{"panel":")" + other + R"(","edge":)" + std::to_string(other_edge) + "}]";
+  };
+  return R"({"pattern":{"panels":{)" +
+         panel("front_left", "[[0,0],[20,0],[20,60],[0,60],[0,40]]", 1, 20) + ',' +
+         panel("back_left", "[[0,0],[0,40],[0,60],[20,60],[20,0]]", 1, -20) + ',' +
+         panel("front_right", "[[0,0],[20,0],[20,40],[20,60],[0,60]]", -21, 20) + ',' +
+         panel("back_right", "[[0,0],[0,60],[20,60],[20,40],[20,0]]", -21, -20) +
+         R"(},"stitches":[)" + stitch("front_left", 4, "back_left", 0) + ',' +
+         stitch("front_left", 1, "back_left", 3) + ',' + stitch("front_right", 1, "back_right", 3) +
+         ',' + stitch("front_right", 4, "back_right", 0) + ',' +
+         stitch("front_left", 3, "front_right", 2) + ',' + stitch("back_left", 1, "back_right", 2) +
+         R"(]},"properties":{"units_in_meter":100}})";
+}
+
 /// Two rectangles in one plane that touch along the y axis, the right one 3 cm higher, to be sewn
 /// together there.
 inline std::string panels_side_by_side() {

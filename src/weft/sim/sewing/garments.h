@@ -61,6 +61,10 @@ class Garments {
   void pull(std::size_t cloth, const Sewing::Step& step) {
     sewing_[cloth]->pull(step, cloths_[cloth].state);
   }
+  /// Contacts that keep seams of a cloth apart in a step, see Sewing; none where all are closed.
+  [[nodiscard]] std::span<const Contact> contacts_between_seams(std::size_t cloth) const {
+    return is_open(cloth) ? sewing_[cloth]->contacts_between_seams() : std::span<const Contact>();
+  }
   /// Of each cloth whether it slides no more, since its seams have closed and fit.
   [[nodiscard]] const std::vector<char>& fitted() const { return fitted_; }
   void restore_fitted(const std::vector<char>& fitted) {

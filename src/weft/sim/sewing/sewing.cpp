@@ -68,6 +68,7 @@ Sewing::Sewing(const Garment& garment, const Planes3& start)
       away_(garment.sewn.class_count()),
       rate_(garment.sewn.class_count()),
       stretch_(garment, start),
+      seams_apart_(garment, start),
       next_(garment.sewn.class_count()),
       stuck_(garment.sewn.class_count()),
       blocked_(start.size() * start.size()) {
@@ -106,7 +107,7 @@ void Sewing::find_upper_edges(const Planes3& start) {
   on_upper_edge_.assign(class_of_.size(), 0);
   for (std::size_t s = 0; s < class_of_.size(); ++s)
     if (class_of_[s] >= 0)
-      on_upper_edge_[s] = unpicking_.inwards(static_cast<int>(s), start).y < hanging ? 1 : 0;
+      on_upper_edge_[s] = way_inwards(garment_, static_cast<int>(s), start).y < hanging ? 1 : 0;
 }
 
 Vec3d Sewing::mean_of_class(int index, const Planes3& planes) const {
@@ -233,6 +234,7 @@ void Sewing::pull(const Step& now, ClothState& state) {
     for (const int s : samples)
       state.velocity.set(s, vec_cast<float>(velocity + pull_of(k, s, state.position, step)));
   }
+  seams_apart_.find(state.position, 2 * fastest * time_step);
 }
 
 Vec3d Sewing::pull_of(int index, int sample, const Planes3& position, std::size_t step) const {

@@ -9,6 +9,7 @@
 #include "weft/garment.h"
 #include "weft/sim/sewing/panel_motion.h"
 #include "weft/sim/sewing/seam_stretch.h"
+#include "weft/sim/sewing/seams_apart.h"
 #include "weft/sim/sewing/unpicking.h"
 
 namespace weft {
@@ -52,6 +53,11 @@ class Sewing {
 
   /// The part of gravity that acts on the cloth: none while seams close, but not for ever.
   [[nodiscard]] double gravity_part(double seconds) const;
+
+  /// Contacts of the step that `pull` began, between seams that are not to come between others.
+  [[nodiscard]] std::span<const Contact> contacts_between_seams() const {
+    return seams_apart_.contacts();
+  }
 
   /// Puts the samples of each class at their mean, with their mean velocity, where they are next to
   /// each other: nearer once seams should have closed by the step that `pull` began, which comes
@@ -116,6 +122,7 @@ class Sewing {
   std::vector<double> away_;               // distance of its farthest sample from there [m]
   std::vector<double> rate_;               // at which it shrinks [1/s]
   SeamStretch stretch_;
+  SeamsApart seams_apart_;
   std::vector<int> class_of_;            // of each sample; -1: none
   std::vector<char> on_upper_edge_;      // of each sample: whether its panel hangs from it
   std::vector<std::vector<int>> along_;  // the classes along each seam

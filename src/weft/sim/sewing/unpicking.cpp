@@ -18,7 +18,28 @@ int frames_of(double seconds, double length) {
   return std::max(2, static_cast<int>(std::lround(seconds / length)));
 }
 
+/// Calls visit(next, second) for the samples one and two steps from one within its panel.
+template <class Visit>
+void for_ways_inwards(const Garment& garment, int sample, const Visit& visit) {
+  const int n = garment.flat.size();
+  for (const int step : {-n, -1, 1, n}) {
+    const int next = sample + step, second = next + step;
+    // Two steps along a row stay in it.
+    const bool in_row = std::abs(step) == n || second / n == sample / n;
+    if (second >= 0 && second < n * n && in_row && garment.image.mates.same_chart(sample, second))
+      visit(next, second);
+  }
+}
+
 }  // namespace
+
+Vec3d way_inwards(const Garment& garment, int sample, const Planes3& position) {
+  Vec3d sum;
+  for_ways_inwards(garment, sample, [&](int, int second) {
+    sum += vec_cast<double>(position.at(second) - position.at(sample));
+  });
+  return normalized(sum);
+}
 
 Unpicking::Unpicking(const Garment& garment)
     : garment_(garment), chosen_(garment.sewn.class_count()) {}
@@ -40,34 +61,14 @@ void Unpicking::choose(std::span<const std::vector<int>> along, std::span<const 
   }
 }
 
-template <class Visit>
-void Unpicking::for_ways_inwards(int sample, const Visit& visit) const {
-  const int n = garment_.flat.size();
-  for (const int step : {-n, -1, 1, n}) {
-    const int next = sample + step, second = next + step;
-    // Two steps along a row stay in it.
-    const bool in_row = std::abs(step) == n || second / n == sample / n;
-    if (second >= 0 && second < n * n && in_row && garment_.image.mates.same_chart(sample, second))
-      visit(next, second);
-  }
-}
-
-Vec3d Unpicking::inwards(int sample, const Planes3& position) const {
-  Vec3d sum;
-  for_ways_inwards(sample, [&](int, int second) {
-    sum += vec_cast<double>(position.at(second) - position.at(sample));
-  });
-  return normalized(sum);
-}
-
 Vec3d Unpicking::retreat_of(int sample, const Planes3& position) const {
   double row = 0;
-  for_ways_inwards(sample, [&](int next, int) {
+  for_ways_inwards(garment_, sample, [&](int next, int) {
     row = std::max(row, double{length(garment_.flat.at(next) - garment_.flat.at(sample))});
   });
   // By one row of samples, or by two, in turn.
   const double way = (1 + attempt_ % 2) * row;
-  return (way / frame_length_) * inwards(sample, position);
+  return (way / frame_length_) * way_inwards(garment_, sample, position);
 }
 
 }  // namespace weft

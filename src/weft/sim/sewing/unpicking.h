@@ -8,6 +8,9 @@
 
 namespace weft {
 
+/// The way from a sample of an edge into its panel. @return unit
+[[nodiscard]] Vec3d way_inwards(const Garment& garment, int sample, const Planes3& position);
+
 /// Takes the seams of a garment apart again, at times, where a few samples are held apart by cloth
 /// that came to lie between them, and next to these. For one frame the edges go back into their
 /// panels, so that they lie beside each other again, whatever is between; then they come together
@@ -31,16 +34,10 @@ class Unpicking {
   [[nodiscard]] bool takes_apart(int index) const { return chosen_[index] != 0; }
   /// Whether seams close from where they are closed already in this attempt, not all at once.
   [[nodiscard]] bool closes_as_a_zip() const { return attempt_ >= 0 && attempt_ / 2 % 2 == 1; }
-  /// The way from a sample of an edge into its panel. @return unit
-  [[nodiscard]] Vec3d inwards(int sample, const Planes3& position) const;
   /// The velocity at which an edge goes back into its panel. @return [m/s]
   [[nodiscard]] Vec3d retreat_of(int sample, const Planes3& position) const;
 
  private:
-  /// Calls visit(next, second) for the samples one and two steps from one within its panel.
-  template <class Visit>
-  void for_ways_inwards(int sample, const Visit& visit) const;
-
   const Garment& garment_;
   std::vector<char> chosen_;  // of each class
   int attempt_ = -1;          // none yet

@@ -121,6 +121,8 @@ struct Simulation::Parts : LoadedScene {
   /// Detects contacts at the guesses, and filters the guesses. @return whether anything is near
   /// that the filter must act on
   bool free_guesses();
+  /// The contacts that a cloth is solved with.
+  std::span<const Contact> contacts_of(std::size_t index);
   void iterate_all();
   /// Solves all cloths as one system, where they press on each other.
   void iterate_together();

@@ -253,16 +253,26 @@ int Simulation::Parts::required_level(int subdivisions) {
   return std::max(of_bodies, level_of(whole_subdivisions(wanted * subdivisions)));
 }
 
+std::span<const Contact> Simulation::Parts::contacts_of(std::size_t index) {
+  const std::span<const Contact> found = collider->contacts(index),
+                                 sewn = garments.contacts_between_seams(index);
+  if (sewn.empty()) return found;
+  std::vector<Contact>& all = movers[index].contacts;
+  all.assign(found.begin(), found.end());
+  all.insert(all.end(), sewn.begin(), sewn.end());
+  return all;
+}
+
 void Simulation::Parts::iterate_together() {
   own_contacts.clear();
-  for (std::size_t i = 0; i < cloths.size(); ++i) own_contacts.push_back(collider->contacts(i));
+  for (std::size_t i = 0; i < cloths.size(); ++i) own_contacts.push_back(contacts_of(i));
   joint->iterate(own_contacts, collider->shared_contacts());
 }
 
 void Simulation::Parts::iterate_all() {
   if (joint && !collider->shared_contacts().empty()) return iterate_together();
   for (std::size_t i = 0; i < cloths.size(); ++i) {
-    const std::span<const Contact> found = collider->contacts(i);
+    const std::span<const Contact> found = contacts_of(i);
     if (movers[i].integrator->starts_at_proposal() || (solves_contacts() && !found.empty()))
       movers[i].integrator->iterate(found);
   }
