@@ -30,8 +30,8 @@ struct Mover {
   double unsewn_energy = 0;  // before a step in which seams are pulled together [J]
   // Of this step: work of the air, energy added by the strain limit while something pulled. [J]
   double air_work = 0, pulled_work = 0;
-  std::vector<Contact> contacts;  // those between open seams after those that the collider found
-  bool limited = false;           // a strain limiter works on the proposals of this step
+  std::vector<Contact> contacts{};  // those between open seams after those that the collider found
+  bool limited = false;             // a strain limiter works on the proposals of this step
 };
 
 }  // namespace weft
