@@ -69,6 +69,7 @@ class ClassWalk {
 std::vector<std::vector<int>> near_classes(const Garment& garment, double within) {
   ClassWalk walk(garment, within);
   std::vector<std::vector<int>> near;
+  near.reserve(static_cast<std::size_t>(garment.sewn.class_count()));
   for (int k = 0; k < garment.sewn.class_count(); ++k) near.push_back(walk.from(k));
   return near;
 }
