@@ -7,7 +7,7 @@
 #include "tests/support/patterns.h"
 #include "weft/garment.h"
 #include "weft/sim/sewing/near_classes.h"
-#include "weft/sim/sewing/panel_motion.h"
+#include "weft/sim/sewing/panel_moves.h"
 
 namespace weft {
 namespace {
@@ -25,7 +25,7 @@ struct Trousers {
     }
   }
   [[nodiscard]] bool is_left(int sample) const {
-    const int panel = panel_of_sample(garment, sample);
+    const int panel = panel_of(garment.image.mates, sample);
     return panel >= 0 && garment.image.mates.charts()[panel].name.find("left") != std::string::npos;
   }
   Garment garment;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "weft/sim/sewing/panel_moves.h"
+
 namespace weft {
 namespace {
 
@@ -16,15 +18,10 @@ constexpr double hold_rate = 10;
 
 }  // namespace
 
-int panel_of_sample(const Garment& garment, int sample) {
-  const std::vector<int>& charts = garment.image.mates.chart_of();
-  return charts.empty() ? 0 : charts[garment.image.mates.representative(sample)];
-}
-
 PanelMotion::PanelMotion(const Garment& garment, const Planes3& start)
     : garment_(garment), panels_(garment.panel_holds.size()) {
   for (int s = 0; s < start.size() * start.size(); ++s) {
-    panel_of_.push_back(panel_of_sample(garment_, s));
+    panel_of_.push_back(weft::panel_of(garment_.image.mates, s));
     Panel& panel = panels_[panel_of_.back()];
     panel.start_height += start.at(s).y;
     ++panel.size;

@@ -7,9 +7,6 @@
 
 namespace weft {
 
-/// The panel that a sample of a garment belongs to.
-[[nodiscard]] int panel_of_sample(const Garment& garment, int sample);
-
 /// How whole panels of a garment move while it is sewn. Pulled along at its edges alone, the middle
 /// of a panel would lag behind, the edges would come together before it, and seams end on the wrong
 /// side of a limb: so a panel takes the mean velocity of its seams. Panels that hang from shoulders

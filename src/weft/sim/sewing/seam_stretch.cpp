@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "weft/sim/sewing/panel_motion.h"
+#include "weft/sim/sewing/panel_moves.h"
 
 namespace weft {
 namespace {
@@ -51,7 +51,7 @@ void SeamStretch::find_slack(const Planes3& position) {
     if (garment_.sewn.copies(k).size() < 2) continue;
     const double stretch = of_class(k, position);
     for (const int s : garment_.sewn.copies(k))
-      stretches_[panel_of_sample(garment_, s)].push_back(stretch);
+      stretches_[panel_of(garment_.image.mates, s)].push_back(stretch);
   }
   for (std::size_t p = 0; p < slack_.size(); ++p) {
     std::vector<double>& stretches = stretches_[p];
@@ -65,7 +65,7 @@ void SeamStretch::find_slack(const Planes3& position) {
 double SeamStretch::slack_of(int index) const {
   double least = 1;
   for (const int s : garment_.sewn.copies(index))
-    least = std::min(least, slack_[panel_of_sample(garment_, s)]);
+    least = std::min(least, slack_[panel_of(garment_.image.mates, s)]);
   return least;
 }
 
